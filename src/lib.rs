@@ -43,6 +43,8 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;
+#[cfg(any(feature = "snapshot", feature = "cli"))]
+pub mod snapshot;
 pub mod specialize;
 #[cfg(feature = "stability")]
 pub mod stability;

@@ -11,6 +11,7 @@ use super::files;
 use super::includes::DiskIncludes;
 use super::rules::Rule;
 use super::stages;
+use super::trace::{self, Trace};
 use crate::engines::{self, Member, Profile, Style, combined};
 use glisten_front::compiler::{Preparation, Prepared, Source};
 use glisten_front::diagnostic::codes::general;
@@ -39,8 +40,11 @@ struct Settings {
 pub(super) struct Engines {
     flags: Arc<Flags>,
     /// The rules of each folder so far.
-    rules: Arc<Mutex<BTreeMap<PathBuf, Arc<Vec<Rule>>>>>,
+    rules: Arc<Mutex<BTreeMap<PathBuf, Known>>>,
 }
+
+/// The rules of a folder, and what was read for them.
+type Known = (Arc<Vec<Rule>>, Arc<Trace>);
 
 /// The flags of the command line.
 #[derive(Debug)]
@@ -83,9 +87,28 @@ impl Engines {
 
     /// The rules for a folder.
     fn rules(&self, folder: &Path) -> Arc<Vec<Rule>> {
+        trace::rules_of(folder);
+        self.known(folder).0
+    }
+
+    fn known(&self, folder: &Path) -> Known {
         let mut known = self.rules.lock().unwrap_or_else(PoisonError::into_inner);
-        let rules = known.entry(folder.to_owned()).or_insert_with(|| Arc::new(config::rules(folder)));
-        Arc::clone(rules)
+        let read = || {
+            let (rules, trace) = trace::recorded(|| config::rules(folder));
+            (Arc::new(rules), Arc::new(trace))
+        };
+        known.entry(folder.to_owned()).or_insert_with(read).clone()
+    }
+
+    /// The trace of reading the rules of a folder, or `None` if there is no rule.
+    pub(super) fn trace_of_rules(&self, folder: &Path) -> Option<Arc<Trace>> {
+        let (rules, trace) = self.known(folder);
+        (!rules.is_empty()).then_some(trace)
+    }
+
+    /// Whether sources are completed by more than their texts and the search path for includes.
+    pub(super) fn is_engine_given(&self) -> bool {
+        self.flags.profile.is_some() || self.flags.style.is_some()
     }
 
     /// The settings of a file by the flags and the tables.
@@ -172,7 +195,11 @@ fn companion(profile: &Profile, source: &str) -> Option<Prelude> {
             == source.file_name().map(|name| name.to_ascii_lowercase())
     };
     let paths = profile.before.iter().map(|name| source.with_file_name(name));
-    let path = paths.into_iter().find(|path| path.is_file() && !is_source(path))?;
+    let is_there = |path: &PathBuf| {
+        trace::looked_for(path);
+        path.is_file() && !is_source(path)
+    };
+    let path = paths.into_iter().find(is_there)?;
     files::read_prelude(&path).ok()
 }
 

@@ -59,6 +59,20 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "cache",
+        &[
+            ("glisten cache stats --cache .glisten-cache", "how much a cache holds"),
+            ("glisten cache clean --cache .glisten-cache", "an empty cache"),
+        ],
+    ),
+    (
+        "snapshots",
+        &[
+            ("glisten snapshots review -o page.html", "the pictures of tests that wait for a decision"),
+            ("glisten snapshots accept", "all of them become the stored ones"),
+        ],
+    ),
+    (
         "specialize",
         &[
             ("glisten specialize scene.toml -o out", "programs of which nothing is left but what the scene needs"),

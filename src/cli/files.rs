@@ -1,6 +1,7 @@
 //! Reads files completely, with a clear message for each possible failure, and writes them completely or not at all.
 
 use super::exit::Failure;
+use super::trace;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
@@ -54,6 +55,12 @@ pub(super) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
 
 /// Reads a file of any kind.
 pub(super) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
+    let bytes = read_whole(name, path);
+    trace::read(path, bytes.as_deref().ok());
+    bytes
+}
+
+fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;
     if metadata.is_dir() {
         return Err(ReadError::new(&general::FILE_IS_FOLDER, format!("`{name}` is a folder, not a file")));

@@ -7,6 +7,7 @@
 //! which it was found, so that diagnostics and depfiles show a path that opens.
 
 use super::files;
+use super::trace;
 use crate::engines::{Lookup, Style};
 use crate::library::{self, Embedded};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, blanked, version_line};
@@ -79,6 +80,10 @@ impl DiskIncludes {
     /// The file with this name anywhere below the search folders, if the style looks there.
     fn deep(&self, path: &str) -> Option<&PathBuf> {
         let name = Path::new(path).file_name()?.to_str()?;
+        if self.lookup.deep {
+            // A whole tree of folders was looked through.
+            trace::beyond();
+        }
         self.lookup.deep.then(|| self.below.get_or_init(|| files_below(&self.folders)).get(name)).flatten()
     }
 
@@ -127,7 +132,10 @@ impl IncludeResolver for DiskIncludes {
         let candidates = self.candidates(path, form, from);
         // A chunk may have the name of a folder next to its file.
         let several = self.lookup.patterns.len() > 1;
-        let found = candidates.iter().find(|candidate| if several { candidate.is_file() } else { candidate.exists() });
+        let found = candidates.iter().find(|candidate| {
+            trace::looked_for(candidate);
+            if several { candidate.is_file() } else { candidate.exists() }
+        });
         if let Some(found) = found.or_else(|| self.deep(path)) {
             return self.read(found);
         }

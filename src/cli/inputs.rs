@@ -181,6 +181,16 @@ pub(super) fn collect(
     Ok(inputs)
 }
 
+/// The program of these files, whatever their names are.
+pub(super) fn program(names: &[String], args: &ProgramArgs, sources: &SourceArgs) -> Result<Group, Failure> {
+    let engines = Engines::new(sources)?;
+    let mut listed = Vec::new();
+    for name in names {
+        listed.extend(stages_of(name, args, &engines, false)?.into_iter().filter(|input| !input.is_later()));
+    }
+    Ok(in_pipeline_order(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed }))
+}
+
 /// A key that is equal for two names of the same file.
 fn identity(name: &str) -> PathBuf {
     if name == STDIN { PathBuf::from(STDIN) } else { fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name)) }

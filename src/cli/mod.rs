@@ -9,10 +9,14 @@
 
 mod args;
 mod batch;
+mod cache;
+mod cache_command;
 mod compile;
 mod completions;
 mod config;
 mod console;
+mod depfile;
+mod digest;
 mod engine;
 mod examples;
 mod exit;
@@ -26,28 +30,35 @@ mod inputs;
 mod interrupt;
 mod library;
 mod lint;
+mod lone;
 mod machine;
 mod made;
 mod man;
 mod new_scene;
 mod opengl;
 mod optimize;
+mod outputs;
+mod permutations;
 mod pictures;
 mod profile;
 mod progress;
+mod recall;
 mod reflect;
 mod render;
 mod report;
 mod report_checks;
+mod responses;
 mod rules;
 mod scenes;
 mod session;
+mod snapshots;
 mod specialize;
 mod stability;
 mod stability_library;
 mod stages;
 mod test;
 mod timed;
+mod trace;
 mod upgrade;
 mod verify;
 mod watch;
@@ -102,12 +113,17 @@ enum Command {
     Upgrade(upgrade::UpgradeArgs),
     Completions(completions::CompletionsArgs),
     Watch(watch::WatchArgs),
+    Cache(cache_command::CacheCommandArgs),
+    Snapshots(snapshots::SnapshotsArgs),
     Man(man::ManArgs),
 }
 
 /// Runs the program with these arguments, the first being its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let arguments = match responses::expanded(arguments.into_iter().collect()) {
+        Ok(arguments) => arguments,
+        Err(failure) => return end(Err(failure), &Console::new(false, ColorChoice::Auto)),
+    };
     let parsed = examples::with_examples(Cli::command()).try_get_matches_from(arguments);
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
@@ -149,6 +165,8 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Upgrade(args) => upgrade::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
         Command::Watch(args) => watch::run(args, console),
+        Command::Cache(args) => cache_command::run(args, console),
+        Command::Snapshots(args) => snapshots::run(args, console),
         Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),
     }
 }

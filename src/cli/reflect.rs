@@ -1,11 +1,11 @@
 //! `glisten reflect`: what a host needs to know about a program, as a table or as JSON, or what one name is.
 
 use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, ResultFormat, SourceArgs};
-use super::compile::files_of_stages;
 use super::console::Console;
 use super::exit::{Exit, Outcome};
 use super::inputs;
 use super::optimize::{self, OptimizeArgs};
+use super::outputs::files_of_stages;
 use super::session::{Session, Unit};
 use clap::Args;
 use glisten_emit::reflection::{Found, Match, find, table};

@@ -4,14 +4,17 @@
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
 use super::batch::Batch;
+use super::cache::Kept;
 use super::config::Configs;
 use super::console::Console;
+use super::digest::Digest;
 use super::engine::Engines;
 use super::exit::{Exit, Failure};
 use super::files;
 use super::guard;
 use super::inputs::{Group, Input};
 use super::progress::Progress;
+use super::trace::Trace;
 use crate::engines;
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
@@ -36,11 +39,41 @@ pub(super) struct Unit {
     pub(super) unread: Vec<Batch>,
     /// The diagnostics of the compiler, and those that commands add.
     pub(super) batch: Batch,
-    /// The linked program, if there are no errors.
+    /// The linked program, if there are no errors and it was compiled.
     pub(super) program: Option<Program>,
+    /// The outputs, if they come from a cache.
+    pub(super) kept: Option<Kept>,
+    /// The facts that a cache needs to keep the result.
+    pub(super) fresh: Option<Fresh>,
+    /// The watched macros that the result depends on.
+    pub(super) asked: BTreeSet<String>,
+}
+
+/// A result that a cache does not have yet.
+#[derive(Debug)]
+pub(super) struct Fresh {
+    /// The key of its options.
+    pub(super) key: Digest,
+    /// All that was read.
+    pub(super) trace: Trace,
+    /// The diagnostics before any level.
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// How many diagnostics past the limit there were.
+    pub(super) dropped: usize,
 }
 
 impl Unit {
+    /// The unit of a group before anything is known.
+    pub(super) fn new(group: Group) -> Self {
+        let (unread, batch, asked) = (Vec::new(), Batch::default(), BTreeSet::new());
+        Self { group, unread, batch, program: None, kept: None, fresh: None, asked }
+    }
+
+    /// Whether there is a program, compiled or from a cache.
+    pub(super) fn is_program(&self) -> bool {
+        self.program.is_some() || self.kept.is_some()
+    }
+
     /// The exit code of the diagnostics.
     pub(super) fn exit(&self) -> Exit {
         let unread = self.unread.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default();
@@ -57,6 +90,7 @@ impl Unit {
 pub(super) struct Session<'a> {
     console: &'a Console,
     compiler: Compiler,
+    engines: Engines,
     format: DiagnosticFormat,
     configs: Configs,
     pool: rayon::ThreadPool,
@@ -79,9 +113,11 @@ impl<'a> Session<'a> {
             .stack_size(STACK_BYTES)
             .build()
             .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no threads: {error}")))?;
+        let engines = Engines::new(sources)?;
         Ok(Self {
             console,
-            compiler: compiler(sources, bindings)?,
+            compiler: compiler(sources, bindings, &engines),
+            engines,
             format: levels.diagnostics,
             configs: Configs::new(levels.levels()?),
             pool,
@@ -93,6 +129,11 @@ impl<'a> Session<'a> {
     /// The compiler with the options of the command line.
     pub(super) fn compiler(&self) -> &Compiler {
         &self.compiler
+    }
+
+    /// How sources are completed.
+    pub(super) fn engines(&self) -> &Engines {
+        &self.engines
     }
 
     /// The thread pool.
@@ -123,15 +164,30 @@ impl<'a> Session<'a> {
 
     /// Compiles every group and applies the levels.
     pub(super) fn compile(&mut self, groups: Vec<Group>) -> Vec<Unit> {
+        self.compile_by(groups, compile_group)
+    }
+
+    /// Compiles every group by `by`, which also counts the diagnostics past the compiler's limit, and applies the levels.
+    pub(super) fn compile_by(
+        &mut self,
+        groups: Vec<Group>,
+        by: impl Fn(&Compiler, Group) -> (Unit, usize) + Sync,
+    ) -> Vec<Unit> {
         let progress = Progress::new(self.console, groups.len());
         let compiler = &self.compiler;
         let work = |group: Group| {
             progress.say(&group.name);
-            let unit = compile_group(compiler, group);
+            let unit = by(compiler, group);
             progress.step();
             unit
         };
-        let mut units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
+        let units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
+        drop(progress);
+        self.adopt(units)
+    }
+
+    /// Applies the levels to units that were compiled, each with the number of its diagnostics past the compiler's limit.
+    pub(super) fn adopt(&mut self, mut units: Vec<(Unit, usize)>) -> Vec<Unit> {
         keep_bindings_that_fit_nowhere(&mut units);
         for (unit, dropped) in &mut units {
             // Errors in a configuration are reported even if there are no diagnostics that it applies to.
@@ -251,10 +307,9 @@ fn is_told_last(diagnostic: &Diagnostic) -> bool {
 }
 
 /// The compiler of the command line. It reports everything: the session applies the levels of each file.
-fn compiler(sources: &SourceArgs, bindings: &BindingArgs) -> Result<Compiler, Failure> {
-    let engines = Engines::new(sources)?;
+fn compiler(sources: &SourceArgs, bindings: &BindingArgs, engines: &Engines) -> Compiler {
     let compiler = Compiler::new(sources.options(bindings)).with_includes(engines.includes());
-    Ok(compiler.with_preparation(engines).without_levels())
+    compiler.with_preparation(engines.clone()).without_levels()
 }
 
 /// The diagnostics that have been reported.
@@ -295,28 +350,33 @@ fn summary(findings: &[Finding], dropped: usize) -> Option<String> {
 }
 
 /// Reads and compiles a group. The second value counts diagnostics past the compiler's limit.
-fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
-    let mut unread = Vec::new();
+pub(super) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
+    let mut unit = Unit::new(group);
     let mut sources = Vec::new();
-    for input in &group.inputs {
+    for input in &unit.group.inputs {
         match read(input) {
             Ok(source) => sources.push(source),
-            Err(batch) => unread.push(batch),
+            Err(batch) => unit.unread.push(batch),
         }
     }
     if sources.is_empty() {
-        return (Unit { group, unread, batch: Batch::default(), program: None }, 0);
+        return (unit, 0);
     }
     let compiled = guard::guarded(|| compiler.compile(&sources));
     match compiled {
         Ok(compilation) => {
             let dropped = compilation.diagnostics.dropped();
             let diagnostics = compilation.diagnostics.into_iter().collect();
-            let program = compilation.program.map(|program| Program { name: group.name.clone(), ..program });
-            let program = program.filter(|_| unread.is_empty());
-            (Unit { group, unread, batch: Batch { sources: compilation.sources, diagnostics }, program }, dropped)
+            let program = compilation.program.map(|program| Program { name: unit.group.name.clone(), ..program });
+            unit.program = program.filter(|_| unit.unread.is_empty());
+            unit.batch = Batch { sources: compilation.sources, diagnostics };
+            unit.asked = compilation.asked;
+            (unit, dropped)
         }
-        Err(panic) => (Unit { group, unread, batch: internal(&sources, &panic), program: None }, 0),
+        Err(panic) => {
+            unit.batch = internal(&sources, &panic);
+            (unit, 0)
+        }
     }
 }
 

@@ -3,10 +3,10 @@
 //! *Holds:* the names of all outputs are known before anything is written; equal residuals are written once.
 
 use super::args::{ContractArgs, ConventionArgs, LevelArgs, SourceArgs};
-use super::compile::target_words;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::outputs::target_words;
 use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
 use super::stages::extension;

@@ -26,7 +26,7 @@ pub(super) struct WatchArgs {
 /// Changes that are closer together than this are one: editors write files in several steps.
 const TOGETHER: Duration = Duration::from_millis(60);
 /// The flags that name an output.
-const OUTPUTS: [&str; 5] = ["-o", "--output", "--difference", "--evidence", "--depfile"];
+const OUTPUTS: [&str; 7] = ["-o", "--output", "--difference", "--evidence", "--depfile", "--manifest", "--cache"];
 
 /// Runs the command.
 pub(super) fn run(args: &WatchArgs, console: &Console) -> Outcome {

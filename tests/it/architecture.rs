@@ -56,6 +56,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "measure",
             "shader_test",
             "specialize",
+            "snapshot",
             "made",
             "engines",
             "upgrade",
@@ -79,6 +80,7 @@ static MAY_TOUCH_OUTSIDE: &[(&str, &str)] = &[
     ("src/main.rs", "the program"),
     ("crates/scene/src/files.rs", "`DiskFiles`, which a host chooses"),
     ("crates/gpu/src/", "waits for the device"),
+    ("src/snapshot/", "reads and writes the pictures of tests"),
     ("src/build/", "reads shaders and writes a module, for a build script"),
     ("src/verify/files.rs", "leaves the pictures of a failure in a folder that the host names"),
 ];

@@ -3,6 +3,12 @@
 mod architecture;
 mod build;
 #[cfg(feature = "cli")]
+mod build_systems;
+#[cfg(feature = "cli")]
+mod cache;
+#[cfg(feature = "cli")]
+mod cache_faults;
+#[cfg(feature = "cli")]
 mod cli;
 mod codes;
 mod cycles;
@@ -58,6 +64,10 @@ mod opengl;
 mod operations;
 #[cfg(feature = "reference")]
 mod optimize;
+#[cfg(all(feature = "cli", feature = "snapshot"))]
+mod own_snapshots;
+#[cfg(feature = "cli")]
+mod permutations;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

@@ -12,6 +12,7 @@ use crate::hir::{Stage, Types};
 use crate::link::{Bindings, FixedState, Program, Understood, check_understood, link};
 use crate::source::{Completion, FileId, IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The options of a compilation.
@@ -30,6 +31,8 @@ pub struct Options {
     /// The additions of an engine to each source: the version of those without a `#version` line, texts before them. A
     /// [`Preparation`] decides for each source instead.
     pub completion: Completion,
+    /// Names of macros, defined or not, for [`Compilation::asked`].
+    pub watched: Vec<String>,
 }
 
 impl Options {
@@ -62,6 +65,9 @@ pub struct Compilation {
     pub program: Option<Program>,
     /// All diagnostics.
     pub diagnostics: Diagnostics,
+    /// Those of the [`watched`](Options::watched) names that the result depends on. With any other definitions of the rest of
+    /// them, the result is the same.
+    pub asked: BTreeSet<String>,
 }
 
 /// Compiles programs. It holds options but no state: one compiler can be used any number of times and from many
@@ -148,14 +154,16 @@ impl Compiler {
     pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
         let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
-        let shaders = sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics));
+        let mut asked = BTreeSet::new();
+        let shaders =
+            sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics, &mut asked));
         let shaders: Vec<Option<Understood>> = shaders.collect();
         let shaders: Option<Vec<Understood>> = shaders.into_iter().collect();
         let program = shaders.and_then(|shaders| self.link(name.clone(), types, shaders, &mut diagnostics));
         if let Some(levels) = &self.levels {
             diagnostics.retain_mut(|diagnostic| levels.apply(&map, diagnostic));
         }
-        Compilation { name, sources: map, program, diagnostics }
+        Compilation { name, sources: map, program, diagnostics, asked }
     }
 
     /// Links the stages. If there are errors, only compares the certain declarations. Other declarations of a shader
@@ -197,6 +205,7 @@ impl Compiler {
         types: &mut Types,
         map: &mut SourceMap,
         diagnostics: &mut Diagnostics,
+        asked: &mut BTreeSet<String>,
     ) -> Option<Understood> {
         let prepared = self.prepared(source);
         let text = prepared.text.as_ref().unwrap_or(&source.text);
@@ -211,6 +220,7 @@ impl Compiler {
         let options = syntax::ParseOptions { stage: source.stage, defines, strict, completion };
         let includes = includes.as_ref().unwrap_or(&self.includes);
         let ast = syntax::parse(map, file, &options, &**includes, diagnostics);
+        asked.extend(self.options.watched.iter().filter(|name| ast.asks(name)).cloned());
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
         if ast.version.span.is_known() && map.file_of(ast.version.span) != Some(file) {
             // What is said about the whole shader is said about its own text.
@@ -218,7 +228,10 @@ impl Compiler {
             shader.version.span = Span::new(start, start);
         }
         let (inclusions, preludes) = (&ast.inclusions, &ast.preludes);
-        shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &options.defines, preludes));
+        // A macro that nothing asks for is no part of the text: with and without it, the outputs are the same.
+        let mut defines = options.defines;
+        defines.retain(|(name, _)| ast.asks(name.split('(').next().unwrap_or(name)));
+        shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &defines, preludes));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_decisive(diagnostics, first_error);
@@ -268,4 +281,26 @@ fn forget_names_of_missing_includes(map: &SourceMap, diagnostics: &mut Diagnosti
 fn stem(name: &str) -> String {
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
     file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Compiler, Options, Source};
+    use crate::hir::Stage;
+
+    #[test]
+    fn what_a_result_depends_on_is_told() {
+        let text = "#version 150\n#ifdef LIT\n#ifdef SHADOWS\n#endif\n#endif\n#if 0 && defined(DEAD)\nDEAD\n#endif\n\
+                    #ifdef OFF\nuniform float GONE;\n#endif\nout vec4 c;\nvoid main() { c = vec4(LEVEL); }\n";
+        let asked = |defines: &[(&str, &str)]| {
+            let watched = ["LIT", "SHADOWS", "GONE", "LEVEL", "DEEP", "NEVER", "OFF"].map(str::to_owned).to_vec();
+            let defines = defines.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+            let options = Options { defines, watched, ..Options::default() };
+            let source = Source { name: "a.frag".into(), text: text.into(), stage: Stage::Fragment };
+            let done = Compiler::new(options).compile(&[source]);
+            done.asked.into_iter().collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(asked(&[("LEVEL", "1.0"), ("NEVER", "1")]), "LEVEL LIT OFF");
+        assert_eq!(asked(&[("LEVEL", "DEEP"), ("DEEP", "0.5"), ("LIT", "1")]), "DEEP LEVEL LIT OFF SHADOWS");
+    }
 }

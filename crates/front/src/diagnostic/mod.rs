@@ -8,11 +8,13 @@
 
 pub mod codes;
 mod levels;
+mod saved;
 mod sink;
 pub mod write;
 
 pub use codes::{Code, Example};
 pub use levels::{Level, Levels};
+pub use saved::Saved;
 pub use sink::Diagnostics;
 
 use crate::source::Span;

@@ -195,6 +195,11 @@ impl SourceMap {
         }
     }
 
+    /// The `#line` directives: the offset of each and the number that it gives to the line after it.
+    pub(crate) fn renumbered(&self) -> impl Iterator<Item = (u32, u32)> {
+        self.renumberings.iter().map(|row| (row.offset, row.number))
+    }
+
     /// The line on which a span begins, counted from 1. Cheaper than [`Self::location`], which counts columns.
     pub fn line(&self, span: Span) -> Option<u32> {
         Some(self.file(self.file_of(span)?).line_at(span.start))

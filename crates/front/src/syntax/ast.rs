@@ -53,6 +53,8 @@ pub struct Ast {
     pub preludes: Vec<FileId>,
     /// The macros without parameters that are defined at the end, for "did you mean".
     pub macros: Vec<std::sync::Arc<str>>,
+    /// For each name by its symbol, whether the tree depends on what macro it names.
+    pub asked: Vec<bool>,
 }
 
 /// A comment `// glisten: allow(CODE)`. It silences warnings of that code on its own line or, if it stands alone, on
@@ -71,6 +73,12 @@ impl Ast {
         let id = ExprId(self.exprs.len() as u32);
         self.exprs.push(Expr { kind, span });
         id
+    }
+
+    /// Whether the tree depends on what macro `name` names, or that it names none.
+    pub fn asks(&self, name: &str) -> bool {
+        let symbol = self.names.get(name);
+        symbol.is_some_and(|symbol| self.asked.get(symbol.index()).copied().unwrap_or(false))
     }
 
     /// The expression of a handle that [`Self::push`] returned.

@@ -68,6 +68,7 @@ pub fn parse(
     ast.inclusions = outcome.inclusions;
     ast.preludes = outcome.preludes;
     ast.macros = outcome.macros;
+    ast.asked = outcome.asked;
     ast.names = session.names;
     ast
 }
@@ -84,5 +85,6 @@ fn empty_tree() -> Ast {
         inclusions: Vec::new(),
         preludes: Vec::new(),
         macros: Vec::new(),
+        asked: Vec::new(),
     }
 }

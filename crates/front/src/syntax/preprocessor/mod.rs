@@ -54,6 +54,8 @@ pub(super) struct PreprocessorOutcome {
     /// The texts of an engine that were read before the source.
     pub(super) preludes: Vec<FileId>,
     pub(super) macros: Vec<Arc<str>>,
+    /// For each word by its symbol, whether the result depends on what macro it names.
+    pub(super) asked: Vec<bool>,
 }
 
 /// A file that is being read.
@@ -73,6 +75,8 @@ struct Word {
     kind: TokenKind,
     /// Whether its spelling has been checked for a double underscore.
     checked: bool,
+    /// Whether anything depended on what macro it names.
+    asked: bool,
 }
 
 /// The preprocessor of one shader.
@@ -162,10 +166,13 @@ impl<'a> Preprocessor<'a> {
                 inclusions: Vec::new(),
                 preludes: Vec::new(),
                 macros: Vec::new(),
+                asked: Vec::new(),
             },
         };
         this.define_predefined(session);
         this.define_from_outside(session, defines);
+        // To define a macro from outside is no use of it.
+        this.words.iter_mut().for_each(|word| word.asked = false);
         this.enter(session, file, Span::default());
         this.check_is_text(session, file);
         this
@@ -182,6 +189,7 @@ impl<'a> Preprocessor<'a> {
             .take(condition::MAX_COMPARED)
             .map(|definition| Arc::clone(&definition.name));
         self.outcome.macros = names.collect();
+        self.outcome.asked = self.words.iter().map(|word| word.asked).collect();
         self.outcome
     }
 
@@ -253,6 +261,7 @@ impl<'a> Preprocessor<'a> {
                 definition: 0,
                 kind: kinds.get(index).copied().unwrap_or(TokenKind::Ident),
                 checked: false,
+                asked: false,
             }));
         }
         // The resize above made room for it.
@@ -261,7 +270,9 @@ impl<'a> Preprocessor<'a> {
 
     /// The number of the macro that a word names.
     fn macro_of(&mut self, symbol: Symbol) -> Option<usize> {
-        (self.word(symbol).definition as usize).checked_sub(1)
+        let word = self.word(symbol);
+        word.asked = true;
+        (word.definition as usize).checked_sub(1)
     }
 
     /// The next token of the topmost file, after directives. With `collecting`, it does not go past the end of an

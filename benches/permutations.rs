@@ -1,0 +1,130 @@
+//! Variants of an uber-shader: shaders a second, cold and warm, next to glslangValidator.
+//!
+//! `cargo bench --bench permutations` compiles the 1920 variants of `fixtures/permutations/uber.toml` to SPIR-V in one process
+//! of glisten, without a cache, with an empty one, and with a full one, and reads all that the warm run has to read. In the
+//! same rounds, glslangValidator (Debian's `glslang-tools`) compiles every 16th of the variants, a process each, as many at
+//! once as there are cores. It gets the same text with `#version 330`, since it makes no SPIR-V of 150 for OpenGL. A figure is the
+//! median over the rounds. A variant has two shaders.
+
+#![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+const ROUNDS: usize = 5;
+const EVERY: usize = 16;
+
+fn main() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/permutations");
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    compile(&root, &at("first"), None);
+    let variants = variants(&at("first/index.json"));
+    let shaders = 2.0 * variants.len() as f64;
+    let sample: Vec<Vec<String>> = variants.iter().step_by(EVERY).cloned().collect();
+    let has_peer = Command::new("glslangValidator").arg("--version").stdout(Stdio::null()).status().is_ok();
+    if !has_peer {
+        println!("glslangValidator cannot be compared with: install `glslang-tools` (Debian)");
+    }
+    let mut times: Vec<[f64; 5]> = Vec::new();
+    for round in 0..ROUNDS {
+        let cache = at(&format!("cache{round}"));
+        let peer = if has_peer { glslang(&root, folder.path(), &sample) } else { f64::NAN };
+        let cold = compile(&root, &at(&format!("cold{round}")), None);
+        let filling = compile(&root, &at(&format!("filling{round}")), Some(&cache));
+        let warm = compile(&root, &at(&format!("warm{round}")), Some(&cache));
+        let reading = read_all(&cache) + read_all(&at(&format!("warm{round}")));
+        times.push([peer / sample.len() as f64 * variants.len() as f64, cold, filling, warm, reading]);
+    }
+    let median = |of: usize| {
+        let mut column: Vec<f64> = times.iter().map(|row| row[of]).collect();
+        column.sort_by(f64::total_cmp);
+        column[column.len() / 2]
+    };
+    let peer = median(0);
+    println!("{} variants, {ROUNDS} rounds\n", variants.len());
+    println!("| way | seconds | shaders a second | times glslangValidator |\n| --- | --- | --- | --- |");
+    let rows = [
+        "glslangValidator, a process for each variant",
+        "glisten, without a cache",
+        "glisten, with an empty cache",
+        "glisten, with a full cache",
+        "reading the cache and the outputs, one thread",
+    ];
+    for (of, name) in rows.iter().enumerate() {
+        let time = median(of);
+        println!("| {name} | {time:.3} | {:.0} | {:.1} |", shaders / time, peer / time);
+    }
+}
+
+/// Seconds of a run of glisten.
+fn compile(root: &Path, out: &Path, cache: Option<&Path>) -> f64 {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+    command.args(["compile", "--quiet", "--target", "spirv", "--permutations", "uber.toml", "-o"]).arg(out);
+    match cache {
+        Some(cache) => command.arg("--cache").arg(cache),
+        None => command.arg("--no-cache"),
+    };
+    let start = Instant::now();
+    assert!(command.current_dir(root).status().expect("glisten runs").success());
+    start.elapsed().as_secs_f64()
+}
+
+/// The flags of each variant.
+fn variants(index: &Path) -> Vec<Vec<String>> {
+    let index: serde_json::Value = serde_json::from_slice(&fs::read(index).expect("an index")).expect("JSON");
+    let variants = index["programs"][0]["variants"].as_array().expect("a list");
+    let flags = |variant: &serde_json::Value| {
+        let defines = variant["defines"].as_object().expect("macros");
+        defines.iter().map(|(name, value)| format!("-D{name}={}", value.as_str().expect("a text"))).collect()
+    };
+    variants.iter().map(flags).collect()
+}
+
+/// Seconds of glslangValidator for these variants.
+fn glslang(root: &Path, folder: &Path, variants: &[Vec<String>]) -> f64 {
+    for name in ["uber.vert", "uber.frag", "lights.glsl"] {
+        let text = fs::read_to_string(root.join(name)).expect("a source");
+        let text = text.replace("#version 150", "#version 330");
+        let text = text.replace("GL_ARB_shading_language_include", "GL_GOOGLE_include_directive");
+        fs::write(folder.join(name), text).expect("written");
+    }
+    let next = AtomicUsize::new(0);
+    let start = Instant::now();
+    std::thread::scope(|scope| {
+        for number in 0..std::thread::available_parallelism().map_or(1, std::num::NonZero::get) {
+            let (next, place) = (&next, folder.join(format!("peer{number}")));
+            scope.spawn(move || {
+                fs::create_dir_all(&place).expect("a folder");
+                while let Some(flags) = variants.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let mut command = Command::new("glslangValidator");
+                    command.args(["-G100", "--aml", "--amb"]).args(flags);
+                    let files = ["uber.vert", "uber.frag"].map(|name| folder.join(name));
+                    let run = command.args(files).current_dir(&place).output().expect("it runs");
+                    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stdout));
+                }
+            });
+        }
+    });
+    start.elapsed().as_secs_f64()
+}
+
+/// Seconds for reading all files below a folder.
+fn read_all(folder: &Path) -> f64 {
+    let start = Instant::now();
+    let mut folders = vec![PathBuf::from(folder)];
+    let mut bytes = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder").filter_map(Result::ok) {
+            match entry.file_type().expect("a type").is_dir() {
+                true => folders.push(entry.path()),
+                false => bytes += fs::read(entry.path()).expect("a file").len(),
+            }
+        }
+    }
+    assert!(bytes > 0);
+    start.elapsed().as_secs_f64()
+}

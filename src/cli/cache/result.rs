@@ -1,0 +1,67 @@
+//! [`Kept`]: what is kept of a program: its outputs and its diagnostics.
+//!
+//! *In:* the outputs, the diagnostics and their texts. *Out:* an [`ActionResult`] and back. *Holds:* the diagnostics are those
+//! before any level: levels of the command line and of `glisten.toml` apply to what is taken from a cache, too.
+
+use super::action::{ActionResult, OutputFile};
+use crate::cli::digest::Digest;
+use glisten_front::diagnostic::{Diagnostic, Saved};
+use glisten_front::source::SourceMap;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// An output: its name, the digest of its bytes, its bytes.
+pub(in crate::cli) type KeptOutput = (String, Digest, Arc<[u8]>);
+
+/// The result of a program without errors.
+#[derive(Clone, Debug, Default)]
+pub(in crate::cli) struct Kept {
+    /// The outputs in their order.
+    pub(in crate::cli) outputs: Vec<KeptOutput>,
+    /// The texts of the diagnostics.
+    pub(in crate::cli) sources: SourceMap,
+    /// The compiler's diagnostics.
+    pub(in crate::cli) diagnostics: Vec<Diagnostic>,
+    /// Notes on the outputs.
+    pub(in crate::cli) notes: Vec<Diagnostic>,
+    /// How many diagnostics past the compiler's limit there were.
+    pub(in crate::cli) dropped: usize,
+    /// The watched macros that the result depends on.
+    pub(in crate::cli) asked: BTreeSet<String>,
+}
+
+/// The text of a result.
+#[derive(Deserialize, Serialize)]
+struct Text {
+    saved: Saved,
+    /// How many of the diagnostics, at the end, are notes.
+    notes: usize,
+    dropped: usize,
+    asked: BTreeSet<String>,
+}
+
+impl Kept {
+    /// The result as a cache holds it.
+    pub(super) fn written(&self) -> ActionResult {
+        let files = self.outputs.iter().map(|(name, digest, bytes)| OutputFile::new(name, *digest, bytes));
+        let saved = Saved::new(&self.sources, self.diagnostics.iter().chain(&self.notes));
+        let text = Text { saved, notes: self.notes.len(), dropped: self.dropped, asked: self.asked.clone() };
+        // Only a map whose keys are no texts could fail.
+        let stdout_raw = serde_json::to_vec(&text).unwrap_or_default();
+        ActionResult { output_files: files.collect(), stdout_raw }
+    }
+
+    /// The result that a cache held. `None` if an output is missing, or the text is not one of this version.
+    pub(super) fn read(result: &ActionResult, output: impl Fn(Digest) -> Option<Arc<[u8]>>) -> Option<Self> {
+        let text: Text = serde_json::from_slice(&result.stdout_raw).ok()?;
+        let (sources, mut diagnostics) = text.saved.restore()?;
+        let notes = diagnostics.split_off(diagnostics.len().checked_sub(text.notes)?);
+        let mut outputs = Vec::new();
+        for file in &result.output_files {
+            let digest = file.digest()?;
+            outputs.push((file.path.clone(), digest, output(digest)?));
+        }
+        Some(Self { outputs, sources, diagnostics, notes, dropped: text.dropped, asked: text.asked })
+    }
+}

@@ -1,0 +1,98 @@
+//! [`Digest`]: the SHA-256 of bytes, which names what a cache holds.
+//!
+//! *In:* bytes. *Out:* 32 bytes, or 64 hexadecimal digits. *Holds:* [`Hasher`] puts the length before each part, so two lists of
+//! parts have the same digest only if they are equal.
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+use std::fmt;
+
+/// The SHA-256 of bytes.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub(super) struct Digest([u8; 32]);
+
+impl Digest {
+    /// The digest of bytes.
+    pub(super) fn of(bytes: &[u8]) -> Self {
+        Self(Sha256::digest(bytes).into())
+    }
+
+    /// The digest that 64 hexadecimal digits name.
+    pub(super) fn from_hex(text: &str) -> Option<Self> {
+        let digits = text.as_bytes();
+        let mut bytes = [0; 32];
+        if digits.len() != 64 || !digits.iter().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f')) {
+            return None;
+        }
+        for (byte, pair) in bytes.iter_mut().zip(digits.chunks(2)) {
+            *byte = u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok()?;
+        }
+        Some(Self(bytes))
+    }
+}
+
+impl fmt::Display for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
+}
+
+impl fmt::Debug for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl From<Digest> for String {
+    fn from(digest: Digest) -> Self {
+        digest.to_string()
+    }
+}
+
+impl TryFrom<String> for Digest {
+    type Error = &'static str;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        Self::from_hex(&text).ok_or("not a SHA-256")
+    }
+}
+
+/// The digest of a list of parts.
+pub(super) struct Hasher(Sha256);
+
+impl Hasher {
+    /// An empty list. Lists of different `kind` never have the same digest.
+    pub(super) fn new(kind: &str) -> Self {
+        Self(Sha256::new()).with(kind.as_bytes())
+    }
+
+    /// Adds a part.
+    #[must_use]
+    pub(super) fn with(mut self, part: &[u8]) -> Self {
+        self.0.update((part.len() as u64).to_le_bytes());
+        self.0.update(part);
+        self
+    }
+
+    /// The digest.
+    pub(super) fn finish(self) -> Digest {
+        Digest(self.0.finalize().into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Digest, Hasher};
+
+    #[test]
+    fn digests_are_those_of_the_standard() {
+        let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+        assert_eq!(Digest::of(b"").to_string(), empty);
+        assert_eq!(Digest::from_hex(empty), Some(Digest::of(b"")));
+        assert_eq!(Digest::from_hex(&empty.to_uppercase()), None);
+        assert_eq!(Digest::from_hex("e3"), None);
+        let two = |a: &str, b: &str| Hasher::new("test").with(a.as_bytes()).with(b.as_bytes()).finish();
+        assert_ne!(two("ab", "c"), two("a", "bc"));
+    }
+}

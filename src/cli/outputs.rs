@@ -1,0 +1,239 @@
+//! [`OutputPlan`]: the files that a program becomes.
+//!
+//! *In:* the targets and conventions, groups of files, linked programs. *Out:* the code for each stage and target, and the
+//! reflection, as bytes with names. *Holds:* the names of all outputs are known before any work begins, so two programs that
+//! would write the same file are rejected at once. Nothing is written here.
+
+use super::args::ConventionArgs;
+use super::digest::Digest;
+use super::exit::Failure;
+use super::guard;
+use super::inputs::Group;
+use super::optimize::{self, OptimizeArgs};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use glisten_emit::reflection::StageFiles;
+use glisten_emit::{self as emit, Conventions, Emitted, Target};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
+use glisten_front::source::{SourceMap, Span};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The parts of a program to write.
+#[derive(Args, Clone, Debug)]
+pub(super) struct OutputArgs {
+    /// The target to write (repeatable; default: wgsl and spirv)
+    #[arg(long = "target", value_parser = target_words())]
+    pub(super) targets: Vec<Target>,
+    /// Write source lines into SPIR-V
+    #[arg(short = 'g')]
+    pub(super) debug_lines: bool,
+    /// Report what -O leaves out
+    #[arg(long)]
+    left_out: bool,
+    /// List each element of large arrays of structs in the reflection
+    #[arg(long)]
+    flat: bool,
+    #[command(flatten)]
+    pub(super) optimize: OptimizeArgs,
+    #[command(flatten)]
+    conventions: ConventionArgs,
+}
+
+/// Reads the word of a target.
+pub(super) fn target_words() -> impl TypedValueParser<Value = Target> {
+    let words = Target::ALL.iter().map(|target| target.word());
+    PossibleValuesParser::new(words).try_map(|word| Target::from_word(&word).ok_or("no such target"))
+}
+
+/// A file to write: its name, the digest of its bytes, its bytes.
+pub(super) type Output = (String, Digest, Arc<[u8]>);
+
+/// The parts of a program to write, in full.
+#[derive(Clone, Debug)]
+pub(super) struct OutputPlan {
+    pub(super) targets: BTreeSet<Target>,
+    conventions: Conventions,
+    optimize: OptimizeArgs,
+    left_out: bool,
+    flat: bool,
+    /// Whether outputs have names that the reflection can tell.
+    named: bool,
+}
+
+impl OutputPlan {
+    /// The plan that the arguments ask for.
+    pub(super) fn new(args: &OutputArgs) -> Self {
+        let mut targets: BTreeSet<Target> = args.targets.iter().copied().collect();
+        if targets.is_empty() {
+            targets.extend([Target::Wgsl, Target::Spirv]);
+        }
+        let conventions = args.conventions.conventions(args.debug_lines);
+        let (optimize, left_out, flat) = (args.optimize, args.left_out, args.flat);
+        Self { targets, conventions, optimize, left_out, flat, named: true }
+    }
+
+    /// The plan for outputs whose names depend on their bytes: the reflection does not tell them.
+    pub(super) fn unnamed(self) -> Self {
+        Self { named: false, ..self }
+    }
+
+    /// Whether source lines are in the outputs.
+    pub(super) fn has_lines(&self) -> bool {
+        self.conventions.debug_lines
+    }
+
+    /// The names of a program's outputs, the reflection last.
+    pub(super) fn names(&self, group: &Group) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for stage in Stage::ALL {
+            // Several files of one stage have one output, which is named after the first.
+            if let Some(input) = group.inputs.iter().find(|input| input.stage == stage) {
+                let file = input.file_name();
+                names.extend(self.targets.iter().map(|target| format!("{file}.{}", target.extension())));
+            }
+        }
+        names.push(format!("{}.json", group.name));
+        names
+    }
+
+    /// The stage and the target of each of a program's outputs but the reflection, by their names.
+    pub(super) fn kinds(&self, group: &Group) -> BTreeMap<String, (Stage, Target)> {
+        let mut kinds = BTreeMap::new();
+        for stage in Stage::ALL {
+            if let Some(input) = group.inputs.iter().find(|input| input.stage == stage) {
+                let name = |target: &Target| format!("{}.{}", input.file_name(), target.extension());
+                kinds.extend(self.targets.iter().map(|target| (name(target), (stage, *target))));
+            }
+        }
+        kinds
+    }
+
+    /// Two programs must not write the same file, nor one of the sources.
+    ///
+    /// # Errors
+    /// They would, in this folder.
+    pub(super) fn refuse_collisions(&self, folder: &Path, groups: &[Group]) -> Result<(), Failure> {
+        let mut writers: BTreeMap<String, &Group> = BTreeMap::new();
+        let sources: BTreeSet<PathBuf> = groups
+            .iter()
+            .flat_map(|group| &group.inputs)
+            .filter_map(|input| fs::canonicalize(input.path.as_ref()?).ok())
+            .collect();
+        for group in groups {
+            for name in self.names(group) {
+                let path = folder.join(&name);
+                if fs::canonicalize(&path).is_ok_and(|path| sources.contains(&path)) {
+                    let message = format!("the output `{}` is one of the inputs", path.display());
+                    return Err(Failure::usage(message).help("choose another folder with `-o`"));
+                }
+                if let Some(other) = writers.insert(name, group) {
+                    let message = format!(
+                        "the programs of {} and of {} would both write `{}`",
+                        files_of(other),
+                        files_of(group),
+                        path.display()
+                    );
+                    return Err(Failure::usage(message).help("compile them into different folders"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the code for a target is without what reaches no output.
+    fn optimizes(&self, target: Target) -> bool {
+        self.optimize.applies(target, self.conventions.debug_lines)
+    }
+
+    /// Notes on what is not in the outputs.
+    pub(super) fn notes(&self, program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
+        let mut notes = emit::notes(program, &self.conventions);
+        if self.left_out && self.targets.iter().any(|target| self.optimizes(*target)) {
+            notes.extend(optimize::notes(program, sources));
+        }
+        notes
+    }
+
+    /// The outputs of one program. An internal error is a diagnostic of its first text.
+    pub(super) fn emit(
+        &self,
+        group: &Group,
+        program: &Program,
+        sources: &SourceMap,
+    ) -> Result<Vec<Output>, Vec<Diagnostic>> {
+        guard::guarded(|| self.emit_program(group, program, sources)).unwrap_or_else(|panic| {
+            let span = sources.files().next().map_or(0, |(_, file)| file.base());
+            Err(vec![guard::diagnostic(&panic, Span::new(span, span))])
+        })
+    }
+
+    fn emit_program(
+        &self,
+        group: &Group,
+        program: &Program,
+        sources: &SourceMap,
+    ) -> Result<Vec<Output>, Vec<Diagnostic>> {
+        let mut outputs = Vec::new();
+        let mut diagnostics = Vec::new();
+        let mut texts = Vec::new();
+        let sources = Some(sources);
+        let optimized = optimize::optimized(program, self.targets.iter().any(|target| self.optimizes(*target)));
+        for shader in &program.stages {
+            let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
+            for target in &self.targets {
+                let emitted = if self.optimizes(*target) { &optimized } else { program };
+                match emit::emit_with_sources(emitted, shader.stage, *target, &self.conventions, sources) {
+                    Ok(emitted) => {
+                        let name = format!("{}.{}", input.file_name(), target.extension());
+                        if let (Target::Wgsl, Emitted::Text(text)) = (target, &emitted) {
+                            texts.push(text.clone());
+                        }
+                        outputs.push(output(name, emitted.into_bytes()));
+                    }
+                    Err(errors) => diagnostics.extend(errors),
+                }
+            }
+        }
+        // What one of the outputs has is active.
+        let all = self.targets.iter().all(|target| self.optimizes(*target));
+        let mut reflection = emit::reflect(if all { &optimized } else { program }, &self.conventions);
+        texts.iter().for_each(|text| reflection.name_in_wgsl(text));
+        let no_targets = BTreeSet::new();
+        reflection.files = files_of_stages(group, if self.named { &self.targets } else { &no_targets });
+        if !self.flat {
+            reflection.compact();
+        }
+        let mut json = serde_json::to_vec_pretty(&reflection).expect("a reflection is always JSON");
+        json.push(b'\n');
+        outputs.push(output(format!("{}.json", group.name), json));
+        if diagnostics.is_empty() { Ok(outputs) } else { Err(diagnostics) }
+    }
+}
+
+fn output(name: String, bytes: Vec<u8>) -> Output {
+    (name, Digest::of(&bytes), bytes.into())
+}
+
+/// The files of each stage for the reflection, with the outputs for these targets.
+pub(super) fn files_of_stages(group: &Group, targets: &BTreeSet<Target>) -> BTreeMap<String, StageFiles> {
+    let mut files: BTreeMap<String, StageFiles> = BTreeMap::new();
+    for input in &group.inputs {
+        let own = files.entry(input.stage.name().to_owned()).or_default();
+        own.sources.push(input.file_name());
+        // Several files of one stage have one output, which is named after the first.
+        for target in targets {
+            let name = || format!("{}.{}", input.file_name(), target.extension());
+            own.outputs.entry(target.word().to_owned()).or_insert_with(name);
+        }
+    }
+    files
+}
+
+fn files_of(group: &Group) -> String {
+    group.inputs.iter().map(|input| format!("`{}`", input.name)).collect::<Vec<_>>().join(", ")
+}

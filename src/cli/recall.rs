@@ -1,0 +1,107 @@
+//! [`Recall`]: compiles a program, or takes it from a cache.
+//!
+//! *In:* the options of a command, a group of files, a cache. *Out:* a [`Unit`], compiled or recalled; what was compiled is
+//! kept. *Holds:* the key of a program has every flag that may change its outputs, so that a new flag cannot be forgotten: it
+//! is the text of all of them. Standard input is never kept.
+
+use super::args::{BindingArgs, SourceArgs};
+use super::cache::{Cache, CacheArgs, Kept};
+use super::console::Console;
+use super::digest::Digest;
+use super::engine::Engines;
+use super::exit::Failure;
+use super::inputs::Group;
+use super::outputs::{Output, OutputPlan};
+use super::session::{Fresh, Unit, compile_group};
+use super::trace;
+use glisten_front::compiler::Compiler;
+use glisten_front::diagnostic::Diagnostic;
+use std::fs;
+use std::path::Path;
+
+/// A cache with the options of a command.
+pub(super) struct Recall {
+    cache: Option<Cache>,
+    engines: Engines,
+    options: String,
+}
+
+impl Recall {
+    /// The cache of a command.
+    ///
+    /// # Errors
+    /// A size or an address that is none.
+    pub(super) fn new(
+        args: &CacheArgs,
+        engines: &Engines,
+        sources: &SourceArgs,
+        bindings: &BindingArgs,
+        plan: &OutputPlan,
+    ) -> Result<Self, Failure> {
+        let preludes: Vec<Option<Digest>> =
+            sources.preludes.iter().map(|path| fs::read(path).ok().map(|bytes| Digest::of(&bytes))).collect();
+        let options = format!("{sources:?} {preludes:?} {bindings:?} {plan:?}");
+        Ok(Self { cache: Cache::open(args, engines.clone())?, engines: engines.clone(), options })
+    }
+
+    /// Takes a program from the cache, or compiles it. `variant` tells apart programs that differ in their compilers.
+    pub(super) fn compile(&self, compiler: &Compiler, group: Group, variant: &str) -> (Unit, usize) {
+        let Some((cache, key)) = self.cache.as_ref().and_then(|cache| Some((cache, self.key(cache, &group, variant)?)))
+        else {
+            return compile_group(compiler, group);
+        };
+        if let Some(kept) = cache.find(key) {
+            return recalled(group, kept);
+        }
+        let ((mut unit, dropped), trace) = trace::recorded(|| compile_group(compiler, group));
+        let diagnostics = unit.batch.diagnostics.clone();
+        unit.fresh = unit.program.is_some().then_some(Fresh { key, trace, diagnostics, dropped });
+        (unit, dropped)
+    }
+
+    /// Keeps what was made of a program, if it was compiled.
+    pub(super) fn keep(&self, unit: &Unit, outputs: &[Output], notes: &[Diagnostic]) {
+        let (Some(cache), Some(fresh)) = (&self.cache, &unit.fresh) else { return };
+        let kept = Kept {
+            outputs: outputs.to_vec(),
+            sources: unit.batch.sources.clone(),
+            diagnostics: fresh.diagnostics.clone(),
+            notes: notes.to_vec(),
+            dropped: fresh.dropped,
+            asked: unit.asked.clone(),
+        };
+        cache.keep(fresh.key, &fresh.trace, &kept);
+    }
+
+    /// Tells what went wrong with the cache, and cleans it.
+    pub(super) fn close(&self, console: &Console) {
+        if let Some(cache) = &self.cache {
+            cache.close(console);
+        }
+    }
+
+    fn key(&self, cache: &Cache, group: &Group, variant: &str) -> Option<Digest> {
+        if group.inputs.iter().any(|input| input.path.is_none()) {
+            return None;
+        }
+        let folder_of = |path: &Path| path.parent().map(Path::to_owned).filter(|folder| !folder.as_os_str().is_empty());
+        let folders = group.inputs.iter().filter_map(|input| input.path.as_deref());
+        let mut folders = folders.map(|path| folder_of(path).unwrap_or_else(|| ".".into()));
+        // An engine may look into the folders above, whose names then matter.
+        let is_bound =
+            self.engines.is_engine_given() || folders.any(|folder| self.engines.trace_of_rules(&folder).is_some());
+        let here = if is_bound { std::env::current_dir().unwrap_or_default() } else { Default::default() };
+        Some(cache.key(&[&self.options, &format!("{group:?}"), variant, &here.to_string_lossy()]))
+    }
+}
+
+/// A program as the cache has it.
+fn recalled(group: Group, mut kept: Kept) -> (Unit, usize) {
+    let mut unit = Unit::new(group);
+    unit.batch.sources = std::mem::take(&mut kept.sources);
+    unit.batch.diagnostics = std::mem::take(&mut kept.diagnostics);
+    unit.asked = std::mem::take(&mut kept.asked);
+    let dropped = kept.dropped;
+    unit.kept = Some(kept);
+    (unit, dropped)
+}

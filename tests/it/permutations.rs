@@ -1,0 +1,153 @@
+//! `compile --permutations`: each variant has the bytes that it has alone, equal outputs are one file, and the order of the
+//! work does not show.
+
+use crate::cache::files;
+use crate::cli::{Folder, code, err};
+use crate::support::root;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+
+fn project(file: &str) -> Folder {
+    let text = |name: &str| fs::read(root().join("fixtures/permutations").join(name)).expect("the fixture");
+    Folder::new(&[
+        ("uber.vert", &text("uber.vert")),
+        ("uber.frag", &text("uber.frag")),
+        ("lights.glsl", &text("lights.glsl")),
+        ("p.toml", file.as_bytes()),
+    ])
+}
+
+const UBER: &str = "[[program]]\nfiles = [\"uber.vert\", \"uber.frag\"]\nname = \"u\"\npragmas = true\n\
+    skip = [\"GGX FOG_EXP\"]\nonly = [\"!INSTANCED !ALPHA_TEST\"]\n[program.values]\nLIGHTS = [0, 2]\nUNREAD = [false, true]\n";
+
+fn index(folder: &Folder, name: &str) -> Value {
+    serde_json::from_slice(&fs::read(folder.path(name).join("index.json")).expect("an index")).expect("JSON")
+}
+
+#[test]
+fn each_variant_has_the_bytes_that_it_has_alone() {
+    let folder = project(UBER);
+    let run = folder.run(&["compile", "--permutations", "p.toml", "-o", "out"]);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    let index = index(&folder, "out");
+    let program = &index["programs"][0];
+    let variants = program["variants"].as_array().expect("a list");
+    // (4 models x 3 kinds of fog - GGX with FOG_EXP) x NORMAL_MAP x SKINNED x LIGHTS x UNREAD.
+    assert_eq!(variants.len(), 11 * 2 * 2 * 2 * 2);
+    for (number, variant) in variants.iter().enumerate().step_by(17) {
+        let defines = variant["defines"].as_object().expect("macros");
+        let flags: Vec<String> =
+            defines.iter().map(|(name, value)| format!("-D{name}={}", value.as_str().expect("a text"))).collect();
+        let alone = format!("alone{number}");
+        let mut words = vec!["compile", "uber.vert", "uber.frag", "-o", &alone];
+        words.extend(flags.iter().map(String::as_str));
+        assert_eq!(code(&folder.run(&words)), 0);
+        let shader = &program["shaders"][variant["shader"].as_u64().expect("a number") as usize];
+        for (stage, end) in [("vertex", "vert"), ("fragment", "frag")] {
+            for (target, extension) in [("wgsl", "wgsl"), ("spirv", "spv")] {
+                let path = shader["stages"][stage][target].as_str().expect("a path");
+                let own = fs::read(folder.path("out").join(path)).expect("written");
+                let other = fs::read(folder.path(&alone).join(format!("uber.{end}.{extension}"))).expect("written");
+                assert!(own == other, "{path} of {flags:?}");
+            }
+        }
+        let reflection = fs::read(folder.path("out").join(shader["reflection"].as_str().expect("a path")));
+        let reflection: Value = serde_json::from_slice(&reflection.expect("written")).expect("JSON");
+        let alone: Value =
+            serde_json::from_slice(&fs::read(folder.path(&alone).join("uber.json")).expect("written")).expect("JSON");
+        assert_eq!(reflection["uniforms"], alone["uniforms"]);
+    }
+    // A macro that nothing reads makes no difference, and equal outputs are one file.
+    assert_eq!(program["shaders"].as_array().expect("a list").len(), variants.len() / 2);
+    let written: BTreeSet<String> = files(&folder.path("out")).into_keys().collect();
+    let mut named = BTreeSet::from(["index.json".to_owned()]);
+    for shader in program["shaders"].as_array().expect("a list") {
+        named.insert(shader["reflection"].as_str().expect("a path").to_owned());
+        let stages = shader["stages"]
+            .as_object()
+            .expect("stages")
+            .values()
+            .flat_map(|stage| stage.as_object().expect("targets").values());
+        named.extend(stages.map(|path| path.as_str().expect("a path").to_owned()));
+    }
+    assert_eq!(written, named);
+    // Many variants share a vertex shader.
+    let count = |end: &str| written.iter().filter(|name| name.ends_with(end)).count();
+    assert!(count(".vert.spv") < count(".frag.spv"), "{} of {}", count(".vert.spv"), count(".frag.spv"));
+}
+
+#[test]
+fn the_order_of_the_work_does_not_show() {
+    let folder = project(UBER);
+    let run = |out: &str, more: &[&str]| {
+        let run = folder.run(&[&["compile", "--permutations", "p.toml", "-o", out], more].concat());
+        assert_eq!(code(&run), 0, "{}", err(&run));
+        files(&folder.path(out))
+    };
+    let one = run("one", &["-j1", "--no-cache", "--depfile", "one.d", "--manifest", "one.json"]);
+    assert!(one == run("two", &["-j2", "--cache", "kept"]), "the bytes differ");
+    assert!(one == run("three", &["-j2", "--cache", "kept"]), "the bytes differ");
+    let rule = fs::read_to_string(folder.path("one.d")).expect("written");
+    assert_eq!(rule, "one/index.json: p.toml uber.vert uber.frag lights.glsl\n");
+    let manifest: Value = serde_json::from_slice(&fs::read(folder.path("one.json")).expect("written")).expect("JSON");
+    assert_eq!(manifest["outputs"].as_array().expect("a list").len(), one.len() - 1, "all but the index");
+    assert_eq!(manifest["outputs"][0]["sources"][0]["file"], "p.toml");
+}
+
+#[test]
+fn an_error_names_its_variant_and_nothing_is_written() {
+    let folder = project(
+        "[[program]]\nfiles = [\"uber.vert\", \"uber.frag\"]\nvalues = { LIGHTS = [1, \"1.5\"], GGX = [false, true] }\n",
+    );
+    let run = folder.run(&["compile", "--permutations", "p.toml", "-o", "out"]);
+    assert_eq!(code(&run), 1, "{}", err(&run));
+    assert!(err(&run).contains("in the variant `LIGHTS=1.5`"), "{}", err(&run));
+    assert!(!folder.path("out").exists());
+    for (file, exit) in [("[[program]]\nfiles = [\"none.vert\"]\n", 2), ("[[program]]\nfiles = [3]\n", 1), ("x", 1)] {
+        let run = project(file).run(&["compile", "--permutations", "p.toml", "-o", "out"]);
+        assert_eq!(code(&run), exit, "{file}: {}", err(&run));
+        assert!(!err(&run).is_empty());
+    }
+    let run = project(UBER).run(&["compile", "--permutations", "missing.toml", "-o", "out"]);
+    assert_eq!(code(&run), 2);
+    let run = project(UBER).run(&["compile", "--permutations", "p.toml", "-o", "-"]);
+    assert_eq!(code(&run), 2);
+}
+
+#[test]
+fn warnings_are_told_once_and_obey_levels() {
+    let folder = project("[[program]]\nfiles = [\"w.frag\"]\nvalues = { A = [0, 1, 2, 3] }\n");
+    let text = "#version 150\nout vec4 c;\nuniform float x;\nvoid main() { c = vec4(x == 0.5 ? A : 1); }\n";
+    fs::write(folder.path("w.frag"), text).expect("written");
+    let run = |more: &[&str]| folder.run(&[&["compile", "--permutations", "p.toml", "--cache", "kept"], more].concat());
+    for _ in 0..2 {
+        let told = run(&["-o", "out"]);
+        assert_eq!(code(&told), 0, "{}", err(&told));
+        assert_eq!(err(&told).matches("is compiled without its partner").count(), 1, "{}", err(&told));
+    }
+    let denied = run(&["-o", "x", "--deny", "warnings"]);
+    assert_eq!(code(&denied), 1, "{}", err(&denied));
+    assert!(!folder.path("x").exists());
+}
+
+#[test]
+fn draws_of_scenes_are_variants() {
+    let scene = root().join("fixtures/scenes/phong.toml");
+    let folder = project(&format!("[[scene]]\nfile = {:?}\n", scene.display().to_string()));
+    let run = folder.run(&["compile", "--permutations", "p.toml", "-o", "out", "--target", "spirv", "-O0"]);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    let index = index(&folder, "out");
+    let program = &index["programs"][0];
+    assert_eq!((&program["name"], &program["variants"][0]["draw"]), (&Value::from("phong"), &Value::from(0)));
+    let path = program["shaders"][0]["stages"]["fragment"]["spirv"].as_str().expect("a path");
+    let special = fs::read(folder.path("out").join(path)).expect("written");
+    let words = ["specialize", scene.to_str().expect("a path"), "-o", "other", "--target", "spirv", "-q"];
+    assert_eq!(code(&folder.run(&words)), 0);
+    let other = files(&folder.path("other"));
+    assert!(other.values().any(|bytes| *bytes == special), "the residual is that of `specialize`");
+    assert_eq!(
+        code(&project("[[scene]]\nfile = \"none.toml\"\n").run(&["compile", "--permutations", "p.toml", "-o", "x"])),
+        2
+    );
+}
