@@ -242,7 +242,7 @@ fn paths_are_resolved() {
 #[test]
 fn every_file_has_a_module_doc() {
     let mut files = sources();
-    for folder in ["tests", "examples", "benches"] {
+    for folder in ["tests", "examples", "benches", "integrations"] {
         files.extend(rust_files(folder));
     }
     let without: Vec<String> =

@@ -1,6 +1,7 @@
 //! All integration tests in one binary, so that wgpu is linked once, with one module for each area.
 
 mod architecture;
+mod bindings;
 mod build;
 #[cfg(feature = "cli")]
 mod cli;
