@@ -108,7 +108,7 @@ pub(super) fn text_of(path: &Path) -> String {
 }
 
 /// Lines that are code: no comment lines, and nothing from the unit tests on.
-fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(super) fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.lines()
         .enumerate()
         .take_while(|(_, line)| line.trim() != "#[cfg(test)]")

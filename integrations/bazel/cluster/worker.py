@@ -144,12 +144,14 @@ def main(address, folder, name):
     scratch = folder / "scratch"
     scratch.mkdir(parents=True, exist_ok=True)
     channel = grpc.insecure_channel(address, options=[("grpc.max_receive_message_length", -1)])
-    grpc.channel_ready_future(channel).result(timeout=60)
+    grpc.channel_ready_future(channel).result(timeout=120)
     storage = Storage(channel, folder / "blobs")
     bots = bots_pb2_grpc.BotsStub(channel)
     session = bots_pb2.BotSession(bot_id=name, status=1)
     session.worker.devices.add(handle=name)
-    session = bots.CreateBotSession(bots_pb2.CreateBotSessionRequest(parent="", bot_session=session), timeout=10)
+    # The call waits for an action.
+    (folder / "ready").touch()
+    session = bots.CreateBotSession(bots_pb2.CreateBotSessionRequest(parent="", bot_session=session), timeout=60)
     count = 0
     while True:
         for lease in session.leases:
@@ -169,7 +171,7 @@ def main(address, folder, name):
                 lease.state = COMPLETED
         try:
             request = bots_pb2.UpdateBotSessionRequest(name=session.name, bot_session=session)
-            session = bots.UpdateBotSession(request, timeout=10)
+            session = bots.UpdateBotSession(request, timeout=60)
         except grpc.RpcError as error:
             if error.code() not in (grpc.StatusCode.DEADLINE_EXCEEDED, grpc.StatusCode.UNAVAILABLE):
                 raise
