@@ -110,7 +110,7 @@ pub(super) fn text_of(path: &Path) -> String {
 }
 
 /// Lines that are code: no comment lines, and nothing from the unit tests on.
-fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(super) fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.lines()
         .enumerate()
         .take_while(|(_, line)| line.trim() != "#[cfg(test)]")
@@ -244,7 +244,7 @@ fn paths_are_resolved() {
 #[test]
 fn every_file_has_a_module_doc() {
     let mut files = sources();
-    for folder in ["tests", "examples", "benches"] {
+    for folder in ["tests", "examples", "benches", "integrations"] {
         files.extend(rust_files(folder));
     }
     let without: Vec<String> =

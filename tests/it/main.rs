@@ -1,6 +1,11 @@
 //! All integration tests in one binary, so that wgpu is linked once, with one module for each area.
 
+mod api;
 mod architecture;
+#[cfg(feature = "cli")]
+mod bazel;
+#[cfg(feature = "cli")]
+mod bindings;
 mod build;
 #[cfg(feature = "cli")]
 mod build_systems;

@@ -1,0 +1,32 @@
+//! What the bindings of glisten to C and to Python share.
+//!
+//! *In:* options as words ([`Settings`]), texts of shaders ([`compile`]), the path of a scene ([`Scenery`]). *Out:* code,
+//! reflections and diagnostics as texts; pictures as numbers.
+//!
+//! *Holds:* what a host can get wrong is an [`Error`]. What a shader's author can get wrong is a diagnostic.
+
+mod error;
+mod includes;
+mod program;
+#[cfg(feature = "render")]
+mod scene;
+mod settings;
+
+pub use error::{Error, Kind, guarded};
+pub use includes::{Answer, Includes};
+pub use program::{Compiled, Format, compile, stage_of_name, stage_of_word, target_of_word};
+#[cfg(feature = "render")]
+pub use scene::{Drawn, Files, Scenery};
+pub use settings::{OPTIONS, Settings};
+
+#[cfg(feature = "render")]
+pub use glisten::Precision;
+pub use glisten::diagnostic::Severity as FoundSeverity;
+pub use glisten::diagnostic::write::Finding;
+pub use glisten::emit::Target;
+#[cfg(feature = "render")]
+pub use glisten::scene::FileError;
+pub use glisten::{Source, Stage};
+
+/// The version of glisten.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

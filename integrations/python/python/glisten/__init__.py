@@ -1,0 +1,315 @@
+"""glisten for Python: lints, compiles and reflects OpenGL 3.2 era GLSL, and draws scenes to NumPy arrays.
+
+>>> import glisten
+>>> program = glisten.compile({"red.frag": "#version 150\\nout vec4 c;\\nvoid main() { c = vec4(1, 0, 0, 1); }\\n"})
+>>> "@fragment" in program.wgsl("fragment")
+True
+
+Sources are paths, or a mapping of names to texts. The extension of a name tells the stage. What is wrong with a shader raises
+:class:`CompileError`, whose ``diagnostics`` say where; :func:`lint` returns them instead. NumPy is needed for pictures alone.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Union
+
+from . import _glisten
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+__version__: str = _glisten.VERSION
+__all__ = ["CompileError", "Diagnostic", "Picture", "Program", "Scene", "compile", "lint", "load", "render"]
+
+Sources = Union[Mapping[str, str], str, "os.PathLike[str]", Iterable[Union[str, "os.PathLike[str]"]]]
+Include = Union[Callable[[str, bool, str], Union[str, None]], Mapping[str, str]]
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """What is wrong at a place. Lines and columns count from 1; ``end_column`` is exclusive."""
+
+    severity: str
+    """``error``, ``warning`` or ``note``"""
+    code: str
+    """The code, such as ``E0301``."""
+    name: str
+    """The name of the code, such as ``undeclared-identifier``."""
+    message: str
+    """The message."""
+    help: str | None
+    """The help text."""
+    file: str
+    """The name of the file."""
+    line: int
+    """The first line."""
+    column: int
+    """The first column."""
+    end_line: int
+    """The last line."""
+    end_column: int
+    """The column after the last."""
+    notes: tuple[str, ...]
+    """Facts that need no place."""
+    section: str | None
+    """The section of the specification."""
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}: {self.severity}[{self.code}]: {self.message}"
+
+    @classmethod
+    def _all(cls, text: str) -> list[Diagnostic]:
+        rows = json.loads(text)
+        return [cls(notes=tuple(row["notes"]), **{key: row[key] for key in _KEYS}) for row in rows]
+
+
+_KEYS = (
+    "severity", "code", "name", "message", "help", "file", "line", "column", "end_line", "end_column", "section",
+)  # fmt: skip
+
+
+class CompileError(ValueError):
+    """A shader or a scene has errors. The message shows them with excerpts."""
+
+    def __init__(self, message: str, diagnostics: list[Diagnostic]) -> None:
+        super().__init__(message)
+        self.diagnostics: list[Diagnostic] = diagnostics
+        """All diagnostics, in the order of their places."""
+
+
+class Program:
+    """A compiled program. It never changes, and any number of threads may use it."""
+
+    def __init__(self, inner: _glisten.Program) -> None:
+        self._inner = inner
+
+    @property
+    def stages(self) -> list[str]:
+        """The stages in the order of the pipeline; none if there are errors."""
+        return self._inner.stages
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """All diagnostics, in the order of their places."""
+        return Diagnostic._all(self._inner.diagnostics("json"))
+
+    def format_diagnostics(self, format: str = "human") -> str:
+        """The diagnostics as a text: ``human``, ``json``, ``sarif`` or ``github``."""
+        return self._inner.diagnostics(format)
+
+    def emit(self, stage: str, target: str) -> bytes:
+        """The code of a stage: ``wgsl``, ``spirv``, ``msl``, ``hlsl`` or ``glsl``.
+
+        :raises ValueError: the program has no such stage, or the target cannot represent something of it.
+        """
+        return self._inner.emit(stage, target)
+
+    def wgsl(self, stage: str) -> str:
+        """The code of a stage in WGSL."""
+        return self.emit(stage, "wgsl").decode()
+
+    def spirv(self, stage: str) -> bytes:
+        """The code of a stage in SPIR-V, the least significant byte of each word first."""
+        return self.emit(stage, "spirv")
+
+    def msl(self, stage: str) -> str:
+        """The code of a stage in MSL."""
+        return self.emit(stage, "msl").decode()
+
+    def hlsl(self, stage: str) -> str:
+        """The code of a stage in HLSL."""
+        return self.emit(stage, "hlsl").decode()
+
+    def glsl(self, stage: str) -> str:
+        """The code of a stage in GLSL of the option ``glsl_version``."""
+        return self.emit(stage, "glsl").decode()
+
+    @property
+    def reflection(self) -> dict[str, Any]:
+        """What a host needs to know: attributes, uniforms with their offsets, bindings, varyings, outputs.
+
+        Its form is ``docs/reflection.schema.json``.
+        """
+        return json.loads(self._inner.reflect())
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What was drawn. Row 0 is the top row."""
+
+    attachments: tuple[npt.NDArray[np.float64], ...]
+    """RGBA of each color attachment: height x width x 4."""
+    covered: npt.NDArray[np.bool_]
+    """Whether a fragment was written to the pixel: height x width."""
+
+    @property
+    def pixels(self) -> npt.NDArray[np.float64]:
+        """The first attachment."""
+        return self.attachments[0]
+
+    def to_uint8(self) -> npt.NDArray[np.uint8]:
+        """The first attachment as bytes: clamped to [0, 1] and scaled to 255, without gamma. NaN is 0."""
+        import numpy as np
+
+        channels = np.nan_to_num(self.pixels, nan=0.0, posinf=1.0, neginf=0.0)
+        return np.floor(255.0 * np.clip(channels, 0.0, 1.0) + 0.5).astype(np.uint8)
+
+
+class Scene:
+    """A scene with its programs. It never changes, and any number of threads may use it."""
+
+    def __init__(self, inner: _glisten.Scene) -> None:
+        self._inner = inner
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """All diagnostics, in the order of their places."""
+        return Diagnostic._all(self._inner.diagnostics("json"))
+
+    def render(self, precision: str = "f64") -> Picture:
+        """Draws the scene with the CPU reference, in ``f64`` or ``f32`` arithmetic.
+
+        :raises ValueError: the scene has something that the reference does not support.
+        """
+        import numpy as np
+
+        width, height, attachments, covered = self._inner.render(precision)
+        shape = (height, width, 4)
+        arrays = (np.frombuffer(attachment, dtype=np.float64).reshape(shape) for attachment in attachments)
+        return Picture(tuple(arrays), np.frombuffer(covered, dtype=np.bool_).reshape(shape[:2]))
+
+    def stability(self) -> dict[str, Any]:
+        """How f32 arithmetic harms the picture: ``verdict``, ``picture``, ``causes``, as ``glisten stability`` tells it."""
+        return json.loads(self._inner.stability())
+
+
+def compile(
+    sources: Sources,
+    *,
+    defines: Mapping[str, object] | None = None,
+    include: Include | None = None,
+    include_folders: Iterable[str | os.PathLike[str]] = (),
+    attributes: Mapping[str, int] | None = None,
+    outputs: Mapping[str, int] | None = None,
+    stages: Mapping[str, str] | None = None,
+    **options: object,
+) -> Program:
+    """Compiles the sources of one program.
+
+    :param sources: paths, or a mapping of names to texts.
+    :param defines: macros that are defined before the first line; ``True`` is 1.
+    :param include: a function of the path, whether it is in angle brackets, and the including file, which returns the text or
+        ``None``; or a mapping of paths to texts. It is asked before the folders and the library.
+    :param include_folders: the search path of ``#include``.
+    :param attributes: locations of vertex attributes, as by ``glBindAttribLocation``.
+    :param outputs: color numbers of fragment outputs, as by ``glBindFragDataLocation``.
+    :param stages: stages of sources whose names do not tell them.
+    :param options: the flags of ``glisten compile`` with underscores: ``clip_z="minus-one-to-one"``, ``strict=True``,
+        ``deny="warnings"``, ``allow=["unused-varying"]``.
+    :raises CompileError: the sources have errors.
+    """
+    settings = _settings(defines, include, include_folders, attributes, outputs, options)
+    inner = _glisten.compile(settings, _texts(sources, stages), False)
+    if not inner.is_sound:
+        raise CompileError(inner.diagnostics("human").rstrip(), Diagnostic._all(inner.diagnostics("json")))
+    return Program(inner)
+
+
+def lint(
+    sources: Sources,
+    *,
+    defines: Mapping[str, object] | None = None,
+    include: Include | None = None,
+    include_folders: Iterable[str | os.PathLike[str]] = (),
+    attributes: Mapping[str, int] | None = None,
+    outputs: Mapping[str, int] | None = None,
+    stages: Mapping[str, str] | None = None,
+    **options: object,
+) -> list[Diagnostic]:
+    """Checks the sources of one program: errors, warnings, and what is legal but will hurt. Parameters are those of
+    :func:`compile`."""
+    settings = _settings(defines, include, include_folders, attributes, outputs, options)
+    return Diagnostic._all(_glisten.compile(settings, _texts(sources, stages), True).diagnostics("json"))
+
+
+def load(
+    path: str | os.PathLike[str],
+    *,
+    files: Mapping[str, str | bytes] | None = None,
+    include: Include | None = None,
+    include_folders: Iterable[str | os.PathLike[str]] = (),
+    **options: object,
+) -> Scene:
+    """Loads a scene file with its programs.
+
+    :param files: the contents of all files by their paths; without it, they are on disk.
+    :raises CompileError: the scene or one of its shaders has errors.
+    :raises OSError: a file cannot be read.
+    """
+    settings = _settings(None, include, include_folders, None, None, options)
+    contents = None
+    if files is not None:
+        contents = {name: file.encode() if isinstance(file, str) else bytes(file) for name, file in files.items()}
+    inner = _glisten.load(settings, os.fspath(path), contents)
+    if not inner.is_sound:
+        raise CompileError(inner.diagnostics("human").rstrip(), Diagnostic._all(inner.diagnostics("json")))
+    return Scene(inner)
+
+
+def render(path: str | os.PathLike[str], *, precision: str = "f64", **options: Any) -> Picture:
+    """Loads a scene and draws it. Parameters are those of :func:`load` and :meth:`Scene.render`."""
+    return load(path, **options).render(precision)
+
+
+def _settings(
+    defines: Mapping[str, object] | None,
+    include: Include | None,
+    include_folders: Iterable[str | os.PathLike[str]],
+    attributes: Mapping[str, int] | None,
+    outputs: Mapping[str, int] | None,
+    options: Mapping[str, object],
+) -> _glisten.Settings:
+    ask = include
+    if isinstance(include, Mapping):
+        texts = dict(include)
+
+        def ask(path: str, angled: bool, _from: str) -> str | None:
+            return texts.get(path)
+
+    return _glisten.Settings(
+        [(name.replace("_", "-"), word) for name, value in options.items() for word in _words(value)],
+        [(name, _word(value, "1", "0")) for name, value in (defines or {}).items()],
+        [os.fspath(folder) for folder in include_folders],
+        ask,
+        list((attributes or {}).items()),
+        list((outputs or {}).items()),
+    )
+
+
+def _words(value: object) -> list[str]:
+    """The values of an option: a list sets it several times."""
+    return [_word(one) for one in (value if isinstance(value, (list, tuple)) else [value])]
+
+
+def _word(value: object, true: str = "true", false: str = "false") -> str:
+    return {True: true, False: false}[value] if isinstance(value, bool) else str(value)
+
+
+def _texts(sources: Sources, stages: Mapping[str, str] | None) -> list[tuple[str, str, str | None]]:
+    stage_of = dict(stages or {})
+    if isinstance(sources, Mapping):
+        return [(name, text, stage_of.get(name)) for name, text in sources.items()]
+    paths = [sources] if isinstance(sources, (str, os.PathLike)) else list(sources)
+    names = [os.fspath(path) for path in paths]
+    return [(name, _read(name), stage_of.get(name)) for name in names]
+
+
+def _read(path: str) -> str:
+    # Bytes that are not UTF-8 are legal in comments alone, and glisten says where they are not.
+    with open(path, encoding="utf-8", errors="replace", newline="") as file:
+        return file.read()

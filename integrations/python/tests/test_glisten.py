@@ -1,0 +1,142 @@
+"""The Python package: what it returns, what it raises, and that threads and notebooks may use it."""
+
+import json
+import pathlib
+import runpy
+import threading
+
+import pytest
+
+import glisten
+
+np = pytest.importorskip("numpy", reason="pictures are NumPy arrays")
+
+HERE = pathlib.Path(__file__).resolve().parent
+FIXTURES = HERE.parents[2] / "fixtures"
+VERTEX = "#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n"
+FRAGMENT = "#version 150\nuniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint * LEVEL; }\n"
+PROGRAM = {"a.vert": VERTEX, "a.frag": FRAGMENT}
+
+
+def test_code_and_reflection():
+    program = glisten.compile(PROGRAM, defines={"LEVEL": 0.5}, attributes={"p": 3}, glsl_version="450")
+    assert program.stages == ["vertex", "fragment"]
+    assert "@vertex" in program.wgsl("vertex") and "#version 450" in program.glsl("fragment")
+    assert program.spirv("vertex")[:4] == b"\x03\x02\x23\x07"
+    assert program.msl("fragment") and program.hlsl("fragment")
+    assert program.reflection["attributes"][0]["location"] == 3
+    assert [row["name"] for row in program.reflection["uniforms"]] == ["tint"]
+    assert program.diagnostics == []
+
+
+def test_files(tmp_path):
+    for name, text in PROGRAM.items():
+        (tmp_path / name).write_text(text.replace("LEVEL", "1.0"))
+    by_paths = glisten.compile([tmp_path / name for name in PROGRAM])
+    by_strings = glisten.compile([str(tmp_path / name) for name in PROGRAM])
+    assert by_paths.wgsl("fragment") == by_strings.wgsl("fragment")
+    (tmp_path / "odd.txt").write_text(VERTEX)
+    assert glisten.compile(tmp_path / "odd.txt", stages={str(tmp_path / "odd.txt"): "vertex"}).stages == ["vertex"]
+    with pytest.raises(FileNotFoundError):
+        glisten.compile(tmp_path / "none.frag")
+
+
+def test_errors_are_raised_with_their_diagnostics():
+    with pytest.raises(glisten.CompileError) as caught:
+        glisten.compile({"a.frag": "#version 150\nvoid main() { x; }\n"})
+    assert "a.frag:2" in str(caught.value) and "^" in str(caught.value)
+    first = caught.value.diagnostics[0]
+    assert (first.severity, first.line, first.column, first.file) == ("error", 2, 15, "a.frag")
+    assert str(first).startswith("a.frag:2:15: error[")
+    program = glisten.compile(PROGRAM, defines={"LEVEL": "1.0"})
+    for wrong in [lambda: program.emit("geometry", "wgsl"), lambda: program.emit("vertex", "cuda")]:
+        with pytest.raises(ValueError):
+            wrong()
+    with pytest.raises(ValueError, match="did you mean `clip-z`"):
+        glisten.compile(PROGRAM, clip_y="zero-to-one")
+    with pytest.raises(ValueError, match="no stage"):
+        glisten.compile({"a.txt": VERTEX})
+    with pytest.raises(ValueError):
+        glisten.compile({})
+
+
+def test_lint_returns_what_is_wrong():
+    sources = {"a.frag": "#version 150\nout vec4 c;\nvoid main() { float x; c = vec4(x); }\n"}
+    found = glisten.lint(sources)
+    assert found and all(one.severity != "error" for one in found)
+    assert glisten.lint(sources, allow=[one.name for one in found]) == []
+    denied = glisten.lint(sources, deny=[one.code for one in found])
+    assert all(one.severity == "error" for one in denied)
+
+
+def test_includes():
+    sources = {"a.frag": '#version 150\n#include "l.glsl"\nout vec4 c;\nvoid main() { c = vec4(L); }\n'}
+    asked = []
+
+    def include(path, angled, source):
+        asked.append((path, angled, source))
+        return "#define L 0.25\n"
+
+    assert "0.25" in glisten.compile(sources, include=include).wgsl("fragment")
+    assert asked == [("l.glsl", False, "a.frag")]
+    assert "0.25" in glisten.compile(sources, include={"l.glsl": "#define L 0.25\n"}).wgsl("fragment")
+    with pytest.raises(glisten.CompileError):
+        glisten.compile(sources, include=lambda *_: None)
+
+    def broken(*_):
+        raise KeyError("no such thing")
+
+    with pytest.raises(KeyError):
+        glisten.compile(sources, include=broken)
+    with pytest.raises(TypeError):
+        glisten.compile(sources, include=lambda *_: 7)
+
+
+def test_pictures_are_arrays():
+    picture = glisten.render(FIXTURES / "scenes" / "triangle.toml")
+    height, width, channels = picture.pixels.shape
+    assert channels == 4 and picture.pixels.dtype == np.float64 and picture.covered.shape == (height, width)
+    assert picture.covered.any() and not picture.covered.all()
+    assert picture.to_uint8().dtype == np.uint8
+    picture.pixels[0, 0] = 0.5  # The array is the caller's.
+    assert np.abs(glisten.render(FIXTURES / "scenes" / "triangle.toml", precision="f32").pixels).sum() > 0
+    with pytest.raises(OSError):
+        glisten.load("no such scene.toml")
+    with pytest.raises(glisten.CompileError):
+        glisten.load("s.toml", files={"s.toml": "[framebuffer]\nwidht = 3\n"})
+    with pytest.raises(ValueError):
+        glisten.load(FIXTURES / "scenes" / "triangle.toml").render("f16")
+
+
+def test_threads_get_the_same_bytes():
+    results = []
+    run = lambda: results.append(glisten.compile(PROGRAM, defines={"LEVEL": "2.0"}).spirv("fragment"))
+    threads = [threading.Thread(target=run) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(results) == 4 and len(set(results)) == 1
+
+
+def test_diagnostics_have_formats():
+    program = glisten.compile(PROGRAM, defines={"LEVEL": "1.0"})
+    assert json.loads(program.format_diagnostics("sarif"))["version"] == "2.1.0"
+    with pytest.raises(ValueError):
+        program.format_diagnostics("xml")
+
+
+def test_the_example_runs(capsys):
+    runpy.run_path(str(HERE.parent / "examples" / "explore.py"))
+    assert capsys.readouterr().out.endswith("all is well\n")
+
+
+def test_the_stubs_name_what_is_there():
+    from glisten import _glisten
+
+    stubs = (pathlib.Path(glisten.__file__).parent / "_glisten.pyi").read_text()
+    for name in [name for name in dir(_glisten) if not name.startswith("_")]:
+        assert f"class {name}" in stubs or f"def {name}(" in stubs or f"{name}: " in stubs, name
+        for inner in [inner for inner in dir(getattr(_glisten, name)) if not inner.startswith("_")]:
+            if isinstance(getattr(_glisten, name), type):
+                assert f"def {inner}(" in stubs, f"{name}.{inner}"
