@@ -111,6 +111,7 @@ impl TestSession {
         match words.word()? {
             "clear" => self.clear(&mut words),
             "draw" => self.draw(&mut words),
+            "uniform" if self.fixed.uniform(&words) => Ok(()),
             "uniform" => self.uniforms.set(&self.program, &mut words, self.element),
             "tolerance" => {
                 self.tolerance = words.numbers()?;
@@ -234,7 +235,7 @@ impl TestSession {
                 let index = own.iter().position(|known| known.name == root.name)?;
                 self.uniforms.values.roots.get(index).cloned()
             };
-            fixed::value(&fixed, root).or_else(set).unwrap_or_default()
+            self.fixed.value(&fixed, root).or_else(set).unwrap_or_default()
         });
         let uniforms = uniforms.collect();
         let mut textures = Vec::new();

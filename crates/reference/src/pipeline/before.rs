@@ -26,7 +26,7 @@ pub(super) struct Before {
     geometry: Option<(Code, Feeds)>,
 }
 
-/// What the stages need besides their invocations.
+/// The surroundings of a run, for all of its invocations.
 #[derive(Clone, Copy)]
 pub(super) struct Run<'a, D: Domain> {
     pub(super) draw: &'a Draw,
