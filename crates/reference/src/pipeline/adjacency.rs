@@ -29,7 +29,7 @@ fn of_strip(i: u32, number: u32) -> Seen {
     // The vertex next to the edge that the triangle before has, and to the edge that the next one has.
     let before = if i == 0 { 1 } else { at - 2 };
     let after = if i + 1 == number { at + 5 } else { at + 6 };
-    if i % 2 == 0 {
+    if i.is_multiple_of(2) {
         smallvec![at, before, at + 2, after, at + 4, at + 3]
     } else {
         smallvec![at + 2, before, at, at + 3, at + 4, after]

@@ -44,6 +44,9 @@ pub(super) enum Front<D: Domain> {
     Staged(Staged<D>, Option<Vertices<D>>),
 }
 
+/// Vertices, and the primitives that they form, each with its `gl_PrimitiveID`.
+type Primitives<'f, D> = (&'f mut Vertices<D>, Vec<(Assembled, u32)>);
+
 impl<'a, D: Domain> Run<'a, D> {
     fn job(&self, stage: Stage, piece: Piece, code: &'a Code) -> Job<'a, D> {
         let Self { draw, options, endless, watch, .. } = *self;
@@ -105,7 +108,7 @@ impl Before {
         run: &Run<'_, D>,
         front: &'f mut Front<D>,
         order: &[u32],
-    ) -> Result<(&'f mut Vertices<D>, Vec<(Assembled, u32)>), Vec<Diagnostic>> {
+    ) -> Result<Primitives<'f, D>, Vec<Diagnostic>> {
         match (front, &self.geometry) {
             (Front::Staged(staged, place), Some((code, feeds))) => {
                 let job = run.job(Stage::Geometry, Piece::Primitives, code);
