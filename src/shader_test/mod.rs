@@ -27,6 +27,7 @@
 //! *Not done here:* geometry, tessellation and compute shaders, compatibility state, transform feedback.
 
 mod draw;
+mod fixed;
 mod introspection;
 mod parse;
 mod probe;

@@ -2,12 +2,13 @@
 
 use super::parse::TestFile;
 use super::require::Setup;
-use super::{TestResult, fail};
+use super::{TestResult, fail, fixed};
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use glisten_front::link::Program;
 use glisten_front::source::SourceMap;
+use glisten_scene::fixed::OtherStage;
 use std::sync::Arc;
 
 /// The program, or `None` if it does not link and the test expects `link error`.
@@ -16,8 +17,8 @@ pub(super) fn build(
     file: &TestFile,
     setup: &Setup,
     compiler: &Compiler,
-) -> Result<Option<Arc<Program>>, TestResult> {
-    let sources: Vec<Source> = file
+) -> Result<Option<(Arc<Program>, Option<OtherStage>)>, TestResult> {
+    let mut sources: Vec<Source> = file
         .shaders
         .iter()
         .map(|shader| {
@@ -25,13 +26,17 @@ pub(super) fn build(
             Source { name: name.into(), text: text.into(), stage: shader.stage }
         })
         .collect();
+    let generated = fixed::missing_stage(compiler, file, &sources);
+    if let Some(made) = &generated {
+        sources.push(Source { name: name.into(), text: made.text.as_str().into(), stage: made.stage });
+    }
     let compilation = compiler.compile(&sources);
     let expects = |phrase: &str| file.commands.iter().any(|line| line.text.starts_with(phrase));
     match compilation.program {
         Some(program) if expects("link error") => {
             fail(0, format_args!("program `{}` links, and the test expects a link error", program.name))
         }
-        Some(program) => Ok(Some(Arc::new(program))),
+        Some(program) => Ok(Some((Arc::new(program), generated))),
         None if expects("link error") => Ok(None),
         None => {
             let reason = first_error(&compilation.diagnostics, &compilation.sources);

@@ -9,11 +9,12 @@ use super::textures::Units;
 use super::uniforms::Uniforms;
 use super::vertex_data::{self, VertexData};
 use super::words::Words;
-use super::{TestBackend, TestResult, fail, introspection, probe, program, require, skip};
+use super::{TestBackend, TestResult, fail, fixed, introspection, probe, program, require, skip};
 use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::{Stage, Type};
-use glisten_front::link::Program;
+use glisten_front::link::{FixedState, Program};
+use glisten_scene::fixed::{FixedFunction, OtherStage};
 use glisten_scene::picture::{Picture, Transfer};
 use std::sync::Arc;
 
@@ -27,8 +28,11 @@ pub(super) fn run(
     let file = parse(text)?;
     let setup = require::check(&file.requirements)?;
     let data = vertex_data::parse(&file.vertex_data)?;
-    let Some(program) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
+    let switches = fixed::switches(&file.commands);
+    let compiler = fixed::compiler(compiler, switches);
+    let Some((program, generated)) = program::build(name, &file, &setup, &compiler)? else { return Ok(()) };
     let mut session = TestSession::new(program, data, setup.size);
+    (session.switches, session.generated) = (switches, generated);
     commands(&file, &mut session, backend)
 }
 
@@ -58,6 +62,11 @@ struct TestSession {
     draws: Vec<Draw>,
     /// The picture of all draws so far.
     picture: Option<Picture>,
+    /// The state of the fixed-function pipeline.
+    fixed: FixedFunction,
+    switches: FixedState,
+    /// The stage that the test lacks.
+    generated: Option<OtherStage>,
 }
 
 /// The default tolerance of shader_runner.
@@ -92,6 +101,9 @@ impl TestSession {
             tolerance: [TOLERANCE; 4],
             draws: Vec::new(),
             picture: None,
+            fixed: FixedFunction::default(),
+            switches: FixedState::default(),
+            generated: None,
         }
     }
 
@@ -130,6 +142,14 @@ impl TestSession {
             }
             "polygon" => skip(line.number, "`polygon mode`: WebGPU draws polygons filled"),
             "ortho" => self.ortho(&mut words),
+            "clip" if words.eat("plane") => {
+                let index = words.count()?;
+                let plane = words.numbers()?;
+                let slot = self.fixed.clip_planes.get_mut(index as usize);
+                slot.into_iter().for_each(|slot| *slot = plane);
+                fixed::apply(&self.program, &self.fixed, &mut self.uniforms.values);
+                Ok(())
+            }
             // What no shader sees.
             "frustum" | "hint" | "shade" => Ok(()),
             _ => skip(line.number, format_args!("`{}` is not supported", line.text)),
@@ -162,12 +182,9 @@ impl TestSession {
             if words.rest().is_empty() { [0.0, width, 0.0, height] } else { words.numbers()? };
         let (x, y) = (2.0 / (right - left), 2.0 / (top - bottom));
         let (to_x, to_y) = (-(right + left) / (right - left), -(top + bottom) / (top - bottom));
-        let matrix = format!("{x} 0 0 0 0 {y} 0 0 0 0 -1 0 {to_x} {to_y} 0 1");
-        for name in ["gl_ProjectionMatrix", "gl_ModelViewProjectionMatrix"] {
-            if super::uniforms::find(&self.program, name, 0).is_some() {
-                let text = format!("mat4 {name} {matrix}");
-                self.uniforms.set(&self.program, &mut Words::new(words.line, &text), 0)?;
-            }
+        let columns = [x, 0.0, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, to_x, to_y, 0.0, 1.0];
+        if self.fixed.set("gl_ProjectionMatrix", &columns).is_ok() {
+            fixed::apply(&self.program, &self.fixed, &mut self.uniforms.values);
         }
         Ok(())
     }
@@ -184,6 +201,8 @@ impl TestSession {
             "GL_BLEND" => self.blending = on,
             "GL_CULL_FACE" => self.state.cull = if on { Cull::Back } else { Cull::None },
             "GL_PROGRAM_POINT_SIZE" | "GL_VERTEX_PROGRAM_POINT_SIZE" => self.state.program_point_size = on,
+            // The program is compiled for it.
+            _ if fixed::TWO_SIDE.contains(&name) => {}
             _ => return skip(words.line, format_args!("`{name}` is not supported")),
         }
         Ok(())
@@ -210,7 +229,8 @@ impl TestSession {
             return skip(line, "enabled clip distances with gaps");
         }
         let size = [self.framebuffer.width, self.framebuffer.height];
-        let geometry = draw::parse(words, &self.program, &self.data, size)?;
+        let mut geometry = draw::parse(words, &self.program, &self.data, size)?;
+        fixed::fill_attributes(&self.program, &mut geometry.attributes);
         let draw = self.scene_draw(line, geometry)?;
         self.draws.push(draw);
         self.picture = None;
@@ -245,7 +265,7 @@ impl TestSession {
             uniforms: self.uniforms.values.roots.clone(),
             textures,
             dynamic: Vec::new(),
-            fixed: None,
+            fixed: fixed::state(&self.program, &self.fixed, self.switches, self.generated.as_ref()),
         })
     }
 

@@ -220,8 +220,7 @@ fn at_the_end(shader: &mut Shader, end: Vec<Stmt>) {
 fn add_function(shader: &mut Shader, name: &str, body: Vec<Stmt>) -> FunctionId {
     let name = if name == "main" { name.to_owned() } else { free_name(name, &[shader]) };
     let (ret, span) = (TypeId::VOID, Span::default());
-    let function =
-        Function { name, ret, param_count: 0, locals: Vec::new(), body: Some(body), reachable: true, span };
+    let function = Function { name, ret, param_count: 0, locals: Vec::new(), body: Some(body), reachable: true, span };
     shader.functions.push(function);
     FunctionId::new(shader.functions.len() - 1)
 }

@@ -193,7 +193,8 @@ impl FixedFunction {
         const EYE: [&str; 4] = ["gl_EyePlaneS", "gl_EyePlaneT", "gl_EyePlaneR", "gl_EyePlaneQ"];
         const OBJECT: [&str; 4] = ["gl_ObjectPlaneS", "gl_ObjectPlaneT", "gl_ObjectPlaneR", "gl_ObjectPlaneQ"];
         let named = [("gl_ClipPlane", &mut self.clip_planes), ("gl_TextureEnvColor", &mut self.texture_env_colors)];
-        let generated = EYE.into_iter().zip(&mut self.eye_planes).chain(OBJECT.into_iter().zip(&mut self.object_planes));
+        let generated =
+            EYE.into_iter().zip(&mut self.eye_planes).chain(OBJECT.into_iter().zip(&mut self.object_planes));
         for (name, planes) in named.into_iter().chain(generated) {
             for (index, plane) in planes.iter_mut().enumerate() {
                 each(name, index, "", plane);

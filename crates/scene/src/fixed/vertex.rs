@@ -85,7 +85,10 @@ fn colors(pipeline: &Pipeline, text: &mut String) {
         if pipeline.two_side { &[("Front", "normal"), ("Back", "-normal")] } else { &[("Front", "normal")] };
     for (side, normal) in sides {
         let lower = side.to_lowercase();
-        text.push_str(&format!("\n    vec4 {lower} = {};\n    vec4 {lower}_specular = vec4(0.0);\n", scene(pipeline, side)));
+        text.push_str(&format!(
+            "\n    vec4 {lower} = {};\n    vec4 {lower}_specular = vec4(0.0);\n",
+            scene(pipeline, side)
+        ));
         for (index, _) in pipeline.lights.iter().enumerate().filter(|(_, on)| **on) {
             let products = products(pipeline, side, index);
             text.push_str(&format!(
@@ -99,7 +102,8 @@ fn colors(pipeline: &Pipeline, text: &mut String) {
         let sum = if pipeline.separate_specular { "" } else { &format!(" + {lower}_specular.rgb") };
         text.push_str(&format!("    gl_{side}Color = vec4({lower}.rgb{sum}, {alpha});\n"));
         if pipeline.sums_colors() {
-            let specular = if pipeline.separate_specular { format!("{lower}_specular") } else { "vec4(0.0)".to_owned() };
+            let specular =
+                if pipeline.separate_specular { format!("{lower}_specular") } else { "vec4(0.0)".to_owned() };
             text.push_str(&format!("    gl_{side}SecondaryColor = {specular};\n"));
         }
     }
