@@ -82,16 +82,13 @@ fn clamped_colors(shader: &mut Shader) -> Vec<Stmt> {
     statements
 }
 
-/// A statement for each enabled plane: the distance of `gl_ClipVertex`, which becomes a variable of the stage (§2.12).
+/// A statement for each enabled plane: the distance of the vertex from it (§2.12).
 fn clip_distances(types: &mut Types, shader: &mut Shader, planes: u32) -> Vec<Stmt> {
     let distance = Some(BuiltinVariable::ClipDistance);
-    let Some(vertex) = find(shader, Storage::Out, "gl_ClipVertex").filter(|&id| shader.global(id).written) else {
-        return Vec::new();
-    };
     if planes == 0 || shader.globals.iter().any(|global| global.builtin == distance) {
         return Vec::new();
     }
-    rename(shader, vertex, Storage::Private);
+    let Some(vertex) = clip_vertex(shader) else { return Vec::new() };
     let floats = types.array(TypeId::FLOAT, ArraySize::Sized(planes));
     let clip = add(shader, Global { builtin: distance, ..global("gl_ClipDistance", floats, Storage::Out) });
     let plane = find(shader, Storage::Uniform, "gl_ClipPlane").unwrap_or_else(|| clip_plane(types, shader));
@@ -110,6 +107,18 @@ fn clip_distances(types: &mut Types, shader: &mut Shader, planes: u32) -> Vec<St
         assignment(shader, target, value)
     };
     (0..planes).map(each).collect()
+}
+
+/// What is compared with the planes: `gl_ClipVertex`, which becomes a variable of the stage, or `gl_Position` if that is not
+/// written (GLSL 1.30 §7.1).
+fn clip_vertex(shader: &mut Shader) -> Option<GlobalId> {
+    if let Some(vertex) = find(shader, Storage::Out, "gl_ClipVertex").filter(|&id| shader.global(id).written) {
+        rename(shader, vertex, Storage::Private);
+        return Some(vertex);
+    }
+    let has_planes = fixed::named("gl_ClipPlane", shader.version, shader.stage).is_some();
+    let is_position = |global: &Global| global.builtin == Some(BuiltinVariable::Position) && global.written;
+    shader.globals().find(|(_, global)| has_planes && is_position(global)).map(|(id, _)| id)
 }
 
 fn clip_plane(types: &mut Types, shader: &mut Shader) -> GlobalId {

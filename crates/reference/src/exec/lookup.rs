@@ -99,11 +99,19 @@ struct LaneLookup<'a, D: Domain> {
 impl<D: Domain> LaneLookup<'_, D> {
     fn sampled(&self, texture: Option<&Texture>, stage: Stage) -> Sampled {
         match (texture, self.call.lookup) {
-            (None, Lookup::Size) => Sampled::Ints([BoundedInt::default(); 4]),
+            (None, Lookup::Size | Lookup::Levels) => Sampled::Ints([BoundedInt::default(); 4]),
             (None, _) => nothing(self.call),
             (Some(texture), Lookup::Size) => self.size(texture),
             (Some(texture), Lookup::Fetch) => self.fetch(texture),
-            (Some(texture), _) => self.filtered(texture, stage),
+            (Some(texture), Lookup::Levels) => Sampled::Ints([BoundedInt::exact(texture.levels.len() as u32); 4]),
+            (Some(texture), Lookup::Gather) => {
+                let component = self.call.component.map_or(0, |component| self.int(component).bits());
+                texture::gather(texture, &self.request(texture, stage), component as usize)
+            }
+            (Some(texture), Lookup::QueryLod) => self.query_lod(texture, stage),
+            (Some(texture), Lookup::Implicit | Lookup::Lod | Lookup::Grad) => {
+                texture::sample(texture, &self.request(texture, stage))
+            }
         }
     }
 
@@ -176,12 +184,23 @@ impl<D: Domain> LaneLookup<'_, D> {
         hull
     }
 
-    fn filtered(&self, texture: &Texture, stage: Stage) -> Sampled {
+    /// The level that an implicit lookup reads between the first and the last, and the level of detail, which is at least
+    /// that of the smallest step that f32 has (GLSL 4.00 §8.9.1).
+    fn query_lod(&self, texture: &Texture, stage: Stage) -> Sampled {
+        let last = texture.levels.len().saturating_sub(1) as f64;
+        let level = self.level(texture, stage, self.all_bounded(&self.call.coordinate));
+        let level =
+            level.widened(limits::LEVEL_QUERY).map(|level| if level.is_nan() { level } else { level.max(-126.0) });
+        let used = level.map(|level| if level.is_nan() { 0.0 } else { level.clamp(0.0, last) });
+        Sampled::Floats([used, level, BoundedFloat::default(), BoundedFloat::default()])
+    }
+
+    fn request(&self, texture: &Texture, stage: Stage) -> Request {
         let kind = self.call.kind;
         let axes = self.call.coordinate.len().saturating_sub(usize::from(kind.arrayed));
         let (coordinate, layer) = self.call.coordinate.split_at(axes);
         let at = self.all_bounded(coordinate);
-        let request = Request {
+        Request {
             kind,
             at,
             layer: layer.first().map_or(BoundedFloat::default(), |layer| self.bounded(*layer)),
@@ -195,8 +214,7 @@ impl<D: Domain> LaneLookup<'_, D> {
             bounded: D::HAS_INTERVALS,
             weight_bits: D::weight_bits(),
             profile: self.registers.profile,
-        };
-        texture::sample(texture, &request)
+        }
     }
 
     /// The level of detail.

@@ -123,12 +123,24 @@ fn load_stages(
     let named = |key: &str| table.contains_key(key);
     let alone = !named("program") && named("vertex") != named("fragment");
     let one = if alone { loader.lone_stage(table) } else { None };
-    let Some((types, shader, file)) = one else { return (load_files(loader, table, place), None) };
+    let Some((types, shader, file)) = one else {
+        refuse_pipeline(&mut loader.reader, table);
+        return (load_files(loader, table, place), None);
+    };
     let pipeline = load_pipeline(&mut loader.reader, table, around.lighting.lights.len(), switches);
     let made = other_stage(pipeline, &types, &shader);
     let other = (made.stage, GENERATED.to_owned(), file.2);
     let files = if made.stage == Stage::Vertex { vec![other, file] } else { vec![file, other] };
     (files, Some(made))
+}
+
+/// Reports switches of the fixed-function pipeline in a draw that does not use it.
+fn refuse_pipeline(reader: &mut Reader, table: &DeTable<'_>) {
+    if let Some((key, _)) = table.get_key_value("fixed_function") {
+        let span = reader.span_of(key);
+        let message = "the fixed-function pipeline is for a draw with one stage in GLSL 1.10 to 1.30 or the compatibility profile";
+        reader.error(&SCENE_WRONG_VALUE, span, message.to_owned(), "it changes nothing here");
+    }
 }
 
 fn load_state(reader: &mut Reader, table: &DeTable<'_>) -> State {
