@@ -11,13 +11,16 @@ use glisten_front::source::SourceMap;
 use glisten_scene::fixed::OtherStage;
 use std::sync::Arc;
 
+/// A program, and its stage that the test does not have.
+type Built = (Arc<Program>, Option<OtherStage>);
+
 /// The program, or `None` if it does not link and the test expects `link error`.
 pub(super) fn build(
     name: &str,
     file: &TestFile,
     setup: &Setup,
     compiler: &Compiler,
-) -> Result<Option<(Arc<Program>, Option<OtherStage>)>, TestResult> {
+) -> Result<Option<Built>, TestResult> {
     let mut sources: Vec<Source> = file
         .shaders
         .iter()

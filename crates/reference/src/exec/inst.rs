@@ -550,14 +550,13 @@ impl TextureCall {
             Lookup::Size | Lookup::Levels => true,
             Lookup::QueryLod => false,
             Lookup::Implicit | Lookup::Lod | Lookup::Grad | Lookup::Fetch | Lookup::Gather => {
-                self.kind.texel != Scalar::Float && !self.kind.shadow
+                self.kind.texel != glisten_front::hir::Scalar::Float && !self.kind.shadow
             }
         }
     }
 
     /// Visits all operands.
     pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
-        use glisten_front::hir::Scalar;
         let by_integer = |integer: bool| if integer { Class::Int } else { Class::Float };
         f(Class::Int, Use::Read, &mut self.sampler);
         let coordinates = by_integer(self.lookup == Lookup::Fetch);

@@ -4,7 +4,7 @@ use super::inst::{Lookup, Operand, TextureCall};
 use super::machine::Machine;
 use super::registers::Registers;
 use super::{LANES, Mask};
-use crate::domain::{Domain, Integer, Number, limits};
+use crate::domain::{Domain, Integer, Number, limits, rules};
 use crate::texture::{self, BoundedFloat, BoundedInt, Gradients, MISSING, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
 use glisten_scene::picture::Interval;
@@ -185,14 +185,44 @@ impl<D: Domain> LaneLookup<'_, D> {
     }
 
     /// The level that an implicit lookup reads between the first and the last, and the level of detail, which is at least
-    /// that of the smallest step that f32 has (GLSL 4.00 §8.9.1).
+    /// that of the smallest normal step (GLSL 4.00 §8.9.1). A GPU computes it from its derivatives, which may be those of
+    /// either row or column of the quad.
     fn query_lod(&self, texture: &Texture, stage: Stage) -> Sampled {
         let last = texture.levels.len().saturating_sub(1) as f64;
-        let level = self.level(texture, stage, self.all_bounded(&self.call.coordinate));
-        let level =
-            level.widened(limits::LEVEL_QUERY).map(|level| if level.is_nan() { level } else { level.max(-126.0) });
-        let used = level.map(|level| if level.is_nan() { 0.0 } else { level.clamp(0.0, last) });
+        let exact = self.level(texture, stage, self.all_bounded(&self.call.coordinate));
+        let level = if D::HAS_INTERVALS && self.call.kind.dim != SamplerDim::Cube {
+            let (x, y) = (self.step(texture, (0, 1), (2, 3)), self.step(texture, (0, 2), (1, 3)));
+            let (low, high) = (x.low.max(y.low).log2(), x.high.max(y.high).log2());
+            BoundedFloat { value: exact.value, low: low.min(exact.value), high: high.max(exact.value) }
+        } else {
+            exact
+        };
+        let limited = |level: f64, low: f64, high: f64| if level.is_nan() { low } else { level.clamp(low, high) };
+        let level = level.widened(limits::LEVEL_QUERY).map(|level| limited(level, -126.0, f64::INFINITY));
+        let used = level.map(|level| limited(level, 0.0, last));
         Sampled::Floats([used, level, BoundedFloat::default(), BoundedFloat::default()])
+    }
+
+    /// The length in texels of a step between lanes of the quad, of which there are two pairs.
+    fn step(&self, texture: &Texture, a: (usize, usize), b: (usize, usize)) -> BoundedFloat {
+        let sizes =
+            texture.levels.first().map_or([1.0; 3], |base| [base.width, base.height, base.depth].map(f64::from));
+        let count = usize::from(self.call.kind.dimensions());
+        let length = |(from, to): (usize, usize)| {
+            let mut sum = (0.0, 0.0);
+            for (operand, size) in self.call.coordinate.iter().zip(sizes).take(count) {
+                let change = self.difference(*operand, from, to).map(|change| change * size);
+                // Both ends are rounded before the difference.
+                let at = self.bounded(*operand);
+                let change = change.widened(2.0 * rules::ulp(at.low.abs().max(at.high.abs()) * size));
+                let most = change.low.abs().max(change.high.abs());
+                let least =
+                    if change.low <= 0.0 && change.high >= 0.0 { 0.0 } else { change.low.abs().min(change.high.abs()) };
+                sum = (sum.0 + least * least, sum.1 + most * most);
+            }
+            BoundedFloat { value: sum.0.sqrt(), low: sum.0.sqrt(), high: sum.1.sqrt() }
+        };
+        length(a).joined(length(b))
     }
 
     fn request(&self, texture: &Texture, stage: Stage) -> Request {

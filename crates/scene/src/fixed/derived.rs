@@ -6,8 +6,11 @@
 use super::state::{FixedFunction, Fog, LightSource, Material};
 use glam::{DMat3, DMat4, DVec3};
 
+/// What becomes of a matrix.
+type Form = fn(DMat4) -> DMat4;
+
 /// The forms of a matrix, by the end of the uniform's name.
-pub(super) const FORMS: [(&str, fn(DMat4) -> DMat4); 4] = [
+pub(super) const FORMS: [(&str, Form); 4] = [
     ("InverseTranspose", |matrix| matrix.inverse().transpose()),
     ("Inverse", |matrix| matrix.inverse()),
     ("Transpose", |matrix| matrix.transpose()),

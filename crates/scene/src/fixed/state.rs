@@ -157,6 +157,9 @@ impl Default for FixedFunction {
     }
 }
 
+/// What is shown the name of a uniform, the index in its array, a member, and its numbers.
+type Each<'a> = dyn FnMut(&'static str, usize, &'static str, &mut [f64]) + 'a;
+
 impl FixedFunction {
     /// The same state as OpenGL stores it: rounded to f32.
     #[must_use]
@@ -172,7 +175,7 @@ impl FixedFunction {
 
     /// Visits all values: the name of the uniform, the index in its array, the member, the numbers. Matrices are
     /// column by column.
-    pub(super) fn visit(&mut self, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    pub(super) fn visit(&mut self, each: &mut Each<'_>) {
         each("gl_ModelViewMatrix", 0, "", self.model_view.as_mut());
         each("gl_ProjectionMatrix", 0, "", self.projection.as_mut());
         for (index, matrix) in self.texture.iter_mut().enumerate() {
@@ -204,7 +207,7 @@ impl FixedFunction {
 }
 
 impl LightSource {
-    fn visit(&mut self, index: usize, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    fn visit(&mut self, index: usize, each: &mut Each<'_>) {
         let name = "gl_LightSource";
         each(name, index, "ambient", &mut self.ambient);
         each(name, index, "diffuse", &mut self.diffuse);
@@ -221,7 +224,7 @@ impl LightSource {
 }
 
 impl Material {
-    fn visit(&mut self, name: &'static str, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    fn visit(&mut self, name: &'static str, each: &mut Each<'_>) {
         each(name, 0, "emission", &mut self.emission);
         each(name, 0, "ambient", &mut self.ambient);
         each(name, 0, "diffuse", &mut self.diffuse);
@@ -231,7 +234,7 @@ impl Material {
 }
 
 impl PointParameters {
-    fn visit(&mut self, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    fn visit(&mut self, each: &mut Each<'_>) {
         let sizes = [
             ("size", &mut self.size),
             ("sizeMin", &mut self.size_min),

@@ -124,12 +124,14 @@ fn scene(pipeline: &Pipeline, side: &str) -> String {
 
 /// The products of a light with the ambient, diffuse and specular colors of the material.
 fn products(pipeline: &Pipeline, side: &str, index: usize) -> String {
-    let from_vertex = |member: &str| match (pipeline.color_material, member) {
-        (Some(ColorMaterial::AmbientAndDiffuse), "ambient" | "diffuse")
-        | (Some(ColorMaterial::Ambient), "ambient")
-        | (Some(ColorMaterial::Diffuse), "diffuse")
-        | (Some(ColorMaterial::Specular), "specular") => true,
-        _ => false,
+    let from_vertex = |member: &str| {
+        matches!(
+            (pipeline.color_material, member),
+            (Some(ColorMaterial::AmbientAndDiffuse), "ambient" | "diffuse")
+                | (Some(ColorMaterial::Ambient), "ambient")
+                | (Some(ColorMaterial::Diffuse), "diffuse")
+                | (Some(ColorMaterial::Specular), "specular")
+        )
     };
     let product = |member: &str| {
         if from_vertex(member) {

@@ -1,7 +1,8 @@
 //! Functions that ask for texels and levels without filtering: gathers (GLSL 4.00 §8.9.3), the level of detail (GLSL 4.00
 //! §8.9.1) and the number of levels (GLSL 4.30 §8.9.1), with the extensions that bring them to older versions.
 
-use super::{Availability, BuiltinFunction, Effect, Parameter, Row, Stages, matcher, rows};
+use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
+use crate::builtin::Stages;
 use crate::language::{Extensions, NEVER, Since};
 
 const SHADER5: Extensions = Extensions::GPU_SHADER5;
