@@ -55,7 +55,7 @@ pub(super) struct FixedFunctionArgs {
     /// Fog
     #[arg(long, value_name = "MODE", value_parser = PossibleValuesParser::new(names(FogMode::NAMES)))]
     fog: Option<String>,
-    /// What fog grows with
+    /// The number that fog grows with
     #[arg(long, value_name = "SOURCE", value_parser = PossibleValuesParser::new(names(FogSource::NAMES)))]
     fog_source: Option<String>,
     /// Add the secondary color after the textures

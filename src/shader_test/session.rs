@@ -116,7 +116,12 @@ impl TestSession {
         match words.word()? {
             "clear" => self.clear(&mut words),
             "draw" => self.draw(&mut words),
-            "uniform" => self.uniforms.set(&self.program, &mut words, self.element),
+            "uniform" => {
+                let line = line.text.clone();
+                self.uniforms.set(&self.program, &mut words, self.element)?;
+                self.set_state(&line);
+                Ok(())
+            }
             "tolerance" => {
                 self.tolerance = words.numbers()?;
                 Ok(())
@@ -187,6 +192,16 @@ impl TestSession {
             fixed::apply(&self.program, &self.fixed, &mut self.uniforms.values);
         }
         Ok(())
+    }
+
+    /// A uniform of the fixed-function pipeline is state, from which others follow.
+    fn set_state(&mut self, line: &str) {
+        let mut words = line.split_whitespace().skip(2);
+        let Some(name) = words.next().filter(|name| name.starts_with("gl_")) else { return };
+        let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
+        if self.fixed.set(name, &numbers).is_ok() {
+            fixed::apply(&self.program, &self.fixed, &mut self.uniforms.values);
+        }
     }
 
     fn capability(&mut self, words: &mut Words<'_>, on: bool) -> Result<(), TestResult> {

@@ -196,3 +196,35 @@ fn the_command_writes_stages_that_compile() {
     assert_eq!(code(&folder.run(&["fixed-function", "--unit", "shine"])), 2);
     assert_eq!(code(&folder.run(&["fixed-function", &scene, "--lights", "2"])), 2);
 }
+
+#[test]
+fn specialized_scenes_draw_the_same() {
+    for path in files_with(&root().join("fixtures/fixed_function"), "toml") {
+        let (folder, name) = (Folder::new(&[]), path.file_name().expect("a name").to_string_lossy().into_owned());
+        let output = folder.run(&["specialize", &path.to_string_lossy(), "-o", "new"]);
+        assert_eq!(code(&output), 0, "{name}: {}", err(&output));
+        let residual = from_disk(folder.path("new").join(&name));
+        assert!(draws(&from_disk(&path)) == draws(&residual), "{name}");
+    }
+}
+
+#[test]
+fn geometry_shaders_clamp_before_each_vertex() {
+    let text = "#version 150 compatibility\nlayout(points) in; layout(points, max_vertices = 2) out;\nvoid main() { gl_FrontColor = \
+                vec4(2.0); gl_ClipVertex = gl_in[0].gl_Position; EmitVertex(); gl_FrontColor = vec4(-1.0); EmitVertex(); }\n";
+    let options = glisten::Options {
+        fixed: glisten_front::link::FixedState { clip_planes: 1, ..Default::default() },
+        ..glisten::Options::default()
+    };
+    let source = glisten::Source { name: "a.geom".into(), text: text.into(), stage: Stage::Geometry };
+    let vertex = "#version 150 compatibility\nvoid main() { gl_Position = gl_Vertex; }\n";
+    let vertex = glisten::Source { name: "a.vert".into(), text: vertex.into(), stage: Stage::Vertex };
+    let compilation = glisten::Compiler::new(options).compile(&[vertex, source]);
+    let messages: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
+    let program = compilation.program.unwrap_or_else(|| panic!("{messages:?}"));
+    let geometry = program.stage(Stage::Geometry).expect("it is there");
+    let printed = glisten_front::hir::print(&program.types, geometry);
+    assert_eq!(printed.matches("fixed_EmitFixed();").count(), 2, "{printed}");
+    assert!(printed.contains("gl_FrontColor = clamp(gl_FrontColor, 0.0, 1.0);"), "{printed}");
+    assert!(printed.contains("gl_ClipDistance[0] = dot(gl_ClipPlane[0], fixed_ClipVertex);"), "{printed}");
+}

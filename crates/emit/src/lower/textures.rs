@@ -45,13 +45,11 @@ impl Ctx<'_, '_> {
             How::Fetch => self.texel_fetch(ty, value, form, rest),
             How::QueryLod => self.query_lod(ty, value, rest.first().copied()),
             How::Levels => Ok(self.level_count(value)),
-            How::Gather if ty.texel != Scalar::Float => Err(lacking(
-                self.here(),
-                format!("`{}` of a `{}`: integer textures have no sampler", "textureGather", ty.name()),
-                "fetch the four texels with `texelFetch`",
-            )),
             How::Implicit | How::Lod | How::Grad | How::Gather => {
                 let lookup = self.lookup(ty, value, form, rest)?;
+                if ty.texel != Scalar::Float && form.lookup == How::Gather {
+                    return self.integer_gather(lookup);
+                }
                 if ty.texel != Scalar::Float {
                     return self.integer_lookup(&lookup);
                 }

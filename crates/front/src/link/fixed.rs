@@ -30,7 +30,7 @@ const MOST_PLANES: u32 = 8;
 /// The colors that the vertex stage writes.
 const COLORS: [&str; 4] = ["gl_FrontColor", "gl_BackColor", "gl_FrontSecondaryColor", "gl_BackSecondaryColor"];
 
-/// What the fragment stage reads, and the two outputs that it may be.
+/// The inputs of the fragment stage, and the two outputs that each may be.
 const SIDES: [(&str, &str, &str); 2] = [
     ("gl_Color", "gl_FrontColor", "gl_BackColor"),
     ("gl_SecondaryColor", "gl_FrontSecondaryColor", "gl_BackSecondaryColor"),
@@ -109,7 +109,7 @@ fn clip_distances(types: &mut Types, shader: &mut Shader, planes: u32) -> Vec<St
     (0..planes).map(each).collect()
 }
 
-/// What is compared with the planes: `gl_ClipVertex`, which becomes a variable of the stage, or `gl_Position` if that is not
+/// The position that is compared with the planes: `gl_ClipVertex`, which becomes a variable of the stage, or `gl_Position` if that is not
 /// written (GLSL 1.30 §7.1).
 fn clip_vertex(shader: &mut Shader) -> Option<GlobalId> {
     if let Some(vertex) = find(shader, Storage::Out, "gl_ClipVertex").filter(|&id| shader.global(id).written) {

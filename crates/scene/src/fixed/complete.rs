@@ -21,7 +21,7 @@ pub fn has_fixed_function(shader: &Shader) -> bool {
 /// The stage that a lone shader lacks.
 #[derive(Clone, Debug)]
 pub struct OtherStage {
-    /// Which.
+    /// The stage.
     pub stage: Stage,
     /// Its text.
     pub text: String,

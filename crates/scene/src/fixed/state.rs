@@ -1,4 +1,4 @@
-//! What a host sets, with the initial values of OpenGL 2.1 (tables 6.7 to 6.17).
+//! The state that a host sets, with the initial values of OpenGL 2.1 (tables 6.7 to 6.17).
 //!
 //! *Holds:* positions, directions and planes are in eye space, as OpenGL keeps them.
 
@@ -157,7 +157,7 @@ impl Default for FixedFunction {
     }
 }
 
-/// What is shown the name of a uniform, the index in its array, a member, and its numbers.
+/// A visitor, which is shown the name of a uniform, the index in its array, a member, and its numbers.
 type Each<'a> = dyn FnMut(&'static str, usize, &'static str, &mut [f64]) + 'a;
 
 impl FixedFunction {

@@ -5,8 +5,14 @@
 
 use super::pipeline::{ColorMaterial, FogSource, NormalScaling, Pipeline, TexGen};
 
-/// Writes the stage.
-pub(super) fn write(pipeline: &Pipeline) -> String {
+impl Pipeline {
+    /// The vertex stage as GLSL.
+    pub fn vertex(&self) -> String {
+        write(self)
+    }
+}
+
+fn write(pipeline: &Pipeline) -> String {
     let mut text = String::from(pipeline.version());
     text.push_str("// The vertex stage of OpenGL's fixed-function pipeline.\n");
     if pipeline.enabled_units().next().is_some() {
