@@ -18,6 +18,7 @@ mod examples;
 mod exit;
 mod explain;
 mod files;
+mod fixed_function;
 mod fullscreen;
 mod gallery;
 mod guard;
@@ -100,6 +101,7 @@ enum Command {
     Lib(library::LibArgs),
     NewScene(new_scene::NewSceneArgs),
     Upgrade(upgrade::UpgradeArgs),
+    FixedFunction(fixed_function::FixedFunctionArgs),
     Completions(completions::CompletionsArgs),
     Watch(watch::WatchArgs),
     Man(man::ManArgs),
@@ -147,6 +149,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Lib(args) => library::run(args, console),
         Command::NewScene(args) => new_scene::run(args, console),
         Command::Upgrade(args) => upgrade::run(args, console),
+        Command::FixedFunction(args) => fixed_function::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
         Command::Watch(args) => watch::run(args, console),
         Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),

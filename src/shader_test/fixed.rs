@@ -109,7 +109,7 @@ impl FixedSetup {
                 *plane = [0.0; 4];
             }
         }
-        FixedDraw { state, switches }
+        FixedDraw { state, switches, generated: None }
     }
 
     /// The data of an attribute without any: the current value, the same for all vertices (OpenGL 3.2 §2.7).
@@ -120,7 +120,7 @@ impl FixedSetup {
         };
         let size = values.len() as u32;
         // One row for all instances.
-        is_float.then(|| AttributeData { size, divisor: u32::MAX, values: AttributeValues::Float(values) })
+        is_float.then_some(AttributeData { size, divisor: u32::MAX, values: AttributeValues::Float(values) })
     }
 }
 

@@ -173,7 +173,7 @@ impl TestSession {
             return Ok(());
         }
         match name {
-            "GL_VERTEX_PROGRAM_TWO_SIDE" => self.fixed.two_side = on,
+            "GL_VERTEX_PROGRAM_TWO_SIDE" | "GL_VERTEX_PROGRAM_TWO_SIDE_ARB" => self.fixed.two_side = on,
             "GL_DEPTH_TEST" => self.state.depth_test = on,
             "GL_BLEND" => self.blending = on,
             "GL_CULL_FACE" => self.state.cull = if on { Cull::Back } else { Cull::None },
