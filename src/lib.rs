@@ -40,6 +40,8 @@ pub mod measure;
 #[cfg(feature = "cli")]
 pub mod report;
 #[cfg(feature = "reference")]
+pub use glisten_scene::fixed as fixed_function;
+#[cfg(feature = "reference")]
 pub mod scene;
 #[cfg(feature = "reference")]
 pub mod shader_test;

@@ -4,9 +4,9 @@ use crate::library::Embedded;
 use glisten_front::Compiler;
 
 pub use glisten_scene::{
-    AttributeData, AttributeValues, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter, Format,
-    Framebuffer, Library, Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, MemoryFiles, NoLibrary, Primitive, Scene,
-    State, Texels, Texture, TextureLevel, Wrap,
+    AttributeData, AttributeValues, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter,
+    FixedDraw, Format, Framebuffer, Library, Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, MemoryFiles, NoLibrary,
+    Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 
 /// Loads the scene at `path`, whose draws may name programs of the library.

@@ -4,7 +4,7 @@
 //! *In:* the registry of codes, the tables of versions and of built-ins, the fixtures with their expectations. *Out:*
 //! Markdown. *Holds:* a section that has neither a code nor a row of a table is listed as not covered, with the reason.
 
-use super::sections::{SECTIONS, Section};
+use super::sections::{OWN_CODES, SECTIONS, Section};
 use glisten::diagnostic::{Code, codes};
 use glisten::{Compiler, Options, Source};
 use glisten_front::builtin::{constants, functions, variables};
@@ -142,10 +142,15 @@ fn features(fixtures: &[Fixture], text: &mut String) {
     rows.sort_by_key(|row| (key(row.section), row.name));
     for row in rows {
         let until = if row.gone.desktop == NEVER { String::new() } else { since(row.gone.desktop) };
-        let fixture = found.iter().find(|(message, _)| message.starts_with(row.name));
-        let fixture = fixture.map_or_else(|| "none".to_owned(), |(_, name)| format!("`{name}`"));
+        let own = OWN_CODES.iter().find(|(rule, _)| *rule == row.name).map(|(_, code)| *code);
+        let fixture = match own {
+            Some(code) => fixtures.iter().find(|fixture| fixture.codes.contains(code)).map(|found| found.name.as_str()),
+            None => found.iter().find(|(message, _)| message.starts_with(row.name)).map(|(_, name)| *name),
+        };
+        let code = own.or(fixture.map(|_| "E0617")).map_or_else(String::new, |code| format!("`{code}`"));
+        let fixture = fixture.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"));
         let (desktop, es) = (since(row.since.desktop), since(row.since.es));
-        let _ = writeln!(text, "| {} | {} | {desktop} | {es} | {until} | {fixture} |", row.section, row.name);
+        let _ = writeln!(text, "| {} | {} | {desktop} | {es} | {until} | {code} | {fixture} |", row.section, row.name);
     }
 }
 

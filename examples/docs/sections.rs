@@ -8,6 +8,21 @@ pub(crate) struct Section {
     pub(crate) note: &'static str,
 }
 
+/// Rules that depend on the version and have a code of their own, not `E0617`.
+pub(crate) static OWN_CODES: &[(&str, &str)] = &[
+    ("a joined line", "W0101"),
+    ("an array of arrays", "E0412"),
+    ("an initializer list", "E0214"),
+    ("a `const` whose value is not a constant expression", "E0408"),
+    ("a texture offset that is not constant", "E0408"),
+    ("the implicit conversion to `uint`", "E0401"),
+    ("qualifiers in this order", "E0602"),
+    ("a second `layout`", "E0601"),
+    ("a swizzle of a scalar", "E0306"),
+    ("the length of a vector", "E0416"),
+    ("a converted `return` value", "W0501"),
+];
+
 macro_rules! sections {
     ($($number:literal $title:literal $note:literal;)*) => {
         /// All sections with rules or definitions, in order.
@@ -30,7 +45,7 @@ sections! {
     "§3.8" "Static Use" "a definition, which the rules for unused inputs and for links use";
     "§4.1" "Basic Types" "";
     "§4.1.1" "Void" "";
-    "§4.1.2" "Booleans" "";
+    "§4.1.2" "Booleans" "no rule of its own; conditions are checked in §6.2 and §6.3";
     "§4.1.3" "Integers" "";
     "§4.1.4" "Floats" "";
     "§4.1.5" "Vectors" "a list of types";
@@ -51,7 +66,7 @@ sections! {
     "§4.3.8" "Layout Qualifiers" "";
     "§4.3.8.1" "Input Layout Qualifiers" "";
     "§4.3.8.2" "Output Layout Qualifiers" "";
-    "§4.3.8.3" "Uniform Block Layout Qualifiers" "";
+    "§4.3.8.3" "Uniform Block Layout Qualifiers" "by the codes of §4.3.7 and §4.3.8; offsets are compared with a driver's";
     "§4.3.9" "Interpolation" "";
     "§4.4" "Parameter Qualifiers" "";
     "§4.5" "Precision and Precision Qualifiers" "";
@@ -60,13 +75,13 @@ sections! {
     "§4.6.2" "Invariance of Constant Expressions" "constants are folded in one way, for all stages and targets";
     "§4.7" "Order of Qualification" "";
     "§5.1" "Operators" "precedence is the grammar's; `fixtures/valid` has each operator";
-    "§5.2" "Array Operations" "";
-    "§5.3" "Function Calls" "";
+    "§5.2" "Array Operations" "by the codes of §4.1.9 and §5.7";
+    "§5.3" "Function Calls" "by the codes of §6.1";
     "§5.4" "Constructors" "";
-    "§5.4.1" "Conversion and Scalar Constructors" "";
+    "§5.4.1" "Conversion and Scalar Constructors" "by the codes of §5.4";
     "§5.4.2" "Vector and Matrix Constructors" "";
-    "§5.4.3" "Structure Constructors" "";
-    "§5.4.4" "Array Constructors" "";
+    "§5.4.3" "Structure Constructors" "by the codes of §5.4";
+    "§5.4.4" "Array Constructors" "by the codes of §5.4";
     "§5.5" "Vector Components" "";
     "§5.6" "Matrix Components" "";
     "§5.7" "Structure and Array Operations" "";

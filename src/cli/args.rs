@@ -10,6 +10,7 @@ use glisten_emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Window
 use glisten_front::builtin::constants::{MAX_DRAW_BUFFERS, MAX_VERTEX_ATTRIBS};
 use glisten_front::compiler::Options;
 use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
+use glisten_front::link::FixedState;
 use std::path::PathBuf;
 
 /// The format of a result. `table` is another name for `human`.
@@ -84,6 +85,7 @@ impl SourceArgs {
             strict: self.strict,
             attribute_locations: bindings.attributes.clone(),
             frag_data_locations: bindings.frag_data.clone(),
+            fixed: bindings.fixed.state(),
             ..Options::default()
         }
     }
@@ -174,6 +176,30 @@ pub(super) struct BindingArgs {
     /// Bind a fragment output to a color number (glBindFragDataLocation)
     #[arg(long = "bind-frag-data", value_name = "NAME=COLOR_NUMBER", value_parser = parse_frag_data)]
     frag_data: Vec<(String, u32)>,
+    #[command(flatten)]
+    fixed: FixedArgs,
+}
+
+/// The state of the fixed-function pipeline that a program is compiled for.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Fixed function")]
+struct FixedArgs {
+    /// Back faces get gl_BackColor as gl_Color (GL_VERTEX_PROGRAM_TWO_SIDE)
+    #[arg(long)]
+    two_side: bool,
+    /// How many clip planes clip by gl_ClipVertex
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=8))]
+    clip_planes: u32,
+    /// Keep gl_FrontColor and its like beyond [0, 1] (glClampColor)
+    #[arg(long)]
+    unclamped_colors: bool,
+}
+
+impl FixedArgs {
+    fn state(&self) -> FixedState {
+        let Self { two_side, clip_planes, unclamped_colors } = *self;
+        FixedState { two_side, clip_planes, unclamped_colors }
+    }
 }
 
 /// The expectations of the host of the emitted code.

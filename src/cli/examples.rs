@@ -120,6 +120,13 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "fixed-function",
+        &[
+            ("glisten fixed-function --lights 2 --fog exp --unit modulate", "both stages, with their switches"),
+            ("glisten fixed-function scene.toml", "the stages that the draws of a scene do not name"),
+        ],
+    ),
+    (
         "completions",
         &[
             ("glisten completions bash > ~/.local/share/bash-completion/completions/glisten", ""),

@@ -22,6 +22,7 @@ mod examples;
 mod exit;
 mod explain;
 mod files;
+mod fixed_function;
 mod fullscreen;
 mod gallery;
 mod guard;
@@ -111,6 +112,7 @@ enum Command {
     Lib(library::LibArgs),
     NewScene(new_scene::NewSceneArgs),
     Upgrade(upgrade::UpgradeArgs),
+    FixedFunction(fixed_function::FixedFunctionArgs),
     Completions(completions::CompletionsArgs),
     Watch(watch::WatchArgs),
     Cache(cache_command::CacheCommandArgs),
@@ -163,6 +165,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Lib(args) => library::run(args, console),
         Command::NewScene(args) => new_scene::run(args, console),
         Command::Upgrade(args) => upgrade::run(args, console),
+        Command::FixedFunction(args) => fixed_function::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
         Command::Watch(args) => watch::run(args, console),
         Command::Cache(args) => cache_command::run(args, console),

@@ -122,7 +122,7 @@ impl Read<'_> {
         self.session.tell(&[&self.batch], false)
     }
 
-    /// What stands after the name of the GPU that drew the scene.
+    /// The note after the name of the GPU that drew the scene.
     pub(super) fn host_part(&self) -> &'static str {
         if glisten_reference::has_geometry_stage(&self.scene) {
             "; the geometry stage ran on the host, and the GPU drew what it emitted"

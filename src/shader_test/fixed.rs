@@ -14,12 +14,14 @@ use glisten_scene::fixed::{
 };
 use std::sync::Arc;
 
-/// What the commands have set.
+/// The state that the commands have set.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FixedSetup {
     state: FixedFunction,
     /// `color`: what all vertices have as `gl_Color` without data.
     color: Option<[f64; 4]>,
+    /// Derived state that a test sets nevertheless.
+    explicit: Vec<String>,
     /// `GL_VERTEX_PROGRAM_TWO_SIDE`
     pub(super) two_side: bool,
 }
@@ -63,6 +65,30 @@ impl FixedSetup {
         }
     }
 
+    /// Sets state by the name of its uniform: `uniform vec4 gl_FrontMaterial.diffuse 0.2 0 0 1`. Returns false for other
+    /// uniforms, and for derived state, which then keeps the uniform's own value.
+    pub(super) fn uniform(&mut self, words: &Words<'_>) -> bool {
+        let [_, name, values @ ..] = words.rest() else { return false };
+        let root = name.split(['.', '[']).next().unwrap_or_default();
+        if !is_fixed_uniform(root) {
+            return false;
+        }
+        let values: Option<Vec<f64>> = values.iter().map(|word| word.parse().ok()).collect();
+        let is_set = values.is_some_and(|values| self.state.set(name, &values).is_ok());
+        if !is_set {
+            self.explicit.push(root.to_owned());
+        }
+        is_set
+    }
+
+    /// The values of a uniform of the fixed-function pipeline.
+    pub(super) fn value(&self, draw: &FixedDraw, root: &UniformRoot) -> Option<Vec<ScalarValue>> {
+        if root.block.is_some() || !is_fixed_uniform(&root.name) || self.explicit.contains(&root.name) {
+            return None;
+        }
+        draw.state.root_values(root)
+    }
+
     /// `color r g b a`
     pub(super) fn color(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         self.color = Some(words.numbers()?);
@@ -83,7 +109,7 @@ impl FixedSetup {
                 *plane = [0.0; 4];
             }
         }
-        FixedDraw { state, switches }
+        FixedDraw { state, switches, generated: None }
     }
 
     /// The data of an attribute without any: the current value, the same for all vertices (OpenGL 3.2 §2.7).
@@ -94,7 +120,7 @@ impl FixedSetup {
         };
         let size = values.len() as u32;
         // One row for all instances.
-        is_float.then(|| AttributeData { size, divisor: u32::MAX, values: AttributeValues::Float(values) })
+        is_float.then_some(AttributeData { size, divisor: u32::MAX, values: AttributeValues::Float(values) })
     }
 }
 
@@ -108,14 +134,6 @@ pub(super) fn clips_by_vertex(program: &Program) -> bool {
 pub(super) fn clips_by_distance(program: &Program) -> bool {
     let mut globals = program.stages.iter().flat_map(|shader| &shader.globals);
     globals.any(|global| global.name == "gl_ClipDistance" && global.storage == Storage::Out)
-}
-
-/// The values of a uniform of the fixed-function pipeline.
-pub(super) fn value(draw: &FixedDraw, root: &UniformRoot) -> Option<Vec<ScalarValue>> {
-    if root.block.is_some() || !is_fixed_uniform(&root.name) {
-        return None;
-    }
-    draw.state.root_values(root)
 }
 
 /// The text of a stage that a test leaves to the fixed-function pipeline. `known` is the stage next to it.

@@ -111,6 +111,7 @@ impl TestSession {
         match words.word()? {
             "clear" => self.clear(&mut words),
             "draw" => self.draw(&mut words),
+            "uniform" if self.fixed.uniform(&words) => Ok(()),
             "uniform" => self.uniforms.set(&self.program, &mut words, self.element),
             "tolerance" => {
                 self.tolerance = words.numbers()?;
@@ -172,7 +173,7 @@ impl TestSession {
             return Ok(());
         }
         match name {
-            "GL_VERTEX_PROGRAM_TWO_SIDE" => self.fixed.two_side = on,
+            "GL_VERTEX_PROGRAM_TWO_SIDE" | "GL_VERTEX_PROGRAM_TWO_SIDE_ARB" => self.fixed.two_side = on,
             "GL_DEPTH_TEST" => self.state.depth_test = on,
             "GL_BLEND" => self.blending = on,
             "GL_CULL_FACE" => self.state.cull = if on { Cull::Back } else { Cull::None },
@@ -234,7 +235,7 @@ impl TestSession {
                 let index = own.iter().position(|known| known.name == root.name)?;
                 self.uniforms.values.roots.get(index).cloned()
             };
-            fixed::value(&fixed, root).or_else(set).unwrap_or_default()
+            self.fixed.value(&fixed, root).or_else(set).unwrap_or_default()
         });
         let uniforms = uniforms.collect();
         let mut textures = Vec::new();

@@ -168,6 +168,11 @@ impl Planner<'_> {
                 "the fragment shader reads the front color alone; for two sides, let it choose by `gl_FrontFacing`";
             self.plan.notes.push(note.to_owned());
         }
+        if self.used.contains("gl_FrontColor") || self.used.contains("gl_FrontSecondaryColor") {
+            let note = "OpenGL clamps the colors of the vertex stage to [0, 1], and a varying is not clamped; add `clamp` \
+                        where they may leave it";
+            self.plan.notes.push(note.to_owned());
+        }
         let types = Types::new();
         let units = units(texts);
         let mut names: BTreeMap<String, String> = BTreeMap::new();

@@ -44,7 +44,10 @@ static ORDER: &[(&str, &[&str])] = &[
         ],
     ),
     ("crates/emit/src", &["target", "lower", "width", "emit"]),
-    ("crates/scene/src", &["random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "load"]),
+    (
+        "crates/scene/src",
+        &["random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "load"],
+    ),
     (
         "src",
         &[

@@ -493,7 +493,7 @@ fn a_search_passes_over_what_is_ignored_and_counts_other_versions() {
         ("gen/f.gen.frag", broken),
         ("old/g.vert", b"void main() { gl_Position = engine_matrix * engine_vertex; }\n"),
         ("old/h.frag", b"#version 320 es\nlayout(location = 0) out highp vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
-        ("old/i.frag", b"#version 310 es\nprecision mediump float;\nvoid main() {}\n"),
+        ("old/i.frag", b"#version 320 es\nprecision mediump float;\nvoid main() {}\n"),
         ("glisten.toml", b"[lint]\nexclude = [\"third\", \"*.gen.frag\"]\n"),
     ]);
     let output = folder.run(&["lint", "."]);

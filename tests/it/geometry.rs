@@ -63,11 +63,14 @@ out V { flat float shade; vec2 place; } v;
 void main() { v.shade = float(gl_VertexID) / 16.0; v.place = at; gl_Position = vec4(at, 0.0, 1.0); }
 ";
 
-const TRIANGLE: (&str, &str, &[u32]) = ("triangles", "triangle_strip", &[0, 1, 2]);
-const LINE: (&str, &str, &[u32]) = ("lines", "line_strip", &[0, 1]);
+/// The input and output primitives of a shader, and the vertices that it passes on.
+type Layouts = (&'static str, &'static str, &'static [u32]);
+
+const TRIANGLE: Layouts = ("triangles", "triangle_strip", &[0, 1, 2]);
+const LINE: Layouts = ("lines", "line_strip", &[0, 1]);
 
 /// Each primitive with the shader that passes it on.
-const PRIMITIVES: [(&str, (&str, &str, &[u32])); 11] = [
+const PRIMITIVES: [(&str, Layouts); 11] = [
     ("points", ("points", "points", &[0])),
     ("lines", LINE),
     ("line_strip", LINE),

@@ -35,6 +35,8 @@ mod exec;
 mod first_hour;
 #[cfg(feature = "cli")]
 mod first_steps;
+#[cfg(feature = "cli")]
+mod fixed_function;
 #[cfg(feature = "gpu")]
 mod floats;
 #[cfg(feature = "cli")]

@@ -17,8 +17,14 @@ use glisten_front::language::NEVER;
 use std::fmt::Write;
 
 /// Functions that a target does not support in any program. The documentation names them.
-const REFUSED: &[(&str, &str)] =
-    &[("textureSize", "sampler2DMSArray"), ("texelFetch", "sampler2DMSArray"), ("textureGrad", "samplerCube")];
+const REFUSED: &[(&str, &str)] = &[
+    ("textureSize", "sampler2DMSArray"),
+    ("texelFetch", "sampler2DMSArray"),
+    ("textureGrad", "samplerCube"),
+    ("textureGather", "isamplerCube"),
+    ("textureGather", "usamplerCube"),
+    ("textureQueryLod", "samplerCube"),
+];
 
 /// An argument: samplers are uniforms, offsets are constant, and all others depend on a uniform, so that nothing is
 /// folded.
@@ -30,7 +36,7 @@ fn argument(ty: TypeId, mode: ParamMode, role: Option<TextureArgument>, index: u
         return format!("s{index}");
     }
     match (mode, role) {
-        (ParamMode::In, Some(TextureArgument::Offset)) => format!("{name}(1)"),
+        (ParamMode::In, Some(TextureArgument::Offset | TextureArgument::Component)) => format!("{name}(1)"),
         (ParamMode::In, _) => format!("{name}(x)"),
         _ => format!("out{index}"),
     }

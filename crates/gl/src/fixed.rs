@@ -8,8 +8,9 @@
 use super::Error;
 use super::api::Api;
 use super::old::Old;
+use super::pipeline;
 use glisten_front::link::Program;
-use glisten_scene::fixed::{FixedFunction, LightSource, Material};
+use glisten_scene::fixed::{FixedFunction, LightSource, Material, Pipeline};
 use glisten_scene::{AttributeData, AttributeValues, FixedDraw};
 
 const MODEL_VIEW: u32 = 0x1700;
@@ -67,6 +68,8 @@ pub(super) fn set(api: &Api, old: &Old, draw: &FixedDraw) -> Result<(), Error> {
     } else {
         api.disable(VERTEX_PROGRAM_TWO_SIDE);
     }
+    let own = Pipeline::default();
+    pipeline::set(api, old, draw.generated.as_ref().map_or(&own, |(_, pipeline)| pipeline));
     // As in a core context, `gl_PointCoord` is there.
     api.enable(POINT_SPRITE);
     api.check("setting the state of the fixed-function pipeline")
@@ -95,8 +98,12 @@ fn set_light(old: &Old, number: u32, light: &LightSource) {
 }
 
 fn set_material(old: &Old, side: u32, material: &Material) {
-    let colors =
-        [(0x1200, material.ambient), (0x1201, material.diffuse), (0x1202, material.specular), (0x1600, material.emission)];
+    let colors = [
+        (0x1200, material.ambient),
+        (0x1201, material.diffuse),
+        (0x1202, material.specular),
+        (0x1600, material.emission),
+    ];
     for (name, color) in colors {
         (old.material)(side, name, &color.map(single));
     }

@@ -7,6 +7,7 @@
 use super::api::{Api, PixelLayout};
 use super::states::{STENCIL, color_layout, compare, factor, mode};
 use super::{Error, Gl, fixed, programs, textures, uniforms, vertices};
+use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Cull, Draw, Format, Framebuffer, Scene, State};
@@ -31,7 +32,7 @@ impl Gl {
             let program = match known {
                 Some((_, known)) => *known,
                 None => {
-                    let made = programs::link(api, &draw.program)?;
+                    let made = programs::link(api, &draw.program, generated(draw))?;
                     linked.push((&draw.program, made));
                     made
                 }
@@ -83,6 +84,11 @@ fn clear(api: &Api, framebuffer: &Framebuffer) {
         }
     }
     api.clear_buffer_depth_stencil(glow::DEPTH_STENCIL, 0, 1.0, 0);
+}
+
+/// The stage that the driver's fixed-function pipeline provides.
+fn generated(draw: &Draw) -> Option<Stage> {
+    draw.fixed.as_ref()?.generated.as_ref().map(|(stage, _)| *stage)
 }
 
 fn draw(api: &Api, framebuffer: &Framebuffer, linked: glow::Program, draw: &Draw) -> Result<(), Error> {

@@ -11,6 +11,7 @@
 //!  Scene  ──► programs    the texts compiled and linked, attributes and outputs bound to the scene's locations
 //!         ──► uniforms    loose ones by name; blocks at the offsets that the driver reports
 //!         ──► fixed       the state of the fixed-function pipeline, by the functions of `old`
+//!         ──► pipeline    its switches, for a draw that names one stage: the driver's own provides the other
 //!         ──► textures    all kinds that 1.50 samples, with their parameters
 //!         ──► vertices    a buffer per attribute; OpenGL fills in missing components
 //!         ──► frame       attachments, fixed state, draws, read-back ──► Picture
@@ -30,6 +31,7 @@ mod fixed;
 mod frame;
 mod multisample;
 mod old;
+mod pipeline;
 mod programs;
 mod states;
 mod texels;

@@ -42,6 +42,7 @@ old! {
     point_size: "glPointSize" = fn(f32);
     texture_environment: "glTexEnvfv" = fn(u32, u32, &[f32; 4]);
     texture_generation: "glTexGenfv" = fn(u32, u32, &[f32; 4]);
+    color_material: "glColorMaterial" = fn(u32, u32);
     clamp_color: "glClampColor" = fn(u32, u32);
     enable_array: "glEnableClientState" = fn(u32);
     client_unit: "glClientActiveTexture" = fn(u32);

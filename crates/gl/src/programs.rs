@@ -8,9 +8,10 @@ use glisten_front::hir::{Shader, Stage};
 use glisten_front::link::Program;
 
 /// Compiles and links the texts of a program.
-pub(super) fn link(api: &Api, program: &Program) -> Result<glow::Program, Error> {
+pub(super) fn link(api: &Api, program: &Program, generated: Option<Stage>) -> Result<glow::Program, Error> {
     let linked = api.create_program().map_err(Error::Refused)?;
-    for shader in &program.stages {
+    // The driver's fixed-function pipeline provides a stage that the scene does not name.
+    for shader in program.stages.iter().filter(|shader| Some(shader.stage) != generated) {
         for text in &shader.texts {
             api.attach_shader(linked, compile(api, &program.name, shader, text)?);
         }

@@ -8,7 +8,7 @@ use super::api::{Api, Dimensions, Size};
 use super::states::{compare, wrap};
 use super::texels::{layout, texel_bytes};
 use super::{Error, multisample};
-use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
+use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type};
 use glisten_scene::{Draw, Framebuffer, Texture, TextureLevel};
 
 /// Binds all textures. The program must be current.
@@ -17,6 +17,12 @@ pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &
     let mut unit = 0;
     for (slot, texture) in draw.program.interface.samplers.iter().zip(&draw.textures) {
         let Type::Sampler(kind) = draw.program.types.get(slot.ty) else { continue };
+        let own_unit = fixed_unit(draw, &slot.name);
+        if let (Some(own_unit), Some(texture)) = (own_unit, texture) {
+            api.active_texture(glow::TEXTURE0 + own_unit);
+            image(api, kind, texture)?;
+            continue;
+        }
         let (Some(location), Some(texture)) = (api.get_uniform_location(linked, &slot.name), texture) else { continue };
         if unit >= units {
             return Err(Error::Unsupported(format!("more than {units} texture units")));
@@ -34,6 +40,13 @@ pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &
         unit += 1;
     }
     Ok(())
+}
+
+/// The unit of the fixed-function pipeline whose texture a generated fragment stage calls `name`.
+fn fixed_unit(draw: &Draw, name: &str) -> Option<u32> {
+    let (stage, _) = draw.fixed.as_ref()?.generated.as_ref()?;
+    let unit = name.strip_prefix("texture").filter(|_| *stage == Stage::Fragment)?;
+    unit.parse().ok()
 }
 
 /// The texture target of a sampler type, and the number of dimensions of its images.

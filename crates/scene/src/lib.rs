@@ -23,7 +23,7 @@ pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
 pub use library::{Library, NoLibrary};
 pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, write};
 pub use model::{
-    AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer, Primitive,
-    Scene, State, Texels, Texture, TextureLevel, Wrap,
+    AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer,
+    Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 pub use reads::scene_values_read;

@@ -3,9 +3,9 @@
 //! *Holds:* indices are below the length of each attribute's data; the values of a root have the length of its type;
 //! a runner can draw a scene without further checks of sizes.
 
-use crate::fixed::FixedFunction;
+use crate::fixed::{FixedFunction, Pipeline};
 use crate::picture::Transfer;
-use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue};
+use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue, Stage};
 use glisten_front::link::{FixedState, Program};
 use std::sync::Arc;
 
@@ -243,6 +243,8 @@ pub struct FixedDraw {
     pub state: FixedFunction,
     /// The switches that the program was compiled for.
     pub switches: FixedState,
+    /// The stage that the draw does not name, and the pipeline from which it was written.
+    pub generated: Option<(Stage, Pipeline)>,
 }
 
 /// The data of one attribute.

@@ -44,6 +44,7 @@ mod slots;
 mod sprites;
 mod statements;
 mod texel_loads;
+mod texture_queries;
 mod textures;
 mod types;
 mod uniforms;

@@ -36,6 +36,27 @@ impl Ctx<'_, '_> {
         }))
     }
 
+    /// One component of four texels (GLSL 4.00 §8.9.3), each loaded by itself.
+    pub(super) fn integer_gather(&mut self, mut lookup: Lookup) -> Try<Handle<Expression>> {
+        if lookup.ty.dim == SamplerDim::Cube {
+            return Err(lacking(
+                self.here(),
+                format!("`textureGather` of a `{}`: integer textures have no sampler", lookup.ty.name()),
+                "look the four texels up with `texture`, or use a texture of floats",
+            ));
+        }
+        let index = lookup.gather.map_or(0, |component| component as u32);
+        let own = lookup.offset.take().unwrap_or_else(|| vec![0, 0]);
+        let mut texels = Vec::new();
+        for side in [[0, 1], [1, 1], [1, 0], [0, 0]] {
+            lookup.offset = Some(own.iter().zip(side).map(|(own, side)| own.saturating_add(side)).collect());
+            let base = self.integer_lookup(&lookup)?;
+            texels.push(self.add(Expression::AccessIndex { base, index }));
+        }
+        let ty = self.low.vector_type(lookup.ty.texel, 4);
+        Ok(self.add(Expression::Compose { ty, components: texels }))
+    }
+
     /// The texel of the face that a direction hits (OpenGL 3.2 §3.8.6, table 3.21); the faces are layers of an array.
     /// Where axes are equally long, z precedes y, and y precedes x, as in the reference.
     fn integer_cube_lookup(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
@@ -151,6 +172,14 @@ impl Ctx<'_, '_> {
         } else {
             let size = self.add(Expression::As { expr: size, kind: ScalarKind::Float, convert: Some(4) });
             self.op(BinaryOperator::Multiply, lookup.coordinate, size)
+        };
+        // A gather begins left of and below the coordinate.
+        let scaled = if lookup.gather.is_some() {
+            let half = self.float(0.5);
+            let half = self.splat(half, n);
+            self.op(BinaryOperator::Subtract, scaled, half)
+        } else {
+            scaled
         };
         let floor = self.math1(MathFunction::Floor, scaled);
         let mut texel = self.add(Expression::As { expr: floor, kind: ScalarKind::Sint, convert: Some(4) });

@@ -24,6 +24,8 @@ pub(super) struct Lookup {
     pub(super) level: SampleLevel,
     /// The offset, with as many components as the coordinate.
     pub(super) offset: Option<Vec<i32>>,
+    /// The component of a gather.
+    pub(super) gather: Option<naga::SwizzleComponent>,
 }
 
 impl Ctx<'_, '_> {
@@ -41,13 +43,18 @@ impl Ctx<'_, '_> {
         match form.lookup {
             How::Size => self.texture_size(ty, value, rest.first().copied()),
             How::Fetch => self.texel_fetch(ty, value, form, rest),
-            How::Implicit | How::Lod | How::Grad => {
+            How::QueryLod => self.query_lod(ty, value, rest.first().copied()),
+            How::Levels => Ok(self.level_count(value)),
+            How::Implicit | How::Lod | How::Grad | How::Gather => {
                 let lookup = self.lookup(ty, value, form, rest)?;
+                if ty.texel != Scalar::Float && form.lookup == How::Gather {
+                    return self.integer_gather(lookup);
+                }
                 if ty.texel != Scalar::Float {
                     return self.integer_lookup(&lookup);
                 }
                 let result = self.sample(&lookup)?;
-                if !ty.shadow || self.size_of(ret) == 1 {
+                if !ty.shadow || self.size_of(ret) == 1 || form.lookup == How::Gather {
                     return Ok(result);
                 }
                 // `shadow2D` and its like of older versions: luminance, and alpha 1.
@@ -60,6 +67,11 @@ impl Ctx<'_, '_> {
     /// Decomposes the arguments after the sampler, in their order.
     fn lookup(&mut self, ty: SamplerType, value: SamplerValue, form: TextureForm, arguments: &[ExprId]) -> Try<Lookup> {
         let (mut p, mut gradient_x, mut offset, mut level) = (None, None, None, SampleLevel::Auto);
+        let (mut own_reference, mut gather) = (None, None);
+        if form.lookup == How::Gather {
+            gather = Some(naga::SwizzleComponent::X);
+            level = SampleLevel::Zero;
+        }
         for (role, &argument) in form.arguments(ty).into_iter().zip(arguments) {
             match role {
                 Role::Offset => offset = Some(self.constant_offset(argument)?),
@@ -72,6 +84,8 @@ impl Ctx<'_, '_> {
                     level = SampleLevel::Gradient { x, y };
                 }
                 Role::Bias => level = SampleLevel::Bias(self.value(argument)?),
+                Role::Reference => own_reference = Some(self.value(argument)?),
+                Role::Component => gather = Some(self.constant_component(argument)?),
                 Role::Sample => return Err(self.internal_error("samples are fetched")),
             }
         }
@@ -80,15 +94,16 @@ impl Ctx<'_, '_> {
             // Outside the fragment stage, the base level is read (§8.7).
             level = SampleLevel::Zero;
         }
-        let (coordinate, layer, reference) = self.coordinates(ty, form.projective, p, p_size);
-        Ok(Lookup { ty, value, coordinate, layer, reference, level, offset })
+        let (coordinate, layer, reference) = self.coordinates(ty, form, p, p_size);
+        let reference = own_reference.or(reference);
+        Ok(Lookup { ty, value, coordinate, layer, reference, level, offset, gather })
     }
 
     /// The coordinate, layer and reference value in P (the tables of §8.7).
     fn coordinates(
         &mut self,
         ty: SamplerType,
-        projective: bool,
+        form: TextureForm,
         p: Handle<Expression>,
         p_size: u8,
     ) -> (Handle<Expression>, Option<Handle<Expression>>, Option<Handle<Expression>>) {
@@ -98,9 +113,10 @@ impl Ctx<'_, '_> {
             self.add(Expression::AccessIndex { base: p, index })
         };
         // The reference value of a 1D shadow is in z, after an unused component; that of a cube is in w.
-        let reference = ty.shadow.then(|| component(ty.reference_component()));
+        let within = ty.shadow && form.lookup != How::Gather;
+        let reference = within.then(|| component(ty.reference_component()));
         let layer = ty.arrayed.then(|| component(n));
-        let divisor = projective.then(|| component(p_size.saturating_sub(1)));
+        let divisor = form.projective.then(|| component(p_size.saturating_sub(1)));
         let coordinate = if p_size == n { p } else { self.first_components(p, n) };
         match divisor {
             None => (coordinate, layer, reference),
@@ -131,6 +147,23 @@ impl Ctx<'_, '_> {
         Ok(value.scalars.iter().map(whole).collect())
     }
 
+    /// The component of a gather, which must be a constant expression (GLSL 4.00 §8.9.3).
+    fn constant_component(&mut self, id: ExprId) -> Try<naga::SwizzleComponent> {
+        use naga::SwizzleComponent as C;
+        let number = self.low.evaluated(self.id, id).and_then(|value| value.scalars.first().copied());
+        let known = match number {
+            Some(ScalarValue::Int(0)) => Some(C::X),
+            Some(ScalarValue::Int(1)) => Some(C::Y),
+            Some(ScalarValue::Int(2)) => Some(C::Z),
+            Some(ScalarValue::Int(3)) => Some(C::W),
+            _ => None,
+        };
+        known.ok_or_else(|| {
+            let message = "the component of a gather is not a constant from 0 to 3";
+            lacking(self.shader.expr(id).span, message, "choose among constant components with `if`")
+        })
+    }
+
     /// A lookup through a sampler.
     fn sample(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
         let Some(sampler) = lookup.value.sampler else {
@@ -155,7 +188,7 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::ImageSample {
             image: lookup.value.texture,
             sampler,
-            gather: None,
+            gather: lookup.gather,
             coordinate,
             array_index,
             offset,
@@ -245,7 +278,7 @@ impl Ctx<'_, '_> {
                 Role::Offset => offset = Some(self.constant_offset(argument)?),
                 Role::Coordinate => p = Some((self.value(argument)?, self.size_of(self.shader.expr(argument).ty))),
                 Role::Level | Role::Sample => index = Some(self.value(argument)?),
-                Role::GradientX | Role::GradientY | Role::Bias => {
+                Role::GradientX | Role::GradientY | Role::Bias | Role::Reference | Role::Component => {
                     return Err(self.internal_error("a texel is fetched without a level of detail"));
                 }
             }

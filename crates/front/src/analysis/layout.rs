@@ -123,7 +123,7 @@ const MATRIX_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault, UniformM
 
 static ROWS: &[Row] = &[
     valued(since(330, 300, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
-    valued(since(410, NEVER, SEPARATE, row("location", Effect::Location, &[Varying]))),
+    valued(since(410, 310, SEPARATE, row("location", Effect::Location, &[Varying]))),
     valued(since(440, NEVER, Extensions::ENHANCED_LAYOUTS, row("location", Effect::Location, &[VaryingBlock]))),
     valued(since(430, 310, UNIFORM_LOCATION, row("location", Effect::Nothing, &[Uniform, Sampler]))),
     valued(since(330, NEVER, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),

@@ -128,6 +128,9 @@ impl Class {
                 Lookup::Grad => "texture, gradients",
                 Lookup::Fetch => "one texel",
                 Lookup::Size => "size of a texture",
+                Lookup::Gather => "four texels",
+                Lookup::QueryLod => "level of detail",
+                Lookup::Levels => "number of levels",
             },
         }
     }

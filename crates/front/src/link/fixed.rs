@@ -30,7 +30,7 @@ const MOST_PLANES: u32 = 8;
 /// The colors that the vertex stage writes.
 const COLORS: [&str; 4] = ["gl_FrontColor", "gl_BackColor", "gl_FrontSecondaryColor", "gl_BackSecondaryColor"];
 
-/// What the fragment stage reads, and the two outputs that it may be.
+/// The inputs of the fragment stage, and the two outputs that each may be.
 const SIDES: [(&str, &str, &str); 2] = [
     ("gl_Color", "gl_FrontColor", "gl_BackColor"),
     ("gl_SecondaryColor", "gl_FrontSecondaryColor", "gl_BackSecondaryColor"),
@@ -82,16 +82,13 @@ fn clamped_colors(shader: &mut Shader) -> Vec<Stmt> {
     statements
 }
 
-/// A statement for each enabled plane: the distance of `gl_ClipVertex`, which becomes a variable of the stage (§2.12).
+/// A statement for each enabled plane: the distance of the vertex from it (§2.12).
 fn clip_distances(types: &mut Types, shader: &mut Shader, planes: u32) -> Vec<Stmt> {
     let distance = Some(BuiltinVariable::ClipDistance);
-    let Some(vertex) = find(shader, Storage::Out, "gl_ClipVertex").filter(|&id| shader.global(id).written) else {
-        return Vec::new();
-    };
     if planes == 0 || shader.globals.iter().any(|global| global.builtin == distance) {
         return Vec::new();
     }
-    rename(shader, vertex, Storage::Private);
+    let Some(vertex) = clip_vertex(shader) else { return Vec::new() };
     let floats = types.array(TypeId::FLOAT, ArraySize::Sized(planes));
     let clip = add(shader, Global { builtin: distance, ..global("gl_ClipDistance", floats, Storage::Out) });
     let plane = find(shader, Storage::Uniform, "gl_ClipPlane").unwrap_or_else(|| clip_plane(types, shader));
@@ -110,6 +107,18 @@ fn clip_distances(types: &mut Types, shader: &mut Shader, planes: u32) -> Vec<St
         assignment(shader, target, value)
     };
     (0..planes).map(each).collect()
+}
+
+/// The position that is compared with the planes: `gl_ClipVertex`, which becomes a variable of the stage, or `gl_Position` if that is not
+/// written (GLSL 1.30 §7.1).
+fn clip_vertex(shader: &mut Shader) -> Option<GlobalId> {
+    if let Some(vertex) = find(shader, Storage::Out, "gl_ClipVertex").filter(|&id| shader.global(id).written) {
+        rename(shader, vertex, Storage::Private);
+        return Some(vertex);
+    }
+    let has_planes = fixed::named("gl_ClipPlane", shader.version, shader.stage).is_some();
+    let is_position = |global: &Global| global.builtin == Some(BuiltinVariable::Position) && global.written;
+    shader.globals().find(|(_, global)| has_planes && is_position(global)).map(|(id, _)| id)
 }
 
 fn clip_plane(types: &mut Types, shader: &mut Shader) -> GlobalId {
@@ -220,8 +229,7 @@ fn at_the_end(shader: &mut Shader, end: Vec<Stmt>) {
 fn add_function(shader: &mut Shader, name: &str, body: Vec<Stmt>) -> FunctionId {
     let name = if name == "main" { name.to_owned() } else { free_name(name, &[shader]) };
     let (ret, span) = (TypeId::VOID, Span::default());
-    let function =
-        Function { name, ret, param_count: 0, locals: Vec::new(), body: Some(body), reachable: true, span };
+    let function = Function { name, ret, param_count: 0, locals: Vec::new(), body: Some(body), reachable: true, span };
     shader.functions.push(function);
     FunctionId::new(shader.functions.len() - 1)
 }

@@ -146,8 +146,7 @@ impl Merge<'_> {
 
     fn unite_global(&mut self, place: GlobalId, global: Global) {
         let Some(known) = self.all.globals.get(place.index()) else { return };
-        let problem =
-            global_problem(self.types, known, &global).or_else(|| self.initializer_problem(known, &global));
+        let problem = global_problem(self.types, known, &global).or_else(|| self.initializer_problem(known, &global));
         if let Some(problem) = problem {
             self.found.push(problem);
             return;

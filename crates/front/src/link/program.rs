@@ -53,7 +53,7 @@ pub struct RootIndex(pub u32);
 pub struct Interface {
     /// Vertex inputs, in order of declaration, without the built-in ones.
     pub attributes: Vec<Attribute>,
-    /// What the geometry stage reads of each vertex; empty without one.
+    /// The inputs of the geometry stage for each vertex; empty without one.
     pub geometry_inputs: Vec<GeometryInput>,
     /// Varyings, split into scalars and vectors, in order of location.
     pub varyings: Vec<Varying>,

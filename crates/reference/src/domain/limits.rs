@@ -19,3 +19,6 @@ pub const MOST_TEXELS: i64 = 4096;
 
 /// The texels of `texelFetch` that are joined; if it may read more, anything is possible.
 pub const MOST_FETCHED: i64 = 64;
+
+/// The error of a level of detail that a shader computes from derivatives: of `log2`, a length and a product.
+pub const LEVEL_QUERY: f64 = 1e-4;

@@ -76,7 +76,7 @@ impl<D: Domain> Machine<D> {
 
     /// A query of a texture's size looks nothing up.
     fn lookup_step(&self, call: &TextureCall, mask: u64) -> Option<Step> {
-        if call.lookup == Lookup::Size {
+        if matches!(call.lookup, Lookup::Size | Lookup::Levels | Lookup::QueryLod) {
             return Step::scalar("integer");
         }
         let slot = self.registers.int(call.sampler).at(mask.trailing_zeros().min(63) as usize).bits();

@@ -37,7 +37,7 @@ struct Joined<D: Domain> {
     undecided: u64,
     /// Lanes whose outputs may be anything.
     unlimited: u64,
-    /// What a geometry stage emits.
+    /// The vertices that a geometry stage emits.
     streams: Streams<D>,
 }
 

@@ -203,7 +203,9 @@ pub(super) struct TextureCall {
     pub(super) dy: Vec<Operand>,
     /// Ints.
     pub(super) offset: Vec<Operand>,
-    /// The results: floats or ints, depending on the sampler's texels (ints for `Size`).
+    /// The gathered component: an int.
+    pub(super) component: Option<Operand>,
+    /// The results: floats or ints, depending on the sampler's texels (ints for `Size` and `Levels`, floats for `QueryLod`).
     pub(super) results: Vec<Operand>,
 }
 
@@ -578,9 +580,19 @@ impl Inst {
 }
 
 impl TextureCall {
+    /// Whether the results are ints.
+    pub(super) fn has_integer_results(&self) -> bool {
+        match self.lookup {
+            Lookup::Size | Lookup::Levels => true,
+            Lookup::QueryLod => false,
+            Lookup::Implicit | Lookup::Lod | Lookup::Grad | Lookup::Fetch | Lookup::Gather => {
+                self.kind.texel != glisten_front::hir::Scalar::Float && !self.kind.shadow
+            }
+        }
+    }
+
     /// Visits all operands.
     pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
-        use glisten_front::hir::Scalar;
         let by_integer = |integer: bool| if integer { Class::Int } else { Class::Float };
         f(Class::Int, Use::Read, &mut self.sampler);
         let coordinates = by_integer(self.lookup == Lookup::Fetch);
@@ -589,9 +601,8 @@ impl TextureCall {
         self.level.iter_mut().for_each(|operand| f(levels, Use::Read, operand));
         self.reference.iter_mut().for_each(|operand| f(Class::Float, Use::Read, operand));
         self.dx.iter_mut().chain(&mut self.dy).for_each(|operand| f(Class::Float, Use::Read, operand));
-        self.offset.iter_mut().for_each(|operand| f(Class::Int, Use::Read, operand));
-        let results =
-            by_integer(self.lookup == Lookup::Size || (self.kind.texel != Scalar::Float && !self.kind.shadow));
+        self.offset.iter_mut().chain(&mut self.component).for_each(|operand| f(Class::Int, Use::Read, operand));
+        let results = by_integer(self.has_integer_results());
         self.results.iter_mut().for_each(|operand| f(results, Use::Write, operand));
     }
 }

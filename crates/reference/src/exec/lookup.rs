@@ -4,7 +4,7 @@ use super::inst::{Lookup, Operand, TextureCall};
 use super::machine::Machine;
 use super::registers::Registers;
 use super::{LANES, Mask};
-use crate::domain::{Domain, Integer, Number, limits};
+use crate::domain::{Domain, Integer, Number, limits, rules};
 use crate::texture::{self, BoundedFloat, BoundedInt, Gradients, MISSING, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
 use glisten_scene::Texture;
@@ -99,11 +99,19 @@ struct LaneLookup<'a, D: Domain> {
 impl<D: Domain> LaneLookup<'_, D> {
     fn sampled(&self, texture: Option<&Texture>, stage: Stage) -> Sampled {
         match (texture, self.call.lookup) {
-            (None, Lookup::Size) => Sampled::Ints([BoundedInt::default(); 4]),
+            (None, Lookup::Size | Lookup::Levels) => Sampled::Ints([BoundedInt::default(); 4]),
             (None, _) => nothing(self.call),
             (Some(texture), Lookup::Size) => self.size(texture),
             (Some(texture), Lookup::Fetch) => self.fetch(texture),
-            (Some(texture), _) => self.filtered(texture, stage),
+            (Some(texture), Lookup::Levels) => Sampled::Ints([BoundedInt::exact(texture.levels.len() as u32); 4]),
+            (Some(texture), Lookup::Gather) => {
+                let component = self.call.component.map_or(0, |component| self.int(component).bits());
+                texture::gather(texture, &self.request(texture, stage), component as usize)
+            }
+            (Some(texture), Lookup::QueryLod) => self.query_lod(texture, stage),
+            (Some(texture), Lookup::Implicit | Lookup::Lod | Lookup::Grad) => {
+                texture::sample(texture, &self.request(texture, stage))
+            }
         }
     }
 
@@ -176,12 +184,53 @@ impl<D: Domain> LaneLookup<'_, D> {
         hull
     }
 
-    fn filtered(&self, texture: &Texture, stage: Stage) -> Sampled {
+    /// The level that an implicit lookup reads between the first and the last, and the level of detail, which is at least
+    /// that of the smallest normal step (GLSL 4.00 §8.9.1). A GPU computes it from its derivatives, which may be those of
+    /// either row or column of the quad.
+    fn query_lod(&self, texture: &Texture, stage: Stage) -> Sampled {
+        let last = texture.levels.len().saturating_sub(1) as f64;
+        let exact = self.level(texture, stage, self.all_bounded(&self.call.coordinate));
+        let level = if D::HAS_INTERVALS && self.call.kind.dim != SamplerDim::Cube {
+            let (x, y) = (self.step(texture, (0, 1), (2, 3)), self.step(texture, (0, 2), (1, 3)));
+            let (low, high) = (x.low.max(y.low).log2(), x.high.max(y.high).log2());
+            BoundedFloat { value: exact.value, low: low.min(exact.value), high: high.max(exact.value) }
+        } else {
+            exact
+        };
+        let limited = |level: f64, low: f64, high: f64| if level.is_nan() { low } else { level.clamp(low, high) };
+        let level = level.widened(limits::LEVEL_QUERY).map(|level| limited(level, -126.0, f64::INFINITY));
+        let used = level.map(|level| limited(level, 0.0, last));
+        Sampled::Floats([used, level, BoundedFloat::default(), BoundedFloat::default()])
+    }
+
+    /// The length in texels of a step between lanes of the quad, of which there are two pairs.
+    fn step(&self, texture: &Texture, a: (usize, usize), b: (usize, usize)) -> BoundedFloat {
+        let sizes =
+            texture.levels.first().map_or([1.0; 3], |base| [base.width, base.height, base.depth].map(f64::from));
+        let count = usize::from(self.call.kind.dimensions());
+        let length = |(from, to): (usize, usize)| {
+            let mut sum = (0.0, 0.0);
+            for (operand, size) in self.call.coordinate.iter().zip(sizes).take(count) {
+                let change = self.difference(*operand, from, to).map(|change| change * size);
+                // Both ends are rounded before the difference.
+                let at = self.bounded(*operand);
+                let change = change.widened(2.0 * rules::ulp(at.low.abs().max(at.high.abs()) * size));
+                let most = change.low.abs().max(change.high.abs());
+                let least =
+                    if change.low <= 0.0 && change.high >= 0.0 { 0.0 } else { change.low.abs().min(change.high.abs()) };
+                sum = (sum.0 + least * least, sum.1 + most * most);
+            }
+            BoundedFloat { value: sum.0.sqrt(), low: sum.0.sqrt(), high: sum.1.sqrt() }
+        };
+        length(a).joined(length(b))
+    }
+
+    fn request(&self, texture: &Texture, stage: Stage) -> Request {
         let kind = self.call.kind;
         let axes = self.call.coordinate.len().saturating_sub(usize::from(kind.arrayed));
         let (coordinate, layer) = self.call.coordinate.split_at(axes);
         let at = self.all_bounded(coordinate);
-        let request = Request {
+        Request {
             kind,
             at,
             layer: layer.first().map_or(BoundedFloat::default(), |layer| self.bounded(*layer)),
@@ -191,8 +240,7 @@ impl<D: Domain> LaneLookup<'_, D> {
             bounded: D::HAS_INTERVALS,
             weight_bits: D::weight_bits(),
             profile: self.registers.profile,
-        };
-        texture::sample(texture, &request)
+        }
     }
 
     /// The level of detail.

@@ -33,7 +33,7 @@ pub struct Machine<D: Domain> {
     /// Lanes that may or may not be discarded.
     pub(super) perhaps_discarded: u64,
     pub(super) ways: Ways,
-    /// What a geometry stage emits.
+    /// The vertices that a geometry stage emits.
     pub(super) streams: Streams<D>,
     /// All lanes that run.
     pub(super) whole: u64,

@@ -46,6 +46,7 @@ mod composite;
 mod compute;
 mod corrected_run;
 mod count;
+mod emitting;
 mod exactly;
 mod explore;
 mod follow;

@@ -66,7 +66,8 @@ impl<D: Domain> Machine<D> {
     pub(super) fn show_texture(&mut self, call: &TextureCall, section: &Section, place: usize, mask: u64) {
         let Some(observer) = &mut self.observer else { return };
         let texels_are_floats = call.kind.texel == Scalar::Float || call.kind.shadow;
-        if !texels_are_floats || matches!(call.lookup, Lookup::Fetch | Lookup::Size) {
+        if !texels_are_floats || matches!(call.lookup, Lookup::Fetch | Lookup::Size | Lookup::Levels | Lookup::QueryLod)
+        {
             return;
         }
         let registers = &self.registers;

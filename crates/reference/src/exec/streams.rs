@@ -6,12 +6,10 @@
 //! the stream has the vertices of all of them, and is undecided.
 
 use super::LANES;
-use super::inst::Operand;
-use super::machine::Machine;
 use crate::domain::{Domain, Integer, Number};
 use glisten_scene::picture::Interval;
 
-/// What one invocation emitted.
+/// The vertices that one invocation emitted.
 #[derive(Clone, Debug)]
 pub struct Stream<D: Domain> {
     /// The floats of all vertices.
@@ -46,7 +44,7 @@ impl<D: Domain> Stream<D> {
         }
     }
 
-    /// Joins what another way emitted.
+    /// Joins the vertices of another way.
     fn join(&mut self, other: &Self) {
         if self.count == other.count && self.ends == other.ends {
             self.undecided |= other.undecided;
@@ -122,36 +120,22 @@ impl<D: Domain> Streams<D> {
         }
     }
 
+    /// The stream of a lane that may still emit.
+    pub(super) fn open(&mut self, lane: usize) -> Option<&mut Stream<D>> {
+        let most = self.most;
+        self.lanes.get_mut(lane).filter(|stream| stream.count < most)
+    }
+
+    /// Ends the primitive of a lane.
+    pub(super) fn end(&mut self, lane: usize) {
+        self.lanes.get_mut(lane).into_iter().for_each(Stream::end);
+    }
+
     pub(super) fn get(&self, lane: usize) -> Option<&Stream<D>> {
         self.lanes.get(lane)
     }
 
     pub(super) fn unlimit(&mut self, lane: usize) {
         self.lanes.get_mut(lane).into_iter().for_each(Stream::unlimit);
-    }
-}
-
-impl<D: Domain> Machine<D> {
-    /// What a lane emitted in the last run. The last primitive need not have ended.
-    pub fn stream(&self, lane: usize) -> Option<&Stream<D>> {
-        self.streams.get(lane)
-    }
-
-    /// `EmitVertex` in the active lanes.
-    pub(super) fn emit_vertices(&mut self, floats: &[Operand], ints: &[Operand], mask: u64) {
-        let most = self.streams.most;
-        for lane in super::Mask(mask).lanes() {
-            let Some(stream) = self.streams.lanes.get_mut(lane).filter(|stream| stream.count < most) else { continue };
-            stream.floats.extend(floats.iter().map(|operand| self.registers.float(*operand).at(lane)));
-            stream.ints.extend(ints.iter().map(|operand| self.registers.int(*operand).at(lane)));
-            stream.count += 1;
-        }
-    }
-
-    /// `EndPrimitive` in the active lanes.
-    pub(super) fn end_primitives(&mut self, mask: u64) {
-        for lane in super::Mask(mask).lanes() {
-            self.streams.lanes.get_mut(lane).into_iter().for_each(Stream::end);
-        }
     }
 }

@@ -136,9 +136,10 @@ impl Ways {
 pub(super) fn couples(section: &super::code::Section, inner: &super::code::Inner) -> bool {
     section.insts.iter().any(|inst| match inst {
         Inst::Derivative { .. } => true,
-        Inst::Texture { call } => {
-            inner.textures.get(*call as usize).is_some_and(|call| call.lookup == Lookup::Implicit)
-        }
+        Inst::Texture { call } => inner
+            .textures
+            .get(*call as usize)
+            .is_some_and(|call| matches!(call.lookup, Lookup::Implicit | Lookup::QueryLod)),
         _ => false,
     })
 }

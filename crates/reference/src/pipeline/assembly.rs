@@ -3,7 +3,7 @@
 //! *In:* shaded vertices, and their order in a draw. *Out:* [`Prim`]s in order. *Holds:* culling and facing depend on
 //! the sign of the snapped area (§3.6.1).
 
-use super::adjacency;
+use super::adjacency::{self, Seen};
 use super::clip::SIDES;
 use super::vertices::Vertices;
 use crate::LineRule;
@@ -97,7 +97,19 @@ pub(super) fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
         | Primitive::TrianglesAdjacency
         | Primitive::TriangleStripAdjacency => {
             let primitives = adjacency::primitives(primitive, count).into_iter();
-            primitives.enumerate().map(|(number, all)| adjacency::inner(primitive, number, all)).collect()
+            primitives.enumerate().map(|(number, all)| inner(primitive, number, all)).collect()
+        }
+    }
+}
+
+/// The primitive without its adjacent vertices.
+pub(super) fn inner(primitive: Primitive, number: usize, all: Seen) -> Assembled {
+    let at = |place: usize| all.get(place).copied().unwrap_or(0);
+    match primitive {
+        Primitive::LinesAdjacency | Primitive::LineStripAdjacency => Assembled::Line([at(1), at(2)]),
+        _ => {
+            let odd = primitive == Primitive::TriangleStripAdjacency && number % 2 == 1;
+            Assembled::Triangle([at(0), at(2), at(4)], usize::from(odd))
         }
     }
 }

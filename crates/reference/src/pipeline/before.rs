@@ -26,7 +26,7 @@ pub(super) struct Before {
     geometry: Option<(Code, Feeds)>,
 }
 
-/// What the stages need besides their invocations.
+/// The surroundings of a run, for all of its invocations.
 #[derive(Clone, Copy)]
 pub(super) struct Run<'a, D: Domain> {
     pub(super) draw: &'a Draw,
@@ -43,6 +43,9 @@ pub(super) enum Front<D: Domain> {
     /// Those that a geometry stage reads, and what it emitted for the current instance.
     Staged(Staged<D>, Option<Vertices<D>>),
 }
+
+/// Vertices, and the primitives that they form, each with its `gl_PrimitiveID`.
+type Primitives<'f, D> = (&'f mut Vertices<D>, Vec<(Assembled, u32)>);
 
 impl<'a, D: Domain> Run<'a, D> {
     fn job(&self, stage: Stage, piece: Piece, code: &'a Code) -> Job<'a, D> {
@@ -105,7 +108,7 @@ impl Before {
         run: &Run<'_, D>,
         front: &'f mut Front<D>,
         order: &[u32],
-    ) -> Result<(&'f mut Vertices<D>, Vec<(Assembled, u32)>), Vec<Diagnostic>> {
+    ) -> Result<Primitives<'f, D>, Vec<Diagnostic>> {
         match (front, &self.geometry) {
             (Front::Staged(staged, place), Some((code, feeds))) => {
                 let job = run.job(Stage::Geometry, Piece::Primitives, code);

@@ -6,10 +6,11 @@
 //! vertices is dropped (§2.12.2). `gl_Layer` has no effect, as framebuffers are not layered (§4.4.7). Without a written
 //! `gl_PrimitiveID`, which leaves the fragment stage's undefined, it is the number of the input primitive.
 
-use super::adjacency::{Seen, seen};
+use super::adjacency::Seen;
 use super::assembly::{Assembled, assemble};
 use super::invoke::Job;
 use super::plan::{FlatScalar, Plan};
+use super::seen::seen;
 use super::staged::{Feeds, Staged};
 use super::vertices::{Chunk, ShadeOptions, Vertices, distance_count, may_jump};
 use crate::Positions;
@@ -72,7 +73,7 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// What one batch emitted. Vertices are numbered from its first one.
+/// The vertices and primitives of one batch. Vertices are numbered from its first one.
 struct Part<D: Domain> {
     chunk: Chunk<D>,
     primitives: Vec<(Assembled, u32)>,

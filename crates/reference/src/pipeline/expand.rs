@@ -1,4 +1,4 @@
-//! What a geometry stage emits, as lists of numbers for another runner.
+//! The vertices that a geometry stage emits, as lists of numbers for another runner.
 //!
 //! *In:* a draw with a geometry stage. *Out:* [`Emission`]: the vertices of all instances as a strict GPU computes them,
 //! and the list of points, lines or triangles that they form. *Holds:* each primitive begins with its provoking vertex

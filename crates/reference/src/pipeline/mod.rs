@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  Draw ──► vertices    64 vertices at a time, positions in the domain and in f32
-//!       ──► emitted     the primitives of a geometry stage, from the vertices that it reads (staged, adjacency)
+//!       ──► emitted     the primitives of a geometry stage, from the vertices that it reads (staged, seen)
 //!       ──► assembly    primitives, clipped (clip), their pixels (raster), culled
 //!       ──► bins        32x32 pixels each, the primitives that touch them in order; threads take bins
 //!       ──► edges       pixels near edges, and which primitives may own them (worlds)
@@ -40,6 +40,7 @@ mod outputs;
 mod plan;
 mod reach;
 mod same_surface;
+mod seen;
 mod slack;
 mod sloped;
 mod source;

@@ -19,7 +19,7 @@ mod sample;
 mod texel;
 
 pub(crate) use lod::{Gradients, Steps, level_of_detail};
-pub(crate) use sample::{Request, sample};
+pub(crate) use sample::{Request, gather, sample};
 pub(crate) use texel::{fetch, size};
 
 use glisten_scene::Texture;

@@ -55,6 +55,57 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
     Sampled::Floats(if uses_levels { mipmapped(texture, &request) } else { at_level(texture, 0, &request, linear) })
 }
 
+/// The texels of a gather, as the sides of both axes: i0 j1, i1 j1, i1 j0, i0 j0 (GLSL 4.00 §8.9.3).
+const GATHERED: [[i64; 2]; 4] = [[0, 1], [1, 1], [1, 0], [0, 0]];
+
+/// One component of the four texels of the base level that a linear filter mixes. In an envelope, those of all positions
+/// that the coordinate may have.
+pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> Sampled {
+    let mut request = *request;
+    request.at.iter_mut().filter(|at| !at.value.is_finite()).for_each(|at| *at = BoundedFloat::anything(0.0));
+    let integers = request.kind.texel != Scalar::Float && !request.kind.shadow;
+    let Some(base) = level(texture, 0) else { return Sampled::Floats([BoundedFloat::default(); 4]) };
+    let footprint = footprint(texture, base, &request, true);
+    let [x, y, _] = footprint.axes;
+    let ranges = [(x, x.first), (y, y.first)].map(|(axis, first)| {
+        if request.bounded {
+            (axis.touched.0.min(first), axis.touched.1.saturating_sub(1).max(first))
+        } else {
+            (first, first)
+        }
+    });
+    let positions = ranges.iter().fold(footprint.slices.1 - footprint.slices.0 + 1, |product, (low, high)| {
+        product.saturating_mul(high.saturating_sub(*low).saturating_add(1))
+    });
+    if integers {
+        let bits = GATHERED.map(|[right, up]| {
+            let place = footprint.place(base, [x.first + right, y.first + up, 0]).unwrap_or([0; 3]);
+            BoundedInt::exact(texel::bits(base, place).get(component).copied().unwrap_or(0))
+        });
+        return if positions > 1 && request.bounded { Sampled::Ints(bits).unknown() } else { Sampled::Ints(bits) };
+    }
+    Sampled::Floats(GATHERED.map(|[right, up]| {
+        let one = |i: i64, j: i64, slice: i64| {
+            let place = footprint.place_in(base, [i + right, j + up, 0], slice)?;
+            value(base, place, texture, &request).get(component).copied()
+        };
+        // Past a cube's corner there is no texel, and OpenGL leaves open what is there.
+        let Some(likely) = one(x.first, y.first, footprint.slice) else { return BoundedFloat::anything(0.0) };
+        if positions > limits::MOST_TEXELS {
+            return BoundedFloat::anything(likely.value);
+        }
+        let mut hull = likely;
+        for slice in footprint.slices.0..=footprint.slices.1 {
+            for j in ranges[1].0..=ranges[1].1 {
+                for i in ranges[0].0..=ranges[0].1 {
+                    hull = one(i, j, slice).map_or(BoundedFloat::anything(likely.value), |other| hull.joined(other));
+                }
+            }
+        }
+        hull
+    }))
+}
+
 /// In the nearest level, or linear between levels; for magnification, the base level. The interval is the hull over the
 /// possible levels of detail, linear between whole ones.
 fn mipmapped(texture: &Texture, request: &Request) -> [BoundedFloat; 4] {

@@ -1,4 +1,4 @@
-//! What OpenGL derives from the state (GLSL 1.20 §7.5; OpenGL 2.1 §2.11.3, §2.14.1, §3.10).
+//! Derives what OpenGL derives from the state (GLSL 1.20 §7.5; OpenGL 2.1 §2.11.3, §2.14.1, §3.10).
 //!
 //! *In:* a [`FixedFunction`] that was rounded. *Out:* numbers in the order of the uniform's members. *Holds:* the inverse
 //! of a matrix that has none is not a number, as with most drivers; the specification leaves it undefined.
@@ -6,8 +6,11 @@
 use super::state::{FixedFunction, Fog, LightSource, Material};
 use glam::{DMat3, DMat4, DVec3};
 
+/// A function of a matrix.
+type Form = fn(DMat4) -> DMat4;
+
 /// The forms of a matrix, by the end of the uniform's name.
-pub(super) const FORMS: [(&str, fn(DMat4) -> DMat4); 4] = [
+pub(super) const FORMS: [(&str, Form); 4] = [
     ("InverseTranspose", |matrix| matrix.inverse().transpose()),
     ("Inverse", |matrix| matrix.inverse()),
     ("Transpose", |matrix| matrix.transpose()),

@@ -5,8 +5,14 @@
 use super::environment;
 use super::pipeline::{FogMode, GlslDialect, Pipeline};
 
-/// Writes the stage.
-pub(super) fn write(pipeline: &Pipeline) -> String {
+impl Pipeline {
+    /// The fragment stage as GLSL. The texture of unit `n` is the sampler `textureN`.
+    pub fn fragment(&self) -> String {
+        write(self)
+    }
+}
+
+fn write(pipeline: &Pipeline) -> String {
     let mut text = String::from(pipeline.version());
     text.push_str("// The fragment stage of OpenGL's fixed-function pipeline.\n");
     if pipeline.enabled_units().next().is_some() {

@@ -203,7 +203,8 @@ mod tests {
     fn the_half_vector_is_between_the_light_and_the_viewer() {
         let light = LightSource { position: [3.0, 0.0, 0.0, 0.0], ..LightSource::initial(0) };
         let root = 0.5_f64.sqrt();
-        let difference = light.half_vector().iter().zip([root, 0.0, root, 0.0]).map(|(a, b)| (a - b).abs()).sum::<f64>();
+        let difference =
+            light.half_vector().iter().zip([root, 0.0, root, 0.0]).map(|(a, b)| (a - b).abs()).sum::<f64>();
         assert!(difference < 1e-15);
     }
 }

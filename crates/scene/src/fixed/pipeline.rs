@@ -2,7 +2,7 @@
 //!
 //! *Holds:* the numbers of the state are not here: the texts read them from the uniforms of GLSL 1.20 §7.5.
 
-use super::{UNITS, fragment, vertex};
+use super::UNITS;
 
 /// The language of the texts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,7 +14,7 @@ pub enum GlslDialect {
     V150,
 }
 
-/// What is done to normals after their transformation (OpenGL 2.1 §2.11.3).
+/// The scaling of normals after their transformation (OpenGL 2.1 §2.11.3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NormalScaling {
     /// Nothing.
@@ -70,7 +70,7 @@ impl FogMode {
         &[("none", None), ("linear", Some(Self::Linear)), ("exp", Some(Self::Exp)), ("exp2", Some(Self::Exp2))];
 }
 
-/// What fog grows with (`GL_FOG_COORD_SRC`).
+/// The number that fog grows with (`GL_FOG_COORD_SRC`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FogSource {
     /// The distance along the view direction.
@@ -152,7 +152,7 @@ impl TexGen {
 pub struct TextureUnit {
     /// The kind of its texture.
     pub target: TextureTarget,
-    /// What it does to the color.
+    /// Its effect on the color.
     pub mode: EnvironmentMode,
     /// How its coordinates are generated; `None`: they are the vertex's.
     pub generate: Option<TexGen>,
@@ -175,7 +175,7 @@ pub struct Pipeline {
     pub separate_specular: bool,
     /// `glColorMaterial`, of both sides, if it is enabled.
     pub color_material: Option<ColorMaterial>,
-    /// What is done to normals.
+    /// The scaling of normals.
     pub normals: NormalScaling,
     /// The texture units.
     pub units: [Option<TextureUnit>; UNITS],
@@ -184,7 +184,7 @@ pub struct Pipeline {
     pub color_sum: bool,
     /// Fog.
     pub fog: Option<FogMode>,
-    /// What fog grows with.
+    /// The number that fog grows with.
     pub fog_source: FogSource,
     /// The size of points depends on their distance (OpenGL 2.1 §3.3).
     pub point_attenuation: bool,
@@ -195,16 +195,6 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// The vertex stage as GLSL.
-    pub fn vertex(&self) -> String {
-        vertex::write(self)
-    }
-
-    /// The fragment stage as GLSL. The texture of unit `n` is the sampler `textureN`.
-    pub fn fragment(&self) -> String {
-        fragment::write(self)
-    }
-
     /// Whether the secondary color is added.
     pub fn sums_colors(&self) -> bool {
         self.color_sum || self.lighting && self.separate_specular

@@ -1,4 +1,4 @@
-//! What a host sets, with the initial values of OpenGL 2.1 (tables 6.7 to 6.17).
+//! The state that a host sets, with the initial values of OpenGL 2.1 (tables 6.7 to 6.17).
 //!
 //! *Holds:* positions, directions and planes are in eye space, as OpenGL keeps them.
 
@@ -157,6 +157,9 @@ impl Default for FixedFunction {
     }
 }
 
+/// A visitor, which is shown the name of a uniform, the index in its array, a member, and its numbers.
+type Each<'a> = dyn FnMut(&'static str, usize, &'static str, &mut [f64]) + 'a;
+
 impl FixedFunction {
     /// The same state as OpenGL stores it: rounded to f32.
     #[must_use]
@@ -172,7 +175,7 @@ impl FixedFunction {
 
     /// Visits all values: the name of the uniform, the index in its array, the member, the numbers. Matrices are
     /// column by column.
-    pub(super) fn visit(&mut self, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    pub(super) fn visit(&mut self, each: &mut Each<'_>) {
         each("gl_ModelViewMatrix", 0, "", self.model_view.as_mut());
         each("gl_ProjectionMatrix", 0, "", self.projection.as_mut());
         for (index, matrix) in self.texture.iter_mut().enumerate() {
@@ -193,7 +196,8 @@ impl FixedFunction {
         const EYE: [&str; 4] = ["gl_EyePlaneS", "gl_EyePlaneT", "gl_EyePlaneR", "gl_EyePlaneQ"];
         const OBJECT: [&str; 4] = ["gl_ObjectPlaneS", "gl_ObjectPlaneT", "gl_ObjectPlaneR", "gl_ObjectPlaneQ"];
         let named = [("gl_ClipPlane", &mut self.clip_planes), ("gl_TextureEnvColor", &mut self.texture_env_colors)];
-        let generated = EYE.into_iter().zip(&mut self.eye_planes).chain(OBJECT.into_iter().zip(&mut self.object_planes));
+        let generated =
+            EYE.into_iter().zip(&mut self.eye_planes).chain(OBJECT.into_iter().zip(&mut self.object_planes));
         for (name, planes) in named.into_iter().chain(generated) {
             for (index, plane) in planes.iter_mut().enumerate() {
                 each(name, index, "", plane);
@@ -203,7 +207,7 @@ impl FixedFunction {
 }
 
 impl LightSource {
-    fn visit(&mut self, index: usize, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    fn visit(&mut self, index: usize, each: &mut Each<'_>) {
         let name = "gl_LightSource";
         each(name, index, "ambient", &mut self.ambient);
         each(name, index, "diffuse", &mut self.diffuse);
@@ -220,7 +224,7 @@ impl LightSource {
 }
 
 impl Material {
-    fn visit(&mut self, name: &'static str, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    fn visit(&mut self, name: &'static str, each: &mut Each<'_>) {
         each(name, 0, "emission", &mut self.emission);
         each(name, 0, "ambient", &mut self.ambient);
         each(name, 0, "diffuse", &mut self.diffuse);
@@ -230,7 +234,7 @@ impl Material {
 }
 
 impl PointParameters {
-    fn visit(&mut self, each: &mut dyn FnMut(&'static str, usize, &'static str, &mut [f64])) {
+    fn visit(&mut self, each: &mut Each<'_>) {
         let sizes = [
             ("size", &mut self.size),
             ("sizeMin", &mut self.size_min),

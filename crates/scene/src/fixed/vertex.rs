@@ -5,8 +5,14 @@
 
 use super::pipeline::{ColorMaterial, FogSource, NormalScaling, Pipeline, TexGen};
 
-/// Writes the stage.
-pub(super) fn write(pipeline: &Pipeline) -> String {
+impl Pipeline {
+    /// The vertex stage as GLSL.
+    pub fn vertex(&self) -> String {
+        write(self)
+    }
+}
+
+fn write(pipeline: &Pipeline) -> String {
     let mut text = String::from(pipeline.version());
     text.push_str("// The vertex stage of OpenGL's fixed-function pipeline.\n");
     if pipeline.enabled_units().next().is_some() {
@@ -85,7 +91,10 @@ fn colors(pipeline: &Pipeline, text: &mut String) {
         if pipeline.two_side { &[("Front", "normal"), ("Back", "-normal")] } else { &[("Front", "normal")] };
     for (side, normal) in sides {
         let lower = side.to_lowercase();
-        text.push_str(&format!("\n    vec4 {lower} = {};\n    vec4 {lower}_specular = vec4(0.0);\n", scene(pipeline, side)));
+        text.push_str(&format!(
+            "\n    vec4 {lower} = {};\n    vec4 {lower}_specular = vec4(0.0);\n",
+            scene(pipeline, side)
+        ));
         for (index, _) in pipeline.lights.iter().enumerate().filter(|(_, on)| **on) {
             let products = products(pipeline, side, index);
             text.push_str(&format!(
@@ -99,7 +108,8 @@ fn colors(pipeline: &Pipeline, text: &mut String) {
         let sum = if pipeline.separate_specular { "" } else { &format!(" + {lower}_specular.rgb") };
         text.push_str(&format!("    gl_{side}Color = vec4({lower}.rgb{sum}, {alpha});\n"));
         if pipeline.sums_colors() {
-            let specular = if pipeline.separate_specular { format!("{lower}_specular") } else { "vec4(0.0)".to_owned() };
+            let specular =
+                if pipeline.separate_specular { format!("{lower}_specular") } else { "vec4(0.0)".to_owned() };
             text.push_str(&format!("    gl_{side}SecondaryColor = {specular};\n"));
         }
     }
@@ -120,12 +130,14 @@ fn scene(pipeline: &Pipeline, side: &str) -> String {
 
 /// The products of a light with the ambient, diffuse and specular colors of the material.
 fn products(pipeline: &Pipeline, side: &str, index: usize) -> String {
-    let from_vertex = |member: &str| match (pipeline.color_material, member) {
-        (Some(ColorMaterial::AmbientAndDiffuse), "ambient" | "diffuse")
-        | (Some(ColorMaterial::Ambient), "ambient")
-        | (Some(ColorMaterial::Diffuse), "diffuse")
-        | (Some(ColorMaterial::Specular), "specular") => true,
-        _ => false,
+    let from_vertex = |member: &str| {
+        matches!(
+            (pipeline.color_material, member),
+            (Some(ColorMaterial::AmbientAndDiffuse), "ambient" | "diffuse")
+                | (Some(ColorMaterial::Ambient), "ambient")
+                | (Some(ColorMaterial::Diffuse), "diffuse")
+                | (Some(ColorMaterial::Specular), "specular")
+        )
     };
     let product = |member: &str| {
         if from_vertex(member) {

@@ -1,7 +1,7 @@
 //! Loads a `[[draw]]` table as a [`Draw`].
 
 use super::attributes::{load_attributes, scalar_of};
-use super::fixed::{self, GENERATED, load_pipeline, load_switches, other_stage};
+use super::fixed::{self, GENERATED, load_pipeline, load_switches};
 use super::lights::{LIGHT_SPACES, LightSpace};
 use super::material::{load_colors, load_material};
 use super::matrices::View;
@@ -11,7 +11,7 @@ use super::reader::{Node, NumberValue, Reader, report_unknown_name};
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
-use crate::fixed::{FixedFunction, uses_fixed_state};
+use crate::fixed::{FixedFunction, OtherStage, other_stage, uses_fixed_state};
 use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
@@ -73,7 +73,7 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let (files, generated) = load_stages(loader, table, place, (around, switches));
     let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
     let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
-    let program = load_program(loader, table, files, (switches, generated))?;
+    let program = load_program(loader, table, files, (switches, generated.as_ref()))?;
     check_program(&mut loader.reader, &program, framebuffer, place)?;
     check_primitive(&mut loader.reader, table, &program, &state, place)?;
     let mesh = match mesh {
@@ -90,7 +90,8 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional };
     let mut fixed = load_fixed(&mut loader.reader, table, (&program, &view), around);
     let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), fixed.as_mut(), place);
-    let fixed = fixed.map(|state| Arc::new(FixedDraw { state, switches }));
+    let generated = generated.map(|made| (made.stage, made.pipeline));
+    let fixed = fixed.map(|state| Arc::new(FixedDraw { state, switches, generated }));
     let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
     let textures = load_textures(loader, table, own_material, &program, conventional, place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
@@ -120,16 +121,28 @@ fn load_stages(
     table: &DeTable<'_>,
     place: Span,
     (around, switches): (&Surroundings<'_, '_>, FixedState),
-) -> (Vec<(Stage, String, Span)>, Option<String>) {
+) -> (Vec<(Stage, String, Span)>, Option<OtherStage>) {
     let named = |key: &str| table.contains_key(key);
     let alone = !named("program") && named("vertex") != named("fragment");
     let one = if alone { loader.lone_stage(table) } else { None };
-    let Some((types, shader, file)) = one else { return (load_files(loader, table, place), None) };
+    let Some((types, shader, file)) = one else {
+        refuse_pipeline(&mut loader.reader, table);
+        return (load_files(loader, table, place), None);
+    };
     let pipeline = load_pipeline(&mut loader.reader, table, around.lighting.lights.len(), switches);
-    let (stage, text) = other_stage(pipeline, &types, &shader);
-    let other = (stage, GENERATED.to_owned(), file.2);
-    let files = if stage == Stage::Vertex { vec![other, file] } else { vec![file, other] };
-    (files, Some(text))
+    let made = other_stage(pipeline, &types, &shader);
+    let other = (made.stage, GENERATED.to_owned(), file.2);
+    let files = if made.stage == Stage::Vertex { vec![other, file] } else { vec![file, other] };
+    (files, Some(made))
+}
+
+/// Reports switches of the fixed-function pipeline in a draw that does not use it.
+fn refuse_pipeline(reader: &mut Reader, table: &DeTable<'_>) {
+    if let Some((key, _)) = table.get_key_value("fixed_function") {
+        let span = reader.span_of(key);
+        let message = "the fixed-function pipeline is for a draw with one stage in GLSL 1.10 to 1.30 or the compatibility profile";
+        reader.error(&SCENE_WRONG_VALUE, span, message.to_owned(), "it changes nothing here");
+    }
 }
 
 fn load_state(reader: &mut Reader, table: &DeTable<'_>) -> State {
@@ -243,7 +256,7 @@ fn load_program(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
     files: Vec<(Stage, String, Span)>,
-    (switches, generated): (FixedState, Option<String>),
+    (switches, generated): (FixedState, Option<&OtherStage>),
 ) -> Option<Arc<Program>> {
     let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
     let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
@@ -257,7 +270,7 @@ fn load_program(
             files: files.into_iter().map(|(stage, name, _)| (stage, name)).collect(),
             defines,
             switches,
-            generated,
+            generated: generated.map(|made| made.text.clone()),
             attribute_locations: attribute_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
             frag_data_locations: frag_data_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),
         },

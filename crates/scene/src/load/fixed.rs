@@ -10,12 +10,10 @@ use super::material::Colors;
 use super::matrices::View;
 use super::reader::{Node, Reader};
 use crate::fixed::{
-    ColorMaterial, EnvironmentMode, FixedFunction, FogMode, FogSource, GlslDialect, Material, NormalScaling,
-    Pipeline, TexGen, TextureTarget, TextureUnit, UNITS,
+    ColorMaterial, EnvironmentMode, FixedFunction, FogMode, FogSource, Material, NormalScaling, Pipeline, TexGen,
+    TextureTarget, TextureUnit, UNITS,
 };
 use glisten_front::diagnostic::codes::scenes::SCENE_WRONG_SIZE;
-use glisten_front::hir::{ArraySize, ExprKind, ScalarValue, Shader, Stage, Storage, Type, Types, VarRef};
-use glisten_front::language::Profile;
 use glisten_front::link::FixedState;
 use toml::de::DeTable;
 
@@ -48,7 +46,8 @@ pub(super) fn load_switches(reader: &mut Reader, draw: &DeTable<'_>) -> FixedSta
 
 /// The state of a draw before its own uniforms.
 pub(super) fn state(view: &View, lighting: &Lighting, material: Option<&Colors>) -> FixedFunction {
-    let mut state = FixedFunction { model_view: view.model_view(), projection: view.projection(), ..FixedFunction::default() };
+    let mut state =
+        FixedFunction { model_view: view.model_view(), projection: view.projection(), ..FixedFunction::default() };
     if !lighting.lights.is_empty() {
         state.light_model_ambient = opaque(lighting.global_ambient);
     }
@@ -127,70 +126,4 @@ fn load_unit(reader: &mut Reader, node: &Node<'_>, known: TextureUnit) -> Option
         mode: reader.choice_at(table, "mode", EnvironmentMode::Modulate, EnvironmentMode::NAMES),
         generate: reader.choice_at(table, "generate", None, TexGen::NAMES),
     })
-}
-
-/// Whether the language of a shader has the fixed-function pipeline.
-pub(super) fn has_fixed_function(shader: &Shader) -> bool {
-    match shader.version.profile {
-        Profile::Compatibility => true,
-        Profile::Core => shader.version.number <= 130,
-        Profile::Es => false,
-    }
-}
-
-/// The text of the stage that a lone shader lacks, and that stage.
-pub(super) fn other_stage(mut pipeline: Pipeline, types: &Types, shader: &Shader) -> (Stage, String) {
-    pipeline.dialect = if shader.version.number < 140 { GlslDialect::V120 } else { GlslDialect::V150 };
-    let coordinates = shader.globals.iter().find(|global| global.is_fixed() && global.name == "gl_TexCoord");
-    let size = coordinates.map(|global| types.get(global.ty)).and_then(|ty| match ty {
-        Type::Array(_, ArraySize::Sized(size)) => Some(size),
-        _ => None,
-    });
-    pipeline.texture_coordinates = size.filter(|&size| size != UNITS as u32);
-    if shader.stage == Stage::Vertex {
-        return (Stage::Fragment, pipeline.fragment());
-    }
-    let reads = |name: &str| {
-        let mut globals = shader.globals.iter();
-        globals.any(|global| global.is_fixed() && global.storage == Storage::In && global.used && global.name == name)
-    };
-    pipeline.color_sum |= reads("gl_SecondaryColor");
-    if reads("gl_FogFragCoord") {
-        pipeline.fog = pipeline.fog.or(Some(FogMode::Linear));
-    }
-    if reads("gl_TexCoord") {
-        let read = coordinates_read(shader);
-        for (unit, _) in pipeline.units.iter_mut().zip(read).filter(|(_, read)| *read) {
-            *unit = Some(unit.unwrap_or_default());
-        }
-    }
-    (Stage::Vertex, pipeline.vertex())
-}
-
-/// The elements of `gl_TexCoord` that a fragment shader reads; all of them if an index is not constant.
-fn coordinates_read(shader: &Shader) -> [bool; UNITS] {
-    let is_coordinates = |id| match shader.expr(id).kind {
-        ExprKind::Var(VarRef::Global(global)) => shader.global(global).name == "gl_TexCoord",
-        _ => false,
-    };
-    let mut read = [false; UNITS];
-    let (mut whole, mut parts) = (0, 0);
-    for expr in &shader.exprs {
-        match expr.kind {
-            ExprKind::Var(VarRef::Global(global)) if shader.global(global).name == "gl_TexCoord" => whole += 1,
-            ExprKind::Index(base, index) if is_coordinates(base) => {
-                let index = match shader.expr(index).kind {
-                    ExprKind::Literal(ScalarValue::Int(value)) => usize::try_from(value).ok(),
-                    ExprKind::Literal(ScalarValue::Uint(value)) => usize::try_from(value).ok(),
-                    _ => None,
-                };
-                if let Some(slot) = index.and_then(|index| read.get_mut(index)) {
-                    *slot = true;
-                    parts += 1;
-                }
-            }
-            _ => {}
-        }
-    }
-    if whole > parts { [true; UNITS] } else { read }
 }

@@ -21,12 +21,13 @@ mod unread;
 mod write;
 
 use self::draw::{load_defines, load_draw};
-use self::fixed::{GENERATED, has_fixed_function};
+use self::fixed::GENERATED;
 use self::lights::Lighting;
 use self::names::FORMATS;
 use self::reader::{Node, Reader};
 use self::unread::warn_unread;
 use crate::files::{FileError, FileSource, relative_to};
+use crate::fixed::has_fixed_function;
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
 use crate::picture::Transfer;

@@ -61,60 +61,73 @@ pub(super) fn load_uniforms(
             values.offer(reader, name, *value, span);
         }
     }
-    if let Some(table) = reader.table_at(draw, "matrices") {
-        for (name, node) in table {
-            let span = reader.span_of(name);
-            let role = reader.choice(node, name.get_ref(), ROLES);
-            if let Some(role) = role {
-                own.set(name.get_ref(), &view.matrix(role).1);
-            }
-            if own.is_only_state(program, name.get_ref()) {
-                continue;
-            }
-            let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
-            let Some(role) = role else {
-                values.mark(&target);
-                continue;
-            };
-            let (shape, numbers) = view.matrix(role);
-            if values.program.types.get(target.leaf.ty) != shape
-                || target.element.is_none() && target.leaf.array_size.is_some()
-            {
-                let declared = values.program.types.name(target.leaf.ty);
-                let message = format!("`{}` is declared {declared}, which this role does not fit", target.leaf.name);
-                let span = reader.span_of(node);
-                reader.error(&SCENE_WRONG_KIND, span, message, "of another type");
-                values.mark(&target);
-                continue;
-            }
-            let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
-            values.store(&target, &scalars);
-            own.keep(target, scalars);
-        }
-    }
-    if let Some(table) = reader.table_at(draw, "uniforms") {
-        for (name, node) in table {
-            let span = reader.span_of(name);
-            if own.is_only_state(program, name.get_ref()) {
-                own.load(reader, name.get_ref(), node);
-                continue;
-            }
-            let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
-            let numbers = reader.numbers(node, name.get_ref());
-            let span = reader.span(node.span());
-            match numbers.and_then(|numbers| convert(reader, &program.types, &target, &numbers, span)) {
-                Some(scalars) => {
-                    values.store(&target, &scalars);
-                    own.set(name.get_ref(), &floats(&scalars));
-                    own.keep(target, scalars);
-                }
-                None => values.mark(&target),
-            }
-        }
-    }
+    load_matrices(reader, draw, view, (&mut values, &mut own));
+    load_named(reader, draw, (&mut values, &mut own));
     own.derive(&mut values);
     values.warn_unset(reader, place);
     values.given.roots
+}
+
+/// `[draw.matrices]`: the matrices of roles.
+fn load_matrices<'p>(
+    reader: &mut Reader,
+    draw: &DeTable<'_>,
+    view: &View,
+    (values, own): (&mut Values<'p>, &mut Own<'p, '_>),
+) {
+    let Some(table) = reader.table_at(draw, "matrices") else { return };
+    for (name, node) in table {
+        let span = reader.span_of(name);
+        let role = reader.choice(node, name.get_ref(), ROLES);
+        if let Some(role) = role {
+            own.set(name.get_ref(), &view.matrix(role).1);
+        }
+        if own.is_only_state(values.program, name.get_ref()) {
+            continue;
+        }
+        let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
+        let Some(role) = role else {
+            values.mark(&target);
+            continue;
+        };
+        let (shape, numbers) = view.matrix(role);
+        if values.program.types.get(target.leaf.ty) != shape
+            || target.element.is_none() && target.leaf.array_size.is_some()
+        {
+            let declared = values.program.types.name(target.leaf.ty);
+            let message = format!("`{}` is declared {declared}, which this role does not fit", target.leaf.name);
+            let span = reader.span_of(node);
+            reader.error(&SCENE_WRONG_KIND, span, message, "of another type");
+            values.mark(&target);
+            continue;
+        }
+        let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
+        values.store(&target, &scalars);
+        own.keep(target, scalars);
+    }
+}
+
+/// `[draw.uniforms]`: values by name.
+fn load_named<'p>(reader: &mut Reader, draw: &DeTable<'_>, (values, own): (&mut Values<'p>, &mut Own<'p, '_>)) {
+    let Some(table) = reader.table_at(draw, "uniforms") else { return };
+    for (name, node) in table {
+        let span = reader.span_of(name);
+        if own.is_only_state(values.program, name.get_ref()) {
+            own.load(reader, name.get_ref(), node);
+            continue;
+        }
+        let Some(target) = values.find(reader, name.get_ref(), span) else { continue };
+        let numbers = reader.numbers(node, name.get_ref());
+        let span = reader.span(node.span());
+        match numbers.and_then(|numbers| convert(reader, &values.program.types, &target, &numbers, span)) {
+            Some(scalars) => {
+                values.store(&target, &scalars);
+                own.set(name.get_ref(), &floats(&scalars));
+                own.keep(target, scalars);
+            }
+            None => values.mark(&target),
+        }
+    }
 }
 
 /// The draw's own values for state of the fixed-function pipeline, from which the rest is derived.

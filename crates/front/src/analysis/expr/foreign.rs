@@ -54,11 +54,11 @@ static SHADERTOY: &[(&str, &str)] = &[
 /// Functions of later versions.
 #[rustfmt::skip]
 static LATER: &[(&str, u16)] = &[
-    ("textureGather", 400), ("textureGatherOffset", 400), ("textureGatherOffsets", 400), ("textureQueryLod", 400),
+    ("textureGatherOffsets", 400),
     ("interpolateAtCentroid", 400), ("interpolateAtSample", 400), ("interpolateAtOffset", 400),
     ("EmitStreamVertex", 400), ("EndStreamPrimitive", 400), ("packDouble2x32", 400), ("unpackDouble2x32", 400),
     ("anyInvocation", 460), ("allInvocations", 460), ("allInvocationsEqual", 460),
-    ("atomicCounter", 420), ("imageLoad", 420), ("imageStore", 420), ("atomicAdd", 430), ("textureQueryLevels", 430), ("imageSize", 430),
+    ("atomicCounter", 420), ("imageLoad", 420), ("imageStore", 420), ("atomicAdd", 430), ("imageSize", 430),
     ("barrier", 400), ("memoryBarrier", 420),
 ];
 

@@ -13,7 +13,7 @@ use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, VariableDecl};
 
-/// What a declarator declares.
+/// The effect of a declarator.
 enum Declared {
     /// A local, unless it is in error, and its initializer.
     New(Option<LocalId>, Option<ExprId>),

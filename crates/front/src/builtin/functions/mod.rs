@@ -11,6 +11,7 @@ mod geometric;
 mod matcher;
 mod texture;
 mod texture_extensions;
+mod texture_gather;
 mod texture_old;
 
 pub use matcher::Matcher;
@@ -192,8 +193,15 @@ macro_rules! rows {
 }
 use rows;
 
-static TABLES: &[&[Row]] =
-    &[common::ROWS, bits::ROWS, geometric::ROWS, texture::ROWS, texture_old::ROWS, texture_extensions::ROWS];
+static TABLES: &[&[Row]] = &[
+    common::ROWS,
+    bits::ROWS,
+    geometric::ROWS,
+    texture::ROWS,
+    texture_old::ROWS,
+    texture_extensions::ROWS,
+    texture_gather::ROWS,
+];
 
 /// All rows, in the order of the specification's sections.
 pub fn all() -> impl Iterator<Item = &'static Row> {

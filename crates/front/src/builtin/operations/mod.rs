@@ -69,7 +69,7 @@ impl Operation {
     pub fn implicit_derivatives(&self) -> bool {
         match self.class {
             Class::Derivative(_) => true,
-            Class::Texture(form) => form.lookup == Lookup::Implicit,
+            Class::Texture(form) => matches!(form.lookup, Lookup::Implicit | Lookup::QueryLod),
             Class::Unary(_)
             | Class::Binary(_)
             | Class::Ternary(_)

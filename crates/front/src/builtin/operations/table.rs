@@ -266,6 +266,10 @@ operations! {
         TextureGradOffset "textureGradOffset" texture(Lookup::Grad, false, true), LOOKUP, None;
         TextureProjGrad "textureProjGrad" texture(Lookup::Grad, true, false), LOOKUP, None;
         TextureProjGradOffset "textureProjGradOffset" texture(Lookup::Grad, true, true), LOOKUP, None;
+        TextureGather "textureGather" texture(Lookup::Gather, false, false), LOOKUP, None;
+        TextureGatherOffset "textureGatherOffset" texture(Lookup::Gather, false, true), LOOKUP, None;
+        TextureQueryLod "textureQueryLod" texture(Lookup::QueryLod, false, false), LOOKUP, None;
+        TextureQueryLevels "textureQueryLevels" texture(Lookup::Levels, false, false), each(1), None;
         DFdx "dFdx" Class::Derivative(Derivative::X), each(1), Some(&precision::DERIVATIVE);
         DFdy "dFdy" Class::Derivative(Derivative::Y), each(1), Some(&precision::DERIVATIVE);
         Fwidth "fwidth" Class::Derivative(Derivative::Width), each(1), Some(&precision::DERIVATIVE);

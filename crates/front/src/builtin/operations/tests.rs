@@ -51,8 +51,8 @@ fn texture_arguments_are_as_many_as_the_prototypes_have() {
             let Some((sampler, rest)) = signature.params().split_first() else { continue };
             let crate::language::Type::Sampler(kind) = types.get(sampler.0) else { continue };
             let arguments = form.arguments(kind);
-            let bias = usize::from(arguments.last() == Some(&TextureArgument::Bias));
-            let range = arguments.len() - bias..=arguments.len();
+            let is_optional = |last| matches!(last, Some(&TextureArgument::Bias | &TextureArgument::Component));
+            let range = arguments.len() - usize::from(is_optional(arguments.last()))..=arguments.len();
             assert!(range.contains(&rest.len()), "{}: {arguments:?}", signature.describe(row.name, types));
         }
     }

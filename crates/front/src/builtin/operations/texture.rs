@@ -17,6 +17,12 @@ pub enum Lookup {
     Fetch,
     /// The sizes of a level.
     Size,
+    /// One component of the four texels that a linear filter would mix (GLSL 4.00 §8.9.3).
+    Gather,
+    /// The level that an implicit lookup would read, and the level of detail (GLSL 4.00 §8.9.1).
+    QueryLod,
+    /// The number of levels (GLSL 4.30 §8.9.1).
+    Levels,
 }
 
 /// The properties that the name of a texture function states.
@@ -45,6 +51,10 @@ pub enum TextureArgument {
     GradientY,
     /// The offset in texels.
     Offset,
+    /// The reference of a shadow sampler, where `P` does not have it.
+    Reference,
+    /// The optional number of the gathered component.
+    Component,
     /// The optional offset of the implicit level of detail.
     Bias,
 }
@@ -56,13 +66,15 @@ impl TextureForm {
 
     /// The roles of the arguments after the sampler, in order.
     pub fn arguments(self, sampler: SamplerType) -> SmallVec<[TextureArgument; 5]> {
-        use TextureArgument::{Bias, Coordinate, GradientX, GradientY, Level, Offset, Sample};
+        use TextureArgument::{Bias, Component, Coordinate, GradientX, GradientY, Level, Offset, Reference, Sample};
         let mut list = SmallVec::new();
-        if self.lookup != Lookup::Size {
+        if !matches!(self.lookup, Lookup::Size | Lookup::Levels) {
             list.push(Coordinate);
         }
         match self.lookup {
-            Lookup::Implicit => {}
+            Lookup::Implicit | Lookup::QueryLod | Lookup::Levels => {}
+            Lookup::Gather if sampler.shadow => list.push(Reference),
+            Lookup::Gather => {}
             Lookup::Lod => list.push(Level),
             Lookup::Grad => list.extend([GradientX, GradientY]),
             Lookup::Fetch if sampler.dim == SamplerDim::Multisample => list.push(Sample),
@@ -72,8 +84,10 @@ impl TextureForm {
         if self.offset {
             list.push(Offset);
         }
-        if self.lookup == Lookup::Implicit {
-            list.push(Bias);
+        match self.lookup {
+            Lookup::Implicit => list.push(Bias),
+            Lookup::Gather if !sampler.shadow => list.push(Component),
+            _ => {}
         }
         list
     }

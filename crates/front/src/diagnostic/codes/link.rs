@@ -237,7 +237,7 @@ codes! {
             (Stage::Fragment, "float f() { return gl_FragCoord.x; }"),
         ]);
     PER_VERTEX_MISMATCH = "E0728" "per-vertex-mismatch" Error "GLSL 1.50 §4.3.7"
-        "`gl_PerVertex` is a block: if one shader declares it anew, all shaders that use its members on the same interface \
+        "`gl_PerVertex` is a block: if one shader declares it again, all shaders that use its members on the same interface \
          must declare it alike."
         bad Shaders(&[
             (Stage::Vertex, "out gl_PerVertex { vec4 gl_Position; }; void f(); void main() { gl_Position = vec4(0.0); f(); }"),

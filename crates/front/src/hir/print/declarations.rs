@@ -4,7 +4,7 @@ use super::Printer;
 use crate::builtin::BuiltinVariable;
 use crate::hir::{
     BlockLayout, Expr, ExprKind, Global, GlobalId, MatrixLayout, Member, PrimitiveIn, PrimitiveOut, ScalarValue,
-    Storage, Type, TypeId, Value,
+    Storage, Type, TypeId, Value, VarRef,
 };
 use crate::language::{Extensions, Profile};
 use std::collections::BTreeSet;
@@ -115,7 +115,11 @@ impl Printer<'_> {
     pub(super) fn globals(&mut self) {
         let shader = self.shader;
         self.blank();
-        for (id, global) in shader.globals() {
+        let mut order: Vec<(GlobalId, &Global)> = shader.globals().collect();
+        if self.initializers_look_ahead() {
+            order.sort_by_key(|(_, global)| global.storage == Storage::Private);
+        }
+        for (id, global) in order {
             if !self.notes.is_none_or(|notes| notes.keeps_global(global)) {
                 continue;
             }
@@ -135,6 +139,19 @@ impl Printer<'_> {
                 self.behind(global.span);
             }
         }
+    }
+
+    /// Whether an initializer reads a global that comes later, as where the link has added inputs.
+    fn initializers_look_ahead(&self) -> bool {
+        let shader = self.shader;
+        let mut ahead = false;
+        for (id, global) in shader.globals() {
+            let Some(initializer) = global.initializer.filter(|_| global.storage == Storage::Private) else { continue };
+            shader.visit_expr(initializer, &mut |expr| {
+                ahead |= matches!(shader.expr(expr).kind, ExprKind::Var(VarRef::Global(other)) if other > id);
+            });
+        }
+        ahead
     }
 
     /// A redeclaration of a variable of the fixed-function pipeline, if its interpolation was declared.

@@ -299,9 +299,11 @@ impl Printer<'_> {
                 && params.iter().zip(&types).all(|((param, _), (argument, _))| param == argument)
         };
         let rows = || functions::all().filter(|row| row.function == function);
+        // The extension of older versions has its own spelling.
+        let extended = function == BuiltinFunction::TextureQueryLod && self.shader.version.number < 400;
         let modern =
             rows().filter(|row| !row.deprecated).any(|row| row.signatures(self.shader.stage).any(|s| fits(&s)));
-        if modern && !self.is_hidden(function.name()) {
+        if modern && !extended && !self.is_hidden(function.name()) {
             return function.name();
         }
         let old = rows().find(|row| row.deprecated && row.signatures(self.shader.stage).any(|s| fits(&s)));

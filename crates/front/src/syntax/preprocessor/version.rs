@@ -26,7 +26,7 @@ const fn desktop(number: u16) -> Edition {
 }
 
 const fn es(number: u16) -> Edition {
-    Edition { number, es: true, profiles: false, supported: number <= 300 }
+    Edition { number, es: true, profiles: false, supported: number <= 310 }
 }
 
 /// All versions.
@@ -155,8 +155,8 @@ impl Preprocessor<'_> {
         }
         let message = format!("{} is not supported yet", version.name());
         let diagnostic = Diagnostic::new(&codes::UNSUPPORTED_VERSION, number, message)
-            .here("glisten reads 1.10 to 4.60, and 1.00 and 3.00 of ES")
-            .help("write `#version 300 es`");
+            .here("glisten reads 1.10 to 4.60, and 1.00 to 3.10 of ES")
+            .help("write `#version 310 es`");
         session.report(diagnostic);
         self.outcome.supported = false;
         self.stop();

@@ -3,7 +3,7 @@
 use super::super::inst::{Class, Float2, Inst, Lookup, Operand, TextureCall};
 use super::{Compiler, Val};
 use glisten_front::builtin::operations::{TextureArgument, TextureForm};
-use glisten_front::hir::{Scalar, Type, TypeId};
+use glisten_front::hir::{Type, TypeId};
 
 impl Compiler<'_> {
     pub(super) fn texture_call(&mut self, form: TextureForm, values: &[Val], sampler: TypeId, ty: TypeId) -> Val {
@@ -23,6 +23,7 @@ impl Compiler<'_> {
             dx: Vec::new(),
             dy: Vec::new(),
             offset: Vec::new(),
+            component: None,
             results: Vec::new(),
         };
         for (role, value) in form.arguments(kind).into_iter().zip(values.iter().skip(1)) {
@@ -34,6 +35,8 @@ impl Compiler<'_> {
                 TextureArgument::GradientX => call.dx = value.to_vec(),
                 TextureArgument::GradientY => call.dy = value.to_vec(),
                 TextureArgument::Offset => call.offset = value.to_vec(),
+                TextureArgument::Reference => call.reference = value.first().copied(),
+                TextureArgument::Component => call.component = value.first().copied(),
             }
         }
         self.finish(call, ty)
@@ -56,10 +59,10 @@ impl Compiler<'_> {
     fn finish(&mut self, mut call: TextureCall, ty: TypeId) -> Val {
         let emit = &mut self.emit;
         call.visit(&mut |class, _, operand| *operand = emit.in_register(class, *operand));
-        let integer = call.lookup == Lookup::Size || (call.kind.texel != Scalar::Float && !call.kind.shadow);
-        let class = if integer { Class::Int } else { Class::Float };
+        let class = if call.has_integer_results() { Class::Int } else { Class::Float };
         let count = match call.lookup {
-            Lookup::Size => self.types.flat_len(ty) as usize,
+            Lookup::Size | Lookup::QueryLod | Lookup::Levels => self.types.flat_len(ty) as usize,
+            Lookup::Gather => 4,
             _ if call.kind.shadow => 1,
             _ => 4,
         };

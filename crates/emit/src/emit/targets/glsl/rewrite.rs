@@ -155,22 +155,24 @@ fn unused(shader: &Shader, wanted: &str) -> String {
     name
 }
 
-/// `shadow2D(s, p)` is `vec4(texture(s, p), 0.0, 0.0, 1.0)`.
+/// `shadow2D(s, p)` is `vec4(vec3(texture(s, p)), 1.0)`.
 fn shadow_lookups(types: &Types, shader: &mut Shader) {
     for index in 0..shader.exprs.len() {
         let Some(expr) = shader.exprs.get(index).cloned() else { continue };
-        let ExprKind::BuiltinCall(_, arguments) = &expr.kind else { continue };
+        let ExprKind::BuiltinCall(function, arguments) = &expr.kind else { continue };
+        let gathers = matches!(function, BuiltinFunction::TextureGather | BuiltinFunction::TextureGatherOffset);
         let of_depth = arguments
             .first()
             .is_some_and(|sampler| matches!(types.get(shader.expr(*sampler).ty), Type::Sampler(ty) if ty.shadow));
-        if !of_depth || expr.ty != TypeId::VEC4 {
+        if !of_depth || gathers || expr.ty != TypeId::VEC4 {
             continue;
         }
         let depth = shader.push(expr.kind.clone(), TypeId::FLOAT, expr.span);
-        let [zero, one] =
-            [0.0, 1.0].map(|value| shader.push(ExprKind::Literal(ScalarValue::Float(value)), TypeId::FLOAT, expr.span));
+        let luminance = ExprKind::Construct(ConstructKind::Splat, vec![depth]);
+        let luminance = shader.push(luminance, TypeId::VEC3, expr.span);
+        let one = shader.push(ExprKind::Literal(ScalarValue::Float(1.0)), TypeId::FLOAT, expr.span);
         if let Some(expr) = shader.exprs.get_mut(index) {
-            expr.kind = ExprKind::Construct(ConstructKind::Compose, vec![depth, zero, zero, one]);
+            expr.kind = ExprKind::Construct(ConstructKind::Compose, vec![luminance, one]);
         }
     }
 }

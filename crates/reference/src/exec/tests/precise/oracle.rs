@@ -196,7 +196,11 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
         | F::TextureGrad
         | F::TextureGradOffset
         | F::TextureProjGrad
-        | F::TextureProjGradOffset => None,
+        | F::TextureProjGradOffset
+        | F::TextureGather
+        | F::TextureGatherOffset
+        | F::TextureQueryLod
+        | F::TextureQueryLevels => None,
         F::Fma => each(&|k| {
             let product = &a.big(0, k) * &a.big(1, k);
             let terms = product.approx().abs() + a.at(2, k).abs();
