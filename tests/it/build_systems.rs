@@ -62,6 +62,7 @@ fn copy_all(from: &Path, to: &Path) {
 }
 
 /// Whether tools are there.
+#[expect(clippy::print_stderr, reason = "a test that cannot run has to say so")]
 fn are_there(tools: &[&str]) -> bool {
     let missing: Vec<_> = tools.iter().filter(|tool| Command::new(tool).arg("--version").output().is_err()).collect();
     if missing.is_empty() {

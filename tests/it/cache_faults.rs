@@ -170,6 +170,7 @@ fn files_that_cannot_grow_are_not_left_half() {
 
 #[cfg(target_os = "linux")]
 #[test]
+#[expect(clippy::print_stderr, reason = "a test that cannot run has to say so")]
 fn a_full_disk_is_a_warning() {
     let folder = project();
     let truth = truth(&folder);
