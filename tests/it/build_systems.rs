@@ -63,14 +63,12 @@ fn copy_all(from: &Path, to: &Path) {
 
 /// Whether tools are there.
 fn are_there(tools: &[&str]) -> bool {
-    let missing: Vec<_> = tools.iter().filter(|tool| Command::new(tool).arg("--version").output().is_err()).collect();
-    if missing.is_empty() {
-        return true;
+    let is_missing = |tool: &&&str| Command::new(tool).arg("--version").output().is_err();
+    let missing: Vec<&str> = tools.iter().filter(is_missing).copied().collect();
+    for tool in &missing {
+        crate::emit::missing(tool, "Debian has it in a package of this name, Ninja in ninja-build");
     }
-    let message = format!("{missing:?} is missing: this build system is not tested");
-    assert!(std::env::var_os("CI").is_none(), "{message}");
-    eprintln!("{message}");
-    false
+    missing.is_empty()
 }
 
 /// Builds, again without need, and again after a change. `did` says whether a build compiled the shaders.

@@ -5,6 +5,7 @@ use crate::cli::{Folder, code, err};
 use crate::support::root;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -183,7 +184,7 @@ fn a_full_disk_is_a_warning() {
     let run = shell(&folder, &line);
     if code(&run) == 99 || err(&run).contains("unshare") {
         let message = format!("no disk can be mounted here, so a full one is not tested: {}", err(&run));
-        eprintln!("{message}");
+        writeln!(std::io::stderr(), "\n{message}").expect("standard error can be written to");
         return;
     }
     assert_eq!(code(&run), 0, "{}", err(&run));

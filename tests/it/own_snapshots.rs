@@ -34,8 +34,8 @@ fn code_reflection_and_diagnostics() {
 #[test]
 fn scenes_and_their_accounts() {
     for name in ["triangle", "phong"] {
-        let path = root().join("fixtures/scenes").join(format!("{name}.toml"));
-        let loaded = load(&path.to_string_lossy(), &DiskFiles, &compiler());
+        // Relative to the package, in whose folder tests run: the account names the file.
+        let loaded = load(&format!("fixtures/scenes/{name}.toml"), &DiskFiles, &compiler());
         let scene = loaded.scene.expect("the scene is valid");
         glisten::assert_scene!(name, scene);
         glisten::assert_account!(format!("{name}-account"), scene, loaded.sources);

@@ -180,7 +180,7 @@ mod tests {
         assert_eq!(shown(&all)[..2], ["X=1 Y=1", "N=1 X=1 Y=1"]);
         assert_eq!(all.len(), 6, "the lists are equal");
         let condition = |text| vec![Condition::new(text).expect(text)];
-        let left = |skip, only| shown(&variants(&axes[..2], skip, only).expect("few"));
+        let left = |skip: &[Condition], only: &[Condition]| shown(&variants(&axes[..2], skip, only).expect("few"));
         assert_eq!(left(&condition("A N=2"), &[]), ["", "N=1", "N=2", "A=1", "A=1 N=1"]);
         assert_eq!(left(&[], &condition("!A N")), ["N=1", "N=2"]);
         let many: Vec<Axis> = (0..30).map(|_| axes[1].clone()).collect();
