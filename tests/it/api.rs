@@ -86,7 +86,7 @@ fn head(text: &str) -> &str {
 /// The module that offers what a file declares. Files within it may be divided in other ways.
 fn module_of(name: &str) -> &str {
     let folder = OFFERED.iter().skip(1).find(|folder| name.starts_with(*folder));
-    let own = || name.splitn(3, '/').nth(1).map_or(name, |module| module.trim_end_matches(".rs"));
+    let own = || name.split('/').nth(1).map_or(name, |module| module.trim_end_matches(".rs"));
     folder.copied().unwrap_or_else(own)
 }
 

@@ -48,7 +48,7 @@ impl Workspace {
             let stub = self.folder.path().join("offline/rules_cc");
             for (name, path) in [("rules_java", RULES_JAVA.into()), ("platforms", PLATFORMS.into()), ("rules_cc", stub)]
             {
-                command.arg(format!("--override_repository={name}={}", PathBuf::from(path).display()));
+                command.arg(format!("--override_repository={name}={}", path.display()));
             }
         }
         let output = command.args(arguments).output().expect("it starts");

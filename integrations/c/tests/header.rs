@@ -22,7 +22,8 @@ fn the_header_is_current() {
     for (index, line) in lines.iter().enumerate() {
         let next_is_safety = lines.get(index + 1).is_some_and(|next| next.trim() == "// # Safety");
         inside = (inside && line.starts_with("//")) || line.trim() == "// # Safety";
-        if !inside && !(next_is_safety && line.trim() == "//") {
+        let is_last_before = next_is_safety && line.trim() == "//";
+        if !(inside || is_last_before) {
             kept.push_str(line);
             kept.push('\n');
         }
