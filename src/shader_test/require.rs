@@ -34,6 +34,8 @@ const EXTENSIONS: &[&str] = &[
     "GL_ARB_shading_language_420pack",
     "GL_ARB_shading_language_packing",
     "GL_ARB_texture_float",
+    "GL_ARB_texture_gather",
+    "GL_ARB_texture_query_levels",
     "GL_ARB_texture_rectangle",
     "GL_ARB_texture_rg",
     "GL_ARB_uniform_buffer_object",

@@ -222,7 +222,8 @@ impl FixedRow {
             _ if ty == TypeId::matrix(3, 3) => (0..9).map(|index| f32::from(u8::from(index % 4 == 0))).collect(),
             _ if ty == TypeId::matrix(4, 4) => (0..16).map(|index| f32::from(u8::from(index % 5 == 0))).collect(),
             _ if ty == TypeId::VEC4 => vec![0.0; 4],
-            _ => vec![0.0],
+            // `gl_NormalScale`, of the identity.
+            _ => vec![1.0],
         };
         let structure = |name: &str| INITIAL.iter().find(|row| row.0 == name).map_or(Vec::new(), |row| row.1.to_vec());
         let (one, count) = match self.ty {
