@@ -189,8 +189,7 @@ impl<D: Domain> LaneLookup<'_, D> {
     /// either row or column of the quad.
     fn query_lod(&self, texture: &Texture, stage: Stage) -> Sampled {
         // Without a mipmap filter, the base level is read.
-        let has_mipmaps = texture.filter == Filter::Trilinear;
-        let last = if has_mipmaps { texture.levels.len().saturating_sub(1) as f64 } else { 0.0 };
+        let last = if texture.filter.uses_levels() { texture.levels.len().saturating_sub(1) as f64 } else { 0.0 };
         let exact = self.level(texture, stage, self.all_bounded(&self.call.coordinate));
         let level = if D::HAS_INTERVALS && self.call.kind.dim != SamplerDim::Cube {
             let (x, y) = (self.step(texture, (0, 1), (2, 3)), self.step(texture, (0, 2), (1, 3)));
