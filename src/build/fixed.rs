@@ -4,7 +4,7 @@
 //! uniform is unchanged, and the numbers take the type that it has.
 
 use super::error::BuildError;
-use super::programs::Found;
+use super::found::Found;
 use glisten_front::Program;
 use glisten_front::diagnostic::did_you_mean;
 use glisten_front::hir::{Scalar, ScalarValue, Type};

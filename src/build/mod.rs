@@ -23,6 +23,7 @@
 mod error;
 mod files;
 mod fixed;
+mod found;
 mod includes;
 mod programs;
 mod rust;
@@ -34,11 +35,12 @@ pub use error::BuildError;
 use crate::library::Embedded;
 use files::Reads;
 use fixed::Fixed;
+use found::{Compiled, stem};
 use glisten_emit::{Conventions, Target};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::write::human;
 use includes::Folders;
-use programs::{Compiled, Given, Named};
+use programs::{Given, Named};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -95,7 +97,7 @@ impl Build {
     /// Adds a program of a vertex and a fragment shader, named after the vertex shader's file.
     #[must_use]
     pub fn program(self, vertex: impl AsRef<Path>, fragment: impl AsRef<Path>) -> Self {
-        let name = programs::stem(vertex.as_ref());
+        let name = stem(vertex.as_ref());
         self.named_program(name, vertex, fragment)
     }
 

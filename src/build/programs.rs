@@ -1,18 +1,15 @@
 //! The programs of a build.
 //!
-//! *In:* pairs of files, folders, scenes. *Out:* [`Compiled`] programs, in the order in which they were given, those of a folder
+//! *In:* pairs of files, folders, scenes. *Out:* [`Found`] programs, in the order in which they were given, those of a folder
 //! in the order of their paths; the errors and warnings of all. *Holds:* no two programs have the same name as a Rust module.
 
 use super::error::BuildError;
 use super::files::Reads;
+use super::found::{Found, stem};
 #[cfg(feature = "reference")]
 use super::scenes;
 use super::{repeated, rust};
-use crate::library::is_embedded;
-use glisten_front::diagnostic::write::human;
-use glisten_front::diagnostic::{Diagnostic, Diagnostics, Severity};
-use glisten_front::source::SourceMap;
-use glisten_front::{Compilation, Compiler, Program, Source, Stage};
+use glisten_front::{Compilation, Compiler, Source, Stage};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -59,13 +56,6 @@ impl Named {
     }
 }
 
-/// The name of a shader's file without its extensions: `phong` for `phong.vert` and `phong.vert.glsl`.
-pub(super) fn stem(path: &Path) -> String {
-    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let inner = name.strip_suffix(".glsl").unwrap_or(&name);
-    inner.rsplit_once('.').map_or(inner, |(stem, _)| stem).to_owned()
-}
-
 /// The stage that the name of a file tells.
 fn stage(path: &Path) -> Option<Stage> {
     let name = path.file_name()?.to_str()?;
@@ -73,51 +63,13 @@ fn stage(path: &Path) -> Option<Stage> {
     EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, stage)| *stage)
 }
 
-/// A program that was compiled, with its texts.
-pub(super) struct Compiled {
-    pub(super) name: String,
-    pub(super) program: Program,
-    pub(super) sources: SourceMap,
-}
-
-/// The programs of a build, and what there is to say about them.
-#[derive(Default)]
-pub(super) struct Found {
-    pub(super) programs: Vec<Compiled>,
-    /// The names of all, also of those with errors.
-    names: Vec<String>,
-    /// All errors, as `glisten lint` prints them.
-    pub(super) errors: String,
-    /// Warnings, a line each.
-    pub(super) warnings: Vec<String>,
-}
-
-impl Found {
-    /// Takes over diagnostics. Returns whether there is no error among them.
-    pub(super) fn hears(&mut self, sources: &SourceMap, diagnostics: &Diagnostics) -> bool {
-        let failed = diagnostics.has_errors();
-        if failed {
-            self.errors.push_str(&human(sources, diagnostics, false));
-        } else {
-            self.warnings.extend(diagnostics.iter().filter_map(|found| warning(sources, found)));
-        }
-        !failed
+fn compile_one(found: &mut Found, named: &Named, compiler: &Compiler, reads: &Reads) -> Result<(), BuildError> {
+    let Compilation { program, sources, diagnostics, .. } = compiler.compile(&named.sources(reads)?);
+    match (found.hears(&sources, &diagnostics), program) {
+        (true, Some(program)) => found.add(named.name.clone(), program, sources),
+        _ => found.names.push(named.name.clone()),
     }
-
-    /// Adds a program without errors.
-    pub(super) fn add(&mut self, name: String, program: Program, sources: SourceMap) {
-        self.names.push(name.clone());
-        self.programs.push(Compiled { name, program, sources });
-    }
-
-    fn compile(&mut self, named: &Named, compiler: &Compiler, reads: &Reads) -> Result<(), BuildError> {
-        let Compilation { program, sources, diagnostics, .. } = compiler.compile(&named.sources(reads)?);
-        match (self.hears(&sources, &diagnostics), program) {
-            (true, Some(program)) => self.add(named.name.clone(), program, sources),
-            _ => self.names.push(named.name.clone()),
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// Compiles all programs.
@@ -125,10 +77,10 @@ pub(super) fn compile(given: &[Given], compiler: &Compiler, reads: &Reads) -> Re
     let mut found = Found::default();
     for one in given {
         match one {
-            Given::Pair(named) => found.compile(named, compiler, reads)?,
+            Given::Pair(named) => compile_one(&mut found, named, compiler, reads)?,
             Given::Folder(folder) => {
                 for named in of_folder(folder, reads)? {
-                    found.compile(&named, compiler, reads)?;
+                    compile_one(&mut found, &named, compiler, reads)?;
                 }
             }
             #[cfg(feature = "reference")]
@@ -140,14 +92,6 @@ pub(super) fn compile(given: &[Given], compiler: &Compiler, reads: &Reads) -> Re
         Some(name) => Err(BuildError::SameName(name.to_owned())),
         None => Ok(found),
     }
-}
-
-/// A warning in a line, unless it is about a module of the library.
-fn warning(sources: &SourceMap, found: &Diagnostic) -> Option<String> {
-    let place = sources.location(found.primary.span)?;
-    let file = sources.file(place.file).name();
-    let told = found.severity == Severity::Warning && !is_embedded(file);
-    told.then(|| format!("{file}:{}:{}: {} [{}]", place.line, place.column, found.message, found.code))
 }
 
 fn of_folder(folder: &Path, reads: &Reads) -> Result<Vec<Named>, BuildError> {

@@ -4,7 +4,7 @@
 //! *Holds:* draws with one program have one module; every file that the scene reads is remembered.
 
 use super::files::Reads;
-use super::programs::{Found, stem};
+use super::found::{Found, stem};
 use crate::scene::{FileError, FileSource, Scene, load};
 use crate::specialize::specialize_scene;
 use glisten_front::Compiler;

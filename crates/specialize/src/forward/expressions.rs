@@ -319,6 +319,11 @@ impl Forward<'_> {
                 let zero = Fact::in_range(facts::Range::point(0.0));
                 texture.channels.iter().take(len).map(|channel| fetched(*channel).join(zero)).collect()
             }
+            // The channels of these are no colors, or not one texel's.
+            BuiltinFunction::TextureGather
+            | BuiltinFunction::TextureGatherOffset
+            | BuiltinFunction::TextureQueryLod
+            | BuiltinFunction::TextureQueryLevels => Facts::new(),
             _ if dim == SamplerDim::Buffer => Facts::new(),
             _ => texture.channels.iter().take(len).map(|channel| looked_up(*channel)).collect(),
         }

@@ -1,0 +1,63 @@
+//! [`Found`]: the compiled programs of a build.
+//!
+//! *In:* programs, and diagnostics of those that did not compile. *Out:* both, for the module or the message.
+
+use crate::library::is_embedded;
+use glisten_front::Program;
+use glisten_front::diagnostic::write::human;
+use glisten_front::diagnostic::{Diagnostic, Diagnostics, Severity};
+use glisten_front::source::SourceMap;
+use std::path::Path;
+
+/// A program that was compiled, with its texts.
+pub(super) struct Compiled {
+    pub(super) name: String,
+    pub(super) program: Program,
+    pub(super) sources: SourceMap,
+}
+
+/// The programs of a build, and what there is to say about them.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) programs: Vec<Compiled>,
+    /// The names of all, also of those with errors.
+    pub(super) names: Vec<String>,
+    /// All errors, as `glisten lint` prints them.
+    pub(super) errors: String,
+    /// Warnings, a line each.
+    pub(super) warnings: Vec<String>,
+}
+
+impl Found {
+    /// Takes over diagnostics. Returns whether there is no error among them.
+    pub(super) fn hears(&mut self, sources: &SourceMap, diagnostics: &Diagnostics) -> bool {
+        let failed = diagnostics.has_errors();
+        if failed {
+            self.errors.push_str(&human(sources, diagnostics, false));
+        } else {
+            self.warnings.extend(diagnostics.iter().filter_map(|found| warning(sources, found)));
+        }
+        !failed
+    }
+
+    /// Adds a program without errors.
+    pub(super) fn add(&mut self, name: String, program: Program, sources: SourceMap) {
+        self.names.push(name.clone());
+        self.programs.push(Compiled { name, program, sources });
+    }
+}
+
+/// A warning in a line, unless it is about a module of the library.
+fn warning(sources: &SourceMap, found: &Diagnostic) -> Option<String> {
+    let place = sources.location(found.primary.span)?;
+    let file = sources.file(place.file).name();
+    let told = found.severity == Severity::Warning && !is_embedded(file);
+    told.then(|| format!("{file}:{}:{}: {} [{}]", place.line, place.column, found.message, found.code))
+}
+
+/// The name of a shader's file without its extensions: `phong` for `phong.vert` and `phong.vert.glsl`.
+pub(super) fn stem(path: &Path) -> String {
+    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let inner = name.strip_suffix(".glsl").unwrap_or(&name);
+    inner.rsplit_once('.').map_or(inner, |(stem, _)| stem).to_owned()
+}
