@@ -105,7 +105,7 @@ impl Graphics {
         self.sphere(&mut encoder, &view);
         self.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
-        frame.present();
+        self.queue.present(frame);
         Ok(())
     }
 
@@ -146,7 +146,7 @@ impl Graphics {
 }
 
 /// The state of the pipeline that no shader decides.
-fn state() -> lit::PipelineState<'static> {
+fn state() -> lit::PipelineState {
     lit::PipelineState {
         primitive: wgpu::PrimitiveState { cull_mode: Some(wgpu::Face::Back), ..wgpu::PrimitiveState::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
