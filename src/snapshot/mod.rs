@@ -94,7 +94,7 @@ macro_rules! assert_account {
     };
 }
 
-/// Asserts a [`Picture`](crate::Picture) by a [`Criterion`](crate::snapshot::Criterion): `assert_picture!("name", picture, criterion)`.
+/// Asserts a [`Picture`](crate::Picture) by a [`Criterion`]: `assert_picture!("name", picture, criterion)`.
 #[cfg(feature = "snapshot")]
 #[macro_export]
 macro_rules! assert_picture {
