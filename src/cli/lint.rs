@@ -7,7 +7,7 @@ use super::inputs;
 use super::session::{Session, Unit};
 use clap::Args;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::diagnostic::codes::preprocess::{MISSING_VERSION, UNSUPPORTED_VERSION};
+use glisten_front::diagnostic::codes::preprocess::MISSING_VERSION;
 use glisten_front::source::FileId;
 use std::collections::BTreeSet;
 
@@ -65,7 +65,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
 fn pass_over_versions(unit: &mut Unit, found: &BTreeSet<String>) -> usize {
     let sources = &unit.batch.sources;
     let file = |diagnostic: &Diagnostic| sources.file_of(sources.call_site(diagnostic.primary.span));
-    let other = |diagnostic: &&Diagnostic| [&UNSUPPORTED_VERSION, &MISSING_VERSION].contains(&diagnostic.code);
+    let other = |diagnostic: &&Diagnostic| *diagnostic.code == MISSING_VERSION;
     // A text without a version that is not of 1.10 gets one from its engine.
     let is_input = |name: &str| unit.group.inputs.iter().any(|input| input.name == name);
     let has_version = |file: FileId| sources.file(file).text().contains("#version");

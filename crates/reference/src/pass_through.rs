@@ -230,6 +230,7 @@ fn variable(name: &str, ty: TypeId, storage: Storage) -> Global {
         centroid: false,
         invariant: false,
         location: None,
+        component: None,
         index: None,
         binding: None,
         block: None,

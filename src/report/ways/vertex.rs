@@ -250,6 +250,7 @@ fn variable(global: &Global, name: String, storage: Storage) -> Global {
         centroid: false,
         invariant: false,
         location: None,
+        component: None,
         index: None,
         initializer: None,
         value: None,

@@ -64,7 +64,8 @@ pub fn emit_with_sources(
             module = in_width(&module, &info, floats)?;
             info = validate(&module)?;
         }
-        let job = Job { module, info: &info, stage, conventions, sources, slots: &slots };
+        let precise = program.stages.iter().any(|shader| shader.stage == stage && shader.precise);
+        let job = Job { module, info: &info, stage, conventions, sources, slots: &slots, precise };
         targets::write(target, job).map_err(|message| vec![failed(target, &message)])
     };
     let emitted = glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {

@@ -171,7 +171,7 @@ impl Lower<'_> {
             let order = if structure.is_block { member.matrix_layout } else { layout };
             let host = self.host_of(member.ty, order)?;
             let Host { handle, size, align, .. } = *self.host(host);
-            offset = round_up(offset, align);
+            offset = if structure.is_block { member.place.start(offset, align) } else { round_up(offset, align) };
             placed.push(Placed { name: member.name.clone(), handle, offset, size });
             hosts.push(Some(host));
             offset = offset.saturating_add(size);

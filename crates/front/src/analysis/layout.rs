@@ -37,6 +37,8 @@ pub(super) enum LayoutSubject {
     Varying,
     /// A block of such inputs or outputs.
     VaryingBlock,
+    /// A member of such a block.
+    VaryingMember,
     /// A uniform outside of blocks, other than a sampler.
     Uniform,
     /// `gl_FragDepth`.
@@ -59,6 +61,7 @@ impl LayoutSubject {
             Self::GeometryOut => "`out` alone, in a geometry shader",
             Self::Varying => "an input or output between stages",
             Self::VaryingBlock => "an input or output block",
+            Self::VaryingMember => "a member of an input or output block",
             Self::Uniform => "a uniform outside a block",
             Self::FragDepth => "`gl_FragDepth`",
             Self::Other(name) => name,
@@ -70,6 +73,9 @@ impl LayoutSubject {
 #[derive(Clone, Copy, Debug)]
 enum Effect {
     Location,
+    Component,
+    Offset,
+    Align,
     Index,
     Binding,
     OriginUpperLeft,
@@ -96,7 +102,7 @@ struct Row {
 
 use LayoutSubject::{
     FragCoord, FragDepth, FragmentOutput, GeometryIn, GeometryOut, Sampler, Uniform, UniformBlock, UniformDefault,
-    UniformMember, Varying, VaryingBlock, VertexInput,
+    UniformMember, Varying, VaryingBlock, VaryingMember, VertexInput,
 };
 
 const fn row(name: &'static str, effect: Effect, subjects: &'static [LayoutSubject]) -> Row {
@@ -117,6 +123,7 @@ const PACK: Extensions = Extensions::SHADING_LANGUAGE_420PACK;
 const SEPARATE: Extensions = Extensions::SEPARATE_SHADER_OBJECTS;
 const UNIFORM_LOCATION: Extensions = Extensions::EXPLICIT_UNIFORM_LOCATION;
 const COORD: Extensions = Extensions::FRAGMENT_COORD_CONVENTIONS;
+const LAYOUTS: Extensions = Extensions::ENHANCED_LAYOUTS;
 const DEPTH: Extensions = Extensions::CONSERVATIVE_DEPTH;
 const BLOCK_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault];
 const MATRIX_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault, UniformMember];
@@ -124,7 +131,15 @@ const MATRIX_PLACES: &[LayoutSubject] = &[UniformBlock, UniformDefault, UniformM
 static ROWS: &[Row] = &[
     valued(since(330, 300, LOCATION, row("location", Effect::Location, &[VertexInput, FragmentOutput]))),
     valued(since(410, 310, SEPARATE, row("location", Effect::Location, &[Varying]))),
-    valued(since(440, NEVER, Extensions::ENHANCED_LAYOUTS, row("location", Effect::Location, &[VaryingBlock]))),
+    valued(since(
+        440,
+        NEVER,
+        Extensions::ENHANCED_LAYOUTS,
+        row("location", Effect::Location, &[VaryingBlock, VaryingMember]),
+    )),
+    valued(since(440, NEVER, LAYOUTS, row("component", Effect::Component, &[Varying, VaryingMember]))),
+    valued(since(440, NEVER, LAYOUTS, row("offset", Effect::Offset, &[UniformMember]))),
+    valued(since(440, NEVER, LAYOUTS, row("align", Effect::Align, &[UniformBlock, UniformMember]))),
     valued(since(430, 310, UNIFORM_LOCATION, row("location", Effect::Nothing, &[Uniform, Sampler]))),
     valued(since(330, NEVER, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),
     valued(since(420, 310, PACK, row("binding", Effect::Binding, &[Sampler, UniformBlock]))),
@@ -153,9 +168,6 @@ static ROWS: &[Row] = &[
 static LATER: &[(&str, u16)] = &[
     ("stream", 400),
     ("invocations", 400),
-    ("component", 440),
-    ("offset", 420),
-    ("align", 440),
     ("xfb_buffer", 440),
     ("xfb_offset", 440),
     ("xfb_stride", 440),
@@ -170,6 +182,9 @@ static LATER: &[(&str, u16)] = &[
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     pub(super) location: Option<(u32, Span)>,
+    pub(super) component: Option<(u32, Span)>,
+    pub(super) offset: Option<(u32, Span)>,
+    pub(super) align: Option<(u32, Span)>,
     pub(super) index: Option<(u32, Span)>,
     pub(super) binding: Option<(u32, Span)>,
     pub(super) origin_upper_left: bool,
@@ -207,6 +222,11 @@ impl Analyzer<'_> {
             return None;
         };
         if !self.allows_layout(row, spelling, id.name.span) {
+            return None;
+        }
+        if row.name == "component" && matches!(subject, VertexInput | FragmentOutput) {
+            let message = format!("`component` of {} is not supported yet", subject.name());
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, id.name.span, message));
             return None;
         }
         if !row.subjects.contains(&subject) {
@@ -291,6 +311,9 @@ impl Layout {
     fn apply(&mut self, effect: Effect, subject: LayoutSubject, value: u32, span: Span) {
         match effect {
             Effect::Location => self.location = Some((value, span)),
+            Effect::Component => self.component = Some((value, span)),
+            Effect::Offset => self.offset = Some((value, span)),
+            Effect::Align => self.align = Some((value, span)),
             Effect::Index => self.index = Some((value, span)),
             Effect::Binding => self.binding = Some((value, span)),
             Effect::OriginUpperLeft => self.origin_upper_left = true,

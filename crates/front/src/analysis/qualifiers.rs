@@ -205,7 +205,10 @@ impl Analyzer<'_> {
             QualifierKind::Const => self.once(&mut record.constant, span, span, "`const`"),
             QualifierKind::Centroid => self.once(&mut record.centroid, span, span, "`centroid`"),
             QualifierKind::Invariant => self.once(&mut record.invariant, span, span, "`invariant`"),
-            QualifierKind::Precise => self.once(&mut record.precise, span, span, "`precise`"),
+            QualifierKind::Precise => {
+                self.shader.precise = true;
+                self.once(&mut record.precise, span, span, "`precise`");
+            }
             QualifierKind::Highp | QualifierKind::Mediump | QualifierKind::Lowp => {
                 self.once(&mut record.precision, span, span, "a precision qualifier");
             }

@@ -20,8 +20,8 @@ mod value;
 mod visit;
 
 pub use crate::language::{
-    ArraySize, Interpolation, MatrixLayout, Member, ParamMode, SamplerDim, SamplerType, Scalar, Stage, Storage,
-    StructId, StructType, Type, TypeId, Types,
+    ArraySize, Interpolation, MatrixLayout, Member, MemberPlace, ParamMode, SamplerDim, SamplerType, Scalar, Stage,
+    Storage, StructId, StructType, Type, TypeId, Types,
 };
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
 pub use handles::{FunctionId, GlobalId, LocalId};

@@ -50,6 +50,8 @@ pub struct Global {
     pub invariant: bool,
     /// `layout(location = n)` (ARB_explicit_attrib_location).
     pub location: Option<u32>,
+    /// `layout(component = n)` of a varying (GLSL 4.40 §4.4.1).
+    pub component: Option<u32>,
     /// `layout(index = n)` (ARB_explicit_attrib_location).
     pub index: Option<u32>,
     /// `layout(binding = n)` of a sampler (ARB_shading_language_420pack).
@@ -252,6 +254,8 @@ pub struct Shader {
     pub frag_coord: FragCoordLayout,
     /// The redeclared built-in outputs of a vertex or geometry shader.
     pub per_vertex_out: Option<PerVertexOut>,
+    /// Whether anything is declared `precise` (GLSL 4.00 §4.7).
+    pub precise: bool,
     /// The depth of the deepest expression, counted along left operands too. More than a few hundred levels need a
     /// large stack (see [`Shader::on_stack`]).
     pub expr_depth: u32,
@@ -280,6 +284,7 @@ impl Shader {
             geometry: GeometryLayout::default(),
             frag_coord: FragCoordLayout::default(),
             per_vertex_out: None,
+            precise: false,
             expr_depth: 0,
             texts: Vec::new(),
         }

@@ -16,6 +16,7 @@ pub use operators::IncDec;
 pub use section::{EDITIONS, Edition, Section, cite, runs};
 pub use stage::{Interpolation, ParamMode, Stage, Storage};
 pub use types::{
-    ArraySize, MatrixLayout, Member, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId, Types,
+    ArraySize, MatrixLayout, Member, MemberPlace, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId,
+    Types,
 };
 pub use version::{Behavior, Extensions, NEVER, Profile, Since, Version};

@@ -206,6 +206,28 @@ pub enum MatrixLayout {
     RowMajor,
 }
 
+/// The place that the layout of a member of a block asks for (GLSL 4.40 §4.4.1, §4.4.5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct MemberPlace {
+    /// In uniform blocks: `offset = n`, in bytes.
+    pub offset: Option<u32>,
+    /// In uniform blocks: `align = n`, in bytes; 0 if there is none.
+    pub align: u32,
+    /// In `in` and `out` blocks: `location = n`.
+    pub location: Option<u32>,
+    /// In `in` and `out` blocks: `component = n`.
+    pub component: Option<u32>,
+}
+
+impl MemberPlace {
+    /// The offset of a member of a uniform block after one that ends at `end`, for a type with this base alignment:
+    /// its own offset or the end, rounded up to a multiple of the greater alignment (4.40 §4.4.5).
+    pub fn start(self, end: u32, align: u32) -> u32 {
+        let from = self.offset.unwrap_or(end);
+        from.checked_next_multiple_of(align.max(self.align).max(1)).unwrap_or(u32::MAX)
+    }
+}
+
 /// A member of a struct or a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Member {
@@ -223,6 +245,8 @@ pub struct Member {
     pub invariant: bool,
     /// Whether the size of its array follows only from its uses (§4.1.9).
     pub implicitly_sized: bool,
+    /// The place that its layout asks for.
+    pub place: MemberPlace,
     /// The declaration.
     pub span: crate::source::Span,
 }
@@ -238,6 +262,7 @@ impl Member {
             centroid: false,
             invariant: false,
             implicitly_sized: false,
+            place: MemberPlace::default(),
             span,
         }
     }

@@ -4,7 +4,7 @@
 //! *In:* shaders whose structs were declared separately. *Out:* the same shaders, in which structs that are equal
 //! except for their positions have one handle. Everything after the link can then compare handles.
 
-use crate::hir::{Interpolation, MatrixLayout, Shader, StructId, Type, TypeId, Types, Value};
+use crate::hir::{Interpolation, MatrixLayout, MemberPlace, Shader, StructId, Type, TypeId, Types, Value};
 use rustc_hash::FxHashMap;
 
 /// The identity of a struct.
@@ -16,7 +16,7 @@ struct Key {
 }
 
 /// The name, type and qualifiers of a member; the flags say which qualifiers it has.
-type MemberKey = (String, TypeId, MatrixLayout, Option<Interpolation>, [bool; 3]);
+type MemberKey = (String, TypeId, MatrixLayout, Option<Interpolation>, [bool; 3], MemberPlace);
 
 /// Whether other shaders of a stage may still change the size of an array.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -76,7 +76,7 @@ impl Unifier<'_> {
             let ty = self.canonical(member.ty);
             let implicit = member.implicitly_sized && self.sizes == Sizes::Tentative;
             let flags = [member.centroid, member.invariant, implicit];
-            (member.name, ty, member.matrix_layout, member.interpolation, flags)
+            (member.name, ty, member.matrix_layout, member.interpolation, flags, member.place)
         });
         Key { name, is_block, members: members.collect() }
     }

@@ -71,6 +71,7 @@ pub(super) fn compare_members(types: &Types, a: StructId, b: StructId) -> Option
             || a.interpolation != b.interpolation
             || a.centroid != b.centroid
             || a.invariant != b.invariant
+            || a.place != b.place
         {
             return Some(MemberDifference::Qualifiers(a, b));
         }

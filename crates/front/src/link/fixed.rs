@@ -250,6 +250,7 @@ fn global(name: &str, ty: TypeId, storage: Storage) -> Global {
         centroid: false,
         invariant: false,
         location: None,
+        component: None,
         index: None,
         binding: None,
         block: None,

@@ -79,7 +79,7 @@ pub(super) fn struct_members(types: &Types, id: StructId, inherited: MatrixLayou
     for member in &structure.members {
         let layout = if structure.is_block { member.matrix_layout } else { inherited };
         let Extent { align, size } = extent(types, member.ty, layout);
-        let offset = round_up(end, align);
+        let offset = if structure.is_block { member.place.start(end, align) } else { round_up(end, align) };
         end = offset.saturating_add(size);
         // The member after an array or a struct is aligned to that one's alignment (rules 4 and 9).
         if matches!(types.get(member.ty), Type::Array(..) | Type::Struct(_)) {
@@ -117,7 +117,7 @@ pub(super) fn byte_offset(types: &Types, ty: TypeId, flat_offset: u32, layout: M
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hir::{Member, Scalar, StructType};
+    use crate::hir::{Member, MemberPlace, Scalar, StructType};
     use crate::source::Span;
 
     fn member(name: &str, ty: TypeId) -> Member {
@@ -129,6 +129,7 @@ mod tests {
             centroid: false,
             invariant: false,
             implicitly_sized: false,
+            place: MemberPlace::default(),
             span: Span::default(),
         }
     }

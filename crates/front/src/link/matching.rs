@@ -21,7 +21,7 @@ fn is_interface(global: &Global, storage: Storage) -> bool {
 pub(super) struct Outputs<'a> {
     producer: &'a Shader,
     by_name: FxHashMap<(&'a str, bool), GlobalId>,
-    by_location: FxHashMap<(u32, bool), GlobalId>,
+    by_location: FxHashMap<(u32, u32, bool), GlobalId>,
 }
 
 impl<'a> Outputs<'a> {
@@ -32,7 +32,7 @@ impl<'a> Outputs<'a> {
             let is_block = output.block.is_some();
             by_name.entry((output.match_name(), is_block)).or_insert(id);
             if let Some(location) = output.location {
-                by_location.entry((location, is_block)).or_insert(id);
+                by_location.entry((location, output.component.unwrap_or(0), is_block)).or_insert(id);
             }
         }
         Self { producer, by_name, by_location }
@@ -42,7 +42,7 @@ impl<'a> Outputs<'a> {
     /// and kind.
     pub(super) fn partner(&self, input: &Global) -> Option<(GlobalId, &'a Global)> {
         let is_block = input.block.is_some();
-        let by_location = || self.by_location.get(&(input.location?, is_block));
+        let by_location = || self.by_location.get(&(input.location?, input.component.unwrap_or(0), is_block));
         let id = *by_location().or_else(|| self.by_name.get(&(input.match_name(), is_block)))?;
         Some((id, self.producer.global(id)))
     }

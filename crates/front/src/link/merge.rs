@@ -118,6 +118,7 @@ impl Merge<'_> {
         }
         self.all.per_vertex_out = self.all.per_vertex_out.take().or(next.per_vertex_out);
         self.all.texts.extend(next.texts);
+        self.all.precise |= next.precise;
         self.all.expr_depth = self.all.expr_depth.max(next.expr_depth);
         self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));
         self.unite_layouts(next.geometry, next.frag_coord);
@@ -332,7 +333,8 @@ fn blocks_agree(types: &Types, a: TypeId, b: TypeId) -> bool {
 }
 
 fn members_agree(types: &Types, a: &Member, b: &Member) -> bool {
-    let qualifiers = |member: &Member| (member.interpolation, member.centroid, member.invariant, member.matrix_layout);
+    let qualifiers =
+        |member: &Member| (member.interpolation, member.centroid, member.invariant, member.matrix_layout, member.place);
     let sizes = (ArrayExtent::new(types, a.ty, a.implicitly_sized), ArrayExtent::new(types, b.ty, b.implicitly_sized));
     let same_type = match sizes {
         (Some(a), Some(b)) => a.element == b.element && a.fits(b),

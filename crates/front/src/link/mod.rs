@@ -30,6 +30,7 @@
 mod aliasing;
 mod attributes;
 mod bindings;
+mod block_places;
 mod canonical;
 mod clip_distances;
 mod compatible;

@@ -360,6 +360,7 @@ fn place_blocks(ctx: &mut Linker<'_>, blocks: &[&Shared<'_>], interface: &mut In
             Some(ArraySize::Sized(size)) => Some(size),
             _ => None,
         };
+        super::block_places::check(ctx, id);
         let members = struct_members(types, id, MatrixLayout::ColumnMajor);
         let size = round_up(members.last().map_or(0, |member| member.end), 16);
         let elements = array_size.unwrap_or(1);

@@ -114,8 +114,8 @@ fn fits(ctx: &mut Linker<'_>, whole: &Whole<'_>) -> bool {
 /// A scalar or vector without a location.
 struct Piece {
     varying: Varying,
-    /// The explicit location, if there is one.
-    fixed: Option<u32>,
+    /// The explicit location and component, if there are.
+    fixed: Option<(u32, u32)>,
     scalar: Scalar,
     size: u8,
     span: Span,
@@ -123,10 +123,11 @@ struct Piece {
 
 fn cut(types: &Types, whole: &Whole<'_>, pieces: &mut Vec<Piece>) {
     let Some(global) = whole.decisive() else { return };
-    let explicit =
-        whole.to.and_then(|(_, input)| input.location).or(whole.from.and_then(|(_, output)| output.location));
+    let place = |global: &Global| Some((global.location?, global.component.unwrap_or(0)));
+    let explicit = whole.to.and_then(|(_, input)| place(input)).or(whole.from.and_then(|(_, output)| place(output)));
     let mut fixed = explicit;
     for member in members(types, global) {
+        fixed = member.place.or(fixed);
         for part in parts(types, &member.name, member.ty, MatrixLayout::ColumnMajor) {
             for (name, ty, offset) in vectors(types, &part.name, part.ty) {
                 let Some(scalar) = types.scalar_of(ty) else { continue };
@@ -145,7 +146,7 @@ fn cut(types: &Types, whole: &Whole<'_>, pieces: &mut Vec<Piece>) {
                 };
                 let size = types.flat_len(ty) as u8;
                 pieces.push(Piece { varying, fixed, scalar, size, span: global.span });
-                fixed = fixed.map(|location| location.saturating_add(1));
+                fixed = fixed.map(|(location, component)| (location.saturating_add(1), component));
             }
         }
     }
@@ -157,6 +158,8 @@ struct QualifiedMember {
     flat_offset: u32,
     interpolation: Interpolation,
     centroid: bool,
+    /// The member's own location and component.
+    place: Option<(u32, u32)>,
 }
 
 /// The variable itself, or the members of a block (of each element of an array of blocks), each with its own
@@ -170,6 +173,7 @@ fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
             flat_offset: 0,
             interpolation: *interpolation,
             centroid: *centroid,
+            place: None,
         }];
     };
     let (element, count) = match types.get(global.ty) {
@@ -192,6 +196,7 @@ fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
                 flat_offset,
                 interpolation: member.interpolation.unwrap_or(global.interpolation),
                 centroid: member.centroid || global.centroid,
+                place: member.place.location.map(|location| (location, member.place.component.unwrap_or(0))),
             });
             flat_offset += types.flat_len(member.ty);
         }
@@ -238,9 +243,11 @@ fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'
     let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
     let mut placed = Vec::new();
     for piece in fixed {
-        match room.put_at(&piece, piece.fixed.unwrap_or(0)) {
-            Some(location) => placed.push(at(piece, location, 0)),
-            None => no_room(ctx, &piece),
+        let (location, component) = piece.fixed.unwrap_or_default();
+        match room.put_at(&piece, location, component) {
+            Ok(()) => placed.push(at(piece, location, component)),
+            Err(Taken::Beyond) => no_room(ctx, &piece),
+            Err(Taken::Shared) => overlap(ctx, &piece, &placed),
         }
     }
     if room.shared {
@@ -270,6 +277,24 @@ fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'
     (placed, clip_distances.unwrap_or_default())
 }
 
+/// Reports an explicit location that another varying has, at least in part, or whose other varyings differ in kind: "the
+/// same underlying numerical type, the same interpolation" (4.40 §4.4.1).
+fn overlap(ctx: &mut Linker<'_>, piece: &Piece, placed: &[Varying]) {
+    let (location, component) = piece.fixed.unwrap_or_default();
+    let name = &piece.varying.name;
+    let other = placed.iter().find(|other| other.location == location);
+    let message = match other {
+        Some(other) => format!("`{name}` and `{}` cannot share location {location}", other.name),
+        None => format!("`{name}` cannot have location {location}"),
+    };
+    let here = format!("from component {component} on, as another of equal kind could");
+    ctx.report(
+        Diagnostic::new(&codes::link::VARYING_OVERLAP, piece.span, message)
+            .here(here)
+            .help("give it another `location`, or both a `component` that the other leaves free"),
+    );
+}
+
 fn at(piece: Piece, location: u32, component: u32) -> Varying {
     Varying { location, component, ..piece.varying }
 }
@@ -284,6 +309,8 @@ fn no_room(ctx: &mut Linker<'_>, piece: &Piece) {
 #[derive(Clone, Copy, Default)]
 struct LocationContents {
     used: u8,
+    /// A bit for each component that has an explicit place.
+    taken: u8,
     kind: Option<(Scalar, Interpolation, bool)>,
 }
 
@@ -302,6 +329,14 @@ fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
     (piece.scalar, piece.varying.interpolation, piece.varying.centroid)
 }
 
+/// Why an explicit place cannot be had.
+enum Taken {
+    /// There are fewer locations.
+    Beyond,
+    /// Another varying has it.
+    Shared,
+}
+
 /// The locations of varyings, and whether several varyings of one kind share a location.
 struct Room {
     slots: Locations<LocationContents>,
@@ -313,10 +348,17 @@ impl Room {
         Self { slots: Locations::new(MAX_LOCATIONS), shared }
     }
 
-    /// Takes the whole of an explicit location.
-    fn put_at(&mut self, piece: &Piece, location: u32) -> Option<u32> {
-        self.slots.run_mut(location, 1)?.iter_mut().for_each(|slot| slot.fill(piece, 4));
-        Some(location)
+    /// Takes components of an explicit location. No other varying is put there by itself.
+    fn put_at(&mut self, piece: &Piece, location: u32, component: u32) -> Result<(), Taken> {
+        let slot = self.slots.run_mut(location, 1).and_then(|slots| slots.first_mut()).ok_or(Taken::Beyond)?;
+        let bits = ((1u32 << piece.size.min(4)) - 1).checked_shl(component).unwrap_or(u32::MAX);
+        let bits = u8::try_from(bits).ok().filter(|bits| *bits < 16).ok_or(Taken::Shared)?;
+        if slot.taken & bits != 0 || slot.kind.is_some_and(|known| known != kind(piece)) {
+            return Err(Taken::Shared);
+        }
+        slot.taken |= bits;
+        slot.fill(piece, 4);
+        Ok(())
     }
 
     /// Finds a location and its first free component, if `keep` consecutive locations stay free.

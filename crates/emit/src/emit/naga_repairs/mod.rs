@@ -5,12 +5,14 @@
 //!
 //! | file | superfluous once |
 //! | --- | --- |
+//! | `contraction` | naga has a word for `precise` |
 //! | `inline` | naga's text writers name only the loads that need a name |
 //! | `names` | naga's namer follows the scopes of WGSL |
 //! | `nesting` | naga's validator and writers limit how deep they recurse |
 //! | `hlsl` | naga writes HLSL for hosts without wgpu's root signature |
 //! | `lines` | naga's SPIR-V writer accepts several source files |
 
+pub(super) mod contraction;
 pub(super) mod hlsl;
 pub(super) mod inline;
 pub(super) mod lines;

@@ -27,6 +27,8 @@ pub(super) struct Job<'a> {
     pub(super) conventions: &'a Conventions,
     pub(super) sources: Option<&'a SourceMap>,
     pub(super) slots: &'a Slots,
+    /// Whether the stage declares anything `precise`.
+    pub(super) precise: bool,
 }
 
 /// Writes a module for a target.

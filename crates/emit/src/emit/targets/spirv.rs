@@ -2,6 +2,7 @@
 
 use super::{Job, policies};
 use crate::emit::messages::chain;
+use crate::emit::naga_repairs::contraction::forbidden;
 use crate::emit::naga_repairs::lines::SourceLines;
 use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
@@ -44,10 +45,11 @@ pub(super) fn write(job: &Job<'_>) -> Result<Vec<u32>, String> {
         ..spv::Options::default()
     };
     let words = spv::write_vec(module, info, &options, None).map_err(|error| chain(&error))?;
-    Ok(match lines {
+    let words = match lines {
         Some(lines) => lines.restored(&words),
         None => words,
-    })
+    };
+    Ok(if job.precise { forbidden(words) } else { words })
 }
 
 /// Gives every resource the binding that link has assigned.

@@ -10,7 +10,8 @@ use super::structure::MemberList;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{
-    ArraySize, BlockInfo, GlobalId, Interpolation, MatrixLayout, Member, Scalar, Stage, Storage, Type, TypeId, VarRef,
+    ArraySize, BlockInfo, BlockLayout, GlobalId, Interpolation, MatrixLayout, Member, MemberPlace, Scalar, Stage,
+    Storage, Type, TypeId, VarRef,
 };
 use crate::language::Feature;
 use crate::source::Span;
@@ -22,6 +23,9 @@ struct BlockContext {
     word: StorageWord,
     word_span: Span,
     matrix: MatrixLayout,
+    layout: BlockLayout,
+    /// `align` before the block, which holds for each member.
+    align: Option<u32>,
 }
 
 impl Analyzer<'_> {
@@ -58,7 +62,22 @@ impl Analyzer<'_> {
             self.enter_block_name(block.name, storage);
         }
         let matrix = layout.matrix.unwrap_or(self.layouts.block_defaults.matrix);
-        let members = self.block_members(block, &BlockContext { storage, word, word_span, matrix });
+        let mut context = BlockContext {
+            storage,
+            word,
+            word_span,
+            matrix,
+            layout: layout.block.unwrap_or(self.layouts.block_defaults.layout),
+            align: None,
+        };
+        if let Some((value, span)) = layout.align
+            && self.is_std140(&context, "align", span)
+            && self.is_alignment(value, span)
+        {
+            context.align = Some(value);
+        }
+        let members = self.block_members(block, &context);
+        self.check_member_locations(block, &members, layout.location.is_some());
         if members.is_empty() {
             self.report(
                 Diagnostic::new(&qualifiers::BLOCK, block.name.span, "a block must have a member").here("empty"),
@@ -114,7 +133,7 @@ impl Analyzer<'_> {
             let subject = if context.storage == Storage::Uniform {
                 LayoutSubject::UniformMember
             } else {
-                LayoutSubject::Other("a member of an input or output block")
+                LayoutSubject::VaryingMember
             };
             let layout = self.layout(&record, subject);
             let base = self.block_member_base(row);
@@ -125,7 +144,8 @@ impl Analyzer<'_> {
                 let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
                 self.require_size(ty, declarator.name.span);
                 let matrix = layout.matrix.unwrap_or(context.matrix);
-                let member = self.block_member(declarator, ty, &record, matrix, context.storage);
+                let place = self.member_place(&layout, context);
+                let member = self.block_member(declarator, ty, &record, (matrix, place), context.storage);
                 self.add_member(&mut members, declarator.name, member);
             }
         }
@@ -204,12 +224,53 @@ impl Analyzer<'_> {
         ty
     }
 
+    /// The place that the layout of a member asks for (4.40 §4.4.1, §4.4.5).
+    fn member_place(&mut self, layout: &Layout, context: &BlockContext) -> MemberPlace {
+        let offset = layout.offset.filter(|(_, span)| self.is_std140(context, "offset", *span));
+        let align = layout.align.filter(|(_, span)| self.is_std140(context, "align", *span));
+        let align = align.filter(|(value, span)| self.is_alignment(*value, *span)).map(|(value, _)| value);
+        MemberPlace {
+            offset: offset.map(|(value, _)| value),
+            align: align.or(context.align).unwrap_or(0),
+            location: layout.location.map(|(value, _)| value),
+            component: layout.component.map(|(value, _)| value),
+        }
+    }
+
+    /// Whether a block may have offsets and alignments: those of the other layouts are the implementation's.
+    fn is_std140(&mut self, context: &BlockContext, what: &str, span: Span) -> bool {
+        let is_std140 = context.layout == BlockLayout::Std140;
+        if !is_std140 {
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::LAYOUT_PLACE,
+                    span,
+                    format!("`{what}` needs a block of the layout `std140`"),
+                )
+                .here("the block has another layout")
+                .help("write `layout(std140)` before the block"),
+            );
+        }
+        is_std140
+    }
+
+    /// Whether an alignment is a power of two; if not, that is reported.
+    fn is_alignment(&mut self, value: u32, span: Span) -> bool {
+        if !value.is_power_of_two() {
+            self.report(
+                Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, format!("`align = {value}` is not a power of two"))
+                    .here("an alignment in bytes: 1, 2, 4, 8 and so on"),
+            );
+        }
+        value.is_power_of_two()
+    }
+
     fn block_member(
         &self,
         declarator: &Declarator,
         ty: TypeId,
         record: &Qualifiers,
-        matrix_layout: MatrixLayout,
+        (matrix_layout, place): (MatrixLayout, MemberPlace),
         storage: Storage,
     ) -> Member {
         let invariant_all = self.ast.invariant_all.is_some() && storage == Storage::Out;
@@ -221,8 +282,23 @@ impl Analyzer<'_> {
             centroid: record.centroid.is_some(),
             invariant: record.invariant.is_some() || invariant_all,
             implicitly_sized: false,
+            place,
             span: declarator.name.span,
         }
+    }
+
+    /// "If a block has no location, either all or none of its members have one" (4.40 §4.4.1).
+    fn check_member_locations(&mut self, block: &BlockDecl, members: &MemberList, has_location: bool) {
+        let located = members.list().iter().filter(|member| member.place.location.is_some()).count();
+        if has_location || located == 0 || located == members.list().len() {
+            return;
+        }
+        let message = "some members of this block have a location, and some have none";
+        self.report(
+            Diagnostic::new(&qualifiers::LAYOUT_VALUE, block.name.span, message)
+                .here("without a location of its own")
+                .help("give the block a location, or each member"),
+        );
     }
 
     /// Adds the block as a global, and enters its members or its instance.

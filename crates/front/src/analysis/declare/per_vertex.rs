@@ -173,6 +173,7 @@ impl Analyzer<'_> {
             centroid: false,
             invariant,
             implicitly_sized: false,
+            place: crate::hir::MemberPlace::default(),
             span,
         })
     }

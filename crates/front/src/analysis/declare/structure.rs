@@ -20,6 +20,11 @@ pub(super) struct MemberList {
 }
 
 impl MemberList {
+    /// The members, in order.
+    pub(super) fn list(&self) -> &[Member] {
+        &self.members
+    }
+
     /// Whether there are none.
     pub(super) fn is_empty(&self) -> bool {
         self.members.is_empty()

@@ -114,6 +114,7 @@ impl Analyzer<'_> {
         let named_well = self.check_name(name) && self.check_block_name(name);
         let layout = self.layout(record, self.layout_subject(storage, ty));
         self.check_index_location(&layout);
+        self.check_component(&layout, ty);
         let ty = self.check_global_type(ty, storage, record, ty_span, name.span);
         let fits = self.check_global_size(ty, storage, false, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
@@ -167,6 +168,7 @@ impl Analyzer<'_> {
             centroid: record.centroid.is_some(),
             invariant: record.invariant.is_some() || invariant_all,
             location: layout.location.map(|(value, _)| value),
+            component: layout.component.map(|(value, _)| value),
             index: layout.index.map(|(value, _)| value),
             binding: layout.binding.map(|(value, _)| value),
             block: None,
@@ -183,6 +185,28 @@ impl Analyzer<'_> {
     pub(super) fn add_global(&mut self, global: Global) -> GlobalId {
         self.shader.globals.push(global);
         GlobalId::new(self.shader.globals.len() - 1)
+    }
+
+    /// Reports a component without a location, or one from which the type does not fit into a location (4.40 §4.4.1).
+    pub(super) fn check_component(&mut self, layout: &Layout, ty: TypeId) {
+        let Some((component, span)) = layout.component else { return };
+        let size = match self.types.get(self.element_of(ty)) {
+            Type::Scalar(_) => 1,
+            Type::Vector(_, size) => u32::from(size),
+            Type::Error => return,
+            _ => 5,
+        };
+        let problem = if layout.location.is_none() {
+            "`component` needs a `location`".to_owned()
+        } else if component.saturating_add(size) > 4 {
+            format!("a `{}` does not fit into a location from component {component} on", self.type_name(ty))
+        } else {
+            return;
+        };
+        self.report(
+            Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, problem)
+                .here("a location has the components 0 to 3, for scalars and vectors"),
+        );
     }
 
     /// Reports an index without a location, which means nothing, and one that is neither 0 nor 1

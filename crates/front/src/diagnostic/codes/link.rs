@@ -116,6 +116,13 @@ codes! {
         "There are eight color numbers, from 0 to 7. An array of outputs takes one for each element."
         bad Fragment("out vec4 a[6]; out vec4 b[3]; void main() { a[0] = b[0] = vec4(1.0); }"),
         good Fragment("out vec4 a[6]; out vec4 b[2]; void main() { a[0] = b[0] = vec4(1.0); }");
+    VARYING_OVERLAP = "E0731" "varying-overlap" Error "GLSL 4.40 §4.4.1"
+        "Each component of a location between two stages belongs to one varying. Several varyings share a location if each \
+         has a `component` of its own, and all have the same type of numbers and the same interpolation."
+        bad Vertex("#version 440\nlayout(location = 0) out vec2 a; layout(location = 0) out vec2 b; \
+            void main() { a = b = vec2(0.0); gl_Position = vec4(0.0); }"),
+        good Vertex("#version 440\nlayout(location = 0) out vec2 a; layout(location = 0, component = 2) out vec2 b; \
+            void main() { a = b = vec2(0.0); gl_Position = vec4(0.0); }");
     TOO_MANY_VARYINGS = "E0715" "too-many-varyings" Error "GLSL 1.50 §7.4"
         "The varyings take more than 32 locations of four components, even when scalars and vectors share \
          locations. No target has more."

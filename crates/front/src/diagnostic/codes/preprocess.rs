@@ -75,9 +75,6 @@ codes! {
     UNKNOWN_VERSION = "E0121" "unknown-version" Error "GLSL 1.50 §3.3"
         "The `#version` line names a version that does not exist, or a profile that the version does not have."
         bad Vertex("#version 155\nvoid main() {}"), good Vertex("#version 150\nvoid main() {}");
-    UNSUPPORTED_VERSION = "E0122" "unsupported-version" Error "GLSL 1.50 §3.3"
-        "The version exists, but glisten does not support it yet. It reads 1.10 to 4.60, and 1.00, 3.00 and 3.10 of OpenGL ES."
-        bad Vertex("#version 320 es\nvoid main() {}"), good Vertex("#version 310 es\nvoid main() {}");
     LATE_VERSION = "E0123" "late-version" Error "GLSL 1.50 §3.3"
         "`#version` must come before everything but comments and white space, and may occur only once."
         bad Vertex("float a;\n#version 150\nvoid main() {}"), good Vertex("// A shader\n#version 150\nvoid main() {}");

@@ -17,16 +17,14 @@ struct Edition {
     es: bool,
     /// Whether it has profiles.
     profiles: bool,
-    /// Whether glisten reads it.
-    supported: bool,
 }
 
 const fn desktop(number: u16) -> Edition {
-    Edition { number, es: false, profiles: number >= 150, supported: true }
+    Edition { number, es: false, profiles: number >= 150 }
 }
 
 const fn es(number: u16) -> Edition {
-    Edition { number, es: true, profiles: false, supported: number <= 310 }
+    Edition { number, es: true, profiles: false }
 }
 
 /// All versions.
@@ -150,16 +148,7 @@ impl Preprocessor<'_> {
         };
         version.profile = wanted;
         self.version = version;
-        if edition.supported {
-            return self.apply_version(session);
-        }
-        let message = format!("{} is not supported yet", version.name());
-        let diagnostic = Diagnostic::new(&codes::UNSUPPORTED_VERSION, number, message)
-            .here("glisten reads 1.10 to 4.60, and 1.00 to 3.10 of ES")
-            .help("write `#version 310 es`");
-        session.report(diagnostic);
-        self.outcome.supported = false;
-        self.stop();
+        self.apply_version(session);
     }
 
     /// Sets the keywords and macros of the version.

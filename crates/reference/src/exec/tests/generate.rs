@@ -145,6 +145,7 @@ impl Generator<'_, '_> {
             centroid: false,
             invariant: false,
             location: None,
+            component: None,
             index: None,
             binding: None,
             block: None,
