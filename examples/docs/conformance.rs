@@ -35,6 +35,7 @@ pub(crate) fn conformance() -> Result<String, String> {
     features(&fixtures, &mut text);
     built_ins(&mut text);
     not_covered(&mut text);
+    super::numbers::numbers(&mut text)?;
     Ok(text.trim_end().to_owned())
 }
 

@@ -11,6 +11,7 @@
 
 mod conformance;
 mod maker;
+mod numbers;
 mod numerics;
 mod regions;
 mod sections;

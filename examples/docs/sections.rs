@@ -21,6 +21,12 @@ pub(crate) static OWN_CODES: &[(&str, &str)] = &[
     ("a swizzle of a scalar", "E0306"),
     ("the length of a vector", "E0416"),
     ("a converted `return` value", "W0501"),
+    ("one name space for functions and variables", "E0302"),
+    ("prototypes at global scope alone", "E0511"),
+    ("one scope for parameters and body", "E0302"),
+    ("no comma in a constant expression", "E0408"),
+    ("an input that the stage before does not write", "E0702"),
+    ("the pragma `invariant(all)` in a fragment shader", "E0616"),
 ];
 
 macro_rules! sections {

@@ -6,7 +6,7 @@ use super::exit::{Exit, Failure, Outcome};
 use clap::Args;
 use glisten_front::diagnostic::{Code, Example, codes};
 use glisten_front::hir::Stage;
-use glisten_front::language::{Edition, runs};
+use glisten_front::language::{EDITIONS, Edition, runs};
 
 /// Show what a diagnostic means, with a bad and a good example
 #[derive(Args, Debug)]
@@ -62,11 +62,16 @@ fn versions(code: &Code) -> String {
     }
     let mut text = format!("Versions: {}\n", code.versions().map(span).collect::<Vec<_>>().join(", "));
     let cited = code.section.split_once('§').map_or("", |(_, rest)| rest);
-    let in_force = |edition: Edition| code.is_in_force(edition);
-    let others = runs(code.section).into_iter().filter(|(first, last, places)| {
-        places.trim_start_matches('§') != cited && (in_force(*first) || in_force(*last))
-    });
-    let others: Vec<String> = others.map(|(first, last, places)| format!("{} {places}", span((first, last)))).collect();
+    let others: Vec<String> = runs(code.section)
+        .into_iter()
+        .filter(|(_, _, places)| places.trim_start_matches('§') != cited)
+        .filter_map(|(first, last, places)| {
+            let within = |edition: &&Edition| first <= **edition && **edition <= last && code.is_in_force(**edition);
+            let mut known = EDITIONS.iter().filter(within);
+            let first = *known.next()?;
+            Some(format!("{} {places}", span((first, *known.next_back().unwrap_or(&first)))))
+        })
+        .collect();
     if !others.is_empty() {
         text.push_str(&format!("In other versions: {}\n", others.join("; ")));
     }

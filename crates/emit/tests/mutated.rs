@@ -237,15 +237,21 @@ fn apply(tokens: &mut Vec<String>, change: &Change) {
     }
 }
 
-/// Compiles a text, and writes what is accepted for two targets.
-fn take(text: &str, stage: Stage) -> Result<(), String> {
-    let source = Source { name: "mutated".into(), text: text.into(), stage };
-    let compilation = Compiler::new(Options::default()).compile(&[source]);
+/// Compiles the stages of a program, and writes what is accepted for two targets.
+fn take(shaders: &[(Stage, String)]) -> Result<(), String> {
+    let source = |(stage, text): &(Stage, String)| Source {
+        name: format!("mutated.{}", stage.name()),
+        text: text.as_str().into(),
+        stage: *stage,
+    };
+    let sources: Vec<Source> = shaders.iter().map(source).collect();
+    let compilation = Compiler::new(Options::default()).compile(&sources);
     let mut codes: Vec<(&str, String)> =
         compilation.diagnostics.iter().map(|finding| (finding.code.id, finding.message.clone())).collect();
     if let Some(program) = &compilation.program {
         codes.extend(lint::check(program).iter().map(|finding| (finding.code.id, finding.message.clone())));
-        for target in [Target::Wgsl, Target::Spirv] {
+        let targets = [Target::Wgsl, Target::Spirv, Target::Glsl];
+        for (stage, target) in shaders.iter().flat_map(|(stage, _)| targets.map(|target| (*stage, target))) {
             let errors = emit(program, stage, target, &Conventions::default()).err().unwrap_or_default();
             codes.extend(errors.iter().map(|finding| (finding.code.id, finding.message.clone())));
         }
@@ -272,14 +278,19 @@ proptest! {
     fn mixed_up_sources_are_taken(
         chosen in any::<prop::sample::Index>(),
         changes in prop::collection::vec(change(), 1..8),
+        partner in prop::option::of(any::<prop::sample::Index>()),
     ) {
         let fixture = &FIXTURES[chosen.index(FIXTURES.len())];
         let mut tokens = fixture.tokens.clone();
         changes.iter().for_each(|change| apply(&mut tokens, change));
-        let (text, stage) = (tokens.concat(), fixture.stage);
+        let mut shaders = vec![(fixture.stage, tokens.concat())];
+        let partner = partner.map(|partner| &FIXTURES[partner.index(FIXTURES.len())]);
+        if let Some(partner) = partner.filter(|partner| partner.stage != fixture.stage) {
+            shaders.push((partner.stage, partner.tokens.concat()));
+        }
         let begun = Instant::now();
-        let shown = text.clone();
-        let run = std::thread::Builder::new().stack_size(STACK).spawn(move || take(&text, stage));
+        let shown: String = shaders.iter().map(|(stage, text)| format!("--- {}\n{text}\n", stage.name())).collect();
+        let run = std::thread::Builder::new().stack_size(STACK).spawn(move || take(&shaders));
         let result = run.expect("a thread").join();
         prop_assert!(begun.elapsed() < LIMIT, "{:?} for\n{shown}", begun.elapsed());
         match result {

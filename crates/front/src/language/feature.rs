@@ -138,11 +138,11 @@ features! {
     /// Inputs of fragment shaders may be invariant, as the outputs that feed them.
     InvariantInputs "an invariant input" since(120, 100), Since::new(NEVER, 300), NONE, "§4.6.1";
     /// Functions share the name space of variables; in 1.10 they have their own.
-    SharedNames "a function with the name of a variable" since(120, 100), STAYS, NONE, "§4.2";
+    SharedNames "one name space for functions and variables" since(120, 100), STAYS, NONE, "§4.2";
     /// Functions are declared at global scope alone.
-    GlobalPrototypes "the rule for the place of a prototype" since(120, 100), STAYS, NONE, "§4.2";
+    GlobalPrototypes "prototypes at global scope alone" since(120, 100), STAYS, NONE, "§4.2";
     /// The parameters and the body of a function are one scope.
-    ParameterScope "the scope of parameters" since(430, 300), STAYS, NONE, "§4.2";
+    ParameterScope "one scope for parameters and body" since(430, 300), STAYS, NONE, "§4.2";
     /// A prototype that repeats another.
     RepeatedPrototypes "a second prototype" since(110, 300), STAYS, NONE, "§4.2";
     /// A function with the name of a built-in one, but other parameters.
@@ -152,7 +152,7 @@ features! {
     /// Structs that contain arrays are assigned, compared and returned.
     ArraysInValues "a struct with an array as a value" since(110, 300), STAYS, NONE, "§5.8";
     /// The comma makes no constant expression: "the sequence operator ( , ) .. [is] not included".
-    VariableSequences "the rule for a comma in a constant expression" since(430, 300), STAYS, NONE, "§4.3.3";
+    VariableSequences "no comma in a constant expression" since(430, 300), STAYS, NONE, "§4.3.3";
     /// `float a[];`
     UnsizedArrays "an array without a size" since(110, NEVER), STAYS, NONE, "§4.1.9";
     /// Indices of outputs that are arrays.

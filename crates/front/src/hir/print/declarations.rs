@@ -41,10 +41,31 @@ impl Printer<'_> {
         if number < 430 && self.shader.globals.iter().map(|global| global.ty).chain(locals).any(nests) {
             needed.extend(Extensions::ARRAYS_OF_ARRAYS.name());
         }
+        if number < 440 && self.has_places() {
+            needed.extend(Extensions::ENHANCED_LAYOUTS.name());
+        }
         for name in needed {
             self.line(&format!("#extension {name} : require"));
         }
         self.geometry_layout();
+    }
+
+    /// Whether a member of a uniform block has an offset or an alignment of its own, or a varying a component.
+    fn has_places(&self) -> bool {
+        let block = |global: &Global| {
+            let element = match self.types.get(global.ty) {
+                Type::Array(element, _) => element,
+                _ => global.ty,
+            };
+            let Type::Struct(id) = self.types.get(element) else { return false };
+            let members = &self.types.structure(id).members;
+            global.block.is_some()
+                && members.iter().any(|member| member.place.offset.is_some() || member.place.align > 0)
+        };
+        self.shader
+            .globals
+            .iter()
+            .any(|global| (global.component.is_some() && global.location.is_some()) || block(global))
     }
 
     /// The extensions that bring the functions which are called and are not in a desktop version.
@@ -197,7 +218,13 @@ impl Printer<'_> {
     }
 
     fn variable(&mut self, id: GlobalId, global: &Global) {
-        let layout = [("location", global.location), ("index", global.index), ("binding", global.binding)];
+        let component = global.component.filter(|_| global.location.is_some());
+        let layout = [
+            ("location", global.location),
+            ("component", component),
+            ("index", global.index),
+            ("binding", global.binding),
+        ];
         let layout: Vec<String> =
             layout.into_iter().filter_map(|(word, value)| Some(format!("{word} = {}", value?))).collect();
         let layout = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
@@ -280,8 +307,14 @@ impl Printer<'_> {
 }
 
 fn member_qualifiers(member: &Member, storage: &str) -> String {
-    let row_major = storage == "uniform " && member.matrix_layout == MatrixLayout::RowMajor;
-    let order = if row_major { "layout(row_major) " } else { "" };
+    let uniform = storage == "uniform ";
+    let row_major = uniform && member.matrix_layout == MatrixLayout::RowMajor;
+    let mut layout: Vec<String> = row_major.then(|| "row_major".to_owned()).into_iter().collect();
+    if uniform {
+        layout.extend(member.place.offset.map(|offset| format!("offset = {offset}")));
+        layout.extend((member.place.align > 0).then(|| format!("align = {}", member.place.align)));
+    }
+    let order = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
     let interpolation = member.interpolation.map_or(String::new(), |word| format!("{} ", word.name()));
     // `centroid` precedes a storage qualifier, which in a block can only be that of the block.
     let centroid = if member.centroid { format!("centroid {storage}") } else { String::new() };

@@ -95,6 +95,10 @@ fn of_global(types: &Types, shader: &Shader, global: &Global) -> Option<(String,
         Type::Struct(id) if global.block.is_some() => types.structure(id).members.as_slice(),
         _ => &[],
     };
+    let placed = |member: &Member| member.place.offset.is_some() || member.place.align > 0;
+    if global.storage == Storage::Uniform && members.iter().any(placed) {
+        return Some(("`offset` and `align` in a block".into(), "fill the gaps with members"));
+    }
     let noperspective = |member: &Member| member.interpolation == Some(Interpolation::Noperspective);
     if between && (global.interpolation == Interpolation::Noperspective || members.iter().any(noperspective)) {
         return Some((
