@@ -26,7 +26,6 @@ mod fixed_function;
 mod fullscreen;
 mod gallery;
 mod guard;
-mod includes;
 mod inputs;
 mod interrupt;
 mod library;
