@@ -26,6 +26,7 @@ pub(super) struct Name {
     /// Its digest.
     pub(super) digest: Digest,
     /// The number of its bytes, where it is known.
+    #[cfg_attr(not(feature = "remote"), expect(dead_code, reason = "only gRPC asks for it"))]
     pub(super) bytes: Option<usize>,
 }
 
