@@ -153,6 +153,8 @@ fn write(stage: Stage, text: &str, folder: &Path) -> Option<String> {
 
 fn glslang(files: &[String], folder: &Path) -> Answer {
     let mut command = Command::new("glslangValidator");
+    // Without a version it is 1.10, not ES 1.00.
+    command.arg("-d");
     if files.len() > 1 {
         command.arg("-l");
     }

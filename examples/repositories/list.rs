@@ -21,6 +21,9 @@ pub(crate) struct List {
 pub(crate) struct Repository {
     /// `owner/name`, as on GitHub. Its folder is `owner+name`.
     pub(crate) name: String,
+    /// The part of it, if it has several rows.
+    #[serde(default)]
+    pub(crate) part: Option<String>,
     /// The kind of programs in it.
     pub(crate) kind: String,
     /// The commit that the table is about.
@@ -55,6 +58,11 @@ pub(crate) struct Note {
 }
 
 impl Repository {
+    /// The name of its row.
+    pub(crate) fn shown(&self) -> String {
+        self.part.as_ref().map_or_else(|| self.name.clone(), |part| format!("{}, {part}", self.name))
+    }
+
     /// The name of its folder.
     pub(crate) fn folder(&self) -> String {
         self.name.replace('/', "+")

@@ -92,7 +92,7 @@ fn measure(arguments: &Arguments) -> Result<(), String> {
             lines.push(format!("| **{kind}** | | | | | | | | | | | | |"));
         }
         let row = one(repository, arguments)?;
-        let line = row.line(&repository.name, &repository.commit);
+        let line = row.line(&repository.shown(), &repository.commit);
         println!("{line}");
         if arguments.list {
             row.found.iter().for_each(|(class, file, message)| println!("  {class}\t{file}\t{message}"));

@@ -16,7 +16,7 @@ use crate::engines::{self, Member, Profile, Style, combined};
 use glisten_front::compiler::{Preparation, Prepared, Source};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
-use glisten_front::source::{Completion, Prelude};
+use glisten_front::source::{Completion, Prelude, blanked};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -143,6 +143,14 @@ impl Engines {
     }
 }
 
+impl Engines {
+    /// Whether the engine of a file never takes it for a shader, whatever is in it.
+    pub(super) fn is_part(&self, path: &Path) -> bool {
+        let parts = self.settings(Some(path)).profile.and_then(|profile| profile.parts.as_deref());
+        parts.is_some_and(|parts| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(parts)))
+    }
+}
+
 impl Settings {
     fn add(&mut self, rule: &Rule) {
         self.profile = rule.profile.or(self.profile);
@@ -164,6 +172,12 @@ impl Settings {
     fn complete(self, source: &Source, header: &str, prepared: &mut Prepared) {
         let style = self.style.or(self.profile.and_then(|profile| profile.style));
         let roots = self.profile.map_or(&[][..], |profile| &profile.roots);
+        let mut version = self.version.or(self.profile.and_then(|profile| profile.version.clone()));
+        let own = prepared.text.as_ref().unwrap_or(&source.text);
+        if let Some((profile, line)) = self.profile.and_then(|profile| Some((profile, profile.old_version_line(own)?))) {
+            prepared.text = Some(blanked(own, &[line]));
+            version.clone_from(&profile.least_version);
+        }
         let text = prepared.text.as_ref().unwrap_or(&source.text);
         let mut added = self.profile.map(|profile| profile.addition(text, source.stage, header)).unwrap_or_default();
         let taken = match self.profile {
@@ -175,10 +189,11 @@ impl Settings {
         added.preludes.extend(self.profile.and_then(|profile| companion(profile, &source.name)));
         added.preludes.extend(self.preludes);
         prepared.completion = Completion {
-            assumed_version: self.version.or(self.profile.and_then(|profile| profile.version.clone())),
+            assumed_version: version,
             preludes: added.preludes,
             directive: style.and_then(|style| style.lookup().directive),
             resolves_includes: style.is_some(),
+            redefines: self.profile.and_then(|profile| profile.redefines).unwrap_or(false),
         };
         prepared.problems = added.problems;
         let includes = DiskIncludes::of_engine(self.folders, style.unwrap_or(Style::Quote), roots);

@@ -246,6 +246,9 @@ fn is_part(path: &Path) -> bool {
 
 /// Whether a search of a folder takes a file: its name tells its stage, or its engine does, or it contains several stages.
 fn is_shader(path: &Path, engines: &Engines) -> bool {
+    if stages::may_be_included(path) && engines.is_part(path) {
+        return false;
+    }
     let is_whole = stages::by_name(path).is_some() || engines.stage(path).is_some() && stages::may_be_included(path);
     if is_whole {
         return !is_part(path) && !stages::is_assembly(path);
