@@ -127,6 +127,14 @@ impl Engines {
     }
 }
 
+impl Engines {
+    /// Whether the engine of a file never takes it for a shader, whatever is in it.
+    pub(super) fn is_part(&self, path: &Path) -> bool {
+        let parts = self.settings(Some(path)).profile.and_then(|profile| profile.parts.as_deref());
+        parts.is_some_and(|parts| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(parts)))
+    }
+}
+
 /// Adds what a table says.
 fn add(settings: &mut Settings, rule: &Rule) {
     settings.profile = rule.profile.or(settings.profile);

@@ -239,6 +239,9 @@ fn parts(name: &str, path: &Path) -> Vec<Input> {
 
 /// Whether a search of a folder takes a file: its name tells its stage, or its engine does, or it contains several stages.
 fn is_shader(path: &Path, engines: &Engines) -> bool {
+    if stages::may_be_included(path) && engines.is_part(path) {
+        return false;
+    }
     let is_whole = stages::by_name(path).is_some() || engines.stage(path).is_some() && stages::may_be_included(path);
     if is_whole {
         return !stages::is_part(path) && !stages::is_assembly(path);
@@ -311,7 +314,7 @@ fn in_pipeline_order(mut group: Group) -> Group {
 #[cfg(test)]
 mod tests {
     use super::{Input, group};
-    use crate::sources::{members, stages};
+    use crate::sources::stages;
     use glisten_front::hir::Stage;
     use std::path::{Path, PathBuf};
 
@@ -344,6 +347,9 @@ mod tests {
             ("X.GEOM", "X", Some(Stage::Geometry)),
             ("a/phong_vs.glsl", "phong", Some(Stage::Vertex)),
             ("phong-FS.GLSL", "phong", Some(Stage::Fragment)),
+            ("PhongVert.glsl", "Phong", Some(Stage::Vertex)),
+            ("lightFS.glsl", "light", Some(Stage::Fragment)),
+            ("advert.glsl", "advert", None),
             ("vs_phong.glsl", "phong", Some(Stage::Vertex)),
             ("deferred_light_vertex.glsl", "deferred_light", Some(Stage::Vertex)),
             ("fragment.glsl", "program", Some(Stage::Fragment)),

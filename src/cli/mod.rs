@@ -56,6 +56,7 @@ mod specialize;
 mod stability;
 mod stability_library;
 mod stages;
+pub mod survey;
 mod test;
 mod timed;
 mod trace;

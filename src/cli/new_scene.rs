@@ -193,6 +193,9 @@ fn attributes(text: &mut String, program: &Program) {
 fn rows(name: &str, ty: Type) -> [Vec<f32>; 3] {
     let name = name.to_ascii_lowercase();
     let has = |words: &[&str]| words.iter().any(|word| name.contains(word));
+    if name == fullscreen::CORNER {
+        return [[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]].map(Vec::from);
+    }
     if let Type::Matrix(columns, rows) = ty {
         let (columns, rows) = (usize::from(columns), usize::from(rows));
         let unit = |index: usize| if index / rows == index % rows { 1.0 } else { 0.0 };

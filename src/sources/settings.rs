@@ -10,7 +10,7 @@ use super::stages;
 use crate::engines::{Member, Profile, Style, combined};
 use glisten_front::compiler::{Prepared, Source};
 use glisten_front::hir::Stage;
-use glisten_front::source::{Completion, Prelude};
+use glisten_front::source::{Completion, Prelude, blanked};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -56,6 +56,13 @@ impl Settings {
     fn add(self, source: &Source, path: Option<&Path>, disk: Arc<dyn Disk>, prepared: &mut Prepared) {
         let style = self.style.or(self.profile.and_then(|profile| profile.style));
         let roots = self.profile.map_or(&[][..], |profile| &profile.roots);
+        let mut version = self.version.or(self.profile.and_then(|profile| profile.version.clone()));
+        let own = prepared.text.as_ref().unwrap_or(&source.text);
+        if let Some((profile, line)) = self.profile.and_then(|profile| Some((profile, profile.old_version_line(own)?)))
+        {
+            prepared.text = Some(blanked(own, &[line]));
+            version.clone_from(&profile.least_version);
+        }
         let text = prepared.text.as_ref().unwrap_or(&source.text);
         let addition = |profile: &Profile| profile.addition(text, source.stage, &header(profile, source, path, &*disk));
         let mut added = self.profile.map(addition).unwrap_or_default();
@@ -68,10 +75,11 @@ impl Settings {
         added.preludes.extend(self.profile.and_then(|profile| companion(profile, &source.name, &*disk)));
         added.preludes.extend(self.preludes);
         prepared.completion = Completion {
-            assumed_version: self.version.or(self.profile.and_then(|profile| profile.version.clone())),
+            assumed_version: version,
             preludes: added.preludes,
             directive: style.and_then(|style| style.lookup().directive),
             resolves_includes: style.is_some(),
+            redefines: self.profile.and_then(|profile| profile.redefines).unwrap_or(false),
         };
         prepared.problems = added.problems;
         let includes = DiskIncludes::new(disk, self.folders, style.unwrap_or(Style::Quote), roots);

@@ -22,7 +22,8 @@ static EXTENSIONS: &[(&str, Stage)] = &[
 ];
 
 /// Words that tell the stage: as an extension (`phong.vertex`), and before or after the name of a `.glsl` file, with a sign
-/// between (`phong_vs.glsl`, `vs-phong.glsl`) or alone (`vs.glsl`). Those of two letters are other things as extensions.
+/// between (`phong_vs.glsl`, `vs-phong.glsl`), as a word with a capital (`PhongVert.glsl`), or alone (`vs.glsl`). Those of two letters
+/// are other things as extensions.
 static WORDS: &[(&str, Stage)] = &[
     ("vertexshader", Stage::Vertex),
     ("vertex", Stage::Vertex),
@@ -72,11 +73,19 @@ fn read(path: &Path) -> Option<(Stage, String)> {
         let rest = match (lower.strip_suffix(word), lower.strip_prefix(word)) {
             (Some(""), _) => NAMELESS,
             (Some(before), _) if before.ends_with(SIGNS) => inner.get(..before.len() - 1)?,
+            (Some(before), _) if is_word_of_capital(inner, before.len()) => inner.get(..before.len())?,
             (_, Some(after)) if after.starts_with(SIGNS) => inner.get(word.len() + 1..)?,
             _ => return None,
         };
         (!rest.is_empty()).then(|| (*stage, rest.to_owned()))
     })
+}
+
+/// Whether a word with a capital begins here, after a small letter or a digit.
+fn is_word_of_capital(name: &str, place: usize) -> bool {
+    let (before, after) = (name.get(..place).unwrap_or_default(), name.get(place..).unwrap_or_default());
+    let ends_small = before.ends_with(|last: char| last.is_ascii_lowercase() || last.is_ascii_digit());
+    ends_small && after.starts_with(|first: char| first.is_ascii_uppercase())
 }
 
 /// The stage of a file name.

@@ -4,7 +4,7 @@ use super::super::context::{Analyzer, Body};
 use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::Signature;
-use crate::builtin::functions;
+use crate::builtin::functions::{self, Row};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{
@@ -103,7 +103,11 @@ impl Analyzer<'_> {
         let name = header.name;
         let good_name = self.check_name(name) && self.check_block_name(name);
         let (version, extensions) = (self.ast.version, self.extensions);
-        if functions::named(&function.name).iter().any(|row| row.availability.in_language(version, extensions)) {
+        let is_there = |row: &&Row| row.availability.in_language(version, extensions);
+        let mut hidden = functions::named(&function.name).iter().copied().filter(is_there);
+        let params = types_of(&function);
+        let is_same = |row: &'static Row| row.signatures(self.stage).any(|other| other.has_types(&params));
+        if hidden.any(|row| !self.overloads_builtins() || is_same(row)) {
             self.require_here(Feature::BuiltinsHidden, name.span);
         }
         if function.name == "main" {

@@ -102,6 +102,9 @@ impl Analyzer<'_> {
     fn user_call(&mut self, name: Ident, set: OverloadSet, arguments: Vec<ExprId>, span: Span) -> ExprId {
         let given: Signature = arguments.iter().map(|&argument| self.ty(argument)).collect();
         let exact = self.declared.function(name.symbol, given.clone());
+        if exact.is_none() && self.overloads_builtins() && !functions::named(self.name(name)).is_empty() {
+            return self.builtin_call(name, arguments, span);
+        }
         let found = exact.or_else(|| self.by_conversion(name, set, &given));
         let Some(function) = found else { return self.poison(span) };
         let params = self.params_of(function);

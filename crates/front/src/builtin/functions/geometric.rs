@@ -12,6 +12,7 @@ const FIXED: Row = Row::base("GLSL 1.20 §8.4", 110)
     .available(Availability { compatibility_only: true, ..Availability::since(110).es(NEVER).stages(Stages::VERTEX) });
 const M110: Row = Row::base("§8.5", 110);
 const M120: Row = Row::base("§8.5", 120);
+const M140: Row = Row::base("GLSL 1.40 §8.5", 140).available(Availability::since(140).es(300));
 const M150: Row = Row::base("§8.5", 150).available(Availability::since(150).es(300));
 const R110: Row = Row::base("§8.6", 110);
 const R130: Row = Row::base("§8.6", 130);
@@ -56,9 +57,9 @@ pub(super) static ROWS: &[Row] = rows! {
     M150 Determinant: float determinant(mat2 m);
     M150 Determinant: float determinant(mat3 m);
     M150 Determinant: float determinant(mat4 m);
-    M150 Inverse: mat2 inverse(mat2 m);
-    M150 Inverse: mat3 inverse(mat3 m);
-    M150 Inverse: mat4 inverse(mat4 m);
+    M140 Inverse: mat2 inverse(mat2 m);
+    M140 Inverse: mat3 inverse(mat3 m);
+    M140 Inverse: mat4 inverse(mat4 m);
 
     R110 LessThan: bvec lessThan(vec x, vec y);
     R110 LessThan: bvec lessThan(ivec x, ivec y);

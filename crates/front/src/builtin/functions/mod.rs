@@ -94,6 +94,11 @@ pub struct Signature {
 }
 
 impl Signature {
+    /// Whether the parameters have these types.
+    pub fn has_types(&self, types: &[TypeId]) -> bool {
+        self.params().iter().map(|(ty, _)| ty).eq(types)
+    }
+
     /// The types and modes of the parameters.
     pub fn params(&self) -> &[(TypeId, ParamMode)] {
         self.params.get(..usize::from(self.n_params)).unwrap_or(&[])
