@@ -6,6 +6,7 @@ use super::exit::{Exit, Failure, Outcome};
 use clap::Args;
 use glisten_front::diagnostic::{Code, Example, codes};
 use glisten_front::hir::Stage;
+use glisten_front::language::{Edition, runs};
 
 /// Show what a diagnostic means, with a bad and a good example
 #[derive(Args, Debug)]
@@ -48,9 +49,36 @@ fn page(code: &Code) -> String {
     if !code.section.is_empty() {
         text.push_str(&format!("\nSpecification: {}\n", code.section));
     }
+    text.push_str(&versions(code));
     text.push_str(&example("Bad", code.bad));
     text.push_str(&example("Good", code.good));
     text
+}
+
+/// The versions in which a rule of the language is in force, and the sections of those that number them otherwise.
+fn versions(code: &Code) -> String {
+    if !code.is_of_language() {
+        return String::new();
+    }
+    let mut text = format!("Versions: {}\n", code.versions().map(span).collect::<Vec<_>>().join(", "));
+    let cited = code.section.split_once('§').map_or("", |(_, rest)| rest);
+    let in_force = |edition: Edition| code.is_in_force(edition);
+    let others = runs(code.section).into_iter().filter(|(first, last, places)| {
+        places.trim_start_matches('§') != cited && (in_force(*first) || in_force(*last))
+    });
+    let others: Vec<String> = others.map(|(first, last, places)| format!("{} {places}", span((first, last)))).collect();
+    if !others.is_empty() {
+        text.push_str(&format!("In other versions: {}\n", others.join("; ")));
+    }
+    text
+}
+
+/// `GLSL 1.10 to 4.60`
+fn span((first, last): (Edition, Edition)) -> String {
+    if first == last {
+        return first.name();
+    }
+    format!("{} to {}.{:02}", first.name(), last.number / 100, last.number % 100)
 }
 
 fn example(title: &str, example: Example) -> String {

@@ -72,9 +72,20 @@ fn probe(feature: Feature) -> Option<(Stage, &'static str)> {
         F::DynamicConstants => vertex("uniform float a; void main() { const float b = a; gl_Position = vec4(b); }"),
         F::QualifierOrder => vertex("out flat vec4 a; void main() { gl_Position = a = vec4(1.0); }"),
         F::DepthLayouts => fragment("layout(depth_less) out float gl_FragDepth; void main() { gl_FragDepth = 0.5; }"),
-        F::BuiltinsHidden => {
+        F::BuiltinsHidden => vertex(
+            "float dot(vec2 a, vec2 b) { return a.x * b.y; } void main() { vec2 a = vec2(1.0); gl_Position = vec4(dot(a, a)); }",
+        ),
+        F::BuiltinOverloads => {
             vertex("float dot(vec2 a) { return a.x; } void main() { gl_Position = vec4(dot(vec2(1.0))); }")
         }
+        F::RepeatedPrototypes => vertex(
+            "float f(float a); float f(float a); float f(float a) { return a; } void main() { gl_Position = vec4(f(1.0)); }",
+        ),
+        F::ArraysInValues => vertex(
+            "struct S { float a[2]; }; void main() { S a; a.a[0] = 1.0; S b; b = a; gl_Position = vec4(b.a[0]); }",
+        ),
+        F::UnsizedArrays => vertex("float a[]; void main() { a[1] = 1.0; gl_Position = vec4(a[1]); }"),
+        F::BuiltinScope => vertex("float dot; void main() { dot = 1.0; gl_Position = vec4(dot); }"),
         F::NamelessStructs => vertex("struct { vec4 a; } s; void main() { s.a = vec4(1.0); gl_Position = s.a; }"),
         _ => None,
     }

@@ -56,6 +56,7 @@ impl Analyzer<'_> {
         let reason = match &self.expr_at(culprit).kind {
             ExprKind::Var(_) => "this variable is not `const`",
             ExprKind::Call(..) => "a call of a function of the shader is never constant",
+            ExprKind::Comma(..) => "a comma makes no constant expression in this version",
             ExprKind::Assign(..) | ExprKind::IncDec(..) => "an assignment is never constant",
             _ => "this is not known before the shader runs",
         };

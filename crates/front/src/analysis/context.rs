@@ -14,6 +14,7 @@ use crate::hir::{
     Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, Local, LocalId, ScalarValue, Shader, Stage, Storage,
     TypeId, Types, VarRef,
 };
+use crate::language::Feature;
 use crate::source::{SourceMap, Span};
 use crate::syntax::ast::{Ast, DeclarationKind, Extensions, Ident};
 
@@ -85,7 +86,7 @@ impl<'a> Analyzer<'a> {
             diagnostics,
             shader: Shader::new(stage, ast.version),
             facts: Vec::with_capacity(ast.exprs.len()),
-            scopes: Scopes::default(),
+            scopes: Scopes::new(!ast.version.has(Feature::SharedNames)),
             extensions: Extensions::empty(),
             precisions: Precisions::of(stage, ast.version),
             lacking: 0,
@@ -256,8 +257,10 @@ impl<'a> Analyzer<'a> {
             ExprKind::Var(VarRef::Local(id)) => leaf(self.local(*id).is_some_and(|local| local.value.is_some())),
             ExprKind::Member(a, _) | ExprKind::Swizzle(a, _) | ExprKind::Convert(a) | ExprKind::Unary(_, a) => child(a),
             ExprKind::IncDec(_, a) => Facts { constant: false, ..child(a) },
-            ExprKind::Index(a, b) | ExprKind::Binary(_, a, b) | ExprKind::Logical(_, a, b) | ExprKind::Comma(a, b) => {
-                join(child(a), child(b))
+            ExprKind::Index(a, b) | ExprKind::Binary(_, a, b) | ExprKind::Logical(_, a, b) => join(child(a), child(b)),
+            ExprKind::Comma(a, b) => {
+                let sequence = join(child(a), child(b));
+                Facts { constant: sequence.constant && !self.ast.version.has(Feature::VariableSequences), ..sequence }
             }
             ExprKind::Assign(_, a, b) => Facts { constant: false, ..join(child(a), child(b)) },
             ExprKind::Ternary(a, b, c) => join(child(a), join(child(b), child(c))),

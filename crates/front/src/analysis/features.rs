@@ -53,11 +53,6 @@ impl Analyzer<'_> {
         self.report(of_version(finding, version));
     }
 
-    /// Whether a function of the shader adds to the built-in ones of its name, as overloads do, instead of hiding them (ES 1.00 §8).
-    pub(super) fn overloads_builtins(&self) -> bool {
-        self.ast.version.is_es() && self.ast.version.number < 300
-    }
-
     /// Warns about the use of a built-in name that only an extension provides, if the source asks for that (§3.3).
     pub(super) fn note_builtin(&mut self, availability: Availability, span: Span) {
         if availability.in_version(self.ast.version) {

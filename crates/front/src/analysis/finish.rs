@@ -7,6 +7,7 @@ use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
 use crate::hir::{ArraySize, ExprKind, GlobalId, LocalId, Stage, Storage, Type, TypeId, VarRef};
+use crate::language::Feature;
 
 impl Analyzer<'_> {
     /// Completes the shader.
@@ -120,7 +121,8 @@ impl Analyzer<'_> {
 
     /// Checks that `#pragma STDGL invariant(all)` is in a shader whose outputs another stage reads (§4.6.1).
     fn check_pragma(&mut self) {
-        if let Some(span) = self.ast.invariant_all.filter(|_| self.stage == Stage::Fragment) {
+        let allowed = self.stage != Stage::Fragment || self.ast.version.has(Feature::FragmentPragma);
+        if let Some(span) = self.ast.invariant_all.filter(|_| !allowed) {
             self.report(
                 Diagnostic::new(
                     &qualifiers::INVARIANT,

@@ -260,8 +260,8 @@ impl Analyzer<'_> {
         let root = id.value?;
         let expr = self.ast.expr(root);
         let value = match &expr.kind {
-            AstExprKind::Literal(Literal::Int(value)) => u32::try_from(*value).ok(),
-            AstExprKind::Literal(Literal::Uint(value)) => Some(*value),
+            AstExprKind::Literal(Literal::Int(value)) if !id.parenthesized => u32::try_from(*value).ok(),
+            AstExprKind::Literal(Literal::Uint(value)) if !id.parenthesized => Some(*value),
             AstExprKind::Error => return None,
             _ if self.allows(Feature::LayoutExpressions, expr.span) => {
                 let typed = self.expr(root);

@@ -1,7 +1,8 @@
 //! [`Scopes`]: the meaning of each name at a position in the text (§4.2).
 //!
-//! Variables, structs and functions share one name space. Built-in names are in a scope outside the global one. They
-//! are not entered here; the caller looks them up in the tables if nothing is found here.
+//! Variables, structs and functions share one name space, except in GLSL 1.10, whose functions have their own (1.10
+//! §4.2). Built-in names are in a scope outside the global one. They are not entered here; the caller looks them up in the
+//! tables if nothing is found here.
 
 use crate::hir::{FunctionId, GlobalId, TypeId, VarRef};
 use crate::source::Span;
@@ -51,9 +52,16 @@ pub(super) struct Scopes {
     visible: FxHashMap<Symbol, u32>,
     starts: Vec<usize>,
     overloads: Vec<Vec<FunctionId>>,
+    /// The functions of a language whose functions have a name space of their own.
+    functions: Option<FxHashMap<Symbol, Binding>>,
 }
 
 impl Scopes {
+    /// Scopes in which functions share the name space of variables, or, if they are `apart`, have their own.
+    pub(super) fn new(apart: bool) -> Self {
+        Self { functions: apart.then(FxHashMap::default), ..Self::default() }
+    }
+
     /// Opens a scope.
     pub(super) fn open(&mut self) {
         self.starts.push(self.rows.len());
@@ -84,6 +92,31 @@ impl Scopes {
     /// The meaning of a name, if it was declared in the innermost scope.
     pub(super) fn find_here(&self, symbol: Symbol) -> Option<Binding> {
         self.find(symbol).filter(|binding| binding.level == self.level())
+    }
+
+    /// The meaning of a name that is called.
+    pub(super) fn find_called(&self, symbol: Symbol) -> Option<Binding> {
+        let Some(functions) = &self.functions else { return self.find(symbol) };
+        let constructor = || self.find(symbol).filter(|binding| matches!(binding.entry, Entry::Struct(_)));
+        functions.get(&symbol).copied().or_else(constructor)
+    }
+
+    /// The meaning that a declaration of a function in the innermost scope finds there.
+    pub(super) fn find_function_here(&self, symbol: Symbol) -> Option<Binding> {
+        match &self.functions {
+            Some(functions) => functions.get(&symbol).copied(),
+            None => self.find_here(symbol),
+        }
+    }
+
+    /// Enters the name of a function.
+    pub(super) fn enter_function(&mut self, symbol: Symbol, entry: Entry, span: Span) {
+        match &mut self.functions {
+            Some(functions) => {
+                functions.insert(symbol, Binding { entry, span, level: 0 });
+            }
+            None => self.enter(symbol, entry, span),
+        }
     }
 
     /// Enters a name into the innermost scope, where it hides its outer meaning.
@@ -126,7 +159,16 @@ impl Scopes {
     /// All names in scope, in order of declaration.
     pub(super) fn names(&self) -> impl Iterator<Item = (Symbol, Binding)> {
         let in_sight = |(index, row): &(usize, &Row)| self.visible.get(&row.symbol) == Some(&(*index as u32));
-        self.rows.iter().enumerate().filter(in_sight).map(|(_, row)| (row.symbol, row.binding))
+        let rows = self.rows.iter().enumerate().filter(in_sight).map(|(_, row)| (row.symbol, row.binding));
+        rows.chain(self.functions_apart())
+    }
+
+    /// The functions of a name space of their own, in order of declaration.
+    fn functions_apart(&self) -> impl Iterator<Item = (Symbol, Binding)> {
+        let mut found: Vec<(Symbol, Binding)> =
+            self.functions.iter().flatten().map(|(symbol, binding)| (*symbol, *binding)).collect();
+        found.sort_unstable_by_key(|(_, binding)| binding.span);
+        found.into_iter()
     }
 
     fn level(&self) -> u32 {

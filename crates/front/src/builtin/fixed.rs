@@ -214,7 +214,24 @@ static INITIAL: &[(&str, &[f32])] = &[
 static FIRST_LIGHT: &[(&str, std::ops::Range<usize>, f32)] =
     &[("gl_LightSource", 4..12, 1.0), ("gl_FrontLightProduct", 4..7, 0.8), ("gl_BackLightProduct", 4..7, 0.8)];
 
+/// The variables that a shader may declare again: with an interpolation qualifier, or with a size (1.50 §4.3.9.1, §7.6).
+static REDECLARABLE: &[&str] = &[
+    "gl_BackColor",
+    "gl_BackSecondaryColor",
+    "gl_Color",
+    "gl_FogFragCoord",
+    "gl_FrontColor",
+    "gl_FrontSecondaryColor",
+    "gl_SecondaryColor",
+    "gl_TexCoord",
+];
+
 impl FixedRow {
+    /// Whether a shader may declare it again.
+    pub fn is_redeclarable(&self) -> bool {
+        self.storage != Storage::Uniform && REDECLARABLE.contains(&self.name)
+    }
+
     /// The initial value of a uniform, in flat order: the identity for matrices, the tables of OpenGL for structs, 0 for
     /// everything else.
     pub fn initial(&self) -> Vec<f32> {

@@ -10,7 +10,7 @@ use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Stage, Types};
 use crate::link::{Bindings, FixedState, Program, Understood, check_understood, link};
-use crate::source::{Completion, FileId, IncludeResolver, NoIncludes, SourceMap, Span, whole_text};
+use crate::source::{Completion, FileId, IncludeResolver, Language, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -223,6 +223,7 @@ impl Compiler {
         let options = syntax::ParseOptions { stage: source.stage, defines, strict, completion };
         let includes = includes.as_ref().unwrap_or(&self.includes);
         let ast = syntax::parse(map, file, &options, &**includes, diagnostics);
+        map.set_language(file, Language { number: ast.version.number, es: ast.version.is_es() });
         asked.extend(self.options.watched.iter().filter(|name| ast.asks(name)).cloned());
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
         if ast.version.span.is_known() && map.file_of(ast.version.span) != Some(file) {

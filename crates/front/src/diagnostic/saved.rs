@@ -5,7 +5,7 @@
 //! that allow a code. Texts without a diagnostic are blank, and macro uses that no diagnostic names are left out.
 
 use super::{Code, Diagnostic, Label, Severity, codes};
-use crate::source::{Expansion, ExpansionId, SourceMap, Span};
+use crate::source::{Expansion, ExpansionId, Language, SourceMap, Span};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -19,6 +19,9 @@ pub struct Saved {
     expansions: Vec<SavedExpansion>,
     /// The offset of each `#line` directive and the number that it gives.
     renumbered: Vec<(u32, u32)>,
+    /// The offset from which texts are of a language, its number, and whether it is that of OpenGL ES.
+    #[serde(default)]
+    languages: Vec<(u32, u16, bool)>,
     diagnostics: Vec<SavedDiagnostic>,
 }
 
@@ -65,7 +68,9 @@ impl Saved {
         };
         let files = sources.files().zip(&writer.shown).map(file).collect();
         let renumbered = if diagnostics.is_empty() { Vec::new() } else { sources.renumbered().collect() };
-        Self { files, expansions: writer.expansions, renumbered, diagnostics }
+        let languages = sources.languages().map(|(base, language)| (base, language.number, language.es)).collect();
+        let languages = if diagnostics.is_empty() { Vec::new() } else { languages };
+        Self { files, expansions: writer.expansions, renumbered, languages, diagnostics }
     }
 
     /// The diagnostics again, and the texts of their spans. `None` if this is not what [`Self::new`] made: a code is unknown,
@@ -76,6 +81,9 @@ impl Saved {
             (file.length <= MAX_TEXT).then_some(())?;
             let text = file.text.clone().unwrap_or_else(|| " ".repeat(file.length));
             sources.add(file.name.clone(), text)?;
+        }
+        for &(base, number, es) in &self.languages {
+            sources.restore_language(base, Language { number, es });
         }
         for one in &self.expansions {
             let (name, call, definition) = (one.name.as_str().into(), span(one.call), span(one.definition));

@@ -3,6 +3,7 @@
 //! *In:* a version and the enabled extensions. *Out:* whether the rule is in force. *Holds:* together with the columns of
 //! the tables of keywords and built-ins, this table is the only place that compares versions.
 
+use super::section::Edition;
 use super::version::{Extensions, NEVER, Since, Version};
 
 /// A row of the table.
@@ -129,13 +130,50 @@ features! {
     /// Texture offsets that are not constant expressions (`textureGatherOffset`).
     DynamicOffsets "a texture offset that is not constant" since(400, NEVER), STAYS, SHADER5, "§8.9";
     /// Layout identifiers in capitals.
-    AnyCaseLayouts "a layout identifier in capitals" since(140, NEVER), since(440, NEVER), NONE, "§4.3.8";
+    AnyCaseLayouts "a layout identifier in capitals" since(140, NEVER), since(440, NEVER), NONE, "§4.3.5.2";
     /// A shader declares a function that is built in.
     BuiltinsHidden "a function with the name of a built-in one" since(110, NEVER), STAYS, NONE, "§6.1";
     /// Structs without a name.
     NamelessStructs "a struct without a name" since(110, NEVER), STAYS, NONE, "§4.1.8";
-    /// `attribute`s and inputs of vertex shaders may be invariant outputs' inputs.
-    InvariantInputs "an invariant input" since(120, 100), since(420, 300), NONE, "§4.6";
+    /// Inputs of fragment shaders may be invariant, as the outputs that feed them.
+    InvariantInputs "an invariant input" since(120, 100), Since::new(NEVER, 300), NONE, "§4.6.1";
+    /// Functions share the name space of variables; in 1.10 they have their own.
+    SharedNames "a function with the name of a variable" since(120, 100), STAYS, NONE, "§4.2";
+    /// Functions are declared at global scope alone.
+    GlobalPrototypes "the rule for the place of a prototype" since(120, 100), STAYS, NONE, "§4.2";
+    /// The parameters and the body of a function are one scope.
+    ParameterScope "the scope of parameters" since(430, 300), STAYS, NONE, "§4.2";
+    /// A prototype that repeats another.
+    RepeatedPrototypes "a second prototype" since(110, 300), STAYS, NONE, "§4.2";
+    /// A function with the name of a built-in one, but other parameters.
+    BuiltinOverloads "an overload of a built-in function" since(110, 100), Since::new(NEVER, 300), NONE, "§6.1";
+    /// Global variables with the names of built-in functions, which are in an outer scope.
+    BuiltinScope "a global with the name of a built-in function" since(110, 100), Since::new(NEVER, 300), NONE, "§4.2";
+    /// Structs that contain arrays are assigned, compared and returned.
+    ArraysInValues "a struct with an array as a value" since(110, 300), STAYS, NONE, "§5.8";
+    /// The comma makes no constant expression: "the sequence operator ( , ) .. [is] not included".
+    VariableSequences "the rule for a comma in a constant expression" since(430, 300), STAYS, NONE, "§4.3.3";
+    /// `float a[];`
+    UnsizedArrays "an array without a size" since(110, NEVER), STAYS, NONE, "§4.1.9";
+    /// Indices of outputs that are arrays.
+    DynamicOutputs "a fragment output with an index that is not constant" since(130, 320), STAYS, NONE, "§4.3.6";
+    /// `#pragma STDGL invariant(all)` in fragment shaders.
+    FragmentPragma "the pragma `invariant(all)` in a fragment shader" since(NEVER, 100), Since::new(NEVER, 300), NONE,
+        "§4.6.1";
+    /// Inputs that no output of the stage before feeds with a value.
+    UnwrittenInputs "an input that the stage before does not write" since(150, 100), STAYS, NONE, "§4.3.4";
+}
+
+impl FeatureRow {
+    /// The version whose section is cited: the first that has it.
+    pub fn origin(&self) -> Option<Edition> {
+        let Since { desktop, es } = self.since;
+        match (desktop, es) {
+            (NEVER, NEVER) => None,
+            (NEVER, number) => Some(Edition { es: true, number }),
+            (number, _) => Some(Edition { es: false, number }),
+        }
+    }
 }
 
 impl Feature {

@@ -6,12 +6,14 @@
 mod feature;
 pub(crate) mod foreign;
 mod operators;
+mod section;
 mod stage;
 mod types;
 mod version;
 
 pub use feature::{FEATURES, Feature, FeatureRow};
 pub use operators::IncDec;
+pub use section::{EDITIONS, Edition, Section, cite, runs};
 pub use stage::{Interpolation, ParamMode, Stage, Storage};
 pub use types::{
     ArraySize, MatrixLayout, Member, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId, Types,

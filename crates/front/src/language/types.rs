@@ -273,6 +273,8 @@ pub(crate) struct TypeSummary {
     flat_len: u32,
     /// Whether it contains a sampler.
     sampler: bool,
+    /// Whether it is or contains an array.
+    array: bool,
     /// A bit for each [`Scalar`] that it contains.
     scalars: u8,
     /// The depth of nested structs.
@@ -288,6 +290,7 @@ impl TypeSummary {
         Self {
             flat_len: self.flat_len.saturating_add(other.flat_len),
             sampler: self.sampler | other.sampler,
+            array: self.array | other.array,
             scalars: self.scalars | other.scalars,
             depth: self.depth.max(other.depth),
         }
@@ -496,7 +499,7 @@ impl Types {
             Type::Array(element, size) => {
                 let summary = self.summary(element);
                 let size = if let ArraySize::Sized(size) = size { size } else { 0 };
-                TypeSummary { flat_len: summary.flat_len.saturating_mul(size), ..summary }
+                TypeSummary { flat_len: summary.flat_len.saturating_mul(size), array: true, ..summary }
             }
         }
     }
@@ -520,6 +523,11 @@ impl Types {
     /// Whether the type contains a sampler.
     pub fn contains_sampler(&self, id: TypeId) -> bool {
         self.summary(id).sampler
+    }
+
+    /// Whether the type is a struct that contains an array.
+    pub fn is_struct_with_array(&self, id: TypeId) -> bool {
+        matches!(self.get(id), Type::Struct(_)) && self.summary(id).array
     }
 
     /// The spelling in GLSL: `vec4`, `mat2x3`, `Light[2]`.

@@ -159,6 +159,8 @@ bitflags::bitflags! {
         const TEXTURE_CUBE_MAP_ARRAY = 1 << 25;
         /// `GL_EXT_draw_buffers`: writes to `gl_FragData` beyond its first element in ES 1.00.
         const DRAW_BUFFERS = 1 << 26;
+        /// `GL_EXT_shader_integer_mix`
+        const SHADER_INTEGER_MIX = 1 << 27;
         /// For each extension, a second bit: its uses are warned about.
         const WARNED = 0xffff_ffff << Self::WARN_SHIFT;
     }
@@ -193,6 +195,7 @@ static NAMES: &[(Extensions, &str)] = &[
     (Extensions::DERIVATIVE_CONTROL, "GL_ARB_derivative_control"),
     (Extensions::TEXTURE_CUBE_MAP_ARRAY, "GL_ARB_texture_cube_map_array"),
     (Extensions::DRAW_BUFFERS, "GL_EXT_draw_buffers"),
+    (Extensions::SHADER_INTEGER_MIX, "GL_EXT_shader_integer_mix"),
 ];
 
 impl Extensions {

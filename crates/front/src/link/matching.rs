@@ -6,8 +6,10 @@
 
 use super::Linker;
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
+use super::usage::is_assigned;
 use crate::diagnostic::{Diagnostic, codes, did_you_mean};
 use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
+use crate::language::Feature;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Whether a global is an ordinary output or input, which needs a partner in the other stage.
@@ -64,7 +66,12 @@ pub(super) fn check_variables(ctx: &mut Linker<'_>, producer: &Shader, consumer:
     let mut n_lonely = 0;
     for (_, input) in inputs {
         match outputs.partner(input) {
-            Some((_, output)) => check_pair(ctx, producer, output, consumer, input),
+            Some((id, output)) => {
+                check_pair(ctx, producer, output, consumer, input);
+                if complete && input.used && !output.written {
+                    check_written(ctx, (producer, id), output, consumer, input);
+                }
+            }
             // What the fixed-function pipeline names is declared in every stage (1.20 §7.6); what is not written is undefined.
             None if input.is_fixed() => {}
             None if input.used && complete => {
@@ -74,6 +81,30 @@ pub(super) fn check_variables(ctx: &mut Linker<'_>, producer: &Shader, consumer:
             None => {}
         }
     }
+}
+
+/// Reports an input whose output is never written, which the versions before 1.50 forbid: "Only those varying variables
+/// used (i.e. read) in the fragment shader must be written to by the vertex shader" (1.10 §4.3.6). Later ones leave the value
+/// undefined, which is a lint.
+fn check_written(
+    ctx: &mut Linker<'_>,
+    (producer, id): (&Shader, GlobalId),
+    output: &Global,
+    consumer: &Shader,
+    input: &Global,
+) {
+    let allowed = [producer, consumer].iter().any(|shader| shader.version.has(Feature::UnwrittenInputs));
+    if allowed || input.name.starts_with("gl_") || is_assigned(producer, id) {
+        return;
+    }
+    let (name, reader, writer) = (input.match_name(), consumer.stage.name(), producer.stage.name());
+    let message = format!("the {reader} stage reads `{name}`, which the {writer} stage never writes");
+    ctx.report(
+        Diagnostic::new(&codes::link::NO_MATCHING_OUTPUT, input.span, message)
+            .here("it has no value")
+            .label(output.span, format!("declared in the {writer} stage"))
+            .help(format!("assign to `{name}` in the {writer} stage")),
+    );
 }
 
 fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input: &Global, suggest: bool) {

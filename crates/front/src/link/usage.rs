@@ -41,6 +41,19 @@ pub(super) fn first_write(shader: &Shader, global: GlobalId) -> Option<Span> {
     first
 }
 
+/// Whether any function, reached by `main` or not, assigns to a global.
+pub(super) fn is_assigned(shader: &Shader, global: GlobalId) -> bool {
+    let mut found = false;
+    for function in &shader.functions {
+        shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
+            written_by(shader, expr, &mut |target| {
+                found |= shader.root_variable(target) == Some(VarRef::Global(global));
+            });
+        });
+    }
+    found
+}
+
 /// Where a global is first named in the text of the functions that `main` reaches.
 pub fn first_use(shader: &Shader, global: GlobalId) -> Option<Span> {
     let mut first: Option<Span> = None;

@@ -118,6 +118,17 @@ pub struct SourceMap {
     expansions: Vec<Expansion>,
     /// Sorted by offset.
     renumberings: Vec<Renumbering>,
+    /// The languages of the texts from an offset on, sorted by it.
+    languages: Vec<(u32, Language)>,
+}
+
+/// The language of a text, as its `#version` line states it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Language {
+    /// 150 for 1.50.
+    pub number: u16,
+    /// Whether it is that of OpenGL ES.
+    pub es: bool,
 }
 
 /// A `#line` directive: the line after it counts as `number`.
@@ -198,6 +209,29 @@ impl SourceMap {
     /// The `#line` directives: the offset of each and the number that it gives to the line after it.
     pub(crate) fn renumbered(&self) -> impl Iterator<Item = (u32, u32)> {
         self.renumberings.iter().map(|row| (row.offset, row.number))
+    }
+
+    /// Records the language of a text and of those that were added after it, which it includes.
+    pub fn set_language(&mut self, file: FileId, language: Language) {
+        let base = self.file(file).base;
+        let index = self.languages.partition_point(|(other, _)| *other <= base);
+        self.languages.insert(index, (base, language));
+    }
+
+    /// The language in which a span is written; that of the first text for an unknown span.
+    pub fn language_of(&self, span: Span) -> Option<Language> {
+        let after = self.languages.partition_point(|(base, _)| *base <= span.start);
+        self.languages.get(after.saturating_sub(1)).map(|(_, language)| *language)
+    }
+
+    /// The languages, each with the offset that it begins at.
+    pub(crate) fn languages(&self) -> impl Iterator<Item = (u32, Language)> {
+        self.languages.iter().copied()
+    }
+
+    /// Records a language that begins at an offset, after all others.
+    pub(crate) fn restore_language(&mut self, base: u32, language: Language) {
+        self.languages.push((base, language));
     }
 
     /// The line on which a span begins, counted from 1. Cheaper than [`Self::location`], which counts columns.

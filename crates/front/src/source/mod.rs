@@ -14,6 +14,8 @@ mod span;
 mod whole;
 
 pub use completion::{Completion, ImportDirective, Prelude, blanked, version_line};
-pub use map::{Expansion, FileId, IncludeForm, IncludeResolver, Included, Location, NoIncludes, SourceFile, SourceMap};
+pub use map::{
+    Expansion, FileId, IncludeForm, IncludeResolver, Included, Language, Location, NoIncludes, SourceFile, SourceMap,
+};
 pub use span::{ExpansionId, Span};
 pub use whole::{Inclusion, whole_text};

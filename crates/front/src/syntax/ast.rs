@@ -320,6 +320,8 @@ pub struct LayoutId {
     pub name: Ident,
     /// The value: an expression, which 1.50 requires to be an integer literal.
     pub value: Option<ExprId>,
+    /// Whether the value is in parentheses, and so not a literal.
+    pub parenthesized: bool,
 }
 
 /// A global declaration.

@@ -123,6 +123,7 @@ impl Analyzer<'_> {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
                 let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
+                self.require_size(ty, declarator.name.span);
                 let matrix = layout.matrix.unwrap_or(context.matrix);
                 let member = self.block_member(declarator, ty, &record, matrix, context.storage);
                 self.add_member(&mut members, declarator.name, member);

@@ -9,7 +9,7 @@ use crate::builtin::{BuiltinVariable, constants};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{ArraySize, BlockInfo, BlockLayout, FragCoordLayout, GlobalId, Stage, Storage, Type, TypeId};
-use crate::language::Feature;
+use crate::language::{Extensions, Feature};
 use crate::source::Span;
 use crate::syntax::ast::Declarator;
 
@@ -72,6 +72,7 @@ impl Analyzer<'_> {
             return true;
         }
         match row.redeclaration {
+            Redeclaration::No if self.declares_interface(row) => self.redeclare_output(row, declarator, ty, record),
             Redeclaration::No => self.report(
                 Diagnostic::new(&names::BUILTIN_REDECLARED, span, format!("`{name}` cannot be declared again"))
                     .here("it is built in")
@@ -101,6 +102,21 @@ impl Analyzer<'_> {
             .here(format!("it is an `{word}` variable of a {} shader", self.stage.name())),
         );
         None
+    }
+
+    /// Whether a declaration of an output states the interface to a separate program (ARB_separate_shader_objects).
+    fn declares_interface(&self, row: &Row) -> bool {
+        self.extensions.contains(Extensions::SEPARATE_SHADER_OBJECTS) && row.per_vertex && row.storage == Storage::Out
+    }
+
+    /// `out vec4 gl_Position;`, which changes nothing.
+    fn redeclare_output(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
+        let span = declarator.name.span;
+        let known = row.make_type(self.types, self.ast.version);
+        if self.same_storage(row, span, record).is_some() && ty != known {
+            let message = format!("`{}` is a `{}`", row.name, self.types.name(known));
+            self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("declared as something else"));
+        }
     }
 
     /// `out float gl_ClipDistance[4];`

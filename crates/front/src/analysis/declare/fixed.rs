@@ -47,6 +47,18 @@ impl Analyzer<'_> {
         let span = declarator.name.span;
         let id = self.fixed_global(row);
         let known = self.shader.global(id).ty;
+        if !row.is_redeclarable() {
+            let message = format!("`{}` cannot be declared again", row.name);
+            self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("it is built in"));
+            return true;
+        }
+        if let Some(earlier) = self.declared.resized_fixed(row.name) {
+            let message = format!("`{}` is given a size twice", row.name);
+            self.report(
+                Diagnostic::new(&names::REDEFINED, span, message).here("again here").label(earlier, "first here"),
+            );
+            return true;
+        }
         let is_sized = match (self.types.get(known), self.types.get(ty)) {
             (Type::Array(known, ArraySize::Sized(most)), Type::Array(element, ArraySize::Sized(size))) => {
                 known == element && size <= most
@@ -66,6 +78,9 @@ impl Analyzer<'_> {
             let message = format!("`{name}` can only be declared again with its own type and storage");
             self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("it is built in"));
             return true;
+        }
+        if matches!(self.types.get(ty), Type::Array(_, ArraySize::Sized(_))) {
+            self.declared.resize_fixed(row.name, span);
         }
         if let Some(global) = self.shader.globals.get_mut(id.index()) {
             global.interpolation = record.interpolation.map_or(Interpolation::default(), |(word, _)| word);

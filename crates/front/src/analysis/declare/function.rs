@@ -4,7 +4,7 @@ use super::super::context::{Analyzer, Body};
 use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::Signature;
-use crate::builtin::functions::{self, Row};
+use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
 use crate::hir::{
@@ -19,7 +19,10 @@ const MAX_OVERLOADS: usize = 1024;
 impl Analyzer<'_> {
     /// `float f(float x);`
     pub(in crate::analysis) fn prototype(&mut self, header: &FunctionHeader) {
-        self.declare_function(header);
+        let Some(id) = self.declare_function(header) else { return };
+        if !self.declared.prototype(id) {
+            self.require_here(Feature::RepeatedPrototypes, header.name.span);
+        }
     }
 
     /// `float f(float x) { .. }`
@@ -60,14 +63,19 @@ impl Analyzer<'_> {
                 self.enter(name, Entry::Variable(VarRef::Local(LocalId::new(index))));
             }
         }
-        // The body is a scope nested inside that of the parameters (§4.2).
-        self.scopes.open();
+        // In older versions the body is a scope nested inside that of the parameters (1.50 §4.2, 4.30 §4.2.2).
+        let is_nested = !self.ast.version.has(Feature::ParameterScope);
+        if is_nested {
+            self.scopes.open();
+        }
         let mut body = self.statements(body);
         let parts = self.body.as_mut().map_or_else(Vec::new, |body| std::mem::take(&mut body.parts));
         let declared = |part| crate::hir::Stmt { kind: StmtKind::Local(part, None), span: header.name.span };
         body.splice(0..0, parts.into_iter().map(declared));
         self.scopes.close();
-        self.scopes.close();
+        if is_nested {
+            self.scopes.close();
+        }
         self.size_locals(first);
         self.precisions = self.precisions.ended(&precisions);
         self.check_returns(id);
@@ -103,18 +111,16 @@ impl Analyzer<'_> {
         let name = header.name;
         let good_name = self.check_name(name) && self.check_block_name(name);
         let (version, extensions) = (self.ast.version, self.extensions);
-        let is_there = |row: &&Row| row.availability.in_language(version, extensions);
-        let mut hidden = functions::named(&function.name).iter().copied().filter(is_there);
-        let params = types_of(&function);
-        let is_same = |row: &'static Row| row.signatures(self.stage).any(|other| other.has_types(&params));
-        if hidden.any(|row| !self.overloads_builtins() || is_same(row)) {
-            self.require_here(Feature::BuiltinsHidden, name.span);
+        if functions::named(&function.name).iter().any(|row| row.availability.in_language(version, extensions)) {
+            let redefines = self.is_builtin(&function);
+            let rule = if redefines { Feature::BuiltinsHidden } else { Feature::BuiltinOverloads };
+            self.require_here(rule, name.span);
         }
         if function.name == "main" {
             self.check_main(header, &function);
         }
         let span = name.span;
-        match self.scopes.find_here(name.symbol).map(|binding| (binding.entry, binding.span)) {
+        match self.scopes.find_function_here(name.symbol).map(|binding| (binding.entry, binding.span)) {
             Some((Entry::Functions(set), _)) => {
                 let params = types_of(&function);
                 let same = self.declared.function(name.symbol, params);
@@ -142,7 +148,8 @@ impl Analyzer<'_> {
             None => {
                 let id = self.add_function(function, name);
                 let set = self.scopes.overload_set(id);
-                self.scopes.enter(name.symbol, if good_name { Entry::Functions(set) } else { Entry::Poison }, span);
+                let entry = if good_name { Entry::Functions(set) } else { Entry::Poison };
+                self.scopes.enter_function(name.symbol, entry, span);
                 Some(id)
             }
         }
@@ -205,6 +212,9 @@ impl Analyzer<'_> {
         let ty = self.type_spec(&header.ty);
         if matches!(self.types.get(ty), Type::Array(..)) {
             self.require(Feature::ArrayObjects, header.ty.span);
+        }
+        if self.types.is_struct_with_array(ty) {
+            self.require_here(Feature::ArraysInValues, header.ty.span);
         }
         if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
             self.report(

@@ -9,6 +9,7 @@ use crate::builtin::{fixed, variables};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers};
 use crate::hir::{GlobalId, Stage, Storage, Type, VarRef};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Ident, Qualifier};
 
@@ -62,6 +63,9 @@ impl Analyzer<'_> {
                     .label(declared, "declared here"),
             );
             return;
+        }
+        if storage == Storage::In {
+            self.require_here(Feature::InvariantInputs, name.span);
         }
         let used = match member {
             Some(member) => self.uses.first_of_member(id, member),

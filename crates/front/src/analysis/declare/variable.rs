@@ -5,6 +5,7 @@ use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::ArrayKey;
+use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
 use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef};
@@ -29,6 +30,9 @@ impl Analyzer<'_> {
         self.check_precision(record.precision, base, declaration.ty.span);
         let storage = self.global_storage(&record);
         if declaration.declarators.is_empty() {
+            if let (Some(span), Storage::In) = (record.invariant, storage) {
+                self.require_here(Feature::InvariantInputs, span);
+            }
             self.layout(&record, self.layout_subject(storage, base));
         }
         for declarator in &declaration.declarators {
@@ -119,6 +123,10 @@ impl Analyzer<'_> {
         let fits = ty == declared || self.check_global_size(ty, storage, false, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
         let ty = self.sized_by_geometry(ty, storage, name.span);
+        self.require_size(ty, name.span);
+        if functions::named(self.name(name)).iter().any(|row| row.availability.in_version(self.ast.version)) {
+            self.require_here(Feature::BuiltinScope, name.span);
+        }
         if self.resizes(declarator, ty, storage) {
             return;
         }
@@ -126,6 +134,13 @@ impl Analyzer<'_> {
         let id = self.add_global(global);
         let entry = if named_well { Entry::Variable(VarRef::Global(id)) } else { Entry::Poison };
         self.enter(name, entry);
+    }
+
+    /// Reports an array without a size where the language wants one in each declaration.
+    pub(in crate::analysis) fn require_size(&mut self, ty: TypeId, span: Span) {
+        if matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized)) {
+            self.require_here(Feature::UnsizedArrays, span);
+        }
     }
 
     #[expect(clippy::too_many_arguments, reason = "each is one column of the record that it fills")]
@@ -170,8 +185,15 @@ impl Analyzer<'_> {
         GlobalId::new(self.shader.globals.len() - 1)
     }
 
-    /// Reports an index without a location, which means nothing (ARB_explicit_attrib_location).
+    /// Reports an index without a location, which means nothing, and one that is neither 0 nor 1
+    /// (ARB_explicit_attrib_location).
     fn check_index_location(&mut self, layout: &Layout) {
+        if let Some((index @ 2.., span)) = layout.index {
+            self.report(
+                Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, format!("there is no `index` {index}"))
+                    .here("0 or 1: the first or the second source of blending"),
+            );
+        }
         let (Some((index, span)), None) = (layout.index, layout.location) else { return };
         self.report(
             Diagnostic::new(&qualifiers::LAYOUT_VALUE, span, "`index` needs a `location`")

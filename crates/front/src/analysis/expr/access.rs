@@ -163,6 +163,9 @@ impl Analyzer<'_> {
                 return false;
             }
         }
+        if self.is_fragment_output(base) {
+            self.require_here(Feature::DynamicOutputs, at);
+        }
         if size.is_none() && !self.is_geometry_input(base) {
             self.report(
                 Diagnostic::new(&types::UNSIZED_ARRAY, at, "an array without a size takes constant indices only")
@@ -172,6 +175,13 @@ impl Analyzer<'_> {
             return false;
         }
         true
+    }
+
+    /// Whether an expression is an output of a fragment shader as a whole.
+    fn is_fragment_output(&self, base: ExprId) -> bool {
+        let ExprKind::Var(VarRef::Global(id)) = self.shader.expr(base).kind else { return false };
+        let global = self.shader.global(id);
+        self.stage == Stage::Fragment && global.storage == Storage::Out && global.builtin.is_none()
     }
 
     fn check_constant_index(&mut self, base: ExprId, index: ExprId, value: i64, size: Option<u32>) -> bool {

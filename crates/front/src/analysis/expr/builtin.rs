@@ -8,7 +8,7 @@ use crate::builtin::operations::Class;
 use crate::builtin::{Availability, BuiltinFunction};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
-use crate::hir::{ExprId, ExprKind, Stage, TypeId};
+use crate::hir::{ExprId, ExprKind, Function, Stage, TypeId};
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 
@@ -49,6 +49,18 @@ impl Analyzer<'_> {
             return self.composed(row.function, &arguments, span);
         }
         self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
+    }
+
+    /// Whether a built-in function has the name and the parameters of a function of the shader.
+    pub(in crate::analysis) fn is_builtin(&self, function: &Function) -> bool {
+        let (stage, version, extensions) = (self.stage, self.ast.version, self.extensions);
+        let rows = functions::named(&function.name).iter();
+        let available = rows.filter(|row| row.availability.holds(version, extensions, stage));
+        available.copied().flat_map(|row| row.signatures(stage)).any(|signature| {
+            let params = signature.params();
+            params.len() == function.param_count
+                && params.iter().zip(function.params()).all(|((ty, _), param)| *ty == param.ty)
+        })
     }
 
     /// The overload that takes the arguments after implicit conversions, if there is exactly one.

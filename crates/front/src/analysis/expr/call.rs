@@ -23,11 +23,14 @@ pub(super) type Params = SmallVec<[(TypeId, ParamMode); 4]>;
 impl Analyzer<'_> {
     /// `f(a, b)`, `S(a)`
     pub(super) fn call(&mut self, name: Ident, arguments: &[ast::ExprId], span: Span) -> ExprId {
-        let binding = self.scopes.find(name.symbol);
+        let binding = self.scopes.find_called(name.symbol);
         match binding.map(|binding| binding.entry) {
             Some(Entry::Struct(ty)) => self.construct(ty, arguments, name.span, span),
             Some(Entry::Functions(set)) => {
                 let Some(arguments) = self.arguments(arguments) else { return self.poison(span) };
+                if self.is_builtin_overload(name, &arguments) {
+                    return self.builtin_call(name, arguments, span);
+                }
                 self.user_call(name, set, arguments, span)
             }
             None => {
@@ -50,6 +53,15 @@ impl Analyzer<'_> {
                 self.poison(span)
             }
         }
+    }
+
+    /// Whether a call of a function of the shader is one of the built-in function that it overloads (GLSL ES 1.00 §8).
+    fn is_builtin_overload(&self, name: Ident, arguments: &[ExprId]) -> bool {
+        if self.ast.version.has(Feature::BuiltinsHidden) || functions::named(self.name(name)).is_empty() {
+            return false;
+        }
+        let given: Signature = arguments.iter().map(|&argument| self.ty(argument)).collect();
+        self.declared.function(name.symbol, given).is_none()
     }
 
     /// The arguments of a call; `None` if one of them is in error.
@@ -102,9 +114,6 @@ impl Analyzer<'_> {
     fn user_call(&mut self, name: Ident, set: OverloadSet, arguments: Vec<ExprId>, span: Span) -> ExprId {
         let given: Signature = arguments.iter().map(|&argument| self.ty(argument)).collect();
         let exact = self.declared.function(name.symbol, given.clone());
-        if exact.is_none() && self.overloads_builtins() && !functions::named(self.name(name)).is_empty() {
-            return self.builtin_call(name, arguments, span);
-        }
         let found = exact.or_else(|| self.by_conversion(name, set, &given));
         let Some(function) = found else { return self.poison(span) };
         let params = self.params_of(function);

@@ -222,6 +222,9 @@ impl Analyzer<'_> {
         if matches!(self.types.get(ty), Type::Array(..)) {
             self.require(Feature::ArrayObjects, self.span(right));
         }
+        if self.types.is_struct_with_array(ty) {
+            self.require_here(Feature::ArraysInValues, self.span(right));
+        }
         comparable.then_some(Typed { left, right, operator, ty: TypeId::BOOL })
     }
 

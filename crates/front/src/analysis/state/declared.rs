@@ -4,7 +4,7 @@ use crate::builtin::BuiltinVariable;
 use crate::hir::{FunctionId, GlobalId, Storage, StructId, TypeId};
 use crate::source::Span;
 use crate::syntax::token::Symbol;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 /// The types of a function's parameters.
@@ -16,6 +16,8 @@ pub(in crate::analysis) struct Declared {
     /// The type of each type keyword met so far.
     keyword_types: FxHashMap<Symbol, TypeId>,
     functions: FxHashMap<(Symbol, Signature), FunctionId>,
+    /// The functions that have a prototype.
+    prototypes: FxHashSet<FunctionId>,
     /// The names of all blocks, which have no other meaning at global scope (§4.3.7).
     blocks: FxHashMap<Symbol, Span>,
     /// The names of blocks by the interface that they are part of.
@@ -27,6 +29,8 @@ pub(in crate::analysis) struct Declared {
     /// The variables of the fixed-function pipeline that are used or redeclared, and its structs.
     fixed: FxHashMap<&'static str, GlobalId>,
     fixed_structs: FxHashMap<&'static str, TypeId>,
+    /// The arrays of the fixed-function pipeline that are declared again with a size.
+    resized: FxHashMap<&'static str, Span>,
 }
 
 impl Declared {
@@ -48,6 +52,11 @@ impl Declared {
     /// Enters a function.
     pub(in crate::analysis) fn add_function(&mut self, name: Symbol, parameters: Signature, id: FunctionId) {
         self.functions.insert((name, parameters), id);
+    }
+
+    /// Notes a prototype of a function. Returns whether it is the first.
+    pub(in crate::analysis) fn prototype(&mut self, id: FunctionId) -> bool {
+        self.prototypes.insert(id)
     }
 
     /// The first declaration of a block with this name.
@@ -89,6 +98,16 @@ impl Declared {
     /// Enters the global of such a variable.
     pub(in crate::analysis) fn add_fixed(&mut self, name: &'static str, id: GlobalId) {
         self.fixed.insert(name, id);
+    }
+
+    /// Where such an array was given a size.
+    pub(in crate::analysis) fn resized_fixed(&self, name: &str) -> Option<Span> {
+        self.resized.get(name).copied()
+    }
+
+    /// Notes that such an array is given a size.
+    pub(in crate::analysis) fn resize_fixed(&mut self, name: &'static str, at: Span) {
+        self.resized.insert(name, at);
     }
 
     /// A struct of the fixed-function pipeline, which its first use makes.

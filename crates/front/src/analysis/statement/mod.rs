@@ -12,6 +12,7 @@ use super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, statements};
 use crate::hir::{Condition, ExprId, LoopKind, Stmt, StmtKind};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
 
@@ -199,7 +200,11 @@ impl Analyzer<'_> {
         );
     }
 
+    /// A prototype inside a function, which GLSL 1.10 allows.
     fn misplaced_prototype(&mut self, header: &ast::FunctionHeader) {
+        if !self.ast.version.has(Feature::GlobalPrototypes) {
+            return self.prototype(header);
+        }
         self.report(
             Diagnostic::new(
                 &statements::NESTED_FUNCTION,

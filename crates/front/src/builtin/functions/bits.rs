@@ -19,7 +19,7 @@ const I400: Row = from("GLSL 4.00 §8.8", 400, 310, Extensions::GPU_SHADER5);
 const P400: Row = from("GLSL 4.00 §8.4", 400, 310, PACKS4);
 const U400: Row = from("GLSL 4.10 §8.4", 400, 300, PACKS4);
 const S420: Row = from("GLSL 4.20 §8.4", 420, 300, PACKS);
-const M450: Row = from("GLSL 4.50 §8.3", 450, 310, Extensions::empty());
+const M450: Row = from("GLSL 4.50 §8.3", 450, 310, Extensions::SHADER_INTEGER_MIX);
 const W400: Row = Row { effect: Effect::WritesArgument, constant: false, ..F400 };
 const WI400: Row = Row { effect: Effect::WritesArgument, constant: false, ..I400 };
 

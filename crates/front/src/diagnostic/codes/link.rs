@@ -160,7 +160,7 @@ codes! {
             (Stage::Vertex, "void main() { gl_Position = vec4(0.0); }"),
             (Stage::Geometry, "layout(points) in; layout(points, max_vertices = 1) out; void main() { gl_Position = vec4(0.0); EmitVertex(); }"),
         ]);
-    SHARED_GLOBAL_MISMATCH = "E0721" "shared-global-mismatch" Error "GLSL 1.50 §4.2.6"
+    SHARED_GLOBAL_MISMATCH = "E0721" "shared-global-mismatch" Error "GLSL 1.50 §4.2"
         "Global variables with the same name in shaders of one stage are one variable: they must agree in type, \
          qualifiers and initializer. An array without a size in one shader takes its size from another."
         bad Shaders(&[

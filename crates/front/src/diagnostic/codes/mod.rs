@@ -98,6 +98,7 @@ pub mod statements;
 pub mod syntax;
 pub mod targets;
 pub mod types;
+mod versions;
 
 static PHASES: &[&[&Code]] = &[
     general::ALL,

@@ -4,7 +4,7 @@
 //! *Holds:* source text never reaches a terminal unfiltered. Control characters are replaced, and an overlong line is
 //! cut to the part around the label.
 
-use super::{Finding, labels};
+use super::{Finding, labels, section};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{FileId, SourceMap, Span};
 use codespan_reporting::diagnostic as codespan;
@@ -81,8 +81,9 @@ fn notes(sources: &SourceMap, diagnostic: &Diagnostic, located: bool) -> Vec<Str
     if let Some(help) = &diagnostic.help {
         notes.push(format!("help: {}", clean(help)));
     }
-    if !diagnostic.code.section.is_empty() {
-        notes.push(format!("see {}", diagnostic.code.section));
+    let section = section(sources, diagnostic);
+    if !section.is_empty() {
+        notes.push(format!("see {section}"));
     }
     if !located && sources.files().next().is_some() {
         let region = Finding::new(sources, diagnostic).region;

@@ -70,7 +70,7 @@ fn row(finding: &Finding) -> JsonFinding<'_> {
             .map(|label| JsonLabel { region: JsonRegion::from(&label.region), message: &label.message })
             .collect(),
         notes: &finding.notes,
-        section: Some(finding.code.section).filter(|section| !section.is_empty()),
+        section: Some(&*finding.section).filter(|section| !section.is_empty()),
         presented_line: finding.presented_line,
     }
 }

@@ -18,7 +18,9 @@ pub use json::json;
 pub use sarif::sarif;
 
 use super::{Diagnostic, Label, Severity};
-use crate::source::{SourceMap, Span};
+use crate::language::{Edition, cite};
+use crate::source::{Language, SourceMap, Span};
+use std::borrow::Cow;
 
 /// A range of text for people. Lines and columns count from 1, columns in Unicode scalar values (a tab is one); the
 /// end is exclusive.
@@ -64,6 +66,8 @@ pub struct Finding {
     pub notes: Vec<String>,
     /// The line number that a `#line` directive gave to the region.
     pub presented_line: Option<u32>,
+    /// The section of the specification, in the version of the source; empty if there is none.
+    pub section: Cow<'static, str>,
 }
 
 impl Finding {
@@ -83,6 +87,7 @@ impl Finding {
             labels,
             notes: diagnostic.notes.clone(),
             presented_line: diagnostic.presented_line.or_else(|| sources.presented_line(outer)),
+            section: section(sources, diagnostic),
         }
     }
 }
@@ -90,6 +95,15 @@ impl Finding {
 /// The findings of a compilation.
 pub fn findings<'a>(sources: &SourceMap, diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<Finding> {
     diagnostics.into_iter().map(|diagnostic| Finding::new(sources, diagnostic)).collect()
+}
+
+/// The section that a diagnostic cites, in the version of the source.
+fn section(sources: &SourceMap, diagnostic: &Diagnostic) -> Cow<'static, str> {
+    let cited = diagnostic.code.section;
+    match sources.language_of(sources.call_site(diagnostic.primary.span)) {
+        Some(Language { number, es }) => cite(cited, Edition { es, number }),
+        None => cited.into(),
+    }
 }
 
 /// How many macros are shown between a span and the macro use that produced it.

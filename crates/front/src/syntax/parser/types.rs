@@ -121,8 +121,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
             let token = self.bump();
             let name = crate::syntax::ast::Ident { symbol: token.symbol(), span: token.span };
-            let value = if self.eat(TokenKind::Equal).is_some() { Some(self.constant_expression()?) } else { None };
-            ids.push(LayoutId { name, value });
+            let has_value = self.eat(TokenKind::Equal).is_some();
+            let parenthesized = has_value && self.kind() == TokenKind::LeftParen;
+            let value = if has_value { Some(self.constant_expression()?) } else { None };
+            ids.push(LayoutId { name, value, parenthesized });
             if self.eat(TokenKind::Comma).is_none() {
                 break;
             }

@@ -62,6 +62,7 @@ static IMPLEMENTED: &[Implemented] = &[
     es("GL_EXT_draw_buffers", Extensions::DRAW_BUFFERS),
     es("GL_EXT_frag_depth", Extensions::FRAG_DEPTH),
     desktop("GL_EXT_gpu_shader4", Extensions::GPU_SHADER4),
+    both("GL_EXT_shader_integer_mix", Extensions::SHADER_INTEGER_MIX),
     es("GL_EXT_shader_texture_lod", Extensions::SHADER_TEXTURE_LOD),
     desktop("GL_EXT_texture_array", Extensions::TEXTURE_ARRAY),
     both("GL_GOOGLE_cpp_style_line_directive", Extensions::INCLUDE),
@@ -132,7 +133,10 @@ impl Preprocessor<'_> {
             let message = "the behavior is `require`, `enable`, `warn` or `disable`";
             return self.malformed(session, behavior, message);
         };
-        self.expect_line_end(session, "#extension");
+        let rest = self.line_token(session);
+        if !matches!(rest.kind, TokenKind::Newline | TokenKind::Eof) {
+            return self.malformed(session, rest, "`#extension` ends after its behavior");
+        }
         let span = session.sources.join(directive, behavior.span);
         if let Some(first) = self.first_token {
             let diagnostic = kind::LATE_EXTENSION

@@ -20,6 +20,7 @@ mod expr;
 mod facts;
 mod fuse;
 mod matrix;
+mod open;
 mod path;
 mod stmt;
 mod texture;
@@ -33,7 +34,7 @@ use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic, codes};
 use glisten_front::hir::{ExprId, FunctionId, Scalar, Shader, Stage, Type, TypeId, Types};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -92,6 +93,8 @@ struct Compiler<'a> {
     /// mask.
     parted: bool,
     classes: FxHashMap<TypeId, Rc<[Class]>>,
+    /// The constants whose value is undefined.
+    open: FxHashSet<VarId>,
     errors: Vec<Diagnostic>,
 }
 
@@ -143,6 +146,7 @@ impl<'a> Compiler<'a> {
             regions: 0,
             parted: false,
             classes: FxHashMap::default(),
+            open: FxHashSet::default(),
             errors: Vec::new(),
         }
     }

@@ -64,14 +64,18 @@ impl Compiler<'_> {
         let Some(function) = self.frames.last().map(|frame| frame.function) else { return };
         let shader = self.shader;
         let facts = shader.function(function).local(local);
+        let is_open = facts.kind == LocalKind::Const && init.is_some_and(|init| self.is_open(init));
         let value = match (&facts.value, init) {
-            (Some(value), _) if facts.kind == LocalKind::Const => Some(self.constant(value)),
+            (Some(value), _) if facts.kind == LocalKind::Const && !is_open => Some(self.constant(value)),
             (_, Some(init)) => Some(self.expr(init)),
             (_, None) => None,
         };
         // It is declared after its initializer, which may use an outer variable of the same name.
         let var = self.declare(facts.ty, false);
         self.bind(local, var);
+        if is_open {
+            self.open.insert(var);
+        }
         if let Some(value) = value {
             self.assign_all(var, &value);
         }

@@ -9,7 +9,7 @@ use glisten_front::link::RootIndex;
 use std::rc::Rc;
 
 /// The index of a variable in [`Compiler::vars`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct VarId(pub(super) usize);
 
 /// A variable during compilation.
@@ -51,6 +51,10 @@ impl Compiler<'_> {
                 *entry = Some(var);
             }
             let values = match global.storage {
+                Storage::Const if global.initializer.is_some_and(|init| self.is_open(init)) => {
+                    self.open.insert(var);
+                    None
+                }
                 Storage::Const => global.value.as_ref().map(|value| self.constant(value)),
                 Storage::Uniform => Some(self.uniform(id, global)),
                 // Registers are assigned when they are first read.
@@ -62,9 +66,9 @@ impl Compiler<'_> {
             }
         }
         for (id, global) in shader.globals() {
-            if let (Storage::Const | Storage::Private, None, Some(init)) =
-                (global.storage, &global.value, global.initializer)
-            {
+            let is_open = global.initializer.is_some_and(|init| self.is_open(init));
+            let known = global.value.as_ref().filter(|_| !is_open);
+            if let (Storage::Const | Storage::Private, None, Some(init)) = (global.storage, known, global.initializer) {
                 let value = self.expr(init);
                 if let Some(Some(var)) = self.globals.get(id.index()).copied() {
                     self.assign_all(var, &value);

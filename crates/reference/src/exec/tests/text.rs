@@ -164,6 +164,22 @@ fn reds(body: &str, input: impl Fn(&str, usize) -> f64) -> Vec<(f64, f64)> {
 }
 
 #[test]
+fn a_constant_of_an_undefined_operation_is_open() {
+    let open = |body: &str| {
+        let (low, high) = reds(body, |_, _| 0.0)[0];
+        assert_eq!(
+            low.is_finite() && low == high,
+            !body.contains("/ 0") && !body.contains("<< 40"),
+            "{body}: {low} {high}"
+        );
+    };
+    open("const int a = 7 / 0; void main() { o = vec4(a); }");
+    open("const int a = 7 / 0; const int b = a + 1; int c = b; void main() { o = vec4(c); }");
+    open("void main() { const ivec2 a = ivec2(1, 2) << 40; o = vec4(a.y); }");
+    open("const int a = 7 / 2 % 2; const ivec2 b = ivec2(1, 2) << 4; void main() { o = vec4(a + b.x); }");
+}
+
+#[test]
 fn both_ways_of_an_open_branch_are_run() {
     let body =
         "in float a; void main() { float third = a / 3.0; if (third * 3.0 < 1.0) o = vec4(2); else o = vec4(3); }";
