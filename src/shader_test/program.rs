@@ -48,7 +48,7 @@ pub(super) fn build(
         .shaders
         .iter()
         .map(|shader| {
-            let text = versioned(&shader.text, setup.version);
+            let text = if shader.passthrough { passthrough(setup) } else { versioned(&shader.text, setup) };
             Source { name: name.into(), text: text.into(), stage: shader.stage }
         })
         .collect();
@@ -97,14 +97,36 @@ fn first_error(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     format!("line {line}: {} ({})", error.message, error.code.id)
 }
 
+/// The text of `[vertex shader passthrough]`.
+fn passthrough(setup: &Setup) -> String {
+    let (version, input) = match setup {
+        Setup { es: true, version: 300.., .. } => (version_line(setup), "in"),
+        Setup { es: true, .. } => (version_line(setup), "attribute"),
+        _ => ("#version 150".to_owned(), "in"),
+    };
+    format!("{version}\n{input} vec4 piglit_vertex;\nvoid main() {{ gl_Position = piglit_vertex; }}\n")
+}
+
+fn version_line(setup: &Setup) -> String {
+    let profile = if setup.es && setup.version >= 300 { " es" } else { "" };
+    format!("#version {}{profile}", setup.version)
+}
+
 /// The text with a `#version` line. If it has none of its own, one of the empty lines before it becomes one.
-fn versioned(text: &str, version: u32) -> String {
+fn versioned(text: &str, setup: &Setup) -> String {
+    if let Some((before, after)) = text.split_once("#version 140").filter(|_| setup.compatibility) {
+        // A compatibility context of that version has the extension for every shader.
+        if let Some(rest) = before.strip_prefix("\n\n") {
+            return format!("#version 140\n#extension GL_ARB_compatibility : enable\n{rest}{after}");
+        }
+    }
     if text.contains("#version") {
         return text.to_owned();
     }
+    let version = version_line(setup);
     match text.strip_prefix('\n') {
-        Some(rest) => format!("#version {version}\n{rest}"),
-        None => format!("#version {version}\n{text}"),
+        Some(rest) => format!("{version}\n{rest}"),
+        None => format!("{version}\n{text}"),
     }
 }
 
@@ -114,6 +136,12 @@ mod unit {
 
     #[test]
     fn a_text_without_a_version_gets_that_of_the_test() {
-        assert_eq!(versioned("\n\nvoid main() {}\n", 130), "#version 130\n\nvoid main() {}\n");
+        let setup = Setup { size: [1, 1], compatibility: false, version: 130, es: false };
+        assert_eq!(versioned("\n\nvoid main() {}\n", &setup), "#version 130\n\nvoid main() {}\n");
+        let es = Setup { version: 300, es: true, ..setup };
+        assert_eq!(versioned("void main() {}\n", &es), "#version 300 es\nvoid main() {}\n");
+        let compatibility = Setup { version: 140, compatibility: true, ..setup };
+        let text = versioned("\n\n\n#version 140\nvoid main() {}\n", &compatibility);
+        assert_eq!(text, "#version 140\n#extension GL_ARB_compatibility : enable\n\n\nvoid main() {}\n");
     }
 }

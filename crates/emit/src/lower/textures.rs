@@ -57,9 +57,9 @@ impl Ctx<'_, '_> {
                 if !ty.shadow || self.size_of(ret) == 1 || form.lookup == How::Gather {
                     return Ok(result);
                 }
-                // `shadow2D` and its like of older versions: luminance, and alpha 1.
-                let one = self.float(1.0);
-                Ok(self.float_vector(vec![result, result, result, one]))
+                // `shadow2D` and its like of older versions.
+                let (zero, one) = (self.float(0.0), self.float(1.0));
+                Ok(self.float_vector(self.shader.depth_mode.components(result, zero, one).to_vec()))
             }
         }
     }

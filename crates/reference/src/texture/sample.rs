@@ -52,7 +52,20 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
         return Sampled::Ints(nearest_bits(texture, base, &request));
     }
     let (linear, uses_levels) = (texture.filter.is_linear(), texture.filter.uses_levels());
-    Sampled::Floats(if uses_levels { mipmapped(texture, &request) } else { at_level(texture, 0, &request, linear) })
+    let minified = || if uses_levels { mipmapped(texture, &request) } else { at_level(texture, 0, &request, linear) };
+    if !texture.sampling.has_two_filters(texture.filter) {
+        return Sampled::Floats(minified());
+    }
+    let last = texture.sampling.magnified_up_to(texture.filter);
+    let magnified = || at_level(texture, 0, &request, texture.sampling.magnifies_linearly(texture.filter));
+    let (value, other) = if request.level.value <= last { (magnified(), None) } else { (minified(), Some(())) };
+    // A GPU may switch at 0, or at 0.5.
+    let is_near = request.bounded && request.level.low <= 0.5 && request.level.high >= 0.0;
+    if !is_near {
+        return Sampled::Floats(value);
+    }
+    let other = if other.is_some() { magnified() } else { minified() };
+    Sampled::Floats(std::array::from_fn(|k| value[k].joined(other[k])))
 }
 
 /// The texels of a gather, as the sides of both axes: i0 j1, i1 j1, i1 j0, i0 j0 (GLSL 4.00 §8.9.3).
@@ -311,14 +324,21 @@ fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Req
     if !request.kind.shadow {
         return texel.map(BoundedFloat::exact);
     }
-    let passed = compare(texture.compare, request.reference.value, texel[0]);
+    let reference =
+        if texture.sampling.fixed_point_depth { request.reference.map(in_depths) } else { request.reference };
+    let passed = compare(texture.compare, reference.value, texel[0]);
     let slack = const { rules::COMPARED_DEPTH.ulps() } * rules::ulp(texel[0]);
     let undecided = request.bounded
-        && (request.reference.low - slack..=request.reference.high + slack).contains(&texel[0])
+        && (reference.low - slack..=reference.high + slack).contains(&texel[0])
         && !matches!(texture.compare, Compare::Always | Compare::Never);
     let value = f64::from(u8::from(passed));
     let result = if undecided { BoundedFloat { value, low: 0.0, high: 1.0 } } else { BoundedFloat::exact(value) };
     [result, BoundedFloat::exact(0.0), BoundedFloat::exact(0.0), BoundedFloat::exact(1.0)]
+}
+
+/// A reference as a fixed-point texture compares it (§3.8.14).
+fn in_depths(reference: f64) -> f64 {
+    if reference.is_nan() { reference } else { reference.clamp(0.0, 1.0) }
 }
 
 /// `reference op stored` (§3.8.16).

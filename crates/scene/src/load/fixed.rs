@@ -41,6 +41,7 @@ pub(super) fn load_switches(reader: &mut Reader, draw: &DeTable<'_>) -> FixedSta
         two_side: reader.flag(draw, "vertex_program_two_side", false),
         clip_planes: reader.count(draw, "clip_distances", 0, 0..=UNITS as u32),
         unclamped_colors: !reader.flag(draw, "clamp_vertex_color", true),
+        ..FixedState::default()
     }
 }
 

@@ -275,6 +275,17 @@ fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
     if kind.shadow {
         let _ = write!(keys, "compare = {}, ", quoted(name_of(Compare::NAMES, texture.compare)));
     }
+    let sampling = texture.sampling;
+    if sampling.lod_bias != 0.0 {
+        let _ = write!(keys, "lod_bias = {}, ", single(sampling.lod_bias));
+    }
+    if sampling.has_two_filters(texture.filter) {
+        let name = if sampling.magnifies_linearly(texture.filter) { "linear" } else { "nearest" };
+        let _ = write!(keys, "magnify = {}, ", quoted(name));
+    }
+    if sampling.fixed_point_depth {
+        keys.push_str("fixed_point = true, ");
+    }
     if texture.levels.len() > 1 {
         keys.push_str("mipmaps = true, ");
     }

@@ -72,9 +72,10 @@ impl Compiler<'_> {
         let index = self.emit.textures.len() as u32 - 1;
         self.emit.push(Inst::Texture { call: index });
         if count == 1 && self.types.flat_len(ty) == 4 {
-            // `shadow2D` of older versions: luminance, with alpha 1.
-            let (r, one) = (results.first().copied(), self.emit.float(1.0));
-            results = r.into_iter().flat_map(|r| [r, r, r, one]).collect();
+            // `shadow2D` and its like of older versions.
+            let (zero, one) = (self.emit.float(0.0), self.emit.float(1.0));
+            let mode = self.shader.depth_mode;
+            results = results.first().into_iter().flat_map(|r| mode.components(*r, zero, one)).collect();
         }
         results
     }
