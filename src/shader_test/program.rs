@@ -112,22 +112,28 @@ fn version_line(setup: &Setup) -> String {
     format!("#version {}{profile}", setup.version)
 }
 
-/// The text with a `#version` line. If it has none of its own, one of the empty lines before it becomes one.
+/// The text with a `#version` line. If it has none of its own, one of the empty lines before it becomes one, and others become
+/// lines for the extensions that a context enables for every shader: those of a compatibility context of 1.40, and
+/// ARB_texture_rectangle on a desktop.
 fn versioned(text: &str, setup: &Setup) -> String {
-    if let Some((before, after)) = text.split_once("#version 140").filter(|_| setup.compatibility) {
-        // A compatibility context of that version has the extension for every shader.
-        if let Some(rest) = before.strip_prefix("\n\n") {
-            return format!("#version 140\n#extension GL_ARB_compatibility : enable\n{rest}{after}");
-        }
+    let line = text.lines().find(|line| line.trim_start().starts_with("#version"));
+    let version = line.map_or_else(|| version_line(setup), |line| line.trim().to_owned());
+    let mut added = Vec::new();
+    if setup.compatibility && version == "#version 140" {
+        added.push("#extension GL_ARB_compatibility : enable");
     }
-    if text.contains("#version") {
+    if !setup.es && text.contains("2DRect") && !text.contains("GL_ARB_texture_rectangle") {
+        added.push("#extension GL_ARB_texture_rectangle : enable");
+    }
+    let Some(rest) = text.strip_prefix(&"\n".repeat(added.len() + 1)) else {
+        return if line.is_some() { text.to_owned() } else { format!("{version}\n{}", text.trim_start_matches('\n')) };
+    };
+    if line.is_some() && added.is_empty() {
         return text.to_owned();
     }
-    let version = version_line(setup);
-    match text.strip_prefix('\n') {
-        Some(rest) => format!("{version}\n{rest}"),
-        None => format!("{version}\n{text}"),
-    }
+    let rest = line.map_or_else(|| rest.to_owned(), |line| rest.replacen(line, "", 1));
+    let lines: String = added.iter().map(|line| format!("{line}\n")).collect();
+    format!("{version}\n{lines}{rest}")
 }
 
 #[cfg(test)]
@@ -143,5 +149,7 @@ mod unit {
         let compatibility = Setup { version: 140, compatibility: true, ..setup };
         let text = versioned("\n\n\n#version 140\nvoid main() {}\n", &compatibility);
         assert_eq!(text, "#version 140\n#extension GL_ARB_compatibility : enable\n\n\nvoid main() {}\n");
+        let rectangle = versioned("\n\nuniform sampler2DRect t;\n", &setup);
+        assert_eq!(rectangle, "#version 130\n#extension GL_ARB_texture_rectangle : enable\nuniform sampler2DRect t;\n");
     }
 }
