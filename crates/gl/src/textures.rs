@@ -58,8 +58,9 @@ fn target(kind: SamplerType) -> Result<(u32, Dimensions), Error> {
         (SamplerDim::D2, true) => (glow::TEXTURE_2D_ARRAY, Dimensions::Three),
         (SamplerDim::D3, _) => (glow::TEXTURE_3D, Dimensions::Three),
         (SamplerDim::Cube, false) => (glow::TEXTURE_CUBE_MAP, Dimensions::Two),
+        (SamplerDim::Cube, true) => (glow::TEXTURE_CUBE_MAP_ARRAY, Dimensions::Three),
         (SamplerDim::Rect, _) => (glow::TEXTURE_RECTANGLE, Dimensions::Two),
-        (SamplerDim::Cube | SamplerDim::Buffer | SamplerDim::Multisample, _) => {
+        (SamplerDim::Buffer | SamplerDim::Multisample, _) => {
             return Err(Error::Refused("a scene has no textures of this sampler's kind".to_owned()));
         }
     })
@@ -72,7 +73,7 @@ fn image(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> {
     parameters(api, target, kind, texture);
     for (number, level) in (0..).zip(&texture.levels) {
         let bytes = texel_bytes(&level.texels, kind);
-        let filled = if kind.dim == SamplerDim::Cube {
+        let filled = if kind.dim == SamplerDim::Cube && !kind.arrayed {
             faces(api, number, (stored(kind, texture), level), &bytes)
         } else {
             let size = size(kind, level);

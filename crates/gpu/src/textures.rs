@@ -47,7 +47,7 @@ fn view_dimension(kind: SamplerType) -> wgpu::TextureViewDimension {
     match (kind.dim, kind.arrayed) {
         (SamplerDim::D3, _) => wgpu::TextureViewDimension::D3,
         // Texels cannot be loaded from a cube, and integer texels are only loaded.
-        (SamplerDim::Cube, false) if kind.texel != Scalar::Float => wgpu::TextureViewDimension::D2Array,
+        (SamplerDim::Cube, _) if kind.texel != Scalar::Float => wgpu::TextureViewDimension::D2Array,
         (SamplerDim::Cube, false) => wgpu::TextureViewDimension::Cube,
         (SamplerDim::Cube, true) => wgpu::TextureViewDimension::CubeArray,
         (_, false) => wgpu::TextureViewDimension::D2,

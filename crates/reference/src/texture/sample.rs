@@ -159,8 +159,8 @@ fn between(texture: &Texture, request: &Request, lambda: f64) -> [BoundedFloat; 
 }
 
 /// The layer: the nearest one, limited to those that exist.
-fn layers(level: &TextureLevel, at: BoundedFloat) -> (i64, (i64, i64)) {
-    let pick = |value: f64| (index((value + 0.5).floor())).clamp(0, i64::from(level.depth.max(1)) - 1);
+fn layers(count: u32, at: BoundedFloat) -> (i64, (i64, i64)) {
+    let pick = |value: f64| (index((value + 0.5).floor())).clamp(0, i64::from(count.max(1)) - 1);
     (pick(at.value), (pick(at.low), pick(at.high)))
 }
 
@@ -227,14 +227,16 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
                 BoundedFloat::exact(s).widened(error + const { rules::CUBE_COORDINATE.ulps() } * rules::ulp(1.0));
             *axis_at = axis(in_texels(kind, bounded, level.width), 0, linear, request);
         }
-        let slice = there.face as i64;
-        return Footprint { axes, count: 2, slice, slices: (slice, slice), wrap: Wrap::ClampToEdge, cube: true };
+        let face = there.face as i64;
+        let (layer, layers) = if kind.arrayed { layers(level.depth / 6, request.layer) } else { (0, (0, 0)) };
+        let slices = (6 * layers.0 + face, 6 * layers.1 + face);
+        return Footprint { axes, count: 2, slice: 6 * layer + face, slices, wrap: Wrap::ClampToEdge, cube: true };
     }
     let count = usize::from(kind.dimensions());
     for (place, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
         axes[place] = axis(in_texels(kind, request.at[place], size), request.offset[place], linear, request);
     }
-    let (slice, slices) = if kind.arrayed { layers(level, request.layer) } else { (0, (0, 0)) };
+    let (slice, slices) = if kind.arrayed { layers(level.depth, request.layer) } else { (0, (0, 0)) };
     let wrap = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { texture.wrap };
     Footprint { axes, count, slice, slices, wrap, cube: false }
 }
@@ -248,8 +250,8 @@ impl Footprint {
     /// The index of a texel in another layer.
     fn place_in(&self, level: &TextureLevel, at: [i64; 3], slice: i64) -> Option<[i64; 3]> {
         if self.cube {
-            let (face, x, y) = cube::across(slice as usize, at[0], at[1], level.width)?;
-            return Some([x, y, face as i64]);
+            let (face, x, y) = cube::across((slice % 6) as usize, at[0], at[1], level.width)?;
+            return Some([x, y, slice - slice % 6 + face as i64]);
         }
         let sizes = [level.width, level.height, level.depth];
         let mut place = [0, 0, slice];

@@ -354,7 +354,7 @@ fn load_size(
         loader.reader.error(&SCENE_WRONG_SIZE, span, message, "width and height differ");
         return None;
     }
-    let depth = if is_cube { 6 } else { depth * layers };
+    let depth = if is_cube { 6 * layers } else { depth * layers };
     let texels = u64::from(width) * u64::from(height) * u64::from(depth);
     if texels > MAX_TEXELS {
         let message = format!("`{name}` has {texels} texels; at most {MAX_TEXELS} are drawn with");

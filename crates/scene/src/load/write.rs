@@ -263,7 +263,7 @@ fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
         let _ = write!(keys, "depth = {}, ", level.depth);
     }
     if kind.arrayed {
-        let _ = write!(keys, "layers = {}, ", level.depth);
+        let _ = write!(keys, "layers = {}, ", if kind.dim == SamplerDim::Cube { level.depth / 6 } else { level.depth });
     }
     if texture.filter != Filter::Nearest {
         let _ = write!(keys, "filter = {}, ", quoted(name_of(FILTERS, texture.filter)));

@@ -54,7 +54,6 @@ static SHADERTOY: &[(&str, &str)] = &[
 /// Functions of later versions.
 #[rustfmt::skip]
 static LATER: &[(&str, u16)] = &[
-    ("textureGatherOffsets", 400),
     ("interpolateAtCentroid", 400), ("interpolateAtSample", 400), ("interpolateAtOffset", 400),
     ("EmitStreamVertex", 400), ("EndStreamPrimitive", 400), ("packDouble2x32", 400), ("unpackDouble2x32", 400),
     ("anyInvocation", 460), ("allInvocations", 460), ("allInvocationsEqual", 460),
