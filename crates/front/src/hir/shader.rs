@@ -211,6 +211,8 @@ pub struct GeometryLayout {
     pub output: Option<PrimitiveOut>,
     /// The largest number of vertices that it emits.
     pub max_vertices: Option<u32>,
+    /// How often it runs for each primitive (GLSL 4.00 §4.3.8.1); once if the layout does not say.
+    pub invocations: Option<u32>,
 }
 
 /// The redeclaration of `gl_FragCoord` in a fragment shader (§4.3.8.1).
