@@ -102,8 +102,12 @@ pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> 
             let place = footprint.place_in(base, [i + right, j + up, 0], slice)?;
             value(base, place, texture, &request).get(component).copied()
         };
-        // Past a cube's corner there is no texel, and OpenGL leaves open what is there.
-        let Some(likely) = one(x.first, y.first, footprint.slice) else { return BoundedFloat::anything(0.0) };
+        // Past a cube's corner there is no texel, and OpenGL leaves open what is there: the mean of the others is likely.
+        let Some(likely) = one(x.first, y.first, footprint.slice) else {
+            let around = GATHERED.map(|[i, j]| one(x.first + i - right, y.first + j - up, footprint.slice));
+            let sum: f64 = around.iter().flatten().map(|texel| texel.value).sum();
+            return BoundedFloat::anything(sum / 3.0);
+        };
         if positions > limits::MOST_TEXELS {
             return BoundedFloat::anything(likely.value);
         }
@@ -330,7 +334,10 @@ fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Req
         if texture.sampling.fixed_point_depth { request.reference.map(in_depths) } else { request.reference };
     let passed = compare(texture.compare, reference.value, texel[0]);
     let slack = const { rules::COMPARED_DEPTH.ulps() } * rules::ulp(texel[0]);
+    // A clamped reference and a stored bound of the range are exact.
+    let exact = texture.sampling.fixed_point_depth && reference.low == reference.high && matches!(texel[0], 0.0 | 1.0);
     let undecided = request.bounded
+        && !exact
         && (reference.low - slack..=reference.high + slack).contains(&texel[0])
         && !matches!(texture.compare, Compare::Always | Compare::Never);
     let value = f64::from(u8::from(passed));

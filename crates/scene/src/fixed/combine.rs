@@ -134,16 +134,11 @@ impl Default for Combine {
         let arguments = |operands: [CombineOperand; 3]| {
             let sources = [CombineSource::Texture, CombineSource::Previous, CombineSource::Constant];
             let mut operands = operands.into_iter();
-            sources.map(|source| CombineArgument {
-                source,
-                operand: operands.next().unwrap_or(CombineOperand::SrcAlpha),
-            })
+            sources
+                .map(|source| CombineArgument { source, operand: operands.next().unwrap_or(CombineOperand::SrcAlpha) })
         };
-        let half = |operands| Combination {
-            function: CombineFunction::Modulate,
-            arguments: arguments(operands),
-            scale: 1,
-        };
+        let half =
+            |operands| Combination { function: CombineFunction::Modulate, arguments: arguments(operands), scale: 1 };
         let alpha = CombineOperand::SrcAlpha;
         Self { rgb: half([CombineOperand::SrcColor, CombineOperand::SrcColor, alpha]), alpha: half([alpha; 3]) }
     }

@@ -36,7 +36,8 @@ pub(super) fn load(reader: &mut Reader, table: &DeTable<'_>) -> Combine {
         (&mut combine.alpha, ["source_alpha", "operand_alpha", "alpha_scale"], alphas),
     ] {
         let [sources_key, operands_key, scale_key] = names;
-        for (argument, source) in half.arguments.iter_mut().zip(list(reader, table, sources_key, CombineSource::NAMES)) {
+        for (argument, source) in half.arguments.iter_mut().zip(list(reader, table, sources_key, CombineSource::NAMES))
+        {
             argument.source = source;
         }
         for (argument, operand) in half.arguments.iter_mut().zip(list(reader, table, operands_key, operands)) {

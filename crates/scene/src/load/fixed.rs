@@ -11,8 +11,8 @@ use super::material::Colors;
 use super::matrices::View;
 use super::reader::{Node, Reader};
 use crate::fixed::{
-    ColorMaterial, Combine, EnvironmentMode, FixedFunction, FogMode, FogSource, Material, NormalScaling, Pipeline, TexGen,
-    TextureTarget, TextureUnit, UNITS,
+    ColorMaterial, Combine, EnvironmentMode, FixedFunction, FogMode, FogSource, Material, NormalScaling, Pipeline,
+    TexGen, TextureTarget, TextureUnit, UNITS,
 };
 use glisten_front::diagnostic::codes::scenes::{SCENE_WRONG_SIZE, SCENE_WRONG_VALUE};
 use glisten_front::link::FixedState;
