@@ -199,7 +199,7 @@ struct FixedArgs {
 impl FixedArgs {
     fn state(&self) -> FixedState {
         let Self { two_side, clip_planes, unclamped_colors } = *self;
-        FixedState { two_side, clip_planes, unclamped_colors }
+        FixedState { two_side, clip_planes, unclamped_colors, ..FixedState::default() }
     }
 }
 

@@ -33,6 +33,7 @@ mod discards;
 mod expressions;
 mod facts;
 mod function;
+mod gathers;
 mod interface;
 mod matrices;
 mod operands;

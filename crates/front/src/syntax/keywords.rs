@@ -31,6 +31,7 @@ const fn word(spelling: &'static str, kind: TokenKind, desktop: (u16, u16), es: 
 const SHADER4: Extensions = Extensions::GPU_SHADER4;
 const ARRAY: Extensions = Extensions::TEXTURE_ARRAY.union(Extensions::GPU_SHADER4);
 const MULTISAMPLE: Extensions = Extensions::TEXTURE_MULTISAMPLE;
+const CUBE_ARRAYS: Extensions = Extensions::TEXTURE_CUBE_MAP_ARRAY;
 const SHADER5: Extensions = Extensions::GPU_SHADER5;
 const LAYOUT: Extensions = Extensions::EXPLICIT_ATTRIB_LOCATION
     .union(Extensions::UNIFORM_BUFFER_OBJECT)
@@ -281,10 +282,10 @@ pub static TABLE: &[Keyword] = &[
     word("patch", Foreign, (400, NEVER), (NEVER, 300)),
     word("sample", Foreign, (400, NEVER), (NEVER, 300)).or(SHADER5),
     word("subroutine", Foreign, (400, NEVER), (NEVER, 300)),
-    word("samplerCubeArray", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("samplerCubeArrayShadow", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("isamplerCubeArray", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("usamplerCubeArray", Foreign, (400, NEVER), (NEVER, NEVER)),
+    word("samplerCubeArray", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
+    word("samplerCubeArrayShadow", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
+    word("isamplerCubeArray", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
+    word("usamplerCubeArray", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
     word("coherent", Foreign, (420, NEVER), (310, 300)),
     word("restrict", Foreign, (420, NEVER), (310, 300)),
     word("readonly", Foreign, (420, NEVER), (310, 300)),

@@ -3,7 +3,7 @@
 
 use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
 use crate::builtin::Stages;
-use crate::language::{Extensions, NEVER};
+use crate::language::{Extensions, NEVER, Since};
 
 const G110: Row = Row::base("§8.4", 110);
 /// §8.4 of 1.10 to 1.30 and of the compatibility profile.
@@ -20,6 +20,10 @@ const R130: Row = Row::base("§8.6", 130);
 const D110: Row = Row::base("§8.8", 110)
     .with(Effect::Derivative, true)
     .available(Availability::since(110).es(300).or(Extensions::STANDARD_DERIVATIVES).stages(Stages::FRAGMENT));
+/// Derivatives of which the program says from which neighbors they are.
+const FINE: Row = Row::base("GLSL 4.50 §8.14.1", 450)
+    .with(Effect::Derivative, true)
+    .available(Availability::from(Since::new(450, NEVER)).or(Extensions::DERIVATIVE_CONTROL).stages(Stages::FRAGMENT));
 const N110: Row = Row::base("§8.9", 110).with(Effect::None, false).available(Availability::since(110).es(NEVER));
 const EMIT: Row =
     Row::base("§8.10", 150).with(Effect::Emits, false).available(Availability::since(150).stages(Stages::GEOMETRY));
@@ -88,6 +92,13 @@ pub(super) static ROWS: &[Row] = rows! {
     D110 DFdx: genType dFdx(genType p);
     D110 DFdy: genType dFdy(genType p);
     D110 Fwidth: genType fwidth(genType p);
+
+    FINE DFdxFine: genType dFdxFine(genType p);
+    FINE DFdyFine: genType dFdyFine(genType p);
+    FINE FwidthFine: genType fwidthFine(genType p);
+    FINE DFdxCoarse: genType dFdxCoarse(genType p);
+    FINE DFdyCoarse: genType dFdyCoarse(genType p);
+    FINE FwidthCoarse: genType fwidthCoarse(genType p);
 
     N110 Noise1: float noise1(genType x);
     N110 Noise2: vec2 noise2(genType x);

@@ -10,6 +10,7 @@ mod common;
 mod geometric;
 mod matcher;
 mod texture;
+mod texture_cube_array;
 mod texture_extensions;
 mod texture_gather;
 mod texture_old;
@@ -205,6 +206,7 @@ static TABLES: &[&[Row]] = &[
     texture::ROWS,
     texture_old::ROWS,
     texture_extensions::ROWS,
+    texture_cube_array::ROWS,
     texture_gather::ROWS,
 ];
 
