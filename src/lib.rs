@@ -20,15 +20,15 @@
 //! writes files.
 
 pub mod build;
+pub mod engines;
 pub mod library;
+mod sources;
 
 #[cfg(feature = "cli")]
 pub mod account;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
-#[cfg(feature = "cli")]
-pub mod engines;
 #[cfg(feature = "reference")]
 pub mod evaluate;
 #[cfg(feature = "cli")]

@@ -6,7 +6,7 @@ use glisten_front::Compiler;
 pub use glisten_scene::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter,
     FixedDraw, Format, Framebuffer, Library, Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, MemoryFiles, NoLibrary,
-    Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
+    Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 
 /// Loads the scene at `path`, whose draws may name programs of the library.

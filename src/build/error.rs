@@ -26,6 +26,17 @@ pub enum BuildError {
     NoProgram(PathBuf),
     /// A shader of a folder has no partner of the same name.
     NoPartner(PathBuf),
+    /// A folder contains a geometry shader, which the targets of a build do not have.
+    Geometry(PathBuf),
+    /// There is no engine of this name.
+    NoEngine {
+        /// The name.
+        name: String,
+        /// The engine that may be meant.
+        similar: Option<String>,
+    },
+    /// A version that sources are assumed to have is none.
+    Version(String),
     /// A fixed uniform has another number of components.
     Fixed {
         /// Its name.
@@ -53,10 +64,17 @@ impl BuildError {
     pub fn read(&self) -> &[PathBuf] {
         match self {
             Self::Shaders { read, .. } => read,
-            Self::File { path, .. } | Self::NoProgram(path) | Self::NoPartner(path) => std::slice::from_ref(path),
+            Self::File { path, .. } | Self::NoProgram(path) | Self::NoPartner(path) | Self::Geometry(path) => {
+                std::slice::from_ref(path)
+            }
+            Self::NoEngine { .. } | Self::Version(_) => &[],
             Self::Fixed { .. } | Self::NoUniform { .. } | Self::SameName(_) | Self::NoFolder => &[],
         }
     }
+}
+
+fn suggest(f: &mut fmt::Formatter<'_>, similar: Option<&str>) -> fmt::Result {
+    similar.map_or(Ok(()), |similar| write!(f, "; did you mean `{similar}`?"))
 }
 
 impl fmt::Display for BuildError {
@@ -72,6 +90,16 @@ impl fmt::Display for BuildError {
                 "{}: its program has no other stage; name it with `Build::program`, or move it out of the folder",
                 path.display()
             ),
+            Self::Geometry(path) => write!(
+                f,
+                "{}: WGSL has no geometry shaders; leave it out of the folder, or name the other stages with `Build::program`",
+                path.display()
+            ),
+            Self::NoEngine { name, similar } => {
+                write!(f, "there is no engine `{name}`")?;
+                suggest(f, similar.as_deref())
+            }
+            Self::Version(why) => f.write_str(why),
             Self::Fixed { uniform, wanted, given } => {
                 write!(
                     f,
@@ -80,7 +108,7 @@ impl fmt::Display for BuildError {
             }
             Self::NoUniform { uniform, similar } => {
                 write!(f, "no program has the uniform `{uniform}` that is fixed")?;
-                similar.as_ref().map_or(Ok(()), |similar| write!(f, "; did you mean `{similar}`?"))
+                suggest(f, similar.as_deref())
             }
             Self::SameName(name) => {
                 write!(f, "two programs would be the module `{name}`; name one with `Build::named_program`")

@@ -1,6 +1,7 @@
 //! Files of a build: [`Reads`] remembers which were read; [`write()`] leaves a file alone that is up to date.
 
 use super::error::BuildError;
+use crate::sources::Disk;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,6 +28,17 @@ impl Reads {
         let bytes = fs::read(path).map_err(|error| BuildError::File { path: path.to_owned(), error })?;
         Ok(String::from_utf8_lossy(&bytes).into())
     }
+}
+
+impl Disk for Reads {
+    fn text(&self, path: &Path) -> Result<Arc<str>, String> {
+        Self::text(self, path).map_err(|error| error.to_string())
+    }
+
+    /// Cargo would run a build script every time if it were told of a file that is not there.
+    fn looked_for(&self, _: &Path) {}
+
+    fn searched(&self) {}
 }
 
 /// Writes a file if that changes it. The text appears under its name at once, so that nobody reads a part of it.

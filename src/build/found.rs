@@ -7,7 +7,6 @@ use glisten_front::Program;
 use glisten_front::diagnostic::write::human;
 use glisten_front::diagnostic::{Diagnostic, Diagnostics, Severity};
 use glisten_front::source::SourceMap;
-use std::path::Path;
 
 /// A program that was compiled, with its texts.
 pub(super) struct Compiled {
@@ -53,11 +52,4 @@ fn warning(sources: &SourceMap, found: &Diagnostic) -> Option<String> {
     let file = sources.file(place.file).name();
     let told = found.severity == Severity::Warning && !is_embedded(file);
     told.then(|| format!("{file}:{}:{}: {} [{}]", place.line, place.column, found.message, found.code))
-}
-
-/// The name of a shader's file without its extensions: `phong` for `phong.vert` and `phong.vert.glsl`.
-pub(super) fn stem(path: &Path) -> String {
-    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let inner = name.strip_suffix(".glsl").unwrap_or(&name);
-    inner.rsplit_once('.').map_or(inner, |(stem, _)| stem).to_owned()
 }

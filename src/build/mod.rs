@@ -20,11 +20,11 @@
 //! every file that was read. All errors of all programs are reported together. *Not done here:* what a program or a struct is
 //! in Rust.
 
+mod engine;
 mod error;
 mod files;
 mod fixed;
 mod found;
-mod includes;
 mod programs;
 mod rust;
 #[cfg(feature = "reference")]
@@ -32,14 +32,16 @@ mod scenes;
 
 pub use error::BuildError;
 
-use crate::library::Embedded;
+#[cfg(doc)]
+use crate::engines;
+use crate::sources::stages;
+use engine::Engine;
 use files::Reads;
 use fixed::Fixed;
-use found::{Compiled, stem};
+use found::Compiled;
 use glisten_emit::{Conventions, Target};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::write::human;
-use includes::Folders;
 use programs::{Given, Named};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -50,7 +52,7 @@ use std::path::{Path, PathBuf};
 pub struct Build {
     programs: Vec<Given>,
     options: Options,
-    folders: Vec<PathBuf>,
+    engine: Engine,
     fixed: Vec<Fixed>,
     conventions: Conventions,
     optimize: bool,
@@ -77,7 +79,7 @@ impl Default for Build {
         Self {
             programs: Vec::new(),
             options: Options::default(),
-            folders: Vec::new(),
+            engine: Engine::default(),
             fixed: Vec::new(),
             conventions: Conventions::default(),
             optimize: true,
@@ -97,7 +99,7 @@ impl Build {
     /// Adds a program of a vertex and a fragment shader, named after the vertex shader's file.
     #[must_use]
     pub fn program(self, vertex: impl AsRef<Path>, fragment: impl AsRef<Path>) -> Self {
-        let name = stem(vertex.as_ref());
+        let name = stages::stem(vertex.as_ref());
         self.named_program(name, vertex, fragment)
     }
 
@@ -110,12 +112,12 @@ impl Build {
         fragment: impl AsRef<Path>,
     ) -> Self {
         let (vertex, fragment) = (vertex.as_ref().to_owned(), fragment.as_ref().to_owned());
-        self.programs.push(Given::Pair(Named { name: name.into(), vertex, fragment }));
+        self.programs.push(Given::Pair(Named { name: name.into(), vertex, fragment, member: None }));
         self
     }
 
-    /// Adds all programs of a folder and of the folders below it: a vertex and a fragment shader of the same name each. Vertex
-    /// shaders end in `.vert`, `.vs` or `.vsh`, fragment shaders in `.frag`, `.fs` or `.fsh`, both with or without `.glsl`.
+    /// Adds all programs of a folder and of the folders below it: a vertex and a fragment shader of the same name each, and
+    /// files that contain both. Names tell stages as they do for `glisten lint`: `x.vert`, `x.vsh`, `x.vert.glsl`, `x_vs.glsl`.
     #[must_use]
     pub fn folder(mut self, folder: impl AsRef<Path>) -> Self {
         self.programs.push(Given::Folder(folder.as_ref().to_owned()));
@@ -125,7 +127,29 @@ impl Build {
     /// Adds a folder to the search path of `#include`, like `-I`.
     #[must_use]
     pub fn include(mut self, folder: impl AsRef<Path>) -> Self {
-        self.folders.push(folder.as_ref().to_owned());
+        self.engine.folders.push(folder.as_ref().to_owned());
+        self
+    }
+
+    /// Completes the sources as an engine does, like `--engine`: `minecraft`, `libretro`, `three`, `shadertoy` and so on. The
+    /// names are those of [`engines::names`].
+    #[must_use]
+    pub fn engine(mut self, name: impl Into<String>) -> Self {
+        self.engine.name = Some(name.into());
+        self
+    }
+
+    /// Reads a file before each source, like `--prelude`.
+    #[must_use]
+    pub fn prelude(mut self, file: impl AsRef<Path>) -> Self {
+        self.engine.preludes.push(file.as_ref().to_owned());
+        self
+    }
+
+    /// The version of sources without a `#version` line, like `--assume-version`: `330`, `150 core`, `300 es`.
+    #[must_use]
+    pub fn assume_version(mut self, version: impl Into<String>) -> Self {
+        self.engine.version = Some(version.into());
         self
     }
 
@@ -290,8 +314,9 @@ impl Build {
     /// Those of [`Build::build`].
     pub fn text(&self) -> Result<Built, BuildError> {
         let reads = Reads::default();
-        let includes = Folders::new(self.folders.clone(), Embedded, reads.clone());
-        let compiler = Compiler::new(self.options.clone()).with_includes(includes);
+        let completed = self.engine.completed(&reads)?;
+        let compiler =
+            Compiler::new(self.options.clone()).with_includes(completed.includes()).with_preparation(completed);
         let found = programs::compile(&self.programs, &compiler, &reads)?;
         fixed::check(&self.fixed, &found)?;
         let (mut modules, mut errors) = (Vec::new(), found.errors);

@@ -5,14 +5,17 @@
 
 use super::error::BuildError;
 use super::files::Reads;
-use super::found::{Found, stem};
+use super::found::Found;
 #[cfg(feature = "reference")]
 use super::scenes;
 use super::{repeated, rust};
+use crate::engines::Member;
+use crate::sources::{members, stages};
 use glisten_front::{Compilation, Compiler, Source, Stage};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A program as it was given.
 #[derive(Clone, Debug)]
@@ -32,35 +35,30 @@ pub(super) struct Named {
     pub(super) name: String,
     pub(super) vertex: PathBuf,
     pub(super) fragment: PathBuf,
+    /// The index of the program in its file, if the file has several.
+    pub(super) member: Option<usize>,
 }
 
-/// Extensions, with their stages.
-const EXTENSIONS: [(&str, Stage); 6] = [
-    ("vert", Stage::Vertex),
-    ("vs", Stage::Vertex),
-    ("vsh", Stage::Vertex),
-    ("frag", Stage::Fragment),
-    ("fs", Stage::Fragment),
-    ("fsh", Stage::Fragment),
-];
 /// Folders in folders deeper than this are not searched: they are links in a circle.
 const DEEPEST: usize = 32;
 
 impl Named {
     /// The texts of both stages.
-    pub(super) fn sources(&self, reads: &Reads) -> Result<[Source; 2], BuildError> {
+    fn sources(&self, reads: &Reads) -> Result<[Source; 2], BuildError> {
         let source = |path: &Path, stage| {
-            Ok(Source { name: path.to_string_lossy().into_owned(), text: reads.text(path)?, stage })
+            let text = reads.text(path)?;
+            Ok(Source { name: path.to_string_lossy().into_owned(), text: self.part(path, &text, stage), stage })
         };
         Ok([source(&self.vertex, Stage::Vertex)?, source(&self.fragment, Stage::Fragment)?])
     }
-}
 
-/// The stage that the name of a file tells.
-fn stage(path: &Path) -> Option<Stage> {
-    let name = path.file_name()?.to_str()?;
-    let (_, extension) = name.strip_suffix(".glsl").unwrap_or(name).rsplit_once('.')?;
-    EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, stage)| *stage)
+    /// The text of a stage, where the file has several programs; otherwise the whole text.
+    fn part(&self, path: &Path, text: &Arc<str>, stage: Stage) -> Arc<str> {
+        let Some(index) = self.member else { return Arc::clone(text) };
+        let members = members(Some(path), text);
+        let part = members.get(index).and_then(|member| member.part(stage));
+        part.map_or_else(|| Arc::clone(text), |part| part.text(text))
+    }
 }
 
 fn compile_one(found: &mut Found, named: &Named, compiler: &Compiler, reads: &Reads) -> Result<(), BuildError> {
@@ -94,26 +92,54 @@ pub(super) fn compile(given: &[Given], compiler: &Compiler, reads: &Reads) -> Re
     }
 }
 
+/// The programs of a folder: pairs of files, and files of several stages.
 fn of_folder(folder: &Path, reads: &Reads) -> Result<Vec<Named>, BuildError> {
     let mut files = Vec::new();
     search(folder, 0, reads, &mut files)?;
     files.sort();
-    let mut found: BTreeMap<PathBuf, [Option<PathBuf>; 2]> = BTreeMap::new();
+    let mut pairs: BTreeMap<PathBuf, [Option<PathBuf>; 2]> = BTreeMap::new();
+    let mut named = Vec::new();
     for file in files {
-        let Some(stage) = stage(&file) else { continue };
-        let key = file.with_file_name(stem(&file));
-        let [vertex, fragment] = found.entry(key).or_default();
-        *(if stage == Stage::Vertex { vertex } else { fragment }) = Some(file);
+        match stages::by_name(&file) {
+            _ if stages::is_part(&file) || stages::is_assembly(&file) => {}
+            Some(Stage::Geometry) => return Err(BuildError::Geometry(file)),
+            Some(stage) => {
+                let [vertex, fragment] = pairs.entry(file.with_file_name(stages::stem(&file))).or_default();
+                *(if stage == Stage::Vertex { vertex } else { fragment }) = Some(file);
+            }
+            None if stages::may_be_combined(&file) => named.extend(of_file(&file, reads)?),
+            None => {}
+        }
     }
-    if found.is_empty() {
+    for pair in pairs.into_values() {
+        match pair {
+            [Some(vertex), Some(fragment)] => {
+                named.push(Named { name: stages::stem(&vertex), vertex, fragment, member: None });
+            }
+            [Some(lone), None] | [None, Some(lone)] => return Err(BuildError::NoPartner(lone)),
+            [None, None] => {}
+        }
+    }
+    if named.is_empty() {
         return Err(BuildError::NoProgram(folder.to_owned()));
     }
-    let named = found.into_values().filter_map(|pair| match pair {
-        [Some(vertex), Some(fragment)] => Some(Ok(Named { name: stem(&vertex), vertex, fragment })),
-        [Some(lone), None] | [None, Some(lone)] => Some(Err(BuildError::NoPartner(lone))),
-        [None, None] => None,
-    });
-    named.collect()
+    named.sort_by(|a, b| a.vertex.cmp(&b.vertex));
+    Ok(named)
+}
+
+/// The programs of a file of several stages.
+fn of_file(file: &Path, reads: &Reads) -> Result<Vec<Named>, BuildError> {
+    let members = members(Some(file), &reads.text(file)?);
+    let program = |(index, member): (usize, Member)| {
+        let has = |stage| member.part(stage).is_some();
+        (has(Stage::Vertex) && has(Stage::Fragment)).then(|| Named {
+            member: member.name.is_some().then_some(index),
+            name: member.name.unwrap_or_else(|| stages::stem(file)),
+            vertex: file.to_owned(),
+            fragment: file.to_owned(),
+        })
+    };
+    Ok(members.into_iter().enumerate().filter_map(program).collect())
 }
 
 /// Adds the files of a folder and of those below it. The folders themselves are remembered, too: a new file changes them.

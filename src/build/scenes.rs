@@ -4,8 +4,9 @@
 //! *Holds:* draws with one program have one module; every file that the scene reads is remembered.
 
 use super::files::Reads;
-use super::found::{Found, stem};
+use super::found::Found;
 use crate::scene::{FileError, FileSource, Scene, load};
+use crate::sources::stages::stem;
 use crate::specialize::specialize_scene;
 use glisten_front::Compiler;
 use glisten_front::hir::Stage;

@@ -3,6 +3,7 @@
 use super::exit::Failure;
 use super::stages::StageArg;
 use crate::engines::{self, Style};
+use crate::sources::parse_version;
 use crate::specialize::Contract;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
@@ -198,7 +199,7 @@ struct FixedArgs {
 impl FixedArgs {
     fn state(&self) -> FixedState {
         let Self { two_side, clip_planes, unclamped_colors } = *self;
-        FixedState { two_side, clip_planes, unclamped_colors }
+        FixedState { two_side, clip_planes, unclamped_colors, ..FixedState::default() }
     }
 }
 
@@ -330,18 +331,6 @@ pub(super) fn parse_define(text: &str) -> Result<(String, String), String> {
     Ok((name.to_owned(), value.to_owned()))
 }
 
-/// A version as a `#version` line has it: `330`, `150 core`, `300 es`; `300es` will do.
-pub(super) fn parse_version(text: &str) -> Result<String, String> {
-    let text = text.trim();
-    let text = text.strip_prefix("#version").map_or(text, str::trim);
-    let (number, profile) = text.split_at(text.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(text.len()));
-    let profile = profile.trim();
-    if number.len() != 3 || !["", "core", "compatibility", "es"].contains(&profile) {
-        return Err(format!("`{text}` is no version: write a number and a profile, such as `150 core`"));
-    }
-    Ok(format!("{number} {profile}").trim().to_owned())
-}
-
 /// Reads the name of an include style.
 fn style_words() -> impl TypedValueParser<Value = Style> {
     let names = engines::STYLES.iter().map(|row| row.name);
@@ -381,7 +370,8 @@ fn parse_binding(text: &str) -> Result<(String, u32), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{parse_binding, parse_define, parse_version};
+    use super::{parse_binding, parse_define};
+    use crate::sources::parse_version;
 
     #[test]
     fn versions() {

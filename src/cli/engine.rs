@@ -8,32 +8,20 @@ use super::args::SourceArgs;
 use super::config;
 use super::exit::{Exit, Failure};
 use super::files;
-use super::includes::DiskIncludes;
 use super::rules::Rule;
-use super::stages;
 use super::trace::{self, Trace};
-use crate::engines::{self, Member, Profile, Style, combined};
+use crate::engines::{self, Profile, Style};
+use crate::sources::{Disk, DiskIncludes, Settings};
 use glisten_front::compiler::{Preparation, Prepared, Source};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
-use glisten_front::source::{Completion, Prelude};
+use glisten_front::source::Prelude;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The name of standard input in diagnostics.
 pub(super) const STDIN: &str = "<stdin>";
-
-/// The settings that the flags and the tables give to one source.
-struct Settings {
-    profile: Option<&'static Profile>,
-    version: Option<String>,
-    style: Option<Style>,
-    stage: Option<Stage>,
-    preludes: Vec<Prelude>,
-    defines: Vec<(String, String)>,
-    folders: Vec<PathBuf>,
-}
 
 /// Completes sources.
 #[derive(Clone, Debug)]
@@ -82,7 +70,7 @@ impl Engines {
 
     /// The resolver of includes for sources that no engine completes.
     pub(super) fn includes(&self) -> DiskIncludes {
-        DiskIncludes::of_engine(self.flags.folders.clone(), Style::Quote, &[])
+        DiskIncludes::new(Arc::new(Traced), self.flags.folders.clone(), Style::Quote, &[])
     }
 
     /// The rules for a folder.
@@ -111,23 +99,18 @@ impl Engines {
         self.flags.profile.is_some() || self.flags.style.is_some()
     }
 
+    /// The tables that fit a file, in their order.
+    fn of_tables(&self, path: &Path, visit: impl FnMut(&Rule)) {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        self.rules(folder).iter().filter(|rule| rule.fits(path)).for_each(visit);
+    }
+
     /// The settings of a file by the flags and the tables.
     fn settings(&self, path: Option<&Path>) -> Settings {
         let flags = &*self.flags;
-        let mut settings = Settings {
-            profile: None,
-            version: None,
-            style: None,
-            stage: None,
-            preludes: Vec::new(),
-            defines: Vec::new(),
-            folders: flags.folders.clone(),
-        };
+        let mut settings = Settings { folders: flags.folders.clone(), ..Settings::default() };
         if let Some(path) = path {
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            for rule in self.rules(folder).iter().filter(|rule| rule.fits(path)) {
-                settings.add(rule);
-            }
+            self.of_tables(path, |rule| add(&mut settings, rule));
         }
         settings.profile = flags.profile.or(settings.profile);
         settings.version = flags.version.clone().or(settings.version);
@@ -138,114 +121,59 @@ impl Engines {
 
     /// The stage that the flags and the tables give to a file whose name tells none.
     pub(super) fn stage(&self, path: &Path) -> Option<Stage> {
-        let settings = self.settings(Some(path));
-        settings.stage.or(settings.profile.and_then(|profile| profile.stage))
+        let mut stage = None;
+        self.of_tables(path, |rule| stage = rule.stage.or(stage));
+        stage.or_else(|| self.settings(Some(path)).profile.and_then(|profile| profile.stage))
     }
 }
 
-impl Settings {
-    fn add(&mut self, rule: &Rule) {
-        self.profile = rule.profile.or(self.profile);
-        self.version = rule.version.clone().or(self.version.take());
-        self.style = rule.style.or(self.style);
-        self.stage = rule.stage.or(self.stage);
-        self.preludes.extend_from_slice(&rule.preludes);
-        self.defines.extend_from_slice(&rule.defines);
-        self.folders.extend_from_slice(&rule.includes);
-    }
-
-    /// Whether nothing is to be done.
-    fn is_plain(&self) -> bool {
-        let no_engine = self.profile.is_none() && self.version.is_none() && self.style.is_none();
-        no_engine && self.preludes.is_empty() && self.defines.is_empty()
-    }
-
-    /// The source with all that belongs to it.
-    fn complete(self, source: &Source, header: &str, prepared: &mut Prepared) {
-        let style = self.style.or(self.profile.and_then(|profile| profile.style));
-        let roots = self.profile.map_or(&[][..], |profile| &profile.roots);
-        let text = prepared.text.as_ref().unwrap_or(&source.text);
-        let mut added = self.profile.map(|profile| profile.addition(text, source.stage, header)).unwrap_or_default();
-        let taken = match self.profile {
-            Some(profile) => profile.taken(text, self.defines),
-            None => self.defines,
-        };
-        let of_stage = std::mem::take(&mut prepared.defines);
-        prepared.defines = last_of_each(added.defines.into_iter().chain(of_stage).chain(taken).collect());
-        added.preludes.extend(self.profile.and_then(|profile| companion(profile, &source.name)));
-        added.preludes.extend(self.preludes);
-        prepared.completion = Completion {
-            assumed_version: self.version.or(self.profile.and_then(|profile| profile.version.clone())),
-            preludes: added.preludes,
-            directive: style.and_then(|style| style.lookup().directive),
-            resolves_includes: style.is_some(),
-        };
-        prepared.problems = added.problems;
-        let includes = DiskIncludes::of_engine(self.folders, style.unwrap_or(Style::Quote), roots);
-        prepared.includes = Some(Arc::new(includes));
+impl Engines {
+    /// Whether the engine of a file never takes it for a shader, whatever is in it.
+    pub(super) fn is_part(&self, path: &Path) -> bool {
+        let parts = self.settings(Some(path)).profile.and_then(|profile| profile.parts.as_deref());
+        parts.is_some_and(|parts| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(parts)))
     }
 }
 
-/// The file next to a source that its engine reads before it.
-fn companion(profile: &Profile, source: &str) -> Option<Prelude> {
-    let source = Path::new(source);
-    // The names may differ in case alone, and so may files.
-    let is_source = |path: &Path| {
-        path.file_name().map(|name| name.to_ascii_lowercase())
-            == source.file_name().map(|name| name.to_ascii_lowercase())
-    };
-    let paths = profile.before.iter().map(|name| source.with_file_name(name));
-    let is_there = |path: &PathBuf| {
+/// Adds what a table says.
+fn add(settings: &mut Settings, rule: &Rule) {
+    settings.profile = rule.profile.or(settings.profile);
+    settings.version = rule.version.clone().or(settings.version.take());
+    settings.style = rule.style.or(settings.style);
+    settings.preludes.extend_from_slice(&rule.preludes);
+    settings.defines.extend_from_slice(&rule.defines);
+    settings.folders.extend_from_slice(&rule.includes);
+}
+
+/// Reads files for a command, and notes what it reads.
+struct Traced;
+
+impl Disk for Traced {
+    fn text(&self, path: &Path) -> Result<Arc<str>, String> {
+        let name = path.to_string_lossy();
+        // An included file may be empty; otherwise the same rules hold as for a source.
+        let bytes = files::read(&name, path).map_err(|error| error.message)?;
+        if bytes.is_empty() {
+            return Ok("".into());
+        }
+        files::text_of(&name, bytes).map_err(|error| error.message)
+    }
+
+    fn looked_for(&self, path: &Path) {
         trace::looked_for(path);
-        path.is_file() && !is_source(path)
-    };
-    let path = paths.into_iter().find(is_there)?;
-    files::read_prelude(&path).ok()
-}
-
-/// The last definition of each macro.
-fn last_of_each(defines: Vec<(String, String)>) -> Vec<(String, String)> {
-    let mut kept: Vec<(String, String)> = Vec::new();
-    for (name, value) in defines {
-        kept.retain(|(other, _)| *other != name);
-        kept.push((name, value));
     }
-    kept
-}
 
-/// The programs of a file with several stages; none if its name tells its stage.
-pub(super) fn members(path: Option<&Path>, text: &str) -> Vec<Member> {
-    if path.is_some_and(|path| stages::by_name(path).is_some()) { Vec::new() } else { combined::members(text) }
-}
-
-/// The text with the header of a source: the fragment shader next to a vertex shader, otherwise the source itself.
-fn header_of(source: &Source, path: Option<&Path>) -> Arc<str> {
-    let fragment = || {
-        let path = path?.with_extension("fs");
-        files::read_source(&path.to_string_lossy(), Some(&path)).ok()
-    };
-    let other = if source.stage == Stage::Vertex { fragment() } else { None };
-    other.unwrap_or_else(|| Arc::clone(&source.text))
+    fn searched(&self) {
+        trace::beyond();
+    }
 }
 
 impl Preparation for Engines {
     fn prepare(&self, source: &Source) -> Prepared {
-        let mut prepared = Prepared::default();
         if source.name.starts_with('<') && source.name != STDIN {
-            return prepared;
+            return Prepared::default();
         }
         let path = (source.name != STDIN).then(|| Path::new(source.name.as_str()));
-        let members = members(path, &source.text);
-        if let Some(part) = members.iter().find_map(|member| member.part(source.stage)) {
-            prepared.text = (!part.others.is_empty()).then(|| part.text(&source.text));
-            prepared.defines.clone_from(&part.defines);
-        }
-        let settings = self.settings(path);
-        if !settings.is_plain() || !settings.folders.is_empty() {
-            let has_header = settings.profile.is_some_and(|profile| profile.has_isf_header);
-            let header = if has_header { header_of(source, path) } else { Arc::clone(&source.text) };
-            settings.complete(source, &header, &mut prepared);
-        }
-        prepared
+        self.settings(path).complete(source, path, Arc::new(Traced))
     }
 }

@@ -9,6 +9,7 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// The largest file that is read at all. Sources have a smaller limit of their own, with its own code.
 const MAX_BYTES: u64 = 64 << 20;
@@ -147,6 +148,10 @@ fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
 
 /// The white space of GLSL (§3.1), the escape of a terminal or a two-byte encoding excluded.
 const WHITE_SPACE: &[u8] = b"\t\n\x0b\x0c\r";
+/// The beginning of the names of temporary files. Each exists for the time of one write.
+const TEMPORARY: &str = ".glisten-";
+/// Who has not written to its temporary file for this long was killed.
+const ABANDONED: Duration = Duration::from_secs(60);
 /// Control-Z.
 const END_OF_FILE: u8 = 0x1a;
 
@@ -175,7 +180,7 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// Gives temporary files the permissions of any new file rather than restricted ones.
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".glisten-");
+    builder.prefix(TEMPORARY);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -184,10 +189,26 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     builder
 }
 
-/// Creates a folder and its parents.
+/// Removes what killed commands left in a folder of outputs: temporary files that nobody has written to for a while.
+fn sweep(folder: &Path) {
+    let names = fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
+    for entry in names.filter(|entry| entry.file_name().to_string_lossy().starts_with(TEMPORARY)) {
+        let modified = entry.metadata().and_then(|found| found.modified()).ok();
+        if modified.and_then(|time| time.elapsed().ok()).is_some_and(|age| age > ABANDONED) {
+            // If it cannot be removed, it does no harm.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Creates a folder of outputs and its parents.
 pub(super) fn make_folder(path: &Path) -> Result<(), Failure> {
     if path.exists() && !path.is_dir() {
         return Err(Failure::usage(format!("`{}` is a file, not a folder", path.display())));
+    }
+    if path.is_dir() {
+        sweep(path);
+        return Ok(());
     }
     fs::create_dir_all(path)
         .map_err(|error| Failure::usage(format!("cannot make the folder `{}`: {error}", path.display())))

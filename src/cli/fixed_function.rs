@@ -128,6 +128,7 @@ fn parse_unit(text: &str) -> Result<TextureUnit, String> {
         mode: part(parts.next(), EnvironmentMode::NAMES)?,
         target: part(parts.next(), TextureTarget::NAMES)?,
         generate: part(parts.next(), TexGen::NAMES)?,
+        ..TextureUnit::default()
     };
     parts.next().map_or(Ok(unit), |rest| Err(format!("`{rest}` is one part too many")))
 }

@@ -8,16 +8,15 @@ use super::exit::{Exit, Failure};
 use glisten_front::hir::{Interpolation, Scalar, Shader, Storage, Type, Types};
 use std::fmt::Write;
 
+/// The attribute for the corners of the triangle, where there is no `gl_VertexID` (ES 1.00).
+pub(super) const CORNER: &str = "corner";
+
 /// The `#version` line of the vertex shader: both stages are of OpenGL or both are of OpenGL ES.
-fn version_line(fragment: &Shader) -> Result<&'static str, Failure> {
+fn version_line(fragment: &Shader) -> &'static str {
     match (fragment.version.is_es(), fragment.version.number) {
-        (false, _) => Ok("#version 150"),
-        (true, 300..) => Ok("#version 300 es"),
-        (true, _) => {
-            let message = "a triangle without attributes needs `gl_VertexID`, which GLSL ES 1.00 lacks";
-            let help = "name the vertex shader before the fragment shader, or write the fragment shader in ES 3.00 (`glisten upgrade`)";
-            Err(Failure::new(Exit::Content, message).help(help))
-        }
+        (false, _) => "#version 150",
+        (true, 300..) => "#version 300 es",
+        (true, _) => "#version 100",
     }
 }
 
@@ -26,7 +25,9 @@ fn version_line(fragment: &Shader) -> Result<&'static str, Failure> {
 /// # Errors
 /// The fragment shader reads something that a full-screen triangle has no values for.
 pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, Failure> {
-    let version = version_line(fragment)?;
+    let version = version_line(fragment);
+    let is_oldest_es = version == "#version 100";
+    let out = if is_oldest_es { "varying" } else { "out" };
     let mut outputs = String::new();
     let mut writes = String::new();
     let inputs = fragment.globals.iter().filter(|global| global.storage == Storage::In && global.builtin.is_none());
@@ -54,13 +55,18 @@ pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, 
             Interpolation::Noperspective => "noperspective ",
             Interpolation::Smooth => "",
         };
-        let _ = writeln!(outputs, "{interpolation}out {ty} {};", global.name);
+        let _ = writeln!(outputs, "{interpolation}{out} {ty} {};", global.name);
         let _ = writeln!(writes, "    {} = {value};", global.name);
     }
     let uv = if writes.contains("uv") { "    vec2 uv = 0.5 * corner + 0.5;\n" } else { "" };
+    let (how, declared, corner) = if is_oldest_es {
+        ("by its corners", format!("attribute vec2 {CORNER};\n"), String::new())
+    } else {
+        let corner = "vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0)";
+        ("without attributes", String::new(), format!("    vec2 {CORNER} = {corner};\n"))
+    };
     Ok(format!(
-        "{version}\n// A triangle that covers the window: draw 3 vertices, without attributes.\n{outputs}\nvoid main()\n{{\n    \
-         vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n{uv}{writes}    \
-         gl_Position = vec4(corner, 0.0, 1.0);\n}}\n"
+        "{version}\n// A triangle that covers the window: draw 3 vertices, {how}.\n{declared}{outputs}\nvoid main()\n{{\n{corner}{uv}\
+         {writes}    gl_Position = vec4({CORNER}, 0.0, 1.0);\n}}\n"
     ))
 }

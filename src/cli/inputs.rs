@@ -7,11 +7,11 @@
 
 use super::args::{ProgramArgs, SourceArgs};
 use super::config;
-use super::engine::{self, Engines, STDIN as SHOWN_STDIN};
+use super::engine::{Engines, STDIN as SHOWN_STDIN};
 use super::exit::Failure;
 use super::files;
-use super::stages;
 use crate::engines::combined;
+use crate::sources::{members, stages};
 use glisten_front::hir::Stage;
 use ignore::WalkBuilder;
 use ignore::gitignore::Gitignore;
@@ -228,7 +228,7 @@ fn stages_of(name: &str, args: &ProgramArgs, engines: &Engines, alone: bool) -> 
 fn parts(name: &str, path: &Path) -> Vec<Input> {
     let Ok(text) = files::read_source(name, Some(path)) else { return Vec::new() };
     let mut inputs = Vec::new();
-    for (index, member) in engine::members(Some(path), &text).into_iter().enumerate() {
+    for (index, member) in members(Some(path), &text).into_iter().enumerate() {
         let part = PartOf { index, name: member.name };
         let input =
             |stage| Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
@@ -237,18 +237,14 @@ fn parts(name: &str, path: &Path) -> Vec<Input> {
     inputs
 }
 
-/// Whether a file is there to be included: its name ends in `.glsl`, and it has no `main`.
-fn is_part(path: &Path) -> bool {
-    const MAIN: &[u8] = b"main";
-    stages::may_be_included(path)
-        && fs::read(path).is_ok_and(|bytes| !bytes.windows(MAIN.len()).any(|word| word == MAIN))
-}
-
 /// Whether a search of a folder takes a file: its name tells its stage, or its engine does, or it contains several stages.
 fn is_shader(path: &Path, engines: &Engines) -> bool {
+    if stages::may_be_included(path) && engines.is_part(path) {
+        return false;
+    }
     let is_whole = stages::by_name(path).is_some() || engines.stage(path).is_some() && stages::may_be_included(path);
     if is_whole {
-        return !is_part(path) && !stages::is_assembly(path);
+        return !stages::is_part(path) && !stages::is_assembly(path);
     }
     stages::may_be_combined(path) && !parts(&path.to_string_lossy(), path).is_empty()
 }
@@ -318,7 +314,7 @@ fn in_pipeline_order(mut group: Group) -> Group {
 #[cfg(test)]
 mod tests {
     use super::{Input, group};
-    use crate::cli::stages;
+    use crate::sources::stages;
     use glisten_front::hir::Stage;
     use std::path::{Path, PathBuf};
 
@@ -351,6 +347,9 @@ mod tests {
             ("X.GEOM", "X", Some(Stage::Geometry)),
             ("a/phong_vs.glsl", "phong", Some(Stage::Vertex)),
             ("phong-FS.GLSL", "phong", Some(Stage::Fragment)),
+            ("PhongVert.glsl", "Phong", Some(Stage::Vertex)),
+            ("lightFS.glsl", "light", Some(Stage::Fragment)),
+            ("advert.glsl", "advert", None),
             ("vs_phong.glsl", "phong", Some(Stage::Vertex)),
             ("deferred_light_vertex.glsl", "deferred_light", Some(Stage::Vertex)),
             ("fragment.glsl", "program", Some(Stage::Fragment)),

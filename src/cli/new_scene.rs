@@ -5,14 +5,13 @@
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
-use super::engine;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::fullscreen;
 use super::inputs::{Group, Input};
 use super::session::Session;
-use super::stages;
 use crate::engines::Member;
+use crate::sources::{members, stages};
 use clap::Args;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type, TypeId, Types};
 use glisten_front::link::{Program, UniformLeaf};
@@ -82,7 +81,7 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
 fn contains_both(file: &str) -> bool {
     let path = Path::new(file);
     let text = files::read_source(file, Some(path)).ok();
-    let members = text.map(|text| engine::members(Some(path), &text)).unwrap_or_default();
+    let members = text.map(|text| members(Some(path), &text)).unwrap_or_default();
     let has = |member: &Member, stage| member.part(stage).is_some();
     members.first().is_some_and(|member| has(member, Stage::Vertex) && has(member, Stage::Fragment))
 }
@@ -194,6 +193,9 @@ fn attributes(text: &mut String, program: &Program) {
 fn rows(name: &str, ty: Type) -> [Vec<f32>; 3] {
     let name = name.to_ascii_lowercase();
     let has = |words: &[&str]| words.iter().any(|word| name.contains(word));
+    if name == fullscreen::CORNER {
+        return [[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]].map(Vec::from);
+    }
     if let Type::Matrix(columns, rows) = ty {
         let (columns, rows) = (usize::from(columns), usize::from(rows));
         let unit = |index: usize| if index / rows == index % rows { 1.0 } else { 0.0 };

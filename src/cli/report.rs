@@ -202,6 +202,9 @@ fn write(args: &ReportArgs, console: &Console, report: &Report) -> Result<(), Fa
         console.output(&report.table())?;
     }
     console.remark(&format!("drawn by {}, driver {}", report.adapter.name, report.adapter.driver));
+    if report.ways.iter().any(|way| glisten_reference::has_geometry_stage(&way.scene)) {
+        console.remark("geometry stages ran on the host: times are those of what they emitted");
+    }
     console.remark(&format!("wrote {}", page.display()));
     Ok(())
 }

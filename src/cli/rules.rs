@@ -15,10 +15,11 @@
 //! *In:* the tables. *Out:* a [`Rule`] each, and what is wrong with them. *Holds:* all tables that fit a file count; a later one
 //! takes precedence, lists add up. Paths are relative to the file's folder.
 
-use super::args::{parse_define, parse_version};
+use super::args::parse_define;
 use super::files;
 use super::stages::StageArg;
 use crate::engines::{self, Profile, Style};
+use crate::sources::parse_version;
 use clap::ValueEnum;
 use glisten_front::diagnostic::codes::general::{BAD_CONFIG, FILE_NOT_FOUND};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};

@@ -307,7 +307,7 @@ fn is_told_last(diagnostic: &Diagnostic) -> bool {
 }
 
 /// The compiler of the command line. It reports everything: the session applies the levels of each file.
-fn compiler(sources: &SourceArgs, bindings: &BindingArgs, engines: &Engines) -> Compiler {
+pub(super) fn compiler(sources: &SourceArgs, bindings: &BindingArgs, engines: &Engines) -> Compiler {
     let compiler = Compiler::new(sources.options(bindings)).with_includes(engines.includes());
     compiler.with_preparation(engines.clone()).without_levels()
 }
@@ -392,7 +392,7 @@ fn internal(sources: &[Source], panic: &str) -> Batch {
     Batch { sources: map, diagnostics: vec![guard::diagnostic(panic, span)] }
 }
 
-fn read(input: &Input) -> Result<Source, Batch> {
+pub(super) fn read(input: &Input) -> Result<Source, Batch> {
     match files::read_source(&input.name, input.path.as_deref()) {
         Ok(text) => {
             let text = input.part.as_ref().map_or(text.clone(), |part| part.text(&text, input.stage));

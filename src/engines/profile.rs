@@ -8,9 +8,10 @@ use super::style::Style;
 use super::{isf, needed};
 use glisten_front::Stage;
 use glisten_front::compiler::Problem;
-use glisten_front::source::Prelude;
+use glisten_front::source::{Prelude, version_line};
 use indexmap::IndexMap;
 use serde::Deserialize;
+use std::ops::Range;
 use std::sync::LazyLock;
 
 /// An embedded profile: its name, its settings, and its preludes, each for one stage or for all.
@@ -44,6 +45,7 @@ static EMBEDDED: &[Embedded] = &[
         prelude!(Some(Stage::Vertex), "three.vert.glsl"),
         prelude!(Some(Stage::Fragment), "three.frag.glsl")
     ),
+    profile!("supertuxkart"),
     profile!("shadertoy", prelude!(Some(Stage::Fragment), "shadertoy.glsl")),
 ];
 
@@ -67,6 +69,12 @@ struct Settings {
     stage: Option<String>,
     /// The names of files next to a source that are read before it.
     before: Vec<String>,
+    /// The version that sources of older ones get.
+    least_version: Option<String>,
+    /// The extension of files that are never shaders, only included by some.
+    parts: Option<String>,
+    /// Whether the engine's own preprocessor lets a macro be defined again.
+    redefines: Option<bool>,
     /// The kind of header that the sources begin with.
     header: Option<String>,
     /// The pragma that names the macros that a source takes.
@@ -95,6 +103,12 @@ pub struct Profile {
     pub stage: Option<Stage>,
     /// The names of files next to a source that are read before it; the first one that is there.
     pub before: Vec<String>,
+    /// The version that sources of older ones get.
+    pub least_version: Option<String>,
+    /// The extension of files that are never shaders, only included by some.
+    pub parts: Option<String>,
+    /// Whether the engine's own preprocessor lets a macro be defined again.
+    pub redefines: Option<bool>,
     /// Whether sources begin with a header of the Interactive Shader Format.
     pub has_isf_header: bool,
     define_pragma: Option<String>,
@@ -164,6 +178,9 @@ fn load((name, text, preludes): &Embedded) -> Profile {
         roots: settings.roots,
         stage: settings.stage.as_deref().and_then(stage_named),
         before: settings.before,
+        least_version: settings.least_version,
+        parts: settings.parts,
+        redefines: settings.redefines,
         has_isf_header: settings.header.as_deref() == Some("isf"),
         define_pragma: settings.define_pragma,
         defines: settings.defines,
@@ -174,6 +191,11 @@ fn load((name, text, preludes): &Embedded) -> Profile {
         Some(base) => own.over(base),
         None => own,
     }
+}
+
+/// The number of a version: 330 of `330 compatibility`.
+fn number(version: &str) -> Option<u16> {
+    version.split_whitespace().next()?.parse().ok()
 }
 
 fn settings(text: &str) -> Settings {
@@ -190,10 +212,22 @@ impl Profile {
             style: self.style.or(base.style),
             roots: if self.roots.is_empty() { base.roots } else { self.roots },
             stage: self.stage.or(base.stage),
+            least_version: self.least_version.or(base.least_version),
+            parts: self.parts.or(base.parts),
+            redefines: self.redefines.or(base.redefines),
             define_pragma: self.define_pragma.or(base.define_pragma),
             defines,
             ..self
         }
+    }
+
+    /// The place of the `#version` line of a source that is older than the engine's own version.
+    pub fn old_version_line(&self, source: &str) -> Option<Range<usize>> {
+        let least = number(self.least_version.as_deref()?)?;
+        let line = version_line(source)?;
+        let words = source.get(line.clone())?.trim_start_matches('#').trim_start().strip_prefix("version")?;
+        // ES is a language of its own.
+        (number(words)? < least && !words.contains("es")).then_some(line)
     }
 
     /// The macros and texts that the engine adds to a source, given the text that has its header: the source itself, or the fragment shader of its
@@ -262,6 +296,22 @@ mod tests {
         let has = |name: &str| added.defines.iter().filter(|(other, _)| other == name).count();
         assert_eq!([has("MC_VERSION"), has("IS_IRIS"), has("MC_GL_VERSION")], [1; 3]);
         assert_eq!(iris.roots, ["shaders"]);
+    }
+
+    #[test]
+    fn iris_lifts_old_versions() {
+        let iris = find("iris").expect("it is one");
+        for (text, line) in [
+            ("// a\n#version 120\nx", Some("#version 120")),
+            ("# version 150 compatibility", Some("# version 150 compatibility")),
+            ("#version 330\n", None),
+            ("#version 430 compatibility\n", None),
+            ("#version 100 es\n", None),
+            ("void main() {}", None),
+        ] {
+            assert_eq!(iris.old_version_line(text).and_then(|line| text.get(line)), line, "{text}");
+        }
+        assert_eq!(find("optifine").and_then(|optifine| optifine.old_version_line("#version 120")), None);
     }
 
     #[test]

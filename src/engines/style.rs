@@ -14,6 +14,8 @@ pub enum Style {
     Moj,
     /// `#include <chunk>`: three.js.
     Three,
+    /// `#stk_include "x"`, below the folder of all shaders: SuperTuxKart.
+    Stk,
     /// A file's name alone, anywhere below the search folders: OGRE.
     Ogre,
 }
@@ -74,6 +76,13 @@ pub static STYLES: &[Lookup] = &[
         ..PLAIN
     },
     Lookup { style: Style::Three, name: "three", patterns: &["{path}.glsl.js", "{path}.glsl", "{path}"], ..PLAIN },
+    Lookup {
+        style: Style::Stk,
+        name: "stk",
+        directive: Some(ImportDirective { name: "stk_include", once: false }),
+        ancestors: &["shaders"],
+        ..PLAIN
+    },
     Lookup { style: Style::Ogre, name: "ogre", deep: true, ..PLAIN },
 ];
 

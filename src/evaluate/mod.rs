@@ -17,7 +17,9 @@
 
 mod generate;
 
-use crate::scene::{Compare, Draw, Filter, Format, Framebuffer, Scene, State, Texels, Texture, TextureLevel, Wrap};
+use crate::scene::{
+    Compare, Draw, Filter, Format, Framebuffer, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
+};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage};
 use glisten_front::link::Program;
@@ -219,7 +221,14 @@ impl Evaluator {
 
 fn table_of(level: TextureLevel, filter: Filter) -> Texture {
     let kind = SamplerType { texel: Scalar::Float, dim: SamplerDim::D2, arrayed: false, shadow: false };
-    Texture { kind, levels: vec![level], filter, wrap: Wrap::ClampToEdge, compare: Compare::Lequal }
+    Texture {
+        kind,
+        levels: vec![level],
+        filter,
+        wrap: Wrap::ClampToEdge,
+        compare: Compare::Lequal,
+        sampling: Sampling::default(),
+    }
 }
 
 /// A texture with one row of texels, clamped: a function of one number, for a `sampler2D`.

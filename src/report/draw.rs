@@ -93,7 +93,10 @@ impl Drawing<'_> {
         let counts = steps(scene).map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
         self.step(&format!("{} on the GPU", planned.name), watcher);
         let (gpu, via) = (self.gpu, planned.via.unwrap_or(self.options.via));
-        let prepared = gpu.prepare_in(scene, via, planned.floats).map_err(failed)?;
+        // No target has geometry stages: the host runs them, and the GPU draws what they emit.
+        let expanded = glisten_reference::expand(scene)
+            .map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
+        let prepared = gpu.prepare_in(&expanded, via, planned.floats).map_err(failed)?;
         let picture = gpu.draw(&prepared).map_err(failed)?.picture;
         let fragments = gpu.fragments_shaded(&prepared).map_err(failed)?;
         let frames = gpu.frames_for_a_stretch(&prepared).map_err(failed)?;

@@ -97,8 +97,16 @@ impl FixedSetup {
 
     /// The state that a program is compiled for. Planes that are not enabled clip nothing ([`Self::draw`]).
     pub(super) fn switches(&self, program: &Program, clip: u32) -> FixedState {
-        let planes = if clips_by_vertex(program) { u32::BITS - clip.leading_zeros() } else { 0 };
-        FixedState { two_side: self.two_side, clip_planes: planes, ..FixedState::default() }
+        let highest = u32::BITS - clip.leading_zeros();
+        let by_distance = clips_by_distance(program);
+        let disabled_distances = if by_distance { !clip & ((1 << highest) - 1) } else { 0 };
+        FixedState {
+            two_side: self.two_side,
+            // By `gl_ClipVertex`, or by `gl_Position` (GLSL 1.30 §7.1).
+            clip_planes: if by_distance { 0 } else { highest },
+            disabled_distances: disabled_distances as u8,
+            ..FixedState::default()
+        }
     }
 
     /// The state of a draw.
@@ -124,16 +132,16 @@ impl FixedSetup {
     }
 }
 
-/// Whether clip planes clip by `gl_ClipVertex`.
-pub(super) fn clips_by_vertex(program: &Program) -> bool {
-    let mut globals = program.stages.iter().flat_map(|shader| &shader.globals);
-    globals.any(|global| global.name == "gl_ClipVertex" && global.storage == Storage::Out && global.written)
-}
-
 /// Whether a clip distance is written.
 pub(super) fn clips_by_distance(program: &Program) -> bool {
     let mut globals = program.stages.iter().flat_map(|shader| &shader.globals);
     globals.any(|global| global.name == "gl_ClipDistance" && global.storage == Storage::Out)
+}
+
+/// Whether the fragment stage reads a clip distance.
+pub(super) fn reads_distance(program: &Program) -> bool {
+    let fragment = program.stage(Stage::Fragment);
+    fragment.is_some_and(|shader| shader.globals.iter().any(|global| global.name == "gl_ClipDistance"))
 }
 
 /// The text of a stage that a test leaves to the fixed-function pipeline. `known` is the stage next to it.

@@ -29,6 +29,7 @@
 mod draw;
 mod fixed;
 mod introspection;
+mod parameters;
 mod parse;
 mod probe;
 mod program;

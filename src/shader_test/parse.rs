@@ -16,7 +16,7 @@ pub(super) struct ShaderText {
     pub(super) stage: Stage,
     /// The text, after so many empty lines that its line numbers are those of the test.
     pub(super) text: String,
-    /// Whether it is the predefined pass-through shader.
+    /// Whether it is the predefined pass-through shader, whose text follows from the version.
     pub(super) passthrough: bool,
 }
 
@@ -28,9 +28,6 @@ pub(super) struct TestFile {
     pub(super) vertex_data: Vec<Line>,
     pub(super) commands: Vec<Line>,
 }
-
-/// The text of `[vertex shader passthrough]`.
-const PASSTHROUGH: &str = "#version 150\nin vec4 piglit_vertex;\nvoid main() { gl_Position = piglit_vertex; }\n";
 
 /// The section that a line belongs to.
 enum Section {
@@ -116,7 +113,7 @@ fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, TestRes
     Ok(match name {
         "require" => Section::Requirements,
         "vertex shader passthrough" => {
-            file.shaders.push(shader(Stage::Vertex, PASSTHROUGH.into(), true));
+            file.shaders.push(shader(Stage::Vertex, String::new(), true));
             Section::Ignored
         }
         "vertex shader" | "geometry shader" | "fragment shader" => {

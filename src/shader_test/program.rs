@@ -48,7 +48,7 @@ pub(super) fn build(
         .shaders
         .iter()
         .map(|shader| {
-            let text = versioned(&shader.text, setup.version);
+            let text = if shader.passthrough { passthrough(setup) } else { versioned(&shader.text, setup) };
             Source { name: name.into(), text: text.into(), stage: shader.stage }
         })
         .collect();
@@ -97,15 +97,43 @@ fn first_error(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     format!("line {line}: {} ({})", error.message, error.code.id)
 }
 
-/// The text with a `#version` line. If it has none of its own, one of the empty lines before it becomes one.
-fn versioned(text: &str, version: u32) -> String {
-    if text.contains("#version") {
+/// The text of `[vertex shader passthrough]`.
+fn passthrough(setup: &Setup) -> String {
+    let (version, input) = match setup {
+        Setup { es: true, version: 300.., .. } => (version_line(setup), "in"),
+        Setup { es: true, .. } => (version_line(setup), "attribute"),
+        _ => ("#version 150".to_owned(), "in"),
+    };
+    format!("{version}\n{input} vec4 piglit_vertex;\nvoid main() {{ gl_Position = piglit_vertex; }}\n")
+}
+
+fn version_line(setup: &Setup) -> String {
+    let profile = if setup.es && setup.version >= 300 { " es" } else { "" };
+    format!("#version {}{profile}", setup.version)
+}
+
+/// The text with a `#version` line. If it has none of its own, one of the empty lines before it becomes one, and others become
+/// lines for the extensions that a context enables for every shader: those of a compatibility context of 1.40, and
+/// ARB_texture_rectangle on a desktop.
+fn versioned(text: &str, setup: &Setup) -> String {
+    let line = text.lines().find(|line| line.trim_start().starts_with("#version"));
+    let version = line.map_or_else(|| version_line(setup), |line| line.trim().to_owned());
+    let mut added = Vec::new();
+    if setup.compatibility && version == "#version 140" {
+        added.push("#extension GL_ARB_compatibility : enable");
+    }
+    if !setup.es && text.contains("2DRect") && !text.contains("GL_ARB_texture_rectangle") {
+        added.push("#extension GL_ARB_texture_rectangle : enable");
+    }
+    let Some(rest) = text.strip_prefix(&"\n".repeat(added.len() + 1)) else {
+        return if line.is_some() { text.to_owned() } else { format!("{version}\n{}", text.trim_start_matches('\n')) };
+    };
+    if line.is_some() && added.is_empty() {
         return text.to_owned();
     }
-    match text.strip_prefix('\n') {
-        Some(rest) => format!("#version {version}\n{rest}"),
-        None => format!("#version {version}\n{text}"),
-    }
+    let rest = line.map_or_else(|| rest.to_owned(), |line| rest.replacen(line, "", 1));
+    let lines: String = added.iter().map(|line| format!("{line}\n")).collect();
+    format!("{version}\n{lines}{rest}")
 }
 
 #[cfg(test)]
@@ -114,6 +142,14 @@ mod unit {
 
     #[test]
     fn a_text_without_a_version_gets_that_of_the_test() {
-        assert_eq!(versioned("\n\nvoid main() {}\n", 130), "#version 130\n\nvoid main() {}\n");
+        let setup = Setup { size: [1, 1], compatibility: false, version: 130, es: false };
+        assert_eq!(versioned("\n\nvoid main() {}\n", &setup), "#version 130\n\nvoid main() {}\n");
+        let es = Setup { version: 300, es: true, ..setup };
+        assert_eq!(versioned("void main() {}\n", &es), "#version 300 es\nvoid main() {}\n");
+        let compatibility = Setup { version: 140, compatibility: true, ..setup };
+        let text = versioned("\n\n\n#version 140\nvoid main() {}\n", &compatibility);
+        assert_eq!(text, "#version 140\n#extension GL_ARB_compatibility : enable\n\n\nvoid main() {}\n");
+        let rectangle = versioned("\n\nuniform sampler2DRect t;\n", &setup);
+        assert_eq!(rectangle, "#version 130\n#extension GL_ARB_texture_rectangle : enable\nuniform sampler2DRect t;\n");
     }
 }

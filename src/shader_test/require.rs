@@ -13,6 +13,8 @@ pub(super) struct Setup {
     pub(super) compatibility: bool,
     /// 100 times the version of shaders without a `#version` line.
     pub(super) version: u32,
+    /// Whether that is a version of OpenGL ES's language.
+    pub(super) es: bool,
 }
 
 /// The size of shader_runner's window.
@@ -22,26 +24,46 @@ const DEFAULT_VERSION: u32 = 110;
 /// The largest window that a test may request.
 const LARGEST: u32 = 4096;
 
+/// The version of OpenGL: as far as vertex, geometry and fragment shaders go.
+const OPENGL: f64 = 4.6;
+/// The versions of OpenGL ES and of its language.
+const ES: f64 = 3.1;
+
 /// The extensions that are core in OpenGL 3.2 or that the compiler supports.
 const EXTENSIONS: &[&str] = &[
+    "GL_AMD_conservative_depth",
+    "GL_ARB_arrays_of_arrays",
+    "GL_ARB_conservative_depth",
+    "GL_ARB_derivative_control",
+    "GL_ARB_draw_buffers",
     "GL_ARB_draw_instanced",
+    "GL_ARB_enhanced_layouts",
     "GL_ARB_explicit_attrib_location",
+    "GL_ARB_explicit_uniform_location",
     "GL_ARB_fragment_coord_conventions",
+    "GL_ARB_gpu_shader5",
     "GL_ARB_provoking_vertex",
     "GL_ARB_seamless_cube_map",
+    "GL_ARB_separate_shader_objects",
     "GL_ARB_shader_bit_encoding",
     "GL_ARB_shader_texture_lod",
     "GL_ARB_shading_language_420pack",
     "GL_ARB_shading_language_packing",
+    "GL_ARB_texture_cube_map_array",
     "GL_ARB_texture_float",
     "GL_ARB_texture_gather",
+    "GL_ARB_texture_multisample",
     "GL_ARB_texture_query_levels",
+    "GL_ARB_texture_query_lod",
     "GL_ARB_texture_rectangle",
     "GL_ARB_texture_rg",
     "GL_ARB_uniform_buffer_object",
+    "GL_EXT_gpu_shader4",
     "GL_EXT_provoking_vertex",
     "GL_EXT_texture_array",
     "GL_EXT_texture_integer",
+    "GL_EXT_texture_swizzle",
+    "GL_OES_standard_derivatives",
 ];
 
 /// The limits: the smallest required maxima (OpenGL 3.2, tables 6.40 and following), or what the compiler takes.
@@ -65,25 +87,22 @@ const LIMITS: &[(&str, f64)] = &[
 
 /// Checks the requirements. The first one that is not met is a skip.
 pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
-    let mut setup = Setup { size: WINDOW, compatibility: false, version: DEFAULT_VERSION };
+    let mut setup = Setup { size: WINDOW, compatibility: false, version: DEFAULT_VERSION, es: false };
     for line in lines {
         let mut words = Words::new(line.number, line.text.strip_prefix("require ").unwrap_or(&line.text));
         match words.word()? {
             // A limit for the operating system; the compiler has limits of its own.
             "rlimit" => {}
             "GLSL" => {
-                if words.eat("ES") {
-                    return skip(line.number, "requires GLSL ES");
-                }
-                setup.version = (versions(line, &mut words, 4.60, "GLSL")? * 100.0).round() as u32;
+                setup.es = words.eat("ES");
+                let (ours, name) = if setup.es { (ES, "GLSL ES") } else { (4.60, "GLSL") };
+                setup.version = (versions(line, &mut words, ours, name)? * 100.0).round() as u32;
             }
             "GL" => {
                 setup.compatibility |= words.eat("COMPAT");
                 words.eat("CORE");
-                if words.eat("ES") {
-                    return skip(line.number, "requires OpenGL ES");
-                }
-                versions(line, &mut words, 3.2, "OpenGL")?;
+                let (ours, name) = if words.eat("ES") { (ES, "OpenGL ES") } else { (OPENGL, "OpenGL") };
+                versions(line, &mut words, ours, name)?;
             }
             "SIZE" => {
                 setup.size = [words.count()?, words.count()?];
@@ -92,6 +111,8 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
                 }
             }
             "depthbuffer" => {}
+            // Separate programs are linked as one: what each stage computes is the same.
+            "SSO" | "SEPARATE" if line.text.ends_with("ENABLED") => {}
             "INT" => limit(line, &mut words)?,
             name if LIMITS.iter().any(|(limit, _)| *limit == name) => {
                 let mut words = Words::new(line.number, &line.text);
@@ -153,7 +174,14 @@ mod unit {
 
     #[test]
     fn what_is_met_and_what_is_not() {
-        for met in ["GLSL >= 1.30", "GL >= 3.2", "GL_ARB_texture_rg", "GL_MAX_CLIP_DISTANCES >= 8", "depthbuffer"] {
+        for met in [
+            "GLSL >= 1.30",
+            "GL >= 3.2",
+            "GL_ARB_texture_rg",
+            "GL_MAX_CLIP_DISTANCES >= 8",
+            "depthbuffer",
+            "GL ES >= 3.0",
+        ] {
             assert!(checked(met).is_ok(), "{met}");
         }
         for unmet in [
@@ -161,7 +189,7 @@ mod unit {
             "GL < 3.0",
             "GL_ARB_gpu_shader_fp64",
             "GL_MAX_VERTEX_OUTPUT_COMPONENTS >= 256",
-            "GLSL ES >= 3.00",
+            "GLSL ES >= 3.20",
         ] {
             assert!(matches!(checked(unmet), Err(TestResult::Skip(_))), "{unmet}");
         }

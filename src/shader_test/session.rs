@@ -15,7 +15,7 @@ use super::{TestBackend, TestResult, fail, introspection, probe, program, requir
 use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::{Scalar, Stage, Type};
-use glisten_front::link::Program;
+use glisten_front::link::{FixedState, Program};
 use glisten_scene::picture::{Picture, Transfer};
 use std::sync::Arc;
 
@@ -200,12 +200,8 @@ impl TestSession {
         if self.draws.len() >= MOST_DRAWS {
             return skip(line, format_args!("more than {MOST_DRAWS} draws without a clear"));
         }
-        let (by_vertex, by_distance) = (fixed::clips_by_vertex(&self.program), fixed::clips_by_distance(&self.program));
-        if by_distance && !(self.clip + 1).is_power_of_two() {
-            return skip(line, "enabled clip distances with gaps");
-        }
-        if self.clip != 0 && !by_vertex && !by_distance {
-            return skip(line, "clip planes for a program that writes neither gl_ClipVertex nor gl_ClipDistance");
+        if fixed::reads_distance(&self.program) && !(self.clip + 1).is_power_of_two() {
+            return skip(line, "enabled clip distances with gaps, which the fragment shader reads");
         }
         let size = [self.framebuffer.width, self.framebuffer.height];
         let geometry = draw::parse(words, &self.program, &self.data, size)?;
@@ -216,7 +212,15 @@ impl TestSession {
     }
 
     fn scene_draw(&mut self, line: u32, mut geometry: Geometry) -> Result<Draw, TestResult> {
-        let switches = self.fixed.switches(&self.program, self.clip);
+        let compared = self
+            .program
+            .interface
+            .samplers
+            .iter()
+            .zip(&self.uniforms.units)
+            .filter(|(slot, _)| matches!(self.program.types.get(slot.ty), Type::Sampler(kind) if kind.shadow));
+        let depth_mode = self.units.depth_mode(line, compared.map(|(_, unit)| *unit))?;
+        let switches = FixedState { depth_mode, ..self.fixed.switches(&self.program, self.clip) };
         let program = self.built.variant(switches)?;
         let interface = &program.interface;
         for (attribute, data) in interface.attributes.iter().zip(&mut geometry.attributes) {
@@ -241,7 +245,7 @@ impl TestSession {
         let mut textures = Vec::new();
         for (slot, &unit) in interface.samplers.iter().zip(&self.uniforms.units) {
             let Type::Sampler(kind) = program.types.get(slot.ty) else { continue };
-            textures.push(self.units.texture(line, unit, kind, compares_to_vector(&program))?);
+            textures.push(self.units.texture(line, unit, kind)?);
         }
         let state = State {
             primitive: geometry.primitive,
@@ -274,12 +278,6 @@ impl TestSession {
         };
         Ok(self.picture.insert(picture))
     }
-}
-
-/// Whether the program may call functions whose result of a comparison has four components (GLSL 1.20 §8.7): the texture's
-/// state says which of them is the result.
-fn compares_to_vector(program: &Program) -> bool {
-    program.stages.iter().any(|shader| shader.version.number < 130)
 }
 
 fn named<T>(words: &mut Words<'_>, of: impl Fn(&str) -> Option<T>) -> Result<T, TestResult> {

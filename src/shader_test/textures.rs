@@ -1,9 +1,10 @@
 //! The textures of the units, with the patterns that tests name.
 
+use super::parameters::Parameters;
 use super::words::Words;
 use super::{TestResult, fail, skip};
-use crate::scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
-use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
+use crate::scene::{Compare, Texels, Texture, TextureLevel, Wrap};
+use glisten_front::hir::{DepthMode, SamplerDim, SamplerType, Scalar};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -21,14 +22,7 @@ struct TextureUnit {
     dim: SamplerDim,
     arrayed: bool,
     levels: Vec<TextureLevel>,
-    /// The filter within a level, and between levels, for minification.
-    min: Filter,
-    /// The filter for magnification.
-    mag: Filter,
-    wrap: Wrap,
-    compare: Compare,
-    /// `GL_DEPTH_TEXTURE_MODE` other than luminance.
-    mode: Option<String>,
+    parameters: Parameters,
 }
 
 const RED: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
@@ -42,20 +36,12 @@ const LARGEST: u32 = 4096;
 
 impl TextureUnit {
     fn new(dim: SamplerDim, arrayed: bool) -> Self {
-        Self {
-            dim,
-            arrayed,
-            levels: Vec::new(),
-            min: Filter::Nearest,
-            mag: Filter::Nearest,
-            wrap: Wrap::Repeat,
-            compare: Compare::Lequal,
-            mode: None,
-        }
+        Self { dim, arrayed, levels: Vec::new(), parameters: Parameters::default() }
     }
 
     fn with(self, level: TextureLevel) -> Self {
-        Self { levels: vec![level], wrap: Wrap::ClampToEdge, ..self }
+        let parameters = Parameters { wrap: Wrap::ClampToEdge, ..self.parameters };
+        Self { levels: vec![level], parameters, ..self }
     }
 }
 
@@ -118,7 +104,16 @@ impl Units {
             ("miptree", None) => {
                 let levels = [(8, RED), (4, GREEN), (2, BLUE), (1, WHITE)];
                 let levels = levels.map(|(side, color)| image(side, side, |_, _| color)).to_vec();
-                TextureUnit { levels, wrap: Wrap::ClampToEdge, ..plane() }
+                let parameters = Parameters { wrap: Wrap::ClampToEdge, ..Parameters::default() };
+                TextureUnit { levels, parameters, ..plane() }
+            }
+            ("rgbw" | "junk", Some("1DArray")) => {
+                let [width, layers] = checked([words.count()?, words.count()?], line)?;
+                TextureUnit::new(SamplerDim::D1, true).with(layered([width, 1, layers]))
+            }
+            ("rgbw" | "junk", Some("2DArray")) => {
+                let sides = checked([words.count()?, words.count()?, words.count()?], line)?;
+                TextureUnit::new(SamplerDim::D2, true).with(layered(sides))
             }
             _ => {
                 return skip(
@@ -134,65 +129,42 @@ impl Units {
 
     /// Runs a `texparameter` command such as `texparameter 2D min nearest`.
     pub(super) fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
-        let line = words.line;
-        words.word()?;
-        let (name, value) = (words.word()?, words.word()?);
-        let Some(unit) = self.units.get_mut(&self.active) else { return fail(line, "there is no texture yet") };
-        let filter = FILTERS.iter().find(|(known, _)| *known == value).map(|(_, filter)| *filter);
-        match (name, value, filter) {
-            ("min", _, Some(filter)) => unit.min = filter,
-            ("mag", _, Some(filter)) if !filter.uses_levels() => unit.mag = filter,
-            ("wrap_s" | "wrap_t" | "wrap_r", wrap, _) if Wrap::of_opengl(wrap).is_some() => {
-                unit.wrap = Wrap::of_opengl(wrap).unwrap_or(unit.wrap);
-            }
-            ("depth_mode", mode, _) => unit.mode = Some(mode.to_owned()).filter(|mode| mode != "luminance"),
-            ("compare_func", function, _) => match Compare::NAMES.iter().find(|(name, _)| *name == function) {
-                Some((_, compare)) => unit.compare = *compare,
-                None => return fail(line, format_args!("`{function}` compares nothing")),
-            },
-            _ => return skip(line, format_args!("`texparameter {name} {value}` is not supported")),
-        }
-        Ok(())
+        let Some(unit) = self.units.get_mut(&self.active) else { return fail(words.line, "there is no texture yet") };
+        unit.parameters.set(words)
     }
 
-    /// The texture for a sampler of this type at a unit; an unbound unit is black. `vectors`: whether the program sees all
-    /// four components of a comparison.
+    /// `GL_DEPTH_TEXTURE_MODE` of the textures at these units.
+    pub(super) fn depth_mode(&self, line: u32, units: impl Iterator<Item = u32>) -> Result<DepthMode, TestResult> {
+        let mut modes = units.filter_map(|number| self.units.get(&number)).map(|unit| unit.parameters.depth_mode);
+        let first = modes.next().unwrap_or_default();
+        match modes.all(|mode| mode == first) {
+            true => Ok(first),
+            false => skip(line, "textures with different values of GL_DEPTH_TEXTURE_MODE in one draw"),
+        }
+    }
+
+    /// The texture for a sampler of this type at a unit; an unbound unit is black.
     pub(super) fn texture(
         &self,
         line: u32,
         number: u32,
         kind: SamplerType,
-        vectors: bool,
     ) -> Result<Option<Arc<Texture>>, TestResult> {
         let Some(unit) = self.units.get(&number) else { return Ok(None) };
         if unit.dim != kind.dim || unit.arrayed != kind.arrayed || kind.texel != Scalar::Float {
             return skip(line, format_args!("a texture of another kind at a `{}`", kind.name()));
         }
-        if let Some(mode) = unit.mode.as_ref().filter(|_| vectors && kind.shadow) {
-            return skip(line, format_args!("GL_DEPTH_TEXTURE_MODE `{mode}`: comparisons give (r, r, r, 1)"));
-        }
-        if unit.min.is_linear() != unit.mag.is_linear() {
-            return skip(line, "a filter for minification and another one for magnification");
-        }
+        let parameters = &unit.parameters;
         Ok(Some(Arc::new(Texture {
             kind,
-            levels: unit.levels.clone(),
-            filter: unit.min,
-            wrap: unit.wrap,
-            compare: unit.compare,
+            levels: parameters.levels(&unit.levels),
+            filter: parameters.min,
+            wrap: parameters.wrap,
+            compare: parameters.compare,
+            sampling: parameters.sampling(kind.shadow),
         })))
     }
 }
-
-/// OpenGL's filters by their names in small letters.
-const FILTERS: &[(&str, Filter)] = &[
-    ("nearest", Filter::Nearest),
-    ("linear", Filter::Linear),
-    ("nearest_mipmap_nearest", Filter::NearestMipmapNearest),
-    ("linear_mipmap_nearest", Filter::LinearMipmapNearest),
-    ("nearest_mipmap_linear", Filter::NearestMipmapLinear),
-    ("linear_mipmap_linear", Filter::Trilinear),
-];
 
 /// A depth texture that grows from 0 at the left to 1 at the right, for comparisons by `greater`.
 fn depth(dim: SamplerDim, arrayed: bool, sides: [u32; 3], line: u32) -> Result<TextureUnit, TestResult> {
@@ -201,7 +173,15 @@ fn depth(dim: SamplerDim, arrayed: bool, sides: [u32; 3], line: u32) -> Result<T
     let row = (0..width).map(|x| (f64::from(x) / last) as f32);
     let texels = (0..height * depth).flat_map(|_| row.clone().map(|value| [value, 0.0, 0.0, 1.0])).collect();
     let level = TextureLevel { width, height, depth, texels: Texels::Float(texels) };
-    Ok(TextureUnit { compare: Compare::Greater, ..TextureUnit::new(dim, arrayed) }.with(level))
+    let parameters = Parameters { compare: Compare::Greater, ..Parameters::default() };
+    Ok(TextureUnit { parameters, ..TextureUnit::new(dim, arrayed) }.with(level))
+}
+
+/// Layers of one color each: red, green, blue, white, and again.
+fn layered([width, height, depth]: [u32; 3]) -> TextureLevel {
+    let colors = [RED, GREEN, BLUE, WHITE].into_iter().cycle().take(depth as usize);
+    let texels = colors.flat_map(|color| (0..width * height).map(move |_| color)).collect();
+    TextureLevel { width, height, depth, texels: Texels::Float(texels) }
 }
 
 fn checked<const N: usize>(sides: [u32; N], line: u32) -> Result<[u32; N], TestResult> {

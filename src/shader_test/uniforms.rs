@@ -106,7 +106,10 @@ fn is_indexed(leaf: &UniformLeaf, name: &str) -> bool {
 /// `Block.member` for `Block[1].member`.
 fn without_block_index(leaf: &UniformLeaf) -> String {
     match (leaf.name.split_once('.'), leaf.name.find('[')) {
-        (Some((block, member)), Some(open)) if open < block.len() => format!("{}.{member}", &block[..open]),
+        // `Block[1][0].member` of an array of arrays, too.
+        (Some((block, member)), Some(open)) if open < block.len() => {
+            format!("{}.{member}", block.get(..open).unwrap_or(block))
+        }
         _ => leaf.name.clone(),
     }
 }

@@ -107,6 +107,16 @@ fn bazel_gives_the_bytes_of_the_command_line_and_compiles_nothing_twice() {
     assert_eq!(variants[3]["defines"]["LIGHTS"], "2");
     let code = variants[3]["outputs"]["wgsl"][1].as_str().expect("a path");
     assert!(fs::read_to_string(bin.join("variants").join(code)).expect("code").contains("fog"));
+    // The same in one action.
+    let index = fs::read_to_string(bin.join("listed/index.json")).expect("an index");
+    let index: serde_json::Value = serde_json::from_str(&index).expect("JSON");
+    assert_eq!(index["programs"][0]["variants"].as_array().map(Vec::len), Some(6), "{index}");
+    let codes: Vec<String> = files_under(&bin.join("listed"))
+        .iter()
+        .filter(|path| path.extension().is_some_and(|extension| extension == "wgsl"))
+        .map(|path| fs::read_to_string(path).expect("code"))
+        .collect();
+    assert!(codes.iter().any(|code| code.contains("@location(3)")), "{codes:?}");
 
     assert!(workspace.build(&["//..."]).contains("1 process: 1 internal"), "nothing changed");
     let fragment = workspace.example("shaders/lit.frag");

@@ -222,3 +222,47 @@ fn the_code_of_each_target_is_a_constant() {
         text.lines().filter_map(|line| line.trim().strip_prefix("pub const FRAGMENT_")?.split(':').next()).collect();
     assert_eq!(constants, ["WGSL", "MSL", "HLSL", "GLSL"]);
 }
+
+#[test]
+fn engines_complete_the_sources_of_a_build() {
+    let engines = root().join("fixtures/engines");
+    let text = |build: Build| build.text().map(|built| built.text);
+    let pack = engines.join("minecraft/assets/minecraft/shaders/core");
+    let build = Build::new().folder(&pack).engine("minecraft").include(engines.join("minecraft/assets"));
+    let built = build.text().expect("it builds");
+    assert!(built.read.iter().any(|path| path.ends_with("tint.glsl")), "{:?}", built.read);
+    assert!(text(Build::new().folder(&pack)).is_err(), "`#moj_import` is no directive of GLSL");
+    let lines = engines.join("libretro/lines.glsl");
+    let both = text(Build::new().program(&lines, &lines).engine("libretro")).expect("it builds");
+    assert!(both.contains("pub mod lines {") && both.contains("FRAGMENT_WGSL"), "{both}");
+    let several = tempfile::tempdir().expect("a folder");
+    for file in ["several.glsl", "marked.shader"] {
+        fs::copy(engines.join("combined").join(file), several.path().join(file)).expect("the file is there");
+    }
+    let all = text(Build::new().folder(several.path())).expect("it builds");
+    for name in ["plain", "shaded", "marked"] {
+        assert!(all.contains(&format!("pub mod {name} {{")), "{name} is not in {all}");
+    }
+    let unknown = text(Build::new().folder(&pack).engine("minecaft")).expect_err("no such engine");
+    assert!(unknown.to_string().contains("did you mean `minecraft`?"), "{unknown}");
+}
+
+#[test]
+fn preludes_and_versions_complete_the_sources_of_a_build() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write =
+        |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("the folder can be written to");
+    write("shaders_vs.glsl", "layout(location = 3) in vec4 p;\nvoid main() { gl_Position = SCALE * p; }\n");
+    write("shaders_fs.glsl", "out vec4 c;\nvoid main() { c = vec4(SCALE); }\n");
+    write("common.txt", "#define SCALE 0.5\n");
+    let build = || Build::new().folder(folder.path()).prelude(folder.path().join("common.txt"));
+    let built = build().assume_version("330").text().expect("it builds");
+    assert!(built.text.contains("pub mod shaders {"), "{}", built.text);
+    assert!(built.read.iter().any(|path| path.ends_with("common.txt")), "{:?}", built.read);
+    assert!(build().text().is_err(), "without a version it is 1.10");
+    let version = build().assume_version("33").text().expect_err("no such version");
+    assert!(version.to_string().contains("`33` is no version"), "{version}");
+    write("shaders_gs.glsl", "void main() {}\n");
+    let geometry = build().assume_version("330").text().expect_err("a stage that WGSL does not have");
+    assert!(matches!(geometry, BuildError::Geometry(_)), "{geometry}");
+}

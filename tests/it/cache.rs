@@ -14,7 +14,7 @@ const VERTEX: &str = "#version 150\n#include <shape.glsl>\n\
 const FRAGMENT: &str = "#version 150\nin float v;\nout vec4 c;\nuniform float unused;\n\
     void main() { c = vec4(v, SCALE, 1, 1); if (v == 0.5) c = vec4(0.0); }\n";
 
-fn project() -> Folder {
+pub(crate) fn project() -> Folder {
     let shape = b"float shape(float x) { return x * 2.0; }\n";
     Folder::new(&[("a.vert", VERTEX.as_bytes()), ("a.frag", FRAGMENT.as_bytes()), ("late/shape.glsl", shape)])
 }
@@ -36,9 +36,14 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// Compiles with the cache. Returns whether it was a hit, and what was reported.
 fn compile(folder: &Folder, more: &[&str]) -> (bool, String) {
+    compile_in(folder, more, &[])
+}
+
+/// Compiles with the cache and with variables of the environment.
+pub(crate) fn compile_in(folder: &Folder, more: &[&str], variables: &[(&str, &Path)]) -> (bool, String) {
     let words =
         ["compile", "a.vert", "a.frag", "-o", "out", "-I", "early", "-I", "late", "-DSCALE=0.5", "--cache", "kept"];
-    let run = folder.run(&[&words, more].concat());
+    let run = folder.command(&[&words, more].concat()).envs(variables.iter().copied()).output().expect("it runs");
     assert_eq!(code(&run), 0, "{}", err(&run));
     let text = err(&run);
     let (is_hit, is_miss) = (text.contains("1 of 1 from the cache\n"), text.contains("0 of 1 from the cache\n"));
@@ -298,6 +303,6 @@ fn machines_share_results_through_a_server() {
     let (is_hit, told) = compile(&gone, &["--remote-cache", "http://127.0.0.1:9"]);
     assert!(!is_hit && told.contains("remote cache `http://127.0.0.1:9`"), "{told}");
     assert!(files(&here.path("out")) == files(&gone.path("out")), "the files differ");
-    let wrong = project().run(&["compile", "a.frag", "-o", "out", "--remote-cache", "grpc://host"]);
+    let wrong = project().run(&["compile", "a.frag", "-o", "out", "--remote-cache", "ftp://host"]);
     assert_eq!(code(&wrong), 2);
 }

@@ -84,6 +84,8 @@ mod raster;
 mod read_back;
 #[cfg(feature = "cli")]
 mod readme;
+#[cfg(feature = "remote")]
+mod remote;
 #[cfg(feature = "cli")]
 mod report;
 #[cfg(feature = "cli")]

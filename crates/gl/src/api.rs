@@ -148,6 +148,7 @@ impl Api {
         active_texture(unit: u32);
         bind_texture(target: u32, texture: Option<glow::Texture>);
         tex_parameter_i32(target: u32, what: u32, value: i32);
+        tex_parameter_f32(target: u32, what: u32, value: f32);
         tex_buffer(target: u32, internal: u32, buffer: Option<glow::Buffer>);
 
         create_vertex_array() -> Result<glow::VertexArray, String>;

@@ -25,6 +25,7 @@
 //! *Not done here:* judging the picture ([`compare`](glisten_scene::compare)), times, multisampling, geometry shaders.
 
 mod api;
+mod combine;
 mod egl;
 mod error;
 mod fixed;

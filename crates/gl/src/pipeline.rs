@@ -5,6 +5,7 @@
 //! the picture does not depend on what glisten wrote.
 
 use super::api::Api;
+use super::combine;
 use super::old::Old;
 use glisten_scene::fixed::{
     ColorMaterial, EnvironmentMode, FogMode, FogSource, NormalScaling, Pipeline, TexGen, TextureTarget, TextureUnit,
@@ -87,14 +88,16 @@ fn set_unit(old: &Old, switch: &dyn Fn(u32, bool), unit: Option<TextureUnit>) {
     for (target, number) in TARGETS {
         switch(number, unit.is_some_and(|unit| unit.target == target));
     }
-    let TextureUnit { mode, generate, .. } = unit.unwrap_or_default();
+    let TextureUnit { mode, generate, combine, .. } = unit.unwrap_or_default();
     let mode: u32 = match mode {
         EnvironmentMode::Modulate => 0x2100,
         EnvironmentMode::Replace => 0x1E01,
         EnvironmentMode::Decal => 0x2101,
         EnvironmentMode::Blend => 0x0BE2,
         EnvironmentMode::Add => 0x0104,
+        EnvironmentMode::Combine => 0x8570,
     };
+    combine::set(old, &combine);
     (old.texture_environment)(TEXTURE_ENV, TEXTURE_ENV_MODE, &[mode as f32; 4]);
     let (kind, count): (u32, usize) = match generate {
         Some(TexGen::EyeLinear) => (0x2400, 4),

@@ -2,7 +2,7 @@
 
 use super::api::PixelLayout;
 use glisten_front::hir::{SamplerType, Scalar};
-use glisten_scene::Texels;
+use glisten_scene::{Texels, Texture};
 
 /// How the texels of a sampler type are stored.
 pub(super) fn layout(kind: SamplerType) -> PixelLayout {
@@ -21,6 +21,15 @@ pub(super) fn layout(kind: SamplerType) -> PixelLayout {
             PixelLayout { internal: glow::RGBA32F, format: glow::RGBA, kind: glow::FLOAT, bytes: 16 }
         }
     }
+}
+
+/// How the texels of a texture are stored.
+pub(super) fn stored(kind: SamplerType, texture: &Texture) -> PixelLayout {
+    let layout = layout(kind);
+    if texture.sampling.fixed_point_depth {
+        return PixelLayout { internal: glow::DEPTH_COMPONENT24, ..layout };
+    }
+    layout
 }
 
 /// The bytes of the texels; for depth, only the first channel.

@@ -4,9 +4,9 @@
 //! sampler uniform set to it. *Holds:* texels have 32 bits per channel, as in the scene. Integer textures are never
 //! filtered, since OpenGL would then call them incomplete.
 
-use super::api::{Api, Dimensions, Size};
+use super::api::{Api, Dimensions, PixelLayout, Size};
 use super::states::{compare, wrap};
-use super::texels::{layout, texel_bytes};
+use super::texels::{layout, stored, texel_bytes};
 use super::{Error, multisample};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type};
 use glisten_scene::{Draw, Framebuffer, Texture, TextureLevel};
@@ -58,8 +58,9 @@ fn target(kind: SamplerType) -> Result<(u32, Dimensions), Error> {
         (SamplerDim::D2, true) => (glow::TEXTURE_2D_ARRAY, Dimensions::Three),
         (SamplerDim::D3, _) => (glow::TEXTURE_3D, Dimensions::Three),
         (SamplerDim::Cube, false) => (glow::TEXTURE_CUBE_MAP, Dimensions::Two),
+        (SamplerDim::Cube, true) => (glow::TEXTURE_CUBE_MAP_ARRAY, Dimensions::Three),
         (SamplerDim::Rect, _) => (glow::TEXTURE_RECTANGLE, Dimensions::Two),
-        (SamplerDim::Cube | SamplerDim::Buffer | SamplerDim::Multisample, _) => {
+        (SamplerDim::Buffer | SamplerDim::Multisample, _) => {
             return Err(Error::Refused("a scene has no textures of this sampler's kind".to_owned()));
         }
     })
@@ -72,11 +73,11 @@ fn image(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> {
     parameters(api, target, kind, texture);
     for (number, level) in (0..).zip(&texture.levels) {
         let bytes = texel_bytes(&level.texels, kind);
-        let filled = if kind.dim == SamplerDim::Cube {
-            faces(api, number, kind, level, &bytes)
+        let filled = if kind.dim == SamplerDim::Cube && !kind.arrayed {
+            faces(api, number, (stored(kind, texture), level), &bytes)
         } else {
             let size = size(kind, level);
-            api.tex_image(target, dimensions, number, size, layout(kind), &bytes)
+            api.tex_image(target, dimensions, number, size, stored(kind, texture), &bytes)
         };
         if !filled {
             return Err(Error::Refused("a level of a texture has fewer texels than its size says".to_owned()));
@@ -94,9 +95,8 @@ fn size(kind: SamplerType, level: &TextureLevel) -> Size {
     }
 }
 
-fn faces(api: &Api, number: i32, kind: SamplerType, level: &TextureLevel, bytes: &[u8]) -> bool {
+fn faces(api: &Api, number: i32, (layout, level): (PixelLayout, &TextureLevel), bytes: &[u8]) -> bool {
     let size = Size { width: level.width, height: level.height, depth: 1 };
-    let layout = layout(kind);
     let face = size.width as usize * size.height as usize * layout.bytes;
     let mut targets = glow::TEXTURE_CUBE_MAP_POSITIVE_X..=glow::TEXTURE_CUBE_MAP_NEGATIVE_Z;
     face > 0
@@ -122,7 +122,11 @@ fn parameters(api: &Api, target: u32, kind: SamplerType, texture: &Texture) {
     };
     let set = |what: u32, value: u32| api.tex_parameter_i32(target, what, value as i32);
     set(glow::TEXTURE_MIN_FILTER, minification);
-    set(glow::TEXTURE_MAG_FILTER, within);
+    let magnified = filtered && texture.sampling.magnifies_linearly(texture.filter);
+    set(glow::TEXTURE_MAG_FILTER, if magnified { glow::LINEAR } else { glow::NEAREST });
+    if texture.sampling.lod_bias != 0.0 {
+        api.tex_parameter_f32(target, glow::TEXTURE_LOD_BIAS, texture.sampling.lod_bias);
+    }
     for direction in [glow::TEXTURE_WRAP_S, glow::TEXTURE_WRAP_T, glow::TEXTURE_WRAP_R] {
         set(direction, wrap(texture.wrap));
     }

@@ -21,6 +21,7 @@
 //! *Not done here:* judging the picture ([`compare`](glisten_scene::compare)), multisampling, geometry shaders.
 
 mod assembly;
+mod beyond;
 mod device;
 #[cfg(feature = "edited-modules")]
 mod edited;

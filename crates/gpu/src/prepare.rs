@@ -9,7 +9,7 @@ use super::device::feature_of;
 use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
-use super::{Error, Foreign, Gpu, Via, assembly, multisample_upload, sprites, uniforms};
+use super::{Error, Foreign, Gpu, Via, assembly, beyond, multisample_upload, sprites, uniforms};
 use glisten_emit::{self as emit, Conventions, Emitted, FloatWidth, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
@@ -185,6 +185,7 @@ impl Gpu {
         made: &mut Vec<Made>,
     ) -> Result<PreparedDraw, Error> {
         let program = &draw.program;
+        beyond::refuse(draw)?;
         refuse_levels(draw)?;
         refuse_samples(draw)?;
         let bindings = bindings(program, sprites)?;

@@ -24,17 +24,20 @@ fn depth(@builtin(position) place: vec4<f32>) -> @builtin(frag_depth) f32 {
 
 /// Uploads all levels and layers.
 pub(super) fn upload(gpu: &Gpu, texture: &Texture, dimension: wgpu::TextureViewDimension) -> wgpu::TextureView {
+    // A driver clamps the reference of a comparison for a fixed-point format alone.
+    let fixed = texture.sampling.fixed_point_depth;
+    let format = if fixed { wgpu::TextureFormat::Depth24Plus } else { wgpu::TextureFormat::Depth32Float };
     let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: extent(texture.kind, texture.levels.first()),
         mip_level_count: texture.levels.len().max(1) as u32,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Depth32Float,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
         view_formats: &[],
     });
-    let pipeline = pipeline(gpu);
+    let pipeline = pipeline(gpu, format);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     for (mip_level, level) in texture.levels.iter().enumerate() {
         let size = extent(texture.kind, Some(level));
@@ -69,7 +72,7 @@ fn depths(texels: &Texels) -> Vec<f32> {
     }
 }
 
-fn pipeline(gpu: &Gpu) -> wgpu::RenderPipeline {
+fn pipeline(gpu: &Gpu, format: wgpu::TextureFormat) -> wgpu::RenderPipeline {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("depth upload"),
         source: wgpu::ShaderSource::Wgsl(BLIT.into()),
@@ -85,7 +88,7 @@ fn pipeline(gpu: &Gpu) -> wgpu::RenderPipeline {
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: Some(wgpu::DepthStencilState {
-            format: wgpu::TextureFormat::Depth32Float,
+            format,
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Always),
             stencil: wgpu::StencilState::default(),

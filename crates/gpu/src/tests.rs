@@ -217,6 +217,7 @@ fn uniforms_and_textures_reach_the_shader() {
             filter: Filter::Nearest,
             wrap: Wrap::Repeat,
             compare: Compare::Lequal,
+            sampling: glisten_scene::Sampling::default(),
         }))
     };
     scene.draws[0].textures =

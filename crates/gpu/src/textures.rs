@@ -10,7 +10,7 @@ use super::texels::{texel_bytes, texel_format};
 use super::texture_extent::extent;
 use super::{Error, Gpu, multisample_upload, shadow_upload};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
-use glisten_scene::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
+use glisten_scene::{Compare, Filter, Sampling, Texels, Texture, TextureLevel, Wrap};
 
 /// The resources of a sampler slot.
 pub(super) struct Bound {
@@ -47,7 +47,7 @@ fn view_dimension(kind: SamplerType) -> wgpu::TextureViewDimension {
     match (kind.dim, kind.arrayed) {
         (SamplerDim::D3, _) => wgpu::TextureViewDimension::D3,
         // Texels cannot be loaded from a cube, and integer texels are only loaded.
-        (SamplerDim::Cube, false) if kind.texel != Scalar::Float => wgpu::TextureViewDimension::D2Array,
+        (SamplerDim::Cube, _) if kind.texel != Scalar::Float => wgpu::TextureViewDimension::D2Array,
         (SamplerDim::Cube, false) => wgpu::TextureViewDimension::Cube,
         (SamplerDim::Cube, true) => wgpu::TextureViewDimension::CubeArray,
         (_, false) => wgpu::TextureViewDimension::D2,
@@ -90,6 +90,7 @@ fn black_texel(kind: SamplerType) -> Texture {
         filter: Filter::Nearest,
         wrap: Wrap::ClampToEdge,
         compare: Compare::Always,
+        sampling: Sampling::default(),
     }
 }
 
@@ -102,7 +103,11 @@ fn sampler(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::Sampler {
         address_mode_u: wrap,
         address_mode_v: wrap,
         address_mode_w: wrap,
-        mag_filter: filter,
+        mag_filter: if texture.sampling.magnifies_linearly(texture.filter) {
+            wgpu::FilterMode::Linear
+        } else {
+            wgpu::FilterMode::Nearest
+        },
         min_filter: filter,
         mipmap_filter: if blended { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest },
         lod_min_clamp: 0.0,

@@ -17,6 +17,7 @@ mod model;
 pub mod picture;
 pub mod random;
 mod reads;
+mod sampling;
 pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
@@ -27,3 +28,4 @@ pub use model::{
     Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 pub use reads::scene_values_read;
+pub use sampling::Sampling;

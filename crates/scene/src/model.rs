@@ -5,6 +5,7 @@
 
 use crate::fixed::{FixedFunction, Pipeline};
 use crate::picture::Transfer;
+use crate::sampling::Sampling;
 use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue, Stage};
 use glisten_front::link::{FixedState, Program};
 use std::sync::Arc;
@@ -406,6 +407,8 @@ pub struct Texture {
     pub wrap: Wrap,
     /// The comparison function, for shadow samplers.
     pub compare: Compare,
+    /// Further parameters.
+    pub sampling: Sampling,
 }
 
 /// The value whose name stands after `GL_` in capitals.

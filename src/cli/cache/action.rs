@@ -47,9 +47,10 @@ impl OutputFile {
         Self { path: path.to_owned(), digest: Some(digest) }
     }
 
-    /// The digest, if it is one.
-    pub(super) fn digest(&self) -> Option<Digest> {
-        Digest::from_hex(&self.digest.as_ref()?.hash)
+    /// The digest and the number of bytes, if they are such.
+    pub(super) fn digest(&self) -> Option<(Digest, usize)> {
+        let digest = self.digest.as_ref()?;
+        Some((Digest::from_hex(&digest.hash)?, usize::try_from(digest.size_bytes).ok()?))
     }
 }
 

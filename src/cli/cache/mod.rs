@@ -28,7 +28,7 @@ use super::files;
 use super::trace::{Found, Place, Trace};
 use action::ActionResult;
 use prost::Message;
-use remote::Remote;
+use remote::{Name, Remote};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -99,9 +99,9 @@ impl Cache {
     fn find_in(&self, (key, lists): &(Digest, Vec<Vec<Place>>)) -> Option<Kept> {
         lists.iter().find_map(|places| {
             let now = places.iter().map(|place| (place, self.now(place)));
-            let bytes = self.get(Kind::Result, result_key(*key, now))?;
+            let bytes = self.get(Name { kind: Kind::Result, digest: result_key(*key, now), bytes: None })?;
             let result = ActionResult::decode(&*bytes).ok()?;
-            Kept::read(&result, |digest| self.output(digest))
+            Kept::read(&result, |digest, bytes| self.output(digest, bytes))
         })
     }
 
@@ -150,23 +150,31 @@ impl Cache {
     }
 
     fn remote_lists(&self, key: Digest) -> (Digest, Vec<Vec<Place>>) {
-        (key, lists(self.remote.as_ref().and_then(|remote| remote.get(Kind::Result, key))))
+        (
+            key,
+            lists(
+                self.remote
+                    .as_ref()
+                    .and_then(|remote| remote.get(Name { kind: Kind::Result, digest: key, bytes: None })),
+            ),
+        )
     }
 
-    fn output(&self, digest: Digest) -> Option<Arc<[u8]>> {
+    fn output(&self, digest: Digest, bytes: usize) -> Option<Arc<[u8]>> {
         if let Some(known) = self.outputs.lock().ok()?.get(&digest) {
             return Some(Arc::clone(known));
         }
-        let bytes: Arc<[u8]> = self.get(Kind::Bytes, digest)?.into();
+        let bytes: Arc<[u8]> = self.get(Name { kind: Kind::Bytes, digest, bytes: Some(bytes) })?.into();
         self.outputs.lock().ok()?.insert(digest, Arc::clone(&bytes));
         Some(bytes)
     }
 
-    fn get(&self, kind: Kind, digest: Digest) -> Option<Vec<u8>> {
+    fn get(&self, name: Name) -> Option<Vec<u8>> {
+        let Name { kind, digest, .. } = name;
         if let Some(bytes) = self.store.as_ref().and_then(|store| store.get(kind, digest)) {
             return Some(bytes);
         }
-        let bytes = self.remote.as_ref()?.get(kind, digest)?;
+        let bytes = self.remote.as_ref()?.get(name)?;
         self.put_here(kind, digest, &bytes);
         Some(bytes)
     }
@@ -174,7 +182,7 @@ impl Cache {
     fn put(&self, kind: Kind, digest: Digest, bytes: &[u8]) {
         self.put_here(kind, digest, bytes);
         if let Some(remote) = &self.remote {
-            remote.put(kind, digest, bytes);
+            remote.put(Name { kind, digest, bytes: Some(bytes.len()) }, bytes);
         }
     }
 

@@ -52,15 +52,15 @@ impl Kept {
         ActionResult { output_files: files.collect(), stdout_raw }
     }
 
-    /// The result that a cache held. `None` if an output is missing, or the text is not one of this version.
-    pub(super) fn read(result: &ActionResult, output: impl Fn(Digest) -> Option<Arc<[u8]>>) -> Option<Self> {
+    /// The result that a cache held; `output` gives the bytes of a digest, of which it says how many there are. `None` if an output is missing, or the text is not one of this version.
+    pub(super) fn read(result: &ActionResult, output: impl Fn(Digest, usize) -> Option<Arc<[u8]>>) -> Option<Self> {
         let text: Text = serde_json::from_slice(&result.stdout_raw).ok()?;
         let (sources, mut diagnostics) = text.saved.restore()?;
         let notes = diagnostics.split_off(diagnostics.len().checked_sub(text.notes)?);
         let mut outputs = Vec::new();
         for file in &result.output_files {
-            let digest = file.digest()?;
-            outputs.push((file.path.clone(), digest, output(digest)?));
+            let (digest, bytes) = file.digest()?;
+            outputs.push((file.path.clone(), digest, output(digest, bytes)?));
         }
         Some(Self { outputs, sources, diagnostics, notes, dropped: text.dropped, asked: text.asked })
     }

@@ -87,7 +87,9 @@ impl Store {
     pub(super) fn get(&self, kind: Kind, digest: Digest) -> Option<Vec<u8>> {
         let path = self.path(kind, digest);
         let file = File::open(&path).ok()?;
-        let mut bytes = Vec::new();
+        let size = file.metadata().ok()?.len().min(MAX_BYTES);
+        // Room for all of it: otherwise a file is read in five pieces.
+        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0) + 1);
         file.take(MAX_BYTES).read_to_end(&mut bytes).ok()?;
         let content = match kind {
             Kind::Bytes => (Digest::of(&bytes) == digest).then_some(bytes),

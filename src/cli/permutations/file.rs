@@ -148,7 +148,7 @@ pub(super) fn read(path: &Path) -> Result<Permutations, Failure> {
 fn program(table: &ProgramTable, folder: &Path) -> Result<PermutedProgram, String> {
     let paths: Vec<PathBuf> = table.files.iter().map(|name| folder.join(name)).collect();
     let first = paths.first().ok_or("it has no files")?;
-    let name = table.name.clone().unwrap_or_else(|| crate::cli::stages::stem(first));
+    let name = table.name.clone().unwrap_or_else(|| crate::sources::stages::stem(first));
     let is_name = !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\', '\0']);
     if !is_name {
         return Err(format!("`{name}` is no name for a folder"));

@@ -91,7 +91,7 @@ impl Index {
             let digits = digits.get(..DIGITS).unwrap_or_default();
             let path = match kinds.get(name) {
                 Some((stage, target)) => {
-                    let end = crate::cli::stages::extension(*stage);
+                    let end = crate::sources::stages::extension(*stage);
                     let path = format!("{program}/{digits}.{end}.{}", target.extension());
                     shader.stages.entry(stage.name()).or_default().insert(target.word(), path.clone());
                     path

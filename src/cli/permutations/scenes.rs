@@ -14,8 +14,8 @@ use crate::cli::guard;
 use crate::cli::inputs::{Group, Input};
 use crate::cli::outputs::Output;
 use crate::cli::session::Unit;
-use crate::cli::stages;
 use crate::scene::{self, DiskFiles};
+use crate::sources::stages;
 use crate::specialize::{Contract, SpecializedScene, specialize_scene_by};
 use std::path::{Path, PathBuf};
 

@@ -60,7 +60,7 @@ static EXCEPTIONS: &[Exception] = &[
         "OpenGL 3.2 (section 3.8.11) leaves the scale factor between bounds, and llvmpipe approximates its logarithm",
     ),
     (
-        "geometry/normals",
+        "geometry/short_lines",
         // As for core/smooth_line_strip: at most 0.354 pixels along lines of a pixel and more, whose ends differ by 0.5.
         Expected::Within(0.354 * 0.5),
         "llvmpipe interpolates along the major axis of a line, and not by the projection of (3.5)",

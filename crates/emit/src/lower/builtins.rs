@@ -9,8 +9,8 @@ use super::{Try, unsupported};
 use crate::target::{Target, WindowOrigin};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::operations::{
-    Binary, BooleanFunction, Class, Composite, Derivative, Emission, MatrixFunction, Numbers, Relation, Ternary, Test,
-    Unary,
+    self, Binary, BooleanFunction, Class, Composite, Derivative, Emission, MatrixFunction, Numbers, Relation, Ternary,
+    Test, Unary,
 };
 use glisten_front::hir::{BinaryOp, ExprId, Scalar, ScalarValue, TypeId};
 use naga::{BinaryOperator, DerivativeAxis, DerivativeControl, Expression, Handle, MathFunction, UnaryOperator};
@@ -63,10 +63,18 @@ fn relation(op: Relation) -> BinaryOperator {
 }
 
 fn axis(of: Derivative) -> DerivativeAxis {
-    match of {
-        Derivative::X => DerivativeAxis::X,
-        Derivative::Y => DerivativeAxis::Y,
-        Derivative::Width => DerivativeAxis::Width,
+    match of.axis() {
+        operations::DerivativeAxis::X => DerivativeAxis::X,
+        operations::DerivativeAxis::Y => DerivativeAxis::Y,
+        operations::DerivativeAxis::Width => DerivativeAxis::Width,
+    }
+}
+
+fn control(of: Derivative) -> DerivativeControl {
+    match of.control() {
+        operations::DerivativeControl::Any => DerivativeControl::None,
+        operations::DerivativeControl::Fine => DerivativeControl::Fine,
+        operations::DerivativeControl::Coarse => DerivativeControl::Coarse,
     }
 }
 
@@ -128,7 +136,7 @@ impl Ctx<'_, '_> {
             }
             Class::Derivative(of) => {
                 let [(a, _)] = self.of(&values)?;
-                Ok(self.derivative(axis(of), a))
+                Ok(self.derivative(of, a))
             }
             // §8.9 allows a constant; hardware of that time and Mesa return 0.
             Class::Noise(_) => {
@@ -275,8 +283,9 @@ impl Ctx<'_, '_> {
     }
 
     /// `dFdx`, `dFdy`, `fwidth`. Where the target's rows run downwards, so does its y axis.
-    fn derivative(&mut self, axis: DerivativeAxis, expr: Handle<Expression>) -> Handle<Expression> {
-        let value = self.add(Expression::Derivative { axis, ctrl: DerivativeControl::None, expr });
+    fn derivative(&mut self, of: Derivative, expr: Handle<Expression>) -> Handle<Expression> {
+        let axis = axis(of);
+        let value = self.add(Expression::Derivative { axis, ctrl: control(of), expr });
         if axis == DerivativeAxis::Y && self.low.conventions.window_origin == WindowOrigin::UpperLeft {
             return self.add(Expression::Unary { op: UnaryOperator::Negate, expr: value });
         }

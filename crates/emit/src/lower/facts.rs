@@ -202,10 +202,8 @@ fn own_nature(shader: &Shader, kind: &ExprKind, local_constant: bool) -> Nature 
 /// Whether the function takes derivatives, explicitly or implicitly (GLSL 1.50 §8.7, §8.8).
 pub(super) fn depends_on_control_flow(function: BuiltinFunction) -> bool {
     use BuiltinFunction as F;
-    matches!(
-        function,
-        F::Texture | F::TextureProj | F::TextureOffset | F::TextureProjOffset | F::DFdx | F::DFdy | F::Fwidth
-    )
+    matches!(function, F::Texture | F::TextureProj | F::TextureOffset | F::TextureProjOffset)
+        || matches!(function.class(), glisten_front::builtin::operations::Class::Derivative(_))
 }
 
 /// The variable at the root of `a.b[i].c`.

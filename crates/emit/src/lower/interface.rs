@@ -407,6 +407,7 @@ impl Ctx<'_, '_> {
             | B::PointSize
             | B::In
             | B::PrimitiveIdIn
+            | B::InvocationId
             | B::Layer
             | B::FragColor
             | B::FragData

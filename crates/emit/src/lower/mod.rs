@@ -33,6 +33,7 @@ mod discards;
 mod expressions;
 mod facts;
 mod function;
+mod gathers;
 mod interface;
 mod matrices;
 mod operands;
@@ -78,8 +79,9 @@ pub(crate) fn lower(
         let message = format!("the program `{}` has no {} stage", program.name, stage.name());
         return Err(vec![Diagnostic::new(&general::INTERNAL, Span::default(), message)]);
     };
-    if stage == Stage::Geometry {
-        return Err(vec![no_geometry(shader)]);
+    // What a vertex stage passes to a geometry stage is no varying that a target could have.
+    if let Some(geometry) = program.stage(Stage::Geometry).filter(|_| stage != Stage::Fragment) {
+        return Err(vec![no_geometry(geometry)]);
     }
     let mut facts = Facts::of(shader);
     facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);

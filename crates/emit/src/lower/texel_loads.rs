@@ -36,27 +36,6 @@ impl Ctx<'_, '_> {
         }))
     }
 
-    /// One component of four texels (GLSL 4.00 §8.9.3), each loaded by itself.
-    pub(super) fn integer_gather(&mut self, mut lookup: Lookup) -> Try<Handle<Expression>> {
-        if lookup.ty.dim == SamplerDim::Cube {
-            return Err(lacking(
-                self.here(),
-                format!("`textureGather` of a `{}`: integer textures have no sampler", lookup.ty.name()),
-                "look the four texels up with `texture`, or use a texture of floats",
-            ));
-        }
-        let index = lookup.gather.map_or(0, |component| component as u32);
-        let own = lookup.offset.take().unwrap_or_else(|| vec![0, 0]);
-        let mut texels = Vec::new();
-        for side in [[0, 1], [1, 1], [1, 0], [0, 0]] {
-            lookup.offset = Some(own.iter().zip(side).map(|(own, side)| own.saturating_add(side)).collect());
-            let base = self.integer_lookup(&lookup)?;
-            texels.push(self.add(Expression::AccessIndex { base, index }));
-        }
-        let ty = self.low.vector_type(lookup.ty.texel, 4);
-        Ok(self.add(Expression::Compose { ty, components: texels }))
-    }
-
     /// The texel of the face that a direction hits (OpenGL 3.2 §3.8.6, table 3.21); the faces are layers of an array.
     /// Where axes are equally long, z precedes y, and y precedes x, as in the reference.
     fn integer_cube_lookup(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
@@ -95,6 +74,10 @@ impl Ctx<'_, '_> {
         let off_z = choose(is_y, on_y, on_x);
         let face = choose(is_z, on_z, off_z);
         self.name(face, "face");
+        let face = match lookup.layer {
+            None => face,
+            Some(layer) => self.face_of_layer(lookup, layer, face),
+        };
         // s = (s_c / m_a + 1) / 2, in texels.
         let place = self.float_vector(vec![s, t]);
         let longest = self.splat(longest, 2);
@@ -115,6 +98,23 @@ impl Ctx<'_, '_> {
             sample: None,
             level: Some(level),
         }))
+    }
+
+    /// The layer of a face of a layer of cubes: each has six.
+    fn face_of_layer(
+        &mut self,
+        lookup: &Lookup,
+        layer: Handle<Expression>,
+        face: Handle<Expression>,
+    ) -> Handle<Expression> {
+        let layer = self.layer_index(layer);
+        let faces = self.add(Expression::ImageQuery { image: lookup.value.texture, query: ImageQuery::NumLayers });
+        let faces = self.add(Expression::As { expr: faces, kind: ScalarKind::Sint, convert: Some(4) });
+        let six = self.int(6);
+        let layers = self.op(BinaryOperator::Divide, faces, six);
+        let layer = self.inside(layer, layers, 1);
+        let first = self.op(BinaryOperator::Multiply, layer, six);
+        self.op(BinaryOperator::Add, first, face)
     }
 
     /// `clamp(value, 0, size - 1)`

@@ -45,6 +45,7 @@ impl Ctx<'_, '_> {
             How::Fetch => self.texel_fetch(ty, value, form, rest),
             How::QueryLod => self.query_lod(ty, value, rest.first().copied()),
             How::Levels => Ok(self.level_count(value)),
+            How::Gather if form.offsets => self.gather_offsets(ty, value, form, rest),
             How::Implicit | How::Lod | How::Grad | How::Gather => {
                 let lookup = self.lookup(ty, value, form, rest)?;
                 if ty.texel != Scalar::Float && form.lookup == How::Gather {
@@ -57,15 +58,21 @@ impl Ctx<'_, '_> {
                 if !ty.shadow || self.size_of(ret) == 1 || form.lookup == How::Gather {
                     return Ok(result);
                 }
-                // `shadow2D` and its like of older versions: luminance, and alpha 1.
-                let one = self.float(1.0);
-                Ok(self.float_vector(vec![result, result, result, one]))
+                // `shadow2D` and its like of older versions.
+                let (zero, one) = (self.float(0.0), self.float(1.0));
+                Ok(self.float_vector(self.shader.depth_mode.components(result, zero, one).to_vec()))
             }
         }
     }
 
     /// Decomposes the arguments after the sampler, in their order.
-    fn lookup(&mut self, ty: SamplerType, value: SamplerValue, form: TextureForm, arguments: &[ExprId]) -> Try<Lookup> {
+    pub(super) fn lookup(
+        &mut self,
+        ty: SamplerType,
+        value: SamplerValue,
+        form: TextureForm,
+        arguments: &[ExprId],
+    ) -> Try<Lookup> {
         let (mut p, mut gradient_x, mut offset, mut level) = (None, None, None, SampleLevel::Auto);
         let (mut own_reference, mut gather) = (None, None);
         if form.lookup == How::Gather {
@@ -74,7 +81,7 @@ impl Ctx<'_, '_> {
         }
         for (role, &argument) in form.arguments(ty).into_iter().zip(arguments) {
             match role {
-                Role::Offset => offset = Some(self.constant_offset(argument)?),
+                Role::Offset | Role::Offsets => offset = Some(self.constant_offset(argument)?),
                 Role::Coordinate => p = Some((self.value(argument)?, self.size_of(self.shader.expr(argument).ty))),
                 Role::Level => level = SampleLevel::Exact(self.value(argument)?),
                 Role::GradientX => gradient_x = Some(self.value(argument)?),
@@ -113,7 +120,7 @@ impl Ctx<'_, '_> {
             self.add(Expression::AccessIndex { base: p, index })
         };
         // The reference value of a 1D shadow is in z, after an unused component; that of a cube is in w.
-        let within = ty.shadow && form.lookup != How::Gather;
+        let within = ty.shadow && form.lookup != How::Gather && ty.reference_component() < 4;
         let reference = within.then(|| component(ty.reference_component()));
         let layer = ty.arrayed.then(|| component(n));
         let divisor = form.projective.then(|| component(p_size.saturating_sub(1)));
@@ -165,7 +172,7 @@ impl Ctx<'_, '_> {
     }
 
     /// A lookup through a sampler.
-    fn sample(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
+    pub(super) fn sample(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
         let Some(sampler) = lookup.value.sampler else {
             return Err(internal(self.here(), "this texture has no sampler"));
         };
@@ -278,7 +285,7 @@ impl Ctx<'_, '_> {
                 Role::Offset => offset = Some(self.constant_offset(argument)?),
                 Role::Coordinate => p = Some((self.value(argument)?, self.size_of(self.shader.expr(argument).ty))),
                 Role::Level | Role::Sample => index = Some(self.value(argument)?),
-                Role::GradientX | Role::GradientY | Role::Bias | Role::Reference | Role::Component => {
+                Role::GradientX | Role::GradientY | Role::Bias | Role::Reference | Role::Component | Role::Offsets => {
                     return Err(self.internal_error("a texel is fetched without a level of detail"));
                 }
             }
@@ -350,7 +357,12 @@ impl Ctx<'_, '_> {
         }
         let query = naga::ImageQuery::NumLayers;
         let layers = self.add(Expression::ImageQuery { image: value.texture, query });
-        let layers = self.converted(layers, TypeId::UINT, TypeId::INT);
+        let mut layers = self.converted(layers, TypeId::UINT, TypeId::INT);
+        if ty.is_integer_cube() {
+            // Its faces are layers.
+            let six = self.int(6);
+            layers = self.op(BinaryOperator::Divide, layers, six);
+        }
         let n = if ty.dim == SamplerDim::D1 { 2 } else { 3 };
         let ty = self.low.vector_type(Scalar::Int, n);
         Ok(self.add(Expression::Compose { ty, components: vec![size, layers] }))

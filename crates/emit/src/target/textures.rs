@@ -27,7 +27,7 @@ impl Shape {
             view_dimension: match (ty.dim, ty.arrayed) {
                 (SamplerDim::D3, _) => "3d",
                 // Texels cannot be loaded from a cube, and integer texels are only loaded.
-                (SamplerDim::Cube, false) if ty.is_integer_cube() => "2d-array",
+                (SamplerDim::Cube, _) if ty.is_integer_cube() => "2d-array",
                 (SamplerDim::Cube, false) => "cube",
                 (SamplerDim::Cube, true) => "cube-array",
                 (_, false) => "2d",

@@ -65,6 +65,10 @@ static KEYWORDS: &[Keyword] = &[
     row("sampler2DMSArray", sampler(Float, Multisample, true, false)),
     row("isampler2DMSArray", sampler(Int, Multisample, true, false)),
     row("usampler2DMSArray", sampler(Uint, Multisample, true, false)),
+    row("samplerCubeArray", sampler(Float, Cube, true, false)),
+    row("samplerCubeArrayShadow", sampler(Float, Cube, true, true)),
+    row("isamplerCubeArray", sampler(Int, Cube, true, false)),
+    row("usamplerCubeArray", sampler(Uint, Cube, true, false)),
 ];
 
 /// The type that a keyword denotes. Where a word is a keyword, the table of keywords knows.

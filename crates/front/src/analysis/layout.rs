@@ -87,6 +87,7 @@ enum Effect {
     /// `points` is both an input and an output primitive.
     Points,
     MaxVertices,
+    Invocations,
     /// The location of a uniform, and what is known of a depth: they change no value.
     Nothing,
 }
@@ -162,12 +163,12 @@ static ROWS: &[Row] = &[
     row("line_strip", Effect::Out(PrimitiveOut::LineStrip), &[GeometryOut]),
     row("triangle_strip", Effect::Out(PrimitiveOut::TriangleStrip), &[GeometryOut]),
     valued(row("max_vertices", Effect::MaxVertices, &[GeometryOut])),
+    valued(since(400, NEVER, Extensions::GPU_SHADER5, row("invocations", Effect::Invocations, &[GeometryIn]))),
 ];
 
 /// Identifiers that no declaration of glisten's takes, with the version that brought each.
 static LATER: &[(&str, u16)] = &[
     ("stream", 400),
-    ("invocations", 400),
     ("xfb_buffer", 440),
     ("xfb_offset", 440),
     ("xfb_stride", 440),
@@ -195,6 +196,7 @@ pub(super) struct Layout {
     pub(super) inputs: Vec<(PrimitiveIn, Span)>,
     pub(super) outputs: Vec<(PrimitiveOut, Span)>,
     pub(super) max_vertices: Option<(u32, Span)>,
+    pub(super) invocations: Option<(u32, Span)>,
 }
 
 impl Analyzer<'_> {
@@ -325,6 +327,7 @@ impl Layout {
             Effect::Points if subject == GeometryIn => self.inputs.push((PrimitiveIn::Points, span)),
             Effect::Points => self.outputs.push((PrimitiveOut::Points, span)),
             Effect::MaxVertices => self.max_vertices = Some((value, span)),
+            Effect::Invocations => self.invocations = Some((value, span)),
             Effect::Nothing => {}
         }
     }

@@ -63,6 +63,8 @@ pub const MAX_COMBINED_TEXTURE_IMAGE_UNITS: u32 = 48;
 pub const MAX_DRAW_BUFFERS: u32 = 8;
 /// Elements of `gl_ClipDistance`.
 pub const MAX_CLIP_DISTANCES: u32 = 8;
+/// `invocations` of a geometry shader (OpenGL 4.0 table 6.46).
+pub const MAX_GEOMETRY_SHADER_INVOCATIONS: u32 = 32;
 /// `max_vertices` of a geometry shader.
 pub const MAX_GEOMETRY_OUTPUT_VERTICES: u32 = 256;
 

@@ -31,6 +31,7 @@ identities!(
         InstanceId = "gl_InstanceID",
         In = "gl_in",
         PrimitiveIdIn = "gl_PrimitiveIDIn",
+        InvocationId = "gl_InvocationID",
         PrimitiveId = "gl_PrimitiveID",
         Layer = "gl_Layer",
         FragCoord = "gl_FragCoord",

@@ -169,6 +169,7 @@ pub static VARIABLES: &[Row] = &[
         .at(150, Stages::GEOMETRY)
         .redeclared(Redeclaration::Size),
     Row::new(V::PrimitiveIdIn, "gl_PrimitiveIDIn", In, INT).at(150, Stages::GEOMETRY),
+    Row::new(V::InvocationId, "gl_InvocationID", In, INT).at(400, Stages::GEOMETRY).or(Extensions::GPU_SHADER5),
     Row::new(V::PrimitiveId, "gl_PrimitiveID", Out, INT).at(150, Stages::GEOMETRY),
     Row::new(V::Layer, "gl_Layer", Out, INT).at(150, Stages::GEOMETRY),
     Row::new(V::FragCoord, "gl_FragCoord", In, VEC4).fragment(110).redeclared(Redeclaration::Layout),

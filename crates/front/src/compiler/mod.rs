@@ -63,6 +63,8 @@ pub struct Compilation {
     pub sources: SourceMap,
     /// The linked program, if there are no errors.
     pub program: Option<Program>,
+    /// Each source as a driver gets it, with or without errors: macros, preludes and includes are in the text.
+    pub texts: Vec<Arc<str>>,
     /// All diagnostics.
     pub diagnostics: Diagnostics,
     /// Those of the [`watched`](Options::watched) names that the result depends on. With any other definitions of the rest of
@@ -158,12 +160,13 @@ impl Compiler {
         let shaders =
             sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics, &mut asked));
         let shaders: Vec<Option<Understood>> = shaders.collect();
+        let texts = shaders.iter().flatten().flat_map(|understood| understood.shader.texts.iter().cloned()).collect();
         let shaders: Option<Vec<Understood>> = shaders.into_iter().collect();
         let program = shaders.and_then(|shaders| self.link(name.clone(), types, shaders, &mut diagnostics));
         if let Some(levels) = &self.levels {
             diagnostics.retain_mut(|diagnostic| levels.apply(&map, diagnostic));
         }
-        Compilation { name, sources: map, program, diagnostics, asked }
+        Compilation { name, sources: map, program, texts, diagnostics, asked }
     }
 
     /// Links the stages. If there are errors, only compares the certain declarations. Other declarations of a shader

@@ -18,6 +18,7 @@ mod shader;
 mod stmt;
 mod value;
 mod visit;
+mod written_out;
 
 pub use crate::language::{
     ArraySize, Interpolation, MatrixLayout, Member, MemberPlace, ParamMode, SamplerDim, SamplerType, Scalar, Stage,
@@ -28,8 +29,8 @@ pub use handles::{FunctionId, GlobalId, LocalId};
 pub use members::MembersRead;
 pub use print::{Notes, print, print_with};
 pub use shader::{
-    BlockInfo, BlockLayout, FragCoordLayout, Function, GeometryLayout, Global, Local, LocalKind, PerVertexOut,
-    PrimitiveIn, PrimitiveOut, Shader,
+    BlockInfo, BlockLayout, DepthMode, FragCoordLayout, Function, GeometryLayout, Global, Local, LocalKind,
+    PerVertexOut, PrimitiveIn, PrimitiveOut, Shader,
 };
 pub use stmt::{Case, CaseLabel, Condition, LoopKind, Stmt, StmtKind};
 pub use value::{ScalarValue, Value};

@@ -213,6 +213,8 @@ pub struct GeometryLayout {
     pub output: Option<PrimitiveOut>,
     /// The largest number of vertices that it emits.
     pub max_vertices: Option<u32>,
+    /// How often it runs for each primitive (GLSL 4.00 §4.3.8.1); once if the layout does not say.
+    pub invocations: Option<u32>,
 }
 
 /// The redeclaration of `gl_FragCoord` in a fragment shader (§4.3.8.1).
@@ -231,6 +233,33 @@ pub struct PerVertexOut {
     pub members: Vec<String>,
     /// The block's name in the declaration.
     pub span: Span,
+}
+
+/// `DEPTH_TEXTURE_MODE` of the host: how the result r of `shadow2D` and its like becomes four components (OpenGL 2.1 table
+/// 3.20). Later functions return r alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DepthMode {
+    /// (r, r, r, 1), the initial state.
+    #[default]
+    Luminance,
+    /// (r, r, r, r)
+    Intensity,
+    /// (0, 0, 0, r)
+    Alpha,
+    /// (r, 0, 0, 1), of OpenGL 3.0.
+    Red,
+}
+
+impl DepthMode {
+    /// The four components, from the result, 0 and 1.
+    pub fn components<T: Copy>(self, r: T, zero: T, one: T) -> [T; 4] {
+        match self {
+            Self::Luminance => [r, r, r, one],
+            Self::Intensity => [r; 4],
+            Self::Alpha => [zero, zero, zero, r],
+            Self::Red => [r, zero, zero, one],
+        }
+    }
 }
 
 /// One stage.
@@ -256,6 +285,8 @@ pub struct Shader {
     pub per_vertex_out: Option<PerVertexOut>,
     /// Whether anything is declared `precise` (GLSL 4.00 §4.7).
     pub precise: bool,
+    /// How the result of a comparison becomes four components.
+    pub depth_mode: DepthMode,
     /// The depth of the deepest expression, counted along left operands too. More than a few hundred levels need a
     /// large stack (see [`Shader::on_stack`]).
     pub expr_depth: u32,
@@ -285,6 +316,7 @@ impl Shader {
             frag_coord: FragCoordLayout::default(),
             per_vertex_out: None,
             precise: false,
+            depth_mode: DepthMode::default(),
             expr_depth: 0,
             texts: Vec::new(),
         }

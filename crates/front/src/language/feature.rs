@@ -85,11 +85,11 @@ features! {
     /// `float[2][3]`
     ArraysOfArrays "an array of arrays" since(430, 310), STAYS, Extensions::ARRAYS_OF_ARRAYS, "§4.1.9";
     /// `mat3(m)` of a matrix.
-    MatrixFromMatrix "a matrix from a matrix" since(120, 300), STAYS, NONE, "§5.4.2";
+    MatrixFromMatrix "a matrix from a matrix" since(120, 100), STAYS, NONE, "§5.4.2";
     /// `uniform float a = 1.0;`
     UniformInitializers "the initializer of a uniform" since(120, NEVER), STAYS, NONE, "§4.3.5";
     /// Initializers of globals that are not constant expressions.
-    GlobalInitializers "an initializer of a global that is not constant" since(110, NEVER), STAYS, NONE, "§4.3";
+    GlobalInitializers "an initializer of a global that is not constant" since(110, 100), since(NEVER, 300), NONE, "§4.3";
     /// Calls of built-in functions in constant expressions.
     ConstantFunctions "a function in a constant expression" since(120, 100), STAYS, NONE, "§4.3.3";
     /// `int` to `float`; from 1.30 on also `uint` to `float`.

@@ -70,11 +70,11 @@ pub struct SamplerType {
 }
 
 impl SamplerType {
-    /// All sampler types of GLSL 1.50, in the order in which [`Types`] stores them.
-    pub const ALL: [Self; 36] = Self::list();
+    /// All sampler types of GLSL 4.00, in the order in which [`Types`] stores them.
+    pub const ALL: [Self; 40] = Self::list();
 
-    const fn list() -> [Self; 36] {
-        const SHAPES: [(SamplerDim, bool); 10] = [
+    const fn list() -> [Self; 40] {
+        const SHAPES: [(SamplerDim, bool); 11] = [
             (SamplerDim::D1, false),
             (SamplerDim::D2, false),
             (SamplerDim::D3, false),
@@ -85,15 +85,16 @@ impl SamplerType {
             (SamplerDim::Buffer, false),
             (SamplerDim::Multisample, false),
             (SamplerDim::Multisample, true),
+            (SamplerDim::Cube, true),
         ];
-        const SHADOWS: [usize; 6] = [0, 1, 3, 4, 5, 6];
+        const SHADOWS: [usize; 7] = [0, 1, 3, 4, 5, 6, 10];
         const TEXELS: [Scalar; 3] = [Scalar::Float, Scalar::Int, Scalar::Uint];
         let (dim, arrayed) = SHAPES[0];
-        let mut list = [Self { texel: Scalar::Float, dim, arrayed, shadow: false }; 36];
+        let mut list = [Self { texel: Scalar::Float, dim, arrayed, shadow: false }; 40];
         let mut index = 0;
-        while index < 36 {
-            let plain = index < 30;
-            let (dim, arrayed) = SHAPES[if plain { index / 3 } else { SHADOWS[index - 30] }];
+        while index < 40 {
+            let plain = index < 33;
+            let (dim, arrayed) = SHAPES[if plain { index / 3 } else { SHADOWS[index - 33] }];
             let texel = if plain { TEXELS[index % 3] } else { Scalar::Float };
             list[index] = Self { texel, dim, arrayed, shadow: !plain };
             index += 1;
@@ -353,6 +354,9 @@ impl TypeId {
     /// `vec4`
     pub const VEC4: Self = Self::vector(Scalar::Float, 4);
 
+    /// `ivec2[4]`, the offsets of `textureGatherOffsets`.
+    pub const FOUR_OFFSETS: Self = Self(27 + SamplerType::ALL.len() as u32);
+
     /// The scalar (`size` 1) or vector (2 to 4) type, without a table. Other sizes are clamped.
     pub const fn vector(scalar: Scalar, size: u8) -> Self {
         let size = if size < 1 {
@@ -384,7 +388,7 @@ impl TypeId {
         Self(18 + (columns as u32 - 2) * 3 + rows as u32 - 2)
     }
 
-    /// The sampler type, without a table. [`Self::ERROR`] for a combination that GLSL 1.50 does not have.
+    /// The sampler type, without a table. [`Self::ERROR`] for a combination that GLSL does not have.
     pub const fn sampler(sampler: SamplerType) -> Self {
         let mut index = 0;
         while index < SamplerType::ALL.len() {
@@ -427,6 +431,7 @@ impl Types {
         for sampler in SamplerType::ALL {
             types.intern(Type::Sampler(sampler));
         }
+        types.intern(Type::Array(TypeId::vector(Scalar::Int, 2), ArraySize::Sized(4)));
         types
     }
 

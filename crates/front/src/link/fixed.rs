@@ -5,10 +5,11 @@
 //! variables after the vertex stage and before the fragment stage written as statements. *Holds:* no later phase knows of
 //! this state, so that every target and the reference do the same. A program without these variables is left as it is.
 
+use super::clip_states;
 use crate::builtin::{BuiltinFunction, BuiltinVariable, fixed};
 use crate::hir::{
-    ArraySize, BinaryOp, ExprId, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, ScalarValue, Shader,
-    Stage, Stmt, StmtKind, Storage, TypeId, Types, Value, VarRef,
+    ArraySize, BinaryOp, DepthMode, ExprId, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation,
+    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, TypeId, Types, Value, VarRef,
 };
 use crate::language::Scalar;
 use crate::source::Span;
@@ -22,6 +23,10 @@ pub struct FixedState {
     pub clip_planes: u32,
     /// `glClampColor(GL_CLAMP_VERTEX_COLOR, GL_FALSE)`: the colors of the vertex stage may leave [0, 1].
     pub unclamped_colors: bool,
+    /// `GL_DEPTH_TEXTURE_MODE` of the textures that are compared.
+    pub depth_mode: DepthMode,
+    /// Bit n: `GL_CLIP_DISTANCEn` is disabled below the highest one that is enabled. Nothing is clipped by such a distance.
+    pub disabled_distances: u8,
 }
 
 /// The most clip planes that a program may have (`gl_MaxClipPlanes`).
@@ -38,6 +43,7 @@ const SIDES: [(&str, &str, &str); 2] = [
 
 /// Writes what the state does to the stages of a program, which are in pipeline order.
 pub(super) fn apply(types: &mut Types, stages: &mut [Shader], state: FixedState) {
+    stages.iter_mut().for_each(|shader| shader.depth_mode = state.depth_mode);
     let (before, fragment) = match stages.split_last_mut() {
         Some((last, before)) if last.stage == Stage::Fragment => (before, Some(last)),
         Some(_) => (stages, None),
@@ -49,6 +55,7 @@ pub(super) fn apply(types: &mut Types, stages: &mut [Shader], state: FixedState)
         end.extend(clamped_colors(producer));
     }
     end.extend(clip_distances(types, producer, state.clip_planes.min(MOST_PLANES)));
+    end.extend(clip_states::without_effect(types, producer, state.disabled_distances));
     if !end.is_empty() {
         at_the_end(producer, end);
         producer.mark_static_use();
@@ -263,12 +270,12 @@ fn global(name: &str, ty: TypeId, storage: Storage) -> Global {
     }
 }
 
-fn variable(shader: &mut Shader, id: GlobalId) -> ExprId {
+pub(super) fn variable(shader: &mut Shader, id: GlobalId) -> ExprId {
     let ty = shader.global(id).ty;
     shader.push(ExprKind::Var(VarRef::Global(id)), ty, Span::default())
 }
 
-fn literal(shader: &mut Shader, value: ScalarValue, ty: TypeId) -> ExprId {
+pub(super) fn literal(shader: &mut Shader, value: ScalarValue, ty: TypeId) -> ExprId {
     shader.push(ExprKind::Literal(value), ty, Span::default())
 }
 
@@ -276,7 +283,7 @@ fn statement(kind: StmtKind) -> Stmt {
     Stmt { kind, span: Span::default() }
 }
 
-fn assignment(shader: &mut Shader, target: ExprId, value: ExprId) -> Stmt {
+pub(super) fn assignment(shader: &mut Shader, target: ExprId, value: ExprId) -> Stmt {
     let ty = shader.expr(target).ty;
     let no_operator: Option<BinaryOp> = None;
     let assigned = shader.push(ExprKind::Assign(no_operator, target, value), ty, Span::default());

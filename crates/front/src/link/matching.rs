@@ -72,6 +72,8 @@ pub(super) fn check_variables(ctx: &mut Linker<'_>, producer: &Shader, consumer:
                     check_written(ctx, (producer, id), output, consumer, input);
                 }
             }
+            // What the fixed-function pipeline names is declared in every stage (1.20 §7.6); what is not written is undefined.
+            None if input.is_fixed() => {}
             None if input.used && complete => {
                 n_lonely += 1;
                 no_partner(ctx, producer, consumer, input, n_lonely <= MAX_SUGGESTIONS);

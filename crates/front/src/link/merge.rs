@@ -204,7 +204,9 @@ impl Merge<'_> {
         let input = (known.input, geometry.input);
         let output = (known.output, geometry.output);
         let vertices = (known.max_vertices, geometry.max_vertices);
+        let invocations = (known.invocations, geometry.invocations);
         let differ = [
+            (matches!(invocations, (Some(a), Some(b)) if a != b), "values of `invocations`"),
             (matches!(input, (Some(a), Some(b)) if a != b), "input primitives"),
             (matches!(output, (Some(a), Some(b)) if a != b), "output primitives"),
             (matches!(vertices, (Some(a), Some(b)) if a != b), "values of `max_vertices`"),
@@ -216,6 +218,7 @@ impl Merge<'_> {
         known.input = known.input.or(geometry.input);
         known.output = known.output.or(geometry.output);
         known.max_vertices = known.max_vertices.or(geometry.max_vertices);
+        known.invocations = known.invocations.or(geometry.invocations);
         let known = &mut self.all.frag_coord;
         known.origin_upper_left |= frag_coord.origin_upper_left;
         known.pixel_center_integer |= frag_coord.pixel_center_integer;

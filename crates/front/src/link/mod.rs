@@ -18,6 +18,7 @@
 //! | `per_vertex` | redeclarations of `gl_PerVertex` |
 //! | `varyings` | interpolated variables, split and with locations |
 //! | `clip_distances` | `gl_ClipDistance` as an input of the fragment stage |
+//! | `clip_states` | clip distances that the host disables |
 //! | `attributes`, `outputs` | vertex inputs and fragment outputs with locations |
 //! | `bindings` | locations that a host binds by names that are not there |
 //! | `declared` | variables whose locations the text or the host may set |
@@ -33,6 +34,7 @@ mod bindings;
 mod block_places;
 mod canonical;
 mod clip_distances;
+mod clip_states;
 mod compatible;
 mod declared;
 mod fixed;

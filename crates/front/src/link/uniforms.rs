@@ -353,7 +353,10 @@ fn place_blocks(ctx: &mut Linker<'_>, blocks: &[&Shared<'_>], interface: &mut In
     let types = ctx.types;
     let mut binding = u32::from(interface.loose.is_some());
     for shared in blocks {
-        let (Some(block), Some((id, array))) = (&shared.global.block, block_parts(types, shared.global.ty)) else {
+        let Some(block) = &shared.global.block else { continue };
+        let Some((id, array)) = block_parts(types, shared.global.ty) else {
+            let message = format!("the block `{}` is an array of arrays, which is not supported yet", block.name);
+            ctx.report(Diagnostic::new(&codes::general::NOT_SUPPORTED_YET, shared.global.span, message));
             continue;
         };
         let array_size = match array {

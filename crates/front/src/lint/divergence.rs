@@ -214,12 +214,9 @@ impl Divergence<'_> {
                     self.locals.get(self.function.index()).and_then(|locals| locals.get(id.index())) == Some(&true)
                 }
                 ExprKind::Call(function, _) => self.returns.get(function.index()) == Some(&true),
-                ExprKind::BuiltinCall(function, _) => matches!(
-                    function,
-                    crate::builtin::BuiltinFunction::DFdx
-                        | crate::builtin::BuiltinFunction::DFdy
-                        | crate::builtin::BuiltinFunction::Fwidth
-                ),
+                ExprKind::BuiltinCall(function, _) => {
+                    matches!(function.class(), crate::builtin::operations::Class::Derivative(_))
+                }
                 _ => false,
             };
             if own {

@@ -37,6 +37,8 @@ pub struct Completion {
     pub directive: Option<ImportDirective>,
     /// Whether the engine replaces `#include` lines, so that no `#extension` line has to allow them.
     pub resolves_includes: bool,
+    /// Whether the engine runs a preprocessor in which a macro may be defined again.
+    pub redefines: bool,
 }
 
 impl Completion {

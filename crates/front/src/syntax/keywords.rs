@@ -28,10 +28,10 @@ const fn word(spelling: &'static str, kind: TokenKind, desktop: (u16, u16), es: 
     Keyword { spelling, kind, keyword, reserved, extensions: Extensions::empty() }
 }
 
-const RECT: Extensions = Extensions::TEXTURE_RECTANGLE.union(Extensions::GPU_SHADER4);
 const SHADER4: Extensions = Extensions::GPU_SHADER4;
 const ARRAY: Extensions = Extensions::TEXTURE_ARRAY.union(Extensions::GPU_SHADER4);
 const MULTISAMPLE: Extensions = Extensions::TEXTURE_MULTISAMPLE;
+const CUBE_ARRAYS: Extensions = Extensions::TEXTURE_CUBE_MAP_ARRAY;
 const SHADER5: Extensions = Extensions::GPU_SHADER5;
 const LAYOUT: Extensions = Extensions::EXPLICIT_ATTRIB_LOCATION
     .union(Extensions::UNIFORM_BUFFER_OBJECT)
@@ -150,8 +150,8 @@ pub static TABLE: &[Keyword] = &[
     word("usamplerCube", Type, (130, NEVER), (300, NEVER)).or(SHADER4),
     word("usampler1DArray", Type, (130, NEVER), (NEVER, 300)).or(SHADER4),
     word("usampler2DArray", Type, (130, NEVER), (300, NEVER)).or(SHADER4),
-    word("sampler2DRect", Type, (140, 110), (NEVER, 100)).or(RECT),
-    word("sampler2DRectShadow", Type, (140, 110), (NEVER, 100)).or(RECT),
+    word("sampler2DRect", Type, (110, NEVER), (NEVER, 100)),
+    word("sampler2DRectShadow", Type, (110, NEVER), (NEVER, 100)),
     word("isampler2DRect", Type, (140, 130), (NEVER, 300)).or(SHADER4),
     word("usampler2DRect", Type, (140, 130), (NEVER, 300)).or(SHADER4),
     word("samplerBuffer", Type, (140, 130), (320, 300)).or(SHADER4),
@@ -282,10 +282,10 @@ pub static TABLE: &[Keyword] = &[
     word("patch", Foreign, (400, NEVER), (NEVER, 300)),
     word("sample", Foreign, (400, NEVER), (NEVER, 300)).or(SHADER5),
     word("subroutine", Foreign, (400, NEVER), (NEVER, 300)),
-    word("samplerCubeArray", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("samplerCubeArrayShadow", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("isamplerCubeArray", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("usamplerCubeArray", Foreign, (400, NEVER), (NEVER, NEVER)),
+    word("samplerCubeArray", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
+    word("samplerCubeArrayShadow", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
+    word("isamplerCubeArray", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
+    word("usamplerCubeArray", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
     word("coherent", Foreign, (420, NEVER), (310, 300)),
     word("restrict", Foreign, (420, NEVER), (310, 300)),
     word("readonly", Foreign, (420, NEVER), (310, 300)),
@@ -357,9 +357,9 @@ mod tests {
     #[test]
     fn an_extension_makes_keywords() {
         let version = Version { number: 120, profile: Profile::Core, span: Span::default() };
-        let row = TABLE.iter().find(|row| row.spelling == "sampler2DRect").copied();
+        let row = TABLE.iter().find(|row| row.spelling == "sampler2DArray").copied();
         let row = row.expect("the table has it");
         assert_eq!(row.kind_in(version, Extensions::empty()), Reserved);
-        assert_eq!(row.kind_in(version, Extensions::TEXTURE_RECTANGLE), Type);
+        assert_eq!(row.kind_in(version, Extensions::TEXTURE_ARRAY), Type);
     }
 }

@@ -7,6 +7,7 @@ use super::{DFDY_SIGN, LANES};
 use crate::domain::rules;
 use crate::domain::{Block, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
 use glisten_front::builtin::operations::BitFunction;
+use glisten_front::builtin::operations::{DerivativeAxis, DerivativeControl};
 use glisten_scene::picture::Interval;
 
 type Float<D> = <D as Domain>::Float;
@@ -229,13 +230,19 @@ fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>, n
             difference(a.at(one), a.at(other), apart)
         };
         let up = |upper: usize, lower: usize| if DFDY_SIGN < 0.0 { less(upper, lower) } else { less(lower, upper) };
-        let (top, bottom) = either(less(1, 0), less(3, 2));
-        let (left, right) = either(up(0, 2), up(1, 3));
-        let (bottom, right) = if N::coarse() { (top, left) } else { (bottom, right) };
-        let differences = match op {
-            Derivative::X => [top, top, bottom, bottom],
-            Derivative::Y => [left, right, left, right],
-            Derivative::Width => {
+        let of_quad = |a: N, b: N| if op.control() == DerivativeControl::Fine { (a, b) } else { either(a, b) };
+        let (top, bottom) = of_quad(less(1, 0), less(3, 2));
+        let (left, right) = of_quad(up(0, 2), up(1, 3));
+        let coarse = match op.control() {
+            DerivativeControl::Any => N::coarse(),
+            DerivativeControl::Fine => false,
+            DerivativeControl::Coarse => true,
+        };
+        let (bottom, right) = if coarse { (top, left) } else { (bottom, right) };
+        let differences = match op.axis() {
+            DerivativeAxis::X => [top, top, bottom, bottom],
+            DerivativeAxis::Y => [left, right, left, right],
+            DerivativeAxis::Width => {
                 let [top, bottom, left, right] = [top, bottom, left, right].map(N::abs);
                 [top.add(left), top.add(right), bottom.add(left), bottom.add(right)]
             }

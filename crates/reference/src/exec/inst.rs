@@ -377,6 +377,8 @@ pub(super) enum Inst {
         slots: List,
     },
     Discard,
+    /// Ends the run if any lane gets here: a call that is too long to be written out.
+    Endless,
     /// Adds a vertex with these numbers to the stream of each active lane (`EmitVertex`).
     Emit {
         floats: List,
@@ -518,6 +520,7 @@ impl Inst {
             | Self::Join { .. }
             | Self::Leave { .. }
             | Self::Discard
+            | Self::Endless
             | Self::Emit { .. }
             | Self::EndPrimitive
             | Self::LoopNext { .. }
@@ -551,7 +554,8 @@ impl Inst {
     pub(super) fn is_control(&self) -> bool {
         let mut inst = *self;
         inst.target_mut().is_some()
-            || matches!(inst, Self::Save { .. } | Self::Join { .. } | Self::Leave { .. } | Self::Discard | Self::Idle)
+            || matches!(inst, Self::Save { .. } | Self::Join { .. } | Self::Leave { .. })
+            || matches!(inst, Self::Discard | Self::Endless | Self::Idle)
     }
 
     /// Whether it changes the home of a variable.

@@ -236,7 +236,11 @@ impl<D: Domain> LaneLookup<'_, D> {
             at,
             layer: layer.first().map_or(BoundedFloat::default(), |layer| self.bounded(*layer)),
             reference: self.call.reference.map_or(BoundedFloat::default(), |reference| self.bounded(reference)),
-            level: if texture.filter.uses_levels() { self.level(texture, stage, at) } else { BoundedFloat::default() },
+            level: if texture.filter.uses_levels() || texture.sampling.has_two_filters(texture.filter) {
+                self.level(texture, stage, at)
+            } else {
+                BoundedFloat::default()
+            },
             offset: self.ints(&self.call.offset),
             bounded: D::HAS_INTERVALS,
             weight_bits: D::weight_bits(),
@@ -244,8 +248,14 @@ impl<D: Domain> LaneLookup<'_, D> {
         }
     }
 
-    /// The level of detail.
+    /// The level of detail with the texture's own bias (OpenGL 3.2 §3.8.11).
     fn level(&self, texture: &Texture, stage: Stage, at: [BoundedFloat; 3]) -> BoundedFloat {
+        let bias = f64::from(texture.sampling.lod_bias);
+        self.unbiased_level(texture, stage, at).map(|level| level + bias)
+    }
+
+    /// The level of detail.
+    fn unbiased_level(&self, texture: &Texture, stage: Stage, at: [BoundedFloat; 3]) -> BoundedFloat {
         let given = self.call.level.map_or(BoundedFloat::default(), |level| self.bounded(level));
         let (gradients, steps) = match self.call.lookup {
             Lookup::Lod => return given,

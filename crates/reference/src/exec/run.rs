@@ -81,6 +81,13 @@ impl<D: Domain> Machine<D> {
                     self.discarded |= mask;
                     mask = 0;
                 }
+                Inst::Endless => {
+                    if D::HAS_INTERVALS && self.ways.exploring {
+                        self.give_up_lanes(&mut mask);
+                    } else if mask != 0 {
+                        self.run_away(section, place - 1);
+                    }
+                }
                 Inst::Emit { floats, ints } => {
                     self.emit_vertices(section.list(floats), section.list(ints), mask);
                 }
@@ -108,8 +115,7 @@ impl<D: Domain> Machine<D> {
                                 continue;
                             }
                             self.budget = 0;
-                            self.budget_exceeded = true;
-                            self.runaway = section.spans.get(place - 1).copied().unwrap_or_default();
+                            self.run_away(section, place - 1);
                             place = exit as usize;
                         }
                     }
@@ -141,6 +147,14 @@ impl<D: Domain> Machine<D> {
                 }
             }
         }
+    }
+}
+
+impl<D: Domain> Machine<D> {
+    /// Records that the program does not come to an end at an instruction.
+    fn run_away(&mut self, section: &Section, place: usize) {
+        self.budget_exceeded = true;
+        self.runaway = section.spans.get(place).copied().unwrap_or_default();
     }
 }
 

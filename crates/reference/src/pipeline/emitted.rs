@@ -3,7 +3,7 @@
 //!
 //! *In:* [`Staged`] vertices, and what the stage sees of each primitive. *Out:* [`Emitted`]: vertices as from a vertex
 //! stage, and primitives in the order of the input primitives, then of emission. *Holds:* a primitive without enough
-//! vertices is dropped (§2.12.2). `gl_Layer` has no effect, as framebuffers are not layered (§4.4.7). Without a written
+//! vertices is dropped (§2.12.2). The invocations for a primitive follow each other (GLSL 4.00 §4.3.8.1). `gl_Layer` has no effect, as framebuffers are not layered (§4.4.7). Without a written
 //! `gl_PrimitiveID`, which leaves the fragment stage's undefined, it is the number of the input primitive.
 
 use super::adjacency::Seen;
@@ -22,6 +22,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The largest number of vertices that a draw emits for one instance.
 pub(super) const MAX_EMITTED: usize = 1 << 22;
+
+/// What one invocation of the stage gets: a primitive, which several invocations may get one after the other.
+#[derive(Clone, Debug)]
+struct Input {
+    /// `gl_PrimitiveIDIn`
+    id: u32,
+    /// `gl_InvocationID`
+    invocation: u32,
+    seen: Seen,
+}
 
 /// The result of the geometry stage for one instance.
 #[derive(Debug)]
@@ -93,10 +103,13 @@ impl<D: Domain> Geometry<'_, D> {
     pub(super) fn run(&self, staged: &Staged<D>, order: &[u32]) -> Option<Emitted<D>> {
         let Self { job, plan, options, .. } = *self;
         let vertex = |position: &u32| order.get(*position as usize).copied().unwrap_or(0);
-        let inputs: Vec<(u32, Seen)> = (0..)
-            .zip(seen(&job.draw.state, order.len() as u32))
-            .map(|(id, positions)| (id, positions.iter().map(vertex).collect()))
-            .collect();
+        let stage = job.draw.program.stage(Stage::Geometry);
+        let times = stage.and_then(|shader| shader.geometry.invocations).unwrap_or(1);
+        let mut inputs: Vec<Input> = Vec::new();
+        for (id, positions) in (0..).zip(seen(&job.draw.state, order.len() as u32)) {
+            let seen: Seen = positions.iter().map(vertex).collect();
+            inputs.extend((0..times).map(|invocation| Input { id, invocation, seen: seen.clone() }));
+        }
         let layout = Layout::new(job.draw, job.code, plan);
         let emitted = AtomicUsize::new(0);
         let parts = job.run(&inputs, |machine, single, lanes| {
@@ -123,7 +136,7 @@ impl<D: Domain> Geometry<'_, D> {
         &self,
         staged: &Staged<D>,
         layout: &Layout<'_>,
-        lanes: &[(u32, Seen)],
+        lanes: &[Input],
         machine: &mut Machine<D>,
         single: &mut Machine<F32>,
     ) -> Part<D> {
@@ -134,7 +147,7 @@ impl<D: Domain> Geometry<'_, D> {
         machine.run(live, Mask::NONE);
         single.run(live, Mask::NONE);
         let mut part = Part { chunk: Chunk::with_capacity(0, plan), primitives: Vec::new() };
-        for (lane, (id, seen)) in lanes.iter().enumerate() {
+        for (lane, Input { id, seen, .. }) in lanes.iter().enumerate() {
             let (Some(stream), Some(alone)) = (machine.stream(lane), single.stream(lane)) else { continue };
             let is_undecided = |vertex: &u32| staged.undecided.get(*vertex as usize).copied().unwrap_or(false);
             let undecided = machine.undecided().contains(lane) || seen.iter().any(is_undecided);
@@ -201,29 +214,32 @@ impl<D: Domain> Part<D> {
 fn fill<D: Domain>(
     plan: &Plan,
     feeds: &Feeds,
-    lanes: &[(u32, Seen)],
+    lanes: &[Input],
     (floats, ints): (&[D::Float], &[D::Int]),
     machine: &mut Machine<D>,
 ) {
-    let seen_by_each = lanes.first().map_or(0, |(_, seen)| seen.len());
+    let seen_by_each = lanes.first().map_or(0, |input| input.seen.len());
     for vertex in 0..seen_by_each {
-        let row = |(_, seen): &(u32, Seen), size: usize| seen.get(vertex).map_or(0, |row| *row as usize) * size;
+        let row = |input: &Input, size: usize| input.seen.get(vertex).map_or(0, |row| *row as usize) * size;
         for (column, feed) in feeds.floats.iter().enumerate() {
             let (global, flat) = feed.at(vertex as u32);
-            let at = |lane: &(u32, Seen)| floats.get(row(lane, feeds.floats.len()) + column).copied();
+            let at = |lane: &Input| floats.get(row(lane, feeds.floats.len()) + column).copied();
             if let Some(input) = machine.float_input(global, flat) {
                 input.assign(lanes.iter().map(|lane| at(lane).unwrap_or_default()));
             }
         }
         for (column, feed) in feeds.ints.iter().enumerate() {
             let (global, flat) = feed.at(vertex as u32);
-            let at = |lane: &(u32, Seen)| ints.get(row(lane, feeds.ints.len()) + column).copied();
+            let at = |lane: &Input| ints.get(row(lane, feeds.ints.len()) + column).copied();
             if let Some(input) = machine.int_input(global, flat) {
                 input.assign(lanes.iter().map(|lane| at(lane).unwrap_or_default()));
             }
         }
     }
     if let Some(input) = plan.primitive_id_in.and_then(|id| machine.int_input(id, 0)) {
-        input.assign(lanes.iter().map(|(id, _)| D::Int::from_bits(*id)));
+        input.assign(lanes.iter().map(|lane| D::Int::from_bits(lane.id)));
+    }
+    if let Some(input) = plan.invocation_id.and_then(|id| machine.int_input(id, 0)) {
+        input.assign(lanes.iter().map(|lane| D::Int::from_bits(lane.invocation)));
     }
 }

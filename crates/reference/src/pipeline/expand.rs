@@ -66,7 +66,7 @@ pub(crate) fn expand(
         let (vertices, assembled) = before.assembled(&run, &mut front, &order)?;
         all.add(vertices, &assembled, draw.state.provoking_last);
         if let Some(&place) = endless.get() {
-            return Err(vec![never_ends(place)]);
+            return Err(vec![never_ends(draw, place)]);
         }
     }
     Ok(all)

@@ -64,7 +64,7 @@ pub(super) use explain::explain;
 use fragments::{Shading, draw_bin};
 use glisten_front::diagnostic::codes::scenes::SCENE_LOOP_BUDGET;
 use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic};
-use glisten_front::hir::Stage;
+use glisten_front::hir::{ExprKind, Shader, Stage};
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Draw, Scene};
@@ -191,7 +191,7 @@ fn draw_all<D: Domain>(
         first = instances.end;
     }
     match endless.get() {
-        Some(&place) => Err(vec![never_ends(place)]),
+        Some(&place) => Err(vec![never_ends(draw, place)]),
         None => Ok(()),
     }
 }
@@ -200,7 +200,16 @@ fn refuse(code: &'static DiagnosticCode, message: &str) -> Diagnostic {
     Diagnostic::new(code, Span::default(), message)
 }
 
-fn never_ends(place: Span) -> Diagnostic {
+/// The error for a loop, or for a call that leads to more calls than any machine could make.
+fn never_ends(draw: &Draw, place: Span) -> Diagnostic {
+    let is_call =
+        |shader: &Shader| shader.exprs.iter().any(|expr| expr.span == place && matches!(expr.kind, ExprKind::Call(..)));
+    if draw.program.stages.iter().any(is_call) {
+        let told = Diagnostic::new(&SCENE_LOOP_BUDGET, place, "this call does not come to an end");
+        return told
+            .here("too long with all of the calls that it leads to")
+            .help("each function that calls another one twice doubles the work: use a loop, or compute a value once");
+    }
     let told = Diagnostic::new(&SCENE_LOOP_BUDGET, place, "a loop of the program does not come to an end");
     let budget = format!("left after it ran {LOOP_BUDGET} instructions for 64 invocations together");
     told.here(budget).help("a loop needs a condition that turns false, a `break` or a `return`")

@@ -40,6 +40,8 @@ pub(super) struct Plan {
     pub(super) written_id: Option<GlobalId>,
     /// An input of the geometry stage.
     pub(super) primitive_id_in: Option<GlobalId>,
+    /// `gl_InvocationID` of the geometry stage.
+    pub(super) invocation_id: Option<GlobalId>,
     /// Inputs of the vertex stage.
     pub(super) vertex_id: Option<GlobalId>,
     pub(super) instance_id: Option<GlobalId>,
@@ -80,6 +82,7 @@ impl Plan {
             clip_distance: of_producer(BuiltinVariable::ClipDistance),
             written_id: of_geometry(BuiltinVariable::PrimitiveId, Storage::Out),
             primitive_id_in: of_geometry(BuiltinVariable::PrimitiveIdIn, Storage::In),
+            invocation_id: of_geometry(BuiltinVariable::InvocationId, Storage::In),
             vertex_id: of_vertex(BuiltinVariable::VertexId),
             instance_id: of_vertex(BuiltinVariable::InstanceId),
             frag_coord: of_fragment(BuiltinVariable::FragCoord),

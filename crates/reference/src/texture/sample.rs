@@ -52,7 +52,20 @@ pub(crate) fn sample(texture: &Texture, request: &Request) -> Sampled {
         return Sampled::Ints(nearest_bits(texture, base, &request));
     }
     let (linear, uses_levels) = (texture.filter.is_linear(), texture.filter.uses_levels());
-    Sampled::Floats(if uses_levels { mipmapped(texture, &request) } else { at_level(texture, 0, &request, linear) })
+    let minified = || if uses_levels { mipmapped(texture, &request) } else { at_level(texture, 0, &request, linear) };
+    if !texture.sampling.has_two_filters(texture.filter) {
+        return Sampled::Floats(minified());
+    }
+    let last = texture.sampling.magnified_up_to(texture.filter);
+    let magnified = || at_level(texture, 0, &request, texture.sampling.magnifies_linearly(texture.filter));
+    let (value, other) = if request.level.value <= last { (magnified(), None) } else { (minified(), Some(())) };
+    // A GPU may switch at 0, or at 0.5.
+    let is_near = request.bounded && request.level.low <= 0.5 && request.level.high >= 0.0;
+    if !is_near {
+        return Sampled::Floats(value);
+    }
+    let other = if other.is_some() { magnified() } else { minified() };
+    Sampled::Floats(std::array::from_fn(|k| value[k].joined(other[k])))
 }
 
 /// The texels of a gather, as the sides of both axes: i0 j1, i1 j1, i1 j0, i0 j0 (GLSL 4.00 §8.9.3).
@@ -89,8 +102,12 @@ pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> 
             let place = footprint.place_in(base, [i + right, j + up, 0], slice)?;
             value(base, place, texture, &request).get(component).copied()
         };
-        // Past a cube's corner there is no texel, and OpenGL leaves open what is there.
-        let Some(likely) = one(x.first, y.first, footprint.slice) else { return BoundedFloat::anything(0.0) };
+        // Past a cube's corner there is no texel, and OpenGL leaves open what is there: the mean of the others is likely.
+        let Some(likely) = one(x.first, y.first, footprint.slice) else {
+            let around = GATHERED.map(|[i, j]| one(x.first + i - right, y.first + j - up, footprint.slice));
+            let sum: f64 = around.iter().flatten().map(|texel| texel.value).sum();
+            return BoundedFloat::anything(sum / 3.0);
+        };
         if positions > limits::MOST_TEXELS {
             return BoundedFloat::anything(likely.value);
         }
@@ -146,8 +163,8 @@ fn between(texture: &Texture, request: &Request, lambda: f64) -> [BoundedFloat; 
 }
 
 /// The layer: the nearest one, limited to those that exist.
-fn layers(level: &TextureLevel, at: BoundedFloat) -> (i64, (i64, i64)) {
-    let pick = |value: f64| (index((value + 0.5).floor())).clamp(0, i64::from(level.depth.max(1)) - 1);
+fn layers(count: u32, at: BoundedFloat) -> (i64, (i64, i64)) {
+    let pick = |value: f64| (index((value + 0.5).floor())).clamp(0, i64::from(count.max(1)) - 1);
     (pick(at.value), (pick(at.low), pick(at.high)))
 }
 
@@ -214,14 +231,16 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
                 BoundedFloat::exact(s).widened(error + const { rules::CUBE_COORDINATE.ulps() } * rules::ulp(1.0));
             *axis_at = axis(in_texels(kind, bounded, level.width), 0, linear, request);
         }
-        let slice = there.face as i64;
-        return Footprint { axes, count: 2, slice, slices: (slice, slice), wrap: Wrap::ClampToEdge, cube: true };
+        let face = there.face as i64;
+        let (layer, layers) = if kind.arrayed { layers(level.depth / 6, request.layer) } else { (0, (0, 0)) };
+        let slices = (6 * layers.0 + face, 6 * layers.1 + face);
+        return Footprint { axes, count: 2, slice: 6 * layer + face, slices, wrap: Wrap::ClampToEdge, cube: true };
     }
     let count = usize::from(kind.dimensions());
     for (place, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
         axes[place] = axis(in_texels(kind, request.at[place], size), request.offset[place], linear, request);
     }
-    let (slice, slices) = if kind.arrayed { layers(level, request.layer) } else { (0, (0, 0)) };
+    let (slice, slices) = if kind.arrayed { layers(level.depth, request.layer) } else { (0, (0, 0)) };
     let wrap = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { texture.wrap };
     Footprint { axes, count, slice, slices, wrap, cube: false }
 }
@@ -235,8 +254,8 @@ impl Footprint {
     /// The index of a texel in another layer.
     fn place_in(&self, level: &TextureLevel, at: [i64; 3], slice: i64) -> Option<[i64; 3]> {
         if self.cube {
-            let (face, x, y) = cube::across(slice as usize, at[0], at[1], level.width)?;
-            return Some([x, y, face as i64]);
+            let (face, x, y) = cube::across((slice % 6) as usize, at[0], at[1], level.width)?;
+            return Some([x, y, slice - slice % 6 + face as i64]);
         }
         let sizes = [level.width, level.height, level.depth];
         let mut place = [0, 0, slice];
@@ -311,14 +330,24 @@ fn value(level: &TextureLevel, place: [i64; 3], texture: &Texture, request: &Req
     if !request.kind.shadow {
         return texel.map(BoundedFloat::exact);
     }
-    let passed = compare(texture.compare, request.reference.value, texel[0]);
+    let reference =
+        if texture.sampling.fixed_point_depth { request.reference.map(in_depths) } else { request.reference };
+    let passed = compare(texture.compare, reference.value, texel[0]);
     let slack = const { rules::COMPARED_DEPTH.ulps() } * rules::ulp(texel[0]);
+    // A clamped reference and a stored bound of the range are exact.
+    let exact = texture.sampling.fixed_point_depth && reference.low == reference.high && matches!(texel[0], 0.0 | 1.0);
     let undecided = request.bounded
-        && (request.reference.low - slack..=request.reference.high + slack).contains(&texel[0])
+        && !exact
+        && (reference.low - slack..=reference.high + slack).contains(&texel[0])
         && !matches!(texture.compare, Compare::Always | Compare::Never);
     let value = f64::from(u8::from(passed));
     let result = if undecided { BoundedFloat { value, low: 0.0, high: 1.0 } } else { BoundedFloat::exact(value) };
     [result, BoundedFloat::exact(0.0), BoundedFloat::exact(0.0), BoundedFloat::exact(1.0)]
+}
+
+/// A reference as a fixed-point texture compares it (§3.8.14).
+fn in_depths(reference: f64) -> f64 {
+    if reference.is_nan() { reference } else { reference.clamp(0.0, 1.0) }
 }
 
 /// `reference op stored` (§3.8.16).

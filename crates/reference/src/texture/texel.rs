@@ -64,7 +64,7 @@ fn nothing(kind: SamplerType) -> Sampled {
 pub(crate) fn size(texture: &Texture, kind: SamplerType, level: i32) -> [u32; 3] {
     let found = usize::try_from(level).ok().and_then(|level| texture.levels.get(level));
     let Some(level) = found else { return [0; 3] };
-    let layers = level.depth;
+    let layers = if kind.dim == SamplerDim::Cube { level.depth / 6 } else { level.depth };
     match (kind.dim, kind.arrayed) {
         (SamplerDim::D1 | SamplerDim::Buffer, true) => [level.width, layers, 0],
         (SamplerDim::D1 | SamplerDim::Buffer, false) => [level.width, 0, 0],

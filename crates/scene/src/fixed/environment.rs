@@ -19,16 +19,20 @@ pub(super) fn declaration(index: usize, unit: TextureUnit) -> String {
     format!("uniform {} texture{index};\n", words(unit.target).0)
 }
 
-/// The statements of unit `index`.
-pub(super) fn statements(dialect: GlslDialect, index: usize, unit: TextureUnit) -> String {
+/// The statement that looks up the texel of unit `index`.
+pub(super) fn fetch(dialect: GlslDialect, index: usize, unit: TextureUnit) -> String {
     let (_, old, components) = words(unit.target);
     let lookup = match (dialect, unit.target) {
         (GlslDialect::V120, _) => old,
         (GlslDialect::V150, TextureTarget::Cube) => "texture",
         (GlslDialect::V150, _) => "textureProj",
     };
+    format!("    vec4 texel{index} = {lookup}(texture{index}, gl_TexCoord[{index}]{components});\n")
+}
+
+/// The statements of unit `index`, after its texel.
+pub(super) fn statements(index: usize, unit: TextureUnit) -> String {
     let texel = format!("texel{index}");
-    let fetch = format!("    vec4 {texel} = {lookup}(texture{index}, gl_TexCoord[{index}]{components});\n");
     let change = match unit.mode {
         EnvironmentMode::Modulate => format!("    color *= {texel};\n"),
         EnvironmentMode::Replace => format!("    color = {texel};\n"),
@@ -37,8 +41,9 @@ pub(super) fn statements(dialect: GlslDialect, index: usize, unit: TextureUnit) 
             "    color.rgb = mix(color.rgb, gl_TextureEnvColor[{index}].rgb, {texel}.rgb);\n    color.a *= {texel}.a;\n"
         ),
         EnvironmentMode::Add => format!("    color.rgb += {texel}.rgb;\n    color.a *= {texel}.a;\n"),
+        EnvironmentMode::Combine => unit.combine.statements(index),
     };
     // Each unit's result is clamped, as colors are numbers in [0, 1].
     let clamp = if unit.mode == EnvironmentMode::Add { "    color = clamp(color, 0.0, 1.0);\n" } else { "" };
-    format!("{fetch}{change}{clamp}")
+    format!("{change}{clamp}")
 }

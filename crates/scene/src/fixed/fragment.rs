@@ -25,9 +25,19 @@ fn write(pipeline: &Pipeline) -> String {
         text.push_str("out vec4 fragment_color;\n");
     }
     text.push_str("\nvoid main()\n{\n    vec4 color = gl_Color;\n");
+    let crossed = pipeline.enabled_units().any(|(_, unit)| unit.others().next().is_some());
+    if crossed {
+        text.push_str("\n    // The textures of all units\n");
+        for (index, unit) in pipeline.enabled_units() {
+            text.push_str(&environment::fetch(pipeline.dialect, index, unit));
+        }
+    }
     for (index, unit) in pipeline.enabled_units() {
         text.push_str(&format!("\n    // Texture unit {index}\n"));
-        text.push_str(&environment::statements(pipeline.dialect, index, unit));
+        if !crossed {
+            text.push_str(&environment::fetch(pipeline.dialect, index, unit));
+        }
+        text.push_str(&environment::statements(index, unit));
     }
     if pipeline.sums_colors() {
         text.push_str("\n    // Color sum\n    color.rgb = clamp(color.rgb + gl_SecondaryColor.rgb, 0.0, 1.0);\n");

@@ -6,11 +6,13 @@
 //! | `derived` | inverse matrices, half vectors, products of lights and materials: what OpenGL computes from it |
 //! | `names` | both under the names of the uniforms in GLSL |
 //! | `pipeline` | the switches: lighting, fog, texture environments |
+//! | `combine` | texture environments that combine several colors |
 //! | `complete` | the stage that a program lacks |
 //! | `vertex`, `environment`, `fragment` | the stages, as texts that one can read |
 //!
 //! *Holds:* values are derived in f64 from values that were rounded to f32, as OpenGL's state is.
 
+mod combine;
 mod complete;
 mod derived;
 mod environment;
@@ -20,6 +22,7 @@ mod pipeline;
 mod state;
 mod vertex;
 
+pub use combine::{Combination, Combine, CombineArgument, CombineFunction, CombineOperand, CombineSource};
 pub use complete::{OtherStage, has_fixed_function, other_stage};
 pub use names::{SetError, current_attribute, is_fixed_uniform, uses_fixed_state};
 pub use pipeline::{

@@ -3,6 +3,7 @@
 //! *Holds:* the numbers of the state are not here: the texts read them from the uniforms of GLSL 1.20 §7.5.
 
 use super::UNITS;
+use super::combine::Combine;
 
 /// The language of the texts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -95,6 +96,8 @@ pub enum EnvironmentMode {
     Decal,
     Blend,
     Add,
+    /// By [`TextureUnit::combine`].
+    Combine,
 }
 
 impl EnvironmentMode {
@@ -105,6 +108,7 @@ impl EnvironmentMode {
         ("decal", Self::Decal),
         ("blend", Self::Blend),
         ("add", Self::Add),
+        ("combine", Self::Combine),
     ];
 }
 
@@ -154,8 +158,17 @@ pub struct TextureUnit {
     pub target: TextureTarget,
     /// Its effect on the color.
     pub mode: EnvironmentMode,
+    /// What [`EnvironmentMode::Combine`] computes.
+    pub combine: Combine,
     /// How its coordinates are generated; `None`: they are the vertex's.
     pub generate: Option<TexGen>,
+}
+
+impl TextureUnit {
+    /// The other units whose textures its environment reads.
+    pub fn others(&self) -> impl Iterator<Item = u8> {
+        self.combine.units().filter(|_| self.mode == EnvironmentMode::Combine)
+    }
 }
 
 /// The switches. The default is OpenGL's initial state: no lighting, no textures, no fog.

@@ -5,15 +5,16 @@
 //! [`Pipeline`] of a draw that names only one stage. *Holds:* lights are in eye space, as `glLightfv` puts them there
 //! (OpenGL 2.1 §2.14.1).
 
+use super::combine;
 use super::lights::{Lighting, opaque};
 use super::material::Colors;
 use super::matrices::View;
 use super::reader::{Node, Reader};
 use crate::fixed::{
-    ColorMaterial, EnvironmentMode, FixedFunction, FogMode, FogSource, Material, NormalScaling, Pipeline, TexGen,
-    TextureTarget, TextureUnit, UNITS,
+    ColorMaterial, Combine, EnvironmentMode, FixedFunction, FogMode, FogSource, Material, NormalScaling, Pipeline,
+    TexGen, TextureTarget, TextureUnit, UNITS,
 };
-use glisten_front::diagnostic::codes::scenes::SCENE_WRONG_SIZE;
+use glisten_front::diagnostic::codes::scenes::{SCENE_WRONG_SIZE, SCENE_WRONG_VALUE};
 use glisten_front::link::FixedState;
 use toml::de::DeTable;
 
@@ -31,6 +32,7 @@ const KEYS: &[&str] = &[
 ];
 
 const UNIT_KEYS: &[&str] = &["target", "mode", "generate"];
+const NO_TEXTURE: &str = "this unit has no texture";
 
 /// The name of the generated stage in diagnostics.
 pub(super) const GENERATED: &str = "<fixed-function>";
@@ -41,6 +43,7 @@ pub(super) fn load_switches(reader: &mut Reader, draw: &DeTable<'_>) -> FixedSta
         two_side: reader.flag(draw, "vertex_program_two_side", false),
         clip_planes: reader.count(draw, "clip_distances", 0, 0..=UNITS as u32),
         unclamped_colors: !reader.flag(draw, "clamp_vertex_color", true),
+        ..FixedState::default()
     }
 }
 
@@ -115,15 +118,26 @@ fn load_units(reader: &mut Reader, draw: &DeTable<'_>, table: &DeTable<'_>) -> [
     for (slot, node) in units.iter_mut().zip(list.iter()) {
         *slot = load_unit(reader, node, slot.unwrap_or_default());
     }
+    for (slot, node) in units.iter().zip(list.iter()) {
+        let absent = |unit: &u8| !units.get(usize::from(*unit)).is_some_and(Option::is_some);
+        if let Some(unit) = slot.iter().flat_map(TextureUnit::others).find(absent) {
+            let span = reader.span_of(node);
+            reader.error(&SCENE_WRONG_VALUE, span, format!("the combiner reads `texture{unit}`"), NO_TEXTURE);
+        }
+    }
     units
 }
 
 fn load_unit(reader: &mut Reader, node: &Node<'_>, known: TextureUnit) -> Option<TextureUnit> {
     let table = reader.table(node, "units")?;
-    reader.check_keys(table, "a texture unit", UNIT_KEYS);
+    let mode = reader.choice_at(table, "mode", EnvironmentMode::Modulate, EnvironmentMode::NAMES);
+    let combines = mode == EnvironmentMode::Combine;
+    let keys = if combines { [UNIT_KEYS, combine::KEYS].concat() } else { UNIT_KEYS.to_vec() };
+    reader.check_keys(table, "a texture unit", &keys);
     Some(TextureUnit {
         target: reader.choice_at(table, "target", known.target, TextureTarget::NAMES),
-        mode: reader.choice_at(table, "mode", EnvironmentMode::Modulate, EnvironmentMode::NAMES),
+        mode,
+        combine: if combines { combine::load(reader, table) } else { Combine::default() },
         generate: reader.choice_at(table, "generate", None, TexGen::NAMES),
     })
 }

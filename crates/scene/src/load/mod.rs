@@ -5,6 +5,7 @@
 //! first; a scene with an error is not passed on.
 
 mod attributes;
+mod combine;
 mod draw;
 mod fixed;
 mod lights;

@@ -64,6 +64,7 @@ pub(super) const TEXTURE_KINDS: &[(&str, TextureKind)] = &[
     ("buffer", (SamplerDim::Buffer, false, false)),
     ("1d_array", (SamplerDim::D1, true, false)),
     ("2d_array", (SamplerDim::D2, true, false)),
+    ("cube_array", (SamplerDim::Cube, true, false)),
     ("2d_multisample", (SamplerDim::Multisample, false, false)),
     ("2d_multisample_array", (SamplerDim::Multisample, true, false)),
     ("shadow_1d", (SamplerDim::D1, false, true)),
@@ -72,6 +73,7 @@ pub(super) const TEXTURE_KINDS: &[(&str, TextureKind)] = &[
     ("shadow_rect", (SamplerDim::Rect, false, true)),
     ("shadow_1d_array", (SamplerDim::D1, true, true)),
     ("shadow_2d_array", (SamplerDim::D2, true, true)),
+    ("shadow_cube_array", (SamplerDim::Cube, true, true)),
 ];
 
 /// The name of a kind, for messages.

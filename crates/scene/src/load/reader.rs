@@ -128,6 +128,15 @@ impl Reader {
         })
     }
 
+    /// A finite number.
+    pub(super) fn finite(&mut self, node: &Node<'_>, key: &str) -> Option<f64> {
+        let number = as_f64(node.get_ref()).filter(|number| number.is_finite());
+        if number.is_none() {
+            self.wrong_type(node, key, "a number");
+        }
+        number
+    }
+
     /// An integer in a range.
     pub(super) fn integer(&mut self, node: &Node<'_>, key: &str, range: RangeInclusive<i64>) -> Option<i64> {
         let value = match as_number(node.get_ref()) {

@@ -8,6 +8,7 @@ use super::patterns;
 use super::reader::{Node, Number, NumberValue, report_unknown_name};
 use crate::model::{Compare, Filter, Texels, Texture, TextureLevel, Wrap};
 use crate::picture::{Image, Transfer};
+use crate::sampling::Sampling;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_BAD_ASSET, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
@@ -19,8 +20,25 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 const KEYS: &[&str] = &[
-    "kind", "integer", "width", "height", "depth", "layers", "values", "filter", "wrap", "mipmaps", "compare", "file",
-    "flip", "pattern", "samples", "decode",
+    "kind",
+    "integer",
+    "width",
+    "height",
+    "depth",
+    "layers",
+    "values",
+    "filter",
+    "wrap",
+    "mipmaps",
+    "compare",
+    "file",
+    "flip",
+    "pattern",
+    "samples",
+    "decode",
+    "lod_bias",
+    "magnify",
+    "fixed_point",
 ];
 
 /// The largest width, height, depth or number of layers.
@@ -117,6 +135,7 @@ fn unset_texture(kind: SamplerType, level: u8) -> Texture {
         filter: Filter::Nearest,
         wrap: Wrap::ClampToEdge,
         compare: Compare::Lequal,
+        sampling: Sampling::default(),
     }
 }
 
@@ -133,6 +152,7 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     let default_wrap = if is_rect { Wrap::ClampToEdge } else { pattern.map_or(Wrap::Repeat, |pattern| pattern.wrap()) };
     let wrap = loader.reader.choice_at(table, "wrap", default_wrap, Wrap::NAMES);
     let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, Compare::NAMES);
+    let sampling = load_sampling(loader, table, name, kind, filter)?;
     let mipmaps = loader.reader.flag(table, "mipmaps", false);
     check_state(loader, table, name, kind, (filter, wrap, mipmaps))?;
     let level = match (table.get("file"), table.get("pattern")) {
@@ -140,12 +160,44 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
         (None, Some(pattern)) => patterns::load(loader, table, pattern, name, kind)?,
         (None, None) if kind.dim == SamplerDim::Multisample => {
             let levels = load_samples(loader, table, span, name, kind)?;
-            return Some(Texture { kind, levels, filter, wrap, compare });
+            return Some(Texture { kind, levels, filter, wrap, compare, sampling });
         }
         (None, None) => load_level(loader, table, span, name, kind)?,
     };
     let levels = if mipmaps { chain(level, kind) } else { vec![level] };
-    Some(Texture { kind, levels, filter, wrap, compare })
+    Some(Texture { kind, levels, filter, wrap, compare, sampling })
+}
+
+/// Whether magnification is linear, by name.
+const MAGNIFICATION: &[(&str, bool)] = &[("nearest", false), ("linear", true)];
+
+/// The parameters that few textures have.
+fn load_sampling(
+    loader: &mut Loader<'_>,
+    table: &DeTable<'_>,
+    name: &str,
+    kind: SamplerType,
+    filter: Filter,
+) -> Option<Sampling> {
+    let bias = table.get("lod_bias").and_then(|node| loader.reader.finite(node, "lod_bias"));
+    let sampling = Sampling {
+        lod_bias: bias.unwrap_or(0.0) as f32,
+        magnify_linear: table.get("magnify").and_then(|node| loader.reader.choice(node, "magnify", MAGNIFICATION)),
+        fixed_point_depth: loader.reader.flag(table, "fixed_point", false),
+    };
+    let key = if sampling.fixed_point_depth && !kind.shadow {
+        ("fixed_point", "is no shadow sampler, and only depth is stored as fixed-point numbers")
+    } else if sampling.lod_bias != 0.0 && !kind.has_levels() {
+        ("lod_bias", "has no levels of detail")
+    } else if sampling.has_two_filters(filter) && !kind.is_filtered() {
+        ("magnify", "cannot be filtered")
+    } else {
+        return Some(sampling);
+    };
+    let span = table.get(key.0).map_or_else(Span::default, |node| loader.reader.span(node.span()));
+    let message = format!("`{name}` is a {}, which {}", kind.name(), key.1);
+    loader.reader.error(&SCENE_WRONG_VALUE, span, message, "not for this sampler");
+    None
 }
 
 /// Checks that the texels come from exactly one of three origins.
@@ -302,7 +354,7 @@ fn load_size(
         loader.reader.error(&SCENE_WRONG_SIZE, span, message, "width and height differ");
         return None;
     }
-    let depth = if is_cube { 6 } else { depth * layers };
+    let depth = if is_cube { 6 * layers } else { depth * layers };
     let texels = u64::from(width) * u64::from(height) * u64::from(depth);
     if texels > MAX_TEXELS {
         let message = format!("`{name}` has {texels} texels; at most {MAX_TEXELS} are drawn with");

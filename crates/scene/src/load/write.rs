@@ -263,7 +263,7 @@ fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
         let _ = write!(keys, "depth = {}, ", level.depth);
     }
     if kind.arrayed {
-        let _ = write!(keys, "layers = {}, ", level.depth);
+        let _ = write!(keys, "layers = {}, ", if kind.dim == SamplerDim::Cube { level.depth / 6 } else { level.depth });
     }
     if texture.filter != Filter::Nearest {
         let _ = write!(keys, "filter = {}, ", quoted(name_of(FILTERS, texture.filter)));
@@ -274,6 +274,17 @@ fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
     }
     if kind.shadow {
         let _ = write!(keys, "compare = {}, ", quoted(name_of(Compare::NAMES, texture.compare)));
+    }
+    let sampling = texture.sampling;
+    if sampling.lod_bias != 0.0 {
+        let _ = write!(keys, "lod_bias = {}, ", single(sampling.lod_bias));
+    }
+    if sampling.has_two_filters(texture.filter) {
+        let name = if sampling.magnifies_linearly(texture.filter) { "linear" } else { "nearest" };
+        let _ = write!(keys, "magnify = {}, ", quoted(name));
+    }
+    if sampling.fixed_point_depth {
+        keys.push_str("fixed_point = true, ");
     }
     if texture.levels.len() > 1 {
         keys.push_str("mipmaps = true, ");

@@ -113,7 +113,7 @@ fn constant_alone(call: &Call<'_>, len: usize) -> Facts {
     if !complete || len > 16 {
         return Facts::new();
     }
-    let derivative = matches!(call.function, F::DFdx | F::DFdy | F::Fwidth);
+    let derivative = matches!(call.function.class(), glisten_front::builtin::operations::Class::Derivative(_));
     let fact = Fact::result(What::Any, &operands);
     Facts::from_elem(Fact { constant: fact.constant && !derivative, ..fact }, len)
 }

@@ -72,7 +72,11 @@ fn folded(types: &Types, like: &Shader, operation: Operation, operands: &[Operan
         Operation::Unary(op) => ExprKind::Unary(op, first?),
         Operation::Binary(op) => ExprKind::Binary(op, first?, second?),
         // The interpolation of a constant has no slope, but a target may find one for it.
-        Operation::Call(F::DFdx | F::DFdy | F::Fwidth) => return None,
+        Operation::Call(function)
+            if matches!(function.class(), glisten_front::builtin::operations::Class::Derivative(_)) =>
+        {
+            return None;
+        }
         Operation::Call(function) => ExprKind::BuiltinCall(function, ids),
     };
     let id = shader.push(kind, ty, Span::default());

@@ -322,6 +322,7 @@ impl Forward<'_> {
             // The channels of these are no colors, or not one texel's.
             BuiltinFunction::TextureGather
             | BuiltinFunction::TextureGatherOffset
+            | BuiltinFunction::TextureGatherOffsets
             | BuiltinFunction::TextureQueryLod
             | BuiltinFunction::TextureQueryLevels => Facts::new(),
             _ if dim == SamplerDim::Buffer => Facts::new(),

@@ -12,6 +12,9 @@ use crate::source::Span;
 impl Analyzer<'_> {
     /// `layout(triangles) in;`: one input primitive, the same in each declaration.
     pub(super) fn geometry_input_layout(&mut self, layout: &Layout, _: Span) {
+        if let Some((count, span)) = layout.invocations {
+            self.set_invocations(count, span);
+        }
         for (index, &(primitive, span)) in layout.inputs.iter().enumerate() {
             if index > 0 {
                 self.report(
@@ -40,6 +43,28 @@ impl Analyzer<'_> {
         self.fix_geometry_size(primitive.vertices(), span);
         if is_first {
             self.size_geometry_inputs(primitive.vertices(), span);
+        }
+    }
+
+    /// `layout(invocations = 4) in;` (GLSL 4.00 §4.3.8.1)
+    fn set_invocations(&mut self, count: u32, span: Span) {
+        let max = constants::MAX_GEOMETRY_SHADER_INVOCATIONS;
+        if !(1..=max).contains(&count) {
+            let message = format!("`invocations` cannot be {count}");
+            let here = format!("1 to gl_MaxGeometryShaderInvocations, which is {max}");
+            self.report(Diagnostic::new(&qualifiers::GEOMETRY_LAYOUT, span, message).here(here));
+            return;
+        }
+        match self.shader.geometry.invocations {
+            Some(earlier) if earlier != count => {
+                let at = self.layouts.geometry.invocations;
+                self.report(contradiction(span, at, "`invocations`"));
+            }
+            Some(_) => {}
+            None => {
+                self.shader.geometry.invocations = Some(count);
+                self.layouts.geometry.invocations = span;
+            }
         }
     }
 

@@ -4,11 +4,12 @@ use super::super::context::Analyzer;
 use super::super::features::{of_version, remedy};
 use super::overload::{Resolution, resolve};
 use crate::builtin::functions::{self, Row, Signature};
-use crate::builtin::operations::Class;
+use crate::builtin::operations::{Class, Lookup};
 use crate::builtin::{Availability, BuiltinFunction};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
 use crate::hir::{ExprId, ExprKind, Function, Stage, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 
@@ -99,12 +100,15 @@ impl Analyzer<'_> {
 
     /// Checks that the offsets of texture functions are constant expressions (§8.7).
     fn check_offset(&mut self, row: &Row, arguments: &[ExprId]) -> bool {
-        if !matches!(row.function.class(), Class::Texture(_)) {
-            return true;
-        }
-        let position = row.params.iter().position(|param| param.name == "offset");
+        let Class::Texture(form) = row.function.class() else { return true };
+        let position = row.params.iter().position(|param| matches!(param.name, "offset" | "offsets"));
+
         let Some(&offset) = position.and_then(|index| arguments.get(index)) else { return true };
         if self.is_constant(offset) {
+            return true;
+        }
+        let gathers = form.lookup == Lookup::Gather && !form.offsets;
+        if gathers && self.allows(Feature::DynamicOffsets, self.span(offset)) {
             return true;
         }
         self.report(self.not_constant(offset, "the offset of a texture lookup"));

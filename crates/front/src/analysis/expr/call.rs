@@ -82,7 +82,7 @@ impl Analyzer<'_> {
         if !functions::named(spelling).is_empty() {
             return true;
         }
-        if super::foreign::is_unsupported(spelling, self.ast.version) {
+        if super::foreign::is_unsupported(spelling, self.ast.version, self.extensions) {
             let message = format!("the function `{spelling}` is not supported yet");
             self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
             return false;

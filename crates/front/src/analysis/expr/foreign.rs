@@ -2,7 +2,7 @@
 //!
 //! *In:* an unknown name. *Out:* what to write instead. *Not done here:* misspelled names.
 
-use crate::language::{self, NEVER, Since, Version};
+use crate::language::{self, Extensions, NEVER, Since, Version};
 
 /// Functions of HLSL and similar languages, and their equivalent in GLSL.
 #[rustfmt::skip]
@@ -54,7 +54,6 @@ static SHADERTOY: &[(&str, &str)] = &[
 /// Functions of later versions.
 #[rustfmt::skip]
 static LATER: &[(&str, u16)] = &[
-    ("textureGatherOffsets", 400),
     ("interpolateAtCentroid", 400), ("interpolateAtSample", 400), ("interpolateAtOffset", 400),
     ("EmitStreamVertex", 400), ("EndStreamPrimitive", 400), ("packDouble2x32", 400), ("unpackDouble2x32", 400),
     ("anyInvocation", 460), ("allInvocations", 460), ("allInvocationsEqual", 460),
@@ -73,8 +72,9 @@ pub(super) fn function(name: &str) -> Option<String> {
 }
 
 /// Whether a version has a function that glisten does not support.
-pub(super) fn is_unsupported(name: &str, version: Version) -> bool {
-    LATER.iter().any(|row| row.0 == name && version.reaches(Since::new(row.1, NEVER)))
+pub(super) fn is_unsupported(name: &str, version: Version, extensions: Extensions) -> bool {
+    let of_shader5 = |since: u16| since == 400 && extensions.contains(Extensions::GPU_SHADER5);
+    LATER.iter().any(|row| row.0 == name && (version.reaches(Since::new(row.1, NEVER)) || of_shader5(row.1)))
 }
 
 /// The replacement for a method that does not exist.

@@ -16,6 +16,7 @@ pub(in crate::analysis) struct GeometrySpans {
     pub(in crate::analysis) input: Span,
     pub(in crate::analysis) output: Span,
     pub(in crate::analysis) max_vertices: Span,
+    pub(in crate::analysis) invocations: Span,
     /// The number of vertices of all inputs, and what fixed it: the input layout, or the size of an input.
     pub(in crate::analysis) size: Option<(u32, Span)>,
 }

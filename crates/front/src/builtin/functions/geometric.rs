@@ -3,7 +3,7 @@
 
 use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
 use crate::builtin::Stages;
-use crate::language::{Extensions, NEVER};
+use crate::language::{Extensions, NEVER, Since};
 
 const G110: Row = Row::base("§8.4", 110);
 /// §8.4 of 1.10 to 1.30 and of the compatibility profile.
@@ -12,6 +12,7 @@ const FIXED: Row = Row::base("GLSL 1.20 §8.4", 110)
     .available(Availability { compatibility_only: true, ..Availability::since(110).es(NEVER).stages(Stages::VERTEX) });
 const M110: Row = Row::base("§8.5", 110);
 const M120: Row = Row::base("§8.5", 120);
+const M140: Row = Row::base("GLSL 1.40 §8.5", 140).available(Availability::since(140).es(300));
 const M150: Row = Row::base("§8.5", 150).available(Availability::since(150).es(300));
 const R110: Row = Row::base("§8.6", 110);
 const R130: Row = Row::base("§8.6", 130);
@@ -19,6 +20,10 @@ const R130: Row = Row::base("§8.6", 130);
 const D110: Row = Row::base("§8.8", 110)
     .with(Effect::Derivative, true)
     .available(Availability::since(110).es(300).or(Extensions::STANDARD_DERIVATIVES).stages(Stages::FRAGMENT));
+/// Derivatives of which the program says from which neighbors they are.
+const FINE: Row = Row::base("GLSL 4.50 §8.14.1", 450)
+    .with(Effect::Derivative, true)
+    .available(Availability::from(Since::new(450, NEVER)).or(Extensions::DERIVATIVE_CONTROL).stages(Stages::FRAGMENT));
 const N110: Row = Row::base("§8.9", 110).with(Effect::None, false).available(Availability::since(110).es(NEVER));
 const EMIT: Row =
     Row::base("§8.10", 150).with(Effect::Emits, false).available(Availability::since(150).stages(Stages::GEOMETRY));
@@ -56,9 +61,9 @@ pub(super) static ROWS: &[Row] = rows! {
     M150 Determinant: float determinant(mat2 m);
     M150 Determinant: float determinant(mat3 m);
     M150 Determinant: float determinant(mat4 m);
-    M150 Inverse: mat2 inverse(mat2 m);
-    M150 Inverse: mat3 inverse(mat3 m);
-    M150 Inverse: mat4 inverse(mat4 m);
+    M140 Inverse: mat2 inverse(mat2 m);
+    M140 Inverse: mat3 inverse(mat3 m);
+    M140 Inverse: mat4 inverse(mat4 m);
 
     R110 LessThan: bvec lessThan(vec x, vec y);
     R110 LessThan: bvec lessThan(ivec x, ivec y);
@@ -87,6 +92,13 @@ pub(super) static ROWS: &[Row] = rows! {
     D110 DFdx: genType dFdx(genType p);
     D110 DFdy: genType dFdy(genType p);
     D110 Fwidth: genType fwidth(genType p);
+
+    FINE DFdxFine: genType dFdxFine(genType p);
+    FINE DFdyFine: genType dFdyFine(genType p);
+    FINE FwidthFine: genType fwidthFine(genType p);
+    FINE DFdxCoarse: genType dFdxCoarse(genType p);
+    FINE DFdyCoarse: genType dFdyCoarse(genType p);
+    FINE FwidthCoarse: genType fwidthCoarse(genType p);
 
     N110 Noise1: float noise1(genType x);
     N110 Noise2: vec2 noise2(genType x);

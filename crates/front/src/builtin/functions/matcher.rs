@@ -122,6 +122,7 @@ names! {
     vec4 = fixed(Scalar::Float, 4);
     ivec2 = fixed(Scalar::Int, 2);
     ivec3 = fixed(Scalar::Int, 3);
+    four_ivec2 = Matcher::Fixed(TypeId::FOUR_OFFSETS);
     mat2 = matrix(2, 2);
     mat3 = matrix(3, 3);
     mat4 = matrix(4, 4);
@@ -149,6 +150,7 @@ names! {
     gsampler2D = Matcher::GSampler(SamplerDim::D2, false);
     gsampler3D = Matcher::GSampler(SamplerDim::D3, false);
     gsamplerCube = Matcher::GSampler(SamplerDim::Cube, false);
+    gsamplerCubeArray = Matcher::GSampler(SamplerDim::Cube, true);
     gsampler2DRect = Matcher::GSampler(SamplerDim::Rect, false);
     gsampler1DArray = Matcher::GSampler(SamplerDim::D1, true);
     gsampler2DArray = Matcher::GSampler(SamplerDim::D2, true);
@@ -173,6 +175,7 @@ names! {
     sampler1DShadow = shadow(SamplerDim::D1, false);
     sampler2DShadow = shadow(SamplerDim::D2, false);
     samplerCubeShadow = shadow(SamplerDim::Cube, false);
+    samplerCubeArrayShadow = shadow(SamplerDim::Cube, true);
     sampler2DRectShadow = shadow(SamplerDim::Rect, false);
     sampler1DArrayShadow = shadow(SamplerDim::D1, true);
     sampler2DArrayShadow = shadow(SamplerDim::D2, true);

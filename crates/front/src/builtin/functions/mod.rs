@@ -10,6 +10,7 @@ mod common;
 mod geometric;
 mod matcher;
 mod texture;
+mod texture_cube_array;
 mod texture_extensions;
 mod texture_gather;
 mod texture_old;
@@ -94,6 +95,11 @@ pub struct Signature {
 }
 
 impl Signature {
+    /// Whether the parameters have these types.
+    pub fn has_types(&self, types: &[TypeId]) -> bool {
+        self.params().iter().map(|(ty, _)| ty).eq(types)
+    }
+
     /// The types and modes of the parameters.
     pub fn params(&self) -> &[(TypeId, ParamMode)] {
         self.params.get(..usize::from(self.n_params)).unwrap_or(&[])
@@ -200,6 +206,7 @@ static TABLES: &[&[Row]] = &[
     texture::ROWS,
     texture_old::ROWS,
     texture_extensions::ROWS,
+    texture_cube_array::ROWS,
     texture_gather::ROWS,
 ];
 

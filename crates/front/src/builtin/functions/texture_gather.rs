@@ -50,6 +50,16 @@ pub(super) static ROWS: &[Row] = rows! {
     GATHER5 TextureGatherOffset: vec4 textureGatherOffset(sampler2DArrayShadow sampler, vec3 P, float refZ, ivec2 offset);
     RECT TextureGatherOffset: vec4 textureGatherOffset(sampler2DRectShadow sampler, vec2 P, float refZ, ivec2 offset);
 
+    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2D sampler, vec2 P, four_ivec2 offsets);
+    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2D sampler, vec2 P, four_ivec2 offsets, int comp);
+    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DArray sampler, vec3 P, four_ivec2 offsets);
+    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DArray sampler, vec3 P, four_ivec2 offsets, int comp);
+    RECT TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DRect sampler, vec2 P, four_ivec2 offsets);
+    RECT TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DRect sampler, vec2 P, four_ivec2 offsets, int comp);
+    GATHER5 TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DShadow sampler, vec2 P, float refZ, four_ivec2 offsets);
+    GATHER5 TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DArrayShadow sampler, vec3 P, float refZ, four_ivec2 offsets);
+    RECT TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DRectShadow sampler, vec2 P, float refZ, four_ivec2 offsets);
+
     LOD TextureQueryLod: vec2 textureQueryLod(gsampler1D sampler, float P);
     LOD TextureQueryLod: vec2 textureQueryLod(gsampler2D sampler, vec2 P);
     LOD TextureQueryLod: vec2 textureQueryLod(gsampler3D sampler, vec3 P);

@@ -24,7 +24,8 @@ const INTEGER: Row =
     Row { section: "EXT_gpu_shader4", ..OLD }.available(Availability::extension(Extensions::GPU_SHADER4));
 const RECT: Row = Row { deprecated: true, section: "ARB_texture_rectangle", ..Row::base("", 110) }
     .with(Effect::Texture, false)
-    .available(Availability::extension(Extensions::TEXTURE_RECTANGLE));
+    // Reserved words in the text of 1.10; drivers have them without the extension's line.
+    .available(Availability::from(Since::new(110, NEVER)).until(GONE).or(Extensions::TEXTURE_RECTANGLE));
 
 pub(super) static ROWS: &[Row] = rows! {
     OLD Texture: vec4 texture1D(sampler1D sampler, float coord, optional bias);

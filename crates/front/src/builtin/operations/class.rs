@@ -112,9 +112,37 @@ plain!(
     BitFunction { Extract, Insert, Reverse, Count, Lowest, Highest }
 );
 plain!(
-    /// `dFdx`, `dFdy`, `fwidth`
-    Derivative { X, Y, Width }
+    /// `dFdx`, `dFdy`, `fwidth`, and these of the own row or column alone, or one for the whole quad (GLSL 4.50 §8.14.1).
+    Derivative { X, Y, Width, XFine, YFine, WidthFine, XCoarse, YCoarse, WidthCoarse }
 );
+plain!(
+    /// What a derivative is along.
+    DerivativeAxis { X, Y, Width }
+);
+plain!(
+    /// Which neighbors a derivative is from: any of the quad, those of the own row and column, or the same for the whole quad.
+    DerivativeControl { Any, Fine, Coarse }
+);
+
+impl Derivative {
+    /// The axis.
+    pub fn axis(self) -> DerivativeAxis {
+        match self {
+            Self::X | Self::XFine | Self::XCoarse => DerivativeAxis::X,
+            Self::Y | Self::YFine | Self::YCoarse => DerivativeAxis::Y,
+            Self::Width | Self::WidthFine | Self::WidthCoarse => DerivativeAxis::Width,
+        }
+    }
+
+    /// The neighbors.
+    pub fn control(self) -> DerivativeControl {
+        match self {
+            Self::X | Self::Y | Self::Width => DerivativeControl::Any,
+            Self::XFine | Self::YFine | Self::WidthFine => DerivativeControl::Fine,
+            Self::XCoarse | Self::YCoarse | Self::WidthCoarse => DerivativeControl::Coarse,
+        }
+    }
+}
 plain!(
     /// `EmitVertex`, `EndPrimitive`
     Emission { Vertex, Primitive }

@@ -18,8 +18,8 @@ mod texture;
 
 pub use bits::{from_half, to_half};
 pub use class::{
-    BitCast, BitFunction, BooleanFunction, Class, Derivative, Emission, Format, MatrixFunction, Noise, Numbers,
-    Packing, Relation, Test,
+    BitCast, BitFunction, BooleanFunction, Class, Derivative, DerivativeAxis, DerivativeControl, Emission, Format,
+    MatrixFunction, Noise, Numbers, Packing, Relation, Test,
 };
 pub use cost::{CallCost, Linear};
 pub use formula::Formula;

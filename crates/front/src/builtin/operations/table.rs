@@ -268,11 +268,18 @@ operations! {
         TextureProjGradOffset "textureProjGradOffset" texture(Lookup::Grad, true, true), LOOKUP, None;
         TextureGather "textureGather" texture(Lookup::Gather, false, false), LOOKUP, None;
         TextureGatherOffset "textureGatherOffset" texture(Lookup::Gather, false, true), LOOKUP, None;
+        TextureGatherOffsets "textureGatherOffsets" Class::Texture(TextureForm::GATHER_OFFSETS), LOOKUP, None;
         TextureQueryLod "textureQueryLod" texture(Lookup::QueryLod, false, false), LOOKUP, None;
         TextureQueryLevels "textureQueryLevels" texture(Lookup::Levels, false, false), each(1), None;
         DFdx "dFdx" Class::Derivative(Derivative::X), each(1), Some(&precision::DERIVATIVE);
         DFdy "dFdy" Class::Derivative(Derivative::Y), each(1), Some(&precision::DERIVATIVE);
         Fwidth "fwidth" Class::Derivative(Derivative::Width), each(1), Some(&precision::DERIVATIVE);
+        DFdxFine "dFdxFine" Class::Derivative(Derivative::XFine), each(1), Some(&precision::DERIVATIVE);
+        DFdyFine "dFdyFine" Class::Derivative(Derivative::YFine), each(1), Some(&precision::DERIVATIVE);
+        FwidthFine "fwidthFine" Class::Derivative(Derivative::WidthFine), each(1), Some(&precision::DERIVATIVE);
+        DFdxCoarse "dFdxCoarse" Class::Derivative(Derivative::XCoarse), each(1), Some(&precision::DERIVATIVE);
+        DFdyCoarse "dFdyCoarse" Class::Derivative(Derivative::YCoarse), each(1), Some(&precision::DERIVATIVE);
+        FwidthCoarse "fwidthCoarse" Class::Derivative(Derivative::WidthCoarse), each(1), Some(&precision::DERIVATIVE);
         Noise1 "noise1" Class::Noise(Noise(1)), each(1), None;
         Noise2 "noise2" Class::Noise(Noise(2)), each(1), None;
         Noise3 "noise3" Class::Noise(Noise(3)), each(1), None;

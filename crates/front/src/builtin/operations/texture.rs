@@ -34,6 +34,8 @@ pub struct TextureForm {
     pub projective: bool,
     /// `...Offset`: an offset in texels.
     pub offset: bool,
+    /// `...Offsets`: an offset for each of the four texels of a gather.
+    pub offsets: bool,
 }
 
 /// The role of an argument of a texture function.
@@ -51,6 +53,8 @@ pub enum TextureArgument {
     GradientY,
     /// The offset in texels.
     Offset,
+    /// Four offsets in texels.
+    Offsets,
     /// The reference of a shadow sampler, where `P` does not have it.
     Reference,
     /// The optional number of the gathered component.
@@ -60,21 +64,28 @@ pub enum TextureArgument {
 }
 
 impl TextureForm {
+    /// `textureGatherOffsets` (GLSL 4.00 §8.9.3).
+    pub(super) const GATHER_OFFSETS: Self =
+        Self { lookup: Lookup::Gather, projective: false, offset: false, offsets: true };
+
     pub(super) const fn new(lookup: Lookup, projective: bool, offset: bool) -> Self {
-        Self { lookup, projective, offset }
+        Self { lookup, projective, offset, offsets: false }
     }
 
     /// The roles of the arguments after the sampler, in order.
     pub fn arguments(self, sampler: SamplerType) -> SmallVec<[TextureArgument; 5]> {
-        use TextureArgument::{Bias, Component, Coordinate, GradientX, GradientY, Level, Offset, Reference, Sample};
+        use TextureArgument::{
+            Bias, Component, Coordinate, GradientX, GradientY, Level, Offset, Offsets, Reference, Sample,
+        };
         let mut list = SmallVec::new();
         if !matches!(self.lookup, Lookup::Size | Lookup::Levels) {
             list.push(Coordinate);
         }
         match self.lookup {
-            Lookup::Implicit | Lookup::QueryLod | Lookup::Levels => {}
             Lookup::Gather if sampler.shadow => list.push(Reference),
-            Lookup::Gather => {}
+            // The four components of `P` are all taken.
+            Lookup::Implicit if sampler.shadow && sampler.reference_component() > 3 => list.push(Reference),
+            Lookup::Implicit | Lookup::Gather | Lookup::QueryLod | Lookup::Levels => {}
             Lookup::Lod => list.push(Level),
             Lookup::Grad => list.extend([GradientX, GradientY]),
             Lookup::Fetch if sampler.dim == SamplerDim::Multisample => list.push(Sample),
@@ -83,6 +94,9 @@ impl TextureForm {
         }
         if self.offset {
             list.push(Offset);
+        }
+        if self.offsets {
+            list.push(Offsets);
         }
         match self.lookup {
             Lookup::Implicit => list.push(Bias),

@@ -51,7 +51,8 @@ codes! {
         bad None, good None;
     SCENE_LOOP_BUDGET = "E0913" "endless-loop" Error ""
         "While the CPU reference drew the scene, loops ran more than 16,777,216 instructions for 64 invocations \
-         together. The reference gives up rather than hang, and makes no picture."
+         together, or the program reached a call that is longer than that with all the calls that it leads to. The reference \
+         gives up rather than hang, and makes no picture."
         bad Text("while (true) {}"), good Text("for (int i = 0; i < 100; ++i) {}");
     SCENE_UNSET_UNIFORM = "W0901" "uniform-without-value" Warning "GLSL 1.50 §4.3.5"
         "The program reads a uniform that has no initializer and that the scene does not list. It is 0, as in OpenGL."

@@ -86,7 +86,8 @@ impl Printer<'_> {
         let layout = self.shader.geometry;
         if let Some(input) = layout.input {
             self.blank();
-            self.line(&format!("layout({}) in;", primitive_in(input)));
+            let invocations = layout.invocations.map_or_else(String::new, |count| format!(", invocations = {count}"));
+            self.line(&format!("layout({}{invocations}) in;", primitive_in(input)));
         }
         let output = layout.output.map(primitive_out).map(str::to_owned);
         let vertices = layout.max_vertices.map(|vertices| format!("max_vertices = {vertices}"));

@@ -23,9 +23,6 @@ static FEATURES: &[(&str, &str)] = &[
     ("subroutine", "subroutines"),
     ("patch", "tessellation (`patch`)"),
     ("sample", "interpolation for each sample (`sample`)"),
-    ("samplerCubeArray", "arrays of cube maps"),
-    ("isamplerCubeArray", "arrays of cube maps"),
-    ("usamplerCubeArray", "arrays of cube maps"),
 ];
 
 /// The feature of a keyword.

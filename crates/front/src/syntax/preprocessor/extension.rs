@@ -53,6 +53,7 @@ static IMPLEMENTED: &[Implemented] = &[
     desktop("GL_ARB_shading_language_420pack", Extensions::SHADING_LANGUAGE_420PACK),
     desktop("GL_ARB_shading_language_include", Extensions::INCLUDE),
     desktop("GL_ARB_shading_language_packing", Extensions::SHADING_LANGUAGE_PACKING),
+    desktop("GL_ARB_texture_cube_map_array", Extensions::TEXTURE_CUBE_MAP_ARRAY),
     desktop("GL_ARB_texture_gather", Extensions::TEXTURE_GATHER),
     desktop("GL_ARB_texture_multisample", Extensions::TEXTURE_MULTISAMPLE),
     desktop("GL_ARB_texture_query_levels", Extensions::TEXTURE_QUERY_LEVELS),

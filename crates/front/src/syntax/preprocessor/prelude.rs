@@ -15,6 +15,7 @@ pub(super) struct Engine {
     pending: Vec<FileId>,
     pub(super) directive: Option<ImportDirective>,
     pub(super) resolves_includes: bool,
+    pub(super) redefines: bool,
 }
 
 impl Preprocessor<'_> {
@@ -27,6 +28,7 @@ impl Preprocessor<'_> {
     ) {
         self.engine.directive = completion.directive;
         self.engine.resolves_includes = completion.resolves_includes;
+        self.engine.redefines = completion.redefines;
         let text = session.sources.file(main).text().clone();
         let (texts, after_version) = completion.texts(&text);
         for prelude in texts {

@@ -1,6 +1,7 @@
 //! Compiles HIR to instructions.
 //!
-//! Functions are inlined (GLSL has no recursion). Each scalar of a variable is either a computed value (which is not
+//! Functions are inlined (GLSL has no recursion). A call that would be too long is an instruction that ends the run if a lane
+//! reaches it, because a branch that is never taken may contain more calls than any machine could make. Each scalar of a variable is either a computed value (which is not
 //! copied) or is in its *home* register. The code between two points where lanes diverge or join is a *region*.
 //! Inside the region that declares a variable, an assignment only records the new value. Before a construct whose
 //! parts assign to the variable under a narrower mask, the variable moves to its home, where stores are masked.
@@ -80,6 +81,8 @@ struct Compiler<'a> {
     program: &'a Program,
     emit: Emitter,
     effects: Effects,
+    /// For each function, how long it is with its calls written out.
+    sizes: Vec<u64>,
     vars: Vec<Var>,
     globals: Vec<Option<VarId>>,
     inputs: Vec<Port>,
@@ -136,6 +139,7 @@ impl<'a> Compiler<'a> {
             program,
             emit: Emitter::new(form),
             effects: Effects::of(shader),
+            sizes: shader.written_out(),
             vars: Vec::new(),
             globals: vec![None; shader.globals.len()],
             inputs: Vec::new(),

@@ -298,6 +298,9 @@ impl Compiler<'_> {
             // Deeper than the number of functions: recursion.
             return (Val::new(), Vec::new());
         }
+        if !self.frames.is_empty() && self.is_too_long(function) {
+            return self.endless_call(callee, span);
+        }
         let parts = Self::parts(callee);
         self.frames.push(Frame { function, locals: vec![None; callee.locals.len()], result: None, parts });
         let mut outs: Vec<VarId> = Vec::new();
@@ -341,6 +344,24 @@ impl Compiler<'_> {
         let value = self.read_all(result);
         self.frames.pop();
         (value, finals)
+    }
+}
+
+impl Compiler<'_> {
+    fn is_too_long(&self, function: FunctionId) -> bool {
+        self.sizes.get(function.index()).is_some_and(|size| *size > super::MAX_INSTRUCTIONS as u64)
+    }
+
+    /// A call that ends the run. Its result and its `out` parameters are 0, which nothing ever reads.
+    fn endless_call(&mut self, callee: &Function, span: Span) -> (Val, Vec<Val>) {
+        self.at(span, |this| this.emit.push(Inst::Endless));
+        let zeros = |this: &mut Self, ty: TypeId| -> Val {
+            let classes = this.classes(ty);
+            classes.iter().map(|class| this.emit.zero(*class)).collect()
+        };
+        let outs = callee.param_types().filter(|(_, mode)| matches!(mode, ParamMode::Out | ParamMode::Inout));
+        let finals = outs.map(|(ty, _)| zeros(self, ty)).collect();
+        (zeros(self, callee.ret), finals)
     }
 }
 

@@ -13,6 +13,9 @@ impl Compiler<'_> {
             // The analysis has checked that the first argument is a sampler.
             return Val::new();
         };
+        if form.offsets {
+            return self.gather_offsets(form, values, sampler, ty);
+        }
         let mut call = TextureCall {
             lookup: form.lookup,
             kind,
@@ -34,12 +37,29 @@ impl Compiler<'_> {
                 }
                 TextureArgument::GradientX => call.dx = value.to_vec(),
                 TextureArgument::GradientY => call.dy = value.to_vec(),
-                TextureArgument::Offset => call.offset = value.to_vec(),
+                TextureArgument::Offset | TextureArgument::Offsets => call.offset = value.to_vec(),
                 TextureArgument::Reference => call.reference = value.first().copied(),
                 TextureArgument::Component => call.component = value.first().copied(),
             }
         }
         self.finish(call, ty)
+    }
+
+    /// `textureGatherOffsets`: the last component, i0 j0, of a gather with each of four offsets (GLSL 4.00 §8.9.3).
+    fn gather_offsets(&mut self, form: TextureForm, values: &[Val], sampler: TypeId, ty: TypeId) -> Val {
+        let Type::Sampler(kind) = self.types.get(sampler) else { return Val::new() };
+        let place = form.arguments(kind).iter().position(|role| *role == TextureArgument::Offsets);
+        let one = TextureForm { offset: true, offsets: false, ..form };
+        let offsets = place.and_then(|place| values.get(place + 1)).cloned().unwrap_or_default();
+        let mut result = Val::new();
+        for offset in offsets.chunks(2) {
+            let mut values = values.to_vec();
+            if let Some(slot) = place.and_then(|place| values.get_mut(place + 1)) {
+                *slot = Val::from_slice(offset);
+            }
+            result.extend(self.texture_call(one, &values, sampler, ty).last().copied());
+        }
+        result
     }
 
     /// Compiles the projection, the layer, and the reference of a shadow sampler.
@@ -72,9 +92,10 @@ impl Compiler<'_> {
         let index = self.emit.textures.len() as u32 - 1;
         self.emit.push(Inst::Texture { call: index });
         if count == 1 && self.types.flat_len(ty) == 4 {
-            // `shadow2D` of older versions: luminance, with alpha 1.
-            let (r, one) = (results.first().copied(), self.emit.float(1.0));
-            results = r.into_iter().flat_map(|r| [r, r, r, one]).collect();
+            // `shadow2D` and its like of older versions.
+            let (zero, one) = (self.emit.float(0.0), self.emit.float(1.0));
+            let mode = self.shader.depth_mode;
+            results = results.first().into_iter().flat_map(|r| mode.components(*r, zero, one)).collect();
         }
         results
     }

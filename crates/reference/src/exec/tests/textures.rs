@@ -20,6 +20,7 @@ fn texture(dim: SamplerDim, arrayed: bool, sizes: &[[u32; 3]]) -> Texture {
         filter: Filter::Nearest,
         wrap: Wrap::Repeat,
         compare: Compare::Lequal,
+        sampling: glisten_scene::Sampling::default(),
     }
 }
 

@@ -5,10 +5,11 @@
 
 use super::blocks::flatten;
 use crate::target::GlslVersion;
+use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
 use glisten_front::hir::{
-    ArraySize, ConstructKind, ExprId, ExprKind, Global, GlobalId, Interpolation, LocalKind, ScalarValue, Shader, Stage,
-    Stmt, StmtKind, Storage, Type, TypeId, Types, VarRef,
+    ArraySize, ConstructKind, DepthMode, ExprId, ExprKind, Global, GlobalId, Interpolation, LocalKind, Scalar,
+    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, Type, TypeId, Types, VarRef,
 };
 use glisten_front::link::Program;
 use glisten_front::source::Span;
@@ -160,7 +161,7 @@ fn shadow_lookups(types: &Types, shader: &mut Shader) {
     for index in 0..shader.exprs.len() {
         let Some(expr) = shader.exprs.get(index).cloned() else { continue };
         let ExprKind::BuiltinCall(function, arguments) = &expr.kind else { continue };
-        let gathers = matches!(function, BuiltinFunction::TextureGather | BuiltinFunction::TextureGatherOffset);
+        let gathers = matches!(function.class(), Class::Texture(form) if form.lookup == Lookup::Gather);
         let of_depth = arguments
             .first()
             .is_some_and(|sampler| matches!(types.get(shader.expr(*sampler).ty), Type::Sampler(ty) if ty.shadow));
@@ -168,13 +169,31 @@ fn shadow_lookups(types: &Types, shader: &mut Shader) {
             continue;
         }
         let depth = shader.push(expr.kind.clone(), TypeId::FLOAT, expr.span);
-        let luminance = ExprKind::Construct(ConstructKind::Splat, vec![depth]);
-        let luminance = shader.push(luminance, TypeId::VEC3, expr.span);
-        let one = shader.push(ExprKind::Literal(ScalarValue::Float(1.0)), TypeId::FLOAT, expr.span);
+        let parts = match shader.depth_mode {
+            DepthMode::Luminance => vec![splat(shader, depth, 3), float(shader, 1.0)],
+            DepthMode::Intensity => vec![splat(shader, depth, 4)],
+            DepthMode::Alpha => {
+                let zero = float(shader, 0.0);
+                vec![splat(shader, zero, 3), depth]
+            }
+            DepthMode::Red => {
+                let zero = float(shader, 0.0);
+                vec![depth, splat(shader, zero, 2), float(shader, 1.0)]
+            }
+        };
         if let Some(expr) = shader.exprs.get_mut(index) {
-            expr.kind = ExprKind::Construct(ConstructKind::Compose, vec![luminance, one]);
+            expr.kind = ExprKind::Construct(ConstructKind::Compose, parts);
         }
     }
+}
+
+fn float(shader: &mut Shader, value: f32) -> ExprId {
+    shader.push(ExprKind::Literal(ScalarValue::Float(value)), TypeId::FLOAT, Span::default())
+}
+
+fn splat(shader: &mut Shader, value: ExprId, size: u8) -> ExprId {
+    let span = shader.expr(value).span;
+    shader.push(ExprKind::Construct(ConstructKind::Splat, vec![value]), TypeId::vector(Scalar::Float, size), span)
 }
 
 /// A `const` whose value is computed while the shader runs (ARB_shading_language_420pack) is a variable.

@@ -181,6 +181,7 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
         F::Noise1 | F::Noise2 | F::Noise3 | F::Noise4 => each(&|_| Want::Exactly(0.0)),
         // These read other lanes: `text::derivatives_are_differences_in_quads_with_y_up`.
         F::DFdx | F::DFdy | F::Fwidth => None,
+        F::DFdxFine | F::DFdyFine | F::FwidthFine | F::DFdxCoarse | F::DFdyCoarse | F::FwidthCoarse => None,
         // `super::textures` and the scenes check these.
         F::TextureSize
         | F::Texture
@@ -199,6 +200,7 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
         | F::TextureProjGradOffset
         | F::TextureGather
         | F::TextureGatherOffset
+        | F::TextureGatherOffsets
         | F::TextureQueryLod
         | F::TextureQueryLevels => None,
         F::Fma => each(&|k| {

@@ -6,22 +6,23 @@
 //! several paths below each folder, and the folders above the including file. The name of an included file is the path under
 //! which it was found, so that diagnostics and depfiles show a path that opens.
 
-use super::files;
-use super::trace;
+use super::disk::Disk;
 use crate::engines::{Lookup, Style};
 use crate::library::{self, Embedded};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, blanked, version_line};
-use ignore::WalkBuilder;
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 /// The largest number of files below a search folder among which one is found by its name alone.
 const MAX_FILES: usize = 50_000;
+/// Folders in folders deeper than this are not searched: they are links in a circle.
+const DEEPEST: usize = 32;
 
 /// Finds files next to the including one and along a search path.
-#[derive(Clone, Debug)]
-pub(super) struct DiskIncludes {
+#[derive(Clone)]
+pub(crate) struct DiskIncludes {
+    disk: Arc<dyn Disk>,
     folders: Vec<PathBuf>,
     lookup: &'static Lookup,
     /// The names of folders above an including file that are search folders, too.
@@ -31,15 +32,9 @@ pub(super) struct DiskIncludes {
 }
 
 impl DiskIncludes {
-    /// A resolver that searches `folders` (`-I`).
-    #[cfg(test)]
-    pub(super) fn new(folders: &[PathBuf]) -> Self {
-        Self::of_engine(folders.to_vec(), Style::Quote, &[])
-    }
-
     /// A resolver that searches `folders`, and the folders called `roots` above an including file, in the style of an engine.
-    pub(super) fn of_engine(folders: Vec<PathBuf>, style: Style, roots: &[String]) -> Self {
-        Self { folders, lookup: style.lookup(), roots: roots.to_vec(), below: Arc::default() }
+    pub(crate) fn new(disk: Arc<dyn Disk>, folders: Vec<PathBuf>, style: Style, roots: &[String]) -> Self {
+        Self { disk, folders, lookup: style.lookup(), roots: roots.to_vec(), below: Arc::default() }
     }
 
     /// The search folders for the includes of a file: those that were given, and those above it.
@@ -82,7 +77,7 @@ impl DiskIncludes {
         let name = Path::new(path).file_name()?.to_str()?;
         if self.lookup.deep {
             // A whole tree of folders was looked through.
-            trace::beyond();
+            self.disk.searched();
         }
         self.lookup.deep.then(|| self.below.get_or_init(|| files_below(&self.folders)).get(name)).flatten()
     }
@@ -90,10 +85,7 @@ impl DiskIncludes {
     /// The text of a file, as the style reads it.
     fn read(&self, path: &Path) -> Result<Included, String> {
         let name = path.to_string_lossy().into_owned();
-        // An included file may be empty; otherwise the same rules hold as for a source.
-        let bytes = files::read(&name, path).map_err(|error| error.message)?;
-        let text =
-            if bytes.is_empty() { "".into() } else { files::text_of(&name, bytes).map_err(|error| error.message)? };
+        let text = self.disk.text(path)?;
         let text = if name.ends_with(".js") { in_backquotes(&text) } else { text };
         let version = if self.lookup.drops_version { version_line(&text) } else { None };
         let text = version.map_or(text.clone(), |line| blanked(&text, &[line]));
@@ -101,14 +93,35 @@ impl DiskIncludes {
     }
 }
 
-/// The files below folders, by their names; of several, the first in order.
+/// The files below folders, by their names; of several, the first in order. Hidden folders are left out.
 fn files_below(folders: &[PathBuf]) -> BTreeMap<String, PathBuf> {
     let mut files = BTreeMap::new();
-    let walks = folders.iter().map(|folder| WalkBuilder::new(folder).sort_by_file_path(Path::cmp).build());
-    let entries = walks.flatten().filter_map(Result::ok).take(MAX_FILES);
-    for entry in entries.filter(|entry| entry.file_type().is_some_and(|kind| kind.is_file())) {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        files.entry(name).or_insert_with(|| normal(entry.path()));
+    for path in folders.iter().flat_map(|folder| walk(folder, MAX_FILES)) {
+        if let Some(name) = path.file_name() {
+            files.entry(name.to_string_lossy().into_owned()).or_insert_with(|| normal(&path));
+        }
+    }
+    files
+}
+
+/// The files of a folder and of those below it, in order, at most `most`.
+fn walk(folder: &Path, most: usize) -> Vec<PathBuf> {
+    let (mut files, mut open) = (Vec::new(), vec![(folder.to_owned(), 0)]);
+    while let Some((path, depth)) = open.pop() {
+        if files.len() >= most {
+            break;
+        }
+        let is_hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        let listed = if depth == 0 || (!is_hidden && depth <= DEEPEST) { std::fs::read_dir(&path).ok() } else { None };
+        match listed {
+            Some(entries) => {
+                let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+                // The last one is looked at first.
+                paths.sort_by(|a, b| b.cmp(a));
+                open.extend(paths.into_iter().map(|path| (path, depth + 1)));
+            }
+            None => files.extend(path.is_file().then_some(path)),
+        }
     }
     files
 }
@@ -133,7 +146,7 @@ impl IncludeResolver for DiskIncludes {
         // A chunk may have the name of a folder next to its file.
         let several = self.lookup.patterns.len() > 1;
         let found = candidates.iter().find(|candidate| {
-            trace::looked_for(candidate);
+            self.disk.looked_for(candidate);
             if several { candidate.is_file() } else { candidate.exists() }
         });
         if let Some(found) = found.or_else(|| self.deep(path)) {
@@ -173,8 +186,15 @@ fn normal(path: &Path) -> PathBuf {
 mod tests {
     use super::DiskIncludes;
     use crate::engines::Style;
+    use crate::sources::disk::Plain;
     use glisten_front::source::{IncludeForm, IncludeResolver};
     use std::fs;
+    use std::path::PathBuf;
+    use std::sync::Arc;
+
+    fn quoted(folders: Vec<PathBuf>) -> DiskIncludes {
+        DiskIncludes::new(Arc::new(Plain), folders, Style::Quote, &[])
+    }
 
     #[test]
     fn quoted_looks_beside_first_and_angled_never() {
@@ -184,14 +204,14 @@ mod tests {
         fs::create_dir_all(path("src/sub")).expect("a folder");
         fs::write(path("src/a.glsl"), "folder").expect("written");
         fs::write(path("lib/a.glsl"), "library").expect("written");
-        let includes = DiskIncludes::new(&[path("lib")]);
+        let includes = quoted(vec![path("lib")]);
         let from = path("src/main.vert").to_string_lossy().into_owned();
         let text = |form, name| includes.resolve(name, form, &from).map(|included| included.text.to_string());
         assert_eq!(text(IncludeForm::Quoted, "a.glsl").as_deref(), Ok("folder"));
         assert_eq!(text(IncludeForm::Quoted, "./sub/../a.glsl").as_deref(), Ok("folder"));
         assert_eq!(text(IncludeForm::Angled, "a.glsl").as_deref(), Ok("library"));
         assert!(text(IncludeForm::Quoted, "b.glsl").expect_err("there is none").contains("no `"));
-        assert!(DiskIncludes::new(&[]).resolve("a.glsl", IncludeForm::Angled, &from).is_err());
+        assert!(quoted(Vec::new()).resolve("a.glsl", IncludeForm::Angled, &from).is_err());
         for form in [IncludeForm::Quoted, IncludeForm::Angled] {
             assert_eq!(text(form, "/a.glsl").as_deref(), Ok("library"), "from the root of a folder of -I");
         }
@@ -217,7 +237,7 @@ mod tests {
         let text = |style, folders: &[&str], roots: &[&str], from: &str, name: &str| {
             let folders = folders.iter().map(|name| path(name)).collect();
             let roots: Vec<String> = roots.iter().map(|root| (*root).to_owned()).collect();
-            let includes = DiskIncludes::of_engine(folders, style, &roots);
+            let includes = DiskIncludes::new(Arc::new(Plain), folders, style, &roots);
             let found = includes.resolve(name, IncludeForm::Angled, &path(from).to_string_lossy());
             found.map(|included| included.text.trim().to_owned()).unwrap_or_else(|why| why)
         };

@@ -1,0 +1,70 @@
+//! Lowers gathers that no target has as they are (GLSL 4.00 §8.9.3): those of integers, and those with four offsets.
+//!
+//! *Holds:* four offsets are four gathers, each of which gives its last component, the texel i0 j0. Four texels of integers are
+//! four loads.
+
+use super::Try;
+use super::function::Ctx;
+use super::lacking;
+use super::slots::SamplerValue;
+use super::textures::Lookup;
+use glisten_front::builtin::operations::TextureForm;
+use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar};
+use naga::{Expression, Handle};
+
+/// The last component of a gather: the texel i0 j0.
+const FIRST_TEXEL: u32 = 3;
+/// Where the texels of a gather are, in its order.
+const SIDES: [[i32; 2]; 4] = [[0, 1], [1, 1], [1, 0], [0, 0]];
+
+impl Ctx<'_, '_> {
+    /// `textureGatherOffsets`
+    pub(super) fn gather_offsets(
+        &mut self,
+        ty: SamplerType,
+        value: SamplerValue,
+        form: TextureForm,
+        arguments: &[ExprId],
+    ) -> Try<Handle<Expression>> {
+        let mut lookup = self.lookup(ty, value, form, arguments)?;
+        let offsets = lookup.offset.take().unwrap_or_default();
+        let mut components = Vec::new();
+        for offset in offsets.chunks(2) {
+            lookup.offset = Some(offset.to_vec());
+            components.push(if ty.texel == Scalar::Float {
+                let base = self.sample(&lookup)?;
+                self.add(Expression::AccessIndex { base, index: FIRST_TEXEL })
+            } else {
+                self.gathered_integer(&lookup)?
+            });
+        }
+        let ty = self.low.vector_type(if ty.shadow { Scalar::Float } else { ty.texel }, 4);
+        Ok(self.add(Expression::Compose { ty, components }))
+    }
+
+    /// One component of four texels, each loaded by itself.
+    pub(super) fn integer_gather(&mut self, mut lookup: Lookup) -> Try<Handle<Expression>> {
+        if lookup.ty.dim == SamplerDim::Cube {
+            return Err(lacking(
+                self.here(),
+                format!("`textureGather` of a `{}`: integer textures have no sampler", lookup.ty.name()),
+                "look the four texels up with `texture`, or use a texture of floats",
+            ));
+        }
+        let own = lookup.offset.take().unwrap_or_else(|| vec![0, 0]);
+        let mut texels = Vec::new();
+        for side in SIDES {
+            lookup.offset = Some(own.iter().zip(side).map(|(own, side)| own.saturating_add(side)).collect());
+            texels.push(self.gathered_integer(&lookup)?);
+        }
+        let ty = self.low.vector_type(lookup.ty.texel, 4);
+        Ok(self.add(Expression::Compose { ty, components: texels }))
+    }
+
+    /// A component of the texel i0 j0 at the lookup's offset.
+    fn gathered_integer(&mut self, lookup: &Lookup) -> Try<Handle<Expression>> {
+        let index = lookup.gather.map_or(0, |component| component as u32);
+        let base = self.integer_lookup(lookup)?;
+        Ok(self.add(Expression::AccessIndex { base, index }))
+    }
+}

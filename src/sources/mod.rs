@@ -1,0 +1,15 @@
+//! Sources on disk: which stage a file is, what it includes, and how its engine completes it.
+//!
+//! *In:* paths of files, and [`Settings`]: flags, the tables of `glisten.toml`, or the methods of a build. *Out:* the stage that a
+//! name tells ([`stages`]), the resolver of includes ([`DiskIncludes`]), and what a compiler asks for
+//! ([`Settings::complete`]). *Holds:* the program and build scripts read sources alike; only [`Disk`] knows who reads, so each of
+//! them can remember what it has read.
+
+mod disk;
+mod includes;
+mod settings;
+pub(crate) mod stages;
+
+pub(crate) use disk::Disk;
+pub(crate) use includes::DiskIncludes;
+pub(crate) use settings::{Settings, members, parse_version};
