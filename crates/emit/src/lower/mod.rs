@@ -79,8 +79,9 @@ pub(crate) fn lower(
         let message = format!("the program `{}` has no {} stage", program.name, stage.name());
         return Err(vec![Diagnostic::new(&general::INTERNAL, Span::default(), message)]);
     };
-    if stage == Stage::Geometry {
-        return Err(vec![no_geometry(shader)]);
+    // What the vertex stage writes is for the geometry stage, and no target has that.
+    if let Some(geometry) = program.stage(Stage::Geometry).filter(|_| stage != Stage::Fragment) {
+        return Err(vec![no_geometry(geometry)]);
     }
     let mut facts = Facts::of(shader);
     facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);
