@@ -9,8 +9,8 @@ use super::clip_states;
 use super::statements::{assignment, literal, statement, variable};
 use crate::builtin::{BuiltinFunction, BuiltinVariable, fixed};
 use crate::hir::{
-    ArraySize, BinaryOp, DepthMode, ExprId, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation,
-    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, TypeId, Types, Value, VarRef,
+    ArraySize, DepthMode, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, ScalarValue, Shader, Stage,
+    Stmt, StmtKind, Storage, TypeId, Types, Value,
 };
 use crate::language::Scalar;
 use crate::source::Span;
