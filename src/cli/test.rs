@@ -145,6 +145,9 @@ fn backends(args: &TestArgs) -> Result<Vec<Named>, Failure> {
     Ok(backends)
 }
 
+/// The errors that say what a target or glisten lacks.
+const LIMITS: [&str; 3] = ["E0001", "E0801", "E0802"];
+
 struct GpuBackend {
     gpu: Gpu,
     via: Via,
@@ -156,6 +159,10 @@ impl TestBackend for GpuBackend {
         let scene = glisten_reference::expand(scene).map_err(|found| TestResult::Skip(first(&found)))?;
         match self.gpu.render(&scene, self.via) {
             Ok(rendered) => Ok(rendered.picture),
+            // What the target lacks, or what is not supported yet, is no mistake of the program.
+            Err(glisten_gpu::Error::Emit(found)) if found.iter().any(|one| LIMITS.contains(&one.code.id)) => {
+                Err(TestResult::Skip(first(&found)))
+            }
             Err(glisten_gpu::Error::Emit(diagnostics)) => Err(TestResult::Fail(first(&diagnostics))),
             Err(error @ glisten_gpu::Error::Unsupported(_)) => Err(TestResult::Skip(error.to_string())),
             Err(error) => Err(TestResult::Fail(error.to_string())),

@@ -124,7 +124,7 @@ impl Parameters {
         Some(())
     }
 
-    /// What a scene's texture has besides its filter.
+    /// The parameters of a scene's texture besides its filter.
     pub(super) fn sampling(&self, shadow: bool) -> Sampling {
         let magnify_linear = Some(self.mag.is_linear()).filter(|linear| *linear != self.min.is_linear());
         // The window's driver stores depth as fixed-point numbers.

@@ -127,6 +127,20 @@ fn mistakes_in_the_state_are_told() {
     assert!(wrong.contains("no state `gl_LightSource[9].diffuse`"), "{wrong}");
     let wrong = messages("[draw.uniforms]\n\"gl_Fog.color\" = [1, 1, 1]");
     assert!(wrong.contains("`gl_Fog.color` takes 4 numbers, not 3"), "{wrong}");
+    let combining = |keys: &str| {
+        let scene = format!(
+            "[[draw]]\nvertex = \"a.vert\"\n[draw.attributes]\ngl_Vertex = {{ size = 2, values = [-1, -1, 1, -1, -1, 1] }}\n\
+             [draw.fixed_function]\nunits = [{{ mode = \"combine\", {keys} }}]\n"
+        );
+        let files = MemoryFiles::new([("a.toml", scene.as_str()), ("a.vert", PASS)]);
+        let loaded = load("a.toml", &files, &crate::support::compiler());
+        loaded.diagnostics.iter().map(|found| found.message.clone()).collect::<Vec<_>>().join("; ")
+    };
+    assert!(combining("rgb_scale = 3").contains("`rgb_scale` is 1, 2 or 4"));
+    assert!(combining("combine_alpha = \"dot3_rgb\"").contains("`combine_alpha` cannot be `dot3_rgb`"));
+    assert!(combining("operand_alpha = [\"src_color\"]").contains("`operand_alpha` cannot be `src_color`"));
+    let crossed = combining("combine_rgb = \"replace\", source_rgb = [\"texture3\"]");
+    assert!(crossed.contains("the combiner reads `texture3`"), "{crossed}");
     let wrong = messages("[draw.uniforms]\ngl_FogColor = [1, 1, 1]");
     assert!(wrong.contains("gl_FogColor"), "{wrong}");
     let wrong = messages("[draw.fixed_function]\nlocal_view = true");

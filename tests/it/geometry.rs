@@ -1,5 +1,6 @@
 //! Geometry shaders: the reference against a GPU that draws what the host emits, and against draws without the stage.
 
+use crate::cli::{Folder, code, err};
 use crate::drawing::{complaint, from_disk, from_texts, gpu, reference, strict};
 use crate::support::{compiler, root};
 use glisten::scene::{MemoryFiles, Scene, load};
@@ -164,4 +165,32 @@ fn a_primitive_that_the_shader_does_not_take_is_an_error() {
     let found: Vec<_> = loaded.diagnostics.iter().filter(|found| found.is_error()).collect();
     assert_eq!(found.iter().map(|found| found.code.id).collect::<Vec<_>>(), ["E0912"]);
     assert!(found[0].help.as_deref().is_some_and(|help| help.contains("\"triangle_fan\"")), "{:?}", found[0].help);
+}
+
+#[test]
+fn reports_and_stability_of_scenes_with_geometry_shaders() {
+    let folder = Folder::new(&[]);
+    let scene = root().join("fixtures/scenes/geometry/invocations.toml").to_string_lossy().into_owned();
+    let report = folder.run(&["report", &scene, "--rounds", "3", "-o", "report"]);
+    assert_eq!(code(&report), 0, "{}", err(&report));
+    assert!(err(&report).contains("geometry stages ran on the host"), "{}", err(&report));
+    let stability = folder.run(&["stability", &scene]);
+    assert_eq!(code(&stability), 0, "{}", err(&stability));
+}
+
+#[test]
+fn each_primitive_is_seen_by_each_invocation() {
+    let vertex = "#version 400\nin vec2 at; void main() { gl_Position = vec4(at, 0.0, 1.0); }\n";
+    let fragment =
+        "#version 400\nflat in int from; out vec4 fc; void main() { fc = vec4(from, gl_PrimitiveID, 0.0, 1.0); }\n";
+    let geometry = "#version 400\nlayout(points, invocations = 3) in;\nlayout(points, max_vertices = 1) out;\n\
+                    flat out int from;\nvoid main() { from = gl_InvocationID; gl_PrimitiveID = gl_PrimitiveIDIn;\n\
+                    gl_Position = gl_in[0].gl_Position + vec4(gl_InvocationID * 0.5, 0.0, 0.0, 0.0); EmitVertex(); }\n";
+    let scene = "[framebuffer]\nwidth = 4\nheight = 2\n[[draw]]\nvertex = \"a.vert\"\ngeometry = \"a.geom\"\nfragment = \
+                 \"a.frag\"\nprimitive = \"points\"\nattributes = { at = { size = 2, values = [-0.75, 0.5, -0.75, -0.5] } }\n";
+    let files = [("a.toml", scene), ("a.vert", vertex), ("a.geom", geometry), ("a.frag", fragment)];
+    let picture = reference(&from_texts(files), Precision::F64);
+    let colors: Vec<[f64; 2]> = picture.attachments[0].iter().map(|color| [color[0], color[1]]).collect();
+    let row = |id: f64| [[0.0, id], [1.0, id], [2.0, id], [0.0, 0.0]];
+    assert_eq!(colors, [row(0.0), row(1.0)].concat());
 }

@@ -104,7 +104,7 @@ fn draw(api: &Api, framebuffer: &Framebuffer, linked: glow::Program, draw: &Draw
         .map(|number| if draw.program.writes_color(number) { glow::COLOR_ATTACHMENT0 + number } else { glow::NONE })
         .collect();
     api.draw_buffers(&places);
-    set_state(api, &draw.state);
+    set_state(api, &draw.state, draw.fixed.as_ref().map_or(0, |fixed| fixed.switches.disabled_distances));
     api.check("setting the state")?;
     let (mode, instances) = (mode(draw.state.primitive), draw.instances as i32);
     match &draw.indices {
@@ -117,14 +117,15 @@ fn draw(api: &Api, framebuffer: &Framebuffer, linked: glow::Program, draw: &Draw
     api.check("drawing")
 }
 
-fn set_state(api: &Api, state: &State) {
+/// Sets the state; `disabled` has a bit for each clip distance that is off below the last one that is on.
+fn set_state(api: &Api, state: &State, disabled: u8) {
     let switch = |what: u32, on: bool| if on { api.enable(what) } else { api.disable(what) };
     switch(glow::DITHER, false);
     // WebGPU has only seamless cubes, and scenes specify them.
     switch(glow::TEXTURE_CUBE_MAP_SEAMLESS, true);
     switch(glow::PROGRAM_POINT_SIZE, state.program_point_size);
     for plane in 0..8 {
-        switch(glow::CLIP_DISTANCE0 + plane, plane < state.clip_distances);
+        switch(glow::CLIP_DISTANCE0 + plane, plane < state.clip_distances && disabled >> plane & 1 == 0);
     }
     api.provoking_vertex(if state.provoking_last {
         glow::LAST_VERTEX_CONVENTION

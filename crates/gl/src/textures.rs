@@ -8,19 +8,20 @@ use super::api::{Api, Dimensions, PixelLayout, Size};
 use super::states::{compare, wrap};
 use super::texels::{layout, stored, texel_bytes};
 use super::{Error, multisample};
-use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type};
+use glisten_front::hir::{DepthMode, SamplerDim, SamplerType, Scalar, Stage, Type};
 use glisten_scene::{Draw, Framebuffer, Texture, TextureLevel};
 
 /// Binds all textures. The program must be current.
 pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &Framebuffer) -> Result<(), Error> {
     let units = api.max_units();
+    let mode = draw.program.stages.first().map_or_else(DepthMode::default, |shader| shader.depth_mode);
     let mut unit = 0;
     for (slot, texture) in draw.program.interface.samplers.iter().zip(&draw.textures) {
         let Type::Sampler(kind) = draw.program.types.get(slot.ty) else { continue };
         let own_unit = fixed_unit(draw, &slot.name);
         if let (Some(own_unit), Some(texture)) = (own_unit, texture) {
             api.active_texture(glow::TEXTURE0 + own_unit);
-            image(api, kind, texture)?;
+            image(api, kind, texture, mode)?;
             continue;
         }
         let (Some(location), Some(texture)) = (api.get_uniform_location(linked, &slot.name), texture) else { continue };
@@ -33,7 +34,7 @@ pub(super) fn bind(api: &Api, linked: glow::Program, draw: &Draw, framebuffer: &
         } else if kind.dim == SamplerDim::Multisample {
             multisample::upload(api, kind, texture, framebuffer, linked)?;
         } else {
-            image(api, kind, texture)?;
+            image(api, kind, texture, mode)?;
         }
         api.uniform_1_i32(Some(&location), unit as i32);
         api.check(&format!("making the texture of `{}`", slot.name))?;
@@ -66,11 +67,14 @@ fn target(kind: SamplerType) -> Result<(u32, Dimensions), Error> {
     })
 }
 
-fn image(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> {
+fn image(api: &Api, kind: SamplerType, texture: &Texture, mode: DepthMode) -> Result<(), Error> {
     let (target, dimensions) = target(kind)?;
     let made = api.create_texture().map_err(Error::Refused)?;
     api.bind_texture(target, Some(made));
     parameters(api, target, kind, texture);
+    if kind.shadow && mode != DepthMode::default() {
+        api.tex_parameter_i32(target, DEPTH_TEXTURE_MODE, depth_mode(mode) as i32);
+    }
     for (number, level) in (0..).zip(&texture.levels) {
         let bytes = texel_bytes(&level.texels, kind);
         let filled = if kind.dim == SamplerDim::Cube && !kind.arrayed {
@@ -84,6 +88,18 @@ fn image(api: &Api, kind: SamplerType, texture: &Texture) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// `GL_DEPTH_TEXTURE_MODE` (OpenGL 2.1 table 3.20), which only a compatibility context has.
+const DEPTH_TEXTURE_MODE: u32 = 0x884B;
+
+fn depth_mode(mode: DepthMode) -> u32 {
+    match mode {
+        DepthMode::Luminance => 0x1909,
+        DepthMode::Intensity => 0x8049,
+        DepthMode::Alpha => 0x1906,
+        DepthMode::Red => glow::RED,
+    }
 }
 
 /// The size as OpenGL counts it: the layers of a one-dimensional array are its rows.

@@ -1,4 +1,4 @@
-//! What WebGPU or drivers do not have, and how a draw that needs it is refused.
+//! Refuses draws that need features which WebGPU or drivers do not have.
 //!
 //! *In:* a draw. *Out:* an error that names the feature. *Holds:* a driver never gets a program that makes it run out of memory.
 

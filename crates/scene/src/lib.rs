@@ -17,7 +17,6 @@ mod model;
 pub mod picture;
 pub mod random;
 mod reads;
-mod sampling;
 pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
@@ -25,7 +24,6 @@ pub use library::{Library, NoLibrary};
 pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, write};
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer,
-    Primitive, Scene, State, Texels, Texture, TextureLevel, Wrap,
+    Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 pub use reads::scene_values_read;
-pub use sampling::Sampling;

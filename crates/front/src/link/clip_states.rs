@@ -3,7 +3,7 @@
 //! *In:* the stage before the rasterizer, and the bits of the disabled distances. *Out:* statements for its end. *Holds:* a
 //! distance of 0 clips nothing, so that it has no effect, as GLSL 1.50 §7.1 says of a distance that is not enabled.
 
-use super::fixed::{assignment, literal, variable};
+use super::statements::{assignment, literal, variable};
 use crate::builtin::BuiltinVariable;
 use crate::hir::{ArraySize, ExprKind, ScalarValue, Shader, Stmt, Storage, Type, TypeId, Types};
 use crate::language::Scalar;

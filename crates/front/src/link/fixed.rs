@@ -6,10 +6,11 @@
 //! this state, so that every target and the reference do the same. A program without these variables is left as it is.
 
 use super::clip_states;
+use super::statements::{assignment, literal, statement, variable};
 use crate::builtin::{BuiltinFunction, BuiltinVariable, fixed};
 use crate::hir::{
-    ArraySize, BinaryOp, DepthMode, ExprId, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation,
-    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, TypeId, Types, Value, VarRef,
+    ArraySize, DepthMode, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, ScalarValue, Shader, Stage,
+    Stmt, StmtKind, Storage, TypeId, Types, Value,
 };
 use crate::language::Scalar;
 use crate::source::Span;
@@ -268,24 +269,4 @@ fn global(name: &str, ty: TypeId, storage: Storage) -> Global {
         written: false,
         span: Span::default(),
     }
-}
-
-pub(super) fn variable(shader: &mut Shader, id: GlobalId) -> ExprId {
-    let ty = shader.global(id).ty;
-    shader.push(ExprKind::Var(VarRef::Global(id)), ty, Span::default())
-}
-
-pub(super) fn literal(shader: &mut Shader, value: ScalarValue, ty: TypeId) -> ExprId {
-    shader.push(ExprKind::Literal(value), ty, Span::default())
-}
-
-fn statement(kind: StmtKind) -> Stmt {
-    Stmt { kind, span: Span::default() }
-}
-
-pub(super) fn assignment(shader: &mut Shader, target: ExprId, value: ExprId) -> Stmt {
-    let ty = shader.expr(target).ty;
-    let no_operator: Option<BinaryOp> = None;
-    let assigned = shader.push(ExprKind::Assign(no_operator, target, value), ty, Span::default());
-    statement(StmtKind::Expr(assigned))
 }

@@ -26,6 +26,7 @@
 //! | `uniforms`, `samplers` | the variables that are constant during a draw, with locations and bindings |
 //! | `layout` | std140 |
 //! | `fixed` | clamped colors, the color of a side, clip planes: state of the fixed-function pipeline as statements |
+//! | `statements` | expressions and statements that a link adds |
 //! | `partial` | checks between stages with errors |
 
 mod aliasing;
@@ -52,6 +53,7 @@ mod program;
 mod remap;
 mod samplers;
 mod stages;
+mod statements;
 mod uniforms;
 pub mod usage;
 mod varyings;

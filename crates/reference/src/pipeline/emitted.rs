@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The largest number of vertices that a draw emits for one instance.
 pub(super) const MAX_EMITTED: usize = 1 << 22;
 
-/// What one invocation of the stage gets: a primitive, which several invocations may get one after the other.
+/// The input of one invocation of the stage: a primitive, which several invocations may get one after the other.
 #[derive(Clone, Debug)]
 struct Input {
     /// `gl_PrimitiveIDIn`

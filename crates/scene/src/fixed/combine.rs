@@ -14,7 +14,7 @@ pub struct Combine {
     pub alpha: Combination,
 }
 
-/// What one half computes.
+/// The computation of one half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Combination {
     /// The function of the arguments.
@@ -25,12 +25,12 @@ pub struct Combination {
     pub scale: u8,
 }
 
-/// An argument: a color and what is taken of it.
+/// An argument: a color and the part that is taken of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CombineArgument {
     /// The color.
     pub source: CombineSource,
-    /// What is taken of it.
+    /// The part that is taken of it.
     pub operand: CombineOperand,
 }
 

@@ -158,7 +158,7 @@ pub struct TextureUnit {
     pub target: TextureTarget,
     /// Its effect on the color.
     pub mode: EnvironmentMode,
-    /// What [`EnvironmentMode::Combine`] computes.
+    /// The functions of [`EnvironmentMode::Combine`].
     pub combine: Combine,
     /// How its coordinates are generated; `None`: they are the vertex's.
     pub generate: Option<TexGen>,

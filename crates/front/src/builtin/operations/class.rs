@@ -116,7 +116,7 @@ plain!(
     Derivative { X, Y, Width, XFine, YFine, WidthFine, XCoarse, YCoarse, WidthCoarse }
 );
 plain!(
-    /// What a derivative is along.
+    /// The axis of a derivative.
     DerivativeAxis { X, Y, Width }
 );
 plain!(

@@ -128,6 +128,34 @@ fn an_endless_loop_ends_and_is_reported() {
 }
 
 #[test]
+fn calls_that_no_machine_could_make_end_the_run_only_where_a_lane_reaches_them() {
+    let mut functions = String::from("float f0(float x) { return exp(x); }\n");
+    for number in 1..64 {
+        let before = number - 1;
+        functions += &format!("float f{number}(float x) {{ return f{before}(x) + f{before}(x + 1.0); }}\n");
+    }
+    let program =
+        compiled(&format!("in float a; {functions} void main() {{ o = vec4(1); if (a > 5.0) o.x = f63(a); }}"));
+    let machine = ran::<F64>(&program, &[], |_, _| 0.0);
+    assert!(!machine.budget_exceeded());
+    assert_eq!(output(&program, &machine)[3][0], 1.0);
+    assert!(ran::<F64>(&program, &[], |_, lane| lane as f64).budget_exceeded());
+    assert!(ran::<Envelope>(&program, &[], |_, lane| lane as f64).budget_exceeded());
+    let short = compiled(&format!("in float a; {functions} void main() {{ o = vec4(f3(a)); }}"));
+    assert!(!ran::<F64>(&short, &[], |_, _| 0.0).budget_exceeded());
+}
+
+#[test]
+fn derivatives_with_control_are_of_the_own_row_or_of_the_whole_quad() {
+    let header = "#extension GL_ARB_derivative_control : require\n";
+    let body =
+        "in float a; void main() { o = vec4(dFdxFine(a * a), dFdyFine(a * a), dFdxCoarse(a * a), fwidthFine(a)); }";
+    let lanes = run_in::<F64>(&format!("\n{header}{body}"), |_, lane| [0.0, 10.0, 100.0, 110.0][lane % 4]);
+    assert_eq!(lanes[0], [100.0, -10_000.0, 100.0, 110.0]);
+    assert_eq!(lanes[3], [2100.0, -12_000.0, 100.0, 110.0]);
+}
+
+#[test]
 fn derivatives_are_differences_in_quads_with_y_up() {
     // a = 10 x + 100 row; x and row count within the quad, the upper row first.
     let body = "in float a; void main() { o = vec4(dFdx(a * a), dFdy(a), fwidth(a), dFdx(3.0)); }";
