@@ -7,12 +7,13 @@ use crate::scenery;
 use crate::tools::{Ended, run};
 use glisten::cli::survey::{Surveyed, covering};
 use glisten::emit::{Conventions, Emitted, Target, emit};
-use glisten::{Program, Stage};
+use glisten::{Compiler, Program, Source, Stage};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The time that a compiler of others has for a program, and a driver for its pictures.
@@ -100,7 +101,10 @@ impl Checked {
             match emit(program, shader.stage, Target::Wgsl, &Conventions::default()) {
                 Ok(Emitted::Text(text)) => {
                     worse(&mut self.naga, naga(&text));
-                    worse(&mut self.tint, tool(Command::new("tint").args(["--format", "wgsl"]), "a.wgsl", text.as_bytes(), folder));
+                    worse(
+                        &mut self.tint,
+                        tool(Command::new("tint").args(["--format", "wgsl"]), "a.wgsl", text.as_bytes(), folder),
+                    );
                 }
                 Ok(Emitted::Words(_)) => {}
                 Err(found) => {
@@ -139,14 +143,18 @@ fn told(error: &Diagnostic, sources: &SourceMap) -> String {
     format!("{} {} ({file}:{line})", error.code.id, error.message)
 }
 
-/// Writes a text for other programs. Returns the file.
-fn write(stage: Stage, text: &str, folder: &Path) -> Option<String> {
-    let ending = match stage {
+/// The ending by which other programs know a stage.
+fn ending(stage: Stage) -> &'static str {
+    match stage {
         Stage::Vertex => "vert",
         Stage::Fragment => "frag",
         Stage::Geometry => "geom",
-    };
-    let file = folder.join(format!("a.{ending}"));
+    }
+}
+
+/// Writes a text for other programs. Returns the file.
+fn write(stage: Stage, text: &str, folder: &Path) -> Option<String> {
+    let file = folder.join(format!("a.{}", ending(stage)));
     std::fs::write(&file, text).ok()?;
     Some(file.to_string_lossy().into_owned())
 }
@@ -199,7 +207,8 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
     if has(Stage::Geometry) || !has(Stage::Fragment) {
         return Answer::Without("no pair".to_owned());
     }
-    let mut files = Vec::new();
+    let mut files: Vec<(&str, String)> = Vec::new();
+    let mut whole = None;
     if !has(Stage::Vertex) {
         let text = match covering(program) {
             Ok(text) => text,
@@ -207,10 +216,16 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
         };
         let Some(file) = write(Stage::Vertex, &text, folder) else { return Answer::Open };
         files.push(("vertex", file));
+        let fragment = program.stage(Stage::Fragment).and_then(|shader| shader.texts.first().cloned());
+        let source = |stage, text: Arc<str>| Source { name: format!("a.{}", ending(stage)), text, stage };
+        let sources = [(Stage::Vertex, text.into()), (Stage::Fragment, fragment.unwrap_or_default())];
+        let sources = sources.map(|(stage, text)| source(stage, text));
+        whole = Compiler::new(Default::default()).compile(&sources).program;
     }
     for file in written {
         files.push((if file.ends_with(".vert") { "vertex" } else { "fragment" }, file.clone()));
     }
+    let program = whole.as_ref().unwrap_or(program);
     let scene = folder.join("a.toml");
     if let Err(error) = std::fs::write(&scene, scenery::scene(program, &files)) {
         return Answer::Without(error.to_string());

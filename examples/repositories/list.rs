@@ -37,7 +37,7 @@ pub(crate) struct Repository {
     /// The text that the engine puts before each source.
     #[serde(default)]
     pub(crate) prelude: Option<String>,
-    /// Endings of other names with shaders in them, for each the stage: `.html`, whose scripts are shaders.
+    /// Endings of pages whose scripts are shaders.
     #[serde(default)]
     pub(crate) scripts: Vec<String>,
     /// Parts of paths that are left out, and are no complete shaders by what the repository says itself.

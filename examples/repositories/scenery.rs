@@ -92,8 +92,7 @@ fn direction([u, v]: Place) -> DVec3 {
 }
 
 fn attributes(text: &mut String, program: &Program) {
-    let active: Vec<&Attribute> =
-        program.interface.attributes.iter().filter(|attribute| attribute.active).collect();
+    let active: Vec<&Attribute> = program.interface.attributes.iter().filter(|attribute| attribute.active).collect();
     let sphere = sphere();
     if active.is_empty() {
         let _ = writeln!(text, "vertex_count = {}", sphere.len());
@@ -182,11 +181,8 @@ fn uniforms(text: &mut String, program: &Program) {
                 Scalar::Int | Scalar::Uint => whole(value),
             })
             .collect();
-        let told = if told.len() == 1 && leaf.array_size.is_none() {
-            told.concat()
-        } else {
-            format!("[{}]", told.join(","))
-        };
+        let told =
+            if told.len() == 1 && leaf.array_size.is_none() { told.concat() } else { format!("[{}]", told.join(",")) };
         let _ = writeln!(text, "{} = {told}", quoted(&leaf.name));
     }
 }
@@ -231,7 +227,11 @@ fn matrix(name: &str, [columns, rows]: [u32; 2], projects: bool) -> Vec<f64> {
 /// A number of a uniform.
 fn number_of(name: &str, scalar: Scalar, index: usize) -> f64 {
     if scalar != Scalar::Float {
-        return if has(name, &["count", "num", "samples", "iter", "steps", "size"]) { 2.0 } else { f64::from(index % 2 == 0) };
+        return if has(name, &["count", "num", "samples", "iter", "steps", "size"]) {
+            2.0
+        } else {
+            f64::from(index % 2 == 0)
+        };
     }
     static BY_NAME: &[(&[&str], f64)] = &[
         (&["texel", "pixelsize", "invres"], 1.0 / SIDE as f64),

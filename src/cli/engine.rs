@@ -12,12 +12,13 @@ use super::includes::DiskIncludes;
 use super::rules::Rule;
 use super::stages;
 use super::trace::{self, Trace};
-use crate::engines::{self, Member, Profile, Style, combined};
+use crate::engines::{self, GameProgram, Member, Profile, Style, combined};
 use glisten_front::compiler::{Preparation, Prepared, Source};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
 use glisten_front::source::{Completion, Prelude, blanked};
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -41,7 +42,12 @@ pub(super) struct Engines {
     flags: Arc<Flags>,
     /// The rules of each folder so far.
     rules: Arc<Mutex<BTreeMap<PathBuf, Known>>>,
+    /// The programs that files of JSON in each folder describe, by the names of the files.
+    programs: Arc<Mutex<BTreeMap<PathBuf, Programs>>>,
 }
+
+/// Programs by the names of their files, without the extension.
+type Programs = Arc<BTreeMap<String, GameProgram>>;
 
 /// The rules of a folder, and what was read for them.
 type Known = (Arc<Vec<Rule>>, Arc<Trace>);
@@ -77,7 +83,7 @@ impl Engines {
             preludes,
             folders: args.include_dirs.clone(),
         };
-        Ok(Self { flags: Arc::new(flags), rules: Arc::default() })
+        Ok(Self { flags: Arc::new(flags), rules: Arc::default(), programs: Arc::default() })
     }
 
     /// The resolver of includes for sources that no engine completes.
@@ -136,6 +142,23 @@ impl Engines {
         settings
     }
 
+    /// The macros of the program that a file belongs to: of several, the one with its name, otherwise the first.
+    fn macros_of_program(&self, source: &Source) -> Vec<(String, String)> {
+        let path = Path::new(&source.name);
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut known = self.programs.lock().unwrap_or_else(PoisonError::into_inner);
+        let programs = Arc::clone(known.entry(folder.to_owned()).or_insert_with(|| Arc::new(programs_in(folder))));
+        drop(known);
+        if !programs.is_empty() {
+            // The result depends on which files there are.
+            trace::beyond();
+        }
+        let own = path.file_stem().and_then(|stem| programs.get(&*stem.to_string_lossy()));
+        let fits = |program: &&GameProgram| program.has(source.stage, path);
+        let program = own.filter(fits).or_else(|| programs.values().find(fits));
+        program.map(|program| program.defines().collect()).unwrap_or_default()
+    }
+
     /// The stage that the flags and the tables give to a file whose name tells none.
     pub(super) fn stage(&self, path: &Path) -> Option<Stage> {
         let settings = self.settings(Some(path));
@@ -174,7 +197,8 @@ impl Settings {
         let roots = self.profile.map_or(&[][..], |profile| &profile.roots);
         let mut version = self.version.or(self.profile.and_then(|profile| profile.version.clone()));
         let own = prepared.text.as_ref().unwrap_or(&source.text);
-        if let Some((profile, line)) = self.profile.and_then(|profile| Some((profile, profile.old_version_line(own)?))) {
+        if let Some((profile, line)) = self.profile.and_then(|profile| Some((profile, profile.old_version_line(own)?)))
+        {
             prepared.text = Some(blanked(own, &[line]));
             version.clone_from(&profile.least_version);
         }
@@ -199,6 +223,24 @@ impl Settings {
         let includes = DiskIncludes::of_engine(self.folders, style.unwrap_or(Style::Quote), roots);
         prepared.includes = Some(Arc::new(includes));
     }
+}
+
+/// The programs with macros that files of JSON in a folder describe.
+fn programs_in(folder: &Path) -> BTreeMap<String, GameProgram> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let mut programs = BTreeMap::new();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).filter(|_| is_json);
+        let Some(stem) = stem else { continue };
+        let text = files::read(&path.to_string_lossy(), &path).ok();
+        let program = text.and_then(|bytes| GameProgram::read(&String::from_utf8_lossy(&bytes)));
+        if let Some(program) = program.filter(GameProgram::has_defines) {
+            programs.insert(stem, program);
+        }
+    }
+    programs
 }
 
 /// The file next to a source that its engine reads before it.
@@ -257,6 +299,9 @@ impl Preparation for Engines {
         }
         let settings = self.settings(path);
         if !settings.is_plain() || !settings.folders.is_empty() {
+            if settings.profile.is_some_and(|profile| profile.has_program_files) {
+                prepared.defines.extend(self.macros_of_program(source));
+            }
             let has_header = settings.profile.is_some_and(|profile| profile.has_isf_header);
             let header = if has_header { header_of(source, path) } else { Arc::clone(&source.text) };
             settings.complete(source, &header, &mut prepared);

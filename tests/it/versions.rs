@@ -72,9 +72,9 @@ fn probe(feature: Feature) -> Option<(Stage, &'static str)> {
         F::DynamicConstants => vertex("uniform float a; void main() { const float b = a; gl_Position = vec4(b); }"),
         F::QualifierOrder => vertex("out flat vec4 a; void main() { gl_Position = a = vec4(1.0); }"),
         F::DepthLayouts => fragment("layout(depth_less) out float gl_FragDepth; void main() { gl_FragDepth = 0.5; }"),
-        F::BuiltinsHidden => {
-            vertex("float dot(vec2 a) { return a.x; } void main() { gl_Position = vec4(dot(vec2(1.0))); }")
-        }
+        F::BuiltinsHidden => vertex(
+            "float dot(vec2 a, vec2 b) { return a.x * b.x; } void main() { gl_Position = vec4(dot(vec2(1.0), vec2(1.0))); }",
+        ),
         F::NamelessStructs => vertex("struct { vec4 a; } s; void main() { s.a = vec4(1.0); gl_Position = s.a; }"),
         _ => None,
     }
