@@ -201,6 +201,16 @@ fn again(task: &str) -> Command {
     command
 }
 
+/// Lets a text of OpenGL ES compute in `highp`: with less, Mesa computes in 16 bits, which the language allows and no envelope has.
+fn highest_precision(file: &str) {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let new = ["mediump", "lowp"].iter().fold(text.clone(), |text, word| text.replace(word, "highp"));
+    if new != text {
+        // The old text is as good for all but the comparison.
+        let _ = std::fs::write(file, new);
+    }
+}
+
 /// Draws a program that has no scene.
 fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
     let has = |stage: Stage| program.stage(stage).is_some();
@@ -226,6 +236,9 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
         files.push((if file.ends_with(".vert") { "vertex" } else { "fragment" }, file.clone()));
     }
     let program = whole.as_ref().unwrap_or(program);
+    for (_, file) in &files {
+        highest_precision(file);
+    }
     let scene = folder.join("a.toml");
     if let Err(error) = std::fs::write(&scene, scenery::scene(program, &files)) {
         return Answer::Without(error.to_string());
