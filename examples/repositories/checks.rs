@@ -246,7 +246,10 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
     match run(again("--draw").arg(&scene), folder, LIMIT) {
         Ended::Well(text) if text.contains("inconclusive") => Answer::Without(text.trim().to_owned()),
         Ended::Well(_) => Answer::Good,
-        Ended::Badly(text) => Answer::Bad(text.lines().next().unwrap_or_default().to_owned()),
+        Ended::Badly(text) => {
+            let line = text.lines().find(|line| !line.contains("inconclusive")).unwrap_or_default();
+            Answer::Bad(line.to_owned())
+        }
         Ended::Late => Answer::Without("drawing takes too long".to_owned()),
         Ended::Missing => Answer::Open,
     }
