@@ -7,12 +7,13 @@ use crate::scenery;
 use crate::tools::{Ended, run};
 use glisten::cli::survey::{Surveyed, covering};
 use glisten::emit::{Conventions, Emitted, Target, emit};
-use glisten::{Program, Stage};
+use glisten::{Compiler, Program, Source, Stage};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::path::Path;
 use std::process::Command;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The time that a compiler of others has for a program, and a driver for its pictures.
@@ -142,14 +143,18 @@ fn told(error: &Diagnostic, sources: &SourceMap) -> String {
     format!("{} {} ({file}:{line})", error.code.id, error.message)
 }
 
-/// Writes a text for other programs. Returns the file.
-fn write(stage: Stage, text: &str, folder: &Path) -> Option<String> {
-    let ending = match stage {
+/// The ending by which other programs know a stage.
+fn ending(stage: Stage) -> &'static str {
+    match stage {
         Stage::Vertex => "vert",
         Stage::Fragment => "frag",
         Stage::Geometry => "geom",
-    };
-    let file = folder.join(format!("a.{ending}"));
+    }
+}
+
+/// Writes a text for other programs. Returns the file.
+fn write(stage: Stage, text: &str, folder: &Path) -> Option<String> {
+    let file = folder.join(format!("a.{}", ending(stage)));
     std::fs::write(&file, text).ok()?;
     Some(file.to_string_lossy().into_owned())
 }
@@ -196,13 +201,24 @@ fn again(task: &str) -> Command {
     command
 }
 
+/// Lets a text of OpenGL ES compute in `highp`: with less, Mesa computes in 16 bits, which the language allows and no envelope has.
+fn highest_precision(file: &str) {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let new = ["mediump", "lowp"].iter().fold(text.clone(), |text, word| text.replace(word, "highp"));
+    if new != text {
+        // The old text is as good for all but the comparison.
+        let _ = std::fs::write(file, new);
+    }
+}
+
 /// Draws a program that has no scene.
 fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
     let has = |stage: Stage| program.stage(stage).is_some();
     if has(Stage::Geometry) || !has(Stage::Fragment) {
         return Answer::Without("no pair".to_owned());
     }
-    let mut files = Vec::new();
+    let mut files: Vec<(&str, String)> = Vec::new();
+    let mut whole = None;
     if !has(Stage::Vertex) {
         let text = match covering(program) {
             Ok(text) => text,
@@ -210,9 +226,18 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
         };
         let Some(file) = write(Stage::Vertex, &text, folder) else { return Answer::Open };
         files.push(("vertex", file));
+        let fragment = program.stage(Stage::Fragment).and_then(|shader| shader.texts.first().cloned());
+        let source = |stage, text: Arc<str>| Source { name: format!("a.{}", ending(stage)), text, stage };
+        let sources = [(Stage::Vertex, text.into()), (Stage::Fragment, fragment.unwrap_or_default())];
+        let sources = sources.map(|(stage, text)| source(stage, text));
+        whole = Compiler::new(Default::default()).compile(&sources).program;
     }
     for file in written {
         files.push((if file.ends_with(".vert") { "vertex" } else { "fragment" }, file.clone()));
+    }
+    let program = whole.as_ref().unwrap_or(program);
+    for (_, file) in &files {
+        highest_precision(file);
     }
     let scene = folder.join("a.toml");
     if let Err(error) = std::fs::write(&scene, scenery::scene(program, &files)) {
@@ -221,7 +246,10 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
     match run(again("--draw").arg(&scene), folder, LIMIT) {
         Ended::Well(text) if text.contains("inconclusive") => Answer::Without(text.trim().to_owned()),
         Ended::Well(_) => Answer::Good,
-        Ended::Badly(text) => Answer::Bad(text.lines().next().unwrap_or_default().to_owned()),
+        Ended::Badly(text) => {
+            let line = text.lines().find(|line| !line.contains("inconclusive")).unwrap_or_default();
+            Answer::Bad(line.to_owned())
+        }
         Ended::Late => Answer::Without("drawing takes too long".to_owned()),
         Ended::Missing => Answer::Open,
     }

@@ -37,7 +37,7 @@ pub(crate) struct Repository {
     /// The text that the engine puts before each source.
     #[serde(default)]
     pub(crate) prelude: Option<String>,
-    /// Endings of other names with shaders in them, for each the stage: `.html`, whose scripts are shaders.
+    /// Endings of pages whose scripts are shaders.
     #[serde(default)]
     pub(crate) scripts: Vec<String>,
     /// Parts of paths that are left out, and are no complete shaders by what the repository says itself.
@@ -49,7 +49,7 @@ pub(crate) struct Repository {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Note {
-    /// The repository.
+    /// The repository, or `*` for all.
     pub(crate) repository: String,
     /// A part of the path or of the message.
     pub(crate) about: String,
@@ -73,7 +73,8 @@ impl List {
     /// The explanation of a disagreement.
     pub(crate) fn because(&self, repository: &str, path: &str, message: &str) -> Option<&str> {
         let fits = |note: &&Note| {
-            note.repository == repository && (path.contains(&note.about) || message.contains(&note.about))
+            ["*", repository].contains(&note.repository.as_str())
+                && (path.contains(&note.about) || message.contains(&note.about))
         };
         self.note.iter().find(fits).map(|note| note.because.as_str())
     }

@@ -1,12 +1,13 @@
 //! Measures glisten on public repositories: who accepts which programs, whether the code is valid, whether the pictures agree.
 //!
 //! ```sh
-//! cargo run --release --features gl --example repositories -- FOLDER [--only NAME] [--pictures N] [--list] [-o FILE]
+//! cargo run --release --features gl --example repositories -- FOLDER [--only NAME] [--pictures N] [--list] [--keep DIR] [-o FILE]
 //! ```
 //!
 //! `FOLDER` contains a folder `owner+name` for each repository of `repositories.toml`. Those that are missing are left out. With
 //! `--only`, repositories whose names contain the text; with `--pictures`, at most so many programs of each are drawn, evenly
-//! chosen (default: 40); with `--list`, everything that was found is printed; with `-o`, the tables go to a file, too.
+//! chosen (default: 40); with `--list`, everything that was found is printed; with `--keep`, the files of each program stay in a
+//! folder of their own below `DIR`; with `-o`, the tables go to a file.
 //! It needs `glslangValidator`, `tint`, `spirv-val`, a Vulkan software adapter and Mesa.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
@@ -38,16 +39,19 @@ struct Arguments {
     only: Option<String>,
     pictures: usize,
     list: bool,
+    keep: Option<PathBuf>,
     output: Option<PathBuf>,
 }
 
 fn arguments(mut words: impl Iterator<Item = String>) -> Option<Arguments> {
-    let mut found = Arguments { folder: words.next()?.into(), only: None, pictures: 40, list: false, output: None };
+    let mut found =
+        Arguments { folder: words.next()?.into(), only: None, pictures: 40, list: false, keep: None, output: None };
     while let Some(word) = words.next() {
         match word.as_str() {
             "--only" => found.only = Some(words.next()?),
             "--pictures" => found.pictures = words.next()?.parse().ok()?,
             "--list" => found.list = true,
+            "--keep" => found.keep = Some(words.next()?.into()),
             "-o" => found.output = Some(words.next()?.into()),
             _ => return None,
         }
@@ -63,7 +67,7 @@ fn main() -> ExitCode {
         _ => {}
     }
     let Some(arguments) = arguments(words.into_iter()) else {
-        eprintln!("usage: repositories FOLDER [--only NAME] [--pictures N] [--list] [-o FILE]");
+        eprintln!("usage: repositories FOLDER [--only NAME] [--pictures N] [--list] [--keep DIR] [-o FILE]");
         return ExitCode::from(2);
     };
     let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn(move || measure(&arguments));
@@ -89,7 +93,7 @@ fn measure(arguments: &Arguments) -> Result<(), String> {
         if kind != repository.kind {
             kind = &repository.kind;
             of_kind += 1;
-            lines.push(format!("| **{kind}** | | | | | | | | | | | | |"));
+            lines.push(format!("| **{kind}** | | | | | | | | | | | | | |"));
         }
         let row = one(repository, arguments)?;
         let line = row.line(&repository.shown(), &repository.commit);
@@ -140,7 +144,10 @@ fn one(repository: &Repository, arguments: &Arguments) -> Result<Row, String> {
         // Evenly: the index enters a new one of `drawn` parts.
         let draws = arguments.pictures > 0
             && (index == 0 || index * drawn / programs.len() != (index - 1) * drawn / programs.len());
-        let mut checked = Checked::new(program, &texts(program), work.path(), draws);
+        let own = arguments.keep.as_ref().map(|keep| keep.join(repository.folder()).join(format!("{index:04}")));
+        let folder = own.as_deref().unwrap_or(work.path());
+        std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
+        let mut checked = Checked::new(program, &texts(program), folder, draws);
         for (name, _) in &mut checked.files {
             for prefix in [root.as_path(), work.path()] {
                 if let Ok(inside) = Path::new(name.as_str()).strip_prefix(prefix) {

@@ -18,7 +18,7 @@ const SQUARES: [u32; 2] = [8, 6];
 /// Numbers that a line spells out; a longer array stays 0.
 const MOST: usize = 4096;
 /// The width and height of a flat texture: so many that neighbors hardly differ, and the weights of linear filters matter little.
-const TEXELS: usize = 64;
+const TEXELS: usize = 128;
 /// The width and height of other textures.
 const FEW_TEXELS: usize = 16;
 
@@ -235,7 +235,7 @@ fn number_of(name: &str, scalar: Scalar, index: usize) -> f64 {
     }
     static BY_NAME: &[(&[&str], f64)] = &[
         (&["texel", "pixelsize", "invres"], 1.0 / SIDE as f64),
-        (&["resolution", "viewport", "screensize", "size", "dimension"], SIDE as f64),
+        (&["resolution", "viewport", "viewwidth", "viewheight", "screensize", "size", "dimension"], SIDE as f64),
         (&["time"], 1.25),
         (&["near"], 0.1),
         (&["far"], 100.0),

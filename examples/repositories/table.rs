@@ -14,6 +14,8 @@ pub(crate) struct Row {
     accepted: usize,
     elsewhere: usize,
     both: usize,
+    /// Refused with the name of a feature that glisten does not read.
+    unread: usize,
     naga: Share,
     tint: Share,
     spirv: Share,
@@ -49,9 +51,12 @@ impl Share {
 }
 
 /// The head of the table.
-pub(crate) const HEAD: &str = "| repository | commit | texts | programs | accepted | glslang or Mesa accepts | of these | WGSL by naga \
+pub(crate) const HEAD: &str = "| repository | commit | texts | programs | accepted | glslang or Mesa accepts | of these | not read | WGSL by naga \
     | by Tint | SPIR-V by spirv-val | same picture | inconclusive | slowest |\n\
-    | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
+    | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
+
+/// The codes for features, and for extensions, that glisten does not read.
+const UNREAD: [&str; 2] = ["E0001", "E0125"];
 
 impl Row {
     /// Adds a program.
@@ -84,6 +89,7 @@ impl Row {
         if !accepted && elsewhere {
             let who = if checked.glslang == Answer::Good { "glslang" } else { "Mesa" };
             if let Answer::Bad(why) = &checked.glisten {
+                self.unread += usize::from(UNREAD.iter().any(|code| why.starts_with(code)));
                 self.found.push(("refused", files.clone(), format!("{why}; {who} accepts it")));
             }
         } else if let Answer::Bad(why) = &checked.glisten {
@@ -113,6 +119,7 @@ impl Row {
         self.accepted += other.accepted;
         self.elsewhere += other.elsewhere;
         self.both += other.both;
+        self.unread += other.unread;
         self.naga.plus(other.naga);
         self.tint.plus(other.tint);
         self.spirv.plus(other.spirv);
@@ -128,11 +135,11 @@ impl Row {
             all => format!("{:.1} %", 100.0 * share.good as f64 / all as f64),
         };
         let of_these = percent(Share { good: self.both, all: self.elsewhere });
-        let Self { texts, programs, accepted, elsewhere, open, .. } = self;
+        let Self { texts, programs, accepted, elsewhere, unread, open, .. } = self;
         let [naga, tint, spirv, picture] = [self.naga, self.tint, self.spirv, self.picture].map(Share::shown);
         let slowest = format!("{:.2} s", self.slowest.as_secs_f64());
         format!(
-            "| {name} | {commit} | {texts} | {programs} | {accepted} | {elsewhere} | {of_these} | {naga} | {tint} | {spirv} \
+            "| {name} | {commit} | {texts} | {programs} | {accepted} | {elsewhere} | {of_these} | {unread} | {naga} | {tint} | {spirv} \
              | {picture} | {open} | {slowest} |"
         )
     }

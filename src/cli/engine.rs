@@ -11,7 +11,7 @@ use super::files;
 use super::rules::Rule;
 use super::trace::{self, Trace};
 use crate::engines::{self, Profile, Style};
-use crate::sources::{Disk, DiskIncludes, Settings};
+use crate::sources::{Disk, DiskIncludes, ProgramFiles, Settings};
 use glisten_front::compiler::{Preparation, Prepared, Source};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
@@ -29,6 +29,7 @@ pub(super) struct Engines {
     flags: Arc<Flags>,
     /// The rules of each folder so far.
     rules: Arc<Mutex<BTreeMap<PathBuf, Known>>>,
+    programs: ProgramFiles,
 }
 
 /// The rules of a folder, and what was read for them.
@@ -65,7 +66,7 @@ impl Engines {
             preludes,
             folders: args.include_dirs.clone(),
         };
-        Ok(Self { flags: Arc::new(flags), rules: Arc::default() })
+        Ok(Self { flags: Arc::new(flags), rules: Arc::default(), programs: ProgramFiles::default() })
     }
 
     /// The resolver of includes for sources that no engine completes.
@@ -108,7 +109,8 @@ impl Engines {
     /// The settings of a file by the flags and the tables.
     fn settings(&self, path: Option<&Path>) -> Settings {
         let flags = &*self.flags;
-        let mut settings = Settings { folders: flags.folders.clone(), ..Settings::default() };
+        let mut settings =
+            Settings { folders: flags.folders.clone(), programs: self.programs.clone(), ..Settings::default() };
         if let Some(path) = path {
             self.of_tables(path, |rule| add(&mut settings, rule));
         }

@@ -30,16 +30,20 @@ pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, 
     let out = if is_oldest_es { "varying" } else { "out" };
     let mut outputs = String::new();
     let mut writes = String::new();
+    // The names of the vertex shader's own variables: those of outputs would be hidden by them.
+    let is_taken = |name: &str| fragment.globals.iter().any(|global| global.name == name);
+    let free = |name: &str| if is_taken(name) { format!("{name}_of_window") } else { name.to_owned() };
+    let (uv, corner) = (free("uv"), free(CORNER));
     let inputs = fragment.globals.iter().filter(|global| global.storage == Storage::In && global.builtin.is_none());
     for global in inputs {
         let value = match types.get(global.ty) {
-            Type::Scalar(Scalar::Float) => "uv.x",
-            Type::Vector(Scalar::Float, 2) => "uv",
-            Type::Vector(Scalar::Float, 3) => "vec3(uv, 0.0)",
-            Type::Vector(Scalar::Float, 4) => "vec4(uv, 0.0, 1.0)",
-            Type::Scalar(Scalar::Int) => "0",
-            Type::Scalar(Scalar::Uint) => "0u",
-            Type::Vector(Scalar::Int | Scalar::Uint, _) => "",
+            Type::Scalar(Scalar::Float) => format!("{uv}.x"),
+            Type::Vector(Scalar::Float, 2) => uv.clone(),
+            Type::Vector(Scalar::Float, 3) => format!("vec3({uv}, 0.0)"),
+            Type::Vector(Scalar::Float, 4) => format!("vec4({uv}, 0.0, 1.0)"),
+            Type::Scalar(Scalar::Int) => "0".to_owned(),
+            Type::Scalar(Scalar::Uint) => "0u".to_owned(),
+            Type::Vector(Scalar::Int | Scalar::Uint, _) => format!("{}(0)", types.name(global.ty)),
             _ => {
                 let ty = types.name(global.ty);
                 let message = format!("the input `{} {}` needs a vertex shader that writes it", ty, global.name);
@@ -49,7 +53,6 @@ pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, 
             }
         };
         let ty = types.name(global.ty);
-        let value = if value.is_empty() { format!("{ty}(0)") } else { value.to_owned() };
         let interpolation = match global.interpolation {
             Interpolation::Flat => "flat ",
             Interpolation::Noperspective => "noperspective ",
@@ -58,15 +61,18 @@ pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, 
         let _ = writeln!(outputs, "{interpolation}{out} {ty} {};", global.name);
         let _ = writeln!(writes, "    {} = {value};", global.name);
     }
-    let uv = if writes.contains("uv") { "    vec2 uv = 0.5 * corner + 0.5;\n" } else { "" };
-    let (how, declared, corner) = if is_oldest_es {
-        ("by its corners", format!("attribute vec2 {CORNER};\n"), String::new())
+    let place = match writes.contains(&uv) {
+        true => format!("    vec2 {uv} = 0.5 * {corner} + 0.5;\n"),
+        false => String::new(),
+    };
+    let (how, declared, computed) = if is_oldest_es {
+        ("by its corners", format!("attribute vec2 {corner};\n"), String::new())
     } else {
-        let corner = "vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0)";
-        ("without attributes", String::new(), format!("    vec2 {CORNER} = {corner};\n"))
+        let value = "vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0)";
+        ("without attributes", String::new(), format!("    vec2 {corner} = {value};\n"))
     };
     Ok(format!(
-        "{version}\n// A triangle that covers the window: draw 3 vertices, {how}.\n{declared}{outputs}\nvoid main()\n{{\n{corner}{uv}\
-         {writes}    gl_Position = vec4({CORNER}, 0.0, 1.0);\n}}\n"
+        "{version}\n// A triangle that covers the window: draw 3 vertices, {how}.\n{declared}{outputs}\nvoid main()\n{{\n{computed}{place}\
+         {writes}    gl_Position = vec4({corner}, 0.0, 1.0);\n}}\n"
     ))
 }

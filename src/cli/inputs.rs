@@ -46,6 +46,13 @@ pub(super) struct PartOf {
 }
 
 impl PartOf {
+    /// The macros that select a stage in a file.
+    pub(super) fn defines(&self, file: &str, stage: Stage) -> Vec<(String, String)> {
+        let members = combined::members(file);
+        let part = members.get(self.index).and_then(|member| member.part(stage));
+        part.map(|part| part.defines.clone()).unwrap_or_default()
+    }
+
     /// The text of a stage, where the file has several programs; otherwise the whole text, which is taken apart later.
     pub(super) fn text(&self, text: &Arc<str>, stage: Stage) -> Arc<str> {
         let members = self.name.as_ref().map(|_| combined::members(text)).unwrap_or_default();
@@ -286,7 +293,7 @@ fn is_excluded(path: &Path, excludes: &mut BTreeMap<PathBuf, Option<Gitignore>>)
     })
 }
 
-/// Groups files by folder and stem; each stage occurs at most once in a group.
+/// Groups files by folder and stem; each stage occurs at most once in a group. What tessellation stages stand between is no pair.
 fn group(inputs: Vec<Input>) -> Vec<Group> {
     let mut groups: Vec<((PathBuf, String, String), Group)> = Vec::new();
     for input in inputs {
@@ -302,7 +309,15 @@ fn group(inputs: Vec<Input>) -> Vec<Group> {
             None => groups.push((key, Group { name: input.stem(), inputs: vec![input] })),
         }
     }
-    groups.into_iter().map(|(_, group)| group).map(in_pipeline_order).collect()
+    let groups = groups.into_iter().flat_map(|((folder, stem, own), group)| {
+        if own.is_empty() && group.inputs.len() > 1 && stages::is_tessellated(&folder, &stem) {
+            let alone = |input: Input| Group { name: group.name.clone(), inputs: vec![input] };
+            group.inputs.iter().cloned().map(alone).collect()
+        } else {
+            vec![group]
+        }
+    });
+    groups.map(in_pipeline_order).collect()
 }
 
 /// Sorts the stages in pipeline order, so that the order on the command line does not matter.

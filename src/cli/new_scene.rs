@@ -193,7 +193,7 @@ fn attributes(text: &mut String, program: &Program) {
 fn rows(name: &str, ty: Type) -> [Vec<f32>; 3] {
     let name = name.to_ascii_lowercase();
     let has = |words: &[&str]| words.iter().any(|word| name.contains(word));
-    if name == fullscreen::CORNER {
+    if name.starts_with(fullscreen::CORNER) {
         return [[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]].map(Vec::from);
     }
     if let Type::Matrix(columns, rows) = ty {

@@ -18,7 +18,7 @@ use crate::upgrade::{Plan, Target, Text, rewrite};
 use clap::{Args, ValueEnum};
 use glisten_front::Stage;
 use glisten_front::compiler::{Compiler, Preparation, Prepared, Source};
-use glisten_front::source::{Completion, IncludeForm, IncludeResolver, Included, Prelude, SourceMap};
+use glisten_front::source::{Completion, IncludeForm, IncludeResolver, Included, Prelude, SourceMap, version_line};
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::{FileError, FileSource};
 use std::collections::BTreeMap;
@@ -91,9 +91,10 @@ pub(super) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
         let failure = Failure::usage("the new texts of several files do not fit on standard output");
         return Err(failure.help("add `-o DIR` or `--in-place`"));
     }
-    if let Some(input) = inputs.groups.iter().flat_map(|group| &group.inputs).find(|input| input.part.is_some()) {
-        let failure = Failure::usage(format!("`{}` contains several stages, which are not upgraded", input.name));
-        return Err(failure.help("write each stage into a file of its own"));
+    let has_parts = inputs.groups.iter().flat_map(|group| &group.inputs).find(|input| input.part.is_some());
+    if let Some(input) = has_parts.filter(|_| args.output.is_none() || !args.scenes.is_empty()) {
+        let failure = Failure::usage(format!("`{}` contains several stages, each of which becomes a file", input.name));
+        return Err(failure.help("add `-o DIR`, without `--scene`"));
     }
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let units = session.compile(inputs.groups);
@@ -125,9 +126,12 @@ pub(super) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
     write(args, console, &written)
 }
 
-/// The text of an input, as it was compiled.
-fn text_of<'s>(sources: &'s SourceMap, input: &Input) -> &'s str {
-    sources.files().find(|(_, file)| file.name() == input.name).map_or("", |(_, file)| file.text())
+/// The text of an input, as it was compiled. The stages of one file have one name, and their order.
+fn text_of<'s>(unit: &'s Unit, input: &Input) -> &'s str {
+    let before = unit.group.inputs.iter().take_while(|other| other.stage != input.stage);
+    let index = before.filter(|other| other.name == input.name).count();
+    let mut files = unit.batch.sources.files().filter(|(_, file)| file.name() == input.name);
+    files.nth(index).map_or("", |(_, file)| file.text())
 }
 
 /// The number of the version of a stage.
@@ -137,7 +141,7 @@ fn version_of(unit: &Unit, stage: Stage) -> u16 {
 
 /// The texts that a stage reads besides its own: preludes and included files.
 fn other_texts(compiler: &Compiler, unit: &Unit, input: &Input) -> Vec<Arc<str>> {
-    let text = text_of(&unit.batch.sources, input);
+    let text = text_of(unit, input);
     let source = Source { name: input.name.clone(), text: text.into(), stage: input.stage };
     let sources = compiler.compile(&[source]).sources;
     let is_other = |name: &str| ![input.name.as_str(), SourceMap::COMMAND_LINE, Completion::ASSUMED].contains(&name);
@@ -155,7 +159,7 @@ fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failur
             let message = format!("`{}` is of a later version than the one to write", input.name);
             return Err(Failure::new(Exit::Content, message));
         }
-        let text = text_of(&unit.batch.sources, input);
+        let text = text_of(unit, input);
         texts.push(Text { text, stage: input.stage, is_shader: true, version });
         texts.extend(others.iter().map(|text| Text { text, stage: input.stage, is_shader: false, version }));
     }
@@ -164,12 +168,34 @@ fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failur
 
 fn rewritten(unit: &Unit, plan: &Plan) -> Vec<Upgraded> {
     let upgraded = |input: &Input| {
-        let text = text_of(&unit.batch.sources, input);
+        let text = text_of(unit, input);
         let version = version_of(unit, input.stage);
         let text = rewrite(&Text { text, stage: input.stage, is_shader: true, version }, plan);
+        let text = if input.part.is_some() { alone(input, &text) } else { text };
         Upgraded { input: input.clone(), text }
     };
     unit.group.inputs.iter().map(upgraded).collect()
+}
+
+/// The new text of a stage of a file that contains several, as a file of its own: with the macros that select the stage, and
+/// without the gaps that the others leave.
+fn alone(input: &Input, text: &str) -> String {
+    let file = files::read_source(&input.name, input.path.as_deref()).ok();
+    let part = input.part.as_ref().zip(file);
+    let defines = part.map(|(part, file)| part.defines(&file, input.stage)).unwrap_or_default();
+    let version = version_line(text).map_or("", |line| text.get(line).unwrap_or(""));
+    let mut alone = String::new();
+    for line in text.lines() {
+        if line.trim().is_empty() && (alone.is_empty() || alone.ends_with("\n\n")) {
+            continue;
+        }
+        alone.push_str(line.trim_end());
+        alone.push('\n');
+        if line == version {
+            defines.iter().for_each(|(name, value)| alone.push_str(&format!("#define {name} {value}\n")));
+        }
+    }
+    alone
 }
 
 /// A compiler that upgrades what the new texts include and what engines put before them.

@@ -8,6 +8,7 @@
 pub mod code;
 pub mod combined;
 mod conditional;
+mod game;
 pub mod isf;
 mod marks;
 mod modules;
@@ -17,6 +18,7 @@ mod profile;
 mod sokol;
 mod style;
 
+pub use game::GameProgram;
 pub use part::{Member, Part};
 pub use profile::{Addition, PROFILES, Profile, SHOWN, find, names, stage_named};
 pub use style::{Lookup, STYLES, Style};

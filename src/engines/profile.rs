@@ -75,6 +75,8 @@ struct Settings {
     parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     redefines: Option<bool>,
+    /// The kind of files next to the sources that describe programs.
+    programs: Option<String>,
     /// The kind of header that the sources begin with.
     header: Option<String>,
     /// The pragma that names the macros that a source takes.
@@ -109,6 +111,8 @@ pub struct Profile {
     pub parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     pub redefines: Option<bool>,
+    /// Whether files of JSON next to the sources describe programs, with macros.
+    pub has_program_files: bool,
     /// Whether sources begin with a header of the Interactive Shader Format.
     pub has_isf_header: bool,
     define_pragma: Option<String>,
@@ -181,6 +185,7 @@ fn load((name, text, preludes): &Embedded) -> Profile {
         least_version: settings.least_version,
         parts: settings.parts,
         redefines: settings.redefines,
+        has_program_files: settings.programs.as_deref() == Some("json"),
         has_isf_header: settings.header.as_deref() == Some("isf"),
         define_pragma: settings.define_pragma,
         defines: settings.defines,
@@ -207,6 +212,8 @@ impl Profile {
     fn over(self, base: Self) -> Self {
         let mut defines = base.defines;
         defines.extend(self.defines);
+        let mut by_stage = base.by_stage;
+        by_stage.iter_mut().zip(self.by_stage).for_each(|((_, all), (_, own))| all.extend(own));
         Self {
             version: self.version.or(base.version),
             style: self.style.or(base.style),
@@ -217,6 +224,7 @@ impl Profile {
             redefines: self.redefines.or(base.redefines),
             define_pragma: self.define_pragma.or(base.define_pragma),
             defines,
+            by_stage,
             ..self
         }
     }
@@ -283,6 +291,7 @@ mod tests {
             assert!(!read.about.is_empty(), "{name}");
             assert_eq!(read.stage.is_some(), find(name).is_some_and(|profile| profile.stage.is_some()), "{name}");
             assert!(read.include_style.is_none_or(|style| Style::named(&style).is_some()), "{name}");
+            assert!(read.programs.is_none_or(|kind| kind == "json"), "{name}");
             assert!(read.header.is_none_or(|header| header == "isf"), "{name}");
             assert!(read.extends.is_none_or(|base| names().any(|other| other == base)), "{name}");
         }

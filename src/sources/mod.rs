@@ -7,9 +7,12 @@
 
 mod disk;
 mod includes;
+mod programs;
 mod settings;
 pub(crate) mod stages;
 
 pub(crate) use disk::Disk;
 pub(crate) use includes::DiskIncludes;
+#[cfg(feature = "cli")]
+pub(crate) use programs::ProgramFiles;
 pub(crate) use settings::{Settings, members, parse_version};

@@ -6,6 +6,7 @@
 
 use super::disk::Disk;
 use super::includes::DiskIncludes;
+use super::programs::ProgramFiles;
 use super::stages;
 use crate::engines::{Member, Profile, Style, combined};
 use glisten_front::compiler::{Prepared, Source};
@@ -29,6 +30,8 @@ pub(crate) struct Settings {
     pub(crate) defines: Vec<(String, String)>,
     /// The search folders of its includes.
     pub(crate) folders: Vec<PathBuf>,
+    /// The programs that files next to sources describe.
+    pub(crate) programs: ProgramFiles,
 }
 
 impl Settings {
@@ -54,6 +57,9 @@ impl Settings {
 
     /// Adds what belongs to the source.
     fn add(self, source: &Source, path: Option<&Path>, disk: Arc<dyn Disk>, prepared: &mut Prepared) {
+        if self.profile.is_some_and(|profile| profile.has_program_files) {
+            prepared.defines.extend(self.programs.macros(source, &*disk));
+        }
         let style = self.style.or(self.profile.and_then(|profile| profile.style));
         let roots = self.profile.map_or(&[][..], |profile| &profile.roots);
         let mut version = self.version.or(self.profile.and_then(|profile| profile.version.clone()));

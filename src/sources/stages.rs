@@ -135,6 +135,14 @@ pub(crate) fn is_assembly(path: &Path) -> bool {
     is_named && fs::read(path).is_ok_and(|bytes| bytes.trim_ascii_start().starts_with(b"!!"))
 }
 
+/// Whether a program has tessellation stages, which are files with its stem next to the others.
+#[cfg(feature = "cli")]
+pub(crate) fn is_tessellated(folder: &Path, stem: &str) -> bool {
+    const TESSELLATION: [&str; 4] = ["tesc", "tese", "tcs", "tes"];
+    let names = |word: &str| [format!("{stem}.{word}"), format!("{stem}.{word}.glsl"), format!("{stem}_{word}.glsl")];
+    TESSELLATION.iter().flat_map(|word| names(word)).any(|name| folder.join(name).is_file())
+}
+
 /// The extension for a stage.
 #[cfg(feature = "cli")]
 pub(crate) fn extension(stage: Stage) -> &'static str {

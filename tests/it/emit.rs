@@ -273,6 +273,34 @@ fn what_a_target_lacks_has_a_code() {
 }
 
 #[test]
+fn a_program_with_a_geometry_stage_is_refused_once_for_each_stage_before_it() {
+    let source = |stage: Stage, text: &str| Source {
+        name: format!("a.{}", stage.name()),
+        text: format!("#version 150\n{text}").into(),
+        stage,
+    };
+    let program = compiler().compile(&[
+        source(Stage::Vertex, "out vec3 tint; void main() { tint = vec3(1.0); gl_Position = vec4(0.0); }"),
+        source(
+            Stage::Geometry,
+            "layout(points) in; layout(points, max_vertices = 1) out; in vec3 tint[]; out vec3 shade;\n\
+             void main() { shade = tint[0]; gl_Position = gl_in[0].gl_Position; EmitVertex(); }",
+        ),
+        source(Stage::Fragment, "in vec3 shade; out vec4 c; void main() { c = vec4(shade, 1.0); }"),
+    ]);
+    let program = program.program.expect("the program is valid");
+    for target in [Target::Wgsl, Target::Spirv] {
+        for (stage, expected) in
+            [(Stage::Vertex, Some("E0801")), (Stage::Geometry, Some("E0801")), (Stage::Fragment, None)]
+        {
+            let errors = emit(&program, stage, target, &Conventions::default()).err().unwrap_or_default();
+            let codes: Vec<&str> = errors.iter().map(|error| error.code.id).collect();
+            assert_eq!(codes, Vec::from_iter(expected), "{} for {}", stage.name(), target.name());
+        }
+    }
+}
+
+#[test]
 fn long_chains_become_flat_text() {
     let arms: String = (0..1000).map(|arm| format!("if (n == {arm}) x = {arm}.0; else ")).collect();
     let sum = vec!["v.x"; 10_000].join(" + ");

@@ -10,14 +10,15 @@ use std::process::{Command, Output};
 
 /// The profiles, and how many stages their examples have.
 const PROFILES: &[(&str, usize)] = &[
-    ("minecraft", 2),
+    ("minecraft", 3),
     ("optifine", 2),
-    ("iris", 2),
+    ("iris", 4),
     ("libretro", 2),
     ("isf", 2),
     ("openscenegraph", 1),
     ("three", 2),
     ("shadertoy", 1),
+    ("supertuxkart", 2),
 ];
 
 /// Runs the program in the folder of the package.
@@ -331,4 +332,16 @@ fn hostile_sources_end() {
         assert_eq!(exit, 1, "{file}");
     }
     assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
+}
+
+#[test]
+fn stages_with_tessellation_between_are_no_pair() {
+    let stages: [(&str, &[u8]); 2] = [
+        ("hill.vert", b"#version 410\nin vec3 at;\nout vec3 patch_at;\nvoid main() { patch_at = at; gl_Position = vec4(at, 1.0); }\n"),
+        ("hill.frag", b"#version 410\nin float height;\nout vec4 color;\nvoid main() { color = vec4(height); }\n"),
+    ];
+    let alone = Folder::new(&stages);
+    assert_eq!(codes(&alone.lint(&["."]).0), ["E0702"]);
+    let with = Folder::new(&[stages[0], stages[1], ("hill.tese", b"#version 410\nvoid main() {}\n")]);
+    assert_eq!(with.lint(&["."]).1, 0);
 }

@@ -234,3 +234,27 @@ fn a_file_without_a_version_is_not_laid_at_what_it_includes() {
     let searched = folder.run(&["lint", "."]);
     assert_eq!(code(&searched), 0, "a search counts it as another version: {}", out(&searched));
 }
+
+#[test]
+fn a_fragment_shader_gets_a_triangle_whatever_its_inputs_are_called() {
+    for (header, input) in [("#version 150", "in"), ("#version 100\nprecision mediump float;", "varying")] {
+        let output = if input == "in" { "out vec4 c;" } else { "" };
+        let color = if input == "in" { "c" } else { "gl_FragColor" };
+        let text = format!(
+            "{header}\n{input} vec2 uv;\n{input} vec3 corner;\n{output}\nvoid main() {{ {color} = vec4(uv, corner.x, 1.0); }}\n"
+        );
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        assert_eq!(code(&folder.run(&["new-scene", "a.frag", "-o", "a.toml"])), 0, "{header}");
+        let output = folder.run(&["render", "a.toml", "--backend", "cpu", "-o", "a.npy"]);
+        assert_eq!(code(&output), 0, "{header}: {}", err(&output));
+        let bytes = fs::read(folder.path("a.npy")).expect("it was drawn");
+        let last: Vec<f32> = bytes
+            .chunks_exact(4)
+            .rev()
+            .take(4)
+            .map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]]))
+            .collect();
+        // The last pixel is at the lower right: (1, 0) nearly.
+        assert!(last[3] > 0.9 && last[2] < 0.1 && last[1] > 0.9, "{header}: {last:?}");
+    }
+}

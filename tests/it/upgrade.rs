@@ -78,17 +78,39 @@ fn what_cannot_be_upgraded_is_told_and_nothing_is_written() {
         ("clip.vert", b"void main() { gl_ClipVertex = gl_Vertex; gl_Position = ftransform(); }\n"),
         ("wrong.frag", b"void main() { gl_FragColor = missing; }\n"),
         ("new.frag", b"#version 330\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
-        ("two.glsl", b"#shader vertex\nvoid main() { gl_Position = vec4(0.0); }\n#shader fragment\nvoid main() {}\n"),
     ]);
-    for (file, exit, told) in [
-        ("clip.vert", 1, "gl_ClipVertex"),
-        ("wrong.frag", 1, "missing"),
-        ("new.frag", 1, "later version"),
-        ("two.glsl", 2, "several stages"),
-    ] {
+    for (file, exit, told) in
+        [("clip.vert", 1, "gl_ClipVertex"), ("wrong.frag", 1, "missing"), ("new.frag", 1, "later version")]
+    {
         let output = folder.run(&["upgrade", file, "-o", "new"]);
         assert_eq!(code(&output), exit, "{file}: {}", err(&output));
         assert!(err(&output).contains(told), "{file}: {}", err(&output));
     }
     assert!(folder.names("new").is_empty());
+}
+
+#[test]
+fn the_stages_of_one_file_become_files() {
+    let folder = Folder::new(&[
+        (
+            "marked.glsl",
+            b"#shader vertex\nattribute vec4 at;\nvarying vec2 uv;\nvoid main() { gl_Position = at; uv = at.xy; }\n\n\n\
+              #shader fragment\nvarying vec2 uv;\nvoid main() { gl_FragColor = vec4(uv, 0.0, 1.0); }\n",
+        ),
+        (
+            "chosen.glsl",
+            b"#version 120\nvarying vec2 uv;\n#ifdef VERTEX\nvoid main() { gl_Position = gl_Vertex; uv = gl_Vertex.xy; }\n\
+              #endif\n#ifdef FRAGMENT\nvoid main() { gl_FragColor = vec4(uv, 0.0, 1.0); }\n#endif\n",
+        ),
+    ]);
+    for (file, stem) in [("marked.glsl", "marked"), ("chosen.glsl", "chosen")] {
+        let output = folder.run(&["upgrade", file, "-o", "new"]);
+        assert_eq!(code(&output), 0, "{file}: {}", err(&output));
+        let [vertex, fragment] = ["vert", "frag"].map(|stage| format!("new/{stem}.{stage}"));
+        let output = folder.run(&["compile", &vertex, &fragment, "--check"]);
+        assert_eq!(code(&output), 0, "{file}: {}", err(&output));
+        let text = fs::read_to_string(folder.path(&fragment)).expect("it was written");
+        assert!(text.starts_with("#version 150") && text.contains("in vec2 uv;"), "{text}");
+    }
+    assert_eq!(code(&folder.run(&["upgrade", "marked.glsl", "--in-place"])), 2);
 }

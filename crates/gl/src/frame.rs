@@ -39,7 +39,26 @@ impl Gl {
             };
             self::draw(api, &scene.framebuffer, program, draw)?;
         }
-        picture(api, &scene.framebuffer)
+        let mut picture = picture(api, &scene.framebuffer)?;
+        complete(&mut picture, scene);
+        Ok(picture)
+    }
+}
+
+/// Fills in components that no draw writes, because its output has fewer than four. OpenGL leaves them undefined (3.2 §3.9.2); the
+/// other runners have (0, 0, 0, 1).
+fn complete(picture: &mut Picture, scene: &Scene) {
+    let size_at = |draw: &Draw, location: u32| {
+        let output = draw.program.interface.outputs.iter().find(|output| output.location == location)?;
+        Some(draw.program.types.flat_len(output.ty) as usize)
+    };
+    for (location, pixels) in (0..).zip(&mut picture.attachments) {
+        let size = scene.draws.iter().filter_map(|draw| size_at(draw, location)).max().unwrap_or(4);
+        for (pixel, _) in pixels.iter_mut().zip(&picture.covered).filter(|(_, covered)| **covered) {
+            for (channel, value) in [0.0, 0.0, 0.0, 1.0].into_iter().enumerate().skip(size) {
+                pixel[channel] = value;
+            }
+        }
     }
 }
 

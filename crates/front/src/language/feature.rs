@@ -89,7 +89,7 @@ features! {
     /// `uniform float a = 1.0;`
     UniformInitializers "the initializer of a uniform" since(120, NEVER), STAYS, NONE, "§4.3.5";
     /// Initializers of globals that are not constant expressions.
-    GlobalInitializers "an initializer of a global that is not constant" since(110, 100), since(NEVER, 300), NONE, "§4.3";
+    GlobalInitializers "an initializer of a global that is not constant" since(110, NEVER), STAYS, NONE, "§4.3";
     /// Calls of built-in functions in constant expressions.
     ConstantFunctions "a function in a constant expression" since(120, 100), STAYS, NONE, "§4.3.3";
     /// `int` to `float`; from 1.30 on also `uint` to `float`.

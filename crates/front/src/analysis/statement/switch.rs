@@ -4,6 +4,7 @@ use super::super::context::Analyzer;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::statements;
 use crate::hir::{Case, CaseLabel, ExprId, ScalarValue, StmtKind, TypeId};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{self, SwitchItem};
 use rustc_hash::FxHashMap;
@@ -108,7 +109,9 @@ impl Analyzer<'_> {
             self.report(self.not_constant(id, "a case"));
             return None;
         };
-        if ty != selector && (selector == TypeId::INT || selector == TypeId::UINT) {
+        // Since 4.00 (§6.2) the integers are compared as unsigned ones.
+        let is_other = ty != selector && (selector == TypeId::INT || selector == TypeId::UINT);
+        if is_other && !self.allows(Feature::ImplicitToUint, span) {
             let (name, wanted) = (self.type_name(ty), self.type_name(selector));
             self.report(
                 Diagnostic::new(
