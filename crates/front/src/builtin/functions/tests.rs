@@ -57,7 +57,7 @@ fn no_two_signatures_of_a_name_are_equal() {
 #[test]
 fn lookup_finds_all_rows_of_a_name_and_none_of_another() {
     assert_eq!(named("atan").len(), 2);
-    assert_eq!(named("texture").len(), 13);
+    assert_eq!(named("texture").len(), 15);
     assert!(named("fmad").is_empty());
     assert_eq!(named("texture2DRect").len(), 1);
 }

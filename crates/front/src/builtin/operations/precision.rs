@@ -208,7 +208,7 @@ rules! {
     REFRACT = "refract" ("I", "N", "eta"), Inherited(&REFRACT_FORMULA), "Vulkan: Refract";
     INVERSE = "determinant, inverse" ("m"), Cofactors, "Vulkan: MatrixInverse: none stated";
     CONVERT = "int to float" ("x"), Correct, "Vulkan: conversions between types";
-    DERIVATIVE = "dFdx, dFdy, fwidth" ("p"), EitherDifference, "Vulkan: OpDPdx: fine or coarse; GLSL 1.50 8.8";
+    DERIVATIVE = "dFdx, dFdy, fwidth, dFdxFine, dFdyFine, fwidthFine, dFdxCoarse, dFdyCoarse, fwidthCoarse" ("p"), EitherDifference, "Vulkan: OpDPdx: fine or coarse; GLSL 1.50 8.8";
 }
 
 /// `k = 1 - eta eta (1 - dot(N, I) dot(N, I))`
