@@ -38,9 +38,9 @@ impl Compiler<'_> {
             _ => None,
         };
         match operator {
-            BinaryOp::Div => !literal.is_some_and(|divisor| divisor > 0),
+            BinaryOp::Div => literal.is_none_or(|divisor| divisor <= 0),
             BinaryOp::Rem => true,
-            BinaryOp::Shl | BinaryOp::Shr => !literal.is_some_and(|bits| (0..32).contains(&bits)),
+            BinaryOp::Shl | BinaryOp::Shr => literal.is_none_or(|bits| !(0..32).contains(&bits)),
             _ => false,
         }
     }
