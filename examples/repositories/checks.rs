@@ -9,7 +9,7 @@ use glisten::cli::survey::{Surveyed, covering};
 use glisten::emit::{Conventions, Emitted, Target, emit};
 use glisten::{Compiler, Program, Source, Stage};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::source::SourceMap;
+use glisten_front::source::{SourceMap, version_line};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::path::Path;
 use std::process::Command;
@@ -204,7 +204,13 @@ fn again(task: &str) -> Command {
 /// Lets a text of OpenGL ES compute in `highp`: with less, Mesa computes in 16 bits, which the language allows and no envelope has.
 fn highest_precision(file: &str) {
     let text = std::fs::read_to_string(file).unwrap_or_default();
-    let new = ["mediump", "lowp"].iter().fold(text.clone(), |text, word| text.replace(word, "highp"));
+    let mut new = ["mediump", "lowp"].iter().fold(text.clone(), |text, word| text.replace(word, "highp"));
+    let es = version_line(&text)
+        .filter(|line| text.get(line.clone()).is_some_and(|line| line.ends_with("es") || line.ends_with("100")));
+    if let Some(line) = es {
+        // What a sampler returns has the sampler's precision.
+        new.insert_str(line.end, "\nprecision highp sampler2D; precision highp samplerCube;");
+    }
     if new != text {
         // The old text is as good for all but the comparison.
         let _ = std::fs::write(file, new);

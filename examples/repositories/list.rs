@@ -71,10 +71,10 @@ impl Repository {
 
 impl List {
     /// The explanation of a disagreement.
-    pub(crate) fn because(&self, repository: &str, path: &str, message: &str) -> Option<&str> {
+    pub(crate) fn because(&self, repository: &str, class: &str, path: &str, message: &str) -> Option<&str> {
         let fits = |note: &&Note| {
             ["*", repository].contains(&note.repository.as_str())
-                && (path.contains(&note.about) || message.contains(&note.about))
+                && [class, path, message].iter().any(|text| text.contains(&note.about))
         };
         self.note.iter().find(fits).map(|note| note.because.as_str())
     }

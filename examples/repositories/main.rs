@@ -33,7 +33,7 @@ use table::{HEAD, Row};
 /// The stack of the thread that compiles.
 const STACK_BYTES: usize = 64 << 20;
 
-/// What the command line asks for.
+/// The requests of the command line.
 struct Arguments {
     folder: PathBuf,
     only: Option<String>,

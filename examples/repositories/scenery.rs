@@ -230,7 +230,7 @@ fn number_of(name: &str, scalar: Scalar, index: usize) -> f64 {
         return if has(name, &["count", "num", "samples", "iter", "steps", "size"]) {
             2.0
         } else {
-            f64::from(index % 2 == 0)
+            f64::from(index.is_multiple_of(2))
         };
     }
     static BY_NAME: &[(&[&str], f64)] = &[

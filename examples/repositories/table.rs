@@ -149,7 +149,7 @@ impl Row {
         let counts = |class: &str| !["wrong", "not drawn", "refused by others"].contains(&class);
         let found = self.found.iter().filter(|(class, ..)| counts(class));
         let lines = found.map(|(class, file, message)| {
-            let because = list.because(&repository.name, file, message).unwrap_or("not explained");
+            let because = list.because(&repository.name, class, file, message).unwrap_or("not explained");
             let cell = |text: &str| text.replace('|', "\\|");
             format!("| {} | {class} | `{}` | {} | {because} |", repository.name, cell(file), cell(message))
         });

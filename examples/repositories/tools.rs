@@ -26,7 +26,7 @@ impl Ended {
         matches!(self, Self::Well(_))
     }
 
-    /// What it wrote.
+    /// The text that it wrote.
     pub(crate) fn text(&self) -> &str {
         match self {
             Self::Well(text) | Self::Badly(text) => text,

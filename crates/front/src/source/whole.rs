@@ -106,7 +106,8 @@ impl Writer<'_> {
             }
             return;
         }
-        let text = file.text().get(range).unwrap_or("");
+        // A byte order mark may stand before a text, never inside of one.
+        let text = file.text().get(range).unwrap_or("").trim_start_matches('\u{feff}');
         if allows_includes(text) {
             self.text.push('\n');
         } else {

@@ -359,7 +359,7 @@ mod tests {
         let version = Version { number: 120, profile: Profile::Core, span: Span::default() };
         let row = TABLE.iter().find(|row| row.spelling == "sampler2DArray").copied();
         let row = row.expect("the table has it");
-        assert_eq!(row.kind_in(version, Extensions::empty()), Reserved);
+        assert_eq!(row.kind_in(version, Extensions::empty()), Ident);
         assert_eq!(row.kind_in(version, Extensions::TEXTURE_ARRAY), Type);
     }
 }

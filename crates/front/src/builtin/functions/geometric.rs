@@ -12,7 +12,7 @@ const FIXED: Row = Row::base("GLSL 1.20 §8.4", 110)
     .available(Availability { compatibility_only: true, ..Availability::since(110).es(NEVER).stages(Stages::VERTEX) });
 const M110: Row = Row::base("§8.5", 110);
 const M120: Row = Row::base("§8.5", 120);
-const M140: Row = Row::base("GLSL 1.40 §8.5", 140).available(Availability::since(140).es(300));
+const M140: Row = Row::base("§8.5", 140).available(Availability::since(140).es(300));
 const M150: Row = Row::base("§8.5", 150).available(Availability::since(150).es(300));
 const R110: Row = Row::base("§8.6", 110);
 const R130: Row = Row::base("§8.6", 130);
