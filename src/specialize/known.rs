@@ -196,6 +196,8 @@ fn known_texture(texture: &Texture) -> KnownTexture {
             match (kind.dim, kind.arrayed) {
                 (D1, true) => Some([level.width, level.depth.max(level.height), 1]),
                 (D2, true) => Some([level.width, level.height, level.depth]),
+                // Six faces a layer.
+                (Cube, true) => Some([level.width, level.height, level.depth / 6]),
                 (D1, false) => Some([level.width, 1, 1]),
                 (D2 | Cube | Rect, _) => Some([level.width, level.height, 1]),
                 (D3, _) => Some([level.width, level.height, level.depth]),

@@ -228,10 +228,10 @@ fn engines_complete_the_sources_of_a_build() {
     let engines = root().join("fixtures/engines");
     let text = |build: Build| build.text().map(|built| built.text);
     let pack = engines.join("minecraft/assets/minecraft/shaders/core");
-    let build = Build::new().folder(&pack).engine("minecraft").include(engines.join("minecraft/assets"));
-    let built = build.text().expect("it builds");
+    let portal = || Build::new().program(pack.join("portal.vsh"), pack.join("portal.fsh"));
+    let built = portal().engine("minecraft").include(engines.join("minecraft/assets")).text().expect("it builds");
     assert!(built.read.iter().any(|path| path.ends_with("tint.glsl")), "{:?}", built.read);
-    assert!(text(Build::new().folder(&pack)).is_err(), "`#moj_import` is no directive of GLSL");
+    assert!(text(portal()).is_err(), "`#moj_import` is no directive of GLSL");
     let lines = engines.join("libretro/lines.glsl");
     let both = text(Build::new().program(&lines, &lines).engine("libretro")).expect("it builds");
     assert!(both.contains("pub mod lines {") && both.contains("FRAGMENT_WGSL"), "{both}");
@@ -243,7 +243,7 @@ fn engines_complete_the_sources_of_a_build() {
     for name in ["plain", "shaded", "marked"] {
         assert!(all.contains(&format!("pub mod {name} {{")), "{name} is not in {all}");
     }
-    let unknown = text(Build::new().folder(&pack).engine("minecaft")).expect_err("no such engine");
+    let unknown = text(portal().engine("minecaft")).expect_err("no such engine");
     assert!(unknown.to_string().contains("did you mean `minecraft`?"), "{unknown}");
 }
 

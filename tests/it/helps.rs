@@ -64,6 +64,8 @@ fn try_helps(shader: &Shader, tried: &mut BTreeSet<&'static str>, wrong: &mut Ve
         let Some(old) = shader.text.get(range.clone()) else { continue };
         let new = match &fix {
             Fix::Replace(new) => new.clone(),
+            // A directive ends with its line.
+            Fix::Before(new) if new.starts_with('#') => format!("{new}\n{old}"),
             Fix::Before(new) => format!("{new} {old}"),
         };
         let mut text = shader.text.clone();

@@ -37,6 +37,9 @@ fn argument(ty: TypeId, mode: ParamMode, role: Option<TextureArgument>, index: u
     }
     match (mode, role) {
         (ParamMode::In, Some(TextureArgument::Offset | TextureArgument::Component)) => format!("{name}(1)"),
+        (ParamMode::In, Some(TextureArgument::Offsets)) => {
+            format!("{name}(ivec2(0), ivec2(1), ivec2(-1, 2), ivec2(3))")
+        }
         (ParamMode::In, _) => format!("{name}(x)"),
         _ => format!("out{index}"),
     }

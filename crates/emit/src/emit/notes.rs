@@ -4,7 +4,7 @@ use crate::target::Conventions;
 use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{COMPARISON_LEVEL_DROPPED, POINT_SIZE_DROPPED};
-use glisten_front::hir::{ExprKind, ScalarValue, Shader, Stage, Type, Types};
+use glisten_front::hir::{ExprKind, SamplerDim, ScalarValue, Shader, Stage, Type, Types};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 
@@ -57,10 +57,14 @@ pub fn levels_of_comparisons(program: &Program) -> impl Iterator<Item = Span> {
 fn names_level(types: &Types, shader: &Shader, kind: &ExprKind) -> bool {
     use BuiltinFunction as F;
     let ExprKind::BuiltinCall(function, arguments) = kind else { return false };
-    let of_depth = arguments
-        .first()
-        .is_some_and(|sampler| matches!(types.get(shader.expr(*sampler).ty), Type::Sampler(ty) if ty.shadow));
+    let sampler = arguments.first().and_then(|sampler| match types.get(shader.expr(*sampler).ty) {
+        Type::Sampler(sampler) => Some(sampler),
+        _ => None,
+    });
+    let of_depth = sampler.is_some_and(|sampler| sampler.shadow);
     let place = match function {
+        // The reference of the comparison is a parameter of its own there.
+        F::Texture if sampler.is_some_and(|sampler| sampler.dim == SamplerDim::Cube && sampler.arrayed) => 3,
         F::Texture
         | F::TextureProj
         | F::TextureLod

@@ -1,10 +1,11 @@
 //! Prints what precedes the functions: version, extensions, layouts, structs, globals.
 
 use super::Printer;
-use crate::builtin::BuiltinVariable;
+use crate::builtin::functions::Row;
+use crate::builtin::{BuiltinFunction, BuiltinVariable};
 use crate::hir::{
-    BlockLayout, Expr, ExprKind, Global, GlobalId, MatrixLayout, Member, PrimitiveIn, PrimitiveOut, ScalarValue,
-    Storage, Type, TypeId, Value, VarRef,
+    BlockLayout, ExprId, ExprKind, Global, GlobalId, MatrixLayout, Member, PrimitiveIn, PrimitiveOut, SamplerDim,
+    ScalarValue, Storage, Type, TypeId, Value, VarRef,
 };
 use crate::language::{Extensions, Profile};
 use std::collections::BTreeSet;
@@ -68,18 +69,48 @@ impl Printer<'_> {
             .any(|global| (global.component.is_some() && global.location.is_some()) || block(global))
     }
 
-    /// The extensions that bring the functions which are called and are not in a desktop version.
+    /// The extensions that bring the functions and types which are used and are not in a desktop version.
     fn needed_extensions(&self, number: u16) -> BTreeSet<&'static str> {
-        let lacking = |expr: &Expr| {
-            let ExprKind::BuiltinCall(function, _) = expr.kind else { return None };
-            let rows = || function.operation().prototypes().filter(|row| !row.deprecated);
-            let is_in = rows().any(|row| row.availability.since.desktop <= number);
-            if is_in { None } else { rows().next()?.availability.extensions.name() }
-        };
-        match self.shader.version.profile {
-            Profile::Es => BTreeSet::new(),
-            Profile::Core | Profile::Compatibility => self.shader.exprs.iter().filter_map(lacking).collect(),
+        let mut needed = BTreeSet::new();
+        if self.shader.version.profile == Profile::Es {
+            return needed;
         }
+        for expr in &self.shader.exprs {
+            if let ExprKind::BuiltinCall(function, arguments) = &expr.kind {
+                needed.extend(self.bringing(*function, arguments, number));
+            }
+        }
+        if number < 400 && self.shader.globals.iter().any(|global| self.is_cube_array(global.ty)) {
+            needed.extend(Extensions::TEXTURE_CUBE_MAP_ARRAY.name());
+        }
+        if number < 400 && self.shader.geometry.invocations.is_some() {
+            needed.extend(Extensions::GPU_SHADER5.name());
+        }
+        needed
+    }
+
+    /// Whether a type is a sampler of arrays of cube maps, or an array of such.
+    fn is_cube_array(&self, ty: TypeId) -> bool {
+        match self.types.get(ty) {
+            Type::Sampler(sampler) => sampler.dim == SamplerDim::Cube && sampler.arrayed,
+            Type::Array(element, _) => self.is_cube_array(element),
+            _ => false,
+        }
+    }
+
+    /// The extensions that bring the overload of a call. That of a new type of sampler needs the function, too.
+    fn bringing(&self, function: BuiltinFunction, arguments: &[ExprId], number: u16) -> Vec<&'static str> {
+        let types: Vec<TypeId> = arguments.iter().map(|&argument| self.shader.expr(argument).ty).collect();
+        let rows = || function.operation().prototypes().filter(|row| !row.deprecated);
+        let is_called = |row: &&'static Row| row.signatures(self.shader.stage).any(|one| one.has_types(&types));
+        let is_in = |row: &Row| row.availability.since.desktop <= number;
+        let called = rows().find(is_called);
+        if called.map_or_else(|| rows().any(is_in), is_in) {
+            return Vec::new();
+        }
+        let is_of_type = |row: &&Row| row.availability.extensions.contains(Extensions::TEXTURE_CUBE_MAP_ARRAY);
+        let base = rows().find(|row| !is_of_type(row)).filter(|_| !rows().any(is_in));
+        [called.or(base), base].into_iter().flatten().filter_map(|row| row.availability.extensions.name()).collect()
     }
 
     fn geometry_layout(&mut self) {

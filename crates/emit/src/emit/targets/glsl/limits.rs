@@ -6,6 +6,7 @@
 use crate::target::GlslVersion;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::builtin::functions::Row;
+use glisten_front::builtin::operations::Class;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
 use glisten_front::hir::{
@@ -67,7 +68,8 @@ fn later_functions(shader: &Shader) -> Vec<(&'static str, Span)> {
         let is_in = |row: &Row| row.availability.since.es <= 300;
         let rows = || function.operation().prototypes();
         // What ES never had is said in other words, or refused by its types.
-        let came_later = rows().any(|row| row.availability.since.es != NEVER) && !rows().any(is_in);
+        let is_derivative = matches!(function.operation().class, Class::Derivative(_));
+        let came_later = (is_derivative || rows().any(|row| row.availability.since.es != NEVER)) && !rows().any(is_in);
         if came_later && !found.iter().any(|(name, _)| *name == function.name()) {
             found.push((function.name(), expr.span));
         }
