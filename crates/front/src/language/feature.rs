@@ -151,7 +151,7 @@ features! {
     BuiltinScope "a global with the name of a built-in function" since(110, 100), Since::new(NEVER, 300), NONE, "§4.2";
     /// Structs that contain arrays are assigned, compared and returned.
     ArraysInValues "a struct with an array as a value" since(110, 300), STAYS, NONE, "§5.8";
-    /// The comma makes no constant expression: "the sequence operator ( , ) .. [is] not included".
+    /// The comma makes no constant expression: "the sequence operator ( , ) .. `is` not included".
     VariableSequences "no comma in a constant expression" since(430, 300), STAYS, NONE, "§4.3.3";
     /// `float a[];`
     UnsizedArrays "an array without a size" since(110, NEVER), STAYS, NONE, "§4.1.9";
