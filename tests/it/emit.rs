@@ -247,6 +247,9 @@ fn what_a_target_lacks_has_a_code() {
     };
     let (biased, graded) = (&shadow("textureProj(s, v, -0.00005)"), &shadow("textureGrad(s, v.xyz, v.xy, v.zw)"));
     let unbiased = &shadow("texture(s, v.xyz, 0.0) + textureLod(s, v.xyz, 0.0)");
+    // The reference of the comparison is no level.
+    let cubes = "#extension GL_ARB_texture_cube_map_array : enable\nuniform samplerCubeArrayShadow s; in vec4 v; out vec4 c;\n\
+                 void main() { c = vec4(texture(s, v, 0.4)); }";
     let shared = |one: &str, other: &str| {
         format!(
             "#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 0) in {one} a;\n\
@@ -264,6 +267,7 @@ fn what_a_target_lacks_has_a_code() {
         (Stage::Fragment, biased, Target::Wgsl, plain, vec!["W0802"]),
         (Stage::Fragment, graded, Target::Spirv, plain, vec!["W0802"]),
         (Stage::Fragment, unbiased, Target::Wgsl, plain, vec![]),
+        (Stage::Fragment, cubes, Target::Wgsl, plain, vec![]),
         (Stage::Vertex, &shared("vec2", "vec4"), Target::Wgsl, plain, vec![]),
         (Stage::Vertex, &shared("vec2", "ivec4"), Target::Spirv, plain, vec!["E0802"]),
     ];

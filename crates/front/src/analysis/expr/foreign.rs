@@ -61,6 +61,19 @@ static LATER: &[(&str, u16)] = &[
     ("barrier", 400), ("memoryBarrier", 420),
 ];
 
+/// Built-in variables of later versions.
+#[rustfmt::skip]
+static LATER_VARIABLES: &[(&str, u16)] = &[
+    ("gl_SampleID", 400), ("gl_SamplePosition", 400), ("gl_SampleMask", 400), ("gl_SampleMaskIn", 400),
+    ("gl_NumSamples", 420), ("gl_ViewportIndex", 410), ("gl_CullDistance", 450), ("gl_HelperInvocation", 450),
+    ("gl_DrawID", 460), ("gl_BaseVertex", 460), ("gl_BaseInstance", 460),
+];
+
+/// Whether a version has a variable that glisten does not support.
+pub(super) fn is_unsupported_variable(name: &str, version: Version) -> bool {
+    LATER_VARIABLES.iter().any(|row| row.0 == name && version.reaches(Since::new(row.1, NEVER)))
+}
+
 /// The replacement for a function that does not exist.
 pub(super) fn function(name: &str) -> Option<String> {
     let foreign = FUNCTIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_owned());

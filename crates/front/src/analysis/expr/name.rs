@@ -5,6 +5,7 @@ use super::super::context::Analyzer;
 use super::super::features::{of_version, remedy};
 use super::super::scope::Entry;
 use crate::builtin::{constants, fixed, variables};
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
@@ -124,6 +125,11 @@ impl Analyzer<'_> {
                 }
             };
             self.report(finding);
+            return;
+        }
+        if super::foreign::is_unsupported_variable(spelling, self.ast.version) {
+            let message = format!("the variable `{spelling}` is not supported yet");
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
             return;
         }
         let help = super::foreign::variable(spelling);
