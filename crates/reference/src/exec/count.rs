@@ -9,7 +9,6 @@ use super::inst::{Composite, Inst, Int2, Lookup, TextureCall};
 use super::machine::Machine;
 use super::step::{Step, name_of_unary};
 use crate::domain::{Domain, Integer};
-use glisten_front::builtin::operations::DerivativeAxis;
 use glisten_front::hir::{SamplerDim, Stage};
 use glisten_scene::Filter;
 
@@ -30,11 +29,7 @@ fn step(inst: &Inst) -> Option<Step> {
             let argument = if matches!(op, Composite::Determinant | Composite::Inverse) { size * size } else { size };
             Some(Step { name: op.name(), results: results.len, argument })
         }
-        Inst::Derivative { op, .. } => Step::scalar(match op.axis() {
-            DerivativeAxis::X => "dFdx",
-            DerivativeAxis::Y => "dFdy",
-            DerivativeAxis::Width => "fwidth",
-        }),
+        Inst::Derivative { op, .. } => Step::scalar(op.name()),
         Inst::LoadFloat { .. }
         | Inst::LoadInt { .. }
         | Inst::StoreIndexedFloat { .. }

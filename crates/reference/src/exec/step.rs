@@ -2,7 +2,7 @@
 //!
 //! *Holds:* names are those of the table of operations, and of [`Step::OTHERS`] for what that table does not have.
 
-use glisten_front::builtin::operations::{Binary, Composite, Ternary, Unary};
+use glisten_front::builtin::operations::{Binary, Composite, Derivative, Ternary, Unary};
 
 /// A kind of step with its size. What it costs is for others to say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -45,7 +45,7 @@ impl Step {
         let ternary = Ternary::ALL.iter().map(|op| op.name());
         let composite = Composite::ALL.iter().map(|op| op.name());
         let mut names: Vec<&str> = unary.chain(binary).chain(ternary).chain(composite).collect();
-        names.extend(["dFdx", "dFdy", "fwidth"]);
+        names.extend(Derivative::ALL.iter().map(|op| op.name()));
         names.extend(Self::OTHERS);
         names.sort_unstable();
         names.dedup();

@@ -125,6 +125,34 @@ plain!(
 );
 
 impl Derivative {
+    /// Every derivative.
+    pub const ALL: [Self; 9] = [
+        Self::X,
+        Self::Y,
+        Self::Width,
+        Self::XFine,
+        Self::YFine,
+        Self::WidthFine,
+        Self::XCoarse,
+        Self::YCoarse,
+        Self::WidthCoarse,
+    ];
+
+    /// The name of the function.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "dFdx",
+            Self::Y => "dFdy",
+            Self::Width => "fwidth",
+            Self::XFine => "dFdxFine",
+            Self::YFine => "dFdyFine",
+            Self::WidthFine => "fwidthFine",
+            Self::XCoarse => "dFdxCoarse",
+            Self::YCoarse => "dFdyCoarse",
+            Self::WidthCoarse => "fwidthCoarse",
+        }
+    }
+
     /// The axis.
     pub fn axis(self) -> DerivativeAxis {
         match self {
