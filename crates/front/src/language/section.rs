@@ -52,6 +52,11 @@ impl Edition {
         format!("GLSL {es}{}.{:02}", self.number / 100, self.number % 100)
     }
 
+    /// Whether a `#version` line may name the profile `core` or `compatibility` (GLSL 1.50 §3.3).
+    pub fn has_profiles(self) -> bool {
+        !self.es && self.number >= 150
+    }
+
     fn column(self) -> Option<usize> {
         EDITIONS.iter().position(|edition| *edition == self)
     }

@@ -7,6 +7,7 @@
 
 use super::token::TokenKind::{self, *};
 use crate::language::{Extensions, NEVER, Since, Version};
+use std::sync::OnceLock;
 
 /// A word of the language.
 #[derive(Clone, Copy, Debug)]
@@ -92,8 +93,18 @@ impl WordClass {
 
 /// The token kind of each word of the table in a language, by symbol.
 pub(super) fn kinds_in(version: Version, extensions: Extensions) -> Vec<TokenKind> {
-    TABLE.iter().map(|row| row.kind_in(version, extensions)).collect()
+    let kinds = || TABLE.iter().map(|row| row.kind_in(version, extensions)).collect();
+    let place = usize::from(version.number / 10) + if version.is_es() { TENS } else { 0 };
+    match PLAIN.get(place) {
+        Some(plain) if extensions.is_empty() && version.number % 10 == 0 => plain.get_or_init(kinds).clone(),
+        _ => kinds(),
+    }
 }
+
+/// More than a tenth of each version number.
+const TENS: usize = 64;
+/// The kinds without extensions, by a tenth of the version's number; those of ES in the second half.
+static PLAIN: [OnceLock<Vec<TokenKind>>; 2 * TENS] = [const { OnceLock::new() }; 2 * TENS];
 
 /// All words that are keywords or reserved in some version: the first desktop versions in which each is a keyword and
 /// in which it is reserved, and the same of ES.

@@ -52,8 +52,8 @@ pub fn parse(
     includes: &(dyn IncludeResolver + Sync),
     diagnostics: &mut Diagnostics,
 ) -> Ast {
-    let mut session =
-        ParseSession { sources, diagnostics, names: Names::with_keywords(), extension_sets: ExtensionSets::default() };
+    let extension_sets = ExtensionSets::default();
+    let mut session = ParseSession { sources, diagnostics, names: preprocessor::predefined::names(), extension_sets };
     let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
     preprocessor.complete(&mut session, file, &options.completion);
     let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();

@@ -28,21 +28,14 @@ impl Analyzer<'_> {
     }
 
     fn set_input(&mut self, primitive: PrimitiveIn, span: Span) {
-        if let Some(earlier) = self.shader.geometry.input
-            && earlier != primitive
-        {
-            let at = self.layouts.geometry.input;
-            self.report(contradiction(span, at, "input primitive"));
-            return;
-        }
-        let is_first = self.shader.geometry.input.is_none();
-        if is_first {
-            self.shader.geometry.input = Some(primitive);
-            self.layouts.geometry.input = span;
-        }
-        self.fix_geometry_size(primitive.vertices(), span);
-        if is_first {
-            self.size_geometry_inputs(primitive.vertices(), span);
+        let (shader, places) = (&mut self.shader.geometry, &mut self.layouts.geometry);
+        match set_once(&mut shader.input, &mut places.input, primitive, span) {
+            Ok(Set::First) => {
+                self.fix_geometry_size(primitive.vertices(), span);
+                self.size_geometry_inputs(primitive.vertices(), span);
+            }
+            Ok(Set::Again) => self.fix_geometry_size(primitive.vertices(), span),
+            Err(at) => self.report(contradiction(span, at, "input primitive")),
         }
     }
 
@@ -55,16 +48,9 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(&qualifiers::GEOMETRY_LAYOUT, span, message).here(here));
             return;
         }
-        match self.shader.geometry.invocations {
-            Some(earlier) if earlier != count => {
-                let at = self.layouts.geometry.invocations;
-                self.report(contradiction(span, at, "`invocations`"));
-            }
-            Some(_) => {}
-            None => {
-                self.shader.geometry.invocations = Some(count);
-                self.layouts.geometry.invocations = span;
-            }
+        let (shader, places) = (&mut self.shader.geometry, &mut self.layouts.geometry);
+        if let Err(at) = set_once(&mut shader.invocations, &mut places.invocations, count, span) {
+            self.report(contradiction(span, at, "`invocations`"));
         }
     }
 
@@ -79,16 +65,9 @@ impl Analyzer<'_> {
     }
 
     fn set_output(&mut self, primitive: PrimitiveOut, span: Span) {
-        match self.shader.geometry.output {
-            Some(earlier) if earlier != primitive => {
-                let at = self.layouts.geometry.output;
-                self.report(contradiction(span, at, "output primitive"));
-            }
-            Some(_) => {}
-            None => {
-                self.shader.geometry.output = Some(primitive);
-                self.layouts.geometry.output = span;
-            }
+        let (shader, places) = (&mut self.shader.geometry, &mut self.layouts.geometry);
+        if let Err(at) = set_once(&mut shader.output, &mut places.output, primitive, span) {
+            self.report(contradiction(span, at, "output primitive"));
         }
     }
 
@@ -101,16 +80,9 @@ impl Analyzer<'_> {
             );
             return;
         }
-        match self.shader.geometry.max_vertices {
-            Some(earlier) if earlier != count => {
-                let at = self.layouts.geometry.max_vertices;
-                self.report(contradiction(span, at, "`max_vertices`"));
-            }
-            Some(_) => {}
-            None => {
-                self.shader.geometry.max_vertices = Some(count);
-                self.layouts.geometry.max_vertices = span;
-            }
+        let (shader, places) = (&mut self.shader.geometry, &mut self.layouts.geometry);
+        if let Err(at) = set_once(&mut shader.max_vertices, &mut places.max_vertices, count, span) {
+            self.report(contradiction(span, at, "`max_vertices`"));
         }
     }
 
@@ -167,6 +139,24 @@ impl Analyzer<'_> {
                     global.ty = ty;
                 }
             }
+        }
+    }
+}
+
+/// How a layout sets a value that all layouts must agree on.
+enum Set {
+    First,
+    Again,
+}
+
+/// Sets a value, or says where another one was set.
+fn set_once<T: PartialEq>(slot: &mut Option<T>, place: &mut Span, value: T, span: Span) -> Result<Set, Span> {
+    match slot {
+        Some(earlier) if *earlier != value => Err(*place),
+        Some(_) => Ok(Set::Again),
+        None => {
+            (*slot, *place) = (Some(value), span);
+            Ok(Set::First)
         }
     }
 }

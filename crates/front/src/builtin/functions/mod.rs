@@ -20,6 +20,7 @@ pub use matcher::Matcher;
 use super::operations::Operation;
 use super::{Availability, BuiltinFunction};
 use crate::language::{ParamMode, Stage, TypeId, Types};
+use rustc_hash::FxHashMap;
 use std::sync::OnceLock;
 
 /// The effect of a call besides its value.
@@ -227,11 +228,9 @@ fn by_name() -> &'static [&'static Row] {
 
 /// The rows with a name, in any version and stage; none if no version has the name.
 pub fn named(name: &str) -> &'static [&'static Row] {
-    let rows = by_name();
-    let start = rows.partition_point(|row| row.name < name);
-    let rest = rows.get(start..).unwrap_or(&[]);
-    let len = rest.iter().take_while(|row| row.name == name).count();
-    rest.get(..len).unwrap_or(&[])
+    static INDEX: OnceLock<FxHashMap<&'static str, &'static [&'static Row]>> = OnceLock::new();
+    let groups = || by_name().chunk_by(|a, b| a.name == b.name).filter_map(|rows| Some((rows.first()?.name, rows)));
+    INDEX.get_or_init(|| groups().collect()).get(name).copied().unwrap_or(&[])
 }
 
 /// Every name once, in sorted order.

@@ -1,6 +1,6 @@
 //! Evaluates the expressions of `#if` and `#elif` (GLSL 1.50 §3.3), with C++'s 64-bit integers.
 
-use super::define::Macro;
+use super::definition::Macro;
 use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 

@@ -1,65 +1,15 @@
 //! Macros: `#define`, `#undef`, and the predefined ones (GLSL 1.50 §3.3).
 
+use super::definition::{Macro, Meaning};
 use super::{
-    Feature, ParseSession, Preprocessor, Profile, Span, Symbol, Token, TokenFlags, TokenKind, codes, extension, kind,
+    Feature, ParseSession, Preprocessor, Profile, Span, Symbol, Token, TokenFlags, TokenKind, codes, kind, predefined,
     version,
 };
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceMap;
-use std::sync::Arc;
 
 /// The largest number of parameters of a macro.
 const MAX_PARAMS: usize = 256;
-
-/// The expansion of a macro.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Meaning {
-    /// Its body.
-    Body,
-    /// `__LINE__`
-    Line,
-    /// `__FILE__`
-    File,
-}
-
-/// A macro.
-pub(super) struct Macro {
-    pub(super) name: Arc<str>,
-    /// The name in its `#define`; unknown for predefined macros.
-    pub(super) span: Span,
-    pub(super) meaning: Meaning,
-    /// The parameters of a function-like macro.
-    pub(super) params: Option<Vec<Symbol>>,
-    /// The body, in which uses of parameters have the kind [`TokenKind::Param`].
-    pub(super) body: Arc<[Token]>,
-    /// Whether `##` is in the body.
-    pub(super) pastes: bool,
-    /// Whether the body is being read.
-    pub(super) disabled: bool,
-}
-
-impl Macro {
-    pub(super) fn is_predefined(&self) -> bool {
-        !self.span.is_known()
-    }
-
-    /// Whether two definitions are the same by C's rule: equal tokens, with white space between the same ones.
-    fn same(&self, other: &Self, session: &ParseSession<'_>) -> bool {
-        let spaced = |token: &Token, first: bool| !first && token.flags.contains(TokenFlags::SPACE);
-        let text = |token: &Token| match token.kind {
-            TokenKind::Unknown => session.sources.snippet(token.span).to_owned(),
-            _ => String::new(),
-        };
-        self.params == other.params
-            && self.body.len() == other.body.len()
-            && self.body.iter().zip(other.body.iter()).enumerate().all(|(index, (a, b))| {
-                a.kind == b.kind
-                    && a.payload == b.payload
-                    && spaced(a, index == 0) == spaced(b, index == 0)
-                    && text(a) == text(b)
-            })
-    }
-}
 
 impl Preprocessor<'_> {
     /// Defines the macros that every shader of the version has.
@@ -68,8 +18,10 @@ impl Preprocessor<'_> {
         self.predefine(session, "__LINE__", "0", Meaning::Line);
         self.predefine(session, "__FILE__", "0", Meaning::File);
         let version = self.version;
-        for row in extension::implemented().filter(|row| row.is_for(version)) {
-            self.predefine(session, row.name, "1", Meaning::Body);
+        for (row, symbol, definition) in predefined::extension_macros() {
+            if row.is_for(version) {
+                self.bind(*symbol, definition.clone());
+            }
         }
     }
 
@@ -86,13 +38,10 @@ impl Preprocessor<'_> {
         }
         match self.version.profile {
             Profile::Es => {
-                for row in extension::implemented() {
+                for (row, symbol, definition) in predefined::extension_macros() {
                     match row.is_for(self.version) {
-                        true => self.predefine(session, row.name, "1", Meaning::Body),
-                        false => {
-                            let symbol = session.names.intern(row.name);
-                            self.word(symbol).definition = 0;
-                        }
+                        true => self.bind(*symbol, definition.clone()),
+                        false => self.word(*symbol).definition = 0,
                     }
                 }
                 self.predefine(session, "GL_ES", "1", Meaning::Body);
@@ -104,18 +53,8 @@ impl Preprocessor<'_> {
     }
 
     fn predefine(&mut self, session: &mut ParseSession<'_>, name: &str, value: &str, meaning: Meaning) {
-        let mut token = Token::new(TokenKind::Number, Span::default());
-        token.payload = session.names.intern(value).bits();
+        let definition = Macro { meaning, ..Macro::number(&mut session.names, name, value) };
         let symbol = session.names.intern(name);
-        let definition = Macro {
-            name: name.into(),
-            span: Span::default(),
-            meaning,
-            params: None,
-            body: Arc::new([token]),
-            pastes: false,
-            disabled: false,
-        };
         self.bind(symbol, definition);
     }
 

@@ -1,6 +1,6 @@
 //! Macro expansion by the rules of C++, on an explicit stack (GLSL 1.50 §3.3).
 
-use super::define::Meaning;
+use super::definition::Meaning;
 use super::{Mode, ParseSession, Preprocessor, Span, Token, TokenFlags, TokenKind, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Expansion, ExpansionId};

@@ -13,11 +13,13 @@
 
 mod condition;
 mod define;
+mod definition;
 mod directive;
 mod expand;
 pub(super) mod extension;
 mod finish;
 mod include;
+pub(super) mod predefined;
 mod prelude;
 #[cfg(test)]
 mod tests;
@@ -27,13 +29,14 @@ use super::ast::{Allow, Behavior, Extensions, Profile, Version};
 use super::keywords;
 use super::kind;
 use super::lexer::{Lexer, Mode, Trivia};
+use super::names::Names;
 use super::session::{ParseSession, TokenSource};
 use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::language::Feature;
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
-use define::Macro;
+use definition::Macro;
 use expand::TokenRun;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;

@@ -1,9 +1,8 @@
 //! Tests of the preprocessor, on its output as text.
 
-use super::Preprocessor;
+use super::{Preprocessor, predefined};
 use crate::diagnostic::Diagnostics;
 use crate::source::{IncludeForm, IncludeResolver, Included, SourceMap};
-use crate::syntax::names::Names;
 use crate::syntax::session::{ExtensionSets, ParseSession, TokenSource};
 use crate::syntax::token::TokenKind;
 
@@ -24,7 +23,7 @@ fn run(text: &str, files: &'static [(&'static str, &'static str)]) -> (String, V
     let mut session = ParseSession {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
-        names: Names::with_keywords(),
+        names: predefined::names(),
         extension_sets: ExtensionSets::default(),
     };
     let files = Files(files);
@@ -161,7 +160,7 @@ fn a_use_of_a_macro_is_traced() {
     let mut session = ParseSession {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
-        names: Names::with_keywords(),
+        names: predefined::names(),
         extension_sets: ExtensionSets::default(),
     };
     let mut preprocessor = Preprocessor::new(&mut session, file, &[], false, &Files(&[]));

@@ -2,6 +2,8 @@
 
 use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
+use crate::language::EDITIONS;
+use std::collections::BTreeSet;
 
 /// The language of a text without a `#version` line (§3.3).
 pub(super) const UNWRITTEN: Version = Version {
@@ -9,44 +11,6 @@ pub(super) const UNWRITTEN: Version = Version {
     profile: Profile::Core,
     span: Span { start: 0, end: 0, expansion: crate::source::ExpansionId::NONE },
 };
-
-/// A version of the language.
-struct Edition {
-    number: u16,
-    /// Whether it is for embedded systems; its `#version` line ends in `es` from 300 on.
-    es: bool,
-    /// Whether it has profiles.
-    profiles: bool,
-}
-
-const fn desktop(number: u16) -> Edition {
-    Edition { number, es: false, profiles: number >= 150 }
-}
-
-const fn es(number: u16) -> Edition {
-    Edition { number, es: true, profiles: false }
-}
-
-/// All versions.
-static EDITIONS: &[Edition] = &[
-    es(100),
-    desktop(110),
-    desktop(120),
-    desktop(130),
-    desktop(140),
-    desktop(150),
-    es(300),
-    es(310),
-    es(320),
-    desktop(330),
-    desktop(400),
-    desktop(410),
-    desktop(420),
-    desktop(430),
-    desktop(440),
-    desktop(450),
-    desktop(460),
-];
 
 const HELP: &str = "write `#version 150`";
 
@@ -121,7 +85,8 @@ impl Preprocessor<'_> {
     ) {
         self.version = version;
         let Some(edition) = EDITIONS.iter().find(|edition| edition.number == version.number) else {
-            let numbers: Vec<_> = EDITIONS.iter().map(|edition| edition.number.to_string()).collect();
+            let numbers: BTreeSet<u16> = EDITIONS.iter().map(|edition| edition.number).collect();
+            let numbers: Vec<_> = numbers.iter().map(u16::to_string).collect();
             let diagnostic = Diagnostic::new(
                 &codes::UNKNOWN_VERSION,
                 number,
@@ -135,14 +100,14 @@ impl Preprocessor<'_> {
         };
         let wanted = match named {
             "" if edition.es => Some(Profile::Es),
-            "" | "core" if named.is_empty() || edition.profiles => Some(Profile::Core),
-            "compatibility" if edition.profiles => Some(Profile::Compatibility),
+            "" | "core" if named.is_empty() || edition.has_profiles() => Some(Profile::Core),
+            "compatibility" if edition.has_profiles() => Some(Profile::Compatibility),
             "es" if edition.es && version.number >= 300 => Some(Profile::Es),
             _ => None,
         };
         let Some(wanted) = wanted else {
             let message = format!("GLSL {} has no profile `{named}`", version.number);
-            let help = if edition.profiles { "the profiles are `core` and `compatibility`" } else { HELP };
+            let help = if edition.has_profiles() { "the profiles are `core` and `compatibility`" } else { HELP };
             session.report(Diagnostic::new(&codes::UNKNOWN_VERSION, profile, message).help(help));
             return;
         };
