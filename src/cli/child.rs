@@ -19,7 +19,7 @@ pub(super) enum Side {
 pub(super) struct Child {
     #[cfg(target_os = "linux")]
     number: i32,
-    /// What this process did at signals before it had a child.
+    /// The actions of this process at signals before it had a child.
     #[cfg(target_os = "linux")]
     before: Box<linux::Actions>,
 }
@@ -152,7 +152,7 @@ mod linux {
         }
     }
 
-    /// What the terminal sends, it sends to the child as well. What a process sends, it sends to this process alone.
+    /// Hands a signal to the child, unless the terminal sent it: that sends it to both. A process sends it to this one alone.
     extern "C" fn hand_over(signal: i32, information: *mut libc::siginfo_t, _: *mut libc::c_void) {
         // SAFETY: the system calls this with the facts about the signal; `kill` may be called by a handler.
         unsafe {

@@ -40,7 +40,7 @@ pub(super) struct Journal {
     file: Mutex<File>,
 }
 
-/// What was going on at the last note.
+/// The state at the last note.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct State {
     /// The driver.

@@ -80,7 +80,7 @@ impl Supervised {
     }
 }
 
-/// What happens after the end of a child.
+/// The step after the end of a child.
 #[derive(Debug, PartialEq)]
 enum Next {
     /// This process ends with the same code.

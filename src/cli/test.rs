@@ -117,7 +117,7 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
     Ok(if failed { Exit::Content } else { Exit::Ok })
 }
 
-/// What processes before this one found, which a driver took down.
+/// The results of processes before this one, which a driver took down.
 #[derive(Default)]
 struct Known {
     rows: BTreeMap<(String, String), TestRow>,
