@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     quiet_vulkan();
-    glisten::cli::run(std::env::args_os())
+    glisten::cli::run_supervised(std::env::args_os())
 }
 
 /// Keeps Mesa's device-select layer from asking a Wayland server for the default GPU: glisten selects the GPU itself.

@@ -35,6 +35,12 @@ impl Exit {
         diagnostics.into_iter().filter(|diagnostic| diagnostic.is_error()).map(Self::of_error).max().unwrap_or_default()
     }
 
+    /// The exit with this code.
+    pub(super) fn of_code(code: u8) -> Self {
+        let known = [Self::Ok, Self::Usage, Self::Machine, Self::Interrupted];
+        known.into_iter().find(|exit| *exit as u8 == code).unwrap_or(Self::Content)
+    }
+
     fn of_error(error: &Diagnostic) -> Self {
         if FILE_CODES.contains(&error.code.id) { Self::Usage } else { Self::Content }
     }

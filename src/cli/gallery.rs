@@ -4,6 +4,7 @@ use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::journal;
 use super::made::made;
 use super::opengl;
 use super::progress::Progress;
@@ -48,6 +49,13 @@ pub(super) struct GalleryArgs {
     size: u32,
     #[command(flatten)]
     machine: MachineArgs,
+}
+
+impl GalleryArgs {
+    /// Whether a driver draws.
+    pub(super) fn draws_by_a_driver(&self) -> bool {
+        self.backend.is_a_driver()
+    }
 }
 
 /// A backend that is ready to draw.
@@ -111,6 +119,7 @@ impl GalleryBackend {
             _ if !args.specialize => scene,
             contract => specialize_scene_by(contract, &scene, &SourceMap::default(), &[]).scene,
         };
+        let _work = matches!(self, Self::Gpu(..)).then(|| journal::at_work(&format!("drawing `{}`", entry.name)));
         let picture = match self {
             Self::Gpu(gpu, via) => glisten_reference::expand(&scene)
                 .map_err(DrawError::from)
@@ -120,7 +129,7 @@ impl GalleryBackend {
                     RenderOptions { precision: Precision::F64, lines: LineRule::OpenGl, ..RenderOptions::default() };
                 args.machine.within_time(move || Ok(glisten_reference::render(&scene, &options)?))
             }
-            Self::OpenGl => opengl::draw(&args.machine, scene),
+            Self::OpenGl => opengl::draw(&args.machine, entry.name, scene),
         };
         picture.map_err(failure)
     }

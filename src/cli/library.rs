@@ -5,6 +5,8 @@ use super::args::ResultFormat;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::journal;
+use super::scenes::{gpu_failure, open_gpu};
 use crate::evaluate::EvaluateError;
 use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, modules, shader, shader_files};
 use crate::measure::{Figures, Form, Trial, forms};
@@ -75,6 +77,13 @@ enum MeasureBackends {
     Both,
 }
 
+impl LibArgs {
+    /// Whether a driver draws.
+    pub(super) fn draws_by_a_driver(&self) -> bool {
+        matches!(self.command, LibCommand::Measure { backend: MeasureBackends::Both, .. })
+    }
+}
+
 /// Runs the command.
 pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
     let text = match &args.command {
@@ -85,7 +94,7 @@ pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
         LibCommand::Measure { modules, rows, backend, adapter, format } => {
             let gpu = match backend {
                 MeasureBackends::Cpu => None,
-                MeasureBackends::Both => Some(Gpu::new(adapter.as_deref()).map_err(super::scenes::gpu_failure)?),
+                MeasureBackends::Both => Some(open_gpu(adapter.as_deref()).map_err(gpu_failure)?),
             };
             measure(modules, *rows as usize, gpu.as_ref(), *format)?
         }
@@ -273,8 +282,9 @@ fn measure(names: &[String], rows: usize, gpu: Option<&Gpu>, format: ResultForma
         let drawn = match gpu {
             None => None,
             Some(gpu) => {
+                let _work = journal::at_work(&format!("measuring `{}`", form.signature));
                 let scene = trial.scene().map_err(|error| told(form, &error))?;
-                let rendered = gpu.render(&scene, Via::Spirv).map_err(super::scenes::gpu_failure)?;
+                let rendered = gpu.render(&scene, Via::Spirv).map_err(gpu_failure)?;
                 Some(trial.picture(&rendered.picture))
             }
         };

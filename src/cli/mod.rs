@@ -11,6 +11,7 @@ mod args;
 mod batch;
 mod cache;
 mod cache_command;
+mod child;
 mod compile;
 mod completions;
 mod config;
@@ -28,6 +29,7 @@ mod gallery;
 mod guard;
 mod inputs;
 mod interrupt;
+mod journal;
 mod library;
 mod lint;
 mod lone;
@@ -56,6 +58,7 @@ mod specialize;
 mod stability;
 mod stability_library;
 mod stages;
+mod supervisor;
 pub mod survey;
 mod test;
 mod timed;
@@ -70,6 +73,7 @@ use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
 use std::ffi::OsString;
 use std::process::ExitCode;
+use supervisor::Supervised;
 
 /// The stack size of the thread that runs a command.
 const STACK_BYTES: usize = 16 << 20;
@@ -120,23 +124,47 @@ enum Command {
     Man(man::ManArgs),
 }
 
-/// Runs the program with these arguments, the first being its own name.
+/// Runs the program with these arguments, the first being its own name, in this process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments = match responses::expanded(arguments.into_iter().collect()) {
-        Ok(arguments) => arguments,
-        Err(failure) => return end(Err(failure), &Console::new(false, ColorChoice::Auto)),
+    match parsed(arguments) {
+        Ok((command, console)) => carry_out(&command, console).into(),
+        Err(exit) => exit.into(),
+    }
+}
+
+/// Runs the program like [`run`]. What draws by a driver runs in a copy of this process, so that this one can tell what a driver
+/// did that crashed. This process must not have another thread.
+pub fn run_supervised(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let (command, console) = match parsed(arguments) {
+        Ok(parsed) => parsed,
+        Err(exit) => return exit.into(),
     };
+    let resumes = matches!(command, Command::Test(_));
+    if command.draws_by_a_driver() {
+        Supervised { resumes }.run(&console, &|| carry_out(&command, console)).into()
+    } else {
+        carry_out(&command, console).into()
+    }
+}
+
+/// The command of the arguments, or the exit code of wrong ones and of those that ask for help.
+fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Console), Exit> {
+    let arguments = responses::expanded(arguments.into_iter().collect())
+        .map_err(|failure| end(Err(failure), &Console::new(false, ColorChoice::Auto)))?;
     let parsed = examples::with_examples(Cli::command()).try_get_matches_from(arguments);
-    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => cli,
-        Err(error) => return usage(&error),
-    };
-    let console = Console::new(cli.global.quiet, cli.global.color);
+    let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).map_err(|error| usage(&error))?;
+    Ok((cli.command, Console::new(cli.global.quiet, cli.global.color)))
+}
+
+/// Runs a command on a thread with a large stack, and reports a failure.
+fn carry_out(command: &Command, console: Console) -> Exit {
     guard::silence_panics();
-    let command = cli.command;
-    let work = move || guard::guarded(|| dispatch(&command, &console));
-    let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn(work);
-    let outcome = match thread.map(std::thread::JoinHandle::join) {
+    let work = || guard::guarded(|| dispatch(command, &console));
+    let joined = std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, work);
+        thread.map(std::thread::ScopedJoinHandle::join)
+    });
+    let outcome = match joined {
         Ok(Ok(Ok(outcome))) => outcome,
         Ok(Ok(Err(panic))) => {
             let message = format!("internal error: {panic}");
@@ -147,6 +175,33 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => Err(Failure::new(Exit::Machine, format!("the system gives no thread: {error}"))),
     };
     end(outcome, &console)
+}
+
+impl Command {
+    /// Whether the command hands code to a driver.
+    fn draws_by_a_driver(&self) -> bool {
+        match self {
+            Self::Verify(_) | Self::Report(_) => true,
+            Self::Render(args) => args.draws_by_a_driver(),
+            Self::Gallery(args) => args.draws_by_a_driver(),
+            Self::Test(args) => args.draws_by_a_driver(),
+            Self::Lib(args) => args.draws_by_a_driver(),
+            Self::Lint(_)
+            | Self::Compile(_)
+            | Self::Reflect(_)
+            | Self::Explain(_)
+            | Self::Specialize(_)
+            | Self::Stability(_)
+            | Self::NewScene(_)
+            | Self::Upgrade(_)
+            | Self::FixedFunction(_)
+            | Self::Completions(_)
+            | Self::Watch(_)
+            | Self::Cache(_)
+            | Self::Snapshots(_)
+            | Self::Man(_) => false,
+        }
+    }
 }
 
 fn dispatch(command: &Command, console: &Console) -> Outcome {
@@ -175,19 +230,19 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
 }
 
 /// Reports wrong arguments, or prints the requested help or version.
-fn usage(error: &clap::Error) -> ExitCode {
+fn usage(error: &clap::Error) -> Exit {
     // If it cannot be printed, there is no other place to report it.
     let _ = error.print();
-    if error.use_stderr() { Exit::Usage.into() } else { Exit::Ok.into() }
+    if error.use_stderr() { Exit::Usage } else { Exit::Ok }
 }
 
-fn end(outcome: Outcome, console: &Console) -> ExitCode {
+fn end(outcome: Outcome, console: &Console) -> Exit {
     match outcome {
-        Ok(exit) => exit.into(),
-        Err(Failure::OutputClosed) => Exit::Ok.into(),
+        Ok(exit) => exit,
+        Err(Failure::OutputClosed) => Exit::Ok,
         Err(Failure::Told { exit, message, help }) => {
             console.failure(&message, help.as_deref());
-            exit.into()
+            exit
         }
     }
 }

@@ -8,6 +8,8 @@ use glisten_scene::picture::Picture;
 #[cfg(feature = "gl")]
 use super::exit::Exit;
 #[cfg(feature = "gl")]
+use super::journal::{self, Note};
+#[cfg(feature = "gl")]
 use glisten_gl::{Error, Gl};
 
 /// Reports an error if the backend is not built in.
@@ -22,15 +24,20 @@ fn not_built() -> Failure {
 
 /// Draws a scene.
 #[cfg(not(feature = "gl"))]
-pub(super) fn draw(_: &MachineArgs, _: Scene) -> Result<Picture, DrawError> {
+pub(super) fn draw(_: &MachineArgs, _: &str, _: Scene) -> Result<Picture, DrawError> {
     Err(not_built().into())
 }
 
 /// Draws a scene.
 #[cfg(feature = "gl")]
-pub(super) fn draw(machine: &MachineArgs, scene: Scene) -> Result<Picture, DrawError> {
+pub(super) fn draw(machine: &MachineArgs, name: &str, scene: Scene) -> Result<Picture, DrawError> {
+    journal::note(&Note::Driver("of OpenGL".to_owned()));
+    let work = format!("drawing `{name}`");
     // A context belongs to its thread.
-    machine.within_time(move || Ok(Gl::new()?.render(&scene)?))
+    machine.within_time(move || {
+        let _work = journal::at_work(&work);
+        Ok(Gl::new()?.render(&scene)?)
+    })
 }
 
 #[cfg(feature = "gl")]

@@ -4,6 +4,7 @@ use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Failure, Outcome};
 use super::files;
+use super::journal;
 use super::opengl;
 use super::pictures::Target;
 use super::progress::Progress;
@@ -54,7 +55,19 @@ pub(super) enum Backend {
     Gl,
 }
 
+impl RenderArgs {
+    /// Whether a driver draws.
+    pub(super) fn draws_by_a_driver(&self) -> bool {
+        self.backend.is_a_driver()
+    }
+}
+
 impl Backend {
+    /// Whether it hands code to a driver.
+    pub(super) fn is_a_driver(self) -> bool {
+        self != Self::Cpu
+    }
+
     /// Reports an error if the backend is not built in.
     pub(super) fn require(self) -> Result<(), Failure> {
         match self {
@@ -128,7 +141,9 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
         Backend::Gpu => {
             let gpu = args.scene.gpu()?;
             let drawn_by = Some(gpu.adapter().to_string());
+            let work = format!("drawing `{}`", args.scene.scene);
             let picture = args.scene.within_time(move || {
+                let _work = journal::at_work(&work);
                 let scene = glisten_reference::expand(&scene)?;
                 let prepared = gpu.prepare_foreign(&scene, via, &foreign)?;
                 Ok(gpu.draw(&prepared)?.picture)
@@ -144,6 +159,6 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
                 RenderOptions { precision, lines: LineRule::OpenGl, mark_edges: false, ..RenderOptions::default() };
             Ok(args.scene.within_time(move || Ok(glisten_reference::render(&scene, &options)?))?.into())
         }
-        Backend::Gl => Ok(opengl::draw(&args.scene.machine, scene)?.into()),
+        Backend::Gl => Ok(opengl::draw(&args.scene.machine, &args.scene.scene, scene)?.into()),
     }
 }

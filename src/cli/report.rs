@@ -8,6 +8,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::interrupt::Interrupt;
+use super::journal::{self, AtWork};
 use super::machine::machine;
 use super::made::made;
 use super::progress::Progress;
@@ -92,6 +93,8 @@ struct Steps {
     progress: Progress,
     begun: bool,
     interrupt: Interrupt,
+    scene: String,
+    work: Option<AtWork>,
 }
 
 impl Watcher for Steps {
@@ -105,6 +108,9 @@ impl Watcher for Steps {
         }
         self.begun = true;
         self.progress.say(what);
+        // The earlier step ends before the next one begins.
+        self.work = None;
+        self.work = Some(journal::at_work(&format!("measuring `{}`: {what}", self.scene)));
     }
 
     fn is_stopped(&self) -> bool {
@@ -132,8 +138,13 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         time: args.seconds.map(Duration::from_secs_f64),
         machine: machine(),
     };
-    let mut steps =
-        Steps { progress: Progress::new(console, 1).with_estimate(), begun: false, interrupt: interrupt.clone() };
+    let mut steps = Steps {
+        progress: Progress::new(console, 1).with_estimate(),
+        begun: false,
+        interrupt: interrupt.clone(),
+        scene: args.scene.scene.clone(),
+        work: None,
+    };
     let files: &dyn FileSource = if args.library { &LibraryFiles } else { &DiskFiles };
     let result = report::run(&args.scene.scene, files, session.compiler(), &gpu, &options, &mut steps);
     drop(steps);

@@ -5,6 +5,7 @@ use super::batch::Batch;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::guard;
+use super::journal::{self, Note};
 use super::session::Session;
 use crate::scene::{self, DiskFiles, Scene};
 use crate::specialize::{Contract, specialize_scene_by};
@@ -206,6 +207,14 @@ pub(super) fn told(exit: Exit, text: &str) -> Failure {
     }
 }
 
+/// The GPU with that name, or the first one.
+pub(super) fn open_gpu(name: Option<&str>) -> Result<Gpu, Error> {
+    let _work = journal::at_work("listing the adapters");
+    let gpu = Gpu::new(name)?;
+    journal::note(&Note::Driver(gpu.adapter().driver.clone()));
+    Ok(gpu)
+}
+
 impl SceneArgs {
     /// The arguments for one scene of several.
     pub(super) fn of(scene: &str, machine: &MachineArgs, sources: &SourceArgs, levels: &LevelArgs) -> Self {
@@ -272,7 +281,7 @@ impl SceneArgs {
 impl MachineArgs {
     /// The GPU that the arguments name.
     pub(super) fn gpu(&self) -> Result<Gpu, DrawError> {
-        let gpu = Gpu::new(self.adapter.as_deref())?;
+        let gpu = open_gpu(self.adapter.as_deref())?;
         Ok(gpu.with_timeout(Duration::from_secs_f64(self.timeout)))
     }
 

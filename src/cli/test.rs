@@ -5,7 +5,9 @@ use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
+use super::journal::{self, Note};
 use super::progress::Progress;
+use super::scenes::{gpu_failure, open_gpu};
 use crate::scene::Scene;
 use crate::shader_test::{self, TestBackend, TestResult};
 use clap::{Args, ValueEnum};
@@ -14,7 +16,8 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -52,15 +55,24 @@ enum TestBackends {
     Both,
 }
 
+impl TestArgs {
+    /// Whether a driver draws.
+    pub(super) fn draws_by_a_driver(&self) -> bool {
+        self.backend != TestBackends::Cpu
+    }
+}
+
 /// The result of a test on a backend.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Deserialize, Serialize)]
 struct TestRow {
     file: String,
-    backend: &'static str,
-    result: &'static str,
+    backend: String,
+    result: String,
     reason: Option<String>,
 }
 
+/// The name of the backend that a driver is.
+const GPU: &str = "gpu";
 /// The extension of test files.
 const EXTENSION: &str = "shader_test";
 /// How deep folders are searched.
@@ -78,15 +90,20 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
     let mut backends = backends(args)?;
     let progress = Progress::new(console, files.len());
     let mut results = Vec::new();
+    let mut known = Known::read();
     for path in &files {
         let name = path.display().to_string();
         progress.say(&name);
         let bytes = files::read(&name, path).map_err(|_| Failure::usage(format!("cannot read `{name}`")))?;
         let text = String::from_utf8_lossy(&bytes);
         for (backend, draws) in &mut backends {
-            let found = one(&name, &text, draws.as_mut());
-            let (result, reason) = (found.name(), found.reason().map(str::to_owned));
-            results.push(TestRow { file: name.clone(), backend, result, reason });
+            let row = known.take(&name, backend).unwrap_or_else(|| {
+                let _work = (*backend == GPU).then(|| journal::at_work(&work_on(&name)));
+                let row = TestRow::new(&name, backend, &one(&name, &text, draws.as_mut()));
+                row.keep();
+                row
+            });
+            results.push(row);
         }
         progress.step();
     }
@@ -98,6 +115,58 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
     console.output(&text)?;
     let failed = results.iter().any(|result| result.result == "fail");
     Ok(if failed { Exit::Content } else { Exit::Ok })
+}
+
+/// What processes before this one found, which a driver took down.
+#[derive(Default)]
+struct Known {
+    rows: BTreeMap<(String, String), TestRow>,
+    /// The work at which they crashed, and the sentence that says so.
+    crashes: BTreeMap<String, String>,
+}
+
+impl Known {
+    fn read() -> Self {
+        let mut known = Self::default();
+        for note in journal::notes() {
+            match note {
+                Note::Result(row) => {
+                    let row: Option<TestRow> = serde_json::from_value(row).ok();
+                    known.rows.extend(row.map(|row| ((row.file.clone(), row.backend.clone()), row)));
+                }
+                Note::Crash { work, what } => {
+                    known.crashes.insert(work, what);
+                }
+                Note::Driver(_) | Note::Begin(_) | Note::End | Note::Done(_) => {}
+            }
+        }
+        known
+    }
+
+    fn take(&mut self, file: &str, backend: &str) -> Option<TestRow> {
+        let crash = || {
+            let what = self.crashes.get(&work_on(file)).filter(|_| backend == GPU)?;
+            Some(TestRow::new(file, backend, &TestResult::Fail(what.clone())))
+        };
+        crash().or_else(|| self.rows.remove(&(file.to_owned(), backend.to_owned())))
+    }
+}
+
+/// The name of a driver's work on a test.
+fn work_on(file: &str) -> String {
+    format!("drawing `{file}`")
+}
+
+impl TestRow {
+    fn new(file: &str, backend: &str, found: &TestResult) -> Self {
+        let (result, reason) = (found.name().to_owned(), found.reason().map(str::to_owned));
+        Self { file: file.to_owned(), backend: backend.to_owned(), result, reason }
+    }
+
+    /// Keeps the result for a process after this one.
+    fn keep(&self) {
+        journal::note(&Note::Result(serde_json::to_value(self).expect("a row is always JSON")));
+    }
 }
 
 /// Runs a test. A panic fails it and does not affect the others.
@@ -135,9 +204,9 @@ type Named = (&'static str, Box<dyn TestBackend>);
 fn backends(args: &TestArgs) -> Result<Vec<Named>, Failure> {
     let mut backends: Vec<Named> = Vec::new();
     if args.backend != TestBackends::Cpu {
-        let gpu = Gpu::new(args.adapter.as_deref()).map_err(super::scenes::gpu_failure)?;
+        let gpu = open_gpu(args.adapter.as_deref()).map_err(gpu_failure)?;
         let gpu = gpu.with_timeout(Duration::from_secs(args.timeout));
-        backends.push(("gpu", Box::new(GpuBackend { gpu, via: args.via.into() })));
+        backends.push((GPU, Box::new(GpuBackend { gpu, via: args.via.into() })));
     }
     if args.backend != TestBackends::Gpu {
         backends.push(("cpu", Box::new(CpuBackend)));

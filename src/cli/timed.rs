@@ -3,6 +3,7 @@
 //! *In:* scenes. *Out:* pictures, or failures.
 
 use super::exit::{Exit, Failure};
+use super::journal;
 use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, told};
 use crate::scene::Scene;
@@ -74,14 +75,22 @@ impl Reference for TimedReference<'_> {
 pub(super) struct TimedGpu<'a> {
     gpu: Arc<Gpu>,
     via: Via,
+    /// The scene's file.
+    name: &'a str,
     foreign: Arc<[Foreign]>,
     machine: &'a MachineArgs,
     progress: &'a Progress,
 }
 
 impl<'a> TimedGpu<'a> {
-    pub(super) fn new(gpu: &Arc<Gpu>, via: Via, machine: &'a MachineArgs, progress: &'a Progress) -> Self {
-        Self { gpu: Arc::clone(gpu), via, foreign: Arc::new([]), machine, progress }
+    pub(super) fn new(
+        gpu: &Arc<Gpu>,
+        via: Via,
+        name: &'a str,
+        machine: &'a MachineArgs,
+        progress: &'a Progress,
+    ) -> Self {
+        Self { gpu: Arc::clone(gpu), via, name, foreign: Arc::new([]), machine, progress }
     }
 
     /// Draws with modules of other translators.
@@ -99,7 +108,11 @@ impl Runner for TimedGpu<'_> {
         self.progress.say(self.name());
         let (gpu, via, scene) = (Arc::clone(&self.gpu), self.via, scene.clone());
         let foreign = Arc::clone(&self.foreign);
-        let drawn = self.machine.within_time(move || Ok(OnGpu::new(&gpu, via).with(&foreign).draw(&scene)?))?;
+        let work = format!("drawing `{}` by {}", self.name, via.name());
+        let drawn = self.machine.within_time(move || {
+            let _work = journal::at_work(&work);
+            Ok(OnGpu::new(&gpu, via).with(&foreign).draw(&scene)?)
+        })?;
         self.progress.step();
         Ok(drawn)
     }

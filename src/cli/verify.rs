@@ -313,7 +313,7 @@ fn compare(
 ) -> Result<(Verification, AdapterFacts), DrawError> {
     let machine = &args.scene.machine;
     let gpu = Arc::new(args.scene.gpu()?);
-    let runner = |via: &Via| TimedGpu::new(&gpu, *via, machine, progress).with(foreign);
+    let runner = |via: &Via| TimedGpu::new(&gpu, *via, &args.scene.scene, machine, progress).with(foreign);
     let runners: Vec<TimedGpu<'_>> = vias.iter().map(runner).collect();
     let runners: Vec<Instead<'_>> = runners.iter().map(|runner| Instead { runner, scene: drawn }).collect();
     let runners: Vec<&dyn Runner> = runners.iter().map(|runner| runner as &dyn Runner).collect();

@@ -16,6 +16,8 @@ mod cache_faults;
 #[cfg(feature = "cli")]
 mod cli;
 mod codes;
+#[cfg(all(feature = "cli", target_os = "linux"))]
+mod crash;
 mod cycles;
 mod diagnostics;
 #[cfg(feature = "reference")]

@@ -40,6 +40,7 @@ mod textures;
 mod timing;
 mod uniforms;
 mod vertices;
+mod visibility;
 
 #[cfg(test)]
 mod tests;

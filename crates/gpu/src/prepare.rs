@@ -9,6 +9,7 @@ use super::device::feature_of;
 use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
 use super::vertices::{self, Rows};
+use super::visibility::Visibility;
 use super::{Error, Foreign, Gpu, Via, assembly, beyond, multisample_upload, sprites, uniforms};
 use glisten_emit::{self as emit, Conventions, Emitted, FloatWidth, Target};
 use glisten_front::diagnostic::Diagnostic;
@@ -43,6 +44,15 @@ pub(super) type Modules<'a> = &'a dyn Fn(&Draw, Stage) -> Result<Emitted, Error>
 
 /// The modules that replace the stages of a draw, by their index.
 type Replaced = [Option<usize>; 2];
+
+/// Who wrote the modules.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    /// The emitter: they see what the reflection says.
+    Emitted,
+    /// Someone else, or a test that has edited them.
+    Other,
+}
 
 /// The stages of a draw.
 const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
@@ -87,7 +97,7 @@ impl Gpu {
             let conventions = Conventions { floats, ..conventions(draw, target) };
             emit::emit(&draw.program, stage, target, &conventions).map_err(Error::Emit)
         };
-        self.prepare_with(scene, target, &code)
+        self.prepare_replaced(scene, (target, Origin::Emitted), &|_| [None; 2], &|_, draw, stage| code(draw, stage))
     }
 
     /// Prepares a scene with modules of others in place of the emitted ones. Those of the other form are not used.
@@ -116,7 +126,7 @@ impl Gpu {
                 None => Ok(ours),
             }
         };
-        self.prepare_replaced(scene, target, &|number| STAGES.map(|stage| of(number, stage)), &code)
+        self.prepare_replaced(scene, (target, Origin::Emitted), &|number| STAGES.map(|stage| of(number, stage)), &code)
     }
 
     /// Prepares a scene with SPIR-V after `edit` has changed the emitted words of each stage, in the order of the
@@ -145,14 +155,15 @@ impl Gpu {
     }
 
     /// Prepares a scene with modules for a target, which follow the conventions of [`conventions`].
+    #[cfg(any(test, feature = "edited-modules"))]
     pub(super) fn prepare_with(&self, scene: &Scene, target: Target, modules: Modules<'_>) -> Result<Prepared, Error> {
-        self.prepare_replaced(scene, target, &|_| [None; 2], &|_, draw, stage| modules(draw, stage))
+        self.prepare_replaced(scene, (target, Origin::Other), &|_| [None; 2], &|_, draw, stage| modules(draw, stage))
     }
 
     fn prepare_replaced(
         &self,
         scene: &Scene,
-        target: Target,
+        (target, origin): (Target, Origin),
         replaced: &dyn Fn(usize) -> Replaced,
         code: &dyn Fn(Replaced, &Draw, Stage) -> Result<Emitted, Error>,
     ) -> Result<Prepared, Error> {
@@ -167,11 +178,11 @@ impl Gpu {
         let mut made = Vec::new();
         let mut draws = Vec::new();
         for (number, draw) in scene.draws.iter().enumerate() {
-            let (sprites, replaced) = (sprites::applies(draw, target), replaced(number));
+            let replaced = replaced(number);
+            let origin = if replaced == [None; 2] { origin } else { Origin::Other };
             let modules: Modules<'_> = &|draw, stage| code(replaced, draw, stage);
-            draws.push(
-                self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, (sprites, replaced), modules, &mut made))?,
-            );
+            let kind = (target, origin, replaced);
+            draws.push(self.guarded(|| self.prepare_draw(&scene.framebuffer, draw, kind, modules, &mut made))?);
         }
         Ok(Prepared { framebuffer: scene.framebuffer, draws })
     }
@@ -180,11 +191,12 @@ impl Gpu {
         &self,
         framebuffer: &Framebuffer,
         draw: &Draw,
-        (sprites, replaced): (bool, Replaced),
+        (target, origin, replaced): (Target, Origin, Replaced),
         modules: Modules<'_>,
         made: &mut Vec<Made>,
     ) -> Result<PreparedDraw, Error> {
         let program = &draw.program;
+        let sprites = sprites::applies(draw, target);
         beyond::refuse(draw)?;
         refuse_levels(draw)?;
         refuse_samples(draw)?;
@@ -200,7 +212,11 @@ impl Gpu {
             None => {
                 let [vertex, fragment] = STAGES.map(|stage| self.module(draw, stage, modules));
                 let modules = [vertex?, fragment?];
-                let layouts = self.layouts(&bindings);
+                let visibility = match origin {
+                    Origin::Emitted => Visibility::of(program, &conventions(draw, target)),
+                    Origin::Other => Visibility::of_any_code(),
+                };
+                let layouts = self.layouts(&bindings, &visibility);
                 let primitive = if sprites { sprites::primitive_state() } else { primitive_state(&draw.state) };
                 let pipeline = self.pipeline(framebuffer, draw, primitive, &modules, &layouts, &rows);
                 let (program, state) = (Arc::clone(program), draw.state);
@@ -267,7 +283,7 @@ impl Gpu {
         unsafe { self.device.create_shader_module_passthrough(descriptor) }
     }
 
-    fn layouts(&self, bindings: &[Binding]) -> Vec<wgpu::BindGroupLayout> {
+    fn layouts(&self, bindings: &[Binding], visibility: &Visibility) -> Vec<wgpu::BindGroupLayout> {
         (0..GROUPS as u32)
             .map(|group| {
                 let entries: Vec<_> = bindings
@@ -275,7 +291,7 @@ impl Gpu {
                     .filter(|binding| binding.slot.group == group)
                     .map(|binding| wgpu::BindGroupLayoutEntry {
                         binding: binding.slot.binding,
-                        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                        visibility: visibility.stages(binding.slot),
                         ty: binding.what.layout(),
                         count: None,
                     })

@@ -8,11 +8,13 @@ use super::trial::{Seen, Trial, difference};
 use super::{Choice, Code, Form, Kind, Mutation, Outcome, Target, guard, legal, mutations};
 use glisten::scene::Scene;
 use glisten::verify::{Conclusion, Demands, Expected, Options};
+use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
 use glisten_gpu::{Error, Gpu};
 use glisten_scene::compare::evidence::{Ruler, Written};
 use glisten_scene::compare::{Compared, Criterion, Verdict};
 use glisten_scene::picture::Picture;
+use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -35,6 +37,8 @@ pub(super) struct Subject<'a> {
     name: String,
     scenery: Scenery,
     scene: &'a Scene,
+    /// The scene that the device draws: where there is a geometry stage, that of what it emits.
+    drawn: Cow<'a, Scene>,
     expected: Expected<'a>,
     /// The emitted code, in the order in which the device asks for it, by form.
     modules: Vec<(Stage, Code)>,
@@ -60,11 +64,13 @@ impl<'a> Subject<'a> {
     /// Prepares a scene of at most [`SIDE`](super::SIDE) pixels per side. `Err` says why it cannot be tried.
     pub(super) fn new(gpu: &'a Gpu, name: &str, scene: &'a Scene, options: &'a Options<'a>) -> Result<Self, String> {
         let expected = Expected::new(scene, options).map_err(|failure| failure.to_string())?;
+        let first = |found: Vec<Diagnostic>| found.first().map_or_else(String::new, |first| first.message.clone());
         let mut subject = Self {
             gpu,
             name: name.to_owned(),
             scenery: Scenery::Plain,
             scene,
+            drawn: glisten_reference::expand(scene).map_err(first)?,
             expected,
             modules: Vec::new(),
             plain: Vec::new(),
@@ -238,8 +244,8 @@ impl<'a> Subject<'a> {
         };
         let prepared = match form {
             // SAFETY: `edit` returns its input with an end for loops, or words that `is_valid` has accepted.
-            Form::Spirv => unsafe { self.gpu.prepare_edited(self.scene, &words)? },
-            Form::Wgsl => self.gpu.prepare_edited_wgsl(self.scene, &text)?,
+            Form::Spirv => unsafe { self.gpu.prepare_edited(&self.drawn, &words)? },
+            Form::Wgsl => self.gpu.prepare_edited_wgsl(&self.drawn, &text)?,
         };
         Ok(self.gpu.draw(&prepared)?.picture)
     }
