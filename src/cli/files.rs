@@ -2,6 +2,7 @@
 
 use super::exit::Failure;
 use super::trace;
+use crate::scene::{DiskFiles, FileError, FileSource};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
@@ -59,6 +60,17 @@ pub(super) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = read_whole(name, path);
     trace::read(path, bytes.as_deref().ok());
     bytes
+}
+
+/// The files of the disk for scenes, which notes what is read.
+pub(super) struct SceneFiles;
+
+impl FileSource for SceneFiles {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        let bytes = DiskFiles.read(path);
+        trace::read(Path::new(path), bytes.as_deref().ok());
+        bytes
+    }
 }
 
 fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {

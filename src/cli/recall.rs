@@ -13,7 +13,7 @@ use super::exit::Failure;
 use super::inputs::Group;
 use super::outputs::{Output, OutputPlan};
 use super::session::{Fresh, Unit, compile_group};
-use super::trace;
+use super::trace::{self, Trace};
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::Diagnostic;
 use std::fs;
@@ -80,18 +80,36 @@ impl Recall {
         }
     }
 
+    /// What was made of a scene before, or else a place for what will be.
+    pub(super) fn scene(&self, path: &str, options: &str) -> (Option<Kept>, Option<Digest>) {
+        let Some(cache) = &self.cache else { return (None, None) };
+        let key = cache.key(&[&self.options, "scene", path, options, &self.folder_that_matters([Path::new(path)])]);
+        (cache.find(key), Some(key))
+    }
+
+    /// Keeps what was made of a scene.
+    pub(super) fn keep_scene(&self, key: Option<Digest>, trace: &Trace, kept: &Kept) {
+        if let (Some(cache), Some(key)) = (&self.cache, key) {
+            cache.keep(key, trace, kept);
+        }
+    }
+
     fn key(&self, cache: &Cache, group: &Group, variant: &str) -> Option<Digest> {
         if group.inputs.iter().any(|input| input.path.is_none()) {
             return None;
         }
+        let here = self.folder_that_matters(group.inputs.iter().filter_map(|input| input.path.as_deref()));
+        Some(cache.key(&[&self.options, &format!("{group:?}"), variant, &here]))
+    }
+
+    /// The working folder, if an engine may look into the folders above, whose names then matter.
+    fn folder_that_matters<'a>(&self, files: impl IntoIterator<Item = &'a Path>) -> String {
         let folder_of = |path: &Path| path.parent().map(Path::to_owned).filter(|folder| !folder.as_os_str().is_empty());
-        let folders = group.inputs.iter().filter_map(|input| input.path.as_deref());
-        let mut folders = folders.map(|path| folder_of(path).unwrap_or_else(|| ".".into()));
-        // An engine may look into the folders above, whose names then matter.
+        let mut folders = files.into_iter().map(|path| folder_of(path).unwrap_or_else(|| ".".into()));
         let is_bound =
             self.engines.is_engine_given() || folders.any(|folder| self.engines.trace_of_rules(&folder).is_some());
         let here = if is_bound { std::env::current_dir().unwrap_or_default() } else { Default::default() };
-        Some(cache.key(&[&self.options, &format!("{group:?}"), variant, &here.to_string_lossy()]))
+        here.to_string_lossy().into_owned()
     }
 }
 

@@ -62,6 +62,14 @@ impl Trace {
         (!self.beyond).then_some(&self.places)
     }
 
+    /// The files that were read.
+    pub(super) fn files(&self) -> impl Iterator<Item = &str> {
+        self.places.iter().filter_map(|place| match place {
+            (Place::File(name), Found::Bytes(_)) => Some(name.as_str()),
+            _ => None,
+        })
+    }
+
     fn add(&mut self, place: Place, found: impl FnOnce() -> Found) {
         if self.seen.insert(place.clone()) {
             self.places.push((place, found()));

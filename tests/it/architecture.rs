@@ -43,7 +43,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "compiler",
         ],
     ),
-    ("crates/emit/src", &["target", "lower", "width", "emit"]),
+    ("crates/emit/src", &["target", "select", "lower", "width", "emit"]),
     (
         "crates/scene/src",
         &["random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "load"],

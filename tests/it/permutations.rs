@@ -146,6 +146,68 @@ fn draws_of_scenes_are_variants() {
     assert_eq!(code(&folder.run(&words)), 0);
     let other = files(&folder.path("other"));
     assert!(other.values().any(|bytes| *bytes == special), "the residual is that of `specialize`");
+}
+
+/// A scene with a mesh of its own and a texture from a file.
+const ROOM: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"r.vert\"\nfragment = \"r.frag\"\n\
+    mesh = { file = \"m.obj\", position = \"position\" }\n[draw.textures]\nt = { file = \"t.png\" }\n[draw.uniforms]\nk = 0.0\n";
+
+/// Two PNG pictures of 2 x 2 pixels, of the values 9 and 10.
+const GRAY: &str = "89504e470d0a1a0a0000000d494844520000000200000002080600000072b60d240000000e4944415478da63e084020618030005220091e3952ebe\
+    0000000049454e44ae426082";
+const LIGHTER: &str = "89504e470d0a1a0a0000000d494844520000000200000002080600000072b60d240000000e4944415478da63e082020618030005b200a13541d6a5\
+    0000000049454e44ae426082";
+
+fn bytes(digits: &str) -> Vec<u8> {
+    let byte = |place| u8::from_str_radix(&digits[place..place + 2], 16).expect("digits");
+    (0..digits.len()).step_by(2).map(byte).collect()
+}
+
+#[test]
+fn a_scene_comes_from_the_cache_until_a_file_of_it_changes() {
+    let folder = project("[[scene]]\nfile = \"room.toml\"\n");
+    let write = |name: &str, text: &[u8]| fs::write(folder.path(name), text).expect("written");
+    let picture = |digits: &str| write("t.png", &bytes(digits));
+    write("room.toml", ROOM.as_bytes());
+    write("r.vert", b"#version 150\nin vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n");
+    let fragment = "#version 150\n#include \"r.glsl\"\nuniform sampler2D t;\nuniform float k;\nout vec4 c;\n\
+        void main() { c = k == 0.0 ? texture(t, vec2(0.5)) : other(); }\n";
+    write("r.frag", fragment.as_bytes());
+    write("r.glsl", b"vec4 other() { return vec4(1.0); }\n");
+    write("m.obj", b"v -1 -1 0\nv 3 -1 0\nv -1 3 0\nf 1 2 3\n");
+    picture(GRAY);
+    let run = |out: &str, is_hit: bool| {
+        let words =
+            ["compile", "--permutations", "p.toml", "--cache", "kept", "-o", out, "--depfile", "d", "--manifest", "m"];
+        let run = folder.run(&words);
+        assert_eq!(code(&run), 0, "{}", err(&run));
+        let told = if is_hit { "1 of 1 from the cache" } else { "0 of 1 from the cache" };
+        assert!(err(&run).contains(told), "{}", err(&run));
+        let accounts = ["d", "m"].map(|name| fs::read_to_string(folder.path(name)).expect("written").replace(out, ""));
+        (files(&folder.path(out)), accounts)
+    };
+    let first = run("one", false);
+    for name in ["p.toml", "room.toml", "r.vert", "r.frag", "r.glsl", "m.obj", "t.png"] {
+        assert!(first.1[0].contains(name), "{name} in {}", first.1[0]);
+    }
+    assert!(first == run("two", true), "a result of the cache is another");
+    let changes: [(&str, &dyn Fn()); 5] = [
+        ("the scene", &|| write("room.toml", ROOM.replace("0.0", "1.0").as_bytes())),
+        ("an include", &|| write("r.glsl", b"vec4 other() { return vec4(0.5); }\n")),
+        ("the mesh", &|| write("m.obj", b"v -1 -1 0\nv 2 -1 0\nv -1 2 0\nf 1 2 3\n")),
+        ("the texture", &|| picture(LIGHTER)),
+        ("a shader", &|| write("r.frag", fragment.replace("vec2(0.5)", "vec2(0.25)").as_bytes())),
+    ];
+    for (number, (what, change)) in changes.iter().enumerate() {
+        change();
+        println!("{what}");
+        run(&format!("miss{number}"), false);
+        run(&format!("hit{number}"), true);
+    }
+}
+
+#[test]
+fn a_scene_that_is_not_there_is_told() {
     assert_eq!(
         code(&project("[[scene]]\nfile = \"none.toml\"\n").run(&["compile", "--permutations", "p.toml", "-o", "x"])),
         2

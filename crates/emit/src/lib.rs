@@ -2,7 +2,7 @@
 //! host.
 //!
 //! ```text
-//!  program ──► lower ──► naga ──► width ──► emit ──► text or binary
+//!  program ──► select ──► lower ──► naga ──► width ──► emit ──► text or binary
 //!     └──────────────► reflection
 //! ```
 //!
@@ -11,6 +11,7 @@
 
 mod emit;
 mod lower;
+mod select;
 mod target;
 mod width;
 

@@ -1,7 +1,9 @@
-//! Lowers gathers that no target has as they are (GLSL 4.00 §8.9.3): those of integers, and those with four offsets.
+//! Lowers gathers that no target has as they are (GLSL 4.00 §8.9.3): those of integers, those with four offsets, and those whose
+//! offset is not constant.
 //!
 //! *Holds:* four offsets are four gathers, each of which gives its last component, the texel i0 j0. Four texels of integers are
-//! four loads.
+//! four loads. An offset that is not constant moves the coordinate; the result is in the middle of the four texels, so that no
+//! rounding selects others.
 
 use super::Try;
 use super::function::Ctx;
@@ -10,7 +12,7 @@ use super::slots::SamplerValue;
 use super::textures::Lookup;
 use glisten_front::builtin::operations::TextureForm;
 use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar};
-use naga::{Expression, Handle};
+use naga::{BinaryOperator, Expression, Handle, MathFunction, ScalarKind};
 
 /// The last component of a gather: the texel i0 j0.
 const FIRST_TEXEL: u32 = 3;
@@ -40,6 +42,26 @@ impl Ctx<'_, '_> {
         }
         let ty = self.low.vector_type(if ty.shadow { Scalar::Float } else { ty.texel }, 4);
         Ok(self.add(Expression::Compose { ty, components }))
+    }
+
+    /// The coordinate between the four texels that an offset in texels leads to.
+    pub(super) fn shifted(&mut self, lookup: &Lookup, offset: Handle<Expression>) -> Handle<Expression> {
+        let size = (lookup.ty.dim != SamplerDim::Rect).then(|| {
+            let base_level = self.int(0);
+            let size = self.texture_dimensions(lookup.value.texture, Some(base_level));
+            self.add(Expression::As { expr: size, kind: ScalarKind::Float, convert: Some(4) })
+        });
+        let [half, one] = [0.5, 1.0].map(|value| {
+            let value = self.float(value);
+            self.splat(value, lookup.ty.dimensions())
+        });
+        let texels = size.map_or(lookup.coordinate, |size| self.op(BinaryOperator::Multiply, lookup.coordinate, size));
+        let below = self.op(BinaryOperator::Subtract, texels, half);
+        let first = self.math1(MathFunction::Floor, below);
+        let offset = self.add(Expression::As { expr: offset, kind: ScalarKind::Float, convert: Some(4) });
+        let moved = self.op(BinaryOperator::Add, first, offset);
+        let middle = self.op(BinaryOperator::Add, moved, one);
+        size.map_or(middle, |size| self.op(BinaryOperator::Divide, middle, size))
     }
 
     /// One component of four texels, each loaded by itself.

@@ -83,6 +83,8 @@ pub(crate) fn lower(
     if let Some(geometry) = program.stage(Stage::Geometry).filter(|_| stage != Stage::Fragment) {
         return Err(vec![no_geometry(geometry)]);
     }
+    let chosen = crate::select::select(&program.types, shader).map_err(|diagnostic| vec![*diagnostic])?;
+    let shader = chosen.as_ref();
     let mut facts = Facts::of(shader);
     facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);
     let nesting = facts.functions.iter().map(|function| function.depth).max().unwrap_or(0);

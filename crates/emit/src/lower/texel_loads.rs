@@ -187,6 +187,9 @@ impl Ctx<'_, '_> {
             let offset = self.int_vector(offset);
             texel = self.op(BinaryOperator::Add, texel, offset);
         }
+        if let Some(offset) = lookup.shift {
+            texel = self.op(BinaryOperator::Add, texel, offset);
+        }
         let wrapped = if rect { self.inside(texel, size, n) } else { self.repeated(texel, size) };
         if n > 1 {
             return wrapped;

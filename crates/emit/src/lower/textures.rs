@@ -7,7 +7,7 @@
 use super::function::Ctx;
 use super::slots::SamplerValue;
 use super::{Try, internal, lacking};
-use crate::target::BUFFER_WIDTH;
+use crate::target::{BUFFER_WIDTH, Target};
 use glisten_front::builtin::operations::{Lookup as How, TextureArgument as Role, TextureForm};
 use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar, ScalarValue, Swizzle, TypeId};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, SampleLevel};
@@ -24,6 +24,8 @@ pub(super) struct Lookup {
     pub(super) level: SampleLevel,
     /// The offset, with as many components as the coordinate.
     pub(super) offset: Option<Vec<i32>>,
+    /// The offset of a gather that is not constant.
+    pub(super) shift: Option<Handle<Expression>>,
     /// The component of a gather.
     pub(super) gather: Option<naga::SwizzleComponent>,
 }
@@ -74,13 +76,16 @@ impl Ctx<'_, '_> {
         arguments: &[ExprId],
     ) -> Try<Lookup> {
         let (mut p, mut gradient_x, mut offset, mut level) = (None, None, None, SampleLevel::Auto);
-        let (mut own_reference, mut gather) = (None, None);
+        let (mut own_reference, mut gather, mut shift) = (None, None, None);
         if form.lookup == How::Gather {
             gather = Some(naga::SwizzleComponent::X);
             level = SampleLevel::Zero;
         }
         for (role, &argument) in form.arguments(ty).into_iter().zip(arguments) {
             match role {
+                Role::Offset if form.lookup == How::Gather && self.low.evaluated(self.id, argument).is_none() => {
+                    shift = Some(self.value(argument)?);
+                }
                 Role::Offset | Role::Offsets => offset = Some(self.constant_offset(argument)?),
                 Role::Coordinate => p = Some((self.value(argument)?, self.size_of(self.shader.expr(argument).ty))),
                 Role::Level => level = SampleLevel::Exact(self.value(argument)?),
@@ -98,12 +103,13 @@ impl Ctx<'_, '_> {
         }
         let Some((p, p_size)) = p else { return Err(self.internal_error("a texture function lacks an argument")) };
         if self.is_vertex() && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)) {
-            // Outside the fragment stage, the base level is read (§8.7).
-            level = SampleLevel::Zero;
+            // Outside the fragment stage, the base level is read (§8.7). naga's HLSL has no level zero but for comparisons.
+            let spelled = self.low.target == Target::Hlsl && !ty.shadow;
+            level = if spelled { SampleLevel::Exact(self.float(0.0)) } else { SampleLevel::Zero };
         }
         let (coordinate, layer, reference) = self.coordinates(ty, form, p, p_size);
         let reference = own_reference.or(reference);
-        Ok(Lookup { ty, value, coordinate, layer, reference, level, offset, gather })
+        Ok(Lookup { ty, value, coordinate, layer, reference, level, offset, shift, gather })
     }
 
     /// The coordinate, layer and reference value in P (the tables of §8.7).
@@ -177,7 +183,11 @@ impl Ctx<'_, '_> {
             return Err(internal(self.here(), "this texture has no sampler"));
         };
         let level = self.shadow_level(lookup);
-        let coordinate = self.target_coordinate(lookup, lookup.coordinate);
+        let coordinate = match lookup.shift {
+            Some(shift) => self.shifted(lookup, shift),
+            None => lookup.coordinate,
+        };
+        let coordinate = self.target_coordinate(lookup, coordinate);
         let level = match level {
             SampleLevel::Gradient { x, y } => {
                 SampleLevel::Gradient { x: self.target_gradient(lookup, x), y: self.target_gradient(lookup, y) }

@@ -1,12 +1,13 @@
 //! Analyzes access to parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
 
 use super::super::context::Analyzer;
+use super::super::features::remedy;
 use super::super::state::ArrayKey;
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, StructId, Type, TypeId, VarRef};
-use crate::language::{Extensions, Feature};
+use crate::language::{Extensions, Feature, NEVER, Since};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
 
@@ -153,13 +154,11 @@ impl Analyzer<'_> {
             let constant =
                 self.ast.version.has(Feature::ConstantSamplers) && !self.extensions.contains(Extensions::GPU_SHADER5);
             if self.types.contains_sampler(element) && constant {
-                let finding = self.not_constant(index, "the index of an array of samplers");
-                self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding });
+                self.report_choice(index, "the index of an array of samplers");
                 return false;
             }
             if self.is_uniform_block_array(base) && constant {
-                let finding = self.not_constant(index, "the index of an array of uniform blocks");
-                self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding });
+                self.report_choice(index, "the index of an array of uniform blocks");
                 return false;
             }
         }
@@ -175,6 +174,16 @@ impl Analyzer<'_> {
             return false;
         }
         true
+    }
+
+    /// Reports an index that chooses a sampler or a block and must be constant.
+    fn report_choice(&mut self, index: ExprId, what: &str) {
+        let version = self.ast.version;
+        let row = Feature::ConstantSamplers.row();
+        let extensions = if version.is_es() { Extensions::empty() } else { Extensions::GPU_SHADER5 };
+        let help = remedy(version, row.gone, Since::new(NEVER, NEVER), extensions);
+        let finding = self.not_constant(index, what);
+        self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding }.maybe_help(help));
     }
 
     /// Whether an expression is an output of a fragment shader as a whole.

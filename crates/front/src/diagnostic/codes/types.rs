@@ -89,8 +89,8 @@ codes! {
         bad Vertex("struct S { struct T { float a; } t; }; void main() { gl_Position = vec4(0.0); }"),
         good Vertex("struct T { float a; }; struct S { T t; }; uniform S s; void main() { gl_Position = vec4(s.t.a); }");
     SAMPLER_INDEX = "E0418" "index-must-be-constant" Error "GLSL 1.50 §4.1.7, §4.3.7"
-        "Before GLSL 4.00, arrays of samplers and of uniform blocks can only be indexed with constant expressions; \
-         the counter of a loop is not one."
+        "From GLSL 1.30 to 3.30, and in ES 3.00 and 3.10, arrays of samplers and of uniform blocks can only be indexed \
+         with constant expressions; the counter of a loop is not one. Earlier and later versions allow any index."
         bad Fragment("uniform sampler2D s[2]; uniform int i; out vec4 c; void main() { c = texture(s[i], vec2(0.0)); }"),
         good Fragment("uniform sampler2D s[2]; out vec4 c; void main() { c = texture(s[1], vec2(0.0)); }");
     CONDITION = "E0419" "condition-not-bool" Error "GLSL 1.50 §6.2, §6.3"

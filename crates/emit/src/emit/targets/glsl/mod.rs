@@ -49,7 +49,13 @@ pub(in crate::emit) fn write(
         }
     }
     let mut types = program.types.clone();
-    let mut shader = shader.clone();
+    let mut shader = match version {
+        GlslVersion::Desktop450 => shader.clone(),
+        // Before 4.00, samplers and blocks take constant indices (3.30 §4.1.7, §4.3.7).
+        GlslVersion::Desktop330 | GlslVersion::Es300 => {
+            crate::select::select(&types, shader).map_err(|diagnostic| vec![*diagnostic])?.into_owned()
+        }
+    };
     shader.version = language(version, shader.version.span);
     rewrite::rewrite(&mut types, &mut shader, program, version);
     names::apply(&mut types, &mut shader, program, version);
