@@ -48,7 +48,12 @@ pub(crate) fn run(command: &mut Command, folder: &Path, limit: Duration) -> Ende
     loop {
         match child.try_wait() {
             Ok(Some(status)) if status.success() => return Ended::Well(text(&log)),
-            Ok(Some(_)) | Err(_) => return Ended::Badly(text(&log)),
+            // By what signal, if it crashed before it could write.
+            Ok(Some(status)) => {
+                let said = text(&log);
+                return Ended::Badly(if said.trim().is_empty() { status.to_string() } else { said });
+            }
+            Err(error) => return Ended::Badly(error.to_string()),
             Ok(None) if start.elapsed() > limit => {
                 // It may have ended just now; either way it is gone.
                 let _ = child.kill();

@@ -92,6 +92,13 @@ impl Console {
         }
     }
 
+    /// Clears what a process that is gone may have left of its progress on this line.
+    pub(super) fn clear_line(&self) {
+        if self.is_watched() {
+            self.message("\r\x1b[2K");
+        }
+    }
+
     /// Reports a failure.
     pub(super) fn failure(&self, message: &str, help: Option<&str>) {
         let (red, bold, off) = if self.colors_messages() { ("\x1b[1;31m", "\x1b[1m", "\x1b[0m") } else { ("", "", "") };

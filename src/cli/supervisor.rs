@@ -42,7 +42,10 @@ impl Supervised {
                     match self.next(ended, &journal.notes()) {
                         Next::Exit(code) => return Exit::of_code(code),
                         Next::Raise(signal) => return raise(signal),
-                        Next::Tell(failure) => return super::end(Err(failure), console),
+                        Next::Tell(failure) => {
+                            console.clear_line();
+                            return super::end(Err(failure), console);
+                        }
                         Next::Resume(note) => journal.note(&note),
                     }
                 }

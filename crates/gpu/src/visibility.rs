@@ -54,3 +54,40 @@ fn flags(names: &[String]) -> wgpu::ShaderStages {
     };
     names.iter().map(of).fold(wgpu::ShaderStages::NONE, |all, one| all | one)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Visibility;
+    use glisten_emit::Conventions;
+    use glisten_front::hir::Stage;
+    use glisten_front::{Compiler, Source};
+
+    #[test]
+    fn a_binding_is_seen_by_the_stages_that_use_it() {
+        let source = |stage, text: &str| Source { name: "a".into(), text: text.into(), stage };
+        let sources = [
+            source(
+                Stage::Vertex,
+                "#version 150\nlayout(std140) uniform Both { vec4 a; }; layout(std140) uniform First { vec4 b; };\n\
+                 uniform mat4 m; in vec4 p; void main() { gl_Position = m * p + a + b; }",
+            ),
+            source(
+                Stage::Fragment,
+                "#version 150\nlayout(std140) uniform Both { vec4 a; }; uniform sampler2D t;\n\
+                 out vec4 c; void main() { c = a + texture(t, vec2(0.5)); }",
+            ),
+        ];
+        let program = Compiler::new(Default::default()).compile(&sources).program.expect("the program is valid");
+        let visibility = Visibility::of(&program, &Conventions::default());
+        let interface = &program.interface;
+        let of = |name: &str| interface.blocks.iter().find(|block| block.name == name).map(|block| block.slot);
+        let seen = |slot| visibility.stages(slot);
+        assert_eq!(of("Both").map(seen), Some(wgpu::ShaderStages::VERTEX_FRAGMENT));
+        assert_eq!(of("First").map(seen), Some(wgpu::ShaderStages::VERTEX));
+        assert_eq!(interface.loose.map(|(slot, _)| seen(slot)), Some(wgpu::ShaderStages::VERTEX));
+        let texture = &interface.samplers[0];
+        assert_eq!([texture.texture, texture.sampler].map(seen), [wgpu::ShaderStages::FRAGMENT; 2]);
+        let any = Visibility::of_any_code();
+        assert_eq!(of("First").map(|slot| any.stages(slot)), Some(wgpu::ShaderStages::VERTEX_FRAGMENT));
+    }
+}
