@@ -302,6 +302,7 @@ pub enum QualifierKind {
     Inout,
     Uniform,
     Centroid,
+    Sample,
     Smooth,
     Flat,
     Noperspective,
