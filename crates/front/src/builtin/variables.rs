@@ -193,7 +193,10 @@ pub static VARIABLES: &[Row] = &[
     },
     Row::new(V::PointCoord, "gl_PointCoord", In, VEC2).fragment(120).es(100),
     Row::new(V::PrimitiveId, "gl_PrimitiveID", In, INT).fragment(150).or(Extensions::GPU_SHADER4),
-    Row { section: "GLSL 4.00 §7.1", ..Row::new(V::SampleId, "gl_SampleID", In, INT).fragment(400).es(320) },
+    Row {
+        section: "GLSL 4.00 §7.1",
+        ..Row::new(V::SampleId, "gl_SampleID", In, INT).fragment(400).es(320).or(Extensions::SAMPLE_SHADING)
+    },
     Row {
         section: "GLSL 4.00 §7.1",
         ..Row::new(V::SampleMaskIn, "gl_SampleMaskIn", In, VariableType::Ints(1))

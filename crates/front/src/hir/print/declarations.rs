@@ -86,14 +86,35 @@ impl Printer<'_> {
         if number < 400 && (self.shader.geometry.invocations.is_some() || self.shader.evaluates_samples(self.types)) {
             needed.extend(Extensions::GPU_SHADER5.name());
         }
+        if (130..400).contains(&number) && self.shader.exprs.iter().any(|expr| self.chooses(expr)) {
+            needed.extend(Extensions::GPU_SHADER5.name());
+        }
         let reads = |builtin| self.shader.globals.iter().any(|global| global.builtin == Some(builtin));
         if number < 400 && reads(BuiltinVariable::SampleId) {
-            needed.insert("GL_ARB_sample_shading");
+            needed.extend(Extensions::SAMPLE_SHADING.name());
         }
         if number < 400 && reads(BuiltinVariable::SampleMaskIn) {
             needed.extend(Extensions::GPU_SHADER5.name());
         }
         needed
+    }
+
+    /// Whether an expression chooses a sampler or a uniform block by an index that may not be constant.
+    fn chooses(&self, expr: &crate::hir::Expr) -> bool {
+        let ExprKind::Index(base, index) = expr.kind else { return false };
+        let is_block = match self.shader.expr(base).kind {
+            ExprKind::Var(VarRef::Global(global)) => {
+                let global = self.shader.global(global);
+                global.storage == Storage::Uniform && global.block.is_some()
+            }
+            _ => false,
+        };
+        let is_constant = match self.shader.expr(index).kind {
+            ExprKind::Literal(_) => true,
+            ExprKind::Var(VarRef::Global(global)) => self.shader.global(global).storage == Storage::Const,
+            _ => false,
+        };
+        (is_block || self.types.contains_sampler(expr.ty)) && !is_constant
     }
 
     /// Whether a type is a sampler of arrays of cube maps, or an array of such.
