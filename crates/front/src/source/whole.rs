@@ -29,7 +29,7 @@ pub struct Unrolled {
     pub text: String,
 }
 
-/// What the preprocessor read besides the file, each in the order in which it did.
+/// Everything that the preprocessor read besides the file, in the order in which it did.
 #[derive(Clone, Copy, Debug)]
 pub struct Edits<'a> {
     /// The files that were included.

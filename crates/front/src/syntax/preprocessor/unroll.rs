@@ -22,7 +22,7 @@ const LONGEST_HEAD: usize = 64;
 const COUNTER: &str = "i";
 const INDEX: &str = "UNROLLED_LOOP_INDEX";
 const END: &str = "#pragma unroll_loop_end";
-/// What a copy counts besides its text, against the limit of bytes.
+/// The bytes that a copy counts besides its text, against the limit of bytes.
 const COPY: usize = 64;
 
 /// The copy of a body that a frame reads.
