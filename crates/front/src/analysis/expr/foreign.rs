@@ -71,7 +71,8 @@ static LATER_VARIABLES: &[(&str, u16)] = &[
 
 /// Whether a version has a variable that glisten does not support.
 pub(super) fn is_unsupported_variable(name: &str, version: Version, extensions: Extensions) -> bool {
-    let of_samples = name.starts_with("gl_Sample") && extensions.contains(Extensions::SAMPLE_SHADING);
+    let of_samples =
+        (name.starts_with("gl_Sample") || name == "gl_NumSamples") && extensions.contains(Extensions::SAMPLE_SHADING);
     LATER_VARIABLES.iter().any(|row| row.0 == name && (version.reaches(Since::new(row.1, NEVER)) || of_samples))
 }
 
