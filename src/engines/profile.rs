@@ -75,6 +75,8 @@ struct Settings {
     parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     redefines: Option<bool>,
+    /// Whether the engine unrolls the loops between two pragmas.
+    unrolls: Option<bool>,
     /// The kind of files next to the sources that describe programs.
     programs: Option<String>,
     /// The kind of header that the sources begin with.
@@ -111,6 +113,8 @@ pub struct Profile {
     pub parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     pub redefines: Option<bool>,
+    /// Whether the engine unrolls the loops between two pragmas.
+    pub unrolls: Option<bool>,
     /// Whether files of JSON next to the sources describe programs, with macros.
     pub has_program_files: bool,
     /// Whether sources begin with a header of the Interactive Shader Format.
@@ -185,6 +189,7 @@ fn load((name, text, preludes): &Embedded) -> Profile {
         least_version: settings.least_version,
         parts: settings.parts,
         redefines: settings.redefines,
+        unrolls: settings.unrolls,
         has_program_files: settings.programs.as_deref() == Some("json"),
         has_isf_header: settings.header.as_deref() == Some("isf"),
         define_pragma: settings.define_pragma,
@@ -222,6 +227,7 @@ impl Profile {
             least_version: self.least_version.or(base.least_version),
             parts: self.parts.or(base.parts),
             redefines: self.redefines.or(base.redefines),
+            unrolls: self.unrolls.or(base.unrolls),
             define_pragma: self.define_pragma.or(base.define_pragma),
             defines,
             by_stage,

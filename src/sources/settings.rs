@@ -86,6 +86,7 @@ impl Settings {
             directive: style.and_then(|style| style.lookup().directive),
             resolves_includes: style.is_some(),
             redefines: self.profile.and_then(|profile| profile.redefines).unwrap_or(false),
+            unrolls: self.profile.and_then(|profile| profile.unrolls).unwrap_or(false),
         };
         prepared.problems = added.problems;
         let includes = DiskIncludes::new(disk, self.folders, style.unwrap_or(Style::Quote), roots);

@@ -16,7 +16,7 @@ const PROFILES: &[(&str, usize)] = &[
     ("libretro", 2),
     ("isf", 2),
     ("openscenegraph", 1),
-    ("three", 2),
+    ("three", 3),
     ("shadertoy", 1),
     ("supertuxkart", 2),
 ];

@@ -1,10 +1,12 @@
 //! Sources that nobody wrote: the tokens of the fixtures, mixed up. The front end, the lint rules and the writers must take
 //! each of them: no panic, no internal error, no overflow of a stack of 2 MiB, and an end in time.
 //!
-//! `MUTATED_CASES=20000 cargo test -p glisten-emit --test mutated` runs more than the bounded number of cases.
+//! `MUTATED_CASES=20000 cargo test -p glisten-emit --test mutated` runs more than the bounded number of cases, and with
+//! `MUTATED_FIXTURES=chosen` only those of fixtures whose paths contain the word.
 
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::diagnostic::codes::general;
+use glisten_front::source::Completion;
 use glisten_front::{Compiler, Options, Source, Stage, lint};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -13,6 +15,7 @@ use std::time::{Duration, Instant};
 
 /// A fixture as tokens; white space and line ends are tokens, too.
 struct Fixture {
+    path: String,
     stage: Stage,
     tokens: Vec<String>,
 }
@@ -31,6 +34,12 @@ static FIXTURES: LazyLock<Vec<Fixture>> = LazyLock::new(|| {
     found
 });
 
+/// The fixtures whose tokens are mixed up.
+static CHOSEN: LazyLock<Vec<&Fixture>> = LazyLock::new(|| {
+    let word = std::env::var("MUTATED_FIXTURES").unwrap_or_default();
+    FIXTURES.iter().filter(|fixture| fixture.path.contains(&word)).collect()
+});
+
 fn fixture(path: &Path) -> Option<Fixture> {
     let stage = match path.extension()?.to_str()? {
         "vert" => Stage::Vertex,
@@ -39,7 +48,7 @@ fn fixture(path: &Path) -> Option<Fixture> {
         _ => return None,
     };
     let text = std::fs::read_to_string(path).ok().filter(|text| text.len() < 6000)?;
-    Some(Fixture { stage, tokens: tokens(&text) })
+    Some(Fixture { path: path.to_string_lossy().into_owned(), stage, tokens: tokens(&text) })
 }
 
 fn tokens(text: &str) -> Vec<String> {
@@ -149,6 +158,18 @@ const HOSTILE: &[&str] = &[
     "invariant ",
     "precise ",
     "centroid ",
+    "sample ",
+    "sampler2D s[3];",
+    "[i]",
+    "[int(gl_FragCoord.x)]",
+    "gl_SampleMaskIn[i]",
+    "gl_SampleID",
+    "textureGatherOffset(",
+    "\n#extension GL_ARB_gpu_shader5 : enable\n",
+    "\n#pragma unroll_loop_start\n",
+    "for ( int i = 0; i < 3; i ++ ) {",
+    "}\n#pragma unroll_loop_end\n",
+    "UNROLLED_LOOP_INDEX",
     "precision mediump float;",
     "lowp ",
     "struct S { S s; };",
@@ -245,7 +266,8 @@ fn take(shaders: &[(Stage, String)]) -> Result<(), String> {
         stage: *stage,
     };
     let sources: Vec<Source> = shaders.iter().map(source).collect();
-    let compilation = Compiler::new(Options::default()).compile(&sources);
+    let completion = Completion { unrolls: true, ..Completion::default() };
+    let compilation = Compiler::new(Options { completion, ..Options::default() }).compile(&sources);
     let mut codes: Vec<(&str, String)> =
         compilation.diagnostics.iter().map(|finding| (finding.code.id, finding.message.clone())).collect();
     if let Some(program) = &compilation.program {
@@ -280,7 +302,7 @@ proptest! {
         changes in prop::collection::vec(change(), 1..8),
         partner in prop::option::of(any::<prop::sample::Index>()),
     ) {
-        let fixture = &FIXTURES[chosen.index(FIXTURES.len())];
+        let fixture = CHOSEN[chosen.index(CHOSEN.len())];
         let mut tokens = fixture.tokens.clone();
         changes.iter().for_each(|change| apply(&mut tokens, change));
         let mut shaders = vec![(fixture.stage, tokens.concat())];

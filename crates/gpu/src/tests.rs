@@ -3,8 +3,8 @@
 use super::{Error, Gpu, Rendered};
 use glisten_emit::{Emitted, Target};
 use glisten_front::hir::{
-    GlobalId, Interpolation, MatrixLayout, SamplerDim, SamplerType, Scalar, ScalarValue, Shader, Stage, Type, TypeId,
-    Types,
+    GlobalId, Interpolation, MatrixLayout, SamplerDim, SamplerType, Sampling, Scalar, ScalarValue, Shader, Stage, Type,
+    TypeId, Types,
 };
 use glisten_front::link::{
     Attribute, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding, UniformLeaf, UniformRoot, Varying,
@@ -54,7 +54,7 @@ fn interface() -> Interface {
             location: 0,
             component: 0,
             interpolation: Interpolation::Flat,
-            centroid: false,
+            sampling: Sampling::Center,
             active: true,
             from: None,
             to: None,

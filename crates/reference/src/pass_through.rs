@@ -8,8 +8,8 @@ use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::codes::scenes::SCENE_CANNOT_DRAW;
 use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::hir::{
-    ExprId, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, Scalar, ScalarValue, Shader, Stage, Stmt,
-    StmtKind, Storage, Type, TypeId, Types, VarRef,
+    ExprId, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, Sampling, Scalar, ScalarValue, Shader,
+    Stage, Stmt, StmtKind, Storage, Type, TypeId, Types, VarRef,
 };
 use glisten_front::link::{Bindings, FixedState, Program, link};
 use glisten_front::source::Span;
@@ -227,7 +227,7 @@ fn variable(name: &str, ty: TypeId, storage: Storage) -> Global {
         builtin: None,
         interpolation: Interpolation::Flat,
         interpolation_written: true,
-        centroid: false,
+        sampling: Sampling::Center,
         invariant: false,
         location: None,
         component: None,

@@ -5,7 +5,7 @@
 //! and one whose fragments read no smooth varying, is left alone.
 
 use super::edit::{Edited, with_draw};
-use glisten_front::hir::{GlobalId, Interpolation, Shader, Storage};
+use glisten_front::hir::{GlobalId, Interpolation, Sampling, Shader, Storage};
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::Scene;
 
@@ -14,8 +14,9 @@ pub(super) fn without_perspective(scene: &Scene, index: usize) -> Option<Scene> 
     let draw = scene.draws.get(index)?;
     let mut edited = Edited::of(draw)?;
     let varyings = &draw.program.interface.varyings;
-    let smooth =
-        varyings.iter().filter(|one| one.active && one.interpolation == Interpolation::Smooth && !one.centroid);
+    let smooth = varyings
+        .iter()
+        .filter(|one| one.active && one.interpolation == Interpolation::Smooth && one.sampling == Sampling::Center);
     let ends: Vec<_> = smooth.filter_map(|one| Some((one.from?.global, one.to?.global))).collect();
     let plain = |shader: &Shader, id: GlobalId| shader.global(id).block.is_none();
     let ends = ends

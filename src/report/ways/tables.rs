@@ -13,8 +13,8 @@ use super::probe;
 use super::same::form;
 use crate::evaluate::table;
 use glisten_front::hir::{
-    ConstructKind, Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, ScalarValue,
-    Shader, Stage, Stmt, StmtKind, Storage, TypeId, VarRef,
+    ConstructKind, Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Sampling,
+    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, TypeId, VarRef,
 };
 use glisten_front::source::Span;
 use glisten_reference::{Precision, RenderOptions, render};
@@ -169,7 +169,7 @@ fn source(draw: &Draw, fixed: &Fixed, found: &Tabulated) -> Option<String> {
             }
             global.storage = Storage::Private;
             (global.location, global.index, global.interpolation_written) = (None, None, false);
-            (global.centroid, global.invariant, global.block) = (false, false, None);
+            (global.sampling, global.invariant, global.block) = (Sampling::Center, false, None);
         }
     }
     let zeros = ["", ", 0.0, 0.0, 0.0", ", 0.0, 0.0", ", 0.0", ""].get(types.flat_len(ty) as usize)?;

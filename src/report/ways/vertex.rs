@@ -8,7 +8,7 @@ use super::edit::{Edited, rebuilt, with_draw};
 use super::names::is_arithmetic;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{
-    ExprKind, FunctionId, Global, GlobalId, Interpolation, Scalar, Shader, StmtKind, Storage, Types, VarRef,
+    ExprKind, FunctionId, Global, GlobalId, Interpolation, Sampling, Scalar, Shader, StmtKind, Storage, Types, VarRef,
 };
 use glisten_front::link::{Program, Remap};
 use glisten_scene::Scene;
@@ -78,7 +78,7 @@ fn depends_on_varyings_alone(types: &Types, shader: &Shader, program: &Program) 
     let inputs = program.interface.varyings.iter().filter(|varying| varying.active && varying.to.is_some());
     let interpolated = inputs.clone().all(|varying| {
         varying.interpolation != Interpolation::Flat
-            && !varying.centroid
+            && varying.sampling == Sampling::Center
             && varying.from.is_some()
             && types.scalar_of(varying.ty) == Some(Scalar::Float)
     });
@@ -247,7 +247,7 @@ fn variable(global: &Global, name: String, storage: Storage) -> Global {
         builtin: None,
         interpolation: Interpolation::Smooth,
         interpolation_written: false,
-        centroid: false,
+        sampling: Sampling::Center,
         invariant: false,
         location: None,
         component: None,

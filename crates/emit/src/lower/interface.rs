@@ -11,7 +11,9 @@ use super::{Lower, Try, internal, lacking, naga_span, unsupported};
 use crate::target::{Target, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::hir::{ArraySize, FunctionId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value};
+use glisten_front::hir::{
+    ArraySize, FunctionId, Global, GlobalId, Interpolation, Sampling, Stage, Storage, Type, TypeId, Value,
+};
 use glisten_front::link::{Attribute, Varying};
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVariable, Handle};
 use std::collections::BTreeMap;
@@ -179,8 +181,11 @@ impl Lower<'_> {
 pub(super) fn varying_binding(location: &VaryingLocation<'_>) -> Binding {
     let first = location.rows.first();
     let interpolation = first.map_or(Interpolation::Smooth, |row| row.interpolation);
-    let centroid = first.is_some_and(|row| row.centroid);
-    let sampling = Some(if centroid { naga::Sampling::Centroid } else { naga::Sampling::Center });
+    let sampling = Some(match first.map_or(Sampling::Center, |row| row.sampling) {
+        Sampling::Center => naga::Sampling::Center,
+        Sampling::Centroid => naga::Sampling::Centroid,
+        Sampling::Sample => naga::Sampling::Sample,
+    });
     let (interpolation, sampling) = match interpolation {
         Interpolation::Smooth => (naga::Interpolation::Perspective, sampling),
         Interpolation::Noperspective => (naga::Interpolation::Linear, sampling),
@@ -390,6 +395,12 @@ impl Ctx<'_, '_> {
             B::VertexId => self.index_input(&global.name, BuiltIn::VertexIndex),
             B::InstanceId => self.index_input(&global.name, BuiltIn::InstanceIndex),
             B::PrimitiveId => self.index_input(&global.name, BuiltIn::PrimitiveIndex),
+            B::SampleId => self.index_input(&global.name, BuiltIn::SampleIndex),
+            B::SampleMaskIn => {
+                let mask = self.index_input(&global.name, BuiltIn::SampleMask)?;
+                let ty = self.low.value_type(global.ty)?;
+                Ok(self.add(Expression::Compose { ty, components: vec![mask] }))
+            }
             B::FragCoord => self.frag_coord(),
             B::FrontFacing => {
                 let ty = self.low.value_type(TypeId::BOOL)?;
@@ -430,6 +441,8 @@ impl Ctx<'_, '_> {
         let argument = match builtin {
             BuiltIn::VertexIndex => "vertex_index",
             BuiltIn::InstanceIndex => "instance_index",
+            BuiltIn::SampleIndex => "sample_index",
+            BuiltIn::SampleMask => "sample_mask",
             _ => "primitive_index",
         };
         let index = self.argument(argument, ty, Some(Binding::BuiltIn(builtin)));

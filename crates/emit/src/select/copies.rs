@@ -15,7 +15,7 @@ use glisten_front::hir::{
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
 
-/// What a local of a function is in the copy.
+/// A local of a function as the copy has it.
 #[derive(Clone)]
 enum Mapped {
     Local(LocalId),

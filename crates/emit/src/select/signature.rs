@@ -12,7 +12,7 @@ use glisten_front::hir::{
 };
 use glisten_front::source::Span;
 
-/// What a function that is made does.
+/// The identity of a function that is made.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Key {
     pub(super) what: What,
@@ -20,14 +20,14 @@ pub(super) struct Key {
     pub(super) result: TypeId,
 }
 
-/// What a function that is made computes.
+/// The computation of a function that is made.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum What {
     /// A lookup.
     Lookup(BuiltinFunction),
     /// A part of a uniform block.
     Read,
-    /// What a function of the shader computes.
+    /// That of a function of the shader.
     Copy(FunctionId),
 }
 

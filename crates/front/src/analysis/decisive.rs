@@ -8,6 +8,9 @@ use crate::diagnostic::codes::preprocess::MISSING_VERSION;
 use crate::diagnostic::codes::qualifiers::UNKNOWN_LAYOUT;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 
+/// How many bytes the qualifiers before a keyword take at most.
+const QUALIFIERS: u32 = 64;
+
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
 /// other errors, after an unsupported feature those of the syntax and the meaning of the text.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
@@ -30,9 +33,11 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         }
         if *diagnostic.code != NOT_SUPPORTED_YET {
             let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E04" | "E05" | "E06"));
-            // A layout that is not known may be of the feature's declaration.
-            let is_layout = *diagnostic.code == UNKNOWN_LAYOUT;
-            return !follows || (diagnostic.primary.span.start < start && !is_layout);
+            // A layout that is not known may be of the feature's declaration, and what is just before it is its qualifiers.
+            let own = diagnostic.primary.span;
+            let is_qualifier = diagnostic.code.id.starts_with("E06") && start.saturating_sub(own.start) < QUALIFIERS;
+            let is_layout = *diagnostic.code == UNKNOWN_LAYOUT || is_qualifier;
+            return !follows || (own.start < start && !is_layout);
         }
         // Each feature is named once.
         let is_new = !messages.contains(&diagnostic.message);

@@ -3,7 +3,7 @@
 use super::context::Analyzer;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::hir::Interpolation;
+use crate::hir::{Interpolation, Sampling};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
@@ -39,7 +39,7 @@ pub(super) struct Qualifiers {
     pub(super) storage: Option<(StorageWord, Span)>,
     pub(super) constant: Option<Span>,
     pub(super) interpolation: Option<(Interpolation, Span)>,
-    pub(super) centroid: Option<Span>,
+    pub(super) sampling: Option<(Sampling, Span)>,
     pub(super) invariant: Option<Span>,
     pub(super) precision: Option<Span>,
     pub(super) precise: Option<Span>,
@@ -47,6 +47,13 @@ pub(super) struct Qualifiers {
     pub(super) layout: Vec<LayoutId>,
     /// The first `layout(...)`.
     pub(super) layout_span: Option<Span>,
+}
+
+impl Qualifiers {
+    /// Where in a pixel the variable is evaluated.
+    pub(super) fn sampling(&self) -> Sampling {
+        self.sampling.map_or(Sampling::Center, |(sampling, _)| sampling)
+    }
 }
 
 /// The kind of declaration that a list of qualifiers belongs to.
@@ -76,7 +83,7 @@ enum Class {
     Layout,
     Invariant,
     Interpolation,
-    Centroid,
+    Sampling,
     Const,
     Storage,
     Precision,
@@ -98,7 +105,7 @@ static CLASSES: &[ClassRow] = &[
     ClassRow { class: Class::Layout, what: "a layout qualifier", rank: 0, contexts: &[Global, Block, BlockMember, Alone] },
     ClassRow { class: Class::Invariant, what: "`invariant`", rank: 1, contexts: &[Global, BlockMember, Alone] },
     ClassRow { class: Class::Interpolation, what: "an interpolation qualifier", rank: 2, contexts: &[Global, BlockMember] },
-    ClassRow { class: Class::Centroid, what: "`centroid`", rank: 3, contexts: &[Global, BlockMember] },
+    ClassRow { class: Class::Sampling, what: "`centroid` or `sample`", rank: 3, contexts: &[Global, BlockMember] },
     ClassRow { class: Class::Const, what: "`const`", rank: 4, contexts: &[Global, Local, Parameter] },
     ClassRow { class: Class::Storage, what: "a storage qualifier", rank: 5, contexts: &[Global, Parameter, BlockMember, Block, Alone] },
     ClassRow { class: Class::Precision, what: "a precision qualifier", rank: 6, contexts: &[Global, Local, Parameter, Return, StructMember, BlockMember] },
@@ -110,7 +117,7 @@ fn class_of(kind: &QualifierKind) -> Class {
         QualifierKind::Layout(_) => Class::Layout,
         QualifierKind::Invariant => Class::Invariant,
         QualifierKind::Smooth | QualifierKind::Flat | QualifierKind::Noperspective => Class::Interpolation,
-        QualifierKind::Centroid => Class::Centroid,
+        QualifierKind::Centroid | QualifierKind::Sample => Class::Sampling,
         QualifierKind::Const => Class::Const,
         QualifierKind::Attribute
         | QualifierKind::Varying
@@ -187,7 +194,7 @@ impl Analyzer<'_> {
                         .here("must come earlier")
                         .label(other.span, "before this")
                         .help(
-                            "the order is: layout, invariant, interpolation, centroid, storage, precision \
+                            "the order is: layout, invariant, interpolation, centroid or sample, storage, precision \
                              (or `#extension GL_ARB_shading_language_420pack : enable`)",
                         ),
                 );
@@ -203,7 +210,8 @@ impl Analyzer<'_> {
         let storage = |word| Some((word, span));
         match &qualifier.kind {
             QualifierKind::Const => self.once(&mut record.constant, span, span, "`const`"),
-            QualifierKind::Centroid => self.once(&mut record.centroid, span, span, "`centroid`"),
+            QualifierKind::Centroid => self.sampling(record, Sampling::Centroid, span),
+            QualifierKind::Sample => self.sampling(record, Sampling::Sample, span),
             QualifierKind::Invariant => self.once(&mut record.invariant, span, span, "`invariant`"),
             QualifierKind::Precise => {
                 self.shader.precise = true;
@@ -237,6 +245,18 @@ impl Analyzer<'_> {
         match record.interpolation {
             Some((_, first)) => self.repeated(&qualifiers::REPEATED, first, span, "an interpolation qualifier"),
             None => record.interpolation = Some((word, span)),
+        }
+    }
+
+    /// "At most one auxiliary qualifier" (GLSL 4.20 §4.3).
+    fn sampling(&mut self, record: &mut Qualifiers, sampling: Sampling, span: Span) {
+        match record.sampling {
+            Some((known, first)) => {
+                let what = if known == sampling { known.word() } else { None };
+                let what = what.map_or("`centroid` or `sample`".to_owned(), |word| format!("`{word}`"));
+                self.repeated(&qualifiers::REPEATED, first, span, &what);
+            }
+            None => record.sampling = Some((sampling, span)),
         }
     }
 

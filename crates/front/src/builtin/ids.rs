@@ -37,6 +37,8 @@ identities!(
         FragCoord = "gl_FragCoord",
         FrontFacing = "gl_FrontFacing",
         PointCoord = "gl_PointCoord",
+        SampleId = "gl_SampleID",
+        SampleMaskIn = "gl_SampleMaskIn",
         FragColor = "gl_FragColor",
         FragData = "gl_FragData",
         FragDepth = "gl_FragDepth",

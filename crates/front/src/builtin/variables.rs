@@ -18,6 +18,8 @@ pub enum VariableType {
     UnsizedFloats,
     /// `vec4[n]` (`gl_FragData`).
     Vec4s(u32),
+    /// `int[n]` (`gl_SampleMaskIn`).
+    Ints(u32),
     /// The struct of `in gl_PerVertex { .. } gl_in[]`, in an unsized array.
     PerVertexArray,
     /// `struct gl_DepthRangeParameters { float near, far, diff; }`
@@ -110,6 +112,7 @@ impl Row {
             VariableType::Plain(ty) => ty,
             VariableType::UnsizedFloats => types.array(TypeId::FLOAT, ArraySize::Unsized),
             VariableType::Vec4s(size) => types.array(TypeId::VEC4, ArraySize::Sized(size)),
+            VariableType::Ints(size) => types.array(TypeId::INT, ArraySize::Sized(size)),
             VariableType::PerVertexArray => {
                 let clip_distance = types.array(TypeId::FLOAT, ArraySize::Unsized);
                 let mut members = vec![
@@ -190,6 +193,17 @@ pub static VARIABLES: &[Row] = &[
     },
     Row::new(V::PointCoord, "gl_PointCoord", In, VEC2).fragment(120).es(100),
     Row::new(V::PrimitiveId, "gl_PrimitiveID", In, INT).fragment(150).or(Extensions::GPU_SHADER4),
+    Row {
+        section: "GLSL 4.00 §7.1",
+        ..Row::new(V::SampleId, "gl_SampleID", In, INT).fragment(400).es(320).or(Extensions::SAMPLE_SHADING)
+    },
+    Row {
+        section: "GLSL 4.00 §7.1",
+        ..Row::new(V::SampleMaskIn, "gl_SampleMaskIn", In, VariableType::Ints(1))
+            .fragment(400)
+            .es(320)
+            .or(Extensions::GPU_SHADER5)
+    },
     Row { section: "§7.5", ..Row::new(V::DepthRange, "gl_DepthRange", Uniform, VariableType::DepthRange) },
 ];
 

@@ -10,7 +10,7 @@ use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Stage, Types};
 use crate::link::{Bindings, FixedState, Program, Understood, check_understood, link};
-use crate::source::{Completion, FileId, IncludeResolver, Language, NoIncludes, SourceMap, Span, whole_text};
+use crate::source::{Completion, Edits, FileId, IncludeResolver, Language, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -231,11 +231,11 @@ impl Compiler {
             let start = map.file(file).base();
             shader.version.span = Span::new(start, start);
         }
-        let (inclusions, preludes) = (&ast.inclusions, &ast.preludes);
+        let edits = Edits { inclusions: &ast.inclusions, unrolled: &ast.unrolled, preludes: &ast.preludes };
         // A macro that nothing asks for is no part of the text: with and without it, the outputs are the same.
         let mut defines = options.defines;
         defines.retain(|(name, _)| ast.asks(name.split('(').next().unwrap_or(name)));
-        shader.texts.push(whole_text(map, file, ast.version.span, inclusions, &defines, preludes));
+        shader.texts.push(whole_text(map, file, ast.version.span, edits, &defines));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_decisive(diagnostics, first_error);

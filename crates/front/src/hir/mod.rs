@@ -21,8 +21,8 @@ mod visit;
 mod written_out;
 
 pub use crate::language::{
-    ArraySize, Interpolation, MatrixLayout, Member, MemberPlace, ParamMode, SamplerDim, SamplerType, Scalar, Stage,
-    Storage, StructId, StructType, Type, TypeId, Types,
+    ArraySize, Interpolation, MatrixLayout, Member, MemberPlace, ParamMode, SamplerDim, SamplerType, Sampling, Scalar,
+    Stage, Storage, StructId, StructType, Type, TypeId, Types,
 };
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
 pub use handles::{FunctionId, GlobalId, LocalId};

@@ -1,8 +1,8 @@
 //! [`Shader`]: one stage and everything at global scope.
 
-use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Stmt, TypeId, Value, VarRef};
+use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Stmt, Type, TypeId, Types, Value, VarRef};
 use crate::builtin::BuiltinVariable;
-use crate::language::{Interpolation, ParamMode, Stage, Storage, Version};
+use crate::language::{Interpolation, ParamMode, Sampling, Stage, Storage, Version};
 use crate::source::Span;
 use std::sync::Arc;
 
@@ -44,8 +44,8 @@ pub struct Global {
     pub interpolation: Interpolation,
     /// Whether the interpolation qualifier is explicit.
     pub interpolation_written: bool,
-    /// `centroid`
-    pub centroid: bool,
+    /// `centroid` or `sample`, for `in` and `out` between stages.
+    pub sampling: Sampling,
     /// `invariant`
     pub invariant: bool,
     /// `layout(location = n)` (ARB_explicit_attrib_location).
@@ -301,6 +301,19 @@ impl Shader {
         let globals = self.globals.iter().map(|global| global.span);
         let functions = self.functions.iter().map(|function| function.span);
         [self.version.span].into_iter().chain(functions).chain(globals).find(|span| span.is_known()).unwrap_or_default()
+    }
+
+    /// Whether a varying is evaluated at each sample (GLSL 4.00 §4.3.4).
+    pub fn evaluates_samples(&self, types: &Types) -> bool {
+        let varyings = self.globals.iter().filter(|global| matches!(global.storage, Storage::In | Storage::Out));
+        varyings.into_iter().any(|global| {
+            let element = types.element(global.ty).filter(|_| global.block.is_some()).unwrap_or(global.ty);
+            let members = match types.get(element) {
+                Type::Struct(id) if global.block.is_some() => types.structure(id).members.as_slice(),
+                _ => &[],
+            };
+            global.sampling == Sampling::Sample || members.iter().any(|member| member.sampling == Sampling::Sample)
+        })
     }
 
     /// An empty shader.

@@ -46,6 +46,38 @@ impl Interpolation {
     }
 }
 
+/// Where in a pixel a varying is evaluated: the auxiliary storage qualifiers (§4.3.9; GLSL 4.00 §4.3.4, §4.3.6).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Sampling {
+    /// At the center, or anywhere in the pixel.
+    #[default]
+    Center,
+    /// Inside of the pixel and of the primitive.
+    Centroid,
+    /// At each sample, for each of which the fragment shader then runs.
+    Sample,
+}
+
+impl Sampling {
+    /// The qualifier: `centroid`, `sample`.
+    pub fn word(self) -> Option<&'static str> {
+        match self {
+            Self::Center => None,
+            Self::Centroid => Some("centroid"),
+            Self::Sample => Some("sample"),
+        }
+    }
+
+    /// The qualifier with a space behind it, or nothing.
+    pub fn prefix(self) -> &'static str {
+        match self {
+            Self::Center => "",
+            Self::Centroid => "centroid ",
+            Self::Sample => "sample ",
+        }
+    }
+}
+
 /// The storage of a global (§4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Storage {

@@ -240,8 +240,8 @@ pub struct Member {
     pub matrix_layout: MatrixLayout,
     /// In `in` and `out` blocks: the member's interpolation.
     pub interpolation: Option<super::Interpolation>,
-    /// `centroid`
-    pub centroid: bool,
+    /// In `in` and `out` blocks: `centroid` or `sample`.
+    pub sampling: super::Sampling,
     /// In `in` and `out` blocks: whether the member is `invariant`.
     pub invariant: bool,
     /// Whether the size of its array follows only from its uses (§4.1.9).
@@ -260,7 +260,7 @@ impl Member {
             ty,
             matrix_layout: MatrixLayout::default(),
             interpolation: None,
-            centroid: false,
+            sampling: super::Sampling::Center,
             invariant: false,
             implicitly_sized: false,
             place: MemberPlace::default(),

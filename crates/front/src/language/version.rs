@@ -161,6 +161,8 @@ bitflags::bitflags! {
         const DRAW_BUFFERS = 1 << 26;
         /// `GL_EXT_shader_integer_mix`
         const SHADER_INTEGER_MIX = 1 << 27;
+        /// `GL_ARB_sample_shading`
+        const SAMPLE_SHADING = 1 << 28;
         /// For each extension, a second bit: its uses are warned about.
         const WARNED = 0xffff_ffff << Self::WARN_SHIFT;
     }
@@ -196,6 +198,7 @@ static NAMES: &[(Extensions, &str)] = &[
     (Extensions::TEXTURE_CUBE_MAP_ARRAY, "GL_ARB_texture_cube_map_array"),
     (Extensions::DRAW_BUFFERS, "GL_EXT_draw_buffers"),
     (Extensions::SHADER_INTEGER_MIX, "GL_EXT_shader_integer_mix"),
+    (Extensions::SAMPLE_SHADING, "GL_ARB_sample_shading"),
 ];
 
 impl Extensions {

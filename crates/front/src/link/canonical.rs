@@ -4,7 +4,7 @@
 //! *In:* shaders whose structs were declared separately. *Out:* the same shaders, in which structs that are equal
 //! except for their positions have one handle. Everything after the link can then compare handles.
 
-use crate::hir::{Interpolation, MatrixLayout, MemberPlace, Shader, StructId, Type, TypeId, Types, Value};
+use crate::hir::{Interpolation, MatrixLayout, MemberPlace, Sampling, Shader, StructId, Type, TypeId, Types, Value};
 use rustc_hash::FxHashMap;
 
 /// The identity of a struct.
@@ -16,7 +16,7 @@ struct Key {
 }
 
 /// The name, type and qualifiers of a member; the flags say which qualifiers it has.
-type MemberKey = (String, TypeId, MatrixLayout, Option<Interpolation>, [bool; 3], MemberPlace);
+type MemberKey = (String, TypeId, MatrixLayout, (Option<Interpolation>, Sampling), [bool; 2], MemberPlace);
 
 /// Whether other shaders of a stage may still change the size of an array.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -75,8 +75,9 @@ impl Unifier<'_> {
         let members = members.into_iter().map(|member| {
             let ty = self.canonical(member.ty);
             let implicit = member.implicitly_sized && self.sizes == Sizes::Tentative;
-            let flags = [member.centroid, member.invariant, implicit];
-            (member.name, ty, member.matrix_layout, member.interpolation, flags, member.place)
+            let flags = [member.invariant, implicit];
+            let interpolation = (member.interpolation, member.sampling);
+            (member.name, ty, member.matrix_layout, interpolation, flags, member.place)
         });
         Key { name, is_block, members: members.collect() }
     }

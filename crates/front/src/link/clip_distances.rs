@@ -7,7 +7,7 @@ use super::declared::plural;
 use super::{Varying, VaryingEnd};
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::{Diagnostic, codes};
-use crate::hir::{GlobalId, Interpolation, Shader, TypeId, Types};
+use crate::hir::{GlobalId, Interpolation, Sampling, Shader, TypeId, Types};
 
 /// The clip distances that a fragment stage reads.
 #[derive(Clone, Copy)]
@@ -45,7 +45,7 @@ impl<'a> ClipDistances<'a> {
             location: first + index / 4,
             component: index % 4,
             interpolation: Interpolation::Smooth,
-            centroid: false,
+            sampling: Sampling::Center,
             active: true,
             from: self.writer.filter(|&(_, written)| index < written).map(|(global, _)| end(global, index)),
             to: Some(end(self.reader, index)),

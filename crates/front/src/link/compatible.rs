@@ -55,7 +55,7 @@ pub(super) enum MemberDifference<'a> {
     Count(usize, usize),
     /// Members at the same index differ in name or type.
     Declaration(&'a Member, &'a Member),
-    /// Members differ in interpolation, `centroid`, invariance or matrix layout.
+    /// Members differ in interpolation, `centroid` or `sample`, invariance or matrix layout.
     Qualifiers(&'a Member, &'a Member),
 }
 
@@ -69,7 +69,7 @@ pub(super) fn compare_members(types: &Types, a: StructId, b: StructId) -> Option
         let has_matrix = contains_matrix(types, a.ty);
         if (has_matrix && a.matrix_layout != b.matrix_layout)
             || a.interpolation != b.interpolation
-            || a.centroid != b.centroid
+            || a.sampling != b.sampling
             || a.invariant != b.invariant
             || a.place != b.place
         {

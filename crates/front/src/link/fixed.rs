@@ -9,8 +9,8 @@ use super::clip_states;
 use super::statements::{assignment, literal, statement, variable};
 use crate::builtin::{BuiltinFunction, BuiltinVariable, fixed};
 use crate::hir::{
-    ArraySize, DepthMode, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, ScalarValue, Shader, Stage,
-    Stmt, StmtKind, Storage, TypeId, Types, Value,
+    ArraySize, DepthMode, ExprKind, Function, FunctionId, Global, GlobalId, Interpolation, Sampling, ScalarValue,
+    Shader, Stage, Stmt, StmtKind, Storage, TypeId, Types, Value,
 };
 use crate::language::Scalar;
 use crate::source::Span;
@@ -158,7 +158,7 @@ fn select_side(producer: &mut Shader, fragment: &mut Shader, read: &str, sides: 
     if let Some(global) = fragment.globals.get_mut(color.index()) {
         global.initializer = Some(choice);
         (global.interpolation, global.interpolation_written) = (Interpolation::default(), false);
-        (global.centroid, global.invariant) = (false, false);
+        (global.sampling, global.invariant) = (Sampling::Center, false);
     }
     fragment.expr_depth = fragment.expr_depth.max(2);
     fragment.mark_static_use();
@@ -255,7 +255,7 @@ fn global(name: &str, ty: TypeId, storage: Storage) -> Global {
         builtin: None,
         interpolation: Interpolation::default(),
         interpolation_written: false,
-        centroid: false,
+        sampling: Sampling::Center,
         invariant: false,
         location: None,
         component: None,

@@ -126,7 +126,7 @@ mod tests {
             ty,
             matrix_layout: MatrixLayout::ColumnMajor,
             interpolation: None,
-            centroid: false,
+            sampling: crate::hir::Sampling::Center,
             invariant: false,
             implicitly_sized: false,
             place: MemberPlace::default(),

@@ -8,7 +8,7 @@ use super::Linker;
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
 use super::usage::is_assigned;
 use crate::diagnostic::{Diagnostic, codes, did_you_mean};
-use crate::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
+use crate::hir::{ArraySize, Global, GlobalId, Sampling, Shader, Stage, Storage, Type, TypeId, Types};
 use crate::language::Feature;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -167,8 +167,8 @@ fn declaration(types: &Types, consumer: &Shader, input: &Global) -> String {
         return format!("out {} {{ .. }};", block.name);
     }
     let ty = if consumer.stage == Stage::Geometry { types.element(input.ty).unwrap_or(input.ty) } else { input.ty };
-    let centroid = if input.centroid { "centroid " } else { "" };
-    format!("{}{centroid}out {} {};", interpolation_prefix(input), types.name(ty), input.name)
+    let sampling = input.sampling.prefix();
+    format!("{}{sampling}out {} {};", interpolation_prefix(input), types.name(ty), input.name)
 }
 
 fn interpolation_prefix(global: &Global) -> String {
@@ -301,9 +301,9 @@ fn member_difference(
 
 fn member_qualifiers(member: &crate::hir::Member) -> String {
     let interpolation = member.interpolation.map_or("no interpolation qualifier", crate::hir::Interpolation::name);
-    let centroid = if member.centroid { " centroid" } else { "" };
+    let sampling = member.sampling.word().map_or(String::new(), |word| format!(" {word}"));
     let invariant = if member.invariant { ", `invariant`" } else { "" };
-    format!("{interpolation}{centroid}{invariant}")
+    format!("{interpolation}{sampling}{invariant}")
 }
 
 /// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must
@@ -319,7 +319,12 @@ fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
         let what = "is interpolated differently in each stage";
         pair.report(ctx, &codes::link::INTERPOLATION_MISMATCH, what, word(output), word(input));
     }
-    let flags = [("centroid", output.centroid, input.centroid), ("invariant", output.invariant, input.invariant)];
+    let is = |global: &Global, sampling| global.sampling == sampling;
+    let flags = [
+        ("centroid", is(output, Sampling::Centroid), is(input, Sampling::Centroid)),
+        ("sample", is(output, Sampling::Sample), is(input, Sampling::Sample)),
+        ("invariant", output.invariant, input.invariant),
+    ];
     for (qualifier, theirs, ours) in flags {
         if theirs != ours {
             let word = |set: bool| if set { format!("`{qualifier}`") } else { format!("not `{qualifier}`") };

@@ -246,7 +246,7 @@ fn global_problem(types: &Types, known: &Global, other: &Global) -> Option<Diagn
     if !types_agree(types, known, other) {
         return problem(format!("types, `{}` and `{}`", types.name(known.ty), types.name(other.ty)));
     }
-    let interpolation = |global: &Global| (global.interpolation_written, global.interpolation, global.centroid);
+    let interpolation = |global: &Global| (global.interpolation_written, global.interpolation, global.sampling);
     if known.builtin.is_none() && known.storage != Storage::Private && interpolation(known) != interpolation(other) {
         return problem("interpolation qualifiers".into());
     }
@@ -337,7 +337,7 @@ fn blocks_agree(types: &Types, a: TypeId, b: TypeId) -> bool {
 
 fn members_agree(types: &Types, a: &Member, b: &Member) -> bool {
     let qualifiers =
-        |member: &Member| (member.interpolation, member.centroid, member.invariant, member.matrix_layout, member.place);
+        |member: &Member| (member.interpolation, member.sampling, member.invariant, member.matrix_layout, member.place);
     let sizes = (ArrayExtent::new(types, a.ty, a.implicitly_sized), ArrayExtent::new(types, b.ty, b.implicitly_sized));
     let same_type = match sizes {
         (Some(a), Some(b)) => a.element == b.element && a.fits(b),

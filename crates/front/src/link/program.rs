@@ -1,6 +1,8 @@
 //! [`Program`] and its [`Interface`]: the result of a link, with all assigned locations, offsets and bindings.
 
-use crate::hir::{ArraySize, GlobalId, Interpolation, MatrixLayout, Shader, Stage, Type, TypeId, Types, Value};
+use crate::hir::{
+    ArraySize, GlobalId, Interpolation, MatrixLayout, Sampling, Shader, Stage, Type, TypeId, Types, Value,
+};
 
 /// A linked program.
 #[derive(Clone, Debug)]
@@ -127,8 +129,8 @@ pub struct Varying {
     pub component: u32,
     /// The interpolation, as the fragment stage declares it.
     pub interpolation: Interpolation,
-    /// `centroid`
-    pub centroid: bool,
+    /// `centroid` or `sample`, as the fragment stage declares it.
+    pub sampling: Sampling,
     /// Whether the fragment stage reads it.
     pub active: bool,
     /// The output of the stage before the rasterizer, if that stage writes it.

@@ -16,7 +16,7 @@ use super::matching::Outputs;
 use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
-    ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Scalar, Shader, Storage, Type, TypeId, Types,
+    ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Sampling, Scalar, Shader, Storage, Type, TypeId, Types,
 };
 use crate::source::Span;
 
@@ -139,7 +139,7 @@ fn cut(types: &Types, whole: &Whole<'_>, pieces: &mut Vec<Piece>) {
                     location: 0,
                     component: 0,
                     interpolation: if scalar.is_integer() { Interpolation::Flat } else { member.interpolation },
-                    centroid: member.centroid,
+                    sampling: member.sampling,
                     active: whole.active(),
                     from: end(whole.from),
                     to: end(whole.to),
@@ -157,7 +157,7 @@ struct QualifiedMember {
     ty: TypeId,
     flat_offset: u32,
     interpolation: Interpolation,
-    centroid: bool,
+    sampling: Sampling,
     /// The member's own location and component.
     place: Option<(u32, u32)>,
 }
@@ -166,13 +166,13 @@ struct QualifiedMember {
 /// qualifiers.
 fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
     let Some(block) = &global.block else {
-        let Global { name, ty, interpolation, centroid, .. } = global;
+        let Global { name, ty, interpolation, sampling, .. } = global;
         return vec![QualifiedMember {
             name: name.clone(),
             ty: *ty,
             flat_offset: 0,
             interpolation: *interpolation,
-            centroid: *centroid,
+            sampling: *sampling,
             place: None,
         }];
     };
@@ -195,7 +195,7 @@ fn members(types: &Types, global: &Global) -> Vec<QualifiedMember> {
                 ty: member.ty,
                 flat_offset,
                 interpolation: member.interpolation.unwrap_or(global.interpolation),
-                centroid: member.centroid || global.centroid,
+                sampling: if member.sampling == Sampling::Center { global.sampling } else { member.sampling },
                 place: member.place.location.map(|location| (location, member.place.component.unwrap_or(0))),
             });
             flat_offset += types.flat_len(member.ty);
@@ -311,7 +311,7 @@ struct LocationContents {
     used: u8,
     /// A bit for each component that has an explicit place.
     taken: u8,
-    kind: Option<(Scalar, Interpolation, bool)>,
+    kind: Option<(Scalar, Interpolation, Sampling)>,
 }
 
 impl LocationContents {
@@ -325,8 +325,8 @@ impl LocationContents {
     }
 }
 
-fn kind(piece: &Piece) -> (Scalar, Interpolation, bool) {
-    (piece.scalar, piece.varying.interpolation, piece.varying.centroid)
+fn kind(piece: &Piece) -> (Scalar, Interpolation, Sampling) {
+    (piece.scalar, piece.varying.interpolation, piece.varying.sampling)
 }
 
 /// Why an explicit place cannot be had.

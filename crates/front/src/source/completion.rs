@@ -39,6 +39,8 @@ pub struct Completion {
     pub resolves_includes: bool,
     /// Whether the engine runs a preprocessor in which a macro may be defined again.
     pub redefines: bool,
+    /// Whether the engine unrolls loops between `#pragma unroll_loop_start` and `#pragma unroll_loop_end`.
+    pub unrolls: bool,
 }
 
 impl Completion {

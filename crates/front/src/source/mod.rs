@@ -18,4 +18,4 @@ pub use map::{
     Expansion, FileId, IncludeForm, IncludeResolver, Included, Language, Location, NoIncludes, SourceFile, SourceMap,
 };
 pub use span::{ExpansionId, Span};
-pub use whole::{Inclusion, whole_text};
+pub use whole::{Edits, Inclusion, Unrolled, whole_text};

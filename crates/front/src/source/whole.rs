@@ -2,8 +2,8 @@
 //!
 //! *In:* a file, the files that its `#include` lines brought in, and macro definitions. *Out:* one text.
 //! *Holds:* a text without includes and definitions is returned untouched. Otherwise each line stays as written,
-//! except that each `#include` line is replaced by its file, and the `#extension` lines that allow includes are
-//! removed.
+//! except that each `#include` line is replaced by its file, each unrolled loop by its copies, and the `#extension` lines that
+//! allow includes are removed.
 //! *Not done here:* expanding macros and deciding conditions. That is left to the driver's preprocessor.
 
 use super::{FileId, SourceMap, Span};
@@ -18,26 +18,47 @@ pub struct Inclusion {
     pub file: Option<FileId>,
 }
 
+/// A loop that an engine unrolled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unrolled {
+    /// The offset of the `#` of its first pragma.
+    pub start: u32,
+    /// The offset after its last pragma.
+    pub end: u32,
+    /// All copies of its body.
+    pub text: String,
+}
+
+/// Everything that the preprocessor read besides the file, in the order in which it did.
+#[derive(Clone, Copy, Debug)]
+pub struct Edits<'a> {
+    /// The files that were included.
+    pub inclusions: &'a [Inclusion],
+    /// The loops that were unrolled.
+    pub unrolled: &'a [Unrolled],
+    /// The texts of an engine.
+    pub preludes: &'a [FileId],
+}
+
 /// The largest depth of nested includes, the same as the preprocessor's.
 const MAX_DEPTH: usize = 64;
 
-/// The text of `file` with its includes inserted, and with `defines` and the `preludes` added after its `#version` line, which
-/// is at `version`. The line may be in one of the preludes; they come first then. The `inclusions` are in the order in which
-/// the preprocessor entered them.
+/// The text of `file` with its includes inserted, and with `defines` and the preludes added after its `#version` line, which
+/// is at `version`. The line may be in one of the preludes; they come first then.
 pub fn whole_text(
     sources: &SourceMap,
     file: FileId,
     version: Span,
-    inclusions: &[Inclusion],
+    edits: Edits<'_>,
     defines: &[(String, String)],
-    preludes: &[FileId],
 ) -> Arc<str> {
-    if inclusions.is_empty() && defines.is_empty() && preludes.is_empty() {
+    let Edits { inclusions, unrolled, preludes } = edits;
+    if inclusions.is_empty() && unrolled.is_empty() && defines.is_empty() && preludes.is_empty() {
         return Arc::clone(sources.file(file).text());
     }
     let place = sources.file_of(version).filter(|found| *found == file || preludes.contains(found));
     let version = place.and_then(|place| Some((place, sources.line(version)?)));
-    let mut writer = Writer { sources, inclusions, text: String::new() };
+    let mut writer = Writer { sources, inclusions, unrolled, written: 0..0, text: String::new() };
     if version.is_none() {
         writer.define(defines);
     }
@@ -60,6 +81,10 @@ struct Writer<'a> {
     sources: &'a SourceMap,
     /// The inclusions that are not written yet.
     inclusions: &'a [Inclusion],
+    /// The loops that are not written yet.
+    unrolled: &'a [Unrolled],
+    /// The offsets of the loop that was written last.
+    written: std::ops::Range<u32>,
     text: String,
 }
 
@@ -93,6 +118,18 @@ impl Writer<'_> {
         let file = self.sources.file(id);
         let Some(range) = file.line_range(line) else { return };
         let place = |offset: usize| file.base() + offset as u32;
+        if self.written.contains(&place(range.start)) {
+            return;
+        }
+        if let Some((next, rest)) = self.unrolled.split_first()
+            && (place(range.start)..place(range.end)).contains(&next.start)
+        {
+            self.unrolled = rest;
+            self.written = place(range.start)..next.end;
+            self.text.push_str(&next.text);
+            self.end_line();
+            return;
+        }
         if let Some((next, rest)) = self.inclusions.split_first()
             && (place(range.start)..place(range.end)).contains(&next.directive.start)
         {

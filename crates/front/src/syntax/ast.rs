@@ -49,6 +49,8 @@ pub struct Ast {
     pub extension_lines: Vec<(String, Behavior, Span)>,
     /// The files that `#include` lines brought in, in reading order.
     pub inclusions: Vec<Inclusion>,
+    /// The loops that were unrolled, in order.
+    pub unrolled: Vec<crate::source::Unrolled>,
     /// The texts of an engine that were read before the source, in order.
     pub preludes: Vec<FileId>,
     /// The macros without parameters that are defined at the end, for "did you mean".
@@ -302,6 +304,7 @@ pub enum QualifierKind {
     Inout,
     Uniform,
     Centroid,
+    Sample,
     Smooth,
     Flat,
     Noperspective,

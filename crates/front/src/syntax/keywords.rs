@@ -291,7 +291,7 @@ pub static TABLE: &[Keyword] = &[
     word("dmat4x3", Foreign, (400, NEVER), (NEVER, NEVER)),
     word("dmat4x4", Foreign, (400, NEVER), (NEVER, NEVER)),
     word("patch", Foreign, (400, NEVER), (NEVER, 300)),
-    word("sample", Foreign, (400, NEVER), (NEVER, 300)).or(SHADER5),
+    word("sample", Sample, (400, NEVER), (320, 300)).or(SHADER5),
     word("subroutine", Foreign, (400, NEVER), (NEVER, 300)),
     word("samplerCubeArray", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),
     word("samplerCubeArrayShadow", Type, (400, NEVER), (NEVER, NEVER)).or(CUBE_ARRAYS),

@@ -98,6 +98,13 @@ impl Lexer {
         Span::new(self.base + start as u32, self.base + self.pos as u32)
     }
 
+    /// Continues at a place in the text, which is between tokens.
+    pub(super) fn go_to(&mut self, pos: usize) {
+        self.pos = pos;
+        self.last_end = self.base + pos as u32;
+        self.at_line_start = false;
+    }
+
     /// The global offset of the next byte.
     pub(super) fn offset(&self) -> u32 {
         self.base + self.pos as u32

@@ -66,6 +66,7 @@ pub fn parse(
     ast.allows = outcome.allows;
     ast.extension_lines = outcome.extension_lines;
     ast.inclusions = outcome.inclusions;
+    ast.unrolled = outcome.unrolled;
     ast.preludes = outcome.preludes;
     ast.macros = outcome.macros;
     ast.asked = outcome.asked;
@@ -83,6 +84,7 @@ fn empty_tree() -> Ast {
         allows: Vec::new(),
         extension_lines: Vec::new(),
         inclusions: Vec::new(),
+        unrolled: Vec::new(),
         preludes: Vec::new(),
         macros: Vec::new(),
         asked: Vec::new(),

@@ -80,6 +80,7 @@ token_kinds! {
     Varying "varying",
     Layout "layout",
     Centroid "centroid",
+    Sample "sample",
     Flat "flat",
     Smooth "smooth",
     Noperspective "noperspective",

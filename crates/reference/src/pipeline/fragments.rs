@@ -291,6 +291,9 @@ impl<D: Domain> Shading<'_, D> {
         if let Some(id) = self.plan.primitive_id {
             fill_int(machine, (id, 0), batch, |run| D::Int::from_bits(run.id));
         }
+        if let Some(id) = self.plan.sample_mask {
+            fill_int(machine, (id, 0), batch, |_| D::Int::from_bits(1));
+        }
         if let Some(id) = self.plan.point_coord {
             let mut sprite = [[D::Float::default(); 2]; LANES];
             for (run, lanes) in batch.runs() {

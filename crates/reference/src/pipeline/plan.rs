@@ -50,6 +50,8 @@ pub(super) struct Plan {
     pub(super) front_facing: Option<GlobalId>,
     pub(super) point_coord: Option<GlobalId>,
     pub(super) primitive_id: Option<GlobalId>,
+    /// `gl_SampleMaskIn`. Each pixel has one sample, whose number, `gl_SampleID`, is the 0 that inputs begin with.
+    pub(super) sample_mask: Option<GlobalId>,
     /// The output of the fragment stage, if it is written.
     pub(super) frag_depth: Option<GlobalId>,
     /// Whether the fragment stage needs whole quads.
@@ -89,6 +91,7 @@ impl Plan {
             front_facing: of_fragment(BuiltinVariable::FrontFacing),
             point_coord: of_fragment(BuiltinVariable::PointCoord),
             primitive_id: of_fragment(BuiltinVariable::PrimitiveId),
+            sample_mask: of_fragment(BuiltinVariable::SampleMaskIn),
             frag_depth,
             needs_quads: fragment.is_some_and(takes_derivatives),
             early_depth: frag_depth.is_none() && !discards,

@@ -8,8 +8,8 @@ use super::apply::Links;
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::builtin::operations::Class;
 use glisten_front::hir::{
-    BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, Interpolation, LocalId, LocalKind, Scalar, Shader, Stmt,
-    StmtKind, Storage, Type, Types, UnaryOp, VarRef,
+    BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, Interpolation, LocalId, LocalKind, Sampling, Scalar, Shader,
+    Stmt, StmtKind, Storage, Type, Types, UnaryOp, VarRef,
 };
 use glisten_front::link::usage::written_by;
 use rustc_hash::FxHashMap;
@@ -22,7 +22,7 @@ const LARGEST: u32 = 96;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Kind {
     pub(super) interpolation: Interpolation,
-    pub(super) centroid: bool,
+    pub(super) sampling: Sampling,
 }
 
 /// An expression that may move.

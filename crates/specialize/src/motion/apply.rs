@@ -39,7 +39,7 @@ impl Links {
             match global.storage {
                 Storage::In if plain && program.types.scalar_of(global.ty).is_some() => {
                     if let Some(to) = links.output(program, fragment, vertex, id) {
-                        let kind = Kind { interpolation: global.interpolation, centroid: global.centroid };
+                        let kind = Kind { interpolation: global.interpolation, sampling: global.sampling };
                         links.varyings.insert(id, Link { kind, vertex: to });
                     }
                 }

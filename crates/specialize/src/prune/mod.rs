@@ -31,8 +31,8 @@ pub(super) use unreached::without_unreached;
 
 use super::settle::Settled;
 use glisten_front::hir::{
-    ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Scalar, ScalarValue, Shader, Stmt, StmtKind, Storage, Type,
-    TypeId, Types,
+    ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Sampling, Scalar, ScalarValue, Shader, Stmt, StmtKind,
+    Storage, Type, TypeId, Types,
 };
 use glisten_front::source::Span;
 use std::collections::BTreeMap;
@@ -103,7 +103,8 @@ impl Pruned {
             {
                 // Nobody outside reads it any more.
                 global.storage = Storage::Private;
-                (global.interpolation_written, global.centroid, global.invariant) = (false, false, false);
+                (global.interpolation_written, global.invariant) = (false, false);
+                global.sampling = Sampling::Center;
                 (global.location, global.index) = (None, None);
             }
         }

@@ -18,12 +18,13 @@ const BEFORE_TYPES: [u32; 15] = [3, 4, 5, 6, 7, 8, 10, 11, 14, 15, 16, 17, 71, 7
 
 /// An instruction: its place, its code and its number of words.
 #[derive(Clone, Copy)]
-struct Instruction {
-    start: usize,
-    code: u32,
+pub(super) struct Instruction {
+    pub(super) start: usize,
+    pub(super) code: u32,
 }
 
-fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction> {
+/// The instructions of a module, in order.
+pub(super) fn instructions(words: &[u32]) -> impl Iterator<Item = Instruction> {
     let mut start = HEADER;
     std::iter::from_fn(move || {
         let first = *words.get(start)?;

@@ -9,6 +9,7 @@
 //! | `inline` | naga's text writers name only the loads that need a name |
 //! | `names` | naga's namer follows the scopes of WGSL |
 //! | `nesting` | naga's validator and writers limit how deep they recurse |
+//! | `sample_mask` | naga's SPIR-V writer declares the mask of samples as an array |
 //! | `hlsl` | naga writes HLSL for hosts without wgpu's root signature |
 //! | `lines` | naga's SPIR-V writer accepts several source files |
 
@@ -18,3 +19,4 @@ pub(super) mod inline;
 pub(super) mod lines;
 pub(super) mod names;
 pub(super) mod nesting;
+pub(super) mod sample_mask;

@@ -21,7 +21,7 @@ pub use wgsl::{WgslTexture, WgslVariable};
 
 use crate::target::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{MatrixLayout, ScalarValue, Stage, Storage, Type, Types, Value};
+use glisten_front::hir::{MatrixLayout, Sampling, ScalarValue, Stage, Storage, Type, Types, Value};
 use glisten_front::link::{Interface, Program, SamplerSlot, SlotBinding, UniformLeaf};
 use places::Places;
 use serde::{Deserialize, Serialize};
@@ -141,6 +141,9 @@ pub struct Varying {
     pub interpolation: String,
     /// `centroid`
     pub centroid: bool,
+    /// `sample`: the fragment stage runs for each sample (GLSL 4.00 §4.3.4). Absent if not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub sample: bool,
     /// Whether the fragment stage reads it.
     pub active: bool,
 }
@@ -382,7 +385,8 @@ pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
                 location: row.location,
                 component: row.component,
                 interpolation: row.interpolation.name().into(),
-                centroid: row.centroid,
+                centroid: row.sampling == Sampling::Centroid,
+                sample: row.sampling == Sampling::Sample,
                 active: row.active,
             })
             .collect(),

@@ -22,8 +22,12 @@ pub fn table(reflection: &Reflection) -> String {
     section("attributes", &["name", "type", "location", "columns", "active"], rows.collect());
 
     let rows = reflection.varyings.iter().map(|row| {
-        let interpolation =
-            if row.centroid { format!("{} centroid", row.interpolation) } else { row.interpolation.clone() };
+        let sampling = match (row.centroid, row.sample) {
+            (true, _) => " centroid",
+            (_, true) => " sample",
+            _ => "",
+        };
+        let interpolation = format!("{}{sampling}", row.interpolation);
         let location = format!("{}.{}", row.location, row.component);
         vec![row.name.clone(), row.ty.clone(), location, interpolation, yes(row.active)]
     });

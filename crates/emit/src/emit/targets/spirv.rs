@@ -4,6 +4,7 @@ use super::{Job, policies};
 use crate::emit::messages::chain;
 use crate::emit::naga_repairs::contraction::forbidden;
 use crate::emit::naga_repairs::lines::SourceLines;
+use crate::emit::naga_repairs::sample_mask::as_array;
 use naga::back::spv;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 
@@ -49,6 +50,7 @@ pub(super) fn write(job: &Job<'_>) -> Result<Vec<u32>, String> {
         Some(lines) => lines.restored(&words),
         None => words,
     };
+    let words = as_array(words);
     Ok(if job.precise { forbidden(words) } else { words })
 }
 

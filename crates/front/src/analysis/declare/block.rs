@@ -279,7 +279,7 @@ impl Analyzer<'_> {
             ty,
             matrix_layout,
             interpolation: record.interpolation.map(|(word, _)| word),
-            centroid: record.centroid.is_some(),
+            sampling: record.sampling(),
             invariant: record.invariant.is_some() || invariant_all,
             implicitly_sized: false,
             place,

@@ -85,7 +85,7 @@ impl Analyzer<'_> {
         if let Some(global) = self.shader.globals.get_mut(id.index()) {
             global.interpolation = record.interpolation.map_or(Interpolation::default(), |(word, _)| word);
             global.interpolation_written = record.interpolation.is_some();
-            global.centroid = record.centroid.is_some();
+            global.sampling = record.sampling();
             global.invariant |= record.invariant.is_some();
         }
         true

@@ -191,13 +191,13 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Reports `smooth`, `flat`, `noperspective`, `centroid` and `invariant` where nothing is interpolated.
+    /// Reports `smooth`, `flat`, `noperspective`, `centroid`, `sample` and `invariant` where nothing is interpolated.
     pub(super) fn no_interpolation(&mut self, record: &Qualifiers, what: &str) {
         let interpolation = record.interpolation.map(|(word, span)| (word.name(), span));
-        let centroid = record.centroid.map(|span| ("centroid", span));
+        let sampling = record.sampling.and_then(|(sampling, span)| Some((sampling.word()?, span)));
         let is_output = matches!(record.storage, Some((StorageWord::Out, _)));
         let invariant = record.invariant.filter(|_| !is_output).map(|span| ("invariant", span));
-        for (word, span) in interpolation.into_iter().chain(centroid).chain(invariant) {
+        for (word, span) in interpolation.into_iter().chain(sampling).chain(invariant) {
             self.misplaced(span, format!("`{word}` is not allowed before {what}"), "remove it");
         }
     }

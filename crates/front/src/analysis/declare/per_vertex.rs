@@ -11,7 +11,7 @@ use crate::builtin::variables::{self, Row, VARIABLES};
 use crate::builtin::{BuiltinVariable, fixed};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::names;
-use crate::hir::{ArraySize, Member, Stage, Storage, StructType, Type, TypeId};
+use crate::hir::{ArraySize, Member, Sampling, Stage, Storage, StructType, Type, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{BlockDecl, Declarator};
@@ -170,7 +170,7 @@ impl Analyzer<'_> {
             ty: if fits { ty } else { wanted },
             matrix_layout: crate::hir::MatrixLayout::default(),
             interpolation: None,
-            centroid: false,
+            sampling: Sampling::Center,
             invariant,
             implicitly_sized: false,
             place: crate::hir::MemberPlace::default(),

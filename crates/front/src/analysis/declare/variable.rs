@@ -165,7 +165,7 @@ impl Analyzer<'_> {
             builtin: None,
             interpolation: record.interpolation.map_or(Interpolation::default(), |(word, _)| word),
             interpolation_written: record.interpolation.is_some(),
-            centroid: record.centroid.is_some(),
+            sampling: record.sampling(),
             invariant: record.invariant.is_some() || invariant_all,
             location: layout.location.map(|(value, _)| value),
             component: layout.component.map(|(value, _)| value),

@@ -84,7 +84,11 @@ impl Analyzer<'_> {
         }
         if super::foreign::is_unsupported(spelling, self.ast.version, self.extensions) {
             let message = format!("the function `{spelling}` is not supported yet");
-            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
+            let mut finding = Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message);
+            if let Some((why, instead)) = super::foreign::reason(spelling) {
+                finding = finding.note(why).help(instead);
+            }
+            self.report(finding);
             return false;
         }
         let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_function(spelling)?));

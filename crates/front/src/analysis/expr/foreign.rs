@@ -64,14 +64,28 @@ static LATER: &[(&str, u16)] = &[
 /// Built-in variables of later versions.
 #[rustfmt::skip]
 static LATER_VARIABLES: &[(&str, u16)] = &[
-    ("gl_SampleID", 400), ("gl_SamplePosition", 400), ("gl_SampleMask", 400), ("gl_SampleMaskIn", 400),
+    ("gl_SamplePosition", 400), ("gl_SampleMask", 400),
     ("gl_NumSamples", 420), ("gl_ViewportIndex", 410), ("gl_CullDistance", 450), ("gl_HelperInvocation", 450),
     ("gl_DrawID", 460), ("gl_BaseVertex", 460), ("gl_BaseInstance", 460),
 ];
 
 /// Whether a version has a variable that glisten does not support.
-pub(super) fn is_unsupported_variable(name: &str, version: Version) -> bool {
-    LATER_VARIABLES.iter().any(|row| row.0 == name && version.reaches(Since::new(row.1, NEVER)))
+pub(super) fn is_unsupported_variable(name: &str, version: Version, extensions: Extensions) -> bool {
+    let of_samples =
+        (name.starts_with("gl_Sample") || name == "gl_NumSamples") && extensions.contains(Extensions::SAMPLE_SHADING);
+    LATER_VARIABLES.iter().any(|row| row.0 == name && (version.reaches(Since::new(row.1, NEVER)) || of_samples))
+}
+
+/// Why a function of later versions is not supported, and the way out.
+pub(super) fn reason(name: &str) -> Option<(&'static str, &'static str)> {
+    const WHY: &str = "naga, which writes the targets, has no functions that interpolate";
+    let instead = match name {
+        "interpolateAtCentroid" => "declare the input `centroid`",
+        "interpolateAtSample" => "declare the input `sample`: the shader then runs for each sample",
+        "interpolateAtOffset" => "add the derivatives times the offset: `v + dFdx(v) * offset.x + dFdy(v) * offset.y`",
+        _ => return None,
+    };
+    Some((WHY, instead))
 }
 
 /// The replacement for a function that does not exist.

@@ -127,7 +127,7 @@ impl Analyzer<'_> {
             self.report(finding);
             return;
         }
-        if super::foreign::is_unsupported_variable(spelling, self.ast.version) {
+        if super::foreign::is_unsupported_variable(spelling, self.ast.version, self.extensions) {
             let message = format!("the variable `{spelling}` is not supported yet");
             self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
             return;

@@ -41,7 +41,7 @@ codes! {
             "flat out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }");
     QUALIFIER_MISMATCH = "E0705" "qualifier-mismatch" Error "GLSL 1.50 §4.3.9"
-        "`centroid` and `invariant` must be on both sides of an interface between stages, or on neither."
+        "`centroid`, `sample` and `invariant` must be on both sides of an interface between stages, or on neither."
         bad Program(
             "centroid out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v; out vec4 c; void main() { c = v; }"),

@@ -7,7 +7,7 @@ use crate::hir::{
     BlockLayout, ExprId, ExprKind, Global, GlobalId, MatrixLayout, Member, PrimitiveIn, PrimitiveOut, SamplerDim,
     ScalarValue, Storage, Type, TypeId, Value, VarRef,
 };
-use crate::language::{Extensions, Profile};
+use crate::language::{Extensions, Profile, Sampling};
 use std::collections::BTreeSet;
 
 impl Printer<'_> {
@@ -83,10 +83,38 @@ impl Printer<'_> {
         if number < 400 && self.shader.globals.iter().any(|global| self.is_cube_array(global.ty)) {
             needed.extend(Extensions::TEXTURE_CUBE_MAP_ARRAY.name());
         }
-        if number < 400 && self.shader.geometry.invocations.is_some() {
+        if number < 400 && (self.shader.geometry.invocations.is_some() || self.shader.evaluates_samples(self.types)) {
+            needed.extend(Extensions::GPU_SHADER5.name());
+        }
+        if (130..400).contains(&number) && self.shader.exprs.iter().any(|expr| self.chooses(expr)) {
+            needed.extend(Extensions::GPU_SHADER5.name());
+        }
+        let reads = |builtin| self.shader.globals.iter().any(|global| global.builtin == Some(builtin));
+        if number < 400 && reads(BuiltinVariable::SampleId) {
+            needed.extend(Extensions::SAMPLE_SHADING.name());
+        }
+        if number < 400 && reads(BuiltinVariable::SampleMaskIn) {
             needed.extend(Extensions::GPU_SHADER5.name());
         }
         needed
+    }
+
+    /// Whether an expression chooses a sampler or a uniform block by an index that may not be constant.
+    fn chooses(&self, expr: &crate::hir::Expr) -> bool {
+        let ExprKind::Index(base, index) = expr.kind else { return false };
+        let is_block = match self.shader.expr(base).kind {
+            ExprKind::Var(VarRef::Global(global)) => {
+                let global = self.shader.global(global);
+                global.storage == Storage::Uniform && global.block.is_some()
+            }
+            _ => false,
+        };
+        let is_constant = match self.shader.expr(index).kind {
+            ExprKind::Literal(_) => true,
+            ExprKind::Var(VarRef::Global(global)) => self.shader.global(global).storage == Storage::Const,
+            _ => false,
+        };
+        (is_block || self.types.contains_sampler(expr.ty)) && !is_constant
     }
 
     /// Whether a type is a sampler of arrays of cube maps, or an array of such.
@@ -209,11 +237,11 @@ impl Printer<'_> {
 
     /// A redeclaration of a variable of the fixed-function pipeline, if its interpolation was declared.
     fn fixed(&mut self, global: &Global) {
-        if global.interpolation_written || global.centroid {
+        if global.interpolation_written || global.sampling != Sampling::Center {
             let interpolation = if global.interpolation_written { global.interpolation.name() } else { "" };
-            let centroid = if global.centroid { "centroid " } else { "" };
+            let sampling = global.sampling.prefix();
             let (storage, ty) = (storage(global.storage), self.type_name(global.ty));
-            self.line(format!("{interpolation} {centroid}{storage}{ty} {};", global.name).trim_start());
+            self.line(format!("{interpolation} {sampling}{storage}{ty} {};", global.name).trim_start());
         }
     }
 
@@ -263,10 +291,10 @@ impl Printer<'_> {
         let invariant = if global.invariant { "invariant " } else { "" };
         let interpolation = if global.interpolation_written { global.interpolation.name() } else { "" };
         let gap = if interpolation.is_empty() { "" } else { " " };
-        let centroid = if global.centroid { "centroid " } else { "" };
+        let sampling = global.sampling.prefix();
         let storage = storage(global.storage);
         let (ty, name) = (self.type_name(global.ty), self.names.global(id));
-        let head = format!("{layout}{invariant}{interpolation}{gap}{centroid}{storage}{ty} {name}");
+        let head = format!("{layout}{invariant}{interpolation}{gap}{sampling}{storage}{ty} {name}");
         let initializer = match (global.initializer, &global.value) {
             (Some(expr), _) => Some(self.argument(expr)),
             (None, Some(value)) if global.storage != Storage::In => Some(self.value(value)),
@@ -348,10 +376,10 @@ fn member_qualifiers(member: &Member, storage: &str) -> String {
     }
     let order = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
     let interpolation = member.interpolation.map_or(String::new(), |word| format!("{} ", word.name()));
-    // `centroid` precedes a storage qualifier, which in a block can only be that of the block.
-    let centroid = if member.centroid { format!("centroid {storage}") } else { String::new() };
+    // `centroid` and `sample` precede a storage qualifier, which in a block can only be that of the block.
+    let sampling = member.sampling.word().map_or(String::new(), |word| format!("{word} {storage}"));
     let invariant = if member.invariant { "invariant " } else { "" };
-    format!("{order}{invariant}{interpolation}{centroid}")
+    format!("{order}{invariant}{interpolation}{sampling}")
 }
 
 fn storage(storage: Storage) -> &'static str {

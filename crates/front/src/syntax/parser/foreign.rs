@@ -22,7 +22,6 @@ static FEATURES: &[(&str, &str)] = &[
     ("shared", "compute shaders (`shared`)"),
     ("subroutine", "subroutines"),
     ("patch", "tessellation (`patch`)"),
-    ("sample", "interpolation for each sample (`sample`)"),
 ];
 
 /// The feature of a keyword.
@@ -32,7 +31,7 @@ fn feature(word: &str) -> &'static str {
 
 /// The words that are qualifiers; all others are types.
 static QUALIFIERS: &[&str] =
-    &["coherent", "volatile", "restrict", "readonly", "writeonly", "buffer", "shared", "subroutine", "patch", "sample"];
+    &["coherent", "volatile", "restrict", "readonly", "writeonly", "buffer", "shared", "subroutine", "patch"];
 
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// Whether the next token is a qualifier of a feature that is not supported.

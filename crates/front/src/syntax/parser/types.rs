@@ -19,6 +19,7 @@ fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
         TokenKind::Inout => QualifierKind::Inout,
         TokenKind::Uniform => QualifierKind::Uniform,
         TokenKind::Centroid => QualifierKind::Centroid,
+        TokenKind::Sample => QualifierKind::Sample,
         TokenKind::Smooth => QualifierKind::Smooth,
         TokenKind::Flat => QualifierKind::Flat,
         TokenKind::Noperspective => QualifierKind::Noperspective,

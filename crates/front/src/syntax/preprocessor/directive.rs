@@ -132,7 +132,7 @@ impl Preprocessor<'_> {
         if !self.trivia.is_empty() {
             self.note_trivia(session);
         }
-        token
+        self.in_copy(session, token)
     }
 
     /// The rest of the directive's line.
@@ -374,6 +374,10 @@ impl Preprocessor<'_> {
             }
             ["once"] => {
                 self.once.extend(self.frames.last().map(|frame| frame.file));
+                true
+            }
+            ["unroll_loop_start"] => {
+                self.unroll(session, directive);
                 true
             }
             ["STDGL" | "optimize" | "debug", ..] => false,

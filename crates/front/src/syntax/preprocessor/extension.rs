@@ -47,6 +47,7 @@ static IMPLEMENTED: &[Implemented] = &[
     desktop("GL_ARB_explicit_uniform_location", Extensions::EXPLICIT_UNIFORM_LOCATION),
     desktop("GL_ARB_fragment_coord_conventions", Extensions::FRAGMENT_COORD_CONVENTIONS),
     desktop("GL_ARB_gpu_shader5", Extensions::GPU_SHADER5),
+    desktop("GL_ARB_sample_shading", Extensions::SAMPLE_SHADING),
     desktop("GL_ARB_separate_shader_objects", Extensions::SEPARATE_SHADER_OBJECTS),
     desktop("GL_ARB_shader_bit_encoding", Extensions::SHADER_BIT_ENCODING),
     desktop("GL_ARB_shader_texture_lod", Extensions::SHADER_TEXTURE_LOD),

@@ -23,6 +23,7 @@ pub(super) mod predefined;
 mod prelude;
 #[cfg(test)]
 mod tests;
+mod unroll;
 mod version;
 
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
@@ -35,8 +36,13 @@ use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::language::Feature;
+<<<<<<< HEAD
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
 use definition::Macro;
+=======
+use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span, Unrolled};
+use define::Macro;
+>>>>>>> sampling
 use expand::TokenRun;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
@@ -54,6 +60,7 @@ pub(super) struct PreprocessorOutcome {
     pub(super) allows: Vec<Allow>,
     pub(super) extension_lines: Vec<(String, Behavior, Span)>,
     pub(super) inclusions: Vec<Inclusion>,
+    pub(super) unrolled: Vec<Unrolled>,
     /// The texts of an engine that were read before the source.
     pub(super) preludes: Vec<FileId>,
     pub(super) macros: Vec<Arc<str>>,
@@ -68,6 +75,8 @@ struct FileFrame {
     /// The value of `__FILE__` here: the depth of the include, or what `#line` said.
     number: u32,
     conditionals: Vec<directive::Conditional>,
+    /// The copy of an unrolled loop that this reads, if it is no file.
+    copy: Option<unroll::Copy>,
 }
 
 /// Facts about a word.
@@ -167,6 +176,7 @@ impl<'a> Preprocessor<'a> {
                 allows: Vec::new(),
                 extension_lines: Vec::new(),
                 inclusions: Vec::new(),
+                unrolled: Vec::new(),
                 preludes: Vec::new(),
                 macros: Vec::new(),
                 asked: Vec::new(),
@@ -228,7 +238,7 @@ impl<'a> Preprocessor<'a> {
         let mut lexer = Lexer::new(source.text().clone(), source.base());
         lexer.joins_comments = self.joins_lines();
         let number = self.frames.len() as u32;
-        self.frames.push(FileFrame { file, lexer, number, conditionals: Vec::new() });
+        self.frames.push(FileFrame { file, lexer, number, conditionals: Vec::new(), copy: None });
     }
 
     /// Reports a file that is not text with one error instead of one for each byte.
@@ -298,7 +308,7 @@ impl<'a> Preprocessor<'a> {
                         return self.end(token.span);
                     }
                 }
-                _ => return token,
+                _ => return self.in_copy(session, token),
             }
         }
     }
@@ -312,7 +322,9 @@ impl<'a> Preprocessor<'a> {
         if self.frames.len() == 1 {
             return false;
         }
-        self.frames.pop();
+        if !self.next_copy() {
+            self.frames.pop();
+        }
         true
     }
 

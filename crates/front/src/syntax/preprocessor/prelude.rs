@@ -16,6 +16,8 @@ pub(super) struct Engine {
     pub(super) directive: Option<ImportDirective>,
     pub(super) resolves_includes: bool,
     pub(super) redefines: bool,
+    pub(super) unrolls: bool,
+    pub(super) unroll_end: super::unroll::NextEnd,
 }
 
 impl Preprocessor<'_> {
@@ -29,6 +31,7 @@ impl Preprocessor<'_> {
         self.engine.directive = completion.directive;
         self.engine.resolves_includes = completion.resolves_includes;
         self.engine.redefines = completion.redefines;
+        self.engine.unrolls = completion.unrolls;
         let text = session.sources.file(main).text().clone();
         let (texts, after_version) = completion.texts(&text);
         for prelude in texts {

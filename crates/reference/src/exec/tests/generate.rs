@@ -4,8 +4,8 @@
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{
     BinaryOp as B, Case, CaseLabel, Condition, ConstructKind, ExprId, ExprKind, Function, FunctionId, Global, GlobalId,
-    IncDec, Interpolation, Local, LocalId, LocalKind, LogicalOp, LoopKind, ParamMode, Scalar, ScalarValue, Shader,
-    Stage, Stmt, StmtKind, Storage, Swizzle, Type, TypeId, Types, UnaryOp, VarRef,
+    IncDec, Interpolation, Local, LocalId, LocalKind, LogicalOp, LoopKind, ParamMode, Sampling, Scalar, ScalarValue,
+    Shader, Stage, Stmt, StmtKind, Storage, Swizzle, Type, TypeId, Types, UnaryOp, VarRef,
 };
 use glisten_front::link::{Interface, Program, UniformRoot};
 use glisten_front::source::Span;
@@ -142,7 +142,7 @@ impl Generator<'_, '_> {
             builtin: None,
             interpolation: Interpolation::Smooth,
             interpolation_written: false,
-            centroid: false,
+            sampling: Sampling::Center,
             invariant: false,
             location: None,
             component: None,

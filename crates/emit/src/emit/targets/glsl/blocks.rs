@@ -69,7 +69,7 @@ fn varying(program: &Program, block: &Global, member: &Member, row: Option<&Vary
         ty: member.ty,
         interpolation,
         interpolation_written: interpolation != Interpolation::Smooth,
-        centroid: row.map_or(member.centroid, |row| row.centroid),
+        sampling: row.map_or(member.sampling, |row| row.sampling),
         invariant: block.invariant || member.invariant,
         block: None,
         used: true,

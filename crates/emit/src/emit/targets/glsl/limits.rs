@@ -10,7 +10,8 @@ use glisten_front::builtin::operations::Class;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
 use glisten_front::hir::{
-    ExprKind, Global, Interpolation, Member, SamplerDim, SamplerType, Shader, Stage, Storage, Type, TypeId, Types,
+    ExprKind, Global, Interpolation, Member, SamplerDim, SamplerType, Sampling, Shader, Stage, Storage, Type, TypeId,
+    Types,
 };
 use glisten_front::language::NEVER;
 use glisten_front::link::Program;
@@ -108,6 +109,11 @@ fn of_global(types: &Types, shader: &Shader, global: &Global) -> Option<(String,
             "multiply by `gl_Position.w` before the rasterizer, and by `gl_FragCoord.w` after it",
         ));
     }
+    if between
+        && (global.sampling == Sampling::Sample || members.iter().any(|member| member.sampling == Sampling::Sample))
+    {
+        return Some(("`sample`".into(), "use `centroid`, or compile for `--glsl-version 330`"));
+    }
     if shader.stage == Stage::Vertex && global.storage == Storage::In && matches!(types.get(global.ty), Type::Array(..))
     {
         return Some(("arrays of attributes".into(), "declare one attribute for each element"));
@@ -123,6 +129,9 @@ fn of_builtin(shader: &Shader, builtin: BuiltinVariable) -> Option<(String, &'st
         }
         BuiltinVariable::PrimitiveId => {
             Some(("`gl_PrimitiveID`".into(), "pass the number as a `flat` varying of each triangle's own vertices"))
+        }
+        BuiltinVariable::SampleId | BuiltinVariable::SampleMaskIn => {
+            Some((format!("`{}`", builtin.name()), "compile for `--glsl-version 330`"))
         }
         BuiltinVariable::FragCoord if layout.origin_upper_left || layout.pixel_center_integer => Some((
             "layouts of `gl_FragCoord`".into(),

@@ -91,7 +91,7 @@ fn interpolations(shader: &mut Shader, program: &Program) {
         if let Some(global) = global.filter(|global| global.block.is_none() && row.to.is_some()) {
             global.interpolation = row.interpolation;
             global.interpolation_written |= row.interpolation != Interpolation::Smooth;
-            global.centroid = row.centroid;
+            global.sampling = row.sampling;
         }
     }
 }
