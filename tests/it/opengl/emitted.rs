@@ -37,6 +37,10 @@ fn opengl_draws_emitted_glsl_as_the_reference_draws_the_source() {
         let mut judged_picture: Option<Picture> = None;
         for (version, count) in VERSIONS.iter().zip(&mut counts) {
             let name = format!("{name} in {}", version.word());
+            // The other versions have no arrays that are indexed so.
+            if *version == GlslVersion::Desktop450 && matches!(exception, Some((_, Expected::Crashes, _))) {
+                continue;
+            }
             let Some(emitted) = emitted(&scene, *version) else { continue };
             let picture = match gl.render(&emitted) {
                 Ok(picture) => picture,

@@ -96,7 +96,7 @@ pub(super) fn kinds_in(version: Version, extensions: Extensions) -> Vec<TokenKin
     let kinds = || TABLE.iter().map(|row| row.kind_in(version, extensions)).collect();
     let place = usize::from(version.number / 10) + if version.is_es() { TENS } else { 0 };
     match PLAIN.get(place) {
-        Some(plain) if extensions.is_empty() && version.number % 10 == 0 => plain.get_or_init(kinds).clone(),
+        Some(plain) if extensions.is_empty() && version.number.is_multiple_of(10) => plain.get_or_init(kinds).clone(),
         _ => kinds(),
     }
 }

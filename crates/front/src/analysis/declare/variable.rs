@@ -190,7 +190,11 @@ impl Analyzer<'_> {
     /// Reports a component without a location, or one from which the type does not fit into a location (4.40 §4.4.1).
     pub(super) fn check_component(&mut self, layout: &Layout, ty: TypeId) {
         let Some((component, span)) = layout.component else { return };
-        let size = match self.types.get(self.element_of(ty)) {
+        let mut element = ty;
+        while let Type::Array(inner, _) = self.types.get(element) {
+            element = inner;
+        }
+        let size = match self.types.get(element) {
             Type::Scalar(_) => 1,
             Type::Vector(_, size) => u32::from(size),
             Type::Error => return,

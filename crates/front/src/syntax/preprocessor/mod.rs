@@ -36,13 +36,8 @@ use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::language::Feature;
-<<<<<<< HEAD
-use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span};
-use definition::Macro;
-=======
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span, Unrolled};
-use define::Macro;
->>>>>>> sampling
+use definition::Macro;
 use expand::TokenRun;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
