@@ -80,7 +80,7 @@ impl Recall {
         }
     }
 
-    /// What was made of a scene before, or else a place for what will be.
+    /// The earlier result of a scene, or else a place for a new one.
     pub(super) fn scene(&self, path: &str, options: &str) -> (Option<Kept>, Option<Digest>) {
         let Some(cache) = &self.cache else { return (None, None) };
         let key = cache.key(&[&self.options, "scene", path, options, &self.folder_that_matters([Path::new(path)])]);

@@ -22,9 +22,13 @@ pub(super) fn snake(name: &str) -> String {
         if starts && before != '_' {
             text.push('_');
         }
-        let known = one.is_ascii_alphanumeric() || one == '_';
-        text.extend(if known { one.to_ascii_lowercase() } else { '_' }.to_lowercase());
-        before = if known { one } else { '_' };
+        let letter = if one.is_ascii_alphanumeric() { one } else { '_' };
+        // Two underscores within a name are against the conventions.
+        let doubles = letter == '_' && text.ends_with('_') && !text.chars().all(|one| one == '_');
+        if !doubles {
+            text.push(letter.to_ascii_lowercase());
+        }
+        before = letter;
     }
     if text.is_empty() || text.starts_with(|first: char| first.is_ascii_digit()) {
         text.insert(0, '_');
@@ -78,6 +82,8 @@ mod tests {
             ("light2D", "light2_d", "Light2D"),
             ("X", "x", "X"),
             ("_x", "_x", "X"),
+            ("lists[0]_texels", "lists_0_texels", "Lists0Texels"),
+            ("__x__y", "__x_y", "XY"),
         ] {
             assert_eq!((snake(glsl).as_str(), pascal(glsl).as_str()), (in_snake, in_pascal), "{glsl}");
         }

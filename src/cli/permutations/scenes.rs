@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 /// The draws of a scene, each with the outputs of its program.
 type Draws = Vec<(Group, Vec<Output>)>;
 
-/// What came of a scene.
+/// The result of a scene.
 struct Done {
     draws: Draws,
     /// The files that were read.
@@ -152,7 +152,7 @@ fn kept_outputs(draws: &Draws, files: &[String]) -> Vec<Output> {
     [first].into_iter().chain(draws.iter().flat_map(|(_, outputs)| outputs.iter().cloned())).collect()
 }
 
-/// What [`kept_outputs`] kept.
+/// Reads [`kept_outputs`] back.
 fn recalled(kept: &Kept) -> Option<Done> {
     let ((_, _, head), outputs) = kept.outputs.split_first()?;
     let (told, files): (Vec<KeptDraw>, Vec<String>) = serde_json::from_slice(head).ok()?;
