@@ -170,6 +170,7 @@ mod tests {
     use std::process::Command;
 
     /// How a shell that runs this ends. (A process of tests has threads, so it must not be copied.)
+    #[expect(clippy::zombie_processes, reason = "what waits for it is under test")]
     fn ended(script: &str) -> Ended {
         let child = Command::new("sh").args(["-c", script]).spawn().expect("there is a shell");
         Child { number: i32::try_from(child.id()).expect("a small number"), before: Box::new([None; 4]) }.wait()

@@ -176,21 +176,21 @@ fn a_scene_comes_from_the_cache_until_a_file_of_it_changes() {
     write("r.glsl", b"vec4 other() { return vec4(1.0); }\n");
     write("m.obj", b"v -1 -1 0\nv 3 -1 0\nv -1 3 0\nf 1 2 3\n");
     picture(GRAY);
-    let run = |out: &str, is_hit: bool| {
+    let run = |what: &str, out: &str, is_hit: bool| {
         let words =
             ["compile", "--permutations", "p.toml", "--cache", "kept", "-o", out, "--depfile", "d", "--manifest", "m"];
         let run = folder.run(&words);
         assert_eq!(code(&run), 0, "{}", err(&run));
         let told = if is_hit { "1 of 1 from the cache" } else { "0 of 1 from the cache" };
-        assert!(err(&run).contains(told), "{}", err(&run));
+        assert!(err(&run).contains(told), "{what}: {}", err(&run));
         let accounts = ["d", "m"].map(|name| fs::read_to_string(folder.path(name)).expect("written").replace(out, ""));
         (files(&folder.path(out)), accounts)
     };
-    let first = run("one", false);
+    let first = run("nothing before", "one", false);
     for name in ["p.toml", "room.toml", "r.vert", "r.frag", "r.glsl", "m.obj", "t.png"] {
         assert!(first.1[0].contains(name), "{name} in {}", first.1[0]);
     }
-    assert!(first == run("two", true), "a result of the cache is another");
+    assert!(first == run("the same", "two", true), "a result of the cache is another");
     let changes: [(&str, &dyn Fn()); 5] = [
         ("the scene", &|| write("room.toml", ROOM.replace("0.0", "1.0").as_bytes())),
         ("an include", &|| write("r.glsl", b"vec4 other() { return vec4(0.5); }\n")),
@@ -200,9 +200,8 @@ fn a_scene_comes_from_the_cache_until_a_file_of_it_changes() {
     ];
     for (number, (what, change)) in changes.iter().enumerate() {
         change();
-        println!("{what}");
-        run(&format!("miss{number}"), false);
-        run(&format!("hit{number}"), true);
+        run(what, &format!("miss{number}"), false);
+        run(what, &format!("hit{number}"), true);
     }
 }
 
