@@ -208,8 +208,10 @@ fn highest_precision(file: &str) {
     let es = version_line(&text)
         .filter(|line| text.get(line.clone()).is_some_and(|line| line.ends_with("es") || line.ends_with("100")));
     if let Some(line) = es {
-        // What a sampler returns has the sampler's precision.
-        new.insert_str(line.end, "\nprecision highp sampler2D; precision highp samplerCube;");
+        // What a sampler returns has the sampler's precision. Extensions come before all else.
+        let last = new.match_indices("\n#extension").last().map_or(line.start, |(at, _)| at + 1);
+        let end = new.get(last..).and_then(|rest| rest.find('\n')).map_or(new.len(), |length| last + length);
+        new.insert_str(end, "\nprecision highp sampler2D; precision highp samplerCube;");
     }
     if new != text {
         // The old text is as good for all but the comparison.
