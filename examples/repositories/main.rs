@@ -109,7 +109,9 @@ fn measure(arguments: &Arguments) -> Result<(), String> {
     lines.push(String::new());
     lines.push("| repository | who | file | what | because |\n| --- | --- | --- | --- | --- |".to_owned());
     lines.extend(disagreements);
-    let text = lines.join("\n") + "\n";
+    // Where the repositories are does not matter.
+    let folder = arguments.folder.join("").to_string_lossy().into_owned();
+    let text = (lines.join("\n") + "\n").replace(&folder, "");
     match &arguments.output {
         Some(path) => std::fs::write(path, text).map_err(|error| error.to_string()),
         None => {

@@ -119,7 +119,7 @@ impl GalleryBackend {
             _ if !args.specialize => scene,
             contract => specialize_scene_by(contract, &scene, &SourceMap::default(), &[]).scene,
         };
-        let _work = matches!(self, Self::Gpu(..)).then(|| journal::at_work(&format!("drawing `{}`", entry.name)));
+        let _work = matches!(self, Self::Gpu(..)).then(|| journal::at_work(&journal::drawing(entry.name)));
         let picture = match self {
             Self::Gpu(gpu, via) => glisten_reference::expand(&scene)
                 .map_err(DrawError::from)

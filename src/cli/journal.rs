@@ -105,6 +105,11 @@ pub(super) fn notes() -> Vec<Note> {
     CURRENT.get().map(Journal::notes).unwrap_or_default()
 }
 
+/// The name of the work on a scene or a test.
+pub(super) fn drawing(name: &str) -> String {
+    format!("drawing `{name}`")
+}
+
 /// Notes that the driver works on something until the value is dropped.
 #[must_use]
 pub(super) fn at_work(work: &str) -> AtWork {

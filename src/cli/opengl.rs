@@ -32,7 +32,7 @@ pub(super) fn draw(_: &MachineArgs, _: &str, _: Scene) -> Result<Picture, DrawEr
 #[cfg(feature = "gl")]
 pub(super) fn draw(machine: &MachineArgs, name: &str, scene: Scene) -> Result<Picture, DrawError> {
     journal::note(&Note::Driver("of OpenGL".to_owned()));
-    let work = format!("drawing `{name}`");
+    let work = journal::drawing(name);
     // A context belongs to its thread.
     machine.within_time(move || {
         let _work = journal::at_work(&work);

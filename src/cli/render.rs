@@ -141,7 +141,7 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
         Backend::Gpu => {
             let gpu = args.scene.gpu()?;
             let drawn_by = Some(gpu.adapter().to_string());
-            let work = format!("drawing `{}`", args.scene.scene);
+            let work = journal::drawing(&args.scene.scene);
             let picture = args.scene.within_time(move || {
                 let _work = journal::at_work(&work);
                 let scene = glisten_reference::expand(&scene)?;

@@ -98,7 +98,7 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
         let text = String::from_utf8_lossy(&bytes);
         for (backend, draws) in &mut backends {
             let row = known.take(&name, backend).unwrap_or_else(|| {
-                let _work = (*backend == GPU).then(|| journal::at_work(&work_on(&name)));
+                let _work = (*backend == GPU).then(|| journal::at_work(&journal::drawing(&name)));
                 let row = TestRow::new(&name, backend, &one(&name, &text, draws.as_mut()));
                 row.keep();
                 row
@@ -145,16 +145,11 @@ impl Known {
 
     fn take(&mut self, file: &str, backend: &str) -> Option<TestRow> {
         let crash = || {
-            let what = self.crashes.get(&work_on(file)).filter(|_| backend == GPU)?;
+            let what = self.crashes.get(&journal::drawing(file)).filter(|_| backend == GPU)?;
             Some(TestRow::new(file, backend, &TestResult::Fail(what.clone())))
         };
         crash().or_else(|| self.rows.remove(&(file.to_owned(), backend.to_owned())))
     }
-}
-
-/// The name of a driver's work on a test.
-fn work_on(file: &str) -> String {
-    format!("drawing `{file}`")
 }
 
 impl TestRow {

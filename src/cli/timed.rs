@@ -108,7 +108,7 @@ impl Runner for TimedGpu<'_> {
         self.progress.say(self.name());
         let (gpu, via, scene) = (Arc::clone(&self.gpu), self.via, scene.clone());
         let foreign = Arc::clone(&self.foreign);
-        let work = format!("drawing `{}` by {}", self.name, via.name());
+        let work = format!("{} by {}", journal::drawing(self.name), via.name());
         let drawn = self.machine.within_time(move || {
             let _work = journal::at_work(&work);
             Ok(OnGpu::new(&gpu, via).with(&foreign).draw(&scene)?)
