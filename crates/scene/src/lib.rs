@@ -17,6 +17,7 @@ mod model;
 pub mod picture;
 pub mod random;
 mod reads;
+pub mod roles;
 pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
