@@ -46,7 +46,10 @@ static ORDER: &[(&str, &[&str])] = &[
     ("crates/emit/src", &["target", "select", "lower", "width", "emit"]),
     (
         "crates/scene/src",
-        &["random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "roles", "geometry", "load", "portrait"],
+        &[
+            "random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "roles",
+            "geometry", "load", "portrait",
+        ],
     ),
     (
         "src",
