@@ -1,7 +1,13 @@
-//! Scene files, with the programs of the library at hand.
+//! Scene files, with the programs of the library and the engines at hand.
 
+use crate::engines;
 use crate::library::Embedded;
-use glisten_front::Compiler;
+use crate::sources::{completing, parse_version};
+use glisten_front::compiler::SourceSettings;
+use glisten_front::source::IncludeResolver;
+use glisten_front::{Compiler, Program};
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 pub use glisten_scene::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter,
@@ -9,7 +15,56 @@ pub use glisten_scene::{
     Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 
-/// Loads the scene at `path`, whose draws may name programs of the library.
+/// Loads the scene at `path`, whose draws may name programs of the library, and engines that complete their sources.
 pub fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Loaded {
-    glisten_scene::load(path, files, &Embedded, compiler)
+    glisten_scene::load(path, files, &WithEngines, compiler)
+}
+
+/// The library, and the engines.
+struct WithEngines;
+
+impl Library for WithEngines {
+    fn program(&self, name: &str) -> Option<(&'static str, &'static str)> {
+        Embedded.program(name)
+    }
+
+    fn program_names(&self) -> Vec<&'static str> {
+        Embedded.program_names()
+    }
+
+    fn shader(&self, file: &str) -> Option<&'static str> {
+        Embedded.shader(file)
+    }
+
+    fn shader_names(&self) -> Vec<&'static str> {
+        Embedded.shader_names()
+    }
+
+    fn includes(&self) -> Arc<dyn IncludeResolver + Send + Sync> {
+        Library::includes(&Embedded)
+    }
+
+    fn values_read(&self, program: &str) -> Option<&BTreeSet<String>> {
+        Embedded.values_read(program)
+    }
+
+    fn attributes_that_reach(&self, program: &Program) -> Vec<bool> {
+        Embedded.attributes_that_reach(program)
+    }
+
+    fn engines(&self) -> Vec<&'static str> {
+        engines::names().collect()
+    }
+
+    fn include_styles(&self) -> Vec<&'static str> {
+        engines::STYLES.iter().map(|row| row.name).collect()
+    }
+
+    fn checked_version(&self, text: &str) -> Result<String, String> {
+        parse_version(text)
+    }
+
+    fn completing(&self, compiler: Compiler, settings: &SourceSettings) -> Compiler {
+        completing(compiler, settings)
+    }
 }

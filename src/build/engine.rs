@@ -8,7 +8,7 @@ use super::files::Reads;
 use crate::engines::{self, Style};
 use crate::library::is_embedded;
 use crate::sources::{DiskIncludes, Settings, parse_version};
-use glisten_front::compiler::{Preparation, Prepared, Source};
+use glisten_front::compiler::{Preparation, Prepared, Source, SourceSettings};
 use glisten_front::diagnostic::did_you_mean;
 use glisten_front::source::Prelude;
 use std::path::{Path, PathBuf};
@@ -66,5 +66,10 @@ impl Preparation for Completed {
             return Prepared::default();
         }
         self.settings.clone().complete(source, Some(Path::new(&source.name)), Arc::new(self.reads.clone()))
+    }
+
+    fn with_settings(&self, settings: &SourceSettings) -> Option<Arc<dyn Preparation + Send + Sync>> {
+        let settings = self.settings.clone().over(Settings::from_host(settings));
+        Some(Arc::new(Self { settings, reads: self.reads.clone() }))
     }
 }

@@ -12,7 +12,7 @@ use super::rules::Rule;
 use super::trace::{self, Trace};
 use crate::engines::{self, Profile, Style};
 use crate::sources::{Disk, DiskIncludes, ProgramFiles, Settings};
-use glisten_front::compiler::{Preparation, Prepared, Source};
+use glisten_front::compiler::{Preparation, Prepared, Source, SourceSettings};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
 use glisten_front::source::Prelude;
@@ -24,9 +24,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(super) const STDIN: &str = "<stdin>";
 
 /// Completes sources.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Engines {
     flags: Arc<Flags>,
+    /// The settings of a draw.
+    draw: Arc<Settings>,
     /// The rules of each folder so far.
     rules: Arc<Mutex<BTreeMap<PathBuf, Known>>>,
     programs: ProgramFiles,
@@ -36,7 +38,7 @@ pub(super) struct Engines {
 type Known = (Arc<Vec<Rule>>, Arc<Trace>);
 
 /// The flags of the command line.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Flags {
     profile: Option<&'static Profile>,
     version: Option<String>,
@@ -66,7 +68,7 @@ impl Engines {
             preludes,
             folders: args.include_dirs.clone(),
         };
-        Ok(Self { flags: Arc::new(flags), rules: Arc::default(), programs: ProgramFiles::default() })
+        Ok(Self { flags: Arc::new(flags), ..Self::default() })
     }
 
     /// The resolver of includes for sources that no engine completes.
@@ -106,19 +108,22 @@ impl Engines {
         self.rules(folder).iter().filter(|rule| rule.fits(path)).for_each(visit);
     }
 
-    /// The settings of a file by the flags and the tables.
+    /// The settings of a file by the flags, the draw and the tables, in the order of their precedence.
     fn settings(&self, path: Option<&Path>) -> Settings {
         let flags = &*self.flags;
-        let mut settings =
-            Settings { folders: flags.folders.clone(), programs: self.programs.clone(), ..Settings::default() };
+        let mut tables = Settings { programs: self.programs.clone(), ..Settings::default() };
         if let Some(path) = path {
-            self.of_tables(path, |rule| add(&mut settings, rule));
+            self.of_tables(path, |rule| add(&mut tables, rule));
         }
-        settings.profile = flags.profile.or(settings.profile);
-        settings.version = flags.version.clone().or(settings.version);
-        settings.style = flags.style.or(settings.style);
-        settings.preludes.extend_from_slice(&flags.preludes);
-        settings
+        let given = Settings {
+            profile: flags.profile,
+            version: flags.version.clone(),
+            style: flags.style,
+            preludes: flags.preludes.clone(),
+            folders: flags.folders.clone(),
+            ..Settings::default()
+        };
+        given.over((*self.draw).clone().over(tables))
     }
 
     /// The stage that the flags and the tables give to a file whose name tells none.
@@ -177,5 +182,9 @@ impl Preparation for Engines {
         }
         let path = (source.name != STDIN).then(|| Path::new(source.name.as_str()));
         self.settings(path).complete(source, path, Arc::new(Traced))
+    }
+
+    fn with_settings(&self, settings: &SourceSettings) -> Option<Arc<dyn Preparation + Send + Sync>> {
+        Some(Arc::new(Self { draw: Arc::new(Settings::from_host(settings)), ..self.clone() }))
     }
 }

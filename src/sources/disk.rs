@@ -17,14 +17,17 @@ pub(crate) trait Disk: Send + Sync {
 }
 
 /// Reads files and remembers nothing.
-#[cfg(test)]
+#[cfg(any(test, feature = "reference"))]
 pub(super) struct Plain;
 
-#[cfg(test)]
+#[cfg(any(test, feature = "reference"))]
 impl Disk for Plain {
     fn text(&self, path: &Path) -> Result<Arc<str>, String> {
-        let is_folder = if path.is_dir() { "it is a folder" } else { "" };
-        std::fs::read_to_string(path).map(Into::into).map_err(|error| format!("{error} ({is_folder})"))
+        if path.is_dir() {
+            return Err(format!("`{}` cannot be read: it is a folder", path.display()));
+        }
+        let bytes = std::fs::read(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
+        Ok(String::from_utf8_lossy(&bytes).into())
     }
 
     fn looked_for(&self, _: &Path) {}

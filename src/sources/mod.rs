@@ -6,12 +6,16 @@
 //! them can remember what it has read.
 
 mod disk;
+#[cfg(feature = "reference")]
+mod host;
 mod includes;
 mod programs;
 mod settings;
 pub(crate) mod stages;
 
 pub(crate) use disk::Disk;
+#[cfg(feature = "reference")]
+pub(crate) use host::completing;
 pub(crate) use includes::DiskIncludes;
 #[cfg(feature = "cli")]
 pub(crate) use programs::ProgramFiles;

@@ -8,8 +8,8 @@ use super::disk::Disk;
 use super::includes::DiskIncludes;
 use super::programs::ProgramFiles;
 use super::stages;
-use crate::engines::{Member, Profile, Style, combined};
-use glisten_front::compiler::{Prepared, Source};
+use crate::engines::{self, Member, Profile, Style, combined};
+use glisten_front::compiler::{Prepared, Source, SourceSettings};
 use glisten_front::hir::Stage;
 use glisten_front::source::{Completion, Prelude, blanked};
 use std::path::{Path, PathBuf};
@@ -39,6 +39,33 @@ impl Settings {
     fn is_plain(&self) -> bool {
         let no_engine = self.profile.is_none() && self.version.is_none() && self.style.is_none();
         no_engine && self.preludes.is_empty() && self.defines.is_empty() && self.folders.is_empty()
+    }
+
+    /// The settings that a host gives.
+    pub(crate) fn from_host(host: &SourceSettings) -> Self {
+        Self {
+            profile: host.engine.as_deref().and_then(engines::find),
+            version: host.version.clone(),
+            style: host.include_style.as_deref().and_then(Style::named),
+            preludes: host.preludes.clone(),
+            folders: host.includes.iter().map(PathBuf::from).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// These settings, and where they say nothing, those of `base`. Search folders are searched in this order; preludes of `base`
+    /// come first.
+    #[must_use]
+    pub(crate) fn over(self, base: Self) -> Self {
+        Self {
+            profile: self.profile.or(base.profile),
+            version: self.version.or(base.version),
+            style: self.style.or(base.style),
+            preludes: [base.preludes, self.preludes].concat(),
+            defines: [base.defines, self.defines].concat(),
+            folders: [self.folders, base.folders].concat(),
+            programs: base.programs,
+        }
     }
 
     /// The source as it is compiled. `path` is its file, if it has one.

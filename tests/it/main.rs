@@ -97,6 +97,7 @@ mod report_page;
 #[cfg(feature = "cli")]
 mod report_ways;
 #[cfg(feature = "reference")]
+mod scene_sources;
 mod scenes;
 #[cfg(feature = "cli")]
 mod shader_test;

@@ -3,6 +3,7 @@
 //! *In:* what the package with the texts hands down. *Out:* programs by name, shaders by file name, modules to include.
 //! *Holds:* this crate embeds no GLSL.
 
+use glisten_front::compiler::{Compiler, SourceSettings};
 use glisten_front::link::Program;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, NoIncludes};
 use std::collections::BTreeSet;
@@ -29,6 +30,29 @@ pub trait Library {
     /// ([`scene_values_read`](crate::scene_values_read)); `None` if it is not known. It serves help texts.
     fn values_read(&self, _program: &str) -> Option<&BTreeSet<String>> {
         None
+    }
+
+    /// The names of the engines that complete sources.
+    fn engines(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// The names of the styles in which sources name the files that they include.
+    fn include_styles(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// A version as a `#version` line has it.
+    ///
+    /// # Errors
+    /// It is none; the message says why.
+    fn checked_version(&self, text: &str) -> Result<String, String> {
+        Ok(text.to_owned())
+    }
+
+    /// The compiler for sources about which a draw says more.
+    fn completing(&self, compiler: Compiler, settings: &SourceSettings) -> Compiler {
+        compiler.with_settings(settings).unwrap_or(compiler)
     }
 
     /// For each attribute of a program whether it can reach a position or an output. By default each that is read can.

@@ -2,7 +2,7 @@
 
 mod preparation;
 
-pub use preparation::{Preparation, Prepared, Problem};
+pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
 use crate::analysis::{analyze, keep_decisive, keep_understood};
 use crate::diagnostic::codes::general::TOO_LARGE;
@@ -119,6 +119,13 @@ impl Compiler {
     #[must_use]
     pub fn with_options(&self, options: Options) -> Self {
         Self { options, ..self.clone() }
+    }
+
+    /// This compiler for sources about which a host says more, if what completes the sources takes such settings.
+    #[must_use]
+    pub fn with_settings(&self, settings: &SourceSettings) -> Option<Self> {
+        let preparation = self.preparation.as_ref()?.with_settings(settings)?;
+        Some(Self { preparation: Some(preparation), ..self.clone() })
     }
 
     /// The resolver for `#include`.

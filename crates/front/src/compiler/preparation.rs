@@ -5,7 +5,7 @@
 
 use super::Source;
 use crate::diagnostic::Code;
-use crate::source::{Completion, IncludeResolver};
+use crate::source::{Completion, IncludeResolver, Prelude};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -45,8 +45,35 @@ impl fmt::Debug for Prepared {
     }
 }
 
+/// The settings of a host for the sources of one program, besides macros.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SourceSettings {
+    /// The name of the engine that completes them.
+    pub engine: Option<String>,
+    /// The version of sources without a `#version` line, as that line has it.
+    pub version: Option<String>,
+    /// The name of the style in which they name the files that they include.
+    pub include_style: Option<String>,
+    /// Folders in which included files are searched.
+    pub includes: Vec<String>,
+    /// Texts before each source.
+    pub preludes: Vec<Prelude>,
+}
+
+impl SourceSettings {
+    /// Whether nothing is said.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// Completes sources.
 pub trait Preparation {
     /// The source as its engine completes it.
     fn prepare(&self, source: &Source) -> Prepared;
+
+    /// This preparation for sources about which a host says more; `None` if it takes no such settings.
+    fn with_settings(&self, _settings: &SourceSettings) -> Option<Arc<dyn Preparation + Send + Sync>> {
+        None
+    }
 }

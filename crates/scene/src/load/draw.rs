@@ -8,6 +8,7 @@ use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
 use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
 use super::reader::{Node, NumberValue, Reader, report_unknown_name};
+use super::sources::load_sources;
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
@@ -29,6 +30,11 @@ const KEYS: &[&str] = &[
     "geometry",
     "fragment",
     "defines",
+    "engine",
+    "assume_version",
+    "include_style",
+    "includes",
+    "preludes",
     "primitive",
     "cull",
     "depth_test",
@@ -261,6 +267,7 @@ fn load_program(
     let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
     let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
     let defines = load_defines(&mut loader.reader, table);
+    let sources = load_sources(loader, table)?;
     if files.is_empty() {
         return None;
     }
@@ -269,6 +276,7 @@ fn load_program(
         ProgramKey {
             files: files.into_iter().map(|(stage, name, _)| (stage, name)).collect(),
             defines,
+            sources,
             switches,
             generated: generated.map(|made| made.text.clone()),
             attribute_locations: attribute_locations.iter().map(|(name, value, _)| (name.clone(), *value)).collect(),

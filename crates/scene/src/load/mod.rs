@@ -16,6 +16,7 @@ mod mipmaps;
 mod names;
 mod patterns;
 mod reader;
+mod sources;
 mod textures;
 mod uniforms;
 mod unread;
@@ -26,13 +27,14 @@ use self::fixed::GENERATED;
 use self::lights::Lighting;
 use self::names::FORMATS;
 use self::reader::{Node, Reader};
+use self::sources::load_sources;
 use self::unread::warn_unread;
 use crate::files::{FileError, FileSource, relative_to};
 use crate::fixed::has_fixed_function;
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
 use crate::picture::Transfer;
-use glisten_front::compiler::{Compiler, Options, Source};
+use glisten_front::compiler::{Compiler, Options, Source, SourceSettings};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WITHOUT_DRAW,
@@ -99,6 +101,8 @@ struct ProgramKey {
     attribute_locations: Vec<(String, u32)>,
     frag_data_locations: Vec<(String, u32)>,
     defines: Vec<(String, String)>,
+    /// How the sources are completed.
+    sources: SourceSettings,
     switches: FixedState,
     /// The text of the stage that the fixed-function pipeline provides.
     generated: Option<String>,
@@ -346,16 +350,15 @@ impl Loader<'_> {
         if shaders.len() < key.files.len() {
             return None;
         }
-        let defines = [&self.compiler.options().defines[..], &key.defines].concat();
         let options = Options {
             attribute_locations: key.attribute_locations.clone(),
             frag_data_locations: key.frag_data_locations.clone(),
-            defines,
+            defines: self.defines(&key.defines),
             fixed: key.switches,
             ..self.compiler.options().clone()
         };
         let sources = std::mem::take(&mut self.sources);
-        let compiler = self.compiler.with_options(options);
+        let compiler = self.completing(options, &key.sources);
         let of_library = key.files.iter().any(|(_, name)| library_file(name).is_some());
         let compiler = if of_library {
             let (own, library) = (compiler.includes(), self.library.includes());
@@ -379,16 +382,40 @@ impl Loader<'_> {
         let (name, span) = (self.reader.text(node, key)?.to_owned(), self.reader.span_of(node));
         let (path, text) = self.shader_text(&name, span)?;
         let mut quiet = Reader::default();
-        let defines = [&self.compiler.options().defines[..], &load_defines(&mut quiet, draw)].concat();
-        let compiler = self.compiler.with_options(Options { defines, ..self.compiler.options().clone() });
+        let own = load_defines(&mut quiet, draw);
+        let sources = self.quietly(|loader| load_sources(loader, draw))?;
+        let options = Options { defines: self.defines(&own), ..self.compiler.options().clone() };
+        let compiler = self.completing(options, &sources);
         let compilation = compiler.compile(&[Source { name: path, text, stage }]);
         let Some(program) = compilation.program else {
-            let key = ProgramKey { files: vec![(stage, name)], ..ProgramKey::default() };
+            let key = ProgramKey { files: vec![(stage, name)], defines: own, sources, ..ProgramKey::default() };
             self.program(key, &[span]);
             return None;
         };
         let shader = program.stages.into_iter().find(has_fixed_function)?;
         Some((program.types, shader, (stage, name, span)))
+    }
+
+    /// The macros of a program: those of the draw, and those of the compiler, which take precedence.
+    fn defines(&self, own: &[(String, String)]) -> Vec<(String, String)> {
+        let given = &self.compiler.options().defines;
+        let is_free = |(name, _): &&(String, String)| given.iter().all(|(other, _)| other != name);
+        own.iter().filter(is_free).chain(given).cloned().collect()
+    }
+
+    /// The compiler with these options, for sources that are completed so.
+    fn completing(&self, options: Options, sources: &SourceSettings) -> Compiler {
+        let compiler = self.compiler.with_options(options);
+        if sources.is_empty() { compiler } else { self.library.completing(compiler, sources) }
+    }
+
+    /// Reads something that is read again later, and then reports its diagnostics.
+    fn quietly<R>(&mut self, read: impl FnOnce(&mut Self) -> R) -> R {
+        let quiet = Reader { base: self.reader.base, ..Reader::default() };
+        let reader = std::mem::replace(&mut self.reader, quiet);
+        let result = read(self);
+        self.reader = reader;
+        result
     }
 
     /// The text of a shader that the scene refers to: a file, or one from the library.
