@@ -86,8 +86,10 @@ function(glisten_add_program name)
 
   set(outputs)
   if(ARG_PERMUTATIONS)
-    list(APPEND flags --permutations ${names})
+    list(APPEND flags --permutations ${names} --prune)
     list(APPEND outputs "${folder}/index.json")
+    # Only the index is known as an output before the build.
+    set_property(DIRECTORY APPEND PROPERTY ADDITIONAL_CLEAN_FILES "${CMAKE_CURRENT_BINARY_DIR}/${folder}")
   else()
     string(REPLACE ";" "," program "${names}")
     list(APPEND flags --program "${program}")

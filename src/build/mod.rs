@@ -29,6 +29,7 @@ mod programs;
 mod rust;
 #[cfg(feature = "reference")]
 mod scenes;
+mod watch;
 
 pub use error::BuildError;
 
@@ -46,6 +47,7 @@ use programs::{Given, Named};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use watch::Watch;
 
 /// A build of shaders: programs, options, and where the module goes.
 #[derive(Clone, Debug)]
@@ -59,6 +61,7 @@ pub struct Build {
     rust: rust::Choices,
     file: String,
     folder: Option<PathBuf>,
+    watch: Watch,
 }
 
 /// The result of a build.
@@ -86,6 +89,7 @@ impl Default for Build {
             rust: rust::Choices::default(),
             file: "shaders.rs".into(),
             folder: None,
+            watch: Watch::default(),
         }
     }
 }
@@ -122,6 +126,13 @@ impl Build {
     pub fn folder(mut self, folder: impl AsRef<Path>) -> Self {
         self.programs.push(Given::Folder(folder.as_ref().to_owned()));
         self
+    }
+
+    /// Lets Cargo watch the files of folders that were read, and not the folders. Then an edit of another file in them runs
+    /// nothing, and a new program is found when one of the known files changes.
+    #[must_use]
+    pub fn watch_files(self) -> Self {
+        Self { watch: Watch::Files, ..self }
     }
 
     /// Adds a folder to the search path of `#include`, like `-I`.
@@ -268,28 +279,19 @@ impl Build {
         Self { folder: Some(folder.as_ref().to_owned()), ..self }
     }
 
-    /// Builds, tells Cargo which files were read, prints warnings, and writes the module to `OUT_DIR`. It is the last line of
-    /// a build script.
-    ///
-    /// # Panics
-    /// With all errors, as `glisten lint` prints them. A build script that panics shows them and ends the build.
+    /// Builds, tells Cargo which files were read, prints warnings, and writes the module to `OUT_DIR`. Errors are told to Cargo,
+    /// as `glisten lint` prints them, and end its build after the script. It is the last line of a build script.
     #[expect(clippy::print_stdout, reason = "Cargo reads what a build script prints")]
     pub fn run(self) {
-        match self.build() {
-            Ok(built) => {
-                for file in &built.read {
-                    println!("cargo::rerun-if-changed={}", file.display());
-                }
-                for line in &built.warnings {
-                    println!("cargo::warning={line}");
-                }
-            }
-            Err(error) => {
-                for file in error.read() {
-                    println!("cargo::rerun-if-changed={}", file.display());
-                }
-                panic!("\n{error}");
-            }
+        let (read, word, lines) = match self.build() {
+            Ok(built) => (built.read, "warning", built.warnings),
+            Err(error) => (error.read().to_vec(), "error", error.to_string().lines().map(str::to_owned).collect()),
+        };
+        for file in self.watch.paths(&read) {
+            println!("cargo::rerun-if-changed={}", file.display());
+        }
+        for line in lines {
+            println!("cargo::{word}={line}");
         }
     }
 

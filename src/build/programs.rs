@@ -85,7 +85,8 @@ pub(super) fn compile(given: &[Given], compiler: &Compiler, reads: &Reads) -> Re
             Given::Scene { path, specialized } => scenes::compile(path, *specialized, compiler, reads, &mut found),
         }
     }
-    let modules: Vec<String> = found.names.iter().map(|name| rust::module_name(name)).collect();
+    let own = ["glisten_memory".to_owned()].into_iter();
+    let modules: Vec<String> = found.names.iter().map(|name| rust::module_name(name)).chain(own).collect();
     match repeated(modules.iter().map(String::as_str)) {
         Some(name) => Err(BuildError::SameName(name.to_owned())),
         None => Ok(found),

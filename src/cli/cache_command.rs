@@ -47,6 +47,9 @@ pub(super) fn run(args: &CacheCommandArgs, console: &Console) -> Outcome {
     match &args.action {
         Action::Stats { format, cache } => {
             let (folder, store) = opened(cache)?;
+            if store.is_there() {
+                store.sweep();
+            }
             let entries = store.entries();
             let count = |kind| entries.iter().filter(|entry| entry.kind == kind).count();
             let stats = Stats {

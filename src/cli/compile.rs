@@ -33,6 +33,9 @@ pub(super) struct CompileArgs {
     /// Compile all variants that this TOML file asks for; equal outputs are one file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["files", "programs", "emit"])]
     permutations: Option<PathBuf>,
+    /// Remove outputs of earlier runs that no variant has any more
+    #[arg(long, conflicts_with_all = ["files", "programs", "emit"])]
+    prune: bool,
     /// Check everything, but write nothing
     #[arg(long)]
     check: bool,
@@ -130,6 +133,7 @@ fn permute(args: &CompileArgs, file: &Path, console: &Console) -> Outcome {
         file,
         folder: &folder,
         check: args.check,
+        prune: args.prune,
         depfile: args.depfile.as_deref(),
         manifest: args.manifest.as_deref(),
         jobs: args.jobs,

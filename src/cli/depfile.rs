@@ -104,14 +104,39 @@ pub(super) fn manifest(made: &[Made]) -> String {
             outputs.push(ManifestOutput { file, program, sha256: *sha256, bytes: *bytes, sources });
         }
     }
-    let arguments = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    let arguments = without_jobs(words);
     let manifest = Manifest { glisten: env!("CARGO_PKG_VERSION"), arguments, outputs };
     serde_json::to_string_pretty(&manifest).expect("names and numbers are always JSON") + "\n"
 }
 
+/// Arguments without the number of threads, on which no output depends.
+fn without_jobs(words: impl Iterator<Item = String>) -> Vec<String> {
+    let (mut kept, mut is_number) = (Vec::new(), false);
+    for word in words {
+        let names_jobs = word == "-j" || word == "--jobs";
+        let holds_jobs = word.starts_with("--jobs=") || word.starts_with("-j") && !word.starts_with("--");
+        if !is_number && !names_jobs && !holds_jobs {
+            kept.push(word);
+        }
+        is_number = names_jobs && !is_number;
+    }
+    kept
+}
+
 #[cfg(test)]
 mod tests {
-    use super::make_rule;
+    use super::{make_rule, without_jobs};
+
+    #[test]
+    fn the_number_of_threads_is_no_argument() {
+        for words in
+            ["compile a -j2 b", "compile a -j 2 b", "compile --jobs 2 a b", "--jobs=2 compile a b", "compile a b"]
+        {
+            let words = words.split(' ').map(str::to_owned);
+            assert_eq!(without_jobs(words), ["compile", "a", "b"]);
+        }
+    }
 
     #[test]
     fn make_words_are_escaped() {

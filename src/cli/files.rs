@@ -1,16 +1,16 @@
 //! Reads files completely, with a clear message for each possible failure, and writes them completely or not at all.
 
 use super::exit::Failure;
-use super::trace;
+use super::{trace, unfinished};
 use crate::scene::{DiskFiles, FileError, FileSource};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The largest file that is read at all. Sources have a smaller limit of their own, with its own code.
 const MAX_BYTES: u64 = 64 << 20;
@@ -162,8 +162,6 @@ fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
 const WHITE_SPACE: &[u8] = b"\t\n\x0b\x0c\r";
 /// The beginning of the names of temporary files. Each exists for the time of one write.
 const TEMPORARY: &str = ".glisten-";
-/// Who has not written to its temporary file for this long was killed.
-const ABANDONED: Duration = Duration::from_secs(60);
 /// Control-Z.
 const END_OF_FILE: u8 = 0x1a;
 
@@ -184,7 +182,8 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     // A link is followed, so that it remains a link.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = builder().tempfile_in(folder).map_err(|error| failed(&error))?;
+    sweep(folder);
+    let mut file = unfinished::create(&builder(), folder).map_err(|error| failed(&error))?;
     file.write_all(bytes).map_err(|error| failed(&error))?;
     file.persist(&target).map(drop).map_err(|error| failed(&error.error))
 }
@@ -201,15 +200,12 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     builder
 }
 
-/// Removes what killed commands left in a folder of outputs: temporary files that nobody has written to for a while.
+/// Removes what killed commands left in a folder of outputs, once in a run.
 fn sweep(folder: &Path) {
-    let names = fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
-    for entry in names.filter(|entry| entry.file_name().to_string_lossy().starts_with(TEMPORARY)) {
-        let modified = entry.metadata().and_then(|found| found.modified()).ok();
-        if modified.and_then(|time| time.elapsed().ok()).is_some_and(|age| age > ABANDONED) {
-            // If it cannot be removed, it does no harm.
-            let _ = fs::remove_file(entry.path());
-        }
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let is_new = SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned());
+    if is_new {
+        unfinished::sweep(folder, TEMPORARY);
     }
 }
 

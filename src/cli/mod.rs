@@ -63,6 +63,7 @@ pub mod survey;
 mod test;
 mod timed;
 mod trace;
+mod unfinished;
 mod upgrade;
 mod verify;
 mod watch;

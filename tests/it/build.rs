@@ -6,7 +6,7 @@ use glisten::Stage;
 use glisten::build::{Build, BuildError};
 use glisten::emit::Target;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Runs rustc on a text that contains the module, and gives the program's output if there is one.
@@ -23,6 +23,102 @@ fn rustc(folder: &Path, text: &str, kind: &str) -> String {
     let run = Command::new(folder.join("host")).output().expect("the host runs");
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     String::from_utf8_lossy(&run.stdout).into_owned()
+}
+
+/// Lints that a crate may deny besides all warnings.
+const STRICT: [&str; 12] = [
+    "elided-lifetimes-in-paths",
+    "missing-copy-implementations",
+    "missing-debug-implementations",
+    "missing-docs",
+    "single-use-lifetimes",
+    "trivial-numeric-casts",
+    "unit-bindings",
+    "unnameable-types",
+    "unreachable-pub",
+    "unsafe-code",
+    "unused-qualifications",
+    "unused-results",
+];
+
+/// Checks a module with all features in a crate that denies every lint. The crates that it needs are those of this test.
+fn check_strictly(folder: &Path, text: &str) {
+    let source = folder.join("host.rs");
+    fs::write(&source, format!("//! Shaders.\n{text}")).expect("the folder can be written to");
+    let dependencies = std::env::current_exe().expect("a test has a file").parent().expect("a folder").to_owned();
+    let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
+    command.args(["--edition", "2024", "--crate-type", "lib", "--emit", "metadata", "-D", "warnings"]);
+    command.args(STRICT.iter().flat_map(|lint| ["-D", lint]));
+    command.arg("-L").arg(format!("dependency={}", dependencies.display()));
+    for name in ["bytemuck", "glam", "wgpu"] {
+        command.arg("--extern").arg(format!("{name}={}", newest(&dependencies, name).display()));
+    }
+    let run =
+        command.arg("--out-dir").arg(folder).arg(&source).output().expect("rustc is there, since Cargo runs this");
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+}
+
+/// The library of a crate that was built last.
+pub(crate) fn newest(folder: &Path, name: &str) -> PathBuf {
+    let prefix = format!("lib{name}-");
+    let paths = fs::read_dir(folder).expect("a folder").filter_map(Result::ok).map(|entry| entry.path());
+    let is_one = |path: &PathBuf| {
+        let own = path.file_name().unwrap_or_default().to_string_lossy();
+        own.starts_with(&prefix) && own.ends_with(".rlib")
+    };
+    let built = |path: &PathBuf| fs::metadata(path).and_then(|found| found.modified()).ok();
+    paths.filter(is_one).max_by_key(built).unwrap_or_else(|| panic!("{name} is built for the tests"))
+}
+
+#[test]
+fn odd_programs_are_modules_without_warnings() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, format!("#version 330\n{text}")).expect("the folder can be written to");
+        path
+    };
+    let mut build = Build::new().bytemuck().glam().wgpu().instanced("Self");
+    let color = "out vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+    let mut add = |name: &str, vertex: &str, fragment: &str| {
+        let files = [write(&format!("{name}.vert"), vertex), write(&format!("{name}.frag"), fragment)];
+        build = build.clone().named_program(name, &files[0], &files[1]);
+    };
+    add("nothing", "void main() { gl_Position = vec4(gl_VertexID); }\n", color);
+    add(
+        "attributes",
+        "in float self; in float Self; in float selF; in float x1; in float x_1; in float X1; in float fn;\n\
+         void main() { gl_Position = vec4(self + Self + selF, x1 + x_1, X1, fn); }\n",
+        color,
+    );
+    add(
+        "samplers",
+        "void main() { gl_Position = vec4(0.0); }\n",
+        "uniform sampler2D source[3]; uniform sampler2D source_0_; uniform sampler2D Source_sampler; uniform sampler2D source_;\n\
+         uniform sampler2DShadow shadow[2]; uniform isampler2D Self; out vec4 c;\n\
+         void main() { c = texture(source[0], vec2(0.5)) + texture(source[1], vec2(0.5)) + texture(source_0_, vec2(0.5)) \
+         + texture(Source_sampler, vec2(0.5)) + texture(source_, vec2(0.5)) \
+         + texture(shadow[1], vec3(0.5)) + vec4(texture(Self, vec2(0.5))); }\n",
+    );
+    add(
+        "uniforms",
+        "uniform float value; uniform float value_; uniform float _value; uniform float VALUE; uniform float padding_28;\n\
+         uniform float type; uniform float Type; uniform vec3 wide; uniform mat3 turns[2]; uniform bool on[2];\n\
+         void main() { gl_Position = vec4(value + value_ + _value, VALUE + padding_28, type + Type, wide.x + turns[1][2].x \
+         + float(on[1])); }\n",
+        "struct Option { vec4 x; };\nuniform Option one;\nuniform self { vec4 a; }; uniform Self { vec4 b; }; uniform vec_ { vec4 d; };\n\
+         uniform Vec { vec4 e; }; uniform Default { vec4 f; }; uniform light { vec4 g; }; uniform Light { vec4 h; };\n\
+         uniform Light2 { vec4 i; }; uniform PipelineState { vec4 j; }; uniform uniforms { vec4 k; };\n\
+         out vec4 c;\nvoid main() { c = a + b + d + e + f + g + h + i + j + k + one.x; }\n",
+    );
+    let text = build.text().unwrap_or_else(|error| panic!("{error}")).text;
+    check_strictly(folder.path(), &text);
+    for name in ["self_2", "source_0_sampler", "set_value_2", "pub struct Light2"] {
+        assert!(text.contains(name), "{name} is not in {text}");
+    }
+    let [vertex, fragment] = ["vert", "frag"].map(|end| folder.path().join(format!("nothing.{end}")));
+    let taken = Build::new().named_program("glisten_memory", vertex, fragment).text().expect_err("a name of its own");
+    assert!(matches!(taken, BuildError::SameName(_)), "{taken}");
 }
 
 #[test]
@@ -45,8 +141,8 @@ fn modules_of_all_fixtures_compile_without_warnings() {
     let text = build.text().expect("each of them builds").text;
     assert_eq!(text, build.text().expect("again").text, "the text is the same on every run");
     let folder = tempfile::tempdir().expect("a folder");
-    // Dead code is allowed in the modules, and nothing else is.
     rustc(folder.path(), &text, "lib");
+    check_strictly(folder.path(), &build.bytemuck().glam().wgpu().text().expect("with all features").text);
 }
 
 const HOST: &str = r#"

@@ -115,6 +115,8 @@ fn cmake_builds_what_changed() {
             builds(&copy, "integrations", &words, "integrations/built/wave.shaders/wave.vert.wgsl", did);
             let index = fs::read_to_string(copy.path("integrations/built/waves.shaders/index.json")).expect("an index");
             assert!(index.contains("\"BANDS\": \"1\""), "{index}");
+            copy.run("integrations", &["cmake", "--build", "built", "--target", "clean"]);
+            assert!(!copy.path("integrations/built/waves.shaders").exists(), "`clean` leaves outputs of variants");
         }
     }
 }

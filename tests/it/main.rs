@@ -7,6 +7,8 @@ mod bazel;
 #[cfg(feature = "cli")]
 mod bindings;
 mod build;
+#[cfg(unix)]
+mod build_runs;
 #[cfg(feature = "cli")]
 mod build_systems;
 #[cfg(feature = "cli")]

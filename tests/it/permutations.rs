@@ -212,3 +212,42 @@ fn a_scene_that_is_not_there_is_told() {
         2
     );
 }
+
+#[test]
+fn outputs_of_variants_that_left_the_list_are_pruned() {
+    let both =
+        "[[program]]\nfiles = [\"uber.vert\", \"uber.frag\"]\nname = \"u\"\nkeywords = [\"multi_compile PHONG GGX\"]\n";
+    let gone = both.replace("\"u\"", "\"v\"");
+    let folder = project(&format!("{both}{gone}"));
+    let run = |words: &[&str]| {
+        let run = folder.run(&[&["compile", "--permutations", "p.toml", "-o", "out"], words].concat());
+        assert_eq!(code(&run), 0, "{}", err(&run));
+        files(&folder.path("out"))
+    };
+    let all = run(&["--manifest", "all.json", "-j1"]);
+    let keeps = ["out/u/notes.txt", "out/u/0123456789abcdef0123.frag.wgsl", "out/v/kept.txt"];
+    keeps.iter().for_each(|name| fs::write(folder.path(name), "mine").expect("written"));
+    fs::write(folder.path("p.toml"), both.replace("PHONG GGX", "PHONG")).expect("written");
+    assert!(run(&[]).len() >= all.len(), "without the flag, everything remains");
+    let left = run(&["--prune"]);
+    let mut names: BTreeSet<String> = left.into_keys().collect();
+    for name in keeps {
+        assert!(names.remove(name.trim_start_matches("out/")), "`{name}` is nobody's output");
+    }
+    // Two stages for two targets, the reflection, the index.
+    assert_eq!(names.len(), 6, "{names:?}");
+    assert!(names.iter().all(|name| name == "index.json" || name.starts_with("u/")), "{names:?}");
+    let alone = folder.run(&["compile", "uber.vert", "uber.frag", "-o", "x", "--prune"]);
+    assert_eq!(code(&alone), 2, "{}", err(&alone));
+}
+
+#[test]
+fn the_manifest_does_not_tell_the_number_of_threads() {
+    let folder = project(UBER);
+    let manifest = |jobs: &str| {
+        let words = ["compile", "--permutations", "p.toml", "-o", "out", "--manifest", "m.json", jobs];
+        assert_eq!(code(&folder.run(&words)), 0);
+        fs::read_to_string(folder.path("m.json")).expect("written")
+    };
+    assert_eq!(manifest("-j1"), manifest("--jobs=2"));
+}

@@ -6,7 +6,7 @@
 use super::defaults::literal;
 use super::documentation;
 use super::fields::{Field, FieldType, Struct};
-use super::names::{field, fresh, pascal};
+use super::names::{field, fresh, fresh_type, pascal};
 use super::types::Element;
 use glisten_emit::Reflection;
 use glisten_front::hir::{ArraySize, StructId, Type, TypeId, Types, Value};
@@ -196,7 +196,7 @@ impl<'a> Maker<'a> {
             return known.name.clone();
         }
         let taken = |name: &str| RESERVED.contains(&name) || self.structs.iter().any(|known| known.name == name);
-        made.name = fresh(made.name, taken);
+        made.name = fresh_type(made.name, taken);
         self.structs.push(made);
         self.structs.last().map_or_else(String::new, |made| made.name.clone())
     }
@@ -212,21 +212,39 @@ impl<'a> Maker<'a> {
     }
 }
 
-/// Names that a module has in any case.
-const RESERVED: [&str; 6] = ["Vertex", "Instance", "Bytes", "Targets", "BindGroup0", "BindGroup1"];
+/// Names that a module has or needs in any case: its own types, and those of Rust in what it writes.
+const RESERVED: [&str; 15] = [
+    "BindGroup0",
+    "BindGroup1",
+    "Bytes",
+    "Clone",
+    "Copy",
+    "Default",
+    "Instance",
+    "Into",
+    "Option",
+    "PipelineState",
+    "Self",
+    "Some",
+    "Targets",
+    "Vec",
+    "Vertex",
+];
 
 /// Fields in order, with one for each gap, and names that are all different.
 fn with_gaps(mut fields: Vec<Field>, size: u32) -> Vec<Field> {
     fields.sort_by_key(|field| field.offset);
-    let mut all: Vec<Field> = Vec::new();
-    let mut end = 0;
-    for mut field in fields {
-        all.extend(gap(end, field.offset));
+    let (mut all, mut end) = (Vec::new(), 0);
+    let add = |all: &mut Vec<Field>, mut one: Field| {
+        one.name = fresh(one.name, |name| all.iter().any(|known| known.name == name));
+        all.push(one);
+    };
+    for field in fields {
+        gap(end, field.offset).into_iter().for_each(|gap| add(&mut all, gap));
         end = field.offset + field.ty.size();
-        field.name = fresh(field.name, |name| all.iter().any(|known| known.name == name));
-        all.push(field);
+        add(&mut all, field);
     }
-    all.extend(gap(end, size));
+    gap(end, size).into_iter().for_each(|gap| add(&mut all, gap));
     all
 }
 

@@ -50,8 +50,9 @@ impl Default for Choices {
     }
 }
 
-/// The attributes of each module, for code that nobody formats or reads in part.
-const ATTRIBUTES: &str = "#[rustfmt::skip]\n#[allow(dead_code, clippy::all, clippy::pedantic, clippy::nursery)]\n";
+/// The attributes of each module, for code that nobody formats or reads in part. A crate may deny any lint: those that code which
+/// nobody wrote can meet are allowed by name.
+const ATTRIBUTES: &str = include_str!("attributes.rs.txt");
 
 /// The text in front of all programs.
 pub(super) fn opening() -> String {
@@ -91,7 +92,9 @@ pub(super) fn module(
     leading.iter().for_each(|line| text.push_str(&doc_line(line)));
     text.push_str(ATTRIBUTES);
     let _ = writeln!(text, "pub mod {} {{", module_name(name));
-    text.push_str("use super::glisten_memory::Bytes;\n\n");
+    if body.contains("impl Bytes for") {
+        text.push_str("use super::glisten_memory::Bytes;\n\n");
+    }
     text.push_str(&body);
     text.push_str("}\n");
     Ok(indent::indented(&text))

@@ -60,13 +60,26 @@ pub(super) fn pascal(name: &str) -> String {
     if text.starts_with(|first: char| first.is_ascii_digit()) { format!("_{text}") } else { text }
 }
 
-/// A name that is not among those that are taken.
+/// A name of a field that is not among those that are taken: `light_2`.
 pub(super) fn fresh(wanted: String, taken: impl Fn(&str) -> bool) -> String {
+    // Two underscores within a name are against the conventions.
+    let stem = format!("{}_", wanted.trim_end_matches('_'));
+    numbered(wanted, &stem, taken)
+}
+
+/// A name of a type that is not among those that are taken: `Light2`.
+pub(super) fn fresh_type(wanted: String, taken: impl Fn(&str) -> bool) -> String {
+    let stem = wanted.clone();
+    numbered(wanted, &stem, taken)
+}
+
+/// The name, or the first free one of those with a number from 2 on behind the stem.
+fn numbered(wanted: String, stem: &str, taken: impl Fn(&str) -> bool) -> String {
     if !taken(&wanted) {
         return wanted;
     }
-    let mut numbered = (2..).map(|number: u32| format!("{wanted}_{number}"));
-    numbered.find(|name| !taken(name)).unwrap_or(wanted)
+    let mut names = (2..).map(|number: u32| format!("{stem}{number}"));
+    names.find(|name| !taken(name)).unwrap_or(wanted)
 }
 
 #[cfg(test)]
@@ -91,5 +104,7 @@ mod tests {
         assert_eq!(module_name("01-ball.main"), "_01_ball_main");
         assert_eq!(snake("___"), "___name");
         assert_eq!(fresh("a".into(), |name| name == "a" || name == "a_2"), "a_3");
+        assert_eq!(fresh("self_".into(), |name| name == "self_"), "self_2");
+        assert_eq!(fresh_type("Light".into(), |name| name == "Light" || name == "Light2"), "Light3");
     }
 }

@@ -6,6 +6,7 @@
 use super::Choices;
 use super::fields::{Field, FieldType, Struct};
 use super::layout::Layouts;
+use super::names::fresh;
 use super::types::{Element, Shape};
 use glisten_front::hir::Scalar;
 use std::fmt::Write;
@@ -30,8 +31,15 @@ fn structure(one: &Struct, choices: &Choices) -> String {
         let _ = writeln!(text, "{}: {},", field.name, initial(field));
     }
     text.push_str("}\n}\n");
+    let mut setters: Vec<String> = Vec::new();
     for field in fields {
-        text.push_str(&setter(field, choices));
+        let wanted = format!("set_{}", field.name.trim_matches('_'));
+        let name = fresh(wanted, |name| setters.iter().any(|known| known == name));
+        let setter = setter(field, &name, choices);
+        if !setter.is_empty() {
+            text.push_str(&setter);
+            setters.push(name);
+        }
     }
     let _ = writeln!(text, "}}\n\nimpl Default for {name} {{\nfn default() -> Self {{\nSelf::new()\n}}\n}}\n");
     let _ = writeln!(text, "impl Bytes for {name} {{\nfn put(&self, bytes: &mut Vec<u8>) {{");
@@ -91,7 +99,7 @@ fn zeros(element: Element) -> String {
 }
 
 /// A setter by values as people write them.
-fn setter(field: &Field, choices: &Choices) -> String {
+fn setter(field: &Field, setter: &str, choices: &Choices) -> String {
     let name = &field.name;
     let (parameter, value) = match &field.ty {
         FieldType::Element(element) => one(*element, choices),
@@ -101,12 +109,11 @@ fn setter(field: &Field, choices: &Choices) -> String {
         }
         FieldType::Struct(..) | FieldType::Structs(..) | FieldType::Padding(_) => return String::new(),
     };
-    let named = name.trim_end_matches('_').trim_start_matches('_');
     let mut text = format!(
         "\n/// Sets {}.\n",
         field.doc.lines().next().map_or(name.as_str(), |doc| doc.trim_start_matches("/// "))
     );
-    let _ = writeln!(text, "pub fn set_{named}(&mut self, value: {parameter}) -> &mut Self {{");
+    let _ = writeln!(text, "pub fn {setter}(&mut self, value: {parameter}) -> &mut Self {{");
     let _ = writeln!(text, "self.{name} = {value};\nself\n}}");
     text
 }

@@ -143,7 +143,7 @@ fn textures(reflection: &Reflection) -> Vec<Entry> {
         entries.push(Entry {
             binding: sampler.texture.binding,
             visibility: visibility(&sampler.visibility),
-            name: name.clone(),
+            name,
             doc: format!("The texture of `{}`, a `{}`.", sampler.name, sampler.ty),
             ty: "&'a wgpu::TextureView",
             layout: format!(
@@ -158,7 +158,7 @@ fn textures(reflection: &Reflection) -> Vec<Entry> {
         entries.push(Entry {
             binding: sampler.sampler.binding,
             visibility: visibility(&sampler.visibility),
-            name: fresh(format!("{name}_sampler"), taken),
+            name: fresh(field(&format!("{}_sampler", sampler.name)), taken),
             doc: format!("The sampler of `{}`.", sampler.name),
             ty: "&'a wgpu::Sampler",
             layout: format!("wgpu::BindingType::Sampler(wgpu::SamplerBindingType::{kind})"),

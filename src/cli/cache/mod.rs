@@ -46,6 +46,7 @@ pub(super) struct Cache {
     store: Option<Store>,
     remote: Option<Remote>,
     limit: u64,
+    is_limit_given: bool,
     /// The digest of this program.
     program: Digest,
     engines: Engines,
@@ -69,12 +70,27 @@ impl Cache {
         if store.is_none() && remote.is_none() {
             return Ok(None);
         }
-        let limit = args.limit()?;
+        let (limit, is_limit_given) = (args.limit()?, args.given_limit().is_some());
+        if let Some(store) = &store {
+            store.sweep();
+        }
         let failure = Mutex::new(None);
         let Some(program) = program(store.as_ref()) else { return Ok(None) };
         let (places, outputs) = (Mutex::default(), Mutex::default());
         let (hits, misses) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        Ok(Some(Self { store, remote, limit, program, engines, places, outputs, failure, hits, misses }))
+        Ok(Some(Self {
+            store,
+            remote,
+            limit,
+            is_limit_given,
+            program,
+            engines,
+            places,
+            outputs,
+            failure,
+            hits,
+            misses,
+        }))
     }
 
     /// The key of a program with options, as the parts of a list.
@@ -137,10 +153,10 @@ impl Cache {
             console.message(&format!("warning: {failure}; the build goes on without it\n"));
         }
         let (hits, misses) = (self.hits.load(Ordering::Relaxed), self.misses.load(Ordering::Relaxed));
-        if misses > 0
+        if (misses > 0 || self.is_limit_given)
             && let Some(store) = &self.store
         {
-            store.clean(self.limit);
+            store.keep_below(self.limit);
         }
         console.remark(&format!("{hits} of {} from the cache", hits + misses));
     }
@@ -255,8 +271,7 @@ fn program(store: Option<&Store>) -> Option<Digest> {
     let name = format!("{} {} {}", path.display(), found.len(), time.as_nanos());
     let known =
         store.map(|store| (store, store.folder().join("programs").join(Digest::of(name.as_bytes()).to_string())));
-    let text = known.as_ref().and_then(|(_, path)| fs::read_to_string(path).ok());
-    if let Some(digest) = text.and_then(|text| Digest::from_hex(text.trim())) {
+    if let Some(digest) = known.as_ref().and_then(|(_, path)| Store::remembered(path)) {
         return Some(digest);
     }
     let digest = Digest::of(&fs::read(&path).ok()?);

@@ -2,11 +2,12 @@
 //!
 //! *In:* a kind, a digest, bytes. *Out:* the same bytes later, or nothing. *Holds:* an entry is complete or not there: it is
 //! written to a temporary file and renamed. Its digest is checked when it is read; one that does not fit is removed. Several
-//! processes may use the folder at once, and a process that is killed leaves nothing but temporary files, which the next
-//! cleaning removes.
+//! processes may use the folder at once, and a process that is killed leaves nothing but temporary files, which the next one
+//! removes.
 
 use crate::cli::digest::Digest;
-use std::fs::{self, File};
+use crate::cli::unfinished;
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -35,12 +36,16 @@ const TEMPORARY: &str = "tmp";
 /// Marks the folder as a cache, for backup programs (<https://bford.info/cachedir/>) and for `glisten cache clean`.
 const TAG: &str = "CACHEDIR.TAG";
 const TAG_TEXT: &str = "Signature: 8a477f597d28d172789f06886806bc55\n# This folder is a cache of glisten.\n";
-/// A temporary file of this age belongs to no process that runs.
-const ABANDONED: Duration = Duration::from_secs(3600);
 /// Entries used within this time count as used at the same time.
 const SAME_TIME: Duration = Duration::from_secs(60);
-/// Entries larger than this are not read.
+/// Entries larger than this are not read, since no output is as large.
 const MAX_BYTES: u64 = 256 << 20;
+/// The folders among which entries are spread evenly, by the first two digits of their digests.
+const SHARDS: u64 = 256;
+/// How many of them tell the size of the cache.
+const SAMPLE: u64 = 8;
+/// A cache with a smaller limit than this is measured completely.
+const SMALL: u64 = 64 << 20;
 
 /// An entry, for cleaning.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,7 +54,7 @@ pub(in crate::cli) struct Entry {
     pub(in crate::cli) used: SystemTime,
     /// Its file.
     pub(in crate::cli) path: PathBuf,
-    /// Its size.
+    /// The bytes that it takes on the disk.
     pub(in crate::cli) bytes: u64,
     /// Its kind.
     pub(in crate::cli) kind: Kind,
@@ -86,22 +91,25 @@ impl Store {
     /// The bytes of an entry. One that is damaged is removed.
     pub(super) fn get(&self, kind: Kind, digest: Digest) -> Option<Vec<u8>> {
         let path = self.path(kind, digest);
-        let file = File::open(&path).ok()?;
-        let size = file.metadata().ok()?.len().min(MAX_BYTES);
-        // Room for all of it: otherwise a file is read in five pieces.
-        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0) + 1);
-        file.take(MAX_BYTES).read_to_end(&mut bytes).ok()?;
-        let content = match kind {
+        let found = fs::metadata(&path).ok()?;
+        let bytes = read(&path, &found, MAX_BYTES);
+        let content = bytes.and_then(|bytes| match kind {
             Kind::Bytes => (Digest::of(&bytes) == digest).then_some(bytes),
             Kind::Result => unsealed(bytes, digest),
-        };
+        });
         if content.is_none() {
             // Another process may have removed it already.
             let _ = fs::remove_file(&path);
             return None;
         }
-        touch(&path);
+        touch(&path, &found);
         content
+    }
+
+    /// The digest that an entry of `programs` has.
+    pub(super) fn remembered(path: &Path) -> Option<Digest> {
+        let bytes = read(path, &fs::metadata(path).ok()?, 256)?;
+        Digest::from_hex(str::from_utf8(&bytes).ok()?.trim())
     }
 
     /// Keeps an entry.
@@ -137,7 +145,7 @@ impl Store {
     }
 
     fn place(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        let mut file = tempfile::Builder::new().tempfile_in(self.folder.join(TEMPORARY))?;
+        let mut file = unfinished::create(&tempfile::Builder::new(), &self.folder.join(TEMPORARY))?;
         file.write_all(bytes)?;
         if let Some(folder) = path.parent().filter(|folder| !folder.is_dir()) {
             fs::create_dir_all(folder)?;
@@ -147,29 +155,42 @@ impl Store {
 
     /// All entries, those first that have not been used for longest.
     pub(in crate::cli) fn entries(&self) -> Vec<Entry> {
-        let mut entries = Vec::new();
-        for kind in [Kind::Result, Kind::Bytes] {
-            for folder in files_in(&self.folder.join(kind.word())) {
-                for path in files_in(&folder) {
-                    let Ok(found) = fs::metadata(&path) else { continue };
-                    let used = found.modified().unwrap_or(SystemTime::UNIX_EPOCH);
-                    entries.push(Entry { used, path, bytes: found.len(), kind });
-                }
-            }
-        }
+        let folders = |kind: Kind| files_in(&self.folder.join(kind.word()));
+        let of = |kind| folders(kind).into_iter().flat_map(move |folder| entries_in(&folder, kind));
+        let mut entries: Vec<Entry> = [Kind::Result, Kind::Bytes].into_iter().flat_map(of).collect();
         entries.sort();
         entries
+    }
+
+    /// Removes what killed processes left.
+    pub(in crate::cli) fn sweep(&self) {
+        unfinished::sweep(&self.folder.join(TEMPORARY), "");
+    }
+
+    /// Keeps the folder below a limit. Looking at all of it would take longer than a small build: unless the limit is small,
+    /// some of its parts tell whether that is needed.
+    pub(super) fn keep_below(&self, limit: u64) {
+        if limit < SMALL || self.estimate() > limit / 2 {
+            self.clean(limit);
+        }
+    }
+
+    /// About how many bytes there are.
+    fn estimate(&self) -> u64 {
+        // Other processes look at other parts.
+        let first = u64::from(std::process::id());
+        let names = (0..SAMPLE).map(|number| format!("{:02x}", (first + number * SHARDS / SAMPLE) % SHARDS));
+        let bytes = |name: String| -> u64 {
+            let of = |kind: Kind| entries_in(&self.folder.join(kind.word()).join(&name), kind);
+            [Kind::Result, Kind::Bytes].into_iter().flat_map(of).map(|entry| entry.bytes).sum()
+        };
+        names.map(bytes).sum::<u64>().saturating_mul(SHARDS / SAMPLE)
     }
 
     /// Removes entries until no more than `limit` bytes are left, those first that have not been used for longest. If there is
     /// too much, a tenth more is removed than has to be. Returns how many entries were removed.
     pub(in crate::cli) fn clean(&self, limit: u64) -> usize {
-        for path in files_in(&self.folder.join(TEMPORARY)) {
-            let age = fs::metadata(&path).and_then(|found| found.modified()).ok().and_then(|time| time.elapsed().ok());
-            if limit == 0 || age.is_some_and(|age| age > ABANDONED) {
-                let _ = fs::remove_file(&path);
-            }
-        }
+        self.sweep();
         let entries = self.entries();
         let mut total: u64 = entries.iter().map(|entry| entry.bytes).sum();
         if total <= limit {
@@ -202,13 +223,43 @@ fn unsealed(mut bytes: Vec<u8>, digest: Digest) -> Option<Vec<u8>> {
 }
 
 /// Notes that an entry is used.
-fn touch(path: &Path) {
-    let age = fs::metadata(path).and_then(|found| found.modified()).ok().and_then(|time| time.elapsed().ok());
+fn touch(path: &Path, found: &Metadata) {
+    let age = found.modified().ok().and_then(|time| time.elapsed().ok());
     if age.is_none_or(|age| age < SAME_TIME) {
         return;
     }
     // A cache that is read only is not cleaned by this user.
     let _ = File::options().append(true).open(path).and_then(|file| file.set_modified(SystemTime::now()));
+}
+
+/// The bytes of a file; `None` for a device, a pipe, or more than `limit`. Nothing but a regular file is opened.
+fn read(path: &Path, found: &Metadata, limit: u64) -> Option<Vec<u8>> {
+    let size = Some(found.len()).filter(|size| found.is_file() && *size <= limit)?;
+    // Room for all of it: otherwise a file is read in five pieces.
+    let mut bytes = Vec::with_capacity(usize::try_from(size).ok()? + 1);
+    File::open(path).ok()?.take(size + 1).read_to_end(&mut bytes).ok()?;
+    (bytes.len() as u64 == size).then_some(bytes)
+}
+
+fn entries_in(folder: &Path, kind: Kind) -> Vec<Entry> {
+    let entry = |path: PathBuf| {
+        let found = fs::metadata(&path).ok()?;
+        let used = found.modified().unwrap_or(SystemTime::UNIX_EPOCH);
+        Some(Entry { used, path, bytes: on_disk(&found), kind })
+    };
+    files_in(folder).into_iter().filter_map(entry).collect()
+}
+
+/// The bytes that a file takes on the disk.
+#[cfg(unix)]
+fn on_disk(found: &Metadata) -> u64 {
+    use std::os::unix::fs::MetadataExt;
+    found.len().max(found.blocks() * 512)
+}
+
+#[cfg(not(unix))]
+fn on_disk(found: &Metadata) -> u64 {
+    found.len()
 }
 
 fn files_in(folder: &Path) -> Vec<PathBuf> {
@@ -242,6 +293,15 @@ mod tests {
             }
             assert_eq!(store.get(kind, digest).as_deref(), Some(&b"content"[..]));
         }
+        // What is no file is none either, and is not read.
+        #[cfg(unix)]
+        {
+            let path = store.path(Kind::Bytes, Digest::of(b"content"));
+            fs::remove_file(&path).expect("removed");
+            std::os::unix::fs::symlink("/dev/zero", &path).expect("linked");
+            assert_eq!(store.get(Kind::Bytes, Digest::of(b"content")), None);
+            assert!(!path.is_symlink());
+        }
         // A result under the key of another is no result.
         let other = Digest::of(b"other");
         fs::create_dir_all(store.path(Kind::Result, other).parent().expect("a folder")).expect("made");
@@ -262,10 +322,15 @@ mod tests {
             file.set_modified(time).expect("the time is set");
         }
         assert!(store.get(Kind::Bytes, Digest::of(&bytes(0))).is_some(), "used again");
-        assert_eq!(store.clean(10_000), 0);
-        assert_eq!(store.clean(5000), 6);
+        // File systems differ in what a file takes.
+        let each = store.entries()[0].bytes;
+        assert!(each >= 1000, "{each}");
+        assert_eq!(store.clean(10 * each), 0);
+        assert_eq!(store.clean(5 * each), 6);
         assert!(store.get(Kind::Bytes, Digest::of(&bytes(0))).is_some());
         assert!(store.get(Kind::Bytes, Digest::of(&bytes(1))).is_none());
+        store.keep_below(u64::MAX);
+        assert_eq!(store.entries().len(), 4);
         fs::write(folder.path().join("tmp/left"), b"half").expect("written");
         store.clean(0);
         assert!(store.entries().is_empty() && files_in(&folder.path().join("tmp")).is_empty());

@@ -12,7 +12,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// How many digits of a digest are in the name of a file.
-const DIGITS: usize = 20;
+pub(super) const DIGITS: usize = 20;
+
+/// The files of a run by their paths below the output folder.
+pub(super) type Files = BTreeMap<String, (Digest, Arc<[u8]>)>;
 
 /// The index of a run.
 #[derive(Debug, Serialize)]
@@ -20,7 +23,7 @@ pub(super) struct Index {
     glisten: &'static str,
     programs: Vec<IndexedProgram>,
     #[serde(skip)]
-    files: BTreeMap<String, (Digest, Arc<[u8]>)>,
+    files: Files,
 }
 
 #[derive(Debug, Serialize)]
@@ -107,7 +110,7 @@ impl Index {
     }
 
     /// The files to write, by their paths below the output folder.
-    pub(super) fn files(&self) -> &BTreeMap<String, (Digest, Arc<[u8]>)> {
+    pub(super) fn files(&self) -> &Files {
         &self.files
     }
 

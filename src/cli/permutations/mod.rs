@@ -12,6 +12,7 @@
 mod axes;
 mod file;
 mod index;
+mod prune;
 mod scenes;
 mod shared;
 
@@ -47,6 +48,8 @@ pub(super) struct Job<'a> {
     pub(super) folder: &'a Path,
     /// Whether to write nothing.
     pub(super) check: bool,
+    /// Whether to remove outputs that no variant has.
+    pub(super) prune: bool,
     /// The depfile to write.
     pub(super) depfile: Option<&'a Path>,
     /// The manifest to write.
@@ -217,7 +220,11 @@ impl Run<'_> {
             if is_there { Ok(()) } else { files::write(&path, bytes) }
         };
         self.session.pool().install(|| self.index.files().par_iter().try_for_each(write))?;
-        files::write(&folder.join(INDEX), self.index.json().as_bytes())
+        files::write(&folder.join(INDEX), self.index.json().as_bytes())?;
+        if self.job.prune {
+            prune::prune(folder, self.index.files())?;
+        }
+        Ok(())
     }
 
     /// Writes the depfile and the manifest.
