@@ -38,6 +38,8 @@ pub mod made;
 #[cfg(feature = "reference")]
 pub mod measure;
 #[cfg(feature = "cli")]
+mod page;
+#[cfg(feature = "cli")]
 pub mod report;
 #[cfg(feature = "reference")]
 pub use glisten_scene::fixed as fixed_function;

@@ -4,7 +4,7 @@
 //! *Out:* [`Section`]s of [`Row`]s. *Holds:* the lines of the residual are all there, in their order within a section; a line
 //! of the original is next to the first line that comes from it, as far as the orders of both agree.
 
-use crate::gallery::highlight::Comments;
+use crate::page::highlight::Comments;
 use crate::specialize::{LeftOut, SpecializedDraw};
 use glisten_front::hir::{Function, Shader, Stage, StructId, Types};
 use glisten_front::link::Program;
@@ -86,7 +86,12 @@ impl Listing<'_> {
 
     fn sections(&self, lines: &[Line<'_>]) -> Vec<Section> {
         let (declarations, functions) = parts(lines);
-        let mut sections = vec![self.section(DECLARATIONS, &self.declared(), &in_order(declarations))];
+        let mut declared = self.declared();
+        let found = self.found_by_text(&declarations, &declared);
+        declared.extend(found.iter().filter_map(|line| line.from));
+        declared.sort_unstable();
+        declared.dedup();
+        let mut sections = vec![self.section(DECLARATIONS, &declared, &in_order(found.iter().collect()))];
         let mut shown: BTreeSet<Place> = BTreeSet::new();
         for part in &functions {
             let function = part.header.and_then(|header| self.function(header));
@@ -134,15 +139,40 @@ impl Listing<'_> {
         places.into_iter().collect()
     }
 
+    /// The declarations of a residual, in which comments and directives have the places of the same ones in the original, where
+    /// it has them outside of functions: they are kept, and not new. `#version` is that of the original, whatever its number.
+    fn found_by_text<'a>(&self, lines: &[&Line<'a>], declared: &[Place]) -> Vec<Line<'a>> {
+        let main = self
+            .shader
+            .functions
+            .iter()
+            .find_map(|function| self.place(function.span).filter(|_| function.name == "main"));
+        let files: BTreeSet<FileId> = declared.iter().chain(&main).map(|(file, _)| *file).collect();
+        let inside: BTreeSet<Place> = self
+            .shader
+            .functions
+            .iter()
+            .filter(|function| function.body.is_some())
+            .flat_map(|function| self.lines_of(function))
+            .collect();
+        let all = files.iter().flat_map(|file| (1..=self.sources.file(*file).line_count()).map(|line| (*file, line)));
+        let mut free: Vec<Place> = all.filter(|place| !inside.contains(place)).collect();
+        lines
+            .iter()
+            .map(|line| {
+                let is_searched = line.from.is_none() && (is_comment(line.text) || line.text.starts_with('#'));
+                let is_it = |place: &Place| same_heading(self.text(*place), line.text);
+                let at = free.iter().position(is_it).filter(|_| is_searched);
+                Line { text: line.text, from: at.map(|at| free.remove(at)).or(line.from) }
+            })
+            .collect()
+    }
+
     /// The lines of a function, with the comment above it.
     fn lines_of(&self, function: &Function) -> Vec<Place> {
         let Some((file, header)) = self.place(function.span) else { return Vec::new() };
-        let is_comment = |line: u32| {
-            let text = self.text((file, line)).trim();
-            text.starts_with("//") || text.starts_with("/*") || text.starts_with('*') || text.ends_with("*/")
-        };
         let mut first = header;
-        while first > 1 && is_comment(first - 1) {
+        while first > 1 && is_comment(self.text((file, first - 1))) {
             first -= 1;
         }
         let mut last = header;
@@ -197,23 +227,26 @@ impl Listing<'_> {
             let name = self.sources.file(*file).name();
             format!("{}:{line}", name.rsplit('/').next().unwrap_or(name))
         });
-        let index: BTreeMap<Place, usize> = left.iter().enumerate().map(|(index, place)| (*place, index)).collect();
+        let indices: BTreeMap<Place, usize> = left.iter().enumerate().map(|(index, place)| (*place, index)).collect();
         let from: Vec<Option<usize>> =
-            right.iter().map(|line| line.from.and_then(|from| index.get(&from).copied())).collect();
+            right.iter().map(|line| line.from.and_then(|from| indices.get(&from).copied())).collect();
         let anchors = longest_run(&from);
         let kept: BTreeSet<usize> = from.iter().flatten().copied().collect();
         let mut rows = Vec::new();
         let (mut next, mut comments) = (0, Comments::default());
         let mut right_comments = Comments::default();
-        for (line, anchor) in right.iter().zip(&anchors) {
+        for (index, (line, anchor)) in right.iter().zip(&anchors).enumerate() {
             let code = right_comments.html(line.text);
             let to = match anchor {
                 Some(anchor) => Some(*anchor),
-                // Closing braces and their like stand alone on both sides.
-                None => left.get(next).and_then(|place| {
-                    let same = self.text(*place).trim() == line.text.trim() && line.from.is_none();
-                    same.then_some(next)
-                }),
+                // Comments, closing braces and their like are kept where the text is the same before the next anchor.
+                None if line.from.is_none() => {
+                    let until = anchors.iter().skip(index).flatten().next().copied().unwrap_or(left.len());
+                    let between = left.get(next..until).unwrap_or_default();
+                    let is_it = |place: &Place| self.text(*place).trim() == line.text.trim();
+                    between.iter().position(is_it).map(|at| next + at)
+                }
+                None => None,
             };
             let Some(to) = to.filter(|to| *to >= next) else {
                 rows.push(Row { class: "new", right: Some(code), ..Row::default() });
@@ -255,6 +288,44 @@ impl Listing<'_> {
         let class = if because.is_some() { "gone" } else { "plain" };
         Row { class, number: Some(place.1), left: Some(code), because, ..Row::default() }
     }
+}
+
+/// Why the residual has another version than the original, if it has.
+pub(super) fn version_note(
+    program: &Program,
+    stage: Stage,
+    draw: &SpecializedDraw,
+    sources: &SourceMap,
+) -> Option<String> {
+    let shader = program.stage(stage)?;
+    let main = shader.functions.iter().find(|function| function.name == "main" && function.body.is_some())?;
+    let file = sources.file(sources.file_of(sources.call_site(main.span))?);
+    let original = (1..=file.line_count()).filter_map(|line| file.line(line)).find_map(version)?;
+    let residual = draw.text(stage).lines().find_map(version)?;
+    let extensions = draw.text(stage).lines().any(|line| line.starts_with("#extension"));
+    let by =
+        if extensions { "; what it needs of later versions comes by extensions that such compilers have" } else { "" };
+    let note = format!(
+        "The residual is written as GLSL {residual}, which every OpenGL 3.2 compiler takes, whatever the version of the original ({original}){by}."
+    );
+    let number = |version: &str| version.split_whitespace().next().unwrap_or_default().to_owned();
+    (number(original) != number(residual)).then_some(note)
+}
+
+/// The version and profile of a `#version` line.
+fn version(line: &str) -> Option<&str> {
+    line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("version").map(str::trim)
+}
+
+/// Whether a line is a comment, or a part of one.
+fn is_comment(line: &str) -> bool {
+    let text = line.trim();
+    text.starts_with("//") || text.starts_with("/*") || text.starts_with('*') || text.ends_with("*/")
+}
+
+/// Whether a comment or directive of the residual is that of the original.
+fn same_heading(original: &str, residual: &str) -> bool {
+    original.trim() == residual.trim() || (version(original).is_some() && version(residual).is_some())
 }
 
 /// Declarations in the order of the original. The lines of a struct stay together.
@@ -354,7 +425,17 @@ fn once(rows: &mut [Row]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{alike, longest_run};
+    use super::{alike, longest_run, same_heading};
+
+    #[test]
+    fn a_kept_heading_is_found_by_its_text() {
+        assert!(same_heading("  // Phong shading, 2012 ", "// Phong shading, 2012"));
+        assert!(
+            same_heading("# version 330 core", "#version 150")
+                && !same_heading("#version 330", "#extension a : enable")
+        );
+        assert!(!same_heading("// a", "// b"));
+    }
 
     #[test]
     fn the_longest_run_in_both_orders_is_next_to_each_other() {

@@ -16,6 +16,3 @@ pub use page::{SceneOnPage, page};
 
 /// The name of the page.
 pub const PAGE: &str = "account.html";
-
-/// The style that pages with listings share: colors, headings, tables, highlighted code.
-pub(crate) const BASE_STYLE: &str = include_str!("base.css");

@@ -1,18 +1,21 @@
 //! The page as HTML.
 
-use super::listing::{Section, listing};
-use crate::report::grouped;
-use crate::report::raster::{Decades, color_uri, difference_uri};
+use super::listing::{Section, listing, version_note};
+use crate::page::raster::{Decades, color_uri, difference_uri};
+use crate::page::words::grouped;
+use crate::page::{Page, Place, View, viewer};
 use crate::specialize::{Account, DrawAccount, Figures, PictureError, Pictures, SpecializedDraw, SpecializedScene};
 use glisten_front::hir::Stage;
 use glisten_front::source::SourceMap;
-use glisten_scene::picture::Picture;
+use glisten_scene::picture::{Picture, Transfer};
 use glisten_scene::{Draw, Scene};
-use minijinja::{Environment, Value, context};
+use minijinja::{Value, context};
 
-const TEMPLATE: &str = include_str!("page.html");
-const ROW: &str = include_str!("row.html");
-const STYLE: &str = concat!(include_str!("base.css"), include_str!("page.css"));
+const PAGE: Page = Page {
+    templates: &[("account.html", include_str!("page.html")), ("row.html", include_str!("row.html"))],
+    styles: &[include_str!("page.css")],
+    scripts: &[],
+};
 
 /// A scene on the page.
 pub struct SceneOnPage<'a> {
@@ -33,38 +36,44 @@ pub struct SceneOnPage<'a> {
 /// # Errors
 /// The message of the template engine, which only a broken template causes.
 pub fn page(scenes: &[SceneOnPage<'_>]) -> Result<String, String> {
-    let mut environment = Environment::new();
     let several = scenes.len() > 1;
     let scenes: Vec<Value> = scenes.iter().map(scene).collect();
-    let rendered = environment.add_template("row.html", ROW).and_then(|()| {
-        environment.add_template("page.html", TEMPLATE)?;
-        environment.get_template("page.html")?.render(context! {
-            style => Value::from_safe_string(STYLE.into()),
-            scenes,
-            several,
-        })
-    });
-    rendered.map_err(|error| error.to_string())
+    let values = context! { scenes, several, version => env!("CARGO_PKG_VERSION") };
+    PAGE.render(values).map_err(|error| error.to_string())
 }
 
 fn scene(one: &SceneOnPage<'_>) -> Value {
-    let Pictures { original, residual } = one.pictures;
     let error = one.account.fast_math.or(one.account.move_to_vertex);
     let draws = one.account.draws.iter().zip(&one.scene.draws).zip(&one.specialized.draws);
     let draws: Vec<Value> = draws.map(|((account, draw), done)| self::draw(account, draw, done, one.sources)).collect();
-    let differing = original.bit_unequal(residual);
     context! {
         name => &one.account.scene,
-        original => Value::from_safe_string(color_uri(original, one.scene.framebuffer.encode)),
-        residual => Value::from_safe_string(color_uri(residual, one.scene.framebuffer.encode)),
-        difference => Value::from_safe_string(difference_uri(&differences(residual, original), original.width, original.height, Decades::ALL)),
-        width => original.width,
-        height => original.height,
-        differing,
+        viewer => viewer(None, &views(one.pictures, one.scene.framebuffer.encode)),
         error => error.map(|error| self::error(&error)),
         several_draws => draws.len() > 1,
         draws,
     }
+}
+
+/// The pictures: both and their difference, or one if they are the same.
+fn views(Pictures { original, residual }: &Pictures, encode: Transfer) -> Vec<View> {
+    let size = [original.width, original.height];
+    let differing = original.bit_unequal(residual);
+    let color = |picture: &Picture| Some((color_uri(picture, encode), size));
+    if differing == 0 {
+        let caption = "<strong>Original and residual</strong>: every bit of every pixel is the same.";
+        return vec![View::new(Place::First, "both", caption, color(original))];
+    }
+    let map = difference_uri(&differences(residual, original), size[0], size[1], Decades::ALL);
+    let count =
+        if differing == 1 { "1 pixel differs".to_owned() } else { format!("{} pixels differ", grouped(differing)) };
+    let caption =
+        format!("<strong>Difference</strong>: {count}, from black (none) to yellow (1) on a logarithmic scale.");
+    vec![
+        View::new(Place::First, "residual", "<strong>Residual</strong>", color(residual)),
+        View::new(Place::Second, "original", "<strong>Original</strong>", color(original)),
+        View::new(Place::Third, "difference", caption, Some((map, size))),
+    ]
 }
 
 fn error(error: &PictureError) -> Value {
@@ -106,7 +115,7 @@ fn draw(account: &DrawAccount, draw: &Draw, done: &SpecializedDraw, sources: &So
         .into_iter()
         .map(|stage| {
             let sections: Vec<Value> = listing(&draw.program, stage, done, sources).iter().map(section).collect();
-            context! { name => stage.name(), sections }
+            context! { name => stage.name(), sections, version => version_note(&draw.program, stage, done, sources) }
         })
         .collect();
     let left_out: Vec<Value> = account
@@ -146,6 +155,16 @@ fn section(section: &Section) -> Value {
     context! { title => &section.title, place => &section.place, gone => &section.gone, rows }
 }
 
+/// A change in percent. One that rounds to nothing is told as what it is: small.
+fn percent(share: f64) -> String {
+    let text = match share.abs() * 100.0 {
+        size if size < 0.1 => "less than 0.1".to_owned(),
+        size if size < 1.0 => format!("{size:.1}"),
+        size => format!("{size:.0}"),
+    };
+    format!("{}{text} %", if share < 0.0 { "\u{2212}" } else { "+" })
+}
+
 /// The figures, a line each: the name, before, after, and the change.
 fn figures(before: &Figures, after: &Figures) -> Vec<Value> {
     let lines = [
@@ -164,11 +183,21 @@ fn figures(before: &Figures, after: &Figures) -> Vec<Value> {
             let change = match (before, after) {
                 (before, after) if before == after => "as before".to_owned(),
                 (0, _) => "new".to_owned(),
-                (before, after) => {
-                    format!("{:+.0} %", (after as f64 / before as f64 - 1.0) * 100.0).replace('-', "\u{2212}")
-                }
+                (before, after) => percent(after as f64 / before as f64 - 1.0),
             };
             context! { name, before => grouped(before), after => grouped(after), change, less => after < before }
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::percent;
+
+    #[test]
+    fn no_change_is_minus_nothing() {
+        let shares = [-0.5, -0.004, -0.0004, 0.25, 1.5];
+        let texts = ["\u{2212}50 %", "\u{2212}0.4 %", "\u{2212}less than 0.1 %", "+25 %", "+150 %"];
+        assert_eq!(shares.map(percent), texts);
+    }
 }

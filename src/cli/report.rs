@@ -1,4 +1,4 @@
-//! `glisten report`: error against work and run time of the ways to shade a scene, as JSON and as a page.
+//! `glisten report`: error against work and run time of the variants of a scene's shading, as JSON and as a page.
 //!
 //! *Holds:* Ctrl-C leaves what is done as a report that says that it is not complete.
 
@@ -15,7 +15,7 @@ use super::progress::Progress;
 use super::report_checks::CheckArgs;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
 use super::session::Session;
-use crate::report::{self, Error, LIBRARY_SCENE, LibraryFiles, Options, Report, Watcher, Ways, Weights};
+use crate::report::{self, Error, LIBRARY_SCENE, LibraryFiles, Limits, Options, Report, Watcher, Ways, Weights};
 use crate::scene::{DiskFiles, FileSource};
 use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
@@ -23,7 +23,10 @@ use glisten_front::source::SourceMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Measure the ways to shade a scene: error against work and run time
+/// Measure variants of a scene's shading: error against work and run time
+///
+/// Drawing takes seconds, timing up to half a minute more: `--seconds` sets the limit. Ctrl-C ends it early, with a report on what had
+/// finished.
 #[derive(Args, Debug)]
 #[command(mut_arg("scene", |scene| {
     let library = ArgPredicate::Equals("true".into());
@@ -41,10 +44,10 @@ pub(super) struct ReportArgs {
     /// The form of the code that the GPU runs
     #[arg(long, value_enum, default_value_t)]
     via: ViaArg,
-    /// The ways to compare
+    /// The variants to compare
     #[arg(long, value_enum, default_value_t)]
     ways: WaysArg,
-    /// Add each way once more with programs of which nothing is left but what the picture needs
+    /// Add each variant once more, specialized to what the picture needs
     #[arg(long)]
     specialize: bool,
     #[command(flatten)]
@@ -52,17 +55,17 @@ pub(super) struct ReportArgs {
     /// The weights of operations: `operations` (the default), `llvmpipe`, `gpu`, or a file of your own
     #[arg(long, value_name = "NAME|FILE")]
     weights: Option<String>,
-    /// Time all ways at most this often (default: as the scene says, or 100)
+    /// Time all variants at most this often (default: as the scene says, or 100)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: Option<u32>,
-    /// Time them for at most this many seconds (default 30)
+    /// Time them for at most this many seconds, after all are drawn (default 30)
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     seconds: Option<f64>,
     #[command(flatten)]
     checks: CheckArgs,
 }
 
-/// Which ways to compare.
+/// Which variants to compare.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum WaysArg {
     /// Those of the scene's [report] table, or the scene alone
@@ -118,6 +121,9 @@ impl Watcher for Steps {
     }
 }
 
+/// The title of a report on the library.
+const LIBRARY_TITLE: &str = "Lighting models of the library";
+
 /// Runs the command.
 pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     let interrupt = Interrupt::watch();
@@ -138,6 +144,10 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         time: args.seconds.map(Duration::from_secs_f64),
         machine: machine(),
     };
+    let seconds = args.seconds.unwrap_or_else(|| Limits::default().time.as_secs_f64());
+    console.remark(&format!(
+        "drawing, then timing for at most {seconds} s (--seconds; Ctrl-C ends it early with a report)"
+    ));
     let mut steps = Steps {
         progress: Progress::new(console, 1).with_estimate(),
         begun: false,
@@ -149,12 +159,12 @@ pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     let result = report::run(&args.scene.scene, files, session.compiler(), &gpu, &options, &mut steps);
     drop(steps);
     let report = match result {
-        Ok(report) => report,
+        Ok(report) => Report { title: args.library.then(|| LIBRARY_TITLE.to_owned()), ..report },
         Err(error) => return failed(session, error, console),
     };
     write(args, console, &report)?;
     if interrupt.is_pressed() {
-        console.remark("ended by Ctrl-C; what was done is the report");
+        console.remark("interrupted; the report covers what had finished");
         return Ok(Exit::Interrupted);
     }
     checks.apply(&report, &args.output, console)

@@ -1,6 +1,6 @@
-//! The checks of `glisten report`: what got worse since an earlier report, and the cheapest way within a budget.
+//! The checks of `glisten report`: what got worse since an earlier report, and the cheapest variant within a budget.
 //!
-//! *In:* a report. *Out:* lines for people, and the program of the chosen way in the output folder. *Holds:* what the arguments
+//! *In:* a report. *Out:* lines for people, and the program of the chosen variant in the output folder. *Holds:* what the arguments
 //! name is read before anything is drawn, so that a mistake in them costs no time; the earlier report may be the file that the
 //! new one replaces.
 
@@ -13,10 +13,10 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args, Debug)]
 pub(super) struct CheckArgs {
-    /// Tell what got worse since an earlier report, and exit 1 if anything did
+    /// Compare with an earlier report; exit 1 on regressions
     #[arg(long, value_name = "OLD.json")]
     compare: Option<PathBuf>,
-    /// Name the cheapest way within these limits of error, write its program, and exit 1 if there is none; of rmse, max_abs,
+    /// Name the cheapest variant within these limits of error, write its program, and exit 1 if there is none; of rmse, max_abs,
     /// max_ulp, flip and psnr: `rmse=1e-3,psnr>=40`
     #[arg(long, value_name = "LIMITS")]
     budget: Option<String>,
@@ -78,7 +78,7 @@ impl Checks {
     }
 }
 
-/// Names the way that was chosen for a model, and writes its program.
+/// Names the variant that was chosen for a model, and writes its program.
 fn chosen(
     choice: &Choice<'_>,
     number: usize,
@@ -88,7 +88,7 @@ fn chosen(
 ) -> Outcome {
     let model = choice.model;
     let Some(way) = choice.cheapest else {
-        let failure = format!("no way of `{model}` is within the budget {text}");
+        let failure = format!("no variant of `{model}` is within the budget {text}");
         let closest = choice.closest.map(|way| format!("the closest is `{}`: {}", way.title(), budget.figures(way)));
         console.failure(&failure, closest.as_deref());
         return Ok(Exit::Content);
@@ -101,12 +101,12 @@ fn chosen(
     let scene = folder.join(format!("{stem}.toml"));
     files::write(&scene, written.scene.as_bytes())?;
     let fastest = match choice.fastest {
-        Some(fastest) if std::ptr::eq(fastest, way) => "; it is the fastest, too".to_owned(),
+        Some(fastest) if std::ptr::eq(fastest, way) => "; it is also the fastest".to_owned(),
         Some(fastest) => format!("; the fastest is `{}`", fastest.title()),
         None => "; which is the fastest is open".to_owned(),
     };
     console.output(&format!(
-        "budget {text}: of `{model}` the least work has `{}`: {}, {} operations{fastest}\n",
+        "budget {text}: `{}` of `{model}` takes the least work: {}, {} operations{fastest}\n",
         way.title(),
         budget.figures(way),
         way.work.operations,

@@ -6,7 +6,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
-use crate::report::raster::base64;
+use crate::page::raster::base64;
 use crate::snapshot::pending::{Pending, find};
 use clap::{Args, Subcommand};
 use std::fs;

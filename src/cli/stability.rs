@@ -33,7 +33,7 @@ pub(super) struct StabilityArgs {
     #[arg(value_name = "SCENE.toml|DIR", required_unless_present = "library")]
     scenes: Vec<String>,
     /// Examine the functions of the library instead: all, or those of a module, or one
-    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, conflicts_with_all = ["scenes", "sweeps", "stiff", "worst", "heat", "exact", "output"])]
+    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, conflicts_with_all = ["scenes", "sweeps", "stiff", "worst", "heat", "exact"])]
     library: Option<Option<String>>,
     /// The number of calls of each function of the library
     #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=65_536), requires = "library")]
@@ -138,7 +138,7 @@ pub(super) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
             }
         };
         return stability_library::run(
-            &LibraryArgs { only: only.as_deref(), cases: args.cases as usize, is_json },
+            &LibraryArgs { only: only.as_deref(), cases: args.cases as usize, is_json, output: args.output.as_deref() },
             console,
         );
     }

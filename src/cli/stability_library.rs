@@ -2,9 +2,13 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::made::made;
 use super::progress::Progress;
 use crate::stability::library::{FunctionFound, LibraryOptions, Naive, Verdict, examine_library};
+use crate::stability::page::{PAGE, library_page};
 use serde::Serialize;
+use std::path::Path;
 
 /// The form of the JSON.
 #[derive(Serialize)]
@@ -19,6 +23,8 @@ pub(super) struct LibraryArgs<'a> {
     /// The number of calls of each function.
     pub(super) cases: usize,
     pub(super) is_json: bool,
+    /// The folder for the page and the JSON.
+    pub(super) output: Option<&'a Path>,
 }
 
 /// Runs the command.
@@ -35,13 +41,20 @@ pub(super) fn run(args: &LibraryArgs<'_>, console: &Console) -> Outcome {
         let failure = Failure::usage(format!("the library has no `{}`", args.only.unwrap_or_default()));
         return Err(failure.help("`glisten lib list` names all modules"));
     }
-    let text = if args.is_json {
-        // Numbers, strings and lists only: serialization has nothing to reject.
-        serde_json::to_string_pretty(&Found { functions: &found }).unwrap_or_default() + "\n"
-    } else {
-        table(&found)
-    };
+    // Numbers, strings and lists only: serialization has nothing to reject.
+    let json = || serde_json::to_string_pretty(&Found { functions: &found }).unwrap_or_default() + "\n";
+    let text = if args.is_json { json() } else { table(&found) };
+    if let Some(folder) = args.output {
+        files::make_folder(folder)?;
+        let html = library_page(&found, &made().command);
+        let html = html.map_err(|error| Failure::new(Exit::Content, format!("internal error: {error}")))?;
+        files::write(&folder.join("stability.json"), json().as_bytes())?;
+        files::write(&folder.join(PAGE), html.as_bytes())?;
+    }
     console.output(&text)?;
+    if let Some(folder) = args.output {
+        console.remark(&format!("wrote {}", folder.join(PAGE).display()));
+    }
     Ok(if found.iter().all(FunctionFound::is_sound) { Exit::Ok } else { Exit::Content })
 }
 
@@ -110,8 +123,8 @@ fn complaint(found: &FunctionFound) -> String {
     let figures = &found.figures;
     match () {
         () if figures.non_finite > 0 => format!("{} results are not finite", figures.non_finite),
-        () if figures.another > 0 => format!("{} results are other ones in f32", figures.another),
-        () if found.bound.is_none() => "no bound stands beside it".to_owned(),
+        () if figures.another > 0 => format!("{} results are different in f32", figures.another),
+        () if found.bound.is_none() => "it has no bound".to_owned(),
         () => format!("its error is {:.2e}, above its bound", figures.unexplained),
     }
 }

@@ -8,14 +8,13 @@
 //!  library ──► entry     the scene and its [gallery] table
 //!          ──► tile      a picture of twice the size, averaged; PNG
 //!          ──► difference    of two pictures that should be alike; PNG
-//!          ──► page      equations (math), sources (highlight), the template
+//!          ──► page      equations (math), sources, the template
 //! ```
 //!
 //! *Holds:* the same pictures give the same bytes. Nothing here draws, prints or writes files; texts are escaped.
 
 mod difference;
 mod entry;
-pub(crate) mod highlight;
 mod math;
 mod page;
 mod tile;

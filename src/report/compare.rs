@@ -80,11 +80,11 @@ fn compare(new: &Past, old: &Past) -> Result<Comparison, String> {
     for way in &old.ways {
         match new.ways.iter().find(|other| other.key() == way.key()) {
             Some(now) => found.way(now, way, weights, times.then_some(margin)),
-            None => found.worse.push(format!("{}: the way is gone", way.title())),
+            None => found.worse.push(format!("{}: the variant is gone", way.title())),
         }
     }
     for way in new.ways.iter().filter(|way| !old.ways.iter().any(|other| other.key() == way.key())) {
-        found.notes.push(format!("{}: a new way", way.title()));
+        found.notes.push(format!("{}: a new variant", way.title()));
     }
     Ok(found)
 }
@@ -173,7 +173,7 @@ mod tests {
         assert!(said(|report| report.ways[0].work.operations += 1).contains("operations 16000 -> 16001"));
         assert!(said(|report| report.ways[0].work.texture_lookups += 1).contains("texture_lookups 0 -> 1"));
         assert!(said(|report| report.ways[0].ratio.interval = [9.0, 9.1]).contains("time"));
-        assert!(said(|report| drop(report.ways.remove(0))).contains("the way is gone"));
+        assert!(said(|report| drop(report.ways.remove(0))).contains("the variant is gone"));
     }
 
     #[test]
@@ -199,7 +199,7 @@ mod tests {
         let found = report.compare(&past()).expect("the same scene");
         assert_eq!(found.worse.len(), 1, "{found:?}");
         assert!(found.notes.iter().any(|note| note.contains("other weights")));
-        assert!(found.notes.iter().any(|note| note.contains("a new way")));
+        assert!(found.notes.iter().any(|note| note.contains("a new variant")));
     }
 
     #[test]

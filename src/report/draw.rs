@@ -52,7 +52,7 @@ impl Drawing<'_> {
         scene: &Scene,
         watcher: &mut dyn Watcher,
     ) -> Result<(), Error> {
-        self.step(&format!("the truth of {}", planned.model), watcher);
+        self.step(&format!("the reference of {}", planned.model), watcher);
         self.truths.push(Truth {
             model: planned.model.clone(),
             way: planned.way.clone(),

@@ -20,16 +20,13 @@ mod options;
 mod page;
 mod past;
 mod plan;
-pub(crate) mod plot;
+mod plot;
 mod random;
-pub(crate) mod raster;
 mod run;
 mod table;
 mod ways;
 mod weights;
 mod work;
-
-pub(crate) use page::{grouped, scientific};
 
 pub use budget::{Budget, Choice, WayFiles};
 pub use clock::Limits;

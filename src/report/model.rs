@@ -17,6 +17,9 @@ use std::sync::Arc;
 pub struct Report {
     /// The scene's name.
     pub scene: String,
+    /// The title of the page, if it is not the scene's name.
+    #[serde(skip)]
+    pub title: Option<String>,
     /// The width and height in pixels.
     pub size: [u32; 2],
     /// How pictures on the page are encoded.

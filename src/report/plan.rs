@@ -245,8 +245,8 @@ fn truth_way<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable,
     match (&members[..], &marked[..]) {
         (_, [truth_way]) => Ok(truth_way),
         ([only], []) => Ok(only),
-        (_, []) => Err(format!("no way of the model `{model_name}` has `truth = true`")),
-        _ => Err(format!("several ways of the model `{model_name}` have `truth = true`")),
+        (_, []) => Err(format!("no `[[report.way]]` of the model `{model_name}` has `truth = true`")),
+        _ => Err(format!("several `[[report.way]]` of the model `{model_name}` have `truth = true`")),
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::axis::{Axis, power};
 use super::model::{Report, Way};
+use crate::page::escape;
 use std::fmt::Write as _;
 
 /// The value plotted for an error of 0, which a logarithmic axis cannot show.
@@ -99,11 +100,6 @@ fn ways(svg: &mut String, axes: &Axes, model: usize, members: &[(usize, &Way)]) 
         );
     }
     svg.push_str("</g>\n");
-}
-
-/// The text with the characters that HTML takes for its own.
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ pub fn run(
     let whole = files.load(files.files)?;
     let mut plan = files.plan(&whole)?;
     if let (Ways::Auto, Some(scene)) = (options.ways, &whole.scene) {
-        watcher.step("looking for ways");
+        watcher.step("looking for variants");
         files.find(scene, &mut plan);
     }
     let mut drawing = Drawing { gpu, options, truths: Vec::new(), done: Vec::new(), skipped: Vec::new(), steps: 0 };
@@ -61,6 +61,7 @@ pub fn run(
     let framebuffer = whole.scene.map(|scene| scene.framebuffer);
     Ok(Report {
         scene: stem(path),
+        title: None,
         size: framebuffer.map_or([0, 0], |framebuffer| [framebuffer.width, framebuffer.height]),
         encode: framebuffer.map_or_else(Default::default, |framebuffer| framebuffer.encode),
         complete: all && timing.ended != Ended::Stopped,

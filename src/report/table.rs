@@ -1,11 +1,11 @@
 //! The report as a table for a terminal.
 
-use super::model::{Ended, Report, Timing, Way};
+use super::model::{Ended, Report, Timing, Truth, Way};
 use std::fmt::Write as _;
 
 /// The columns.
-const HEAD: [&str; 10] =
-    ["way", "max error", "RMSE", "FLIP", "operations", "lookups", "ms", "time", "95 %", "front: work, time"];
+const HEAD: [&str; 11] =
+    ["variant", "max error", "RMSE", "FLIP", "operations", "lookups", "ms", "time", "95 %", "work front", "time front"];
 
 /// Writes lines of at most some 100 columns, then an explanation of the figures.
 pub(super) fn table(report: &Report) -> String {
@@ -14,22 +14,19 @@ pub(super) fn table(report: &Report) -> String {
     let mut text = right_aligned(&rows);
     // Writing to a String cannot fail.
     let weights = &report.weights;
-    let _ = writeln!(text, "\noperations: by the weights `{weights}`, counted on the reference; the same on every run");
+    let _ = writeln!(text, "\noperations: counted on the reference by the weights `{weights}`, deterministic");
     text.push_str(&times(&report.timing));
-    for truth in &report.truths {
-        let mesh = truth.tessellation.map(|[s, r]| format!(" at {s}x{r}")).unwrap_or_default();
-        let _ = writeln!(text, "truth of {}: {}{mesh} on the CPU in {}", truth.model, truth.way, truth.precision);
-    }
+    text.push_str(&references(&report.truths));
     let mismatches: u64 = report.ways.iter().map(|way| way.error.coverage_mismatch).sum();
     let _ = writeln!(
         text,
-        "errors are over pixels that both cover; silhouettes differ at {mismatches} pixels of all ways together"
+        "errors: over pixels that both pictures cover; silhouettes differ at {mismatches} pixels of all variants together"
     );
     for skipped in &report.skipped {
         let _ = writeln!(text, "skipped: {}: {}", skipped.name, skipped.because);
     }
     if !report.complete {
-        text.push_str("ended before it was complete: the figures are those that there were\n");
+        text.push_str("interrupted: the table covers what had finished\n");
     }
     text
 }
@@ -45,36 +42,72 @@ fn row(way: &Way) -> Vec<String> {
         way.work.texture_lookups.to_string(),
         figure(way.milliseconds, 3),
         figure(way.ratio.median, 2),
-        format!("{}-{}", figure(low, 2), figure(high, 2)),
-        format!("{}, {}", if way.pareto { "yes" } else { "no" }, way.pareto_time.name()),
+        range(low, high),
+        if way.pareto { "yes" } else { "no" }.to_owned(),
+        if way.ratio.median.is_finite() { way.pareto_time.name() } else { NONE }.to_owned(),
     ]
 }
 
+/// The place of a figure that there is not.
+const NONE: &str = "-";
+
 /// A figure, if there is one.
 fn figure(value: f64, digits: usize) -> String {
-    if value.is_finite() { format!("{value:.digits$}") } else { "?".into() }
+    if value.is_finite() { format!("{value:.digits$}") } else { NONE.into() }
+}
+
+/// An interval, if there is one.
+fn range(low: f64, high: f64) -> String {
+    if low.is_finite() && high.is_finite() { format!("{low:.2}-{high:.2}") } else { NONE.into() }
 }
 
 /// How times were measured, and how far they can be trusted.
 fn times(timing: &Timing) -> String {
+    if timing.rounds == 0 {
+        return "time: not measured\nfront: variants of a model that no other variant beats in both error and work\n"
+            .to_owned();
+    }
     let ended = match timing.ended {
         Ended::Narrow => "until every interval was narrower than 3 %",
-        Ended::Rounds => "the limit",
-        Ended::Seconds => "until the limit of seconds",
-        Ended::Stopped => "until it was stopped",
+        Ended::Rounds => "the limit of rounds",
+        Ended::Seconds => "the limit of seconds",
+        Ended::Stopped => "interrupted",
     };
-    let [low, high] = timing.same_again.interval.map(|end| figure(end, 2));
+    let [low, high] = timing.same_again.interval;
     format!(
-        "time: ratios to `{}` ({} ms; a frame that only clears: {} ms), median of {} rounds ({ended}) and its\n\
-         interval; the same again: {} ({low}-{high})\n\
-         front: no way of the model is nearer to the truth and takes less work, or less time by {:.0} % beyond doubt\n",
+        "time: ratio to `{}` ({} ms; a frame that only clears: {} ms),\n\
+         \x20     median of {} rounds ({ended}) and its interval; A/A control {} ({})\n\
+         front: variants of a model that no other variant beats in both error and cost (time differences under {:.0} % are noise)\n",
         timing.baseline,
         figure(timing.baseline_ms, 3),
         figure(timing.empty_ms, 3),
         timing.rounds,
         figure(timing.same_again.median, 2),
+        range(low, high),
         timing.margin * 100.0,
     )
+}
+
+/// The pictures that errors are taken from: one line if all models have theirs from the same variant.
+fn references(truths: &[Truth]) -> String {
+    let mesh = |truth: &Truth| truth.tessellation.map(|[s, r]| format!(" at {s}x{r}")).unwrap_or_default();
+    let line = |of: &str, way: &str, truth: &Truth| {
+        format!("reference of {of}: {way}{} on the CPU in {}\n", mesh(truth), truth.precision)
+    };
+    match (truths, common_reference(truths)) {
+        ([first, ..], Some(way)) => line("each model", &format!("its variant `{way}`"), first),
+        _ => truths.iter().map(|truth| line(&truth.model, &format!("`{}`", truth.way), truth)).collect(),
+    }
+}
+
+/// The name without its model's, of the variant that is the reference of each of several models.
+pub(super) fn common_reference(truths: &[Truth]) -> Option<String> {
+    let own = |truth: &Truth| {
+        let rest = truth.way.strip_prefix(&truth.model)?.trim_start_matches([',', ':', ' ']);
+        (!rest.is_empty()).then(|| (rest.to_owned(), truth.tessellation, truth.precision))
+    };
+    let first = truths.first().filter(|_| truths.len() > 1).and_then(own)?;
+    truths.iter().all(|truth| own(truth).as_ref() == Some(&first)).then_some(first.0)
 }
 
 /// A table of numbers: the first column is aligned to the left, all others to the right.
@@ -103,7 +136,32 @@ fn right_aligned(rows: &[Vec<String>]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::right_aligned;
+    use super::super::page::tests::example;
+    use super::{common_reference, range, right_aligned, table};
+
+    #[test]
+    fn a_reference_that_all_models_share_is_one_line() {
+        let mut report = example();
+        assert_eq!(common_reference(&report.truths).as_deref(), Some("per fragment"));
+        assert_eq!(table(&report).matches("\nreference of ").count(), 1);
+        report.truths[1].tessellation = None;
+        assert_eq!(common_reference(&report.truths), None);
+        assert_eq!(table(&report).matches("\nreference of ").count(), 2);
+        report.truths.truncate(1);
+        assert_eq!(common_reference(&report.truths), None);
+    }
+
+    #[test]
+    fn what_was_not_measured_is_a_dash() {
+        let mut report = example();
+        report.timing.rounds = 0;
+        for way in &mut report.ways {
+            (way.milliseconds, way.ratio.median, way.ratio.interval) = (f64::NAN, f64::NAN, [f64::NAN; 2]);
+        }
+        let text = table(&report);
+        assert!(text.contains("time: not measured") && !text.contains('?') && !text.contains("NaN"), "{text}");
+        assert_eq!(range(f64::NAN, 1.0), "-");
+    }
 
     #[test]
     fn columns_line_up() {

@@ -38,7 +38,7 @@ fn error_against_run_time_of_a_sphere() {
     let run = report(&small_scene(folder.path()), folder.path());
     assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
     let table = String::from_utf8_lossy(&run.stdout);
-    assert!(table.contains("Phong per vertex, 16x8") && table.contains("the same again"), "{table}");
+    assert!(table.contains("Phong per vertex, 16x8") && table.contains("A/A control"), "{table}");
     let json = std::fs::read_to_string(folder.path().join("out/report.json")).expect("report.json");
     let report: Value = serde_json::from_str(&json).expect("it is JSON");
     let ways = report["ways"].as_array().expect("ways");

@@ -57,6 +57,12 @@ fn first_unbalanced(page: &str) -> Option<String> {
 fn the_page_is_whole_and_alone() {
     let (report, page) = report_and_page();
     assert_eq!(first_unbalanced(&page), None);
+    // The viewer waits for its pictures, in the words that users read.
+    assert!(page.contains("<div class=\"viewer\" id=\"views\"") && page.matches("<figure class=\"view ").count() == 3);
+    let words = between(&page, "<main>", "<section class=\"wide\"");
+    for word in ["truth", "Truth", " way ", " ways ", "same again"] {
+        assert!(!words.contains(word), "{word}");
+    }
     for outside in ["http://", "https://", "src=\"/", "<link", "@import", "url(", "fetch("] {
         assert!(!page.contains(outside), "{outside}");
     }

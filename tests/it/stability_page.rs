@@ -151,6 +151,28 @@ fn the_page_of_a_degraded_scene_is_whole() {
 }
 
 #[test]
+fn the_headline_is_no_path() {
+    let scene = root().join(LASER);
+    let Written { page, .. } = written(&[scene.to_str().expect("it is UTF-8")]);
+    let headline = page.split_once("<h1").and_then(|(_, rest)| rest.split_once("</h1>")).expect("a headline").0;
+    assert!(headline.ends_with(">01_laser_beam.toml: stability in f32"), "{headline}");
+    assert!(page.contains("<title>01_laser_beam.toml: stability in f32</title>"));
+}
+
+#[test]
+fn the_library_has_a_page() {
+    let Written { page, json, output } = written(&["--library=attenuation", "--cases", "16"]);
+    let found: Value = serde_json::from_str(&json).expect("it is JSON");
+    let functions = found["functions"].as_array().expect("functions");
+    assert!(!functions.is_empty() && output.status.code() == Some(0));
+    assert_eq!(page.matches("<th scope=\"row\">").count(), functions.len());
+    let text = shown(&page);
+    for function in functions {
+        assert!(text.contains(function["signature"].as_str().expect("a signature")), "{function}");
+    }
+}
+
+#[test]
 fn the_json_is_that_of_the_standard_output() {
     let Written { json, output, .. } = written(&[LASER, "--format", "json"]);
     assert_eq!(json, String::from_utf8_lossy(&output.stdout));

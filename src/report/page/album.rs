@@ -6,9 +6,9 @@
 //! are made smaller by a whole number: colors by their mean, differences and bands by their largest.
 
 use super::super::model::{Report, Way};
-use super::super::raster::{colors, data_uri};
 use super::bands::{self, Luminance};
 use super::differences::Scale;
+use crate::page::raster::{colors, data_uri};
 use glisten_scene::picture::{Effort, Picture, Transfer};
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@
 //! are empty, and the script sorts them last.
 
 use super::super::model::{OnFront, Report, Way};
-use super::words::{NONE, fixed, grouped, interval, mesh, scientific};
+use crate::page::words::{NONE, fixed, grouped, interval, mesh, scientific};
 use minijinja::{Value, context};
 
 /// A column.
@@ -23,35 +23,35 @@ pub(super) static COLUMNS: &[Column] = &[
     Column {
         id: "model",
         head: "Model",
-        help: "Ways of one model are compared with one truth, and have one front.",
+        help: "Variants of one model are compared with one reference, and have one front.",
         text: |way| way.model.clone(),
         key: None,
     },
     Column {
         id: "kind",
         head: "Kind",
-        help: "Declared in the scene, as written, or the kind of change by which the way was found.",
+        help: "Declared in the scene, as written, or the kind of change by which the variant was found.",
         text: |way| way.kind.to_owned(),
         key: None,
     },
     Column {
         id: "rmse",
         head: "RMSE",
-        help: "The root mean square difference of a color channel from the truth; 1 is full intensity.",
+        help: "The root mean square difference of a color channel from the reference; 1 is full intensity.",
         text: |way| scientific(way.error.rmse),
         key: Some(|way| way.error.rmse),
     },
     Column {
         id: "max_abs",
         head: "Largest error",
-        help: "The largest difference of a color channel from the truth; 1 is full intensity.",
+        help: "The largest difference of a color channel from the reference; 1 is full intensity.",
         text: |way| scientific(way.error.max_abs),
         key: Some(|way| way.error.max_abs),
     },
     Column {
         id: "flip",
         head: "FLIP",
-        help: "How much of the difference a person sees when flipping between the picture and the truth: 0 is none, 1 is all.",
+        help: "How much of the difference a person sees when flipping between the picture and the reference: 0 is none, 1 is all.",
         text: |way| way.error.flip.map_or_else(|| NONE.into(), scientific),
         key: Some(|way| way.error.flip.unwrap_or(f64::NAN)),
     },
@@ -79,7 +79,7 @@ pub(super) static COLUMNS: &[Column] = &[
     Column {
         id: "pareto",
         head: "Front by work",
-        help: "Yes: no other way of the model takes less work and is nearer to the truth by its RMSE.",
+        help: "Yes: no other variant of the model takes less work and is nearer to the reference by its RMSE.",
         text: |way| if way.pareto { "yes" } else { "no" }.to_owned(),
         key: Some(|way| f64::from(u8::from(!way.pareto))),
     },
@@ -104,7 +104,7 @@ pub(super) static COLUMNS: &[Column] = &[
     Column {
         id: "max_ulp",
         head: "ULP",
-        help: "The largest difference in units in the last place of the truth as a 32-bit number.",
+        help: "The largest difference in units in the last place of the reference as a 32-bit number.",
         text: |way| scientific(way.error.max_ulp),
         key: Some(|way| way.error.max_ulp),
     },
@@ -118,21 +118,21 @@ pub(super) static COLUMNS: &[Column] = &[
     Column {
         id: "rounding",
         head: "Rounding",
-        help: "The largest difference from the same way in 64-bit arithmetic: the part of the error that rounding alone makes.",
+        help: "The largest difference from the same variant in 64-bit arithmetic: the part of the error that rounding alone makes.",
         text: |way| scientific(way.rounding.max_abs),
         key: Some(|way| way.rounding.max_abs),
     },
     Column {
         id: "edges",
         head: "Edge pixels",
-        help: "Pixels that only one of the picture and the truth covers. They count in no other figure but FLIP.",
+        help: "Pixels that only one of the picture and the reference covers. They count in no other figure but FLIP.",
         text: |way| grouped(way.error.coverage_mismatch),
         key: Some(|way| way.error.coverage_mismatch as f64),
     },
     Column {
         id: "non_finite",
         head: "Not finite",
-        help: "Pixels with a NaN or an infinity. A way that has more of them than another is on no front.",
+        help: "Pixels with a NaN or an infinity. A variant that has more of them than another is on no front.",
         text: |way| grouped(way.error.non_finite),
         key: Some(|way| way.error.non_finite as f64),
     },

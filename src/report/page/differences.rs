@@ -4,7 +4,7 @@
 //! over eight decades: the script of the page reads it back and shows it on any scale. Without the script the picture is one
 //! on the scale of the upper four decades: all below is black to the eye, but not to the script.
 
-use super::super::raster::{Decades, scale_color};
+use crate::page::raster::{Decades, scale_color};
 
 /// The code of a pixel that is not compared: only one picture covers it, or a color is not finite.
 const APART: usize = 255;

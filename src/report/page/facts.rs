@@ -3,7 +3,7 @@
 //! *In:* a report. *Out:* terms with their facts. *Holds:* what is not known is said to be unknown.
 
 use super::super::model::{Ended, Report, Timing, Way};
-use super::words::{fixed, interval, percent};
+use crate::page::words::{fixed, interval, percent};
 use minijinja::{Value, context};
 
 /// The terms in their order, each with its fact and a remark.
@@ -16,8 +16,8 @@ pub(super) fn facts(report: &Report) -> Vec<Value> {
     let [low, high] = widths(&report.ways);
     let table = [
         (
-            "Ways",
-            count(report.ways.len(), "way", "ways"),
+            "Variants",
+            count(report.ways.len(), "variant", "variants"),
             format!("of {}, {} skipped", count(models, "model", "models"), report.skipped.len()),
         ),
         ("Picture", format!("{width} \u{d7} {height}"), "pixels".to_owned()),
@@ -37,12 +37,12 @@ pub(super) fn facts(report: &Report) -> Vec<Value> {
         (
             "Interval width",
             percent(low),
-            format!("of the median way, {} of the widest, at 95 % confidence", percent(high)),
+            format!("of the median variant, {} of the widest, at 95 % confidence", percent(high)),
         ),
         (
             "Margin",
             percent(timing.margin),
-            "by so much, beyond doubt, a way must be faster than another to beat it".to_owned(),
+            "a variant must be faster than another by so much, beyond doubt, to beat it".to_owned(),
         ),
         ("Baseline", timing.baseline.clone(), frames(timing)),
         ("Weights", report.weights.clone(), "by which operations are counted".to_owned()),
@@ -62,9 +62,9 @@ fn form(via: &str) -> &'static str {
 fn ended(ended: Ended) -> &'static str {
     match ended {
         Ended::Narrow => "until every interval was narrow enough",
-        Ended::Rounds => "the limit of rounds",
+        Ended::Rounds => "until the limit of rounds",
         Ended::Seconds => "until the limit of seconds",
-        Ended::Stopped => "until the user ended it",
+        Ended::Stopped => "until the user interrupted it",
     }
 }
 
@@ -104,7 +104,7 @@ mod tests {
         report.timing.ended = Ended::Stopped;
         report.machine.cpu = None;
         let told = format!("{:?}", facts(&report));
-        for part in ["until the user ended it", "unknown", "llvmpipe", "0.99"] {
+        for part in ["until the user interrupted it", "unknown", "llvmpipe", "0.99"] {
             assert!(told.contains(part), "{part}: {told}");
         }
     }

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! *Holds:* everything from a scene or a shader is escaped. Without the script there are all pictures, the table, a plot and
-//! the facts; the script adds the choice of axes, of a way, of views, and the order of the table.
+//! the facts; the script adds the choice of axes, of a variant, of views, and the order of the table.
 
 mod album;
 mod bands;
@@ -16,34 +16,32 @@ mod columns;
 mod data;
 mod differences;
 mod facts;
-mod words;
-
-pub(crate) use words::{grouped, scientific};
 
 use super::model::{Report, Truth, Way};
 use super::plot::{self, COLORS};
-use super::raster;
 use crate::made::Made;
+use crate::page::words::{fixed, grouped, interval, mesh, percent, scientific};
+use crate::page::{Page, Place, View, escape, raster, viewer};
 use album::Album;
 use differences::Scale;
-use minijinja::{Environment, Value, context};
+use minijinja::{Value, context};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use words::{fixed, interval, mesh, percent};
 
-const TEMPLATE: &str = include_str!("page.html");
-const STYLES: [&str; 3] = [include_str!("page.css"), include_str!("plot.css"), include_str!("stage.css")];
-/// Parts of one script, in their order.
-const SCRIPTS: [&str; 8] = [
-    include_str!("script/data.js"),
-    include_str!("script/axes.js"),
-    include_str!("script/labels.js"),
-    include_str!("script/plot.js"),
-    include_str!("script/panel.js"),
-    include_str!("script/stage.js"),
-    include_str!("script/profile.js"),
-    include_str!("script/table.js"),
-];
+const PAGE: Page = Page {
+    templates: &[("report.html", include_str!("page.html"))],
+    styles: &[include_str!("page.css"), include_str!("plot.css"), include_str!("stage.css")],
+    scripts: &[
+        include_str!("script/data.js"),
+        include_str!("script/axes.js"),
+        include_str!("script/labels.js"),
+        include_str!("script/plot.js"),
+        include_str!("script/panel.js"),
+        include_str!("script/stage.js"),
+        include_str!("script/profile.js"),
+        include_str!("script/table.js"),
+    ],
+};
 
 /// The page.
 ///
@@ -59,13 +57,11 @@ pub(super) fn page(report: &Report, made: &Made) -> Result<String, minijinja::Er
     let [low, high] = scale.seen();
     let stops: Vec<String> = raster::SCALE.iter().map(|[r, g, b]| format!("rgb({r} {g} {b})")).collect();
     let timing = &report.timing;
-    let mut environment = Environment::new();
-    environment.add_template("page.html", TEMPLATE)?;
-    environment.get_template("page.html")?.render(context! {
-        style => Value::from_safe_string(STYLES.concat()),
-        script => Value::from_safe_string(SCRIPTS.concat()),
+    PAGE.render(context! {
         data => Value::from_safe_string(data::data(report, &album, scale)),
-        scene => &report.scene,
+        title => report.title.as_ref().unwrap_or(&report.scene),
+        viewer => viewer(Some("views"), &stage()),
+        common_reference => super::table::common_reference(&report.truths),
         factor => album.factor,
         complete => report.complete,
         facts => facts::facts(report),
@@ -86,6 +82,12 @@ pub(super) fn page(report: &Report, made: &Made) -> Result<String, minijinja::Er
     })
 }
 
+/// The places of the stage, which the script fills.
+fn stage() -> [View; 3] {
+    let empty = |(place, name)| View::new(place, name, "", None);
+    [(Place::First, "variant"), (Place::Second, "reference"), (Place::Third, "difference")].map(empty)
+}
+
 /// Gives each picture its data where it is first on the page.
 struct Images<'a> {
     album: &'a Album,
@@ -98,7 +100,7 @@ impl Images<'_> {
     fn html(&mut self, pictures: &[(usize, String)]) -> Value {
         let mut html = String::new();
         for (index, alt) in pictures {
-            let alt = plot::escape(alt).replace('"', "&quot;");
+            let alt = escape(alt);
             let first = self.seen.insert(*index).then(|| self.album.uris.get(*index)).flatten();
             let [width, height] = self.size;
             // Writing to a String cannot fail.
@@ -127,7 +129,7 @@ fn model(report: &Report, (index, truth): (usize, &Truth), images: &mut Images<'
         name => &truth.model,
         truth => &truth.way,
         truth_mesh => mesh(truth.tessellation),
-        pictures => images.html(&[(picture, format!("The truth of {}", truth.model)), (bands, "Its Mach bands".into())]),
+        pictures => images.html(&[(picture, format!("The reference of {}", truth.model)), (bands, "Its Mach bands".into())]),
         ways => members().map(|(number, way)| self::way((number, way), images)).collect::<Vec<_>>(),
         front => front(&members().map(|(_, way)| way).collect::<Vec<_>>()),
     }
@@ -138,7 +140,7 @@ fn way((number, way): (usize, &Way), images: &mut Images<'_>) -> Value {
     let title = full_title(way);
     let pictures = [
         (of_way.picture, title.clone()),
-        (of_way.difference, "Its difference from the truth".into()),
+        (of_way.difference, "Its difference from the reference".into()),
         (of_way.bands, "Its Mach bands".into()),
     ];
     context! {
@@ -281,6 +283,7 @@ pub(in crate::report) mod tests {
         };
         Report {
             scene: "sphere <&>".into(),
+            title: None,
             size: [64, 64],
             encode: Transfer::Linear,
             complete: true,

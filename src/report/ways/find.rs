@@ -226,7 +226,8 @@ impl Finder<'_, '_> {
         let found: Vec<(&str, Scene)> = models::by_uniform(self.origin.scene).into_iter().chain(loaded).collect();
         for (name, scene) in found {
             let model = format!("{}, {name}", self.origin.name);
-            let about = format!("Another model of the library, {name}, specialized; its own f64 picture is its truth.");
+            let about =
+                format!("Another model of the library, {name}, specialized; its own f64 picture is its reference.");
             let way = FoundWay::new((name, "model"), about, &model, specialized(&scene, Contract::default()));
             let truth = FoundTruth { way: name.into(), scene, tessellation: None };
             self.list.add(FoundWay { truth: Some(truth), ..way });

@@ -208,7 +208,7 @@ pub(super) fn title(point: &Point) -> String {
 }
 
 fn escape(text: &str) -> String {
-    crate::report::plot::escape(text).replace('"', "&quot;")
+    crate::page::escape(text).replace('"', "&quot;")
 }
 
 #[cfg(test)]

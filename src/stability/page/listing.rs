@@ -5,7 +5,7 @@
 //! one from a macro to the line that uses the macro.
 
 use super::super::{CAUSE_BITS, Findings, SpanError};
-use crate::gallery::highlight::{Comments, Language, html};
+use crate::page::highlight::{Comments, Language, html};
 use glisten_front::hir::{Shader, Stage};
 use glisten_front::source::{FileId, Location, SourceMap, Span};
 use glisten_scene::Scene;

@@ -3,6 +3,7 @@
 //! ```text
 //!  scene, findings, examination ──► model     the values of the template: verdict, pictures, causes
 //!                               ──► listing   the texts of the shaders, with the loss of each line
+//!  functions of the library     ──► library   a table of its own page
 //!  points of a sweep or search  ──► series    pictures of some of them, drawn again
 //!                               ──► chart     the largest error over the values, as SVG
 //! ```
@@ -11,28 +12,34 @@
 //! a scene or a shader is escaped. The page does not depend on the machine, the folder or the time.
 
 mod chart;
+mod library;
 mod listing;
 mod model;
 mod series;
 mod words;
 
+pub use library::library_page;
 pub use series::{Point, Series};
 
 use super::{Examination, Findings};
-use crate::account::BASE_STYLE;
+use crate::page::Page;
 use glisten_front::source::SourceMap;
 use glisten_scene::Scene;
-use minijinja::{Environment, Value, context};
+use minijinja::{Value, context};
 
 /// The name of the page.
 pub const PAGE: &str = "stability.html";
 
-const TEMPLATE: &str = include_str!("page.html");
-const SCENE: &str = include_str!("scene.html");
-const SERIES: &str = include_str!("series.html");
-const LISTING: &str = include_str!("listing.html");
-const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+const SCENES: Page = Page {
+    templates: &[
+        ("stability.html", include_str!("page.html")),
+        ("scene.html", include_str!("scene.html")),
+        ("series.html", include_str!("series.html")),
+        ("listing.html", include_str!("listing.html")),
+    ],
+    styles: &[include_str!("page.css")],
+    scripts: &[include_str!("page.js")],
+};
 
 /// A scene on the page.
 pub struct SceneOnPage<'a> {
@@ -61,19 +68,6 @@ pub struct SceneOnPage<'a> {
 pub fn page(scenes: &[SceneOnPage<'_>]) -> Result<String, String> {
     let several = scenes.len() > 1;
     let models: Vec<Value> = scenes.iter().enumerate().map(|(index, scene)| model::scene(index + 1, scene)).collect();
-    let render = || -> Result<String, minijinja::Error> {
-        let mut environment = Environment::new();
-        environment.add_template("listing.html", LISTING)?;
-        environment.add_template("series.html", SERIES)?;
-        environment.add_template("scene.html", SCENE)?;
-        environment.add_template("page.html", TEMPLATE)?;
-        environment.get_template("page.html")?.render(context! {
-            style => Value::from_safe_string([BASE_STYLE, STYLE].concat()),
-            script => Value::from_safe_string(SCRIPT.into()),
-            version => env!("CARGO_PKG_VERSION"),
-            scenes => models,
-            several,
-        })
-    };
-    render().map_err(|error| error.to_string())
+    let values = context! { version => env!("CARGO_PKG_VERSION"), scenes => models, several };
+    SCENES.render(values).map_err(|error| error.to_string())
 }

@@ -10,10 +10,12 @@ use super::chart::{self, chart};
 use super::listing::{Loss, Row, Text, listing};
 use super::series::{Point, Series};
 use super::words::{self, channels, number};
-use crate::report::raster::color_uri;
+use crate::page::raster::color_uri;
+use crate::page::{Place, View, viewer};
 use glisten_scene::picture::Transfer;
 use minijinja::{Value, context};
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::ops::Range;
 
 /// The number of pixels whose inputs are read for the causes: each takes a drawing.
@@ -28,6 +30,7 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
     let (bound, errors) = (*bound, &examined.errors);
     let picture = &findings.picture;
     let id = format!("s{number}");
+    let (folder, short) = one.name.rsplit_once('/').map_or((None, one.name), |(folder, short)| (Some(folder), short));
     let texts = listing(one.scene, one.sources, &examined.spans, findings);
     let anchors = anchors(&texts);
     let causes = causes(one, &anchors);
@@ -36,12 +39,16 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
         let inputs: Vec<Value> = worst.inputs.iter().map(|(name, values)| input(name, values)).collect();
         context! { x => worst.x, y => worst.y, f32 => channels(&worst.f32), exact => channels(&worst.exact), inputs }
     });
+    let shown = viewer(None, &views(one, &id));
     context! {
         id,
         name => one.name,
+        short,
+        folder,
         title => Value::from_safe_string(words::path(one.name)),
         command => &one.command,
         verdict => findings.verdict,
+        pill => pill(examined.verdict),
         sentence => words::verdict(findings, examined.verdict, bound, errors.not_finite()),
         largest => words::number(picture.max_abs),
         rmse => words::number(picture.rmse),
@@ -50,9 +57,7 @@ pub(super) fn scene(number: usize, one: &SceneOnPage<'_>) -> Value {
         births => findings.non_finite,
         worst,
         reference => findings.exact.as_ref().map(|exact| exact.sentence()),
-        pictures => pictures(&examined.single, &examined.exact, &heat::heat(examined, bound)),
-        is_clipped => is_clipped(&examined.exact),
-        legend => legend(bound),
+        viewer => shown,
         is_stable => examined.verdict == Stability::Stable,
         causes,
         files,
@@ -65,6 +70,58 @@ type Picture = glisten_scene::picture::Picture;
 fn pictures(single: &Picture, exact: &Picture, heat: &Picture) -> Value {
     let uri = |picture| Value::from_safe_string(color_uri(picture, Transfer::Linear));
     context! { width => exact.width, height => exact.height, single => uri(single), exact => uri(exact), heat => uri(heat) }
+}
+
+/// The color of a verdict.
+pub(super) fn pill(verdict: Stability) -> &'static str {
+    match verdict {
+        Stability::Stable => "good",
+        Stability::Degraded => "fair",
+        Stability::Broken => "bad",
+    }
+}
+
+/// The pictures in f32 and exact, and the map of the errors, on which the causes are marked.
+fn views(one: &SceneOnPage<'_>, id: &str) -> [View; 3] {
+    let (examined, causes) = (one.examined, &one.findings.causes);
+    let size = [examined.exact.width, examined.exact.height];
+    let picture = |picture: &Picture| Some((color_uri(picture, Transfer::Linear), size));
+    let clipped = if is_clipped(&examined.exact) { ". Colors beyond 0 and 1 are clipped for the screen." } else { "" };
+    let mut pins = String::new();
+    for (index, cause) in causes.iter().enumerate() {
+        let [left, top] = place([cause.at.x, cause.at.y], size);
+        let number = index + 1;
+        // Writing to a String cannot fail.
+        let _ = write!(
+            pins,
+            "<span class=\"pin\" data-cause=\"{id}-c{number}\" style=\"left:{left}%;top:{top}%\"><b>{number}</b></span>"
+        );
+    }
+    let mut views = [
+        View::new(Place::First, "f32", "<strong>f32</strong>, as GPUs compute", picture(&examined.single)),
+        View::new(
+            Place::Second,
+            "exact",
+            format!("<strong>Exact</strong>, as the program says{clipped}"),
+            picture(&examined.exact),
+        ),
+        View::new(Place::Third, "error", legend(one.bound), picture(&heat::heat(examined, one.bound))),
+    ];
+    let parts = [
+        ("f32", "The picture in f32"),
+        ("exact", "The exact picture"),
+        ("heat", "The map of the errors over the exact picture"),
+    ];
+    for (view, (part, alt)) in views.iter_mut().zip(parts) {
+        (view.id, view.alt) = (Some(format!("{id}-{part}")), alt.to_owned());
+    }
+    views[2].over = pins;
+    views
+}
+
+/// The place of the middle of a pixel, in percent of width and height.
+fn place([x, y]: [u32; 2], [width, height]: [u32; 2]) -> [String; 2] {
+    [(x, width), (y, height)].map(|(at, size)| format!("{:.2}", (f64::from(at) + 0.5) / f64::from(size.max(1)) * 100.0))
 }
 
 /// Whether the page shows less than the picture has: a screen ends at 1.
@@ -113,8 +170,7 @@ fn inputs_of(one: &SceneOnPage<'_>, pixel: [u32; 2]) -> Vec<Value> {
 
 fn cause(one: &SceneOnPage<'_>, cause: &CauseFound, anchors: &Anchors<'_>, inputs: Vec<Value>) -> Value {
     let picture = &one.examined.exact;
-    let [left, top] = [(cause.at.x, picture.width), (cause.at.y, picture.height)]
-        .map(|(at, size)| format!("{:.2}", (f64::from(at) + 0.5) / f64::from(size.max(1)) * 100.0));
+    let [left, top] = place([cause.at.x, cause.at.y], [picture.width, picture.height]);
     let index = cause.at.y as usize * picture.width as usize + cause.at.x as usize;
     let color = |picture: &Picture| {
         let pixel = picture.attachments.first().and_then(|pixels| pixels.get(index));
@@ -169,17 +225,32 @@ fn css(color: [f64; 3]) -> String {
     format!("rgb({r} {g} {b})")
 }
 
-/// The colors of the map, and the errors that they stand for.
-fn legend(bound: f64) -> Value {
+/// The caption of the map: its colors, and the errors that they stand for.
+fn legend(bound: f64) -> String {
     let steps = |count: usize| (0..=count).map(move |step| DECADES * (2.0 * step as f64 / count as f64 - 1.0));
     let stops: Vec<String> = steps(8).map(|decades| css(heat::scale(decades))).collect();
-    let ticks: Vec<Value> = steps(4)
-        .map(|decades| {
-            let place = (decades / DECADES + 1.0) * 50.0;
-            context! { place => format!("{place:.0}"), is_bound => decades == 0.0, error => number(bound * 10f64.powf(decades)) }
-        })
-        .collect();
-    context! { stops => Value::from_safe_string(stops.join(", ")), ticks, not_finite => css(NOT_FINITE) }
+    let error = |decades: f64| number(bound * 10f64.powf(decades));
+    let tick = |(index, decades): (usize, f64)| {
+        let place = (decades / DECADES + 1.0) * 50.0;
+        let (class, remark) = match index {
+            2 => (" is-bound", "<br>accepted"),
+            1 | 3 => (" inner", ""),
+            _ => ("", ""),
+        };
+        format!("<span class=\"tick{class}\" style=\"--at:{place:.0}%\">{}{remark}</span>", error(decades))
+    };
+    let ticks: String = steps(4).enumerate().map(tick).collect();
+    format!(
+        "<strong>Error</strong> over the picture in gray\n<span class=\"legend\" role=\"img\" aria-label=\"Colors from an error of {} \
+         (blue) over the accepted {} (yellow) to {} (red)\"><span class=\"ramp\" style=\"background:linear-gradient(to right, {})\"></span>{ticks}\
+         </span>\n<span class=\"swatches\"><span><i style=\"background:#3a3a3a\"></i>less, or an edge</span> <span><i style=\"background:{}\">\
+         </i>not finite</span></span>",
+        error(-DECADES),
+        number(bound),
+        error(DECADES),
+        stops.join(", "),
+        css(NOT_FINITE),
+    )
 }
 
 fn series(series: &Series, bound: f64) -> Value {
@@ -284,7 +355,7 @@ fn loss(loss: &Loss) -> Value {
                 condition => if condition > 0.0 { number(condition) } else { String::from("\u{2013}") },
                 births,
                 disagreements,
-                evaluations => crate::report::grouped(evaluations),
+                evaluations => crate::page::words::grouped(evaluations),
             }
         })
         .collect();

@@ -1,48 +1,8 @@
-// Comforts of the page. Without this script, all pictures, figures and texts are there.
-"use strict";
-for (const control of document.querySelectorAll(".compare")) {
-  const figure = control.closest("figure");
-  const frame = figure.querySelector(".frame");
-  const over = document.getElementById(control.dataset.exact).querySelector("img").cloneNode();
-  const [slider, button] = [control.querySelector("input"), control.querySelector("button")];
-  over.className = "over";
-  over.alt = "";
-  frame.append(over);
-  control.hidden = false;
-  const show = () => {
-    frame.style.setProperty("--share", slider.value + "%");
-    button.setAttribute("aria-pressed", String(slider.value === "100"));
-  };
-  slider.addEventListener("input", show);
-  button.addEventListener("click", () => {
-    slider.value = slider.value === "100" ? 0 : 100;
-    show();
-  });
-  show();
-}
-
-// An enlarged picture goes back by a click, or by Escape.
-const shrink = (figure) => {
-  const link = figure.querySelector(".frame");
-  location.replace(figure.querySelector(".close").getAttribute("href"));
-  link.focus({ preventScroll: true });
-};
-for (const figure of document.querySelectorAll(".pictures figure")) {
-  figure.querySelector(".frame").addEventListener("click", (event) => {
-    if (!figure.matches(":target")) return;
-    event.preventDefault();
-    shrink(figure);
-  });
-}
-addEventListener("keydown", (event) => {
-  const figure = event.key === "Escape" && document.querySelector(".pictures figure:target");
-  if (figure) shrink(figure);
-});
 
 // A card shows its pixel on the map.
 for (const card of document.querySelectorAll(".card")) {
   const place = card.querySelector(".locator");
-  const heat = document.getElementById(place.dataset.heat);
+  const heat = byId(place.dataset.heat);
   const pin = heat.querySelector(`[data-cause="${card.id}"]`);
   const image = heat.querySelector("img").cloneNode();
   const ring = document.createElement("span");
@@ -63,7 +23,7 @@ for (const card of document.querySelectorAll(".card")) {
 
 // A link to a line opens the file, and the fold that it is in.
 const reveal = () => {
-  const line = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
+  const line = location.hash.length > 1 && byId(location.hash.slice(1));
   if (!line) return;
   let opened = false;
   for (let around = line.parentElement; around; around = around.parentElement) {

@@ -3,7 +3,7 @@
 //! *In:* figures. *Out:* text for people. *Holds:* a number that is not finite is written as such.
 
 use super::super::{Findings, Stability};
-use crate::report::{grouped, scientific};
+use crate::page::words::{grouped, scientific};
 use minijinja::HtmlEscape;
 
 /// A figure with three digits: plain from 0.01 to 10,000, with a power of ten otherwise.
@@ -100,7 +100,7 @@ pub(super) fn verdict(findings: &Findings, verdict: Stability, bound: f64, pixel
         (0, 0) => "every result is finite".to_owned(),
         (0, births) => {
             let births = count(births, "result is", "results are");
-            format!("{births} not finite on the way, and no pixel shows it")
+            format!("{births} not finite, and no pixel shows it")
         }
         (pixels, _) => format!("{} not finite", count(pixels, "pixel is", "pixels are")),
     };
@@ -108,7 +108,7 @@ pub(super) fn verdict(findings: &Findings, verdict: Stability, bound: f64, pixel
         Stability::Stable => "f32 arithmetic does no harm to this picture",
         Stability::Degraded => "f32 arithmetic is too coarse for this picture",
         Stability::Broken if pixels > 0 => "f32 arithmetic breaks this picture",
-        Stability::Broken => "f32 arithmetic decides otherwise than exact arithmetic, and the picture shows it",
+        Stability::Broken => "f32 arithmetic decides differently than exact arithmetic, and the picture shows it",
     };
     format!("{opening}: {error}; {finite}.")
 }

@@ -6,11 +6,16 @@ use glisten::account::{SceneOnPage, page};
 use glisten::specialize::{Contract, account, picture_error, pictures, specialize_scene_by};
 use glisten_front::hir::Stage;
 use glisten_reference::Precision;
+use std::path::Path;
 
 const BOTH: Contract = Contract { fast_math: true, move_to_vertex: true };
 
 fn page_of(name: &str, contract: Contract) -> (String, serde_json::Value) {
-    let (scene, sources) = load(&root().join("fixtures/scenes").join(name)).expect("a scene");
+    page_of_file(&root().join("fixtures/scenes").join(name), contract)
+}
+
+fn page_of_file(path: &Path, contract: Contract) -> (String, serde_json::Value) {
+    let (scene, sources) = load(path).expect("a scene");
     let specialized = specialize_scene_by(contract, &scene, &sources, &[]);
     let names: Vec<[String; 3]> = scene.draws.iter().map(|_| ["a.vert".into(), "a.frag".into(), "a".into()]).collect();
     let account = account("<scene>", &scene, &specialized, &names).expect("it can be drawn");
@@ -35,22 +40,55 @@ fn page_of(name: &str, contract: Contract) -> (String, serde_json::Value) {
 #[test]
 fn the_page_is_whole_and_alone() {
     let (page, account) = page_of("phong.toml", Contract::default());
-    assert!(page.contains("&lt;scene&gt;") && page.contains("Every bit of every pixel is the same"));
-    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 3);
+    assert!(page.contains("&lt;scene&gt;") && page.contains("every bit of every pixel is the same"));
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 1, "no picture of nothing");
     // What went is struck through, with its reason for the pointer and for the keyboard.
     assert!(
         page.contains("<del>") && page.contains("tabindex=\"0\"") && page.contains("role=\"tooltip\">it is 2</span>")
     );
-    for outside in ["http://", "https://", "src=\"/", "<link", "@import", "<script"] {
+    for outside in ["http://", "https://", "src=\"/", "<link", "@import", "url(", "fetch("] {
         assert!(!page.contains(outside), "{outside}");
     }
     assert!(account["fast_math"].is_null() && account["draws"][0]["move_to_vertex"].is_null(), "{account}");
+}
+
+/// The page of a scene whose shaders have a heading, by a later version.
+fn page_with_heading() -> String {
+    let vertex = "#version 330 core\n// Phong shading tutorial, 2012\nlayout(location = 0) in vec4 position;\n\
+        /* of the host */\nuniform mat4 m;\nvoid main() {\n    // to clip space\n    gl_Position = m * position;\n}\n";
+    let fragment = "#version 330 core\nuniform vec4 u;\nout vec4 color;\nvoid main() { color = u; }\n";
+    let scene = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nprimitive = \"triangles\"\n\
+        vertex_count = 3\n[draw.attributes]\nposition = { size = 4, values = [-1, -1, 0, 1, 3, -1, 0, 1, -1, 3, 0, 1] }\n\
+        [draw.uniforms]\nm = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\nu = [1, 0.5, 0.25, 1]\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in [("a.vert", vertex), ("a.frag", fragment), ("a.toml", scene)] {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    }
+    page_of_file(&folder.path().join("a.toml"), Contract::default()).0
+}
+
+#[test]
+fn a_heading_that_is_kept_is_not_new() {
+    let page = page_with_heading();
+    let rows: Vec<&str> =
+        page.split("<div class=\"row ").skip(1).map(|row| row.split("</div>").next().unwrap_or("")).collect();
+    for kept in ["Phong shading tutorial, 2012", "to clip space"] {
+        let found: Vec<&&str> = rows.iter().filter(|row| row.contains(kept)).collect();
+        assert!(!found.is_empty() && found.iter().all(|row| row.starts_with("same")), "{kept}: {found:?}");
+    }
+    assert!(
+        rows.iter()
+            .any(|row| row.starts_with("changed") && row.contains("#version 330 core") && row.contains("#version 150")),
+        "{rows:#?}"
+    );
+    assert!(page.contains("The residual is written as GLSL 150") && page.contains("the original (330 core)"));
 }
 
 #[test]
 fn a_contract_tells_its_error() {
     let (page, account) = page_of("phong.toml", BOTH);
     assert!(page.contains("Rounding was allowed to change."));
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 3);
     for error in [&account["fast_math"], &account["draws"][0]["fast_math"], &account["move_to_vertex"]] {
         let number = |key: &str| error[key].as_f64().unwrap_or(f64::NAN);
         assert!(number("max_abs") > 0.0 && number("max_abs") < 1e-4, "{error}");

@@ -21,7 +21,7 @@ const UP = {
   max_ulp: { name: "ULP", of: (way) => way.error.max_ulp },
 };
 
-// For each way "yes", "no" or "open", by the rules of the report, with the error that is plotted.
+// For each variant "yes", "no" or "open", by the rules of the report, with the error that is plotted.
 const front = (x, y) => {
   const error = (way) => UP[y].of(way) ?? NaN;
   const work = (way) => way.work.operations;

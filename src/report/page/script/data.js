@@ -1,25 +1,8 @@
-// The script of a report. Without it, all pictures, figures and texts are there.
-"use strict";
 
+// ---- Data: the variants with what the page knows of them.
 const { report, page } = JSON.parse(document.getElementById("data").textContent);
 
-// ---- Data: the ways with what the page knows of them, and small helpers.
-const byId = (id) => document.getElementById(id);
-const all = (selector, within = document) => [...within.querySelectorAll(selector)];
-
-// An element: attributes are set, functions are listeners, the rest are children.
 const SVG = document.querySelector("#plot svg").namespaceURI;
-const element = (space) => (tag, attributes = {}, ...children) => {
-  const made = space ? document.createElementNS(space, tag) : document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) {
-    if (typeof value === "function") made.addEventListener(name, value);
-    else if (value === true) made.setAttribute(name, "");
-    else if (value !== false && value !== null && value !== undefined) made.setAttribute(name, value);
-  }
-  made.append(...children.flat().filter((child) => child !== null && child !== undefined));
-  return made;
-};
-const html = element(null);
 const svg = element(SVG);
 
 const raised = (number) => String(number).replace(/[-0-9]/g, (sign) => (sign === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[sign]));
@@ -32,7 +15,7 @@ const scientific = (value, digits = 1) => {
 };
 
 const COLORS = 12;
-// A kind of way has one mark; ways that the scene declares differ by their names, without that of the model.
+// A kind of variant has one mark; variants that the scene declares differ by their names, without that of the model.
 const withoutModel = (name, model) => {
   const rest = name.startsWith(model) ? /^[\s,:]+(.+)$/.exec(name.slice(model.length)) : null;
   return rest ? rest[1] : name;
@@ -61,7 +44,7 @@ for (const place of all(".same")) {
   place.replaceWith(copy);
 }
 
-// ---- Choice: one way is pinned, one may be under the pointer or the keyboard.
+// ---- Choice: one variant is pinned, one may be under the pointer or the keyboard.
 const choice = { pinned: null, hover: null, stage: 0, listeners: [] };
 const shown = () => choice.hover ?? choice.pinned ?? choice.stage;
 const changed = () => { for (const listener of choice.listeners) listener(); };
@@ -74,9 +57,19 @@ const pin = (number) => {
   choice.pinned = number;
   if (number !== null) choice.stage = number;
   choice.hover = null;
-  byId("told").textContent = number === null ? "No way is pinned." : `Pinned: ${ways[number].title}.`;
+  byId("told").textContent = number === null ? "No variant is pinned." : `Pinned: ${ways[number].title}.`;
   changed();
 };
 document.body.append(html("p", { id: "told", class: "hidden", role: "status" }));
-// At first, the way of the front with the largest error: there is something to see.
+// At first, the variant of the front with the largest error: there is something to see.
 choice.stage = ways.filter((way) => way.pareto).sort((a, b) => b.error.rmse - a.error.rmse)[0]?.number ?? 0;
+
+// On a telephone, the facts are folded: the chart comes first.
+const factsList = document.querySelector(".facts");
+factsList.classList.add("folded");
+byId("all-facts").hidden = false;
+byId("all-facts").addEventListener("click", () => {
+  const folded = factsList.classList.toggle("folded");
+  byId("all-facts").setAttribute("aria-expanded", String(!folded));
+  byId("all-facts").textContent = folded ? "All facts" : "Fewer facts";
+});

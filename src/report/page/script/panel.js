@@ -1,5 +1,5 @@
 
-// ---- Panel: everything about the way that is chosen.
+// ---- Panel: everything about the variant that is chosen.
 const heads = all("#table thead th");
 const cellsOf = (number) => new Map(all("th, td", byId("row-" + number)).map((cell, index) => [heads[index].dataset.column, cell.textContent]));
 const GROUPS = [

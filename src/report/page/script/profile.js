@@ -1,5 +1,5 @@
 
-// ---- Profile: the luminance along the row through the highlight, picture against truth.
+// ---- Profile: the luminance along the row through the highlight, picture against reference.
 const profiled = { at: null };
 const line = (values, x, y) => {
   let path = "";
@@ -46,7 +46,7 @@ const showProfile = () => {
     ? [[bends(truth.profile), "truth"], [bends(way.profile), "ours"]]
     : [[way.profile.map((value, index) => (value === null || truth.profile[index] === null ? null : value - truth.profile[index])), "ours"]];
   const upper = [[truth.profile, "truth"], [way.profile, "ours"]];
-  const parts = [[upper, 18, 196, "luminance", [0, 0]], [lower, 228, 324, isBands ? "second difference along the row" : "way − truth", [-1e-7, 1e-7]]];
+  const parts = [[upper, 18, 196, "luminance", [0, 0]], [lower, 228, 324, isBands ? "second difference along the row" : "variant − reference", [-1e-7, 1e-7]]];
   for (const [lines, top, foot, name, atLeast] of parts) {
     // Not all of a silhouette: the scale of bends is that of the inside.
     const all = lines.flatMap(([values]) => finite(values));
@@ -70,7 +70,7 @@ const showProfile = () => {
     profiled.at = Math.max(first, Math.min(last, index));
     const [ours, theirs] = [way.profile[profiled.at], truth.profile[profiled.at]].map((value) => (value === null || value === undefined ? "–" : value.toFixed(6)));
     cursor.setAttribute("d", `M${x(profiled.at).toFixed(1)} 18V324`);
-    byId("profile-note").lastChild.textContent = ` Pixel ${profiled.at}: way ${ours}, truth ${theirs}.`;
+    byId("profile-note").lastChild.textContent = ` Pixel ${profiled.at}: variant ${ours}, reference ${theirs}.`;
   };
   drawing.addEventListener("pointermove", (event) => {
     const box = drawing.getBoundingClientRect();
@@ -86,7 +86,7 @@ const showProfile = () => {
   const sample = (className) => svg("svg", { viewBox: "0 0 30 10", width: 30, height: 10, class: "key", "aria-hidden": "true" }, svg("path", { class: `line ${className}`, d: "M0 5H30" }));
   byId("profile-note").replaceChildren(
     html("span", { class: "state" }, sample(`ours ${way.color}`), `${way.number + 1} ${way.title}`),
-    html("span", { class: "state" }, sample("truth"), "the truth"),
+    html("span", { class: "state" }, sample("truth"), "the reference"),
     html("span", {}, `Row ${truth.row} of the picture, through its brightest pixel; the luminance of the framebuffer's values.`),
     html("span", {}, ""));
 };

@@ -58,7 +58,7 @@ for (const row of rows) {
 }
 for (const card of all(".card[data-way]")) {
   const number = Number(card.dataset.way);
-  const link = html("a", { href: "#stage", class: "pick", "aria-label": `Compare ${ways[number].title} with the truth`, click: () => pin(number) });
+  const link = html("a", { href: "#stage", class: "pick", "aria-label": `Compare ${ways[number].title} with the reference`, click: () => pin(number) });
   const pictures = card.querySelector(".three");
   pictures.before(link);
   link.append(pictures);
@@ -66,7 +66,7 @@ for (const card of all(".card[data-way]")) {
 choice.listeners.push(showRows);
 showRows();
 
-// A link to a way pins it.
+// A link to a variant pins it.
 const linked = /^#(?:way|row)-(\d+)$/.exec(location.hash);
 if (linked && ways[linked[1]]) pin(Number(linked[1]));
 

@@ -4,7 +4,7 @@
 //! reader is to compare has as many digits in every row.
 
 /// The place of a figure that there is not.
-pub(super) const NONE: &str = "\u{2013}";
+pub(crate) const NONE: &str = "\u{2013}";
 
 /// `1.2e-3` as `1.2 x 10^-3` in typographic characters; 0 as 0.
 pub(crate) fn scientific(value: f64) -> String {
@@ -40,22 +40,22 @@ pub(crate) fn grouped(value: u64) -> String {
 }
 
 /// A figure with this many digits after the point.
-pub(super) fn fixed(value: f64, digits: usize) -> String {
+pub(crate) fn fixed(value: f64, digits: usize) -> String {
     if value.is_finite() { format!("{value:.digits$}") } else { NONE.into() }
 }
 
 /// An interval: `0.98 - 1.02`.
-pub(super) fn interval([low, high]: [f64; 2]) -> String {
+pub(crate) fn interval([low, high]: [f64; 2]) -> String {
     if low.is_finite() && high.is_finite() { format!("{low:.2}\u{2013}{high:.2}") } else { NONE.into() }
 }
 
 /// A share of 1 in percent.
-pub(super) fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     if share.is_finite() { format!("{:.1}\u{202f}%", share * 100.0) } else { NONE.into() }
 }
 
 /// The segments and rings of a mesh.
-pub(super) fn mesh(tessellation: Option<[u32; 2]>) -> Option<String> {
+pub(crate) fn mesh(tessellation: Option<[u32; 2]>) -> Option<String> {
     tessellation.map(|[segments, rings]| format!("{segments}\u{202f}\u{d7}\u{202f}{rings}"))
 }
 

@@ -1,4 +1,4 @@
-//! Encodes the pictures of a report as PNG data URIs.
+//! Encodes pictures as PNG data URIs.
 //!
 //! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits, encoded as the scene says, as in `glisten render`;
 //! non-finite colors are magenta. Differences have a logarithmic scale of some [`Decades`]; pixels that only one picture covers
@@ -31,7 +31,7 @@ impl Decades {
 }
 
 /// The colors of the difference scale, dark to light, in equal steps; colors between them are interpolated.
-pub(super) const SCALE: [[u8; 3]; 8] = [
+pub(crate) const SCALE: [[u8; 3]; 8] = [
     [0, 0, 4],
     [40, 11, 84],
     [101, 21, 110],
@@ -48,12 +48,12 @@ pub(crate) fn color_uri(picture: &Picture, by: Transfer) -> String {
 }
 
 /// The first attachment in 8 bits.
-pub(super) fn colors(picture: &Picture, by: Transfer) -> Vec<[u8; 3]> {
+pub(crate) fn colors(picture: &Picture, by: Transfer) -> Vec<[u8; 3]> {
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
     pixels.iter().map(|&pixel| visible_rgb(by.encode_pixel(pixel))).collect()
 }
 
-/// The differences from the truth as a PNG data URI.
+/// Differences as a PNG data URI.
 pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32, scale: Decades) -> String {
     let pixels = differences.iter().map(|difference| match difference {
         Some(difference) => scale_color(*difference, scale),
@@ -63,7 +63,7 @@ pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u3
 }
 
 /// The color of a difference.
-pub(super) fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u8; 3] {
+pub(crate) fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u8; 3] {
     let part = (difference.max(f64::MIN_POSITIVE).log10() - f64::from(low)) / f64::from(high - low);
     let place = part.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
     let index = (place as usize).min(SCALE.len() - 2);
@@ -73,7 +73,7 @@ pub(super) fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u
 }
 
 /// The PNG data URI of some pixels.
-pub(super) fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32, effort: Effort) -> String {
+pub(crate) fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32, effort: Effort) -> String {
     // Writing to memory fails only if the sizes disagree; an empty picture shows that better than no page at all.
     let png = png_rgb(width, height, pixels, effort).unwrap_or_default();
     format!("data:image/png;base64,{}", base64(&png))
