@@ -36,7 +36,7 @@ fn quoted(word: &str) -> String {
 }
 
 /// The day of the proleptic Gregorian calendar, by eras of 400 years that begin in March.
-fn date(seconds: u64) -> String {
+pub(crate) fn date(seconds: u64) -> String {
     // Far beyond any clock, the calendar ends.
     let days = (seconds / 86_400).min(100_000_000) + 719_468;
     let (era, day_of_era) = (days / 146_097, days % 146_097);

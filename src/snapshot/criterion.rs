@@ -3,6 +3,7 @@
 //! *In:* the stored picture, in 8 bits, and the new one. *Out:* [`Comparison`]: whether it holds, why not, and a picture of the
 //! differences.
 
+use super::pending::Refusal;
 use crate::scene::Scene;
 use crate::verify::difference;
 use glisten_reference::{LineRule, Precision, RenderOptions, render};
@@ -22,7 +23,7 @@ pub enum Criterion {
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// The reason why the picture is refused; `None` if it holds.
-    pub refused: Option<String>,
+    pub refused: Option<Refusal>,
     /// The picture of the differences.
     pub difference: Option<Picture>,
 }
@@ -32,9 +33,14 @@ impl Comparison {
 
     fn of_size(stored: &Image, [width, height]: [u32; 2]) -> Option<Self> {
         let is_other = stored.width != width || stored.height != height;
-        let message =
+        let because =
             || format!("it has {width} x {height} pixels, the stored one {} x {}", stored.width, stored.height);
-        is_other.then(|| Self { refused: Some(message()), difference: None })
+        is_other.then(|| {
+            let of = u64::from(width) * u64::from(height);
+            let refusal =
+                Refusal { because: because(), criterion: "size".to_owned(), pixels: of, of, ..Refusal::default() };
+            Self { refused: Some(refusal), difference: None }
+        })
     }
 }
 
@@ -49,19 +55,31 @@ impl Criterion {
         let before = old.attachments.first().map_or(&[][..], Vec::as_slice);
         let apart = |a: &[f64; 4], b: &[f64; 4]| a.iter().zip(b).map(|(a, b)| byte(*a).abs_diff(byte(*b))).max();
         let steps: Vec<u8> = new.iter().zip(before).map(|(a, b)| apart(a, b).unwrap_or(0)).collect();
-        let refused = match self {
+        let pixels = steps.iter().filter(|step| **step > 0).count();
+        let most = steps.iter().max().copied().unwrap_or(0);
+        let (because, criterion, limit, found) = match self {
             Self::Exact => {
-                let count = steps.iter().filter(|step| **step > 0).count();
-                let most = steps.iter().max().copied().unwrap_or(0);
-                (count > 0).then(|| format!("{count} pixels differ, by up to {most} of 255"))
+                let because = || format!("{}, by up to {most} of 255", differ(pixels));
+                ((pixels > 0).then(because), "exact", None, None)
             }
             Self::Flip(limit) => {
                 let error = flip(&old, picture);
                 // A limit that is no number accepts nothing.
                 let holds = error <= limit;
-                (!holds).then(|| format!("the mean FLIP error is {error:.4}, more than {limit}"))
+                let because = || format!("the mean FLIP error is {error:.4}, more than {limit}");
+                ((!holds).then(because), "flip", Some(limit), Some(error))
             }
         };
+        let refusal = |because| Refusal {
+            because,
+            criterion: criterion.to_owned(),
+            limit,
+            found,
+            pixels: pixels as u64,
+            of: steps.len() as u64,
+            steps: most,
+        };
+        let refused = because.map(refusal);
         let shares: Vec<f64> = steps.iter().map(|step| f64::from(*step)).collect();
         if refused.is_none() {
             Comparison::HOLDS
@@ -107,9 +125,24 @@ pub(super) fn compare_scene(stored: Option<&Image>, scene: &Scene) -> Result<(Co
         return Ok((Comparison::HOLDS, picture));
     }
     let most = shares.iter().copied().fold(0.0, f64::max) - 1.0;
-    let refused = format!("{count} pixels of the stored picture are outside of the envelope, by up to {most} of 255");
+    let (are, of) = (
+        if count == 1 { "pixel of the stored picture is" } else { "pixels of the stored picture are" },
+        shares.len() as u64,
+    );
+    let refused = Refusal {
+        because: format!("{count} {are} outside of the envelope, by up to {most} of 255"),
+        criterion: "envelope".to_owned(),
+        pixels: count as u64,
+        of,
+        steps: most as u8,
+        ..Refusal::default()
+    };
     let map = difference(&picture, &shares);
     Ok((Comparison { refused: Some(refused), difference: Some(map) }, picture))
+}
+
+fn differ(pixels: usize) -> String {
+    if pixels == 1 { "1 pixel differs".to_owned() } else { format!("{pixels} pixels differ") }
 }
 
 /// The colors of a stored picture.

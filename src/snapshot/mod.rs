@@ -3,7 +3,7 @@
 //!
 //! *In:* a program, a compilation, a scene, a picture. *Out:* a comparison with the snapshot that is stored next to the test.
 //! Texts are snapshots of [`insta`]: `cargo insta review` shows and accepts them. Pictures are PNG files next to those, with
-//! the same workflow: a picture that no longer fits leaves `NAME.new.png` and `NAME.difference.png`; `glisten snapshots
+//! the same workflow: a picture that no longer fits leaves `NAME.new.png`, `NAME.difference.png` and, with the reason, `NAME.new.json`; `glisten snapshots
 //! review` shows them, `glisten snapshots accept` accepts them. `INSTA_UPDATE` means the same to both.
 //!
 //! ```no_run
@@ -30,6 +30,8 @@
 
 #[cfg(feature = "snapshot")]
 mod criterion;
+#[cfg(feature = "cli")]
+pub(crate) mod page;
 pub mod pending;
 #[cfg(feature = "snapshot")]
 mod pictures;

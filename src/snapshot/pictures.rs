@@ -6,7 +6,7 @@
 //! `unseen` stores what is not stored yet.
 
 use super::criterion::{Comparison, Criterion, compare_scene};
-use super::pending::Pending;
+use super::pending::{Pending, Refusal};
 use crate::scene::Scene;
 use glisten_scene::picture::{Image, ImageFormat, Picture};
 use std::env;
@@ -93,22 +93,23 @@ fn decide(place: &Place, compared: Option<Comparison>, picture: &Picture) {
             return;
         }
         Some(Comparison { refused: Some(why), difference }) => (why, difference),
-        None => ("no picture is stored yet".to_owned(), None),
+        None => (unseen(picture), None),
     };
+    let because = &refused.because;
     let is_unseen = difference.is_none() && !pending.stored().exists();
     let done = match update() {
         Update::Store => write(&pending.stored(), picture),
         Update::StoreUnseen if is_unseen => write(&pending.stored(), picture),
-        Update::Nothing => panic!("picture `{}`: {refused}", pending.name),
+        Update::Nothing => panic!("picture `{}`: {because}", pending.name),
         _ => {
             let left = difference.map_or(Ok(()), |difference| write(&pending.difference(), &difference));
-            let written = write(&pending.new_picture(), picture).and(left);
+            let written = write(&pending.new_picture(), picture).and(left).and_then(|()| explain(pending, &refused));
             match written {
                 Ok(()) => panic!(
-                    "picture `{}`: {refused}\nsee it:    glisten snapshots review\naccept it: glisten snapshots accept {}",
+                    "picture `{}`: {because}\nsee it:    glisten snapshots review\naccept it: glisten snapshots accept {}",
                     pending.name, pending.name
                 ),
-                Err(why) => Err(format!("{refused}; {why}")),
+                Err(why) => Err(format!("{because}; {why}")),
             }
         }
     };
@@ -116,6 +117,19 @@ fn decide(place: &Place, compared: Option<Comparison>, picture: &Picture) {
         panic!("picture `{}`: {why}", pending.name);
     }
     let _ = pending.reject();
+}
+
+fn unseen(picture: &Picture) -> Refusal {
+    let of = u64::from(picture.width) * u64::from(picture.height);
+    let (because, criterion) = ("no picture is stored yet".to_owned(), "unseen".to_owned());
+    Refusal { because, criterion, of, ..Refusal::default() }
+}
+
+/// Leaves why a picture is pending, for `glisten snapshots review`.
+fn explain(pending: &Pending, refusal: &Refusal) -> Result<(), String> {
+    let path = pending.refusal_file();
+    let text = serde_json::to_string_pretty(refusal).unwrap_or_default() + "\n";
+    fs::write(&path, text).map_err(|error| format!("cannot write `{}`: {error}", path.display()))
 }
 
 fn write(path: &Path, picture: &Picture) -> Result<(), String> {

@@ -82,17 +82,55 @@ fn a_picture_waits_for_a_decision() {
     assert_eq!(code(&review), 0, "{}", err(&review));
     let page = fs::read_to_string(folder.path("page.html")).expect("written");
     assert_eq!(page.matches("data:image/png;base64,").count(), 3, "stored, new, difference");
+    for part in [
+        "<title>Pending snapshots</title>",
+        "width=device-width",
+        "prefers-color-scheme: dark",
+        "class=\"viewer\" data-whole",
+        "1 snapshot to review",
+        "The mean FLIP error is 0.",
+        "mean FLIP error at most 0.05",
+        "256 of 256 (100.0",
+        "102 of 255",
+        "<time datetime=\"20",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(err(&review).contains("1 snapshot to review: page.html"), "{}", err(&review));
     // A picture that fits again needs no decision.
     assert_eq!(check(&folder.path(""), &gray(0.5), Criterion::Exact), None);
     assert!(
         find(&folder.path("")).expect("read").is_empty()
             && !folder.path("snapshots/a__b__gray.difference.png").exists()
+            && !folder.path("snapshots/a__b__gray.new.json").exists()
     );
     check(&folder.path(""), &Picture::of_colors(8, 8, vec![[0.0; 4]; 64]), Criterion::Exact).expect("another size");
     let before = fs::read(&stored).expect("stored");
     assert_eq!(code(&folder.run(&["snapshots", "reject"])), 0);
     assert_eq!(fs::read(&stored).expect("stored"), before);
     assert!(out(&folder.run(&["snapshots", "list"])).is_empty());
+}
+
+#[test]
+fn texts_are_listed_and_shown() {
+    let head = "---\nsource: a.rs\n---\n";
+    let stored = format!("{head}one\ntwo\n");
+    let new = format!("{head}one\n<b> & two\n");
+    let folder =
+        Folder::new(&[("snapshots/a__code.snap", stored.as_bytes()), ("snapshots/a__code.snap.new", new.as_bytes())]);
+    let list = folder.run(&["snapshots", "list"]);
+    assert_eq!(out(&list), "a__code  ./snapshots/a__code.snap.new\n");
+    assert!(err(&list).contains("1 snapshot to review"), "{}", err(&list));
+    assert_eq!(code(&folder.run(&["snapshots", "review", "-o", "page.html"])), 0);
+    let page = fs::read_to_string(folder.path("page.html")).expect("written");
+    assert!(
+        page.contains("cargo insta review") && page.contains("&lt;b&gt; &amp; two") && !page.contains("<b> &"),
+        "{page}"
+    );
+    // Texts are insta's.
+    let accepted = folder.run(&["snapshots", "accept", "a__code"]);
+    assert!(code(&accepted) == 2 && err(&accepted).contains("cargo insta review"), "{}", err(&accepted));
+    assert!(folder.path("snapshots/a__code.snap.new").exists());
 }
 
 #[test]
