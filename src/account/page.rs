@@ -157,12 +157,12 @@ fn section(section: &Section) -> Value {
 
 /// A change in percent. One that rounds to nothing is told as what it is: small.
 fn percent(share: f64) -> String {
-    let text = match share.abs() * 100.0 {
-        size if size < 0.1 => "less than 0.1".to_owned(),
-        size if size < 1.0 => format!("{size:.1}"),
-        size => format!("{size:.0}"),
-    };
-    format!("{}{text} %", if share < 0.0 { "\u{2212}" } else { "+" })
+    let sign = if share < 0.0 { "\u{2212}" } else { "+" };
+    match share.abs() * 100.0 {
+        size if size < 0.1 => format!("under 0.1 % {}", if share < 0.0 { "less" } else { "more" }),
+        size if size < 1.0 => format!("{sign}{size:.1} %"),
+        size => format!("{sign}{size:.0} %"),
+    }
 }
 
 /// The figures, a line each: the name, before, after, and the change.
@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn no_change_is_minus_nothing() {
         let shares = [-0.5, -0.004, -0.0004, 0.25, 1.5];
-        let texts = ["\u{2212}50 %", "\u{2212}0.4 %", "\u{2212}less than 0.1 %", "+25 %", "+150 %"];
+        let texts = ["\u{2212}50 %", "\u{2212}0.4 %", "under 0.1 % less", "+25 %", "+150 %"];
         assert_eq!(shares.map(percent), texts);
     }
 }

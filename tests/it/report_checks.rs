@@ -64,7 +64,8 @@ fn what_got_worse_is_told() {
     let compare = |path: &Path| report_with(&scene, &out, &["-q", "--compare", path.to_str().expect("a name")]);
     let run = compare(&old_path);
     assert_eq!(code(&run), Some(1), "{}", told(&run));
-    for line in ["worse: Phong per vertex, 8x4: rmse", "8x4: operations", "of yore, 16x8: the variant is gone", "a new variant"]
+    for line in
+        ["worse: Phong per vertex, 8x4: rmse", "8x4: operations", "of yore, 16x8: the variant is gone", "a new variant"]
     {
         assert!(told(&run).contains(line), "{line} in {}", told(&run));
     }
@@ -201,5 +202,5 @@ fn ctrl_c_leaves_what_is_done() {
     let schema = json(&root().join("docs/report.schema.json"));
     assert_eq!(conforms(&report, &schema, "report"), [""; 0]);
     let page = std::fs::read_to_string(out.join("report.html")).expect("the page");
-    assert!(page.contains("was ended before all ways were drawn"));
+    assert!(page.contains("was interrupted before all variants were drawn"));
 }
