@@ -1,4 +1,8 @@
 //! Scene files, with the programs of the library and the engines at hand.
+//!
+//! *In:* the path of a scene, or of a model (`.obj`, `.gltf`, `.glb`), which gets the scene of [`portrait`]. *Out:* [`Loaded`].
+
+mod models;
 
 use crate::engines;
 use crate::library::Embedded;
@@ -12,11 +16,17 @@ use std::sync::Arc;
 pub use glisten_scene::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, DiskFiles, Draw, FileError, FileSource, Filter,
     FixedDraw, Format, Framebuffer, Library, Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, MemoryFiles, NoLibrary,
-    Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
+    Portrait, PortraitError, Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap, is_model_file,
+    portrait,
 };
 
 /// Loads the scene at `path`, whose draws may name programs of the library, and engines that complete their sources.
+/// A model gets a scene of its own.
 pub fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Loaded {
+    if is_model_file(path) { models::load(path, files, compiler) } else { load_scene(path, files, compiler) }
+}
+
+fn load_scene(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Loaded {
     glisten_scene::load(path, files, &WithEngines, compiler)
 }
 

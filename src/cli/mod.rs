@@ -37,6 +37,7 @@ mod machine;
 mod made;
 mod man;
 mod new_scene;
+mod new_scene_model;
 mod opengl;
 mod optimize;
 mod outputs;

@@ -9,8 +9,10 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::fullscreen;
 use super::inputs::{Group, Input};
+use super::new_scene_model;
 use super::session::Session;
 use crate::engines::Member;
+use crate::scene::is_model_file;
 use crate::sources::{members, stages};
 use clap::Args;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage, Type, TypeId, Types};
@@ -22,7 +24,8 @@ use std::path::{Path, PathBuf};
 /// Write a scene for a program, ready to be filled
 #[derive(Args, Debug)]
 pub(super) struct NewSceneArgs {
-    /// The vertex and the fragment shader; a fragment shader alone gets a vertex shader for a triangle that covers the window
+    /// The vertex and the fragment shader; a fragment shader alone gets a vertex shader for a triangle that covers the window;
+    /// or a model (.obj, .gltf, .glb), which gets a camera and lights
     #[arg(num_args = 1..=2, required = true, value_names = ["A.vert", "B.frag"])]
     files: Vec<String>,
     /// The scene file to create (default: standard output)
@@ -42,6 +45,12 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
     if let Some(output) = args.output.as_deref().filter(|output| output.exists()) {
         let failure = Failure::usage(format!("`{}` exists already", output.display()));
         return Err(failure.help("name a new file, or remove the old one"));
+    }
+    if let [model] = args.files.as_slice()
+        && is_model_file(model)
+    {
+        let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
+        return new_scene_model::run(model, &relative(model, folder), args.output.as_deref(), console);
     }
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let files = match args.files.as_slice() {

@@ -16,7 +16,7 @@ use super::report_checks::CheckArgs;
 use super::scenes::{DrawError, SceneArgs, ViaArg};
 use super::session::Session;
 use crate::report::{self, Error, LIBRARY_SCENE, LibraryFiles, Limits, Options, Report, Watcher, Ways, Weights};
-use crate::scene::{DiskFiles, FileSource};
+use crate::scene::{DiskFiles, FileSource, is_model_file};
 use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
 use glisten_front::source::SourceMap;
@@ -127,6 +127,10 @@ const LIBRARY_TITLE: &str = "Lighting models of the library";
 /// Runs the command.
 pub(super) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     let interrupt = Interrupt::watch();
+    if is_model_file(&args.scene.scene) {
+        let failure = Failure::usage(format!("`{}` is a model, and a report is about a scene", args.scene.scene));
+        return Err(failure.help("`glisten new-scene MODEL -o SCENE.toml` writes one"));
+    }
     let checks = args.checks.read()?;
     let weights = weights(args.weights.as_deref())?;
     let session = args.scene.session(console)?;

@@ -25,7 +25,7 @@ const STACK_BYTES: usize = 16 << 20;
 /// The scene, and how to read its shaders.
 #[derive(Args, Clone, Debug)]
 pub(super) struct SceneArgs {
-    /// A scene file
+    /// A scene file, or a model (.obj, .gltf, .glb), which gets a camera and lights
     #[arg(value_name = "SCENE.toml")]
     pub(super) scene: String,
     #[command(flatten)]

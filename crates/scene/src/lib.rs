@@ -11,10 +11,12 @@
 pub mod compare;
 mod files;
 pub mod fixed;
+mod geometry;
 mod library;
 mod load;
 mod model;
 pub mod picture;
+mod portrait;
 pub mod random;
 mod reads;
 pub mod roles;
@@ -27,4 +29,5 @@ pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer,
     Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
+pub use portrait::{Portrait, PortraitError, is_model_file, portrait};
 pub use reads::scene_values_read;

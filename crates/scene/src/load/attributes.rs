@@ -1,14 +1,15 @@
 //! Loads `[draw.attributes]` and the attributes of a mesh as [`AttributeData`].
 
-use super::mesh::{Mesh, Stream};
+use super::mesh::{Mesh, Named};
+use super::missing::{Missing, global_span};
 use super::names::ATTRIBUTE_KINDS;
 use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::fixed::current_attribute;
 use crate::model::{AttributeData, AttributeValues};
+use crate::roles::AttributeRole;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
-    MESH_NARROWED, SCENE_MISSING_ATTRIBUTE, SCENE_MISSING_KEY, SCENE_UNSET_ATTRIBUTE, SCENE_WRONG_KIND,
-    SCENE_WRONG_SIZE,
+    MESH_NARROWED, SCENE_BAD_ASSET, SCENE_MISSING_KEY, SCENE_WRONG_KIND, SCENE_WRONG_SIZE,
 };
 use glisten_front::hir::{Scalar, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program};
@@ -19,13 +20,14 @@ const KEYS: &[&str] = &["size", "values", "divisor", "kind"];
 /// The largest number of components of a vertex in the data, more than any declared type has.
 const MAX_SIZE: i64 = 1024;
 
-/// The data of each attribute of the program, in the program's order. `reaching` says which of them can reach an output.
+/// The data of each attribute of the program, in the program's order. `reaching` says which of them can reach an output; `None`
+/// for the mesh's inner option is a mesh that could not be loaded, which has been reported.
 pub(super) fn load_attributes(
     reader: &mut Reader,
     draw: &DeTable<'_>,
     program: &Program,
-    mesh: Option<&Mesh>,
-    (place, reaching): (Span, &dyn Fn() -> Vec<bool>),
+    mesh: Option<Option<&Mesh>>,
+    (place, reaching, instances): (Span, &dyn Fn() -> Vec<bool>, u32),
 ) -> Vec<Option<AttributeData>> {
     let attributes = &program.interface.attributes;
     let names: Vec<&str> = attributes.iter().map(|attribute| attribute.name.as_str()).collect();
@@ -45,12 +47,10 @@ pub(super) fn load_attributes(
             data[meant] = loaded.or(data[meant].take());
         }
     };
-    for stream in mesh.map_or(&[][..], |mesh| &mesh.streams) {
-        if stream.implied && !names.contains(&stream.attribute.as_str()) {
-            continue;
-        }
-        set(reader, &stream.attribute, stream.span, &mut |reader, attribute| {
-            check_mesh_stream(reader, program, attribute, stream)
+    let loaded = mesh.flatten();
+    for Named { role, attribute, span } in loaded.map_or(&[][..], |mesh| &mesh.named) {
+        set(reader, attribute, *span, &mut |reader, attribute| {
+            mesh_data(reader, program, attribute, (loaded?, *role, *span))
         });
     }
     if let Some(table) = reader.table_at(draw, "attributes") {
@@ -59,6 +59,14 @@ pub(super) fn load_attributes(
             set(reader, name.get_ref(), span, &mut |reader, attribute| {
                 load_attribute(reader, &program.types, attribute, node)
             });
+        }
+    }
+    let mut handed_out = Vec::new();
+    for (index, role) in loaded.map_or_else(Vec::new, |mesh| mesh.implied(program, &given)) {
+        if let (Some(mesh), Some(attribute)) = (loaded, attributes.get(index)) {
+            handed_out.push(role);
+            given[index] = true;
+            data[index] = mesh_data(reader, program, attribute, (mesh, role, mesh.span));
         }
     }
     for ((attribute, given), data) in attributes.iter().zip(&mut given).zip(&mut data) {
@@ -70,52 +78,17 @@ pub(super) fn load_attributes(
     }
     let missing = attributes.iter().zip(given).filter(|(attribute, given)| attribute.active && !given);
     let missing: Vec<&Attribute> = missing.map(|(attribute, _)| attribute).collect();
-    if !missing.is_empty() {
+    // What a mesh lacks that could not be loaded is not known.
+    if !missing.is_empty() && mesh != Some(None) {
         let span = draw.get("attributes").map_or(place, |node| reader.span(node.span()));
         let reaching: Vec<&str> =
             names.iter().zip(reaching()).filter_map(|(name, reaches)| reaches.then_some(*name)).collect();
-        report_missing(reader, program, &missing, &reaching, mesh, span);
+        let per_vertex = data.iter().flatten().find(|data| data.divisor == 0);
+        let rows = per_vertex.map(|data| data.values.len() as u32 / data.size.max(1));
+        let missing = Missing { program, attributes: missing, mesh: loaded, handed_out, rows, instances, span };
+        missing.report(reader, draw, &reaching);
     }
     data
-}
-
-/// Reports attributes that the vertex shader reads and that have no data: an error for those that can reach the position
-/// or an output, a warning for the others, which are (0, 0, 0, 1).
-fn report_missing(
-    reader: &mut Reader,
-    program: &Program,
-    missing: &[&Attribute],
-    reaching: &[&str],
-    mesh: Option<&Mesh>,
-    span: Span,
-) {
-    let roles = mesh.map_or(&[][..], |mesh| &mesh.unassigned);
-    for attribute in missing {
-        let name = &attribute.name;
-        let components = components(&program.types, attribute.ty);
-        let data = format!("add `{name} = {{ size = {components}, values = [..] }}` under [draw.attributes]");
-        let help = match roles {
-            [] => data,
-            [role, ..] => format!("add `{role} = \"{name}\"` to the mesh, which gives it its {role}s; or {data}"),
-        };
-        let diagnostic = if reaching.contains(&name.as_str()) {
-            let message = format!("attribute `{name}` has no data: the vertex shader reads it");
-            Diagnostic::new(&SCENE_MISSING_ATTRIBUTE, span, message)
-        } else {
-            let message =
-                format!("attribute `{name}` has no data and is (0, 0, 0, 1): nothing that is drawn depends on it");
-            Diagnostic::new(&SCENE_UNSET_ATTRIBUTE, span, message)
-        };
-        reader.report_missing(diagnostic.label(global_span(program, attribute), "declared here").help(help));
-    }
-}
-
-fn global_span(program: &Program, attribute: &Attribute) -> Span {
-    program
-        .stages
-        .first()
-        .and_then(|shader| shader.globals.get(attribute.global.index()))
-        .map_or_else(Span::default, |g| g.span)
 }
 
 /// The largest number of components per vertex that the declared type takes.
@@ -131,28 +104,36 @@ pub(super) fn scalar_of(types: &Types, mut ty: TypeId) -> Scalar {
     types.scalar_of(ty).unwrap_or(Scalar::Float)
 }
 
-fn check_mesh_stream(
+/// The data of a mesh for an attribute. `span` is where the scene hands it out.
+fn mesh_data(
     reader: &mut Reader,
     program: &Program,
     attribute: &Attribute,
-    stream: &Stream,
+    (mesh, role, span): (&Mesh, AttributeRole, Span),
 ) -> Option<AttributeData> {
-    let (types, Stream { data, span, .. }) = (&program.types, stream);
+    let types = &program.types;
     let wanted = scalar_of(types, attribute.ty);
     if wanted != Scalar::Float {
         let message = format!("`{}` is {}, and a mesh brings floats", attribute.name, types.name(attribute.ty));
-        reader.error(&SCENE_WRONG_KIND, *span, message, "of another kind");
+        reader.error(&SCENE_WRONG_KIND, span, message, "of another kind");
         return None;
     }
+    let Some((size, values)) = mesh.geometry.data(role) else {
+        let message = format!("{} has no {}s", mesh.source(), role.name());
+        reader.error(&SCENE_BAD_ASSET, span, message, "asked for here");
+        return None;
+    };
     let declared = components(types, attribute.ty);
-    if data.size > declared && span.is_known() {
+    // Alpha and handedness are often left out; coordinates are not.
+    let all_matter = !matches!(role, AttributeRole::Color | AttributeRole::Tangent);
+    if size > declared && all_matter {
         let (name, ty) = (&attribute.name, types.name(attribute.ty));
-        let message = format!("`{name}` is {ty} and takes {declared} of the mesh's {} components", data.size);
-        let diagnostic = Diagnostic::new(&MESH_NARROWED, *span, message).here("the rest is dropped");
-        let help = format!("declare it `vec{}`, unless this is meant", data.size);
+        let message = format!("`{name}` is {ty} and takes {declared} of the mesh's {size} components");
+        let diagnostic = Diagnostic::new(&MESH_NARROWED, span, message).here("the rest is dropped");
+        let help = format!("declare it `vec{size}`, unless this is meant");
         reader.report(diagnostic.label(global_span(program, attribute), "declared here").help(help));
     }
-    Some(narrowed(data.clone(), declared))
+    Some(narrowed(AttributeData { size, divisor: 0, values: AttributeValues::Float(values) }, declared))
 }
 
 /// The data without the components that the declared type does not have, as `glVertexAttribPointer` would drop them.
@@ -191,8 +172,10 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
     };
     let divisor = reader.count(table, "divisor", 0, 0..=u32::MAX);
     let Some(values_node) = table.get("values") else {
-        let span = reader.span_of(node);
-        reader.error(&SCENE_MISSING_KEY, span, format!("attribute `{name}` has no `values`"), "no data");
+        if !reader.is_misspelled(table, "values") {
+            let span = reader.span_of(node);
+            reader.error(&SCENE_MISSING_KEY, span, format!("attribute `{name}` has no `values`"), "no data");
+        }
         return None;
     };
     let numbers = reader.numbers(values_node, "values")?;

@@ -80,20 +80,18 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
     let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
     let program = load_program(loader, table, files, (switches, generated.as_ref()))?;
-    check_program(&mut loader.reader, &program, framebuffer, place)?;
-    check_primitive(&mut loader.reader, table, &program, &state, place)?;
-    let mesh = match mesh {
-        Some(mesh) => Some(mesh?),
-        None => None,
-    };
+    let possible = check_program(&mut loader.reader, &program, framebuffer, place)
+        .and_then(|()| check_primitive(&mut loader.reader, table, &program, &state, place));
     let view = View::load(&mut loader.reader, table, around.camera, framebuffer);
     let material = load_material(&mut loader.reader, table, around.material, &program);
     let library = loader.library;
     let reaching = || library.attributes_that_reach(&program);
-    let attributes = load_attributes(&mut loader.reader, table, &program, mesh.as_ref(), (place, &reaching));
     let instances = loader.reader.count(table, "instances", 1, 0..=MAX_COUNT);
+    let given_mesh = mesh.as_ref().map(Option::as_ref);
+    let attributes = load_attributes(&mut loader.reader, table, &program, given_mesh, (place, &reaching, instances));
     let space = loader.reader.choice_at(table, "light_space", LightSpace::World, LIGHT_SPACES);
-    let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional };
+    let is_seen = around.camera.is_some() || table.contains_key("camera") || table.contains_key("mesh");
+    let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional, is_seen };
     let mut fixed = load_fixed(&mut loader.reader, table, (&program, &view), around);
     let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), fixed.as_mut(), place);
     let generated = generated.map(|made| (made.stage, made.pipeline));
@@ -101,6 +99,12 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
     let textures = load_textures(loader, table, own_material, &program, conventional, place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
+    // Whatever else is wrong was reported before a mesh or a program that cannot be drawn with ends the draw.
+    possible?;
+    let mesh = match mesh {
+        Some(mesh) => Some(mesh?),
+        None => None,
+    };
     let (vertex_count, indices) = load_counts(loader, table, mesh.as_ref(), &program, &attributes, instances, place)?;
     Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic, fixed })
 }
@@ -189,7 +193,7 @@ fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<
         let mut files = Vec::new();
         for (key, stage) in stages {
             let Some(node) = table.get(key) else {
-                if stage == Stage::Geometry {
+                if stage == Stage::Geometry || loader.reader.is_misspelled(table, key) {
                     continue;
                 }
                 let message = format!("a draw names its {key} shader");
@@ -423,7 +427,7 @@ fn load_counts(
         }
         (Some(mesh), None, _) => {
             check_mesh_indices(&mut loader.reader, mesh, given)?;
-            Some((mesh.indices.len() as u32, Some(mesh.indices.clone())))
+            Some((mesh.geometry.indices.len() as u32, Some(mesh.geometry.indices.clone())))
         }
         (None, Some(node), _) => {
             let indices = load_indices(&mut loader.reader, node, vertices)?;
@@ -434,7 +438,7 @@ fn load_counts(
             // Where data is missing, that is the error.
             let message = "a draw without vertex data needs `vertex_count`";
             let help = "add `vertex_count = 3`: no attribute determines the number of vertices";
-            if !lacks_data(program, attributes) {
+            if !lacks_data(program, attributes) && !loader.reader.is_misspelled(table, "vertex_count") {
                 loader.missing_key(place, message, help);
             }
             None
@@ -449,7 +453,7 @@ fn lacks_data(program: &Program, attributes: &[Option<AttributeData>]) -> bool {
 
 /// Reports a `vertex_count` that leaves out vertices of the mesh.
 fn check_mesh_indices(reader: &mut Reader, mesh: &Mesh, given: Option<(u32, Span)>) -> Option<()> {
-    let needed = mesh.indices.iter().max().map_or(0, |last| last + 1);
+    let needed = mesh.geometry.indices.iter().max().map_or(0, |last| last + 1);
     let Some((count, span)) = given.filter(|(count, _)| *count < needed) else { return Some(()) };
     let message = format!("`vertex_count` is {count}, and the mesh has {needed} vertices");
     reader.error(&SCENE_WRONG_SIZE, span, message, "a mesh determines this itself");

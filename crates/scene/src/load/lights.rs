@@ -4,6 +4,7 @@
 //! *Holds:* positions and directions are computed in f64, in world space or in the draw's eye space, and rounded
 //! once. Directions keep the length given in the scene.
 
+use super::paste;
 use super::reader::{Node, Reader};
 use crate::fixed::LightSource;
 use glam::{DMat4, DVec3};
@@ -27,6 +28,50 @@ const KINDS: &[(&str, Kind)] = &[
     ("spot", Kind::Spot),
     ("hemisphere", Kind::Hemisphere),
 ];
+
+impl Kind {
+    /// A light of this kind, in messages.
+    fn place(self) -> &'static str {
+        match self {
+            Self::Directional => "a directional light",
+            Self::Point => "a point light",
+            Self::Spot => "a spot light",
+            Self::Hemisphere => "a hemisphere light",
+        }
+    }
+
+    /// The keys of its table.
+    fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Directional => &["kind", "towards", "color", "ambient", "diffuse", "specular"],
+            Self::Point => &["kind", "position", "color", "ambient", "diffuse", "specular", "attenuation"],
+            Self::Spot => &[
+                "kind",
+                "position",
+                "direction",
+                "target",
+                "exponent",
+                "color",
+                "ambient",
+                "diffuse",
+                "specular",
+                "attenuation",
+            ],
+            Self::Hemisphere => &["kind", "axis", "sky", "ground"],
+        }
+    }
+
+    /// Keys without which it has no position or direction, each with a value to begin with.
+    fn required(self, table: &DeTable<'_>) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Directional => &[("towards", "[0.5, 0.7, 0.6]")],
+            Self::Point => &[("position", "[1.0, 2.0, 2.0]")],
+            Self::Spot if table.contains_key("target") => &[("position", "[0.0, 3.0, 2.0]")],
+            Self::Spot => &[("position", "[0.0, 3.0, 2.0]"), ("direction", "[0.0, -3.0, -2.0]")],
+            Self::Hemisphere => &[],
+        }
+    }
+}
 
 /// The space of positions and directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,35 +133,17 @@ impl Light {
         let table = reader.table(node, "light")?;
         let span = reader.span_of(node);
         let Some(kind) = table.get("kind") else {
+            let all = KINDS.iter().flat_map(|(_, kind)| kind.keys()).copied().collect::<Vec<_>>();
+            reader.check_keys(table, "a light", &all);
+            if reader.is_misspelled(table, "kind") {
+                return None;
+            }
             let help = "add `kind = \"directional\"`, or `point`, `spot`, `hemisphere`";
             reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, "a light names its kind").help(help));
             return None;
         };
         let kind = reader.choice(kind, "kind", KINDS)?;
-        let (place, keys): (&str, &[&str]) = match kind {
-            Kind::Directional => {
-                ("a directional light", &["kind", "towards", "color", "ambient", "diffuse", "specular"])
-            }
-            Kind::Point => {
-                ("a point light", &["kind", "position", "color", "ambient", "diffuse", "specular", "attenuation"])
-            }
-            Kind::Spot => (
-                "a spot light",
-                &[
-                    "kind",
-                    "position",
-                    "direction",
-                    "target",
-                    "exponent",
-                    "color",
-                    "ambient",
-                    "diffuse",
-                    "specular",
-                    "attenuation",
-                ],
-            ),
-            Kind::Hemisphere => ("a hemisphere light", &["kind", "axis", "sky", "ground"]),
-        };
+        let (place, keys) = (kind.place(), kind.keys());
         reader.check_keys(table, place, keys);
         require(reader, table, span, place, kind)?;
         let position = DVec3::from(reader.reals(table, "position", [0.0; 3]));
@@ -201,18 +228,24 @@ pub(super) fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
     [r, g, b, 1.0]
 }
 
-/// Reports a missing key without which a light of this kind has no position or direction.
+/// Reports the missing keys without which a light of this kind has no position or direction.
 fn require(reader: &mut Reader, table: &DeTable<'_>, span: Span, place: &str, kind: Kind) -> Option<()> {
-    let wanted: &[&str] = match kind {
-        Kind::Directional => &["towards"],
-        Kind::Point => &["position"],
-        Kind::Spot if table.contains_key("target") => &["position"],
-        Kind::Spot => &["position", "direction"],
-        Kind::Hemisphere => &[],
-    };
-    let Some(missing) = wanted.iter().find(|key| !table.contains_key(**key)) else { return Some(()) };
-    let message = format!("{place} has no `{missing}`");
-    reader.error(&SCENE_MISSING_KEY, span, message, "in this light");
+    let missing: Vec<&(&str, &str)> =
+        kind.required(table).iter().filter(|(key, _)| !table.contains_key(*key)).collect();
+    if missing.is_empty() {
+        return Some(());
+    }
+    let untold: Vec<&&(&str, &str)> = missing.iter().filter(|(key, _)| !reader.is_misspelled(table, key)).collect();
+    if !untold.is_empty() {
+        let names: Vec<&str> = untold.iter().map(|(key, _)| *key).collect();
+        let lines: Vec<String> = untold.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        let message = format!("{place} has no {}", paste::names(&names));
+        let help = match lines.as_slice() {
+            [line] => format!("add `{line}`"),
+            _ => format!("add:\n{}", lines.join("\n")),
+        };
+        reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, message).here("in this light").help(help));
+    }
     None
 }
 

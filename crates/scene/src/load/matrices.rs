@@ -6,38 +6,13 @@
 
 use super::reader::Reader;
 use crate::model::Framebuffer;
+use crate::roles::MatrixRole as Role;
 use glam::{DMat3, DMat4, DQuat, DVec3};
-use glisten_front::hir::{Scalar, Type};
+use glisten_front::hir::Type;
 use toml::de::DeTable;
 
-/// The role of a uniform that a matrix or position fills.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
-    Model,
-    View,
-    Projection,
-    ModelView,
-    ViewProjection,
-    ModelViewProjection,
-    /// The inverse transpose of the upper left 3x3 of the model-view matrix.
-    Normal,
-    /// The inverse transpose of the upper left 3x3 of the model matrix.
-    ModelNormal,
-    /// The camera's position in world space.
-    Eye,
-}
-
-pub(super) const ROLES: &[(&str, Role)] = &[
-    ("model", Role::Model),
-    ("view", Role::View),
-    ("projection", Role::Projection),
-    ("model_view", Role::ModelView),
-    ("view_projection", Role::ViewProjection),
-    ("model_view_projection", Role::ModelViewProjection),
-    ("normal", Role::Normal),
-    ("model_normal", Role::ModelNormal),
-    ("eye", Role::Eye),
-];
+/// The roles by name.
+pub(super) const ROLES: &[(&str, Role)] = Role::NAMES;
 
 const CAMERA_KEYS: &[&str] = &["eye", "target", "up", "fovy", "aspect", "near", "far", "ortho"];
 const TRANSFORM_KEYS: &[&str] = &["translate", "rotate", "scale"];
@@ -103,24 +78,32 @@ impl View {
         self.view
     }
 
-    /// The type of a role, and its numbers.
-    pub(super) fn matrix(&self, role: Role) -> (Type, Vec<f32>) {
+    /// The numbers of a role for a uniform of this type; `None` if the role does not fit it.
+    pub(super) fn matrix(&self, role: Role, ty: Type) -> Option<Vec<f32>> {
         let model_view = self.view * self.model;
-        let four = |matrix: DMat4| (Type::Matrix(4, 4), round(&matrix.to_cols_array()));
+        let model_view_projection = self.projection * model_view;
+        let four = |matrix: DMat4| round(&matrix.to_cols_array());
         let normal = |matrix: DMat4| {
-            (Type::Matrix(3, 3), round(&DMat3::from_mat4(matrix).inverse().transpose().to_cols_array()))
+            let normal = DMat3::from_mat4(matrix).inverse().transpose();
+            if ty == Type::Matrix(3, 3) { round(&normal.to_cols_array()) } else { four(DMat4::from_mat3(normal)) }
         };
-        match role {
+        role.fits(ty).then(|| match role {
             Role::Model => four(self.model),
             Role::View => four(self.view),
             Role::Projection => four(self.projection),
             Role::ModelView => four(model_view),
             Role::ViewProjection => four(self.projection * self.view),
-            Role::ModelViewProjection => four(self.projection * model_view),
+            Role::ModelViewProjection => four(model_view_projection),
+            Role::ModelInverse => four(self.model.inverse()),
+            Role::ViewInverse => four(self.view.inverse()),
+            Role::ProjectionInverse => four(self.projection.inverse()),
+            Role::ModelViewInverse => four(model_view.inverse()),
+            Role::ViewProjectionInverse => four((self.projection * self.view).inverse()),
+            Role::ModelViewProjectionInverse => four(model_view_projection.inverse()),
             Role::Normal => normal(model_view),
             Role::ModelNormal => normal(self.model),
-            Role::Eye => (Type::Vector(Scalar::Float, 3), round(&self.eye.to_array())),
-        }
+            Role::Eye => round(&self.eye.to_array()),
+        })
     }
 }
 

@@ -13,7 +13,9 @@ mod material;
 mod matrices;
 mod mesh;
 mod mipmaps;
+mod missing;
 mod names;
+mod paste;
 mod patterns;
 mod reader;
 mod sources;
@@ -31,6 +33,7 @@ use self::sources::load_sources;
 use self::unread::warn_unread;
 use crate::files::{FileError, FileSource, relative_to};
 use crate::fixed::has_fixed_function;
+use crate::geometry::Model;
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
 use crate::picture::Transfer;
@@ -45,6 +48,7 @@ use glisten_front::hir::{Shader, Stage, Types};
 use glisten_front::link::{FixedState, Program};
 use glisten_front::source::{SourceMap, Span};
 pub use mesh::default_tessellation;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -84,6 +88,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
         reader: Reader::default(),
         sources: SourceMap::default(),
         programs: Vec::new(),
+        models: BTreeMap::new(),
         io_error: false,
     };
     let scene = loader.scene();
@@ -149,6 +154,8 @@ struct Loader<'a> {
     reader: Reader,
     sources: SourceMap,
     programs: Vec<(ProgramKey, Option<Arc<Program>>)>,
+    /// The files with meshes that were read, by path; `None` for one that cannot be.
+    models: BTreeMap<String, Option<Arc<Model>>>,
     io_error: bool,
 }
 
@@ -157,6 +164,7 @@ impl Loader<'_> {
         let text = self.scene_text()?;
         let file = self.sources.add(self.path, Arc::clone(&text))?;
         self.reader.base = self.sources.file(file).base();
+        self.reader.text = Arc::clone(&text);
         let (document, errors) = DeTable::parse_recoverable(&text);
         for error in &errors {
             let span = error.span().map_or_else(Span::default, |range| self.reader.span(range));
@@ -411,7 +419,7 @@ impl Loader<'_> {
 
     /// Reads something that is read again later, and then reports its diagnostics.
     fn quietly<R>(&mut self, read: impl FnOnce(&mut Self) -> R) -> R {
-        let quiet = Reader { base: self.reader.base, ..Reader::default() };
+        let quiet = Reader { base: self.reader.base, text: Arc::clone(&self.reader.text), ..Reader::default() };
         let reader = std::mem::replace(&mut self.reader, quiet);
         let result = read(self);
         self.reader = reader;

@@ -10,6 +10,7 @@ use glisten_front::diagnostic::codes::scenes::{
 use glisten_front::diagnostic::{Code, Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::source::Span;
 use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -37,7 +38,11 @@ pub(super) enum NumberValue {
 pub(super) struct Reader {
     /// The global offset of the file's first byte.
     pub(super) base: u32,
+    /// The file's text.
+    pub(super) text: Arc<str>,
     pub(super) diagnostics: Diagnostics,
+    /// Known keys that unknown ones are similar to, with the address of their table.
+    pub(super) meant: Vec<(usize, String)>,
     /// Diagnostics about things that the scene lacks. They come after all others, which may be the reason for them.
     pub(super) missing: Vec<Diagnostic>,
 }
@@ -71,11 +76,18 @@ impl Reader {
                 continue;
             }
             let message = format!("{place} has no key `{name}`");
-            let help = did_you_mean(name, known.iter().copied())
+            let near = did_you_mean(name, known.iter().copied());
+            self.meant.extend(near.map(|near| (address(table), near.to_owned())));
+            let help = near
                 .map_or_else(|| format!("the keys here are {}", list(known)), |near| format!("did you mean `{near}`?"));
             let span = self.span_of(key);
             self.report(Diagnostic::new(&SCENE_UNKNOWN_KEY, span, message).here("unknown key").help(help));
         }
+    }
+
+    /// Whether a key that the table lacks is there under a misspelled name, which was reported.
+    pub(super) fn is_misspelled(&self, table: &DeTable<'_>, key: &str) -> bool {
+        self.meant.iter().any(|(place, meant)| *place == address(table) && meant == key)
     }
 
     /// Reports a value of the wrong type.
@@ -220,6 +232,11 @@ impl Reader {
         into.push(Number { value, span: self.span_of(node) });
         true
     }
+}
+
+/// A number that tells one table of a scene from another.
+fn address(table: &DeTable<'_>) -> usize {
+    std::ptr::from_ref(table).addr()
 }
 
 fn as_number(value: &DeValue<'_>) -> Option<NumberValue> {

@@ -4,8 +4,10 @@ use super::Loader;
 use super::material::TEXTURES;
 use super::mipmaps::chain;
 use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
+use super::paste::{self, Lines};
 use super::patterns;
 use super::reader::{Node, Number, NumberValue, report_unknown_name};
+use crate::geometry::gltf_image;
 use crate::model::{Compare, Filter, Sampling, Texels, Texture, TextureLevel, Wrap};
 use crate::picture::{Image, Transfer};
 use glisten_front::diagnostic::Diagnostic;
@@ -31,6 +33,7 @@ const KEYS: &[&str] = &[
     "mipmaps",
     "compare",
     "file",
+    "image",
     "flip",
     "pattern",
     "samples",
@@ -99,21 +102,45 @@ pub(super) fn load_textures(
             *texture = load_texture(loader, node, &slot.name, kind).map(Arc::new);
         }
     }
+    let mut unset = Vec::new();
     for (((slot, texture), given), kind) in slots.iter().zip(&mut textures).zip(given).zip(kinds) {
         if given {
             continue;
         }
         if slot.active && !conventional {
-            let message = format!("sampler `{}` gets no texture: it reads (0, 0, 0, 1) everywhere", slot.name);
-            let diagnostic = Diagnostic::new(&SCENE_UNSET_TEXTURE, place, message).help(format!(
-                "add `{} = {{ width = .., height = .., values = [..] }}` under [draw.textures]",
-                slot.name
-            ));
-            loader.reader.report_missing(diagnostic);
+            unset.push((slot.name.as_str(), kind));
         }
         *texture = Some(Arc::new(unset_texture(kind, if conventional { 1 } else { 0 })));
     }
+    warn_unset(loader, draw, &unset, place);
     textures
+}
+
+/// Warns about samplers without a texture, with lines to paste: the smallest textures that say the same.
+fn warn_unset(loader: &mut Loader<'_>, draw: &DeTable<'_>, unset: &[(&str, SamplerType)], place: Span) {
+    let names: Vec<&str> = unset.iter().map(|(name, _)| *name).collect();
+    let message = match names.len() {
+        0 => return,
+        1 => format!("sampler {} gets no texture: it reads (0, 0, 0, 1) everywhere", paste::names(&names)),
+        _ => format!("samplers {} get no texture: they read (0, 0, 0, 1) everywhere", paste::names(&names)),
+    };
+    let lines = unset.iter().map(|(name, kind)| format!("{} = {}", paste::key(name), smallest(*kind)));
+    let help = paste::help(&loader.reader, draw, &[Lines::new("textures", lines.collect())]);
+    loader.reader.report_missing(Diagnostic::new(&SCENE_UNSET_TEXTURE, place, message).maybe_help(help));
+}
+
+/// The smallest texture of a kind, black.
+fn smallest(kind: SamplerType) -> String {
+    let size = match kind.dim {
+        SamplerDim::D1 | SamplerDim::Buffer => "width = 1",
+        SamplerDim::D3 => "width = 1, height = 1, depth = 1",
+        SamplerDim::Cube => "width = 1",
+        _ => "width = 1, height = 1",
+    };
+    let layers = if kind.arrayed { ", layers = 1" } else { "" };
+    let texel = if kind.texel == Scalar::Float { "0.0, 0.0, 0.0, 1.0" } else { "0, 0, 0, 1" };
+    let texels = if kind.dim == SamplerDim::Cube { 6 } else { 1 };
+    format!("{{ {size}{layers}, values = [{}] }}", vec![texel; texels].join(",  "))
 }
 
 /// A texture with one texel (or one per face) of (level, level, level, 1).
@@ -345,6 +372,9 @@ fn load_size(
     let height = side("height", !flat, if is_cube { width } else { 0 }, MAX_SIDE);
     if width == 0 || height == 0 {
         let key = if width == 0 { "width" } else { "height" };
+        if loader.reader.is_misspelled(table, key) {
+            return None;
+        }
         loader.missing_key(span, &format!("texture `{name}` has no `{key}`"), &format!("add `{key} = ...`"));
         return None;
     }
@@ -366,11 +396,10 @@ fn load_size(
 /// The numbers under `values`, and their span.
 fn load_values(loader: &mut Loader<'_>, table: &DeTable<'_>, span: Span, name: &str) -> Option<(Vec<Number>, Span)> {
     let Some(values) = table.get("values") else {
-        loader.missing_key(
-            span,
-            &format!("texture `{name}` has no `values`"),
-            "add `values = [r, g, b, a, ...]`, `file` or `pattern`",
-        );
+        if !["values", "file", "pattern"].iter().any(|key| loader.reader.is_misspelled(table, key)) {
+            let message = format!("texture `{name}` has no `values`");
+            loader.missing_key(span, &message, "add `values = [r, g, b, a, ...]`, `file` or `pattern`");
+        }
         return None;
     };
     let numbers = loader.reader.numbers(values, "values")?;
@@ -453,6 +482,21 @@ fn gather<T: Copy>(numbers: &[Number], each: usize, missing: [T; 4], convert: im
         .collect()
 }
 
+/// The bytes of an image: a file, or one inside of a glTF file, by its number.
+fn load_file(loader: &mut Loader<'_>, table: &DeTable<'_>, name: &str, span: Span) -> Option<(String, Vec<u8>)> {
+    let (path, bytes) = loader.bytes(name, span)?;
+    let Some(node) = table.get("image") else { return Some((path, bytes)) };
+    let number = loader.reader.integer(node, "image", 0..=i64::from(u32::MAX))? as u32;
+    match gltf_image(&path, &bytes, number, loader.files) {
+        Ok(image) => Some((format!("{path}, image {number}"), image)),
+        Err(error) => {
+            let span = loader.reader.span_of(node);
+            loader.reader.error(&SCENE_BAD_ASSET, span, format!("`{path}`: {error}"), "no image of a glTF file");
+            None
+        }
+    }
+}
+
 /// Loads an image file as a level: 8 or 16 bits per channel become numbers in [0, 1], decoded if asked. The bottom row
 /// is at t = 0, so that the image is upright, unless `flip = false`.
 fn load_image(
@@ -474,7 +518,7 @@ fn load_image(
         loader.reader.error(&SCENE_WRONG_KIND, span, message, "not for this sampler");
         return None;
     }
-    let (path, bytes) = loader.bytes(&path, span)?;
+    let (path, bytes) = load_file(loader, table, &path, span)?;
     // A side that no sampler may have is told with the sampler's name, below.
     let image = match Image::read(&bytes, u32::MAX, MAX_TEXELS) {
         Ok(image) => image,

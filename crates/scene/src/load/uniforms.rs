@@ -5,8 +5,10 @@
 use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
+use super::paste::{self, Lines, key, names as names_of};
 use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::fixed::{FixedFunction, SetError, is_fixed_uniform};
+use crate::roles::{MatrixRole, is_plain_transform, matrix_role};
 use crate::values::{Fill, UniformValues, bits, value_text};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
@@ -18,8 +20,12 @@ use glisten_front::source::Span;
 use toml::de::DeTable;
 
 /// The largest number of lines to paste that a help text gives, and of numbers in one of them.
-const MAX_LINES: usize = 32;
-const MAX_NEUTRAL: usize = 64;
+const MAX_LINES: usize = 64;
+const MAX_NEUTRAL: usize = 256;
+/// The help text for a program of the library without a material.
+const MATERIAL: &str = "add `material = { diffuse = [0.8, 0.8, 0.8] }` to the draw";
+/// The largest number of declarations that a diagnostic shows.
+const MAX_LABELS: usize = 6;
 
 /// The values of all roots, while they are being set.
 struct Values<'p> {
@@ -36,6 +42,8 @@ pub(super) struct Context<'a> {
     pub(super) space: LightSpace,
     /// Whether matrices go to uniforms named after their roles, by the convention of the library's programs.
     pub(super) conventional: bool,
+    /// Whether there is a camera or a mesh, so that matrices follow from something.
+    pub(super) is_seen: bool,
 }
 
 /// The value of each root of the program, in order, flat. The draw's own tables take precedence over the scene's
@@ -64,7 +72,8 @@ pub(super) fn load_uniforms(
     load_matrices(reader, draw, view, (&mut values, &mut own));
     load_named(reader, draw, (&mut values, &mut own));
     own.derive(&mut values);
-    values.warn_unset(reader, place);
+    let asks_for_material = context.conventional && material.is_none();
+    values.warn_unset(reader, draw, (context.is_seen, asks_for_material, place));
     values.given.roots
 }
 
@@ -80,7 +89,10 @@ fn load_matrices<'p>(
         let span = reader.span_of(name);
         let role = reader.choice(node, name.get_ref(), ROLES);
         if let Some(role) = role {
-            own.set(name.get_ref(), &view.matrix(role).1);
+            let numbers = [Type::Matrix(4, 4), Type::Matrix(3, 3), Type::Vector(Scalar::Float, 3)]
+                .into_iter()
+                .find_map(|ty| view.matrix(role, ty));
+            own.set(name.get_ref(), &numbers.unwrap_or_default());
         }
         if own.is_only_state(values.program, name.get_ref()) {
             continue;
@@ -90,17 +102,16 @@ fn load_matrices<'p>(
             values.mark(&target);
             continue;
         };
-        let (shape, numbers) = view.matrix(role);
-        if values.program.types.get(target.leaf.ty) != shape
-            || target.element.is_none() && target.leaf.array_size.is_some()
-        {
+        let numbers = view.matrix(role, values.program.types.get(target.leaf.ty));
+        let whole_array = target.element.is_none() && target.leaf.array_size.is_some();
+        let Some(numbers) = numbers.filter(|_| !whole_array) else {
             let declared = values.program.types.name(target.leaf.ty);
             let message = format!("`{}` is declared {declared}, which this role does not fit", target.leaf.name);
             let span = reader.span_of(node);
             reader.error(&SCENE_WRONG_KIND, span, message, "of another type");
             values.mark(&target);
             continue;
-        }
+        };
         let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
         values.store(&target, &scalars);
         own.keep(target, scalars);
@@ -270,10 +281,10 @@ impl<'p> Values<'p> {
     /// Sets the uniforms with the names and types of roles to their matrices.
     fn fill_roles(&mut self, view: &View) {
         for (name, role) in ROLES {
-            let (shape, numbers) = view.matrix(*role);
             let leaf = self.program.interface.uniforms.iter().find(|leaf| leaf.name == *name);
-            if let Some(leaf) =
-                leaf.filter(|leaf| self.program.types.get(leaf.ty) == shape && leaf.array_size.is_none())
+            let leaf = leaf.filter(|leaf| leaf.array_size.is_none());
+            if let Some((leaf, numbers)) =
+                leaf.and_then(|leaf| Some((leaf, view.matrix(*role, self.program.types.get(leaf.ty))?)))
             {
                 let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
                 self.store(&Target { leaf, element: None }, &scalars);
@@ -302,6 +313,11 @@ impl<'p> Values<'p> {
             let message = format!("the scene has {} lights, and the program takes {room}", lights.len());
             let help = format!("add `defines = {{ GLISTEN_LIGHTS = {} }}` to the draw", lights.len());
             reader.report(Diagnostic::new(&SCENE_WRONG_SIZE, light.span, message).here("one too many").help(help));
+            for (root, set) in program.interface.roots.iter().zip(&mut self.set) {
+                if ["light", "lights", "global_ambient"].contains(&root.name.as_str()) {
+                    set.fill(true);
+                }
+            }
             return;
         }
         // Lights beyond those of the scene are zero, which needs no warning.
@@ -353,45 +369,96 @@ impl<'p> Values<'p> {
         }
     }
 
-    /// Warns once for each root with leaves that have no value.
-    fn warn_unset(&self, reader: &mut Reader, place: Span) {
-        for (index, root) in self.program.interface.roots.iter().enumerate() {
-            if !root.active || root.default.is_some() {
-                continue;
-            }
-            let leaves = self.program.interface.uniforms.iter();
-            let unset: Vec<&UniformLeaf> =
-                leaves.filter(|leaf| leaf.root.0 as usize == index && !self.is_set(leaf)).collect();
-            let Some(first) = unset.first() else { continue };
-            let message = match unset.len() {
-                1 => format!("uniform `{}` gets no value and is 0", first.name),
-                n => format!("uniform `{}` and {} more of `{}` get no value and are 0", first.name, n - 1, root.name),
-            };
+    /// Warns about leaves that have no value, once for the draw.
+    fn warn_unset(
+        &self,
+        reader: &mut Reader,
+        draw: &DeTable<'_>,
+        (is_seen, asks_for_material, place): (bool, bool, Span),
+    ) {
+        let interface = &self.program.interface;
+        let is_open = |leaf: &&UniformLeaf| {
+            let root = interface.roots.get(leaf.root.0 as usize);
+            root.is_some_and(|root| root.active && root.default.is_none()) && !self.is_set(leaf)
+        };
+        let unset: Vec<&UniformLeaf> = interface.uniforms.iter().filter(is_open).collect();
+        let names: Vec<&str> = unset.iter().map(|leaf| leaf.name.as_str()).collect();
+        let message = match unset.len() {
+            0 => return,
+            1 => format!("uniform {} gets no value and is 0", names_of(&names)),
+            _ => format!("uniforms {} get no value and are 0", names_of(&names)),
+        };
+        let mut diagnostic = Diagnostic::new(&SCENE_UNSET_UNIFORM, place, message);
+        let mut roots: Vec<u32> = unset.iter().map(|leaf| leaf.root.0).collect();
+        roots.dedup();
+        for root in roots.into_iter().filter_map(|root| interface.roots.get(root as usize)).take(MAX_LABELS) {
             let declared = root.globals.first().and_then(|&(stage, global)| {
                 self.program.stage(stage).and_then(|shader| shader.globals.get(global.index()))
             });
-            let mut diagnostic = Diagnostic::new(&SCENE_UNSET_UNIFORM, place, message);
             if let Some(global) = declared {
                 diagnostic = diagnostic.label(global.span, "declared here");
             }
-            reader.report_missing(diagnostic.help(self.lines_to_add(&unset)));
         }
+        let of_material = |leaf: &&UniformLeaf| {
+            asks_for_material && (leaf.name.starts_with("material.") || leaf.name.starts_with("finish."))
+        };
+        let (material, others): (Vec<&UniformLeaf>, Vec<&UniformLeaf>) = unset.into_iter().partition(of_material);
+        let lines = self.lines_to_add(reader, draw, &others, is_seen);
+        let material = (!material.is_empty()).then(|| MATERIAL.to_owned());
+        let help = match (material, lines) {
+            (Some(material), Some(lines)) => Some(format!("{material}\nand {lines}")),
+            (material, lines) => material.or(lines),
+        };
+        reader.report_missing(diagnostic.maybe_help(help));
     }
 
     /// The help text for uniforms without a value: the lines to paste.
-    fn lines_to_add(&self, unset: &[&UniformLeaf]) -> String {
-        let line = |leaf: &&UniformLeaf| {
-            format!("{} = {}", key(&leaf.name), value_text(&self.program.types, leaf, Fill::Zero, MAX_NEUTRAL))
-        };
-        match unset {
-            [one] => format!("add `{}` under [draw.uniforms]", line(one)),
-            _ => {
-                let lines: Vec<String> = unset.iter().take(MAX_LINES).map(line).collect();
-                let more = unset.len().saturating_sub(MAX_LINES);
-                let rest = if more > 0 { format!("\n# and {more} more") } else { String::new() };
-                format!("add under [draw.uniforms]:\n{}{rest}", lines.join("\n"))
+    fn lines_to_add(
+        &self,
+        reader: &Reader,
+        draw: &DeTable<'_>,
+        unset: &[&UniformLeaf],
+        is_seen: bool,
+    ) -> Option<String> {
+        let mut matrices = Lines::new("matrices", Vec::new());
+        let mut values = Lines::new("uniforms", Vec::new());
+        for leaf in unset {
+            let role = self.role(leaf, unset).filter(|_| is_seen);
+            let (lines, value) = match role {
+                Some(role) => (&mut matrices, format!("\"{}\"", role.name())),
+                None => (&mut values, value_text(&self.program.types, leaf, Fill::Zero, MAX_NEUTRAL)),
+            };
+            if lines.lines.len() < MAX_LINES {
+                lines.lines.push(format!("{} = {value}", key(&leaf.name)));
+            } else {
+                lines.n_more += 1;
             }
         }
+        paste::help(reader, draw, &[matrices, values])
+    }
+
+    /// The role that the name of a uniform says.
+    fn role(&self, leaf: &UniformLeaf, others: &[&UniformLeaf]) -> Option<MatrixRole> {
+        let of = |leaf: &UniformLeaf| {
+            let member = leaf.name.rsplit('.').next().unwrap_or(&leaf.name);
+            (member.to_owned(), self.program.types.get(leaf.ty))
+        };
+        let (name, ty) = of(leaf);
+        if leaf.array_size.is_some() {
+            return None;
+        }
+        let is_alone = || {
+            let has_role = |other: &&&UniformLeaf| {
+                let (name, ty) = of(other);
+                ty == Type::Matrix(4, 4) && matrix_role(&name, ty).is_some()
+            };
+            !others.iter().any(|other| has_role(&other))
+        };
+        let plain = || {
+            let role = if is_alone() { MatrixRole::ModelViewProjection } else { MatrixRole::Model };
+            (is_plain_transform(&name) && role.fits(ty)).then_some(role)
+        };
+        matrix_role(&name, ty).or_else(plain)
     }
 
     fn is_set(&self, leaf: &UniformLeaf) -> bool {
@@ -468,10 +535,4 @@ fn scalar_value(scalar: Scalar, number: NumberValue) -> Option<ScalarValue> {
         (Scalar::Float | Scalar::Int | Scalar::Uint, NumberValue::Bool(_))
         | (Scalar::Int | Scalar::Uint, NumberValue::Float(_)) => None,
     }
-}
-
-/// A name as a key of TOML.
-fn key(name: &str) -> String {
-    let bare = name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    if bare { name.to_owned() } else { format!("\"{name}\"") }
 }

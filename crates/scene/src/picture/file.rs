@@ -6,7 +6,7 @@
 //! clamped to [0, 1] and rounded, encoded by a [`Transfer`] if one is asked for. Nothing here touches the file system.
 
 use super::image::{Image, ImageError, Size};
-use super::{Picture, Transfer, byte, exr, npy, png};
+use super::{Picture, Transfer, byte, exr, jpeg, npy, png};
 use std::path::Path;
 
 /// The format of a picture file.
@@ -31,6 +31,11 @@ impl ImageFormat {
         }
     }
 
+    /// Whether [`Image::read`] knows the format of these bytes.
+    pub(crate) fn can_read(bytes: &[u8]) -> bool {
+        Self::of_bytes(bytes).is_some() || jpeg::is_jpeg(bytes)
+    }
+
     /// The format for the first bytes of a file.
     pub fn of_bytes(bytes: &[u8]) -> Option<Self> {
         [(npy::MAGIC, Self::Npy), (png::MAGIC, Self::Png), (exr::MAGIC, Self::Exr)]
@@ -40,8 +45,8 @@ impl ImageFormat {
 }
 
 impl Image {
-    /// Reads a PNG of any color type and bit depth, an OpenEXR or a NumPy file. The integers of a PNG become numbers in
-    /// [0, 1], without gamma.
+    /// Reads a PNG of any color type and bit depth, a JPEG, an OpenEXR or a NumPy file. The integers of a PNG and a JPEG become
+    /// numbers in [0, 1], without gamma.
     ///
     /// # Errors
     /// The bytes are none of these, are damaged, or have more than `max_side` pixels on a side or `max_pixels` in all.
@@ -51,7 +56,8 @@ impl Image {
             Some(ImageFormat::Png) => png::read(bytes, allowed),
             Some(ImageFormat::Exr) => exr::read(bytes, allowed),
             Some(ImageFormat::Npy) => npy::read(bytes, allowed),
-            None => Err(ImageError("it is none of PNG, OpenEXR and NumPy".to_owned())),
+            None if jpeg::is_jpeg(bytes) => jpeg::read(bytes, allowed),
+            None => Err(ImageError("it is none of PNG, JPEG, OpenEXR and NumPy".to_owned())),
         }
     }
 }

@@ -9,6 +9,7 @@ mod exr;
 mod file;
 mod image;
 mod interval;
+mod jpeg;
 mod npy;
 mod png;
 mod transfer;

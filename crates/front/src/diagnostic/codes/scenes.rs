@@ -109,4 +109,8 @@ codes! {
          that read it."
         bad Text("material = { specular_model = \"phong\" }  # with program = \"lambert\""),
         good Text("material = { specular_model = \"phong\" }  # with program = \"standard\"");
+    MODEL_SIMPLIFIED = "W0912" "simplified-model" Note ""
+        "A model from the disk has something that its scene does not show: materials that are missing, a texture in a format \
+         that is not read, points or lines. The rest is drawn."
+        bad None, good None;
 }

@@ -1,16 +1,21 @@
 //! `[draw.mesh]`: vertex data of a named shape or from a file, assigned to attributes by role.
 //!
-//! *In:* `shape = "sphere"` and its sizes, or `file = "x.obj"`; `position`, `normal`, `texcoord` name the attributes.
+//! *In:* `shape = "sphere"` and its sizes, or `file = "x.obj"`; `position`, `normal`, `texcoord` and so on name the attributes.
 //! *Out:* a [`Mesh`] of indexed triangles, counterclockwise as seen from outside. *Holds:* coordinates are computed
-//! in f64 and rounded once to f32.
+//! in f64 and rounded once to f32. A role that the scene does not hand to an attribute goes to the one whose name says it.
 
-mod obj;
+mod feed;
+mod from_file;
 mod shapes;
 
 use super::Loader;
-use super::reader::Node;
-use crate::model::{AttributeData, AttributeValues};
-use glisten_front::diagnostic::codes::scenes::{SCENE_BAD_ASSET, SCENE_MISSING_KEY, SCENE_WRONG_VALUE};
+use super::reader::{Node, Reader};
+use crate::geometry::Geometry;
+use crate::roles::AttributeRole;
+pub(super) use feed::likely_roles;
+use from_file::FILE_KEYS;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::scenes::{SCENE_MISSING_KEY, SCENE_WRONG_VALUE};
 use glisten_front::source::Span;
 use shapes::Shape;
 use toml::de::DeTable;
@@ -18,48 +23,30 @@ use toml::de::DeTable;
 /// A mesh whose data is assigned to attributes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Mesh {
-    pub(super) indices: Vec<u32>,
-    pub(super) streams: Vec<Stream>,
-    /// The roles that the mesh has data for and that no attribute gets.
-    pub(super) unassigned: Vec<&'static str>,
+    pub(super) geometry: Geometry,
+    /// The attributes that the scene names.
+    pub(super) named: Vec<Named>,
+    /// Whether roles go to the attributes of their own names, by the convention of the library's programs.
+    conventional: bool,
+    /// Its name in messages: the path of the file, or the shape.
+    source: String,
+    /// The span of its table.
+    pub(super) span: Span,
 }
 
-/// The data of one attribute.
+/// An attribute that the scene names for a role.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Stream {
+pub(super) struct Named {
+    pub(super) role: AttributeRole,
     /// The attribute's GLSL name.
     pub(super) attribute: String,
     /// The span of the name in the scene.
     pub(super) span: Span,
-    /// Whether the name is implied by the convention of the library's programs.
-    pub(super) implied: bool,
-    pub(super) data: AttributeData,
 }
 
-/// Triangles with the data of their vertices.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Geometry {
-    positions: Vec<[f64; 3]>,
-    normals: Vec<[f64; 3]>,
-    texcoords: Vec<[f64; 2]>,
-    indices: Vec<u32>,
-}
-
-const KEYS: &[&str] = &[
-    "shape",
-    "file",
-    "position",
-    "normal",
-    "texcoord",
-    "radius",
-    "minor_radius",
-    "segments",
-    "rings",
-    "size",
-    "height",
-    "tube",
-    "turns",
-];
+const ROLE_KEYS: &[&str] = &["position", "normal", "texcoord", "color", "tangent", "bitangent"];
+const SHAPE_KEYS: &[&str] =
+    &["shape", "radius", "minor_radius", "segments", "rings", "size", "height", "tube", "turns"];
 
 const SHAPES: &[(&str, Shape)] = &[
     ("sphere", Shape::Sphere),
@@ -77,90 +64,60 @@ pub fn default_tessellation(shape: &str) -> Option<[u32; 2]> {
     SHAPES.iter().find(|(name, _)| *name == shape).map(|(_, shape)| shape.default_tessellation())
 }
 
-/// `conventional`: a role that the scene does not hand to an attribute goes to the one of the role's own name.
+/// `conventional`: roles go to the attributes of their own names.
 pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>, conventional: bool) -> Option<Mesh> {
     let table = loader.reader.table(node, "mesh")?;
     let span = loader.reader.span_of(node);
-    loader.reader.check_keys(table, "a mesh", KEYS);
-    let geometry = match (table.get("shape"), table.get("file")) {
-        (Some(shape), None) => {
-            let shape = loader.reader.choice(shape, "shape", SHAPES)?;
-            shapes::build(&mut loader.reader, table, shape)
+    loader.reader.check_keys(table, "a mesh", &[SHAPE_KEYS, FILE_KEYS, ROLE_KEYS].concat());
+    let (geometry, source) = match (table.get("shape"), table.get("file")) {
+        (Some(name), None) => {
+            refuse_file_keys(&mut loader.reader, table);
+            let shape = loader.reader.choice(name, "shape", SHAPES)?;
+            (shapes::build(&mut loader.reader, table, shape), "the shape".to_owned())
         }
-        (None, Some(file)) => load_file(loader, file)?,
+        (None, Some(file)) => from_file::load(loader, table, file)?,
         (Some(_), Some(_)) => {
             let message = "a mesh has a `shape` or a `file`, not both".into();
             loader.reader.error(&SCENE_WRONG_VALUE, span, message, "in this mesh");
             return None;
         }
         (None, None) => {
-            let message = "a mesh has a `shape` or a `file`".into();
-            loader.reader.error(&SCENE_MISSING_KEY, span, message, "neither is here");
+            report_neither(&mut loader.reader, table, span);
             return None;
         }
     };
-    let (streams, unassigned) = load_streams(loader, table, &geometry, conventional);
-    Some(Mesh { streams, unassigned, indices: geometry.indices })
+    let named = load_names(&mut loader.reader, table);
+    Some(Mesh { geometry, named, conventional, source, span })
 }
 
-fn load_file(loader: &mut Loader<'_>, node: &Node<'_>) -> Option<Geometry> {
-    let span = loader.reader.span_of(node);
-    let name = loader.reader.text(node, "file")?.to_owned();
-    let (path, bytes) = loader.bytes(&name, span)?;
-    match obj::parse(&String::from_utf8_lossy(&bytes)) {
-        Ok(geometry) => Some(geometry),
-        Err(error) => {
-            let message = format!("`{path}`: {error}");
-            loader.reader.error(&SCENE_BAD_ASSET, span, message, "not a mesh in Wavefront's format");
-            None
+fn report_neither(reader: &mut Reader, table: &DeTable<'_>, span: Span) {
+    if ["shape", "file"].iter().any(|key| reader.is_misspelled(table, key)) {
+        return;
+    }
+    let diagnostic =
+        Diagnostic::new(&SCENE_MISSING_KEY, span, "a mesh has a `shape` or a `file`").here("neither is here");
+    reader.report(diagnostic.help("add `shape = \"sphere\"`, or `file = \"..\"` with an OBJ or glTF file"));
+}
+
+/// Reports keys that only a mesh from a file has.
+fn refuse_file_keys(reader: &mut Reader, table: &DeTable<'_>) {
+    for key in FILE_KEYS {
+        if let Some((name, _)) = table.get_key_value(*key) {
+            let span = reader.span_of(name);
+            let message = format!("`{key}` is for a mesh from a `file`: a shape has its own");
+            reader.error(&SCENE_WRONG_VALUE, span, message, "leave it out");
         }
     }
 }
 
-/// The attributes of the fixed-function pipeline, which get these roles wherever a program reads them.
-const FIXED_ATTRIBUTES: &[(&str, &str)] =
-    &[("position", "gl_Vertex"), ("normal", "gl_Normal"), ("texcoord", "gl_MultiTexCoord0")];
-
-/// The data of each role that goes to an attribute, and the roles whose data goes to none.
-fn load_streams(
-    loader: &mut Loader<'_>,
-    table: &DeTable<'_>,
-    geometry: &Geometry,
-    conventional: bool,
-) -> (Vec<Stream>, Vec<&'static str>) {
-    let three = |rows: &[[f64; 3]]| rows.iter().flatten().map(|&value| value as f32).collect::<Vec<f32>>();
-    let texcoords: Vec<f32> = geometry.texcoords.iter().flatten().map(|&value| value as f32).collect();
-    let roles = [
-        ("position", 3, three(&geometry.positions)),
-        ("normal", 3, three(&geometry.normals)),
-        ("texcoord", 2, texcoords),
-    ];
-    let (mut streams, mut unassigned) = (Vec::new(), Vec::new());
-    for (role, size, values) in roles {
-        let complete = values.len() == geometry.positions.len() * size as usize;
-        let Some(node) = table.get(role) else {
-            if complete && let Some((_, attribute)) = FIXED_ATTRIBUTES.iter().find(|(known, _)| *known == role) {
-                let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values.clone()) };
-                let attribute = (*attribute).to_owned();
-                streams.push(Stream { attribute, span: Span::default(), implied: true, data });
-            }
-            if conventional && complete {
-                let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values) };
-                streams.push(Stream { attribute: role.to_owned(), span: Span::default(), implied: true, data });
-            } else if complete {
-                unassigned.push(role);
-            }
-            continue;
-        };
-        let span = loader.reader.span_of(node);
-        let Some(attribute) = loader.reader.text(node, role).map(str::to_owned) else { continue };
-        if !complete {
-            let message = format!("the mesh has no {role}s");
-            loader.reader.error(&SCENE_BAD_ASSET, span, message, "asked for here");
-            continue;
+fn load_names(reader: &mut Reader, table: &DeTable<'_>) -> Vec<Named> {
+    let mut named = Vec::new();
+    for role in AttributeRole::ALL {
+        let Some(node) = table.get(role.name()) else { continue };
+        let span = reader.span_of(node);
+        if let Some(attribute) = reader.text(node, role.name()) {
+            named.push(Named { role, attribute: attribute.to_owned(), span });
         }
-        let data = AttributeData { size, divisor: 0, values: AttributeValues::Float(values) };
-        streams.push(Stream { attribute, span, implied: false, data });
     }
-    (streams, unassigned)
+    named
 }

@@ -1,7 +1,7 @@
 //! Shapes by name: grids of vertices mapped to a surface, with exact normals.
 
 use super::super::reader::Reader;
-use super::Geometry;
+use crate::geometry::Geometry;
 use std::f64::consts::TAU;
 use toml::de::DeTable;
 

@@ -1,0 +1,79 @@
+//! The materials of a glTF file, in terms of the standard program.
+//!
+//! *In:* the metallic-roughness model, or the older model of specular and glossiness. *Out:* a [`Look`] for each material, and one for
+//! triangles without. *Holds:* a metal keeps half of its color as diffuse, because nothing surrounds it that it could mirror; the
+//! exponent of the highlight is 2 / roughness⁴ - 2, with which Blinn's lobe is as wide as that of GGX.
+
+use super::super::model::{Look, TextureSource};
+use gltf::json::Root;
+use gltf::json::material::Material;
+use gltf::json::texture::Info;
+use percent_encoding::percent_decode_str;
+
+/// The looks of all materials; the last one is for triangles without a material.
+pub(super) fn of(root: &Root, remarks: &mut Vec<String>) -> Vec<Look> {
+    let named = |(index, material): (usize, &Material)| {
+        let name = material.name.clone().unwrap_or_else(|| format!("material {index}"));
+        look(root, material, &name, remarks)
+    };
+    let mut looks: Vec<Look> = root.materials.iter().enumerate().map(named).collect();
+    looks.push(Look::plain(""));
+    looks
+}
+
+fn look(root: &Root, material: &Material, name: &str, remarks: &mut Vec<String>) -> Look {
+    let extensions = material.extensions.as_ref();
+    let mut look = Look::plain(name);
+    look.emission = material.emissive_factor.0.map(f64::from);
+    let texture = match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
+        Some(older) => {
+            let [r, g, b, _] = older.diffuse_factor.0.map(f64::from);
+            look.diffuse = [r, g, b];
+            look.specular = older.specular_factor.0.map(|factor| f64::from(factor) * 0.5);
+            look.shininess = exponent(1.0 - f64::from(older.glossiness_factor.0));
+            older.diffuse_texture.as_ref()
+        }
+        None => {
+            let given = &material.pbr_metallic_roughness;
+            let [r, g, b, _] = given.base_color_factor.0.map(f64::from);
+            let (metal, roughness) = (f64::from(given.metallic_factor.0), f64::from(given.roughness_factor.0));
+            // A texture says which parts are metal.
+            let metal = if given.metallic_roughness_texture.is_some() { metal * 0.5 } else { metal };
+            look.diffuse = [r, g, b].map(|color| color * (1.0 - 0.5 * metal));
+            let gloss = 1.0 - 0.7 * roughness;
+            look.specular = [r, g, b].map(|color| (0.2 * (1.0 - metal) + color * metal) * gloss);
+            look.shininess = exponent(roughness);
+            given.base_color_texture.as_ref()
+        }
+    };
+    if extensions.is_some_and(|extensions| extensions.unlit.is_some()) {
+        (look.emission, look.diffuse, look.specular) = (look.diffuse, [0.0; 3], [0.0; 3]);
+    }
+    look.texture = texture.and_then(|info| source(root, info, name, remarks));
+    look
+}
+
+fn exponent(roughness: f64) -> f64 {
+    (2.0 / roughness.max(0.1).powi(4) - 2.0).clamp(1.0, 512.0)
+}
+
+fn source(root: &Root, info: &Info, name: &str, remarks: &mut Vec<String>) -> Option<TextureSource> {
+    let texture = root.get(info.index)?;
+    let Some(image) = root.get(texture.source) else {
+        remarks.push(format!("the texture of `{name}` is in a format that is not read (KTX or WebP): it is left out"));
+        return None;
+    };
+    match &image.uri {
+        Some(uri) if !uri.starts_with("data:") => {
+            Some(TextureSource::File(percent_decode_str(uri).decode_utf8_lossy().into_owned()))
+        }
+        _ => Some(TextureSource::Embedded(u32::try_from(texture.source.value()).ok()?)),
+    }
+}
+
+/// The set of texture coordinates for the colors of a material.
+pub(super) fn color_set(root: &Root, look: usize) -> u32 {
+    let material = root.materials.get(look);
+    let texture = material.and_then(|material| material.pbr_metallic_roughness.base_color_texture.as_ref());
+    texture.map_or(0, |info| info.tex_coord)
+}
