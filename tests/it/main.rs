@@ -62,6 +62,8 @@ mod link;
 mod lint;
 #[cfg(feature = "reference")]
 mod lit_scenes;
+#[cfg(feature = "cli")]
+mod models;
 #[cfg(feature = "gpu")]
 mod multisample;
 #[cfg(feature = "gpu")]
@@ -98,6 +100,8 @@ mod report_checks;
 mod report_page;
 #[cfg(feature = "cli")]
 mod report_ways;
+#[cfg(feature = "reference")]
+mod scene_helps;
 #[cfg(feature = "reference")]
 mod scene_sources;
 mod scenes;
