@@ -38,6 +38,6 @@ fn main() -> ExitCode {
         }
     }
     let compilation = Compiler::new(Options::default()).compile(&sources);
-    println!("{}", sarif(&findings(&compilation.sources, &compilation.diagnostics)));
+    println!("{}", sarif(&findings(&compilation.sources, &compilation.diagnostics), None));
     ExitCode::from(u8::from(compilation.diagnostics.has_errors()))
 }

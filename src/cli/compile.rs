@@ -10,6 +10,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Group};
 use super::lone;
+use super::not_checked;
 use super::optimize;
 use super::outputs::{Output, OutputArgs, OutputPlan};
 use super::permutations::{self, Job};
@@ -24,9 +25,9 @@ use std::path::{Path, PathBuf};
 /// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
 #[derive(Args, Debug)]
 pub(super) struct CompileArgs {
-    /// Shaders, or `-` for standard input
-    #[arg(required_unless_present_any = ["programs", "permutations"], value_name = "FILE")]
-    files: Vec<String>,
+    /// Shaders, folders to search for shaders, or `-` for standard input
+    #[arg(required_unless_present_any = ["programs", "permutations"], value_name = "FILE|DIR")]
+    files: Vec<PathBuf>,
     /// The output folder; `-` writes the code of one stage for one target to standard output
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "emit"])]
     output: Option<PathBuf>,
@@ -77,29 +78,39 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     if let Some(file) = &args.permutations {
         return permute(args, file, console);
     }
-    let inputs = inputs::collect(&args.files, &args.programs, &args.sources, false)?;
+    let mut inputs = inputs::collect(&args.files, &args.programs, &args.sources, true)?;
+    if let (Some(folder), true) = (inputs.empty_folders.first(), inputs.groups.is_empty()) {
+        return Err(Failure::usage(format!("no shader was found in `{folder}`")));
+    }
+    inputs.tell_empty_folders(console);
     let plan = OutputPlan::new(&args.outputs);
     let folder = args.output.clone().unwrap_or_default();
     if is_standard_output(&folder) {
         refuse_several(args, &plan, &inputs.groups)?;
     }
-    plan.refuse_collisions(&folder, &inputs.groups)?;
+    let below = inputs.below();
+    plan.refuse_collisions(&folder, &below, &inputs.groups)?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     if let Some(EmitArg::Hir) = args.emit {
-        let units = session.compile(inputs.groups);
+        let units = session.compile(std::mem::take(&mut inputs.groups));
         let exit = session.tell_units(&units, false)?;
         console.output(&typed_programs(&units, args.outputs.optimize.is_given()))?;
         return Ok(exit);
     }
     let recall = Recall::new(&args.cache, session.engines(), &args.sources, &args.bindings, &plan)?;
-    let mut units = session.compile_by(inputs.groups, |compiler, group| recall.compile(compiler, group, ""));
+    let groups = std::mem::take(&mut inputs.groups);
+    let mut units = session.compile_by(groups, |compiler, group| recall.compile(compiler, group, ""));
     for unit in &mut units {
         let warning = lone::warning(unit);
         session.add(&mut unit.batch, warning);
         lone::refuse_what_is_no_program(unit);
     }
-    let emitted: Vec<Emitted> =
-        session.pool().install(|| units.par_iter().map(|unit| emit(&plan, &recall, unit)).collect());
+    if inputs.has_search() {
+        not_checked::settle(&mut session, &mut units, &inputs);
+    }
+    let emitted: Vec<Emitted> = session
+        .pool()
+        .install(|| units.par_iter().map(|unit| emit(&plan, &recall, unit).below(&below(&unit.group))).collect());
     let mut outputs = Vec::new();
     let mut made = Vec::new();
     for (unit, emitted) in units.iter_mut().zip(emitted) {
@@ -117,7 +128,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     }
     recall.close(console);
     if exit == Exit::Ok {
-        write_accounts(args, &plan, &folder, &units, &made)?;
+        write_accounts(args, &plan, &folder, &below, &units, &made)?;
     }
     Ok(exit)
 }
@@ -154,6 +165,18 @@ struct Emitted {
     diagnostics: Vec<Diagnostic>,
 }
 
+impl Emitted {
+    /// The same, in a folder below that of all outputs.
+    fn below(mut self, folder: &Path) -> Self {
+        if folder != Path::new("") {
+            for (name, _, _) in &mut self.outputs {
+                *name = folder.join(&*name).to_string_lossy().replace('\\', "/");
+            }
+        }
+        self
+    }
+}
+
 /// Emits a program, unless its outputs come from a cache.
 fn emit(plan: &OutputPlan, recall: &Recall, unit: &Unit) -> Emitted {
     if unit.exit() != Exit::Ok {
@@ -179,12 +202,16 @@ fn write_accounts(
     args: &CompileArgs,
     plan: &OutputPlan,
     folder: &Path,
+    below: &impl Fn(&Group) -> PathBuf,
     units: &[Unit],
     made: &[Made],
 ) -> Result<(), Failure> {
     if let Some(path) = &args.depfile {
-        let names = units.iter().flat_map(|unit| plan.names(&unit.group));
-        let outputs = names.map(|name| folder.join(name).to_string_lossy().into_owned());
+        let paths = |unit: &Unit| {
+            let folder = folder.join(below(&unit.group));
+            plan.names(&unit.group).into_iter().map(move |name| folder.join(name))
+        };
+        let outputs = units.iter().flat_map(paths).map(|path| path.to_string_lossy().into_owned());
         let sources = units.iter().flat_map(|unit| depfile::files_read(&unit.group, &unit.batch.sources));
         files::write(path, depfile::make_rule(outputs, sources).as_bytes())?;
     }
@@ -228,7 +255,13 @@ fn write(folder: &Path, outputs: &[Output]) -> Result<(), Failure> {
         return Ok(());
     }
     files::make_folder(folder)?;
-    outputs.iter().try_for_each(|(name, _, bytes)| files::write(&folder.join(name), bytes))
+    outputs.iter().try_for_each(|(name, _, bytes)| {
+        let path = folder.join(name);
+        if let Some(folder) = path.parent().filter(|folder| !folder.exists()) {
+            files::make_folder(folder)?;
+        }
+        files::write(&path, bytes)
+    })
 }
 
 /// All stages of all programs, each under the name of its file.

@@ -6,6 +6,7 @@
 //! warn = []
 //! deny = ["warnings"]
 //! exclude = ["third_party", "*.generated.frag"]
+//! assume_version = "330"
 //!
 //! [stability.bounds]
 //! "scenes/far/*.toml" = 0.01
@@ -15,7 +16,8 @@
 //! `[[source]]` tables say how the engine of a folder completes its sources ([`super::rules`]).
 //!
 //! `exclude` names what a search of a folder passes over, by the patterns of `.gitignore`, relative to the file's folder. It may
-//! also stand above all tables. `[stability.bounds]` states the accepted error of scenes by such patterns; the last one that
+//! also stand above all tables. `assume_version` is the version of sources without a `#version` line, for all commands, unless a
+//! `[[source]]` table gives another. `[stability.bounds]` states the accepted error of scenes by such patterns; the last one that
 //! fits counts, in the order of the file.
 //!
 //! *Holds:* only the nearest file counts; a level on the command line takes precedence.
@@ -67,6 +69,8 @@ struct LintTable {
     deny: Vec<Spanned<String>>,
     #[serde(default)]
     exclude: Vec<Spanned<String>>,
+    #[serde(alias = "assume-version")]
+    assume_version: Option<Spanned<String>>,
 }
 
 /// The nearest configuration of a folder or of one above it.
@@ -94,7 +98,7 @@ pub(super) fn rules(folder: &Path) -> Vec<Rule> {
     let Ok(bytes) = files::read(&path.to_string_lossy(), &path) else { return Vec::new() };
     let Ok(config) = toml::from_str::<Config>(&String::from_utf8_lossy(&bytes)) else { return Vec::new() };
     let mut reader = RuleReader::new(path.parent().unwrap_or(Path::new("")), 0);
-    config.source.iter().map(|table| reader.rule(table)).collect()
+    reader.rules(config.lint.assume_version.as_ref(), &config.source)
 }
 
 /// The accepted error of a scene by the nearest configuration.
@@ -182,9 +186,7 @@ fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -
         diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(bound.span()), "a bound is a positive number"));
     }
     let mut reader = RuleReader::new(Path::new(name).parent().unwrap_or(Path::new("")), base);
-    for table in &config.source {
-        reader.rule(table);
-    }
+    reader.rules(config.lint.assume_version.as_ref(), &config.source);
     diagnostics.append(&mut reader.diagnostics);
     for (level, keys) in lists {
         for key in keys {

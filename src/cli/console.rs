@@ -101,11 +101,19 @@ impl Console {
 
     /// Reports a failure.
     pub(super) fn failure(&self, message: &str, help: Option<&str>) {
-        let (red, bold, off) = if self.colors_messages() { ("\x1b[1;31m", "\x1b[1m", "\x1b[0m") } else { ("", "", "") };
-        let mut text = format!("{red}error{off}{bold}: {message}{off}\n");
+        let mut text = painted("error", "", message, self.colors_messages());
         if let Some(help) = help {
             text.push_str(&format!("  help: {help}\n"));
         }
         self.message(&text);
     }
+}
+
+/// The first line of a message: its severity, a code, and what it says.
+pub(super) fn painted(severity: &str, code: &str, message: &str, color: bool) -> String {
+    if !color {
+        return format!("{severity}{code}: {message}\n");
+    }
+    let paint = if severity == "error" { "\x1b[1;31m" } else { "\x1b[1;32m" };
+    format!("{paint}{severity}{code}\x1b[0m\x1b[1m: {message}\x1b[0m\n")
 }

@@ -6,15 +6,15 @@
 //! *Holds:* a file that is named twice counts once; a file in a `--program` forms no group of its own.
 
 use super::args::{ProgramArgs, SourceArgs};
-use super::config;
+use super::console::Console;
 use super::engine::{Engines, STDIN as SHOWN_STDIN};
 use super::exit::Failure;
 use super::files;
+use super::search::{self, Left};
 use crate::engines::combined;
 use crate::sources::{members, stages};
 use glisten_front::hir::Stage;
 use ignore::WalkBuilder;
-use ignore::gitignore::Gitignore;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -107,7 +107,39 @@ pub(super) struct Inputs {
     /// Folders that contain no shader.
     pub(super) empty_folders: Vec<String>,
     /// The files that a search found and the command line does not name.
-    pub(super) found: BTreeSet<String>,
+    pub(super) found: BTreeSet<PathBuf>,
+    /// The files that a search saw and did not take.
+    pub(super) left: Vec<Left>,
+    /// The folders of files that a search found, below the folder that was searched.
+    below: BTreeMap<PathBuf, PathBuf>,
+}
+
+impl Inputs {
+    /// Whether a folder was searched.
+    pub(super) fn has_search(&self) -> bool {
+        !self.found.is_empty() || !self.left.is_empty() || !self.empty_folders.is_empty()
+    }
+
+    /// Tells which of the folders have no shader.
+    pub(super) fn tell_empty_folders(&self, console: &Console) {
+        for folder in &self.empty_folders {
+            console.remark(&format!("no shader was found in `{folder}`"));
+        }
+    }
+
+    /// The folder of a program's outputs below that of all outputs: outputs of a searched folder lie as its files do.
+    pub(super) fn below(&self) -> impl Fn(&Group) -> PathBuf + Sync + use<> {
+        let below = self.below.clone();
+        move |group| {
+            let first = group.inputs.first().and_then(|input| input.path.as_ref());
+            first.and_then(|path| below.get(path)).cloned().unwrap_or_default()
+        }
+    }
+}
+
+/// The files of the command line, or the current folder if it names nothing.
+pub(super) fn named_or_here(files: &[PathBuf], args: &ProgramArgs) -> Vec<PathBuf> {
+    if files.is_empty() && args.programs.is_empty() { vec![PathBuf::from(".")] } else { files.to_vec() }
 }
 
 /// The scene files that the command line names: files as they are, folders searched for `.toml` files that draw.
@@ -141,28 +173,35 @@ pub(super) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
 /// Collects the inputs of a command. Folders are searched only if `scans` is set. Otherwise they stay in the list,
 /// and reading them gives the error.
 pub(super) fn collect(
-    files: &[String],
+    files: &[PathBuf],
     args: &ProgramArgs,
     sources: &SourceArgs,
     scans: bool,
 ) -> Result<Inputs, Failure> {
     let engines = Engines::new(sources)?;
     let mut inputs = Inputs::default();
-    let mut named = Vec::new();
+    let mut named: Vec<PathBuf> = Vec::new();
     for file in files {
-        if scans && Path::new(file).is_dir() {
-            let before = named.len();
-            scan(Path::new(file), &engines, &mut named)?;
-            if named.len() == before {
-                inputs.empty_folders.push(file.clone());
+        if scans && file.is_dir() {
+            let search = search::folder(file, &engines)?;
+            if search.found.is_empty() {
+                inputs.empty_folders.push(file.to_string_lossy().into_owned());
             }
-            inputs.found.extend(named.iter().skip(before).cloned());
+            for path in &search.found {
+                let folder =
+                    path.strip_prefix(file).or(Ok::<_, ()>(path)).ok().and_then(Path::parent).unwrap_or(Path::new(""));
+                inputs.below.insert(path.clone(), folder.to_owned());
+            }
+            inputs.found.extend(search.found.iter().cloned());
+            inputs.left.extend(search.left);
+            named.extend(search.found);
         } else {
             named.push(file.clone());
         }
     }
     let by_name: BTreeSet<PathBuf> = files.iter().map(|name| identity(name)).collect();
     inputs.found.retain(|name| !by_name.contains(&identity(name)));
+    inputs.left.retain(|left| !by_name.contains(&identity(&left.path)));
     let mut in_programs = BTreeSet::new();
     let mut groups = Vec::new();
     for program in &args.programs {
@@ -170,10 +209,12 @@ pub(super) fn collect(
         if names.is_empty() {
             return Err(Failure::usage("--program names no file").help("write `--program a.vert,b.frag`"));
         }
-        in_programs.extend(names.iter().map(|name| identity(name)));
+        in_programs.extend(names.iter().map(|name| identity(Path::new(name))));
         let mut listed = Vec::new();
         for name in names {
-            listed.extend(stages_of(name, args, &engines, false)?.into_iter().filter(|input| !input.is_later()));
+            listed.extend(
+                stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()),
+            );
         }
         groups.push(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed });
     }
@@ -193,104 +234,60 @@ pub(super) fn program(names: &[String], args: &ProgramArgs, sources: &SourceArgs
     let engines = Engines::new(sources)?;
     let mut listed = Vec::new();
     for name in names {
-        listed.extend(stages_of(name, args, &engines, false)?.into_iter().filter(|input| !input.is_later()));
+        listed.extend(stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()));
     }
     Ok(in_pipeline_order(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed }))
 }
 
 /// A key that is equal for two names of the same file.
-fn identity(name: &str) -> PathBuf {
-    if name == STDIN { PathBuf::from(STDIN) } else { fs::canonicalize(name).unwrap_or_else(|_| PathBuf::from(name)) }
+pub(super) fn identity(name: &Path) -> PathBuf {
+    if name.as_os_str() == STDIN {
+        PathBuf::from(STDIN)
+    } else {
+        fs::canonicalize(name).unwrap_or_else(|_| name.into())
+    }
 }
 
 /// The stages of a file: one, unless it contains several.
-fn stages_of(name: &str, args: &ProgramArgs, engines: &Engines, alone: bool) -> Result<Vec<Input>, Failure> {
+fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) -> Result<Vec<Input>, Failure> {
     let given = args.stage.map(Stage::from);
-    if name == STDIN {
+    if path.as_os_str() == STDIN {
         let stage = given.ok_or_else(|| {
-            Failure::usage("standard input has no name that says its stage").help("add `--stage vertex` or another")
+            Failure::usage("cannot tell the shader stage of standard input").help("add `--stage vertex` or another")
         })?;
         return Ok(vec![Input { name: SHOWN_STDIN.to_owned(), path: None, stage, part: None }]);
     }
-    let path = PathBuf::from(name);
-    let told = stages::by_name(&path);
+    let name = &path.to_string_lossy().into_owned();
+    let told = stages::by_name(path);
     if told.is_none() {
-        let parts = parts(name, &path);
+        let parts = parts(path);
         let wanted = |input: &Input| given.is_none_or(|stage| stage == input.stage);
         if parts.iter().any(wanted) {
             return Ok(parts.into_iter().filter(wanted).collect());
         }
     }
-    let stage = if alone { given.or(told) } else { told.or(given) }.or_else(|| engines.stage(&path));
+    let stage = if alone { given.or(told) } else { told.or(given) }.or_else(|| engines.stage(path));
     // Reading reports what is not a readable file; its stage does not matter then.
     let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
     match stage {
-        Some(stage) => Ok(vec![Input { name: name.to_owned(), path: Some(path), stage, part: None }]),
-        None => Err(Failure::usage(format!("the name of `{name}` does not tell its stage"))
+        Some(stage) => Ok(vec![Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: None }]),
+        None => Err(Failure::usage(format!("cannot tell the shader stage of `{name}`"))
             .help(format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()))),
     }
 }
 
 /// The stages in a file that contains several.
-fn parts(name: &str, path: &Path) -> Vec<Input> {
-    let Ok(text) = files::read_source(name, Some(path)) else { return Vec::new() };
+pub(super) fn parts(path: &Path) -> Vec<Input> {
+    let name = path.to_string_lossy();
+    let Ok(text) = files::read_source(&name, Some(path)) else { return Vec::new() };
     let mut inputs = Vec::new();
     for (index, member) in members(Some(path), &text).into_iter().enumerate() {
         let part = PartOf { index, name: member.name };
         let input =
-            |stage| Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
+            |stage| Input { name: name.to_string(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
         inputs.extend(member.parts.iter().map(|part| input(part.stage)));
     }
     inputs
-}
-
-/// Whether a search of a folder takes a file: its name tells its stage, or its engine does, or it contains several stages.
-fn is_shader(path: &Path, engines: &Engines) -> bool {
-    if stages::may_be_included(path) && engines.is_part(path) {
-        return false;
-    }
-    let is_whole = stages::by_name(path).is_some() || engines.stage(path).is_some() && stages::may_be_included(path);
-    if is_whole {
-        return !stages::is_part(path) && !stages::is_assembly(path);
-    }
-    stages::may_be_combined(path) && !parts(&path.to_string_lossy(), path).is_empty()
-}
-
-/// Adds all shaders in a folder and its subfolders, in the order of their names, except what `.gitignore` or the `exclude` of
-/// a configuration names. Hidden folders are skipped, and links to folders are not followed, so that a cycle of links does no
-/// harm.
-fn scan(root: &Path, engines: &Engines, found: &mut Vec<String>) -> Result<(), Failure> {
-    let mut excludes: BTreeMap<PathBuf, Option<Gitignore>> = BTreeMap::new();
-    let mut walk = WalkBuilder::new(root);
-    // Without a repository, `.gitignore` says as much about what is generated.
-    walk.hidden(false).require_git(false).filter_entry(|entry| entry.depth() == 0 || !is_hidden_folder(entry));
-    let mut files = Vec::new();
-    for entry in walk.build() {
-        let entry =
-            entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
-        let path = entry.path();
-        let is_folder = entry.file_type().is_some_and(|kind| kind.is_dir());
-        if !is_folder && is_shader(path, engines) && !is_excluded(path, &mut excludes) {
-            files.push(entry.into_path());
-        }
-    }
-    files.sort();
-    found.extend(files.into_iter().map(|path| path.to_string_lossy().into_owned()));
-    Ok(())
-}
-
-fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {
-    entry.file_type().is_some_and(|kind| kind.is_dir()) && entry.file_name().to_string_lossy().starts_with('.')
-}
-
-/// Whether the nearest configuration excludes a file or a folder that it is in.
-fn is_excluded(path: &Path, excludes: &mut BTreeMap<PathBuf, Option<Gitignore>>) -> bool {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let patterns = excludes.entry(folder.to_owned()).or_insert_with(|| config::excluded(folder));
-    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    patterns.as_ref().is_some_and(|patterns| {
-        absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
-    })
 }
 
 /// Groups files by folder and stem; each stage occurs at most once in a group. What tessellation stages stand between is no pair.

@@ -38,6 +38,7 @@ mod made;
 mod man;
 mod new_scene;
 mod new_scene_model;
+mod not_checked;
 mod opengl;
 mod optimize;
 mod outputs;
@@ -53,6 +54,7 @@ mod report_checks;
 mod responses;
 mod rules;
 mod scenes;
+mod search;
 mod session;
 mod snapshots;
 mod specialize;
@@ -80,7 +82,7 @@ use supervisor::Supervised;
 /// The stack size of the thread that runs a command.
 const STACK_BYTES: usize = 16 << 20;
 
-/// Compile, check, draw and measure GLSL of OpenGL 3.2 (#version 150)
+/// Check, translate, draw and measure GLSL: versions 1.10 to 4.60, and those of OpenGL ES
 #[derive(Debug, Parser)]
 #[command(name = "glisten", version, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 nothing wrong found; 1 an input is wrong or a check did not hold;\n\

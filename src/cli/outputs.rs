@@ -113,12 +113,17 @@ impl OutputPlan {
         kinds
     }
 
-    /// Two programs must not write the same file, nor one of the sources.
+    /// Two programs must not write the same file, nor one of the sources. `below` is where a program's outputs are in the folder.
     ///
     /// # Errors
     /// They would, in this folder.
-    pub(super) fn refuse_collisions(&self, folder: &Path, groups: &[Group]) -> Result<(), Failure> {
-        let mut writers: BTreeMap<String, &Group> = BTreeMap::new();
+    pub(super) fn refuse_collisions(
+        &self,
+        folder: &Path,
+        below: impl Fn(&Group) -> PathBuf,
+        groups: &[Group],
+    ) -> Result<(), Failure> {
+        let mut writers: BTreeMap<PathBuf, &Group> = BTreeMap::new();
         let sources: BTreeSet<PathBuf> = groups
             .iter()
             .flat_map(|group| &group.inputs)
@@ -126,12 +131,12 @@ impl OutputPlan {
             .collect();
         for group in groups {
             for name in self.names(group) {
-                let path = folder.join(&name);
+                let path = folder.join(below(group)).join(&name);
                 if fs::canonicalize(&path).is_ok_and(|path| sources.contains(&path)) {
                     let message = format!("the output `{}` is one of the inputs", path.display());
                     return Err(Failure::usage(message).help("choose another folder with `-o`"));
                 }
-                if let Some(other) = writers.insert(name, group) {
+                if let Some(other) = writers.insert(path.clone(), group) {
                     let message = format!(
                         "the programs of {} and of {} would both write `{}`",
                         files_of(other),

@@ -14,13 +14,14 @@ use glisten_front::link::Program;
 use indexmap::IndexMap;
 use serde::Serialize;
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 /// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
 #[derive(Args, Debug)]
 pub(super) struct ReflectArgs {
     /// Shaders, or `-` for standard input
     #[arg(required_unless_present = "programs", value_name = "FILE")]
-    files: Vec<String>,
+    files: Vec<PathBuf>,
     /// The format of the reflection
     #[arg(long, value_enum, default_value_t)]
     format: ResultFormat,

@@ -133,8 +133,19 @@ impl<'a> RuleReader<'a> {
         None
     }
 
+    /// The rules of the tables, after that of the version for all files.
+    pub(super) fn rules(&mut self, version: Option<&Spanned<String>>, tables: &[SourceTable]) -> Vec<Rule> {
+        let version = version.and_then(|version| self.version(version));
+        let first = version.map(|version| Rule { version: Some(version), ..Rule::default() });
+        first.into_iter().chain(tables.iter().map(|table| self.rule(table))).collect()
+    }
+
+    fn version(&mut self, version: &Spanned<String>) -> Option<String> {
+        parse_version(version.get_ref()).map_err(|message| self.wrong(version.span(), message, None)).ok()
+    }
+
     /// The rule of a table.
-    pub(super) fn rule(&mut self, table: &SourceTable) -> Rule {
+    fn rule(&mut self, table: &SourceTable) -> Rule {
         let mut rule = Rule { patterns: self.patterns(table.glob.as_ref()), ..Rule::default() };
         if let Some(name) = &table.profile {
             rule.profile = self.known(name, "profile", engines::find(name.get_ref()), engines::names());
@@ -148,10 +159,7 @@ impl<'a> RuleReader<'a> {
             rule.stage = self.known(name, "stage", stage, ["vertex", "fragment", "geometry"].into_iter());
         }
         if let Some(version) = &table.version {
-            match parse_version(version.get_ref()) {
-                Ok(version) => rule.version = Some(version),
-                Err(message) => self.wrong(version.span(), message, None),
-            }
+            rule.version = self.version(version);
         }
         if let Some(preludes) = &table.prelude {
             rule.preludes = self.preludes(preludes);

@@ -13,17 +13,18 @@ use super::exit::{Exit, Failure};
 use super::files;
 use super::guard;
 use super::inputs::{Group, Input};
+use super::not_checked;
 use super::progress::Progress;
 use super::trace::Trace;
 use crate::engines;
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes;
-use glisten_front::diagnostic::write::{self, Finding};
-use glisten_front::diagnostic::{Code, Diagnostic, Severity};
+use glisten_front::diagnostic::write::{self, Finding, Scope};
+use glisten_front::diagnostic::{Code, Diagnostic, Level, Severity};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
-use glisten_front::source::{SourceMap, Span};
+use glisten_front::source::{FileId, SourceMap, Span};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -47,6 +48,8 @@ pub(super) struct Unit {
     pub(super) fresh: Option<Fresh>,
     /// The watched macros that the result depends on.
     pub(super) asked: BTreeSet<String>,
+    /// The files of each input, its own first; none for one that could not be read.
+    pub(super) read: Vec<Vec<FileId>>,
 }
 
 /// A result that a cache does not have yet.
@@ -66,7 +69,7 @@ impl Unit {
     /// The unit of a group before anything is known.
     pub(super) fn new(group: Group) -> Self {
         let (unread, batch, asked) = (Vec::new(), Batch::default(), BTreeSet::new());
-        Self { group, unread, batch, program: None, kept: None, fresh: None, asked }
+        Self { group, unread, batch, program: None, kept: None, fresh: None, asked, read: Vec::new() }
     }
 
     /// Whether there is a program, compiled or from a cache.
@@ -95,8 +98,8 @@ pub(super) struct Session<'a> {
     configs: Configs,
     pool: rayon::ThreadPool,
     dropped: usize,
-    /// The summary of a run that finds nothing.
-    clean: Option<String>,
+    /// The files of the run, for a command that tells them.
+    scope: Option<Scope>,
 }
 
 impl<'a> Session<'a> {
@@ -122,7 +125,7 @@ impl<'a> Session<'a> {
             configs: Configs::new(levels.levels()?),
             pool,
             dropped: 0,
-            clean: None,
+            scope: None,
         })
     }
 
@@ -146,9 +149,14 @@ impl<'a> Session<'a> {
         self.format = format;
     }
 
-    /// Sets the summary of a run that finds nothing.
-    pub(super) fn set_clean(&mut self, summary: String) {
-        self.clean = Some(summary);
+    /// Sets what the run looks at, which is told with the diagnostics.
+    pub(super) fn set_scope(&mut self, scope: Scope) {
+        self.scope = Some(scope);
+    }
+
+    /// The level of a code in a file.
+    pub(super) fn level(&mut self, name: &str, code: &Code) -> Option<Level> {
+        self.configs.levels(name).get(code)
     }
 
     /// Whether diagnostics are for people, so that they may be told bit by bit and other lines may stand between them.
@@ -239,26 +247,38 @@ impl<'a> Session<'a> {
                 human.push_str(&write::human(&batch.sources, fresh, color));
             }
         }
+        let scope = self.scope.as_ref();
         let text = match self.format {
             DiagnosticFormat::Human => human,
-            DiagnosticFormat::Json => write::json(&told.findings),
-            DiagnosticFormat::Sarif => write::sarif(&told.findings),
-            DiagnosticFormat::Github => write::github(&told.findings),
+            DiagnosticFormat::Json => write::json(&told.findings, scope),
+            DiagnosticFormat::Sarif => write::sarif(&told.findings, scope),
+            DiagnosticFormat::Github => write::github(&told.findings, scope),
         };
         if to_output {
             self.console.output(&text)?;
         } else {
             self.console.message(&text);
         }
-        if self.format == DiagnosticFormat::Human
-            && let Some(summary) = summary(&told.findings, self.dropped).or(self.clean.clone())
-        {
-            self.console.remark(&summary);
-            if let Some(error) = told.findings.iter().find(|finding| finding.severity == Severity::Error) {
-                self.console.remark(&format!("`glisten explain {}` tells more about the first error", error.code.id));
-            }
+        if self.format == DiagnosticFormat::Human {
+            self.remark(&told.findings);
         }
-        Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default())
+        let denied = scope.is_some_and(|scope| scope.not_checked.iter().any(|one| one.is_denied));
+        let exit = if denied { Exit::Content } else { Exit::Ok };
+        Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default().max(exit))
+    }
+
+    /// Tells people what was not checked, and how much was found.
+    fn remark(&self, findings: &[Finding]) {
+        let scope = self.scope.as_ref();
+        if let Some(scope) = scope.filter(|scope| !scope.not_checked.is_empty()) {
+            self.console.message(&not_checked::told(scope, self.console.colors_messages()));
+        }
+        let clean = || scope.filter(|scope| scope.files > 0).map(|scope| format!("{}: nothing found", counted(scope)));
+        let Some(summary) = summary(findings, self.dropped).or_else(clean) else { return };
+        self.console.remark(&summary);
+        if let Some(error) = findings.iter().find(|finding| finding.severity == Severity::Error) {
+            self.console.remark(&format!("`glisten explain {}` tells more about the first error", error.code.id));
+        }
     }
 
     /// Reports the diagnostics of these units; see [`Self::tell`].
@@ -334,6 +354,15 @@ impl Told {
     }
 }
 
+/// How many files and programs a run looked at.
+fn counted(scope: &Scope) -> String {
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    match scope.programs {
+        0 => count(scope.files, "file"),
+        n_programs => format!("{}, {}", count(scope.files, "file"), count(n_programs, "program")),
+    }
+}
+
 fn summary(findings: &[Finding], dropped: usize) -> Option<String> {
     let count = |severity| findings.iter().filter(|finding| finding.severity == severity).count();
     let parts =
@@ -353,8 +382,11 @@ fn summary(findings: &[Finding], dropped: usize) -> Option<String> {
 pub(super) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
     let mut unit = Unit::new(group);
     let mut sources = Vec::new();
+    let mut is_read = Vec::new();
     for input in &unit.group.inputs {
-        match read(input) {
+        let source = read(input);
+        is_read.push(source.is_ok());
+        match source {
             Ok(source) => sources.push(source),
             Err(batch) => unit.unread.push(batch),
         }
@@ -371,6 +403,9 @@ pub(super) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) 
             unit.program = program.filter(|_| unit.unread.is_empty());
             unit.batch = Batch { sources: compilation.sources, diagnostics };
             unit.asked = compilation.asked;
+            let mut read = compilation.read.into_iter();
+            let files_of = |is_read: bool| if is_read { read.next().unwrap_or_default() } else { Vec::new() };
+            unit.read = is_read.into_iter().map(files_of).collect();
             (unit, dropped)
         }
         Err(panic) => {

@@ -270,8 +270,8 @@ fn swept(sweeps: &[Sweep], scene: &Scene, progress: &Progress) -> Result<Swept, 
 fn tell(args: &StabilityArgs, done: &[Done<'_>], console: &Console) -> Result<(), Failure> {
     let text = match args.format {
         StabilityFormat::Json => json_of(args, done),
-        StabilityFormat::Sarif => diagnostic::write::sarif(&findings(done)),
-        StabilityFormat::Github => diagnostic::write::github(&findings(done)),
+        StabilityFormat::Sarif => diagnostic::write::sarif(&findings(done), None),
+        StabilityFormat::Github => diagnostic::write::github(&findings(done), None),
         StabilityFormat::Human => done.iter().map(|done| human(done, console)).collect(),
     };
     console.output(&text)

@@ -14,13 +14,14 @@ use clap::Parser;
 use glisten_front::compiler::{Compilation, Compiler};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// The arguments.
 #[derive(Debug, Parser)]
 #[command(name = "survey", no_binary_name = true)]
 struct SurveyArgs {
-    files: Vec<String>,
+    files: Vec<PathBuf>,
     #[command(flatten)]
     programs: ProgramArgs,
     #[command(flatten)]

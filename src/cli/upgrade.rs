@@ -31,7 +31,7 @@ use std::sync::Arc;
 pub(super) struct UpgradeArgs {
     /// The shaders; files of one program are rewritten together, so that their stages still fit
     #[arg(required_unless_present = "programs", value_name = "FILE")]
-    files: Vec<String>,
+    files: Vec<PathBuf>,
     /// The language to write
     #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
     to: ToArg,

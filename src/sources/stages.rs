@@ -2,6 +2,7 @@
 
 use glisten_front::hir::Stage;
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 /// File extensions, with their stages.
@@ -58,7 +59,7 @@ fn by_extension(path: &Path) -> Option<Stage> {
 
 /// The stage that a file name tells, and the name without the part that tells it.
 fn read(path: &Path) -> Option<(Stage, String)> {
-    let name = path.file_name()?.to_str()?;
+    let name = &*path.file_name()?.to_string_lossy();
     if let Some(stage) = by_extension(path) {
         return Some((stage, stem_of(name)));
     }
@@ -95,7 +96,7 @@ pub(crate) fn by_name(path: &Path) -> Option<Stage> {
 
 /// Whether the name ends in `.glsl`, as those of files do that others include.
 pub(crate) fn may_be_included(path: &Path) -> bool {
-    path.file_name().and_then(|name| without(name.to_str()?, "glsl")).is_some()
+    path.file_name().is_some_and(|name| without(&name.to_string_lossy(), "glsl").is_some())
 }
 
 /// Whether a file is there to be included: its name ends in `.glsl`, and it has no `main`.
@@ -129,10 +130,32 @@ pub(crate) fn may_be_combined(path: &Path) -> bool {
     is_module || path.extension().and_then(|extension| extension.to_str()).is_some_and(is_one)
 }
 
-/// Whether a file is a program in the assembly language of ARB_vertex_program, which has the extensions `.vp` and `.fp`, too.
+/// The largest number of bytes before the first word that are looked at.
+const MAX_BLANK: u64 = 256;
+
+/// Whether a file is a program in the assembly language of ARB_vertex_program: its first line begins with `!!ARBvp1.0` or its like.
 pub(crate) fn is_assembly(path: &Path) -> bool {
-    let is_named = ["vp", "fp"].iter().any(|known| path.extension().is_some_and(|extension| extension == *known));
-    is_named && fs::read(path).is_ok_and(|bytes| bytes.trim_ascii_start().starts_with(b"!!"))
+    let mut start = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(MAX_BLANK).read_to_end(&mut start));
+    read.is_ok() && start.trim_ascii_start().starts_with(b"!!")
+}
+
+/// Stages that glisten does not read, by the extensions of their files, before `.glsl` as well.
+#[cfg(feature = "cli")]
+static UNREAD: &[(&str, &str)] = &[
+    ("tesc", "tessellation"),
+    ("tese", "tessellation"),
+    ("tcs", "tessellation"),
+    ("tes", "tessellation"),
+    ("comp", "compute"),
+];
+
+/// The stage of a file that glisten does not read.
+#[cfg(feature = "cli")]
+pub(crate) fn unread(path: &Path) -> Option<&'static str> {
+    let name = &*path.file_name()?.to_string_lossy();
+    let inner = without(name, "glsl").unwrap_or(name);
+    UNREAD.iter().find(|(extension, _)| without(inner, extension).is_some()).map(|(_, stage)| *stage)
 }
 
 /// Whether a program has tessellation stages, which are files with its stem next to the others.

@@ -71,6 +71,7 @@ mod mutation;
 #[cfg(feature = "gpu")]
 mod mutations;
 #[cfg(feature = "gpu")]
+mod not_checked;
 mod numeric;
 #[cfg(feature = "gl")]
 mod opengl;

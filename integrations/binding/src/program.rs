@@ -81,9 +81,9 @@ impl Report {
     pub(crate) fn text(&self, format: Format) -> String {
         match format {
             Format::Human => write::human(&self.sources, &self.diagnostics, false),
-            Format::Json => write::json(&self.findings()),
-            Format::Sarif => write::sarif(&self.findings()),
-            Format::Github => write::github(&self.findings()),
+            Format::Json => write::json(&self.findings(), None),
+            Format::Sarif => write::sarif(&self.findings(), None),
+            Format::Github => write::github(&self.findings(), None),
         }
     }
 }

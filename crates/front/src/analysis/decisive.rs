@@ -12,13 +12,17 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 const QUALIFIERS: u32 = 64;
 
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
-/// other errors, after an unsupported feature those of the syntax and the meaning of the text.
+/// other errors but those of tokens before the place that shows it, after an unsupported feature those of the syntax and the meaning of the text.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
     let place = |code: &Code| {
         let found = diagnostics.iter().skip(first).position(|diagnostic: &Diagnostic| *diagnostic.code == *code);
         found.map(|place| place + first)
     };
     let (version, feature) = (place(&MISSING_VERSION), place(&NOT_SUPPORTED_YET));
+    let start_of = |index: Option<usize>| {
+        index.and_then(|index| diagnostics.iter().nth(index)).map_or(0, |diagnostic| diagnostic.primary.span.start)
+    };
+    let version_start = start_of(version);
     let start = diagnostics.iter().nth(feature.unwrap_or(0)).map_or(0, |diagnostic| diagnostic.primary.span.start);
     let mut messages: Vec<String> = Vec::new();
     let mut index = 0;
@@ -28,8 +32,10 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         if own < first || !diagnostic.is_error() || (version.is_none() && feature.is_none()) {
             return true;
         }
-        if let Some(version) = version {
-            return own == version;
+        if version.is_some() {
+            // What is wrong with the tokens before is so in every version.
+            let is_of_tokens = matches!(diagnostic.code.id.get(..3), Some("E01" | "E02"));
+            return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
         }
         if *diagnostic.code != NOT_SUPPORTED_YET {
             let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E04" | "E05" | "E06"));

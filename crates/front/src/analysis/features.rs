@@ -6,11 +6,10 @@
 use super::context::Analyzer;
 use crate::builtin::Availability;
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::preprocess::MISSING_VERSION;
 use crate::diagnostic::codes::qualifiers;
 use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
-use crate::syntax::warning_of_use;
+use crate::syntax::{of_version, warning_of_use};
 
 impl Analyzer<'_> {
     /// Whether the language has the feature used at `span`, by its version or by an enabled extension. Warns about the
@@ -82,16 +81,4 @@ pub(super) fn remedy(version: Version, since: Since, gone: Since, extensions: Ex
         (other != NEVER)
             .then(|| if version.is_es() { "only OpenGL has it" } else { "only OpenGL ES has it" }.to_owned())
     })
-}
-
-/// The finding that the language lacks something. Where the text does not state its version, that is the error.
-pub(super) fn of_version(finding: Diagnostic, version: Version) -> Diagnostic {
-    if version.span.is_known() {
-        return finding;
-    }
-    let Diagnostic { message, primary, .. } = finding;
-    Diagnostic::new(&MISSING_VERSION, primary.span, "the source has no `#version` line")
-        .here(message)
-        .note("without it the language is GLSL 1.10")
-        .help("begin the source with the line of its version, such as `#version 150`")
 }

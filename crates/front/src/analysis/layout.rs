@@ -1,7 +1,7 @@
 //! Layout qualifiers (§4.3.8): one row per identifier, with the declarations that accept it.
 
 use super::context::Analyzer;
-use super::features::{of_version, remedy};
+use super::features::remedy;
 use super::qualifiers::Qualifiers;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::qualifiers;
@@ -10,6 +10,7 @@ use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
 use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
 use crate::syntax::ast::{ExprKind as AstExprKind, LayoutId, Literal};
+use crate::syntax::of_version;
 use crate::syntax::warning_of_use;
 
 /// The declaration that a layout qualifier applies to.

@@ -9,6 +9,7 @@ use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, TypeBase, TypeSpec};
+use crate::syntax::of_later_word;
 use crate::syntax::token::Symbol;
 
 /// The largest size of an array. No target could bind a larger one, which would only cost memory.
@@ -215,11 +216,11 @@ impl Analyzer<'_> {
                 }
                 let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_type(spelling)?));
                 let help = super::expr::foreign::type_name(spelling).or_else(|| near(self));
-                self.report(
+                let finding =
                     Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("there is no type `{spelling}`"))
                         .here("not declared before this")
-                        .maybe_help(help),
-                );
+                        .maybe_help(help);
+                self.report(of_later_word(finding, spelling, self.ast.version));
                 TypeId::ERROR
             }
         }

@@ -67,6 +67,8 @@ pub struct Compilation {
     pub texts: Vec<Arc<str>>,
     /// All diagnostics.
     pub diagnostics: Diagnostics,
+    /// The files of each source: its own, then those that it includes, itself or by another include, by their first use.
+    pub read: Vec<Vec<FileId>>,
     /// Those of the [`watched`](Options::watched) names that the result depends on. With any other definitions of the rest of
     /// them, the result is the same.
     pub asked: BTreeSet<String>,
@@ -163,17 +165,18 @@ impl Compiler {
     pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
         let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
-        let mut asked = BTreeSet::new();
+        let mut facts = Facts::default();
         let shaders =
-            sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics, &mut asked));
+            sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics, &mut facts));
         let shaders: Vec<Option<Understood>> = shaders.collect();
+        let Facts { asked, read } = facts;
         let texts = shaders.iter().flatten().flat_map(|understood| understood.shader.texts.iter().cloned()).collect();
         let shaders: Option<Vec<Understood>> = shaders.into_iter().collect();
         let program = shaders.and_then(|shaders| self.link(name.clone(), types, shaders, &mut diagnostics));
         if let Some(levels) = &self.levels {
             diagnostics.retain_mut(|diagnostic| levels.apply(&map, diagnostic));
         }
-        Compilation { name, sources: map, program, texts, diagnostics, asked }
+        Compilation { name, sources: map, program, texts, diagnostics, read, asked }
     }
 
     /// Links the stages. If there are errors, only compares the certain declarations. Other declarations of a shader
@@ -215,8 +218,9 @@ impl Compiler {
         types: &mut Types,
         map: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-        asked: &mut BTreeSet<String>,
+        facts: &mut Facts,
     ) -> Option<Understood> {
+        facts.read.push(Vec::new());
         let prepared = self.prepared(source);
         let text = prepared.text.as_ref().unwrap_or(&source.text);
         let Some(file) = map.add(source.name.as_str(), Arc::clone(text)) else {
@@ -231,7 +235,7 @@ impl Compiler {
         let includes = includes.as_ref().unwrap_or(&self.includes);
         let ast = syntax::parse(map, file, &options, &**includes, diagnostics);
         map.set_language(file, Language { number: ast.version.number, es: ast.version.is_es() });
-        asked.extend(self.options.watched.iter().filter(|name| ast.asks(name)).cloned());
+        facts.add(file, &ast, &self.options.watched);
         let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
         if ast.version.span.is_known() && map.file_of(ast.version.span) != Some(file) {
             // What is said about the whole shader is said about its own text.
@@ -247,6 +251,28 @@ impl Compiler {
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_decisive(diagnostics, first_error);
         Some(Understood { shader, is_complete })
+    }
+}
+
+/// The facts about the texts of a compilation that its result tells.
+#[derive(Default)]
+struct Facts {
+    /// [`Compilation::asked`].
+    asked: BTreeSet<String>,
+    /// [`Compilation::read`], up to the source that is read now.
+    read: Vec<Vec<FileId>>,
+}
+
+impl Facts {
+    /// Adds those of the last source.
+    fn add(&mut self, own: FileId, ast: &syntax::ast::Ast, watched: &[String]) {
+        self.asked.extend(watched.iter().filter(|name| ast.asks(name)).cloned());
+        let Some(read) = self.read.last_mut() else { return };
+        for file in [own].into_iter().chain(ast.inclusions.iter().filter_map(|inclusion| inclusion.file)) {
+            if !read.contains(&file) {
+                read.push(file);
+            }
+        }
     }
 }
 

@@ -7,12 +7,14 @@
 //! *Holds:* a phase reports and continues; nothing here prints.
 
 pub mod codes;
+mod fix;
 mod levels;
 mod saved;
 mod sink;
 pub mod write;
 
 pub use codes::{Code, Example};
+pub use fix::{Applicability, Edit, Fix};
 pub use levels::{Level, Levels};
 pub use saved::Saved;
 pub use sink::Diagnostics;
@@ -67,6 +69,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// Advice: what to do about it.
     pub help: Option<String>,
+    /// Changes of the text that remove it.
+    pub fixes: Vec<Fix>,
     /// The line number that a `#line` directive gave to the primary span, if there is one.
     pub presented_line: Option<u32>,
 }
@@ -83,6 +87,7 @@ impl Diagnostic {
             secondary: Vec::new(),
             notes: Vec::new(),
             help: None,
+            fixes: Vec::new(),
             presented_line: None,
         }
     }
@@ -120,6 +125,30 @@ impl Diagnostic {
     pub fn maybe_help(mut self, help: Option<String>) -> Self {
         self.help = help.or(self.help);
         self
+    }
+
+    /// Adds a change of the text that removes it.
+    #[must_use]
+    pub fn fix(mut self, fix: Fix) -> Self {
+        self.fixes.push(fix);
+        self
+    }
+
+    /// Sets the help text ``write `text` ``, and the fix that puts the text in place of the primary span.
+    #[must_use]
+    pub fn write(self, applicability: Applicability, text: impl Into<String>) -> Self {
+        let (text, span) = (text.into(), self.primary.span);
+        let title = format!("write `{text}`");
+        self.help(title.clone()).fix(Fix::new(applicability, title, span, text))
+    }
+
+    /// Sets the help text ``did you mean `name`?``, and the fix that puts the name in place of the primary span.
+    #[must_use]
+    pub fn meant(self, name: Option<impl Into<String>>) -> Self {
+        let Some(name) = name.map(Into::into) else { return self };
+        let span = self.primary.span;
+        let fix = Fix::new(Applicability::Unsafe, format!("write `{name}`"), span, name.clone());
+        self.help(format!("did you mean `{name}`?")).fix(fix)
     }
 
     /// Whether this is an error.

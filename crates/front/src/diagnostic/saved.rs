@@ -4,7 +4,7 @@
 //! map of their own. *Holds:* what is restored is shown as the original is: excerpts, macros, numbers of `#line`, comments
 //! that allow a code. Texts without a diagnostic are blank, and macro uses that no diagnostic names are left out.
 
-use super::{Code, Diagnostic, Label, Severity, codes};
+use super::{Applicability, Code, Diagnostic, Edit, Fix, Label, Severity, codes};
 use crate::source::{Expansion, ExpansionId, Language, SourceMap, Span};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -52,7 +52,16 @@ struct SavedDiagnostic {
     secondary: Vec<(SavedSpan, String)>,
     notes: Vec<String>,
     help: Option<String>,
+    #[serde(default)]
+    fixes: Vec<SavedFix>,
     presented_line: Option<u32>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct SavedFix {
+    title: String,
+    safe: bool,
+    edits: Vec<(SavedSpan, String)>,
 }
 
 impl Saved {
@@ -118,7 +127,16 @@ impl Writer<'_> {
             secondary: one.secondary.iter().map(|label| (self.span(label.span), label.message.clone())).collect(),
             notes: one.notes.clone(),
             help: one.help.clone(),
+            fixes: one.fixes.iter().map(|fix| self.fix(fix)).collect(),
             presented_line: one.presented_line,
+        }
+    }
+
+    fn fix(&mut self, fix: &Fix) -> SavedFix {
+        SavedFix {
+            title: fix.title.clone(),
+            safe: fix.applicability == Applicability::Safe,
+            edits: fix.edits.iter().map(|edit| (self.span(edit.span), edit.text.clone())).collect(),
         }
     }
 
@@ -169,8 +187,18 @@ fn diagnostic(saved: &SavedDiagnostic) -> Option<Diagnostic> {
         secondary: saved.secondary.iter().map(label).collect(),
         notes: saved.notes.clone(),
         help: saved.help.clone(),
+        fixes: saved.fixes.iter().map(fix).collect(),
         presented_line: saved.presented_line,
     })
+}
+
+fn fix(saved: &SavedFix) -> Fix {
+    let edit = |(at, text): &(SavedSpan, String)| Edit { span: span(*at), text: text.clone() };
+    Fix {
+        title: saved.title.clone(),
+        applicability: if saved.safe { Applicability::Safe } else { Applicability::Unsafe },
+        edits: saved.edits.iter().map(edit).collect(),
+    }
 }
 
 #[cfg(test)]
@@ -195,7 +223,7 @@ mod tests {
             write::human(&sources, &diagnostics, false),
             write::human(&done.sources, done.diagnostics.iter(), false)
         );
-        let findings = |sources, list: Vec<_>| write::json(&write::findings(sources, list));
+        let findings = |sources, list: Vec<_>| write::json(&write::findings(sources, list), None);
         assert_eq!(
             findings(&sources, diagnostics.iter().collect()),
             findings(&done.sources, done.diagnostics.iter().collect())

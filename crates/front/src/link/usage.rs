@@ -60,7 +60,8 @@ pub fn first_use(shader: &Shader, global: GlobalId) -> Option<Span> {
     for function in shader.functions.iter().filter(|function| function.reachable) {
         shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
             let expr = shader.expr(expr);
-            if matches!(expr.kind, ExprKind::Var(VarRef::Global(named)) if named == global) {
+            // What the linker adds has no place in the text.
+            if expr.span.is_known() && matches!(expr.kind, ExprKind::Var(VarRef::Global(named)) if named == global) {
                 first = Some(first.map_or(expr.span, |known| known.min(expr.span)));
             }
         });

@@ -20,6 +20,7 @@ mod parser;
 mod preprocessor;
 pub mod session;
 pub mod token;
+mod unstated;
 
 use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
@@ -30,6 +31,7 @@ use parser::Parser;
 use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
 use session::{ExtensionSets, ParseSession};
+pub(crate) use unstated::{of_later_word, of_version};
 
 /// ParseOptions of a parse.
 #[derive(Clone, Debug)]
@@ -53,7 +55,8 @@ pub fn parse(
     diagnostics: &mut Diagnostics,
 ) -> Ast {
     let extension_sets = ExtensionSets::default();
-    let mut session = ParseSession { sources, diagnostics, names: preprocessor::predefined::names(), extension_sets };
+    let (version, names) = (empty_tree().version, preprocessor::predefined::names());
+    let mut session = ParseSession { sources, diagnostics, version, names, extension_sets };
     let mut preprocessor = Preprocessor::new(&mut session, file, &options.defines, options.strict, includes);
     preprocessor.complete(&mut session, file, &options.completion);
     let mut ast = Parser::new(&mut preprocessor, &mut session, empty_tree(), options.strict).translation_unit();

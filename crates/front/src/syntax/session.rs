@@ -3,7 +3,7 @@
 use super::names::Names;
 use super::token::Token;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::language::Extensions;
+use crate::language::{Extensions, Version};
 use crate::source::SourceMap;
 use rustc_hash::FxHashMap;
 
@@ -13,6 +13,8 @@ pub struct ParseSession<'a> {
     pub sources: &'a mut SourceMap,
     /// Where diagnostics go.
     pub diagnostics: &'a mut Diagnostics,
+    /// The version of the language, as far as it has been read.
+    pub version: Version,
     /// The names that have occurred.
     pub names: Names,
     /// The sets of extensions that were enabled somewhere, in the order of the text; the first is empty.

@@ -1,7 +1,7 @@
 //! Analyzes calls of built-in functions (§8): resolves overloads over the rows of the table.
 
 use super::super::context::Analyzer;
-use super::super::features::{of_version, remedy};
+use super::super::features::remedy;
 use super::overload::{Resolution, resolve};
 use crate::builtin::functions::{self, Row, Signature};
 use crate::builtin::operations::{Class, Lookup};
@@ -12,6 +12,7 @@ use crate::hir::{ExprId, ExprKind, Function, Stage, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
+use crate::syntax::of_version;
 
 impl Analyzer<'_> {
     /// A call of a name that is a built-in function in some version.

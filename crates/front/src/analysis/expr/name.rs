@@ -2,7 +2,7 @@
 //! constants.
 
 use super::super::context::Analyzer;
-use super::super::features::{of_version, remedy};
+use super::super::features::remedy;
 use super::super::scope::Entry;
 use crate::builtin::{constants, fixed, variables};
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
@@ -11,6 +11,7 @@ use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
 use crate::source::Span;
 use crate::syntax::ast::Ident;
+use crate::syntax::of_version;
 
 impl Analyzer<'_> {
     /// The variable that a name denotes.

@@ -50,4 +50,10 @@ codes! {
          then those of this stage alone. They do not fit another stage that is compiled alone, too. Give both files \
          in one command."
         bad Text("glisten compile phong.vert -o out"), good Text("glisten compile phong.vert phong.frag -o out");
+    NOT_CHECKED = "W0002" "not-checked" Note ""
+        "`lint` found this file in a folder and did not check it on its own: it has no `#version` line and is not \
+         GLSL 1.10, so its version is not known (`--assume-version`, or `assume_version` and `[[source]]` in \
+         `glisten.toml`, say it); or another file includes it, and it is checked there; or it is in another language. \
+         Name the file on the command line to see its errors. `--deny not-checked` makes such a file an error."
+        bad Text("glisten lint shaders/"), good Text("glisten lint shaders/ --assume-version 330");
 }

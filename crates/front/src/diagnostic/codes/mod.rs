@@ -78,6 +78,9 @@ macro_rules! codes {
     ($($(#[$doc:meta])* $ident:ident = $id:literal $name:literal $severity:ident $section:literal
         $page:literal bad $bad:expr, good $good:expr;)*) => {
         $(#[doc = concat!("`", $id, "` ", $name)]
+        #[doc = ""]
+        #[doc = $page]
+        #[doc(alias = $id)]
         pub static $ident: $crate::diagnostic::Code = $crate::diagnostic::Code {
             id: $id, name: $name, severity: $crate::diagnostic::Severity::$severity, section: $section,
             page: $page, bad: $bad, good: $good,

@@ -1,11 +1,24 @@
 //! Writes diagnostics as workflow commands of GitHub Actions, which shows them next to the changed lines.
 
-use super::Finding;
+use super::{Finding, NotChecked, Scope};
 use crate::diagnostic::Severity;
+use crate::diagnostic::codes::general::NOT_CHECKED;
 
-/// Writes one `::error file=...::` line per finding.
-pub fn github(findings: &[Finding]) -> String {
-    findings.iter().map(line).collect()
+/// Writes one `::error file=...::` line per finding, and one per file that was not checked.
+pub fn github(findings: &[Finding], scope: Option<&Scope>) -> String {
+    let not_checked = scope.map_or(&[][..], |scope| &scope.not_checked);
+    findings.iter().map(line).chain(not_checked.iter().map(passed_over)).collect()
+}
+
+fn passed_over(one: &NotChecked) -> String {
+    format!(
+        "::{} file={},line={},title={}::not checked: {}\n",
+        if one.is_denied { "error" } else { "notice" },
+        property(&one.region.file),
+        one.region.line,
+        property(&format!("{} {}", NOT_CHECKED.id, NOT_CHECKED.name)),
+        data(&one.because),
+    )
 }
 
 fn line(finding: &Finding) -> String {

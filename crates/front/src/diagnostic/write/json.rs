@@ -2,7 +2,8 @@
 //!
 //! *Holds:* keys are only ever added. Lines and columns count from 1; `end_column` is exclusive.
 
-use super::{Finding, Region};
+use super::scope::counts;
+use super::{Finding, FindingFix, NotChecked, Region, Scope};
 use serde::Serialize;
 
 /// The keys of a region.
@@ -22,6 +23,28 @@ struct JsonLabel<'a> {
     message: &'a str,
 }
 
+/// A position; the end of an edit is exclusive.
+#[derive(Serialize)]
+struct JsonPosition {
+    line: u32,
+    column: u32,
+}
+
+#[derive(Serialize)]
+struct JsonEdit<'a> {
+    file: &'a str,
+    start: JsonPosition,
+    end: JsonPosition,
+    text: &'a str,
+}
+
+#[derive(Serialize)]
+struct JsonFix<'a> {
+    title: &'a str,
+    applicability: &'a str,
+    edits: Vec<JsonEdit<'a>>,
+}
+
 #[derive(Serialize)]
 struct JsonFinding<'a> {
     #[serde(flatten)]
@@ -31,6 +54,7 @@ struct JsonFinding<'a> {
     name: &'a str,
     message: &'a str,
     help: Option<&'a str>,
+    fixes: Vec<JsonFix<'a>>,
     labels: Vec<JsonLabel<'a>>,
     notes: &'a [String],
     section: Option<&'a str>,
@@ -49,12 +73,71 @@ impl<'a> From<&'a Region> for JsonRegion<'a> {
     }
 }
 
-/// Writes the findings as a JSON array, ending in a newline.
-pub fn json(findings: &[Finding]) -> String {
-    let rows: Vec<JsonFinding<'_>> = findings.iter().map(row).collect();
+/// The last object of a run that says what it looked at.
+#[derive(Serialize)]
+struct JsonScope<'a> {
+    summary: JsonSummary,
+    not_checked: Vec<JsonNotChecked<'a>>,
+}
+
+#[derive(Serialize)]
+struct JsonSummary {
+    files: usize,
+    programs: usize,
+    errors: usize,
+    warnings: usize,
+    notes: usize,
+    not_checked: usize,
+}
+
+#[derive(Serialize)]
+struct JsonNotChecked<'a> {
+    file: &'a str,
+    because: &'a str,
+}
+
+/// An element of the array.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum JsonRow<'a> {
+    Finding(Box<JsonFinding<'a>>),
+    Scope(JsonScope<'a>),
+}
+
+/// Writes the findings as a JSON array, ending in a newline. With a scope, the last object tells it.
+pub fn json(findings: &[Finding], scope: Option<&Scope>) -> String {
+    let found = findings.iter().map(|finding| JsonRow::Finding(Box::new(row(finding))));
+    let scope = scope.map(|scope| JsonRow::Scope(summary(findings, scope)));
+    let rows: Vec<JsonRow<'_>> = found.chain(scope).collect();
     let mut text = serde_json::to_string_pretty(&rows).expect("strings and numbers are always JSON");
     text.push('\n');
     text
+}
+
+fn summary<'a>(findings: &[Finding], scope: &'a Scope) -> JsonScope<'a> {
+    let [errors, warnings, notes] = counts(findings);
+    let row = |one: &'a NotChecked| JsonNotChecked { file: &one.region.file, because: &one.because };
+    JsonScope {
+        summary: JsonSummary {
+            files: scope.files,
+            programs: scope.programs,
+            errors,
+            warnings,
+            notes,
+            not_checked: scope.not_checked.len(),
+        },
+        not_checked: scope.not_checked.iter().map(row).collect(),
+    }
+}
+
+fn fix(fix: &FindingFix) -> JsonFix<'_> {
+    let edits = fix.edits.iter().map(|edit| JsonEdit {
+        file: &edit.region.file,
+        start: JsonPosition { line: edit.region.line, column: edit.region.column },
+        end: JsonPosition { line: edit.region.end_line, column: edit.region.end_column },
+        text: &edit.text,
+    });
+    JsonFix { title: &fix.title, applicability: fix.applicability.name(), edits: edits.collect() }
 }
 
 fn row(finding: &Finding) -> JsonFinding<'_> {
@@ -66,6 +149,7 @@ fn row(finding: &Finding) -> JsonFinding<'_> {
         name: finding.code.name,
         message: &finding.message,
         help: finding.help.as_deref(),
+        fixes: finding.fixes.iter().map(fix).collect(),
         labels: labels
             .map(|label| JsonLabel { region: JsonRegion::from(&label.region), message: &label.message })
             .collect(),

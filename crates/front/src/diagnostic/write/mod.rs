@@ -11,13 +11,15 @@ mod github;
 mod human;
 mod json;
 mod sarif;
+mod scope;
 
 pub use github::github;
 pub use human::human;
 pub use json::json;
 pub use sarif::sarif;
+pub use scope::{NotChecked, Scope};
 
-use super::{Diagnostic, Label, Severity};
+use super::{Applicability, Diagnostic, Fix, Label, Severity};
 use crate::language::{Edition, cite};
 use crate::source::{Language, SourceMap, Span};
 use std::borrow::Cow;
@@ -47,6 +49,26 @@ pub struct FindingLabel {
     pub message: String,
 }
 
+/// A replacement of the text of a region.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FindingEdit {
+    /// The region; empty for an insertion.
+    pub region: Region,
+    /// The new text.
+    pub text: String,
+}
+
+/// A change of texts on disk that removes a finding.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FindingFix {
+    /// The action, as an editor shows it.
+    pub title: String,
+    /// Whether it may be applied without a look at it.
+    pub applicability: Applicability,
+    /// The edits, by position.
+    pub edits: Vec<FindingEdit>,
+}
+
 /// A diagnostic with resolved regions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
@@ -60,6 +82,8 @@ pub struct Finding {
     pub message: String,
     /// The help text.
     pub help: Option<String>,
+    /// Changes of the text that remove it.
+    pub fixes: Vec<FindingFix>,
     /// The primary label's message, if it adds to the message, and the secondary labels.
     pub labels: Vec<FindingLabel>,
     /// Facts that need no region.
@@ -68,6 +92,8 @@ pub struct Finding {
     pub presented_line: Option<u32>,
     /// The section of the specification, in the version of the source; empty if there is none.
     pub section: Cow<'static, str>,
+    /// A number that stays the same when lines above it come and go: of its code, its message and its line of text.
+    pub fingerprint: u64,
 }
 
 impl Finding {
@@ -84,10 +110,12 @@ impl Finding {
             code: diagnostic.code,
             message: diagnostic.message.clone(),
             help: diagnostic.help.clone(),
+            fixes: diagnostic.fixes.iter().filter_map(|fix| resolved(sources, fix)).collect(),
             labels,
             notes: diagnostic.notes.clone(),
             presented_line: diagnostic.presented_line.or_else(|| sources.presented_line(outer)),
             section: section(sources, diagnostic),
+            fingerprint: fingerprint(sources, diagnostic, outer),
         }
     }
 }
@@ -95,6 +123,30 @@ impl Finding {
 /// The findings of a compilation.
 pub fn findings<'a>(sources: &SourceMap, diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<Finding> {
     diagnostics.into_iter().map(|diagnostic| Finding::new(sources, diagnostic)).collect()
+}
+
+/// The fix with regions, if all of its edits are of texts on disk.
+fn resolved(sources: &SourceMap, fix: &Fix) -> Option<FindingFix> {
+    let mut edits = Vec::new();
+    for edit in &fix.edits {
+        // What a macro brings is written elsewhere, and for other uses of the macro, too.
+        let is_written_here = sources.expansion(edit.span.expansion).is_none();
+        let at = sources.location(edit.span).filter(|_| is_written_here)?;
+        (!sources.file(at.file).name().starts_with('<')).then_some(())?;
+        edits.push(FindingEdit { region: region(sources, edit.span), text: edit.text.clone() });
+    }
+    edits.sort_by(|a, b| a.region.cmp(&b.region));
+    Some(FindingFix { title: fix.title.clone(), applicability: fix.applicability, edits })
+}
+
+/// FNV-1a over the code, the message and the line of text without its indentation.
+fn fingerprint(sources: &SourceMap, diagnostic: &Diagnostic, span: Span) -> u64 {
+    const START: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    let line = sources.location(span).and_then(|at| sources.file(at.file).line(at.line)).unwrap_or_default();
+    let parts = [diagnostic.code.id, diagnostic.message.as_str(), line.trim()];
+    let bytes = parts.iter().flat_map(|part| part.bytes().chain([0]));
+    bytes.fold(START, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
 }
 
 /// The section that a diagnostic cites, in the version of the source.

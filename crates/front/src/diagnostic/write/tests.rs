@@ -56,7 +56,8 @@ fn json_has_the_keys_of_the_contract_and_counts_characters() {
     let text = "// é\tü x\n";
     let (sources, base) = source(text);
     let diagnostic = Diagnostic::new(&TOO_DEEP, span_of(text, base, "x"), "deep");
-    let value: serde_json::Value = serde_json::from_str(&json(&findings(&sources, [&diagnostic]))).expect("it is JSON");
+    let value: serde_json::Value =
+        serde_json::from_str(&json(&findings(&sources, [&diagnostic]), None)).expect("it is JSON");
     let row = &value[0];
     assert_eq!(row["file"], "dir/a b.vert");
     assert_eq!((row["line"].as_u64(), row["column"].as_u64()), (Some(1), Some(8)));
@@ -73,7 +74,8 @@ fn sarif_names_rule_level_and_region() {
     let (sources, base) = source(text);
     let mut diagnostic = Diagnostic::new(&TOO_DEEP, span_of(text, base, "x"), "deep");
     diagnostic.severity = Severity::Warning;
-    let value: serde_json::Value = serde_json::from_str(&sarif(&findings(&sources, [&diagnostic]))).expect("JSON");
+    let value: serde_json::Value =
+        serde_json::from_str(&sarif(&findings(&sources, [&diagnostic]), None)).expect("JSON");
     let run = &value["runs"][0];
     assert_eq!(run["tool"]["driver"]["rules"][0]["id"], "E0003");
     assert_eq!(run["results"][0]["level"], "warning");
@@ -88,7 +90,7 @@ fn github_escapes_properties_and_data() {
     let (sources, base) = source(text);
     let diagnostic = Diagnostic::new(&TOO_DEEP, span_of(text, base, "x"), "50% deep").help("less");
     assert_eq!(
-        github(&findings(&sources, [&diagnostic])),
+        github(&findings(&sources, [&diagnostic]), None),
         "::error file=dir/a b.vert,line=1,endLine=1,col=1,endColumn=2,title=E0003 nesting-too-deep::50%25 deep%0Ahelp: \
          less\n"
     );

@@ -3,26 +3,38 @@
 use super::super::Findings;
 use crate::hir::{Global, Storage};
 use crate::link::Program;
+use crate::link::usage::first_use;
 
-fn name(global: &Global) -> &str {
-    global.block.as_ref().map_or(&global.name, |block| &block.name)
+/// The name by which the next stage reads an output. The color of a back face comes in place of the front color (GLSL 1.20
+/// §7.6), where the host selects it.
+fn read_as(output: &Global) -> &str {
+    match output.match_name() {
+        "gl_BackColor" => "gl_FrontColor",
+        "gl_BackSecondaryColor" => "gl_FrontSecondaryColor",
+        name => name,
+    }
 }
 
 pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     for pair in program.stages.windows(2) {
         let [producer, consumer] = pair else { continue };
         let located = |global: &Global| consumer.globals.iter().any(|other| other.location == global.location);
-        for output in
-            producer.globals.iter().filter(|global| global.storage == Storage::Out && global.builtin.is_none())
-        {
-            let declared =
-                consumer.globals.iter().any(|other| other.storage == Storage::In && name(other) == name(output));
-            if output.written && !declared && !(output.location.is_some() && located(output)) {
-                let message =
-                    format!("`{}` is written, and the {} stage does not read it", name(output), consumer.stage.name());
-                let finding = findings.at(output.span, message);
-                findings.push(finding.help("remove it, or declare it as an input of the next stage"));
+        let outputs =
+            producer.globals().filter(|(_, global)| global.storage == Storage::Out && global.builtin.is_none());
+        for (id, output) in outputs {
+            let is_input = |other: &Global| other.storage == Storage::In && other.match_name() == read_as(output);
+            let declared = consumer.globals.iter().any(is_input);
+            if !output.written || declared || (output.location.is_some() && located(output)) {
+                continue;
             }
+            let name = output.block.as_ref().map_or(&output.name, |block| &block.name);
+            let message = format!("`{name}` is written, and the {} stage does not read it", consumer.stage.name());
+            let (span, help) = if output.is_fixed() {
+                (first_use(producer, id).unwrap_or(output.span), "remove what is assigned to it")
+            } else {
+                (output.span, "remove it, or declare it as an input of the next stage")
+            };
+            findings.push(findings.at(span, message).help(help));
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::syntax::ast::{
     BlockDecl, Declaration, DeclarationKind, Declarator, FunctionHeader, Ident, ParamDecl, Qualifier, Stmt, TypeBase,
     TypeSpec, VariableDecl,
 };
-use crate::syntax::kind;
+use crate::syntax::{kind, of_later_word};
 
 /// How many tokens the parser looks ahead to tell a declaration from an expression. Without a bound, a text that
 /// never closes its brackets would be searched to its end from each statement.
@@ -134,7 +134,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             ),
         };
         let span = self.current.span;
-        self.session.report(Diagnostic::new(&codes::MISSING_TYPE, span, message).help(help));
+        let diagnostic = Diagnostic::new(&codes::MISSING_TYPE, span, message).help(help);
+        self.session.report(of_later_word(diagnostic, &name, self.session.version));
         Reported
     }
 

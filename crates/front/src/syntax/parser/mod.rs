@@ -21,6 +21,7 @@ mod types;
 
 use super::ast::{Ast, BinaryOp, ExprId, Ident};
 use super::keywords::TABLE;
+use super::of_later_word;
 use super::session::{ParseSession, TokenSource};
 use super::token::{Token, TokenKind};
 use crate::diagnostic::codes::{general, syntax as codes};
@@ -275,7 +276,8 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         let diagnostic =
             Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, format!("expected {expected}, found {found}"))
                 .here(format!("expected {expected}"));
-        self.report_found(diagnostic)
+        let word = self.session.spelling(self.current);
+        self.report_found(of_later_word(diagnostic, word, self.session.version))
     }
 
     /// Reports an error at the next token, unless the tokens ended because of an error that has been reported. The

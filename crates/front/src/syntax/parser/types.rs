@@ -7,6 +7,7 @@ use crate::syntax::ast::{
     ArrayDim, Declarator, ExprId, ExprKind, LayoutId, MemberDecl, Qualifier, QualifierKind, StructSpec, TypeBase,
     TypeSpec,
 };
+use crate::syntax::of_later_word;
 
 /// The qualifier that a token kind is by itself.
 fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
@@ -98,7 +99,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         .here("expected a qualifier or a type");
         let since = LATER_QUALIFIERS.iter().find(|row| row.0 == name).map(|row| row.1);
         let help = since.map(|since| format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100));
-        self.session.report(diagnostic.maybe_help(help));
+        self.session.report(of_later_word(diagnostic.maybe_help(help), &name, self.session.version));
     }
 
     /// A reserved word where only a qualifier makes sense, such as `static` in `static float x`.
@@ -151,7 +152,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 let _: super::Reported = self.foreign();
                 TypeBase::Error
             }
-            TokenKind::Ident => TypeBase::Named(self.ident("a type")?),
+            TokenKind::Ident => {
+                self.note_later_statement();
+                TypeBase::Named(self.ident("a type")?)
+            }
             TokenKind::Reserved => {
                 self.report_reserved_type();
                 TypeBase::Error
@@ -161,6 +165,19 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         };
         let array = self.array_specifiers()?;
         Ok(TypeSpec { base, array, span: self.since(token.span) })
+    }
+
+    /// Reports `precision mediump float` and its like where the version is missing: two names before a keyword for a type are
+    /// nothing else.
+    fn note_later_statement(&mut self) {
+        if self.ahead(1).kind == TokenKind::Ident && self.ahead(2).kind == TokenKind::Type {
+            let (word, span) = (self.session.spelling(self.current).to_owned(), self.current.span);
+            let finding = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, "");
+            let finding = of_later_word(finding, &word, self.session.version);
+            if finding.code.id != codes::UNEXPECTED_TOKEN.id {
+                self.session.report(finding);
+            }
+        }
     }
 
     /// `unsigned int`, which GL_EXT_gpu_shader4 spells as C does.
@@ -175,8 +192,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// Reports a reserved word used as a type, at each use, since no declaration can make it right.
     fn report_reserved_type(&mut self) {
         let token = self.bump();
-        let name = self.session.spelling(token);
-        let help = match name {
+        let name = self.session.spelling(token).to_owned();
+        let help = match name.as_str() {
             "double" | "half" | "fixed" => Some("write `float`"),
             "long" | "short" => Some("write `int`"),
             "unsigned" => Some("write `uint`"),
@@ -189,7 +206,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         )
         .here("reserved for later versions")
         .maybe_help(help.map(str::to_owned));
-        self.session.report(diagnostic);
+        self.session.report(of_later_word(diagnostic, &name, self.session.version));
     }
 
     /// `[n]`, `[]`, any number of them

@@ -21,6 +21,7 @@ fn run(text: &str, files: &'static [(&'static str, &'static str)]) -> (String, V
     let mut diagnostics = Diagnostics::default();
     let file = sources.add("main", format!("#version 150\n{text}")).expect("room");
     let mut session = ParseSession {
+        version: super::version::UNWRITTEN,
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         names: predefined::names(),
@@ -158,6 +159,7 @@ fn a_use_of_a_macro_is_traced() {
     let text = "#version 150\n#define ONE 1\n#define TWO ONE + x\nTWO";
     let file = sources.add("main", text).expect("room");
     let mut session = ParseSession {
+        version: super::version::UNWRITTEN,
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         names: predefined::names(),

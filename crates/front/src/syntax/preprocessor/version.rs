@@ -84,6 +84,7 @@ impl Preprocessor<'_> {
         profile: Span,
     ) {
         self.version = version;
+        session.version = version;
         let Some(edition) = EDITIONS.iter().find(|edition| edition.number == version.number) else {
             let numbers: BTreeSet<u16> = EDITIONS.iter().map(|edition| edition.number).collect();
             let numbers: Vec<_> = numbers.iter().map(u16::to_string).collect();
@@ -113,6 +114,7 @@ impl Preprocessor<'_> {
         };
         version.profile = wanted;
         self.version = version;
+        session.version = version;
         self.apply_version(session);
     }
 

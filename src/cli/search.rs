@@ -1,0 +1,118 @@
+//! Searches a folder for shaders.
+//!
+//! *In:* a folder. *Out:* the shaders in it and in its subfolders, and the files that look like shaders and were not taken, each with
+//! the reason. *Holds:* both are in the order of their names. What `.gitignore` or the `exclude` of a configuration names is in
+//! neither, nor is a `.glsl` file that is there to be included.
+
+use super::config;
+use super::engine::Engines;
+use super::exit::Failure;
+use super::inputs;
+use crate::sources::stages;
+use ignore::WalkBuilder;
+use ignore::gitignore::Gitignore;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A file that a search saw and did not take.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Left {
+    /// The file.
+    pub(super) path: PathBuf,
+    /// The reason.
+    pub(super) why: Why,
+}
+
+/// Why a search does not take a file that looks like a shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Why {
+    /// Its name tells a stage, and it has no `main`: it is there to be included.
+    NoMain,
+    /// It is in the assembly language of ARB_vertex_program.
+    Assembly,
+    /// It has a `main`, and neither its name nor its text tells its stage.
+    NoStage,
+    /// Its stage is none that glisten reads.
+    Stage(&'static str),
+}
+
+/// The result of a search.
+#[derive(Debug, Default)]
+pub(super) struct Search {
+    /// The shaders.
+    pub(super) found: Vec<PathBuf>,
+    /// The files that were not taken.
+    pub(super) left: Vec<Left>,
+}
+
+/// Searches a folder. Hidden folders are skipped, and links to folders are not followed, so that a cycle of links does no harm.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub(super) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> {
+    let mut excludes: BTreeMap<PathBuf, Option<Gitignore>> = BTreeMap::new();
+    let mut walk = WalkBuilder::new(root);
+    // Without a repository, `.gitignore` says as much about what is generated.
+    walk.hidden(false).require_git(false).filter_entry(|entry| entry.depth() == 0 || !is_hidden_folder(entry));
+    let mut search = Search::default();
+    for entry in walk.build() {
+        let entry =
+            entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
+        let path = entry.path();
+        if entry.file_type().is_some_and(|kind| kind.is_dir()) {
+            continue;
+        }
+        let taken = classify(path, engines);
+        if taken == Some(Ok(())) && !is_excluded(path, &mut excludes) {
+            search.found.push(entry.into_path());
+        } else if let Some(Err(why)) = taken
+            && !is_excluded(path, &mut excludes)
+        {
+            search.left.push(Left { path: entry.into_path(), why });
+        }
+    }
+    // `./a.frag` is `a.frag` to services that show findings.
+    let plain = |path: PathBuf| path.strip_prefix(".").map(Path::to_owned).unwrap_or(path);
+    search.found = search.found.into_iter().map(plain).collect();
+    search.left.iter_mut().for_each(|left| left.path = plain(std::mem::take(&mut left.path)));
+    search.found.sort();
+    search.left.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(search)
+}
+
+/// Whether a search takes a file: its name tells its stage, or its engine does, or it contains several stages. `None` for a file
+/// that does not look like a shader.
+fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>> {
+    if stages::may_be_included(path) && engines.is_part(path) {
+        return None;
+    }
+    if let Some(stage) = stages::unread(path) {
+        return Some(Err(Why::Stage(stage)));
+    }
+    let is_whole = stages::by_name(path).is_some() || engines.stage(path).is_some() && stages::may_be_included(path);
+    if is_whole {
+        return Some(match () {
+            () if stages::is_part(path) => Err(Why::NoMain),
+            () if stages::is_assembly(path) => Err(Why::Assembly),
+            () => Ok(()),
+        });
+    }
+    if stages::may_be_combined(path) && !inputs::parts(path).is_empty() {
+        return Some(Ok(()));
+    }
+    (stages::may_be_included(path) && !stages::is_part(path)).then_some(Err(Why::NoStage))
+}
+
+fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {
+    entry.file_type().is_some_and(|kind| kind.is_dir()) && entry.file_name().to_string_lossy().starts_with('.')
+}
+
+/// Whether the nearest configuration excludes a file or a folder that it is in.
+fn is_excluded(path: &Path, excludes: &mut BTreeMap<PathBuf, Option<Gitignore>>) -> bool {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let patterns = excludes.entry(folder.to_owned()).or_insert_with(|| config::excluded(folder));
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    patterns.as_ref().is_some_and(|patterns| {
+        absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
+    })
+}
