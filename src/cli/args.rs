@@ -280,10 +280,10 @@ enum FloatsArg {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum ClipZArg {
-    /// \[0, w\]: WebGPU, Vulkan, Metal, Direct3D
+    /// 0 to w: WebGPU, Vulkan, Metal, Direct3D
     #[default]
     ZeroToOne,
-    /// \[-w, w\]: OpenGL
+    /// -w to w: OpenGL
     MinusOneToOne,
 }
 

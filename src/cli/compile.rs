@@ -101,7 +101,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     let groups = std::mem::take(&mut inputs.groups);
     let mut units = session.compile_by(groups, |compiler, group| recall.compile(compiler, group, ""));
     for unit in &mut units {
-        let warning = lone::warning(unit);
+        let warning = lone::warning(unit, session.engines());
         session.add(&mut unit.batch, warning);
         lone::refuse_what_is_no_program(unit);
     }

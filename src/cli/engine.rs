@@ -135,6 +135,16 @@ impl Engines {
 }
 
 impl Engines {
+    /// Whether includes of a file are searched along folders that the user gave, who then knows that something resolves them.
+    pub(super) fn has_folders(&self, name: &str) -> bool {
+        !self.flags.folders.is_empty() || !self.settings(Some(Path::new(name))).folders.is_empty()
+    }
+
+    /// Whether the engine of a file has programs of this stage alone, so that no file is its partner.
+    pub(super) fn is_whole(&self, path: &Path) -> bool {
+        self.settings(Some(path)).profile.is_some_and(|profile| profile.stage == Some(Stage::Fragment))
+    }
+
     /// Whether the engine of a file never takes it for a shader, whatever is in it.
     pub(super) fn is_part(&self, path: &Path) -> bool {
         let parts = self.settings(Some(path)).profile.and_then(|profile| profile.parts.as_deref());

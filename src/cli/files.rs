@@ -165,10 +165,29 @@ const TEMPORARY: &str = ".glisten-";
 /// Control-Z.
 const END_OF_FILE: u8 = 0x1a;
 
+/// Makes sure that a file can be written, before the work that makes it.
+///
+/// # Errors
+/// It cannot.
+pub(super) fn check_writable(path: &Path) -> Result<(), Failure> {
+    if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
+        return Ok(());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    builder().tempfile_in(folder).map(drop).map_err(|error| unwritable(path, &error))
+}
+
+/// The failure to write a file. The name of a temporary file is nobody's business.
+fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    let reason = error.to_string();
+    let reason = reason.split(" at path ").next().unwrap_or_default();
+    Failure::usage(format!("cannot write `{}`: {reason}", path.display()))
+}
+
 /// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
 /// pipe, `/dev/null`) is written to directly.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed = |error: &io::Error| Failure::usage(format!("cannot write `{}`: {error}", path.display()));
+    let failed = |error: &io::Error| unwritable(path, error);
     match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => {
             return Err(Failure::usage(format!("cannot write `{}`: it is a folder", path.display())));

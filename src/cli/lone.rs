@@ -3,6 +3,8 @@
 //! *In:* a compiled unit. *Out:* a warning, or errors instead of warnings. *Holds:* such a shader is valid as a part of a program,
 //! which `lint` accepts; these are the rules for emitting it.
 
+use super::engine::Engines;
+use super::inputs::Input;
 use super::session::Unit;
 use glisten_front::diagnostic::codes::general::LONE_STAGE;
 use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
@@ -23,8 +25,9 @@ pub(super) fn refuse_what_is_no_program(unit: &mut Unit) {
 }
 
 /// The warning about a program of a single stage.
-pub(super) fn warning(unit: &Unit) -> Option<Diagnostic> {
-    if !unit.group.is_lone() || !unit.is_program() {
+pub(super) fn warning(unit: &Unit, engines: &Engines) -> Option<Diagnostic> {
+    let has_no_partner = |input: &Input| input.path.as_ref().is_some_and(|path| engines.is_whole(path));
+    if !unit.group.is_lone() || !unit.is_program() || unit.group.inputs.iter().all(has_no_partner) {
         return None;
     }
     let (_, file) = unit.batch.sources.files().next()?;

@@ -95,6 +95,7 @@ pub(super) fn run(args: &RenderArgs, console: &Console) -> Outcome {
         Err(exit) => return Ok(exit),
     };
     target.check(read.scene.framebuffer.format)?;
+    files::check_writable(&args.output)?;
     let progress = Progress::new(console, 1);
     progress.say("drawing");
     let scene = if args.specialize { read.specialized(args.contract.contract()) } else { read.scene.clone() };

@@ -4,10 +4,12 @@ use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::batch::Batch;
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::files;
 use super::guard;
 use super::journal::{self, Note};
 use super::session::Session;
 use crate::scene::{self, DiskFiles, Scene};
+use crate::sources::stages;
 use crate::specialize::{Contract, specialize_scene_by};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
@@ -16,6 +18,7 @@ use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::{Error, Gpu, Via};
 use glisten_scene::{FileError, FileSource};
 use std::cell::Cell;
+use std::path::Path;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
@@ -199,6 +202,25 @@ pub(super) fn gpu_failure(error: Error) -> Failure {
     told(exit, &error.to_string())
 }
 
+/// A shader in place of a scene is one mistake, not a line of TOML that is none for each of its lines.
+///
+/// # Errors
+/// The name or the text is that of a shader.
+fn refuse_shader(path: &str) -> Result<(), Failure> {
+    let name = Path::new(path);
+    let is_toml = name.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    let has_shader_text = || {
+        let bytes = files::read(path, name).unwrap_or_default();
+        let text = String::from_utf8_lossy(&bytes);
+        text.trim_start_matches('\u{feff}').trim_start().starts_with("#version") || text.contains("void main")
+    };
+    if is_toml || !name.is_file() || !(stages::by_name(name).is_some() || has_shader_text()) {
+        return Ok(());
+    }
+    let failure = Failure::new(Exit::Content, format!("`{path}` is a shader, not a scene"));
+    Err(failure.help(format!("`glisten new-scene {path} -o scene.toml` writes a scene that draws it")))
+}
+
 /// A failure from the message of a runner, whose second line is the help text.
 pub(super) fn told(exit: Exit, text: &str) -> Failure {
     match text.split_once("\nhelp: ") {
@@ -242,6 +264,7 @@ impl SceneArgs {
     /// ([`Read::finish`]), so that they are one list. Without a scene, returns the exit code.
     pub(super) fn begin<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         let mut session = self.session(console)?;
+        refuse_shader(&self.scene)?;
         let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")

@@ -19,6 +19,7 @@ use super::trace::Trace;
 use crate::engines;
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
+use glisten_front::diagnostic::codes::preprocess::INCLUDE_WITHOUT_EXTENSION;
 use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding, Scope};
 use glisten_front::diagnostic::{Code, Diagnostic, Level, Severity};
@@ -223,6 +224,12 @@ impl<'a> Session<'a> {
             let name = file.or(sources.files().next().map(|(id, _)| id)).map_or("", |id| sources.file(id).name());
             // The texts of an engine serve all its sources: what one does not use is no finding.
             if name.starts_with(engines::SHOWN) && !diagnostic.is_error() {
+                continue;
+            }
+            let is_include = *diagnostic.code == INCLUDE_WITHOUT_EXTENSION && !diagnostic.is_error();
+            if is_include
+                && (batch.diagnostics.iter().any(|told| told.code == diagnostic.code) || self.engines.has_folders(name))
+            {
                 continue;
             }
             if self.configs.levels(name).apply(sources, &mut diagnostic) {

@@ -88,7 +88,7 @@ pub(super) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
     let inputs = inputs::collect(&args.files, &args.programs, &args.sources, false)?;
     let n_files: usize = inputs.groups.iter().map(|group| group.inputs.len()).sum();
     if n_files > 1 && args.output.is_none() && !args.in_place {
-        let failure = Failure::usage("the new texts of several files do not fit on standard output");
+        let failure = Failure::usage("cannot write several files to standard output");
         return Err(failure.help("add `-o DIR` or `--in-place`"));
     }
     let has_parts = inputs.groups.iter().flat_map(|group| &group.inputs).find(|input| input.part.is_some());
@@ -156,8 +156,10 @@ fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failur
     for (input, others) in unit.group.inputs.iter().zip(&others) {
         let version = version_of(unit, input.stage);
         if version > newest && !(target == Target::Es300 && version == 300) {
-            let message = format!("`{}` is of a later version than the one to write", input.name);
-            return Err(Failure::new(Exit::Content, message));
+            let name = |number: u16| format!("{}.{:02}", number / 100, number % 100);
+            let message = format!("`{}` is GLSL {}, newer than the target {}", input.name, name(version), name(newest));
+            let failure = Failure::new(Exit::Content, message);
+            return Err(if version <= 330 { failure.help("add `--to 330`") } else { failure });
         }
         let text = text_of(unit, input);
         texts.push(Text { text, stage: input.stage, is_shader: true, version });

@@ -48,9 +48,9 @@ pub(super) fn run(args: &WatchArgs, console: &Console) -> Outcome {
         let run = Command::new(&program).args(&args.command).status();
         let status =
             run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))?;
-        let list: Vec<String> = watched.folders.iter().map(|folder| folder.display().to_string()).collect();
-        let ended = if status.success() { "no error" } else { "errors" };
-        console.remark(&format!("{ended}; watching {}, Ctrl-C ends", list.join(", ")));
+        let list: Vec<String> = watched.folders.iter().map(|folder| format!("`{}`", folder.display())).collect();
+        let ended = if status.success() { "OK" } else { "Errors" };
+        console.remark(&format!("{ended}. Watching {} (Ctrl-C to stop)", list.join(", ")));
         let Some(changed) = next_change(&changes, &watched) else { return Ok(Exit::Machine) };
         console.remark(&format!("{} changed", changed.display()));
     }
@@ -119,8 +119,13 @@ fn next_change(changes: &Receiver<Event>, watched: &Watched) -> Option<PathBuf> 
     loop {
         let event = changes.recv().ok()?;
         let Some(changed) = watched.path_of(&event) else { continue };
-        while changes.recv_timeout(TOGETHER).is_ok() {}
-        return Some(changed);
+        let mut paths = vec![changed];
+        while let Ok(event) = changes.recv_timeout(TOGETHER) {
+            paths.extend(event.paths.into_iter().filter(|path| watched.counts(path)));
+        }
+        // Editors write to a name of their own, which is gone when they have renamed it.
+        let there = paths.iter().rev().find(|path| path.is_file()).cloned();
+        return there.or(paths.into_iter().next());
     }
 }
 

@@ -16,6 +16,10 @@ use std::sync::{Arc, OnceLock};
 
 /// The largest number of files below a search folder among which one is found by its name alone.
 const MAX_FILES: usize = 50_000;
+/// The largest number of files near a source among which a missing include is looked for, in each folder above it.
+const MAX_NEARBY: usize = 2_000;
+/// How many folders above a source are searched for a missing include.
+const NEARBY: usize = 3;
 /// Folders in folders deeper than this are not searched: they are links in a circle.
 const DEEPEST: usize = 32;
 
@@ -104,6 +108,21 @@ fn files_below(folders: &[PathBuf]) -> BTreeMap<String, PathBuf> {
     files
 }
 
+/// The files near a source, in which a missing include may be: those below the folders that it is in, up to the working directory,
+/// the nearest first.
+fn nearby(from: &str) -> Vec<PathBuf> {
+    let folder = Path::new(from).parent().unwrap_or(Path::new(""));
+    let here = [Path::new("")].into_iter().filter(|_| !folder.is_absolute());
+    // Above that, there may be a whole disk.
+    let above = folder.ancestors().filter(|folder| !folder.as_os_str().is_empty()).take(NEARBY);
+    let shown = |folder: &Path| if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() };
+    let mut files = Vec::new();
+    for folder in above.chain(here) {
+        files.extend(walk(&shown(folder), MAX_NEARBY).into_iter().map(|path| normal(&path)));
+    }
+    files
+}
+
 /// The files of a folder and of those below it, in order, at most `most`.
 fn walk(folder: &Path, most: usize) -> Vec<PathBuf> {
     let (mut files, mut open) = (Vec::new(), vec![(folder.to_owned(), 0)]);
@@ -135,6 +154,14 @@ fn in_backquotes(text: &str) -> Arc<str> {
 }
 
 impl IncludeResolver for DiskIncludes {
+    fn remedy(&self, path: &str, from: &str) -> Option<String> {
+        let wanted: PathBuf = normal(Path::new(path.trim_start_matches('/')));
+        let found = nearby(from).into_iter().find(|file| file.ends_with(&wanted))?;
+        let folder = found.ancestors().nth(wanted.components().count())?;
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        Some(format!("found in `{0}`: add `-I {0}`", folder.display()))
+    }
+
     fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
         if path.is_empty() {
             return Err("an include names no file".to_owned());

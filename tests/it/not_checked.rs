@@ -59,7 +59,8 @@ fn what_is_not_checked_is_told_in_every_format_and_can_be_denied() {
     assert_eq!((codes(&found), exit), (vec!["E0301"], 1), "an error of the header is told once: {found:#?}");
     let rows = not_checked(&scope);
     let files: Vec<&str> = rows.iter().map(|(file, _)| *file).collect();
-    let expected = ["a.frag", "asm.vp", "blur.comp", "gl/es.frag", "gl/in.vert", "head.frag", "head_fs.glsl", "which.glsl"];
+    let expected =
+        ["a.frag", "asm.vp", "blur.comp", "gl/es.frag", "gl/in.vert", "head.frag", "head_fs.glsl", "which.glsl"];
     assert_eq!(files, expected, "{rows:?}");
     for (file, part) in [
         ("a.frag", "it has no `#version` line, and a global `in` or `out` is not in GLSL 1.10"),

@@ -188,7 +188,8 @@ impl Run<'_> {
             unit.batch.diagnostics = unit.batch.diagnostics.iter().map(noted).collect();
             let mut adopted = self.session.adopt(vec![(unit, dropped)]);
             for unit in &mut adopted {
-                let added: Vec<Diagnostic> = lone::warning(unit).iter().chain(&done.diagnostics).map(noted).collect();
+                let warning = lone::warning(unit, self.session.engines());
+                let added: Vec<Diagnostic> = warning.iter().chain(&done.diagnostics).map(noted).collect();
                 self.session.add(&mut unit.batch, added);
                 lone::refuse_what_is_no_program(unit);
                 is_sound &= unit.exit() == Exit::Ok && !done.outputs.is_empty();

@@ -123,6 +123,23 @@ impl<'a> Analyzer<'a> {
         self.shader
     }
 
+    /// How many diagnostics there are.
+    pub(super) fn n_diagnostics(&self) -> usize {
+        self.diagnostics.len()
+    }
+
+    /// Changes the diagnostics from number `first` on.
+    pub(super) fn amend(&mut self, first: usize, change: impl Fn(&mut Diagnostic)) {
+        let mut index = 0;
+        self.diagnostics.retain_mut(|found| {
+            index += 1;
+            if index > first {
+                change(found);
+            }
+            true
+        });
+    }
+
     /// Reports a diagnostic.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(worded(diagnostic));

@@ -31,6 +31,7 @@ mod limits;
 mod qualifiers;
 mod recursion;
 mod scope;
+mod shadertoy;
 mod state;
 mod statement;
 mod types;
@@ -48,6 +49,8 @@ use crate::syntax::ast::Ast;
 use context::Analyzer;
 
 pub use decisive::keep_decisive;
+pub use shadertoy::point_to_engine;
+pub(crate) use shadertoy::{HELP as SHADERTOY_HELP, NOTE as SHADERTOY_NOTE, is_shadertoy};
 pub use understood::keep_understood;
 
 /// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share

@@ -4,7 +4,7 @@ mod preparation;
 
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
-use crate::analysis::{analyze, keep_decisive, keep_understood};
+use crate::analysis::{analyze, keep_decisive, keep_understood, point_to_engine};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
@@ -189,6 +189,9 @@ impl Compiler {
         diagnostics: &mut Diagnostics,
     ) -> Option<Program> {
         if diagnostics.has_errors() {
+            if shaders.len() > 1 && shaders.iter().any(|understood| !understood.is_complete) {
+                note_that_nothing_is_compared(diagnostics);
+            }
             if !diagnostics.is_full() {
                 check_understood(types, shaders, diagnostics);
             }
@@ -250,6 +253,7 @@ impl Compiler {
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_decisive(diagnostics, first_error);
+        point_to_engine(&shader, diagnostics, first_error);
         Some(Understood { shader, is_complete })
     }
 }
@@ -274,6 +278,18 @@ impl Facts {
             }
         }
     }
+}
+
+/// Says at the first error of syntax that the stages are not compared as far as it reaches.
+fn note_that_nothing_is_compared(diagnostics: &mut Diagnostics) {
+    let mut is_told = false;
+    diagnostics.retain_mut(|found| {
+        if found.is_error() && found.code.id.starts_with("E02") && !is_told {
+            is_told = true;
+            found.notes.push("what is declared there is not compared with the other stage yet".to_owned());
+        }
+        true
+    });
 }
 
 /// Reports what is wrong with a source for its engine.

@@ -165,12 +165,17 @@ pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str
     if name.len() > LONGEST {
         return None;
     }
-    let allowed = (name.chars().count() / 3).max(1);
+    let n_letters = name.chars().count();
+    let allowed = (n_letters / 3).max(1);
     candidates
         .into_iter()
         .filter(|candidate| *candidate != name && candidate.len().abs_diff(name.len()) <= allowed)
         .filter_map(|candidate| {
             let same_but_for_case = candidate.eq_ignore_ascii_case(name);
+            // Every name of one letter is one change away from every other.
+            if n_letters == 1 && !same_but_for_case {
+                return None;
+            }
             let distance = if same_but_for_case { 0 } else { strsim::damerau_levenshtein(name, candidate) };
             (distance <= allowed).then_some((distance, candidate))
         })

@@ -1,6 +1,7 @@
 //! Which stages form a program, and what each must have (OpenGL 3.2 §2.11.2, §2.12; GLSL 1.50 §4.3.8, §6.1).
 
 use super::{Linker, merge};
+use crate::analysis::{SHADERTOY_HELP, SHADERTOY_NOTE, is_shadertoy};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{FunctionId, Shader, Stage, Types};
 
@@ -102,10 +103,12 @@ fn missing_main(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
     let names = shader.functions.iter().map(|function| function.name.as_str());
     let help =
         crate::diagnostic::did_you_mean("main", names).map(|name| format!("did you mean `{name}` to be `main`?"));
-    let is_shadertoy = shader.functions.iter().any(|function| function.name == "mainImage");
-    let call = "for a shader of Shadertoy, add `out vec4 color; void main() { mainImage(color, gl_FragCoord.xy); }`";
-    let help = if is_shadertoy { Some(call.to_owned()) } else { help };
-    ctx.report(Diagnostic::new(code, shader.anchor(), message).maybe_help(help));
+    let finding = Diagnostic::new(code, shader.anchor(), message);
+    ctx.report(if is_shadertoy(shader) {
+        finding.note(SHADERTOY_NOTE).help(SHADERTOY_HELP)
+    } else {
+        finding.maybe_help(help)
+    });
 }
 
 fn geometry_layout(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {

@@ -336,6 +336,11 @@ pub trait IncludeResolver {
     /// # Errors
     /// A sentence for people, without a full stop, that says what was looked for, where, and why it was not found.
     fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String>;
+
+    /// The help for a file that was not found, such as the folder where it is.
+    fn remedy(&self, _path: &str, _from: &str) -> Option<String> {
+        None
+    }
 }
 
 /// A resolver that finds nothing, for sources without includes.

@@ -83,6 +83,12 @@ impl Analyzer<'_> {
     ) -> Option<String> {
         let name = self.type_name(to);
         let text = self.sources.snippet(span);
+        if let (Type::Scalar(Scalar::Float), Type::Scalar(whole @ (Scalar::Int | Scalar::Uint))) =
+            (self.types.get(from), self.types.get(to))
+            && let Some(number) = whole_literal(text).filter(|_| !span.expansion.is_some())
+        {
+            return Some(format!("write `{number}{}`", if whole == Scalar::Uint { "u" } else { "" }));
+        }
         let short = if text.is_empty() || text.len() > 40 || span.expansion.is_some() { "..." } else { text };
         match (self.types.get(from), self.types.get(to)) {
             (Type::Scalar(_), Type::Scalar(_) | Type::Vector(..)) => Some(format!("write `{name}({short})`")),
@@ -108,4 +114,13 @@ impl Analyzer<'_> {
         let span = self.span(id);
         self.push(ExprKind::Convert(id), to, span)
     }
+}
+
+/// The digits before the point of a literal that is a whole number: `1` for `1.0`, `1.` and `1.0f`.
+fn whole_literal(text: &str) -> Option<&str> {
+    let (whole, fraction) = text.strip_suffix(['f', 'F']).unwrap_or(text).split_once('.')?;
+    let is_whole = !whole.is_empty() && whole.bytes().all(|digit| digit.is_ascii_digit());
+    // A leading zero would make it octal.
+    let is_plain = whole == "0" || !whole.starts_with('0');
+    (is_whole && is_plain && fraction.bytes().all(|digit| digit == b'0')).then_some(whole)
 }

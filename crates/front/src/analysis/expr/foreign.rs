@@ -44,6 +44,10 @@ static SHADERTOY: &[(&str, &str)] = &[
     ("iMouse", "uniform vec4 iMouse;"),
     ("iFrame", "uniform int iFrame;"),
     ("iTimeDelta", "uniform float iTimeDelta;"),
+    ("iFrameRate", "uniform float iFrameRate;"),
+    ("iSampleRate", "uniform float iSampleRate;"),
+    ("iChannelTime", "uniform float iChannelTime[4];"),
+    ("iChannelResolution", "uniform vec3 iChannelResolution[4];"),
     ("iDate", "uniform vec4 iDate;"),
     ("iChannel0", "uniform sampler2D iChannel0;"),
     ("iChannel1", "uniform sampler2D iChannel1;"),
@@ -109,10 +113,13 @@ pub(super) fn method(name: &str) -> Option<&'static str> {
     METHODS.iter().find(|row| row.0 == name).map(|row| row.1)
 }
 
+/// The beginning of the help for a variable of Shadertoy.
+pub(in crate::analysis) const OF_SHADERTOY: &str = "Shadertoy declares it: ";
+
 /// The declaration of a variable that another environment provides.
 pub(super) fn variable(name: &str) -> Option<String> {
     let declaration = SHADERTOY.iter().find(|row| row.0 == name)?.1;
-    Some(format!("Shadertoy declares it: add `{declaration}`"))
+    Some(format!("{OF_SHADERTOY}add `{declaration}`"))
 }
 
 /// The replacement for a type that does not exist.

@@ -16,6 +16,9 @@ pub(super) struct Typed {
     pub(super) ty: TypeId,
 }
 
+/// The help for an assignment as a condition.
+const ASSIGNS: &str = "`=` assigns; write `==` to compare";
+
 impl Analyzer<'_> {
     /// `+a`, `-a`, `!a`, `~a`
     pub(super) fn unary(&mut self, operator: ast::UnaryOp, operand: ExprId, span: Span) -> ExprId {
@@ -284,6 +287,15 @@ impl Analyzer<'_> {
         self.push(ExprKind::Comma(left, right), ty, span)
     }
 
+    /// Adds the help for an assignment as a condition to what was reported about it, from diagnostic `first` on.
+    pub(in crate::analysis) fn help_with_assignment(&mut self, first: usize) {
+        self.amend(first, |found| {
+            if *found.code == types::NOT_AN_LVALUE && found.help.is_none() {
+                found.help = Some(ASSIGNS.to_owned());
+            }
+        });
+    }
+
     /// Reports an expression that is not a scalar `bool`.
     pub(in crate::analysis) fn require_bool(&mut self, id: ExprId, what: &str) {
         let ty = self.ty(id);
@@ -292,9 +304,7 @@ impl Analyzer<'_> {
         }
         let (name, span) = (self.type_name(ty), self.span(id));
         let help = match self.types.get(ty) {
-            _ if matches!(self.expr_at(id).kind, ExprKind::Assign(None, ..)) => {
-                Some("`=` assigns; write `==` to compare")
-            }
+            _ if matches!(self.expr_at(id).kind, ExprKind::Assign(None, ..)) => Some(ASSIGNS),
             Type::Scalar(_) => Some("compare it: `... != 0`"),
             Type::Vector(Scalar::Bool, _) => Some("use `any(...)` or `all(...)`"),
             _ => None,

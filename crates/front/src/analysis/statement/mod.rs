@@ -126,7 +126,11 @@ impl Analyzer<'_> {
     }
 
     fn condition(&mut self, id: ast::ExprId, what: &str) -> ExprId {
+        let first = self.n_diagnostics();
         let expr = self.expr(id);
+        if matches!(self.ast.expr(id).kind, ast::ExprKind::Assign(None, ..)) {
+            self.help_with_assignment(first);
+        }
         self.require_bool(expr, what);
         expr
     }

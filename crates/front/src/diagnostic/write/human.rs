@@ -103,9 +103,9 @@ fn keeps(character: char) -> bool {
     character == '\n' || character == '\t' || !is_hostile(character)
 }
 
-/// Whether a character controls the terminal or changes the writing direction.
+/// Whether a character controls the terminal, changes the writing direction, or has no width.
 fn is_hostile(character: char) -> bool {
-    character.is_control() || matches!(character, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    character.is_control() || matches!(character, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
 /// A text from which an excerpt is taken.

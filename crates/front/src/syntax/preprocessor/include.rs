@@ -131,7 +131,9 @@ impl Preprocessor<'_> {
             Ok(included) => included,
             Err(reason) => {
                 let message = format!("the include `{path}` was not found");
-                session.report(Diagnostic::new(&codes::INCLUDE_NOT_FOUND, *header, message).here(reason));
+                let help = self.includes.remedy(&path, session.sources.file(from).name());
+                session
+                    .report(Diagnostic::new(&codes::INCLUDE_NOT_FOUND, *header, message).here(reason).maybe_help(help));
                 return None;
             }
         };
