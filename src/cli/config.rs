@@ -26,6 +26,7 @@ use super::args::set_level;
 use super::batch::Batch;
 use super::files;
 use super::rules::{Rule, RuleReader, SourceTable};
+use super::toml_errors;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
 use glisten_front::source::{SourceMap, Span};
@@ -170,7 +171,8 @@ fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -
         Ok(config) => config,
         Err(error) => {
             let span = error.span().unwrap_or(0..0);
-            return vec![Diagnostic::new(&BAD_CONFIG, at(span), error.message().trim().replace('\n', ", "))];
+            let (message, help) = toml_errors::explained(&error);
+            return vec![Diagnostic::new(&BAD_CONFIG, at(span), message).maybe_help(help)];
         }
     };
     let lists = [(Level::Allow, config.lint.allow), (Level::Warn, config.lint.warn), (Level::Deny, config.lint.deny)];

@@ -65,6 +65,7 @@ mod supervisor;
 pub mod survey;
 mod test;
 mod timed;
+mod toml_errors;
 mod trace;
 mod unfinished;
 mod upgrade;

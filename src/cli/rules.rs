@@ -35,7 +35,7 @@ use toml::Spanned;
 
 /// A string or a list of strings.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a text in quotes, or a list of texts")]
 enum Strings {
     One(String),
     Many(Vec<String>),
@@ -43,7 +43,7 @@ enum Strings {
 
 /// Macros: `"A"`, `["A", "B=2"]`, `{ A = 1 }`.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "macros: `[\"A\", \"B=2\"]` or `{ A = 1, B = 2 }`")]
 enum Defines {
     Texts(Strings),
     Table(IndexMap<String, toml::Value>),

@@ -156,8 +156,10 @@ fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failur
     for (input, others) in unit.group.inputs.iter().zip(&others) {
         let version = version_of(unit, input.stage);
         if version > newest && !(target == Target::Es300 && version == 300) {
+            let es = if [300, 310, 320].contains(&version) { "ES " } else { "" };
             let name = |number: u16| format!("{}.{:02}", number / 100, number % 100);
-            let message = format!("`{}` is GLSL {}, newer than the target {}", input.name, name(version), name(newest));
+            let message =
+                format!("`{}` is GLSL {es}{}, newer than the target {}", input.name, name(version), name(newest));
             let failure = Failure::new(Exit::Content, message);
             return Err(if version <= 330 { failure.help("add `--to 330`") } else { failure });
         }

@@ -19,7 +19,7 @@ const MAX_FILES: usize = 50_000;
 /// The largest number of files near a source among which a missing include is looked for, in each folder above it.
 const MAX_NEARBY: usize = 2_000;
 /// How many folders above a source are searched for a missing include.
-const NEARBY: usize = 3;
+const NEARBY: usize = 2;
 /// Folders in folders deeper than this are not searched: they are links in a circle.
 const DEEPEST: usize = 32;
 
@@ -114,7 +114,8 @@ fn nearby(from: &str) -> Vec<PathBuf> {
     let folder = Path::new(from).parent().unwrap_or(Path::new(""));
     let here = [Path::new("")].into_iter().filter(|_| !folder.is_absolute());
     // Above that, there may be a whole disk.
-    let above = folder.ancestors().filter(|folder| !folder.as_os_str().is_empty()).take(NEARBY);
+    let is_root = |folder: &Path| folder.as_os_str().is_empty() || folder.parent().is_none();
+    let above = folder.ancestors().filter(|folder| !is_root(folder)).take(NEARBY);
     let shown = |folder: &Path| if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() };
     let mut files = Vec::new();
     for folder in above.chain(here) {
@@ -123,11 +124,12 @@ fn nearby(from: &str) -> Vec<PathBuf> {
     files
 }
 
-/// The files of a folder and of those below it, in order, at most `most`.
+/// The files of a folder and of those below it, in order, at most `most`, and at most as many folders.
 fn walk(folder: &Path, most: usize) -> Vec<PathBuf> {
-    let (mut files, mut open) = (Vec::new(), vec![(folder.to_owned(), 0)]);
+    let (mut files, mut open, mut n_seen) = (Vec::new(), vec![(folder.to_owned(), 0)], 0);
     while let Some((path, depth)) = open.pop() {
-        if files.len() >= most {
+        n_seen += 1;
+        if files.len() >= most || n_seen > most * 2 {
             break;
         }
         let is_hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));

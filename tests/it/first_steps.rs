@@ -61,7 +61,7 @@ fn other_dialects_are_recognized() {
         ("#version 150\nout vec4 c;\nvoid main() { c = vec4(sin(iTime)); }\n", "uniform float iTime;"),
         (
             "#version 150\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0.0, 1.0); }\n",
-            "mainImage(color, gl_FragCoord.xy)",
+            "add `--engine shadertoy`",
         ),
     ] {
         let folder = Folder::new(&[("a.frag", text.as_bytes())]);

@@ -55,7 +55,7 @@ fn a_command_runs_again_after_a_change() {
     let good = "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
     fs::write(&shader, good).expect("the folder can be written to");
     let (running, lines) = start(folder.path(), &["compile", "a.frag", "-o", "out", "--target", "wgsl"]);
-    wait_for(&lines, "no error; watching .");
+    wait_for(&lines, "OK. Watching `.`");
     assert!(folder.path().join("out/a.frag.wgsl").is_file());
     // What it has just written starts nothing.
     assert!(lines.recv_timeout(Duration::from_millis(400)).is_err());
@@ -64,7 +64,7 @@ fn a_command_runs_again_after_a_change() {
     wait_for(&lines, "`missing` is not declared");
     wait_for(&lines, "errors; watching .");
     fs::write(&shader, good).expect("the folder can be written to");
-    wait_for(&lines, "no error; watching .");
+    wait_for(&lines, "OK. Watching `.`");
     drop(running);
 }
 

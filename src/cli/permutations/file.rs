@@ -24,6 +24,7 @@
 use super::axes::{Axis, Condition, Variant, define, variants};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::files;
+use crate::cli::toml_errors;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -72,7 +73,10 @@ pub(super) struct SceneTable {
 
 /// The value of a macro: `false` if it is not defined.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "the value of a macro is a number, a text, `true` or `false`; a list of values, one for each variant, goes under `[program.values]`"
+)]
 enum Value {
     Flag(bool),
     Integer(i64),
@@ -124,7 +128,13 @@ pub(super) fn read(path: &Path) -> Result<Permutations, Failure> {
     let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
     let wrong = |why: String| Failure::new(Exit::Content, format!("in `{name}`: {why}"));
     let text = String::from_utf8(bytes).map_err(|_| wrong("it is not text in UTF-8".to_owned()))?;
-    let file: File = toml::from_str(&text).map_err(|error| wrong(error.to_string().trim_end().to_owned()))?;
+    let file: File = toml::from_str(&text).map_err(|error| {
+        let (message, help) = toml_errors::explained(&error);
+        // The text before the message shows the place.
+        let shown = error.to_string().replace(error.message().trim(), &message);
+        let failure = wrong(shown.trim_end().to_owned());
+        if let Some(help) = help { failure.help(help) } else { failure }
+    })?;
     if file.program.is_empty() && file.scene.is_empty() {
         return Err(wrong("there is no `[[program]]` and no `[[scene]]`".to_owned()));
     }
