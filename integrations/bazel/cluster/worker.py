@@ -1,4 +1,4 @@
-"""A worker for a BuildGrid on this machine, for `measure`: `python worker.py ADDRESS FOLDER NAME`.
+"""A test double of a worker, for a BuildGrid on this machine, for `measure`: `python worker.py ADDRESS FOLDER NAME`.
 
 BuildGrid, from PyPI, is the scheduler, the queue, the action cache and the storage. Its usual worker (buildbox-worker) is on no
 package registry, so this one speaks the same protocol (Remote Workers API, v1test2): it takes one action at a time, lays out its

@@ -24,17 +24,28 @@ pub struct Error {
     pub kind: Kind,
     /// A sentence for people, without a full stop.
     pub message: String,
+    /// The file that cannot be read, if it is about one.
+    pub file: Option<Unreadable>,
+}
+
+/// A file that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unreadable {
+    /// Its path.
+    pub path: String,
+    /// The number of the system's error.
+    pub errno: Option<i32>,
 }
 
 impl Error {
     /// An error in an argument.
     pub fn argument(message: impl Into<String>) -> Self {
-        Self { kind: Kind::Argument, message: message.into() }
+        Self { kind: Kind::Argument, message: message.into(), file: None }
     }
 
     /// An error in a shader or a scene.
     pub fn content(message: impl Into<String>) -> Self {
-        Self { kind: Kind::Content, message: message.into() }
+        Self { kind: Kind::Content, message: message.into(), file: None }
     }
 }
 
@@ -51,7 +62,7 @@ pub fn guarded<R>(call: impl FnOnce() -> Result<R, Error>) -> Result<R, Error> {
     // What the call worked on is dropped or immutable; nothing examines a half-changed state again.
     catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|payload| {
         let message = format!("internal error: {}; please report it with the input", text_of(payload.as_ref()));
-        Err(Error { kind: Kind::Internal, message })
+        Err(Error { kind: Kind::Internal, message, file: None })
     })
 }
 

@@ -12,7 +12,7 @@ mod program;
 mod scene;
 mod settings;
 
-pub use error::{Error, Kind, guarded};
+pub use error::{Error, Kind, Unreadable, guarded};
 pub use includes::{Answer, Includes};
 pub use program::{Compiled, Format, compile, stage_of_name, stage_of_word, target_of_word};
 #[cfg(feature = "render")]

@@ -3,13 +3,13 @@
 //! *In:* the path of a scene, and the files of the host or those on disk. *Out:* RGBA of every pixel, top row first. *Holds:* a
 //! scene never changes, and can be drawn from many threads.
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, Kind, Unreadable};
 use crate::program::{Format, Report};
 use crate::settings::Settings;
 use glisten::diagnostic::write::{self, Finding};
 use glisten::scene::{self, DiskFiles, FileError, FileSource, Scene};
 use glisten::{Precision, RenderOptions, render};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A host's function for files: the bytes at a path, or why there are none.
 type Read = Arc<dyn Fn(&str) -> Result<Vec<u8>, FileError> + Send + Sync>;
@@ -30,6 +30,36 @@ impl FileSource for Files {
             Self::Disk => DiskFiles.read(path),
             Self::Host(read) => read(path),
         }
+    }
+}
+
+impl Files {
+    /// The number of the system's error for a file that was not read.
+    fn errno(&self, path: &str, error: &FileError) -> Option<i32> {
+        // These two have the same numbers everywhere: ENOENT, EISDIR.
+        match (error, self) {
+            (FileError::Missing, _) => Some(2),
+            (FileError::Folder, _) => Some(21),
+            (FileError::Unreadable(_), Self::Disk) => std::fs::read(path).err().and_then(|error| error.raw_os_error()),
+            (FileError::Unreadable(_), Self::Host(_)) => None,
+        }
+    }
+}
+
+/// Files, with the first one that could not be read.
+struct Noted<'a> {
+    files: &'a Files,
+    unreadable: Mutex<Option<Unreadable>>,
+}
+
+impl FileSource for Noted<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        let read = self.files.read(path);
+        if let Err(error) = &read {
+            let found = || Unreadable { path: path.to_owned(), errno: self.files.errno(path, error) };
+            self.unreadable.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(found);
+        }
+        read
     }
 }
 
@@ -57,12 +87,14 @@ impl Scenery {
     /// # Errors
     /// A file cannot be read.
     pub fn load(settings: &Settings, path: &str, files: &Files) -> Result<Self, Error> {
-        let loaded = scene::load(path, files, &settings.compiler());
+        let noted = Noted { files, unreadable: Mutex::default() };
+        let loaded = scene::load(path, &noted, &settings.compiler());
         let report = Report { sources: loaded.sources, diagnostics: loaded.diagnostics.into_iter().collect() };
         if loaded.io_error {
             let errors = report.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
             let message = errors.map(|diagnostic| diagnostic.message.clone()).collect::<Vec<_>>().join("; ");
-            return Err(Error { kind: Kind::File, message });
+            let file = noted.unreadable.into_inner().unwrap_or_else(PoisonError::into_inner);
+            return Err(Error { kind: Kind::File, message, file });
         }
         let scene = loaded.scene.filter(|_| !report.has_errors());
         Ok(Self { report, scene })
@@ -160,6 +192,7 @@ mod tests {
     fn what_is_wrong_is_told() {
         let error = Scenery::load(&Settings::default(), "t.toml", &files("")).err().expect("no such file");
         assert_eq!(error.kind, Kind::File);
+        assert!(error.file.is_some_and(|file| file.errno == Some(2)));
         let scene = Scenery::load(&Settings::default(), "s.toml", &files("#version 150\nvoid main() { x; }\n"));
         let scene = scene.expect("files");
         assert!(!scene.is_sound() && scene.draw(Precision::F32).is_err());

@@ -1,6 +1,6 @@
 //! Errors of glisten as exceptions of Python.
 
-use glisten_binding::{Error, Kind};
+use glisten_binding::{Error, Kind, Unreadable};
 use pyo3::PyErr;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 
@@ -8,7 +8,11 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 pub(crate) fn raised(error: Error) -> PyErr {
     match error.kind {
         Kind::Argument | Kind::Content => PyValueError::new_err(error.message),
-        Kind::File => PyOSError::new_err(error.message),
+        // Python makes the subclass of the number: `FileNotFoundError` and so on.
+        Kind::File => match error.file {
+            Some(Unreadable { path, errno: Some(errno) }) => PyOSError::new_err((errno, error.message, path)),
+            _ => PyOSError::new_err(error.message),
+        },
         Kind::Internal => PyRuntimeError::new_err(error.message),
     }
 }

@@ -1,8 +1,11 @@
 """The Python package: what it returns, what it raises, and that threads and notebooks may use it."""
 
+import errno
 import json
 import pathlib
 import runpy
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -12,7 +15,7 @@ import glisten
 np = pytest.importorskip("numpy", reason="pictures are NumPy arrays")
 
 HERE = pathlib.Path(__file__).resolve().parent
-FIXTURES = HERE.parents[2] / "fixtures"
+EXAMPLE = HERE.parent / "examples" / "explore.py"
 VERTEX = "#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n"
 FRAGMENT = "#version 150\nuniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint * LEVEL; }\n"
 PROGRAM = {"a.vert": VERTEX, "a.frag": FRAGMENT}
@@ -92,20 +95,50 @@ def test_includes():
         glisten.compile(sources, include=lambda *_: 7)
 
 
-def test_pictures_are_arrays():
-    picture = glisten.render(FIXTURES / "scenes" / "triangle.toml")
+SCENE = {
+    "s.toml": """[framebuffer]
+width = 8
+height = 4
+[[draw]]
+vertex = "v.vert"
+fragment = "f.frag"
+vertex_count = 3
+""",
+    "v.vert": """#version 150
+void main() { gl_Position = vec4(vec2[](vec2(-1), vec2(1, -1), vec2(-1, 1))[gl_VertexID], 0.0, 1.0); }
+""",
+    "f.frag": """#version 150
+out vec4 c;
+void main() { c = vec4(gl_FragCoord.xy / 8.0, 0.5, 1.0); }
+""",
+}
+
+
+def test_pictures_are_arrays(tmp_path):
+    for name, text in SCENE.items():
+        (tmp_path / name).write_text(text)
+    picture = glisten.render(tmp_path / "s.toml")
     height, width, channels = picture.pixels.shape
+    assert (width, height) == (8, 4) and np.array_equal(picture.pixels, glisten.render("s.toml", files=SCENE).pixels)
+    assert repr(picture) == f"<Picture: 8 x 4, 1 attachment, {picture.covered.sum()} pixels covered>"
     assert channels == 4 and picture.pixels.dtype == np.float64 and picture.covered.shape == (height, width)
     assert picture.covered.any() and not picture.covered.all()
     assert picture.to_uint8().dtype == np.uint8
     picture.pixels[0, 0] = 0.5  # The array is the caller's.
-    assert np.abs(glisten.render(FIXTURES / "scenes" / "triangle.toml", precision="f32").pixels).sum() > 0
-    with pytest.raises(OSError):
+    assert np.abs(glisten.render(tmp_path / "s.toml", precision="f32").pixels).sum() > 0
+    with pytest.raises(FileNotFoundError) as missing:
         glisten.load("no such scene.toml")
+    assert (missing.value.errno, missing.value.filename) == (errno.ENOENT, "no such scene.toml")
+    with pytest.raises(IsADirectoryError):
+        glisten.load(tmp_path)
+    (tmp_path / "f.frag").unlink()
+    with pytest.raises(FileNotFoundError) as missing:
+        glisten.render(tmp_path / "s.toml")
+    assert missing.value.filename == str(tmp_path / "f.frag")
     with pytest.raises(glisten.CompileError):
         glisten.load("s.toml", files={"s.toml": "[framebuffer]\nwidht = 3\n"})
     with pytest.raises(ValueError):
-        glisten.load(FIXTURES / "scenes" / "triangle.toml").render("f16")
+        glisten.load("s.toml", files=SCENE).render("f16")
 
 
 def test_threads_get_the_same_bytes():
@@ -126,8 +159,9 @@ def test_diagnostics_have_formats():
         program.format_diagnostics("xml")
 
 
+@pytest.mark.skipif(not EXAMPLE.exists(), reason="the example is in the repository")
 def test_the_example_runs(capsys):
-    runpy.run_path(str(HERE.parent / "examples" / "explore.py"))
+    runpy.run_path(str(EXAMPLE))
     assert capsys.readouterr().out.endswith("all is well\n")
 
 
@@ -140,3 +174,22 @@ def test_the_stubs_name_what_is_there():
         for inner in [inner for inner in dir(getattr(_glisten, name)) if not inner.startswith("_")]:
             if isinstance(getattr(_glisten, name), type):
                 assert f"def {inner}(" in stubs, f"{name}.{inner}"
+
+
+def test_wrong_options_are_no_types(tmp_path):
+    """Lines that end in `# wrong` are errors, and no others."""
+    source = tmp_path / "host.py"
+    source.write_text(
+        "import glisten\n"
+        'glisten.compile("a.frag", clip_z="minus-one-to-one", deny=["warnings"], strict=True, clip_distances=2)\n'
+        'glisten.compile("a.frag", clip_y=3)  # wrong\n'
+        'glisten.lint("a.frag", clip_z="up")  # wrong\n'
+        'glisten.render("s.toml", precision="f32", files={"s.toml": b""}, spirv_env="vulkan")\n'
+        'glisten.render("s.toml", precision="f16")  # wrong\n'
+        'glisten.load("s.toml", optimise=True)  # wrong\n'
+    )
+    words = ["--strict", "--cache-dir", str(tmp_path / "cache"), str(source)]
+    run = subprocess.run([sys.executable, "-m", "mypy", *words], capture_output=True, text=True, cwd=tmp_path)
+    told = {int(line.split(":")[1]) for line in run.stdout.splitlines() if ": error:" in line}
+    wrong = {number for number, line in enumerate(source.read_text().splitlines(), 1) if line.endswith("# wrong")}
+    assert told == wrong, run.stdout + run.stderr

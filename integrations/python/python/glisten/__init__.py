@@ -13,21 +13,57 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
 
 from . import _glisten
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
+    from typing_extensions import Unpack
 
 __version__: str = _glisten.VERSION
-__all__ = ["CompileError", "Diagnostic", "Picture", "Program", "Scene", "compile", "lint", "load", "render"]
+__all__ = ["CompileError", "Diagnostic", "Options", "Picture", "Program", "Scene", "compile", "lint", "load", "render"]
 
 Sources = Union[Mapping[str, str], str, "os.PathLike[str]", Iterable[Union[str, "os.PathLike[str]"]]]
 Include = Union[Callable[[str, bool, str], Union[str, None]], Mapping[str, str]]
+
+
+class Options(TypedDict, total=False):
+    """The flags of ``glisten compile``, with underscores."""
+
+    allow: str | Sequence[str]
+    """Codes or names of findings that are left out."""
+    assume_version: str
+    """The version of sources without one: ``330``, ``150 core``."""
+    clip_distances: int
+    """How many clip distances the host has enabled, up to 8."""
+    clip_z: Literal["zero-to-one", "minus-one-to-one"]
+    """The range of depth in the host's clip space."""
+    debug_lines: bool
+    """Whether source lines are in SPIR-V."""
+    deny: str | Sequence[str]
+    """Codes or names of findings that are errors, or ``warnings``."""
+    floats: Literal["f16", "f32", "f64"]
+    """The width of ``float`` in the code."""
+    glsl_version: Literal["330", "450", "300es"]
+    """The version of emitted GLSL."""
+    optimize: bool
+    """Whether what reaches no output is left out."""
+    point_sprites: bool
+    """Whether points have coordinates, as by ``GL_POINT_SPRITE``."""
+    program_point_size: bool
+    """Whether the shader sets the size of points."""
+    spirv_env: Literal["webgpu", "vulkan"]
+    """Who reads SPIR-V."""
+    strict: bool
+    """Whether what drivers accept against the specification is an error."""
+    warn: str | Sequence[str]
+    """Codes or names of findings that are warnings."""
+    window_origin: Literal["upper-left", "lower-left"]
+    """The corner of the window where ``gl_FragCoord`` begins."""
 
 
 @dataclass(frozen=True)
@@ -135,10 +171,11 @@ class Program:
 
         Its form is ``docs/reflection.schema.json``.
         """
-        return json.loads(self._inner.reflect())
+        reflection: dict[str, Any] = json.loads(self._inner.reflect())
+        return reflection
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class Picture:
     """What was drawn. Row 0 is the top row."""
 
@@ -146,6 +183,11 @@ class Picture:
     """RGBA of each color attachment: height x width x 4."""
     covered: npt.NDArray[np.bool_]
     """Whether a fragment was written to the pixel: height x width."""
+
+    def __repr__(self) -> str:
+        height, width = self.covered.shape
+        count = len(self.attachments)
+        return f"<Picture: {width} x {height}, {count} attachment{'s' * (count != 1)}, {self.covered.sum()} pixels covered>"
 
     @property
     def pixels(self) -> npt.NDArray[np.float64]:
@@ -171,7 +213,7 @@ class Scene:
         """All diagnostics, in the order of their places."""
         return Diagnostic._all(self._inner.diagnostics("json"))
 
-    def render(self, precision: str = "f64") -> Picture:
+    def render(self, precision: Literal["f64", "f32"] = "f64") -> Picture:
         """Draws the scene with the CPU reference, in ``f64`` or ``f32`` arithmetic.
 
         :raises ValueError: the scene has something that the reference does not support.
@@ -185,7 +227,8 @@ class Scene:
 
     def stability(self) -> dict[str, Any]:
         """How f32 arithmetic harms the picture: ``verdict``, ``picture``, ``causes``, as ``glisten stability`` tells it."""
-        return json.loads(self._inner.stability())
+        findings: dict[str, Any] = json.loads(self._inner.stability())
+        return findings
 
 
 def compile(
@@ -197,7 +240,7 @@ def compile(
     attributes: Mapping[str, int] | None = None,
     outputs: Mapping[str, int] | None = None,
     stages: Mapping[str, str] | None = None,
-    **options: object,
+    **options: Unpack[Options],
 ) -> Program:
     """Compiles the sources of one program.
 
@@ -229,7 +272,7 @@ def lint(
     attributes: Mapping[str, int] | None = None,
     outputs: Mapping[str, int] | None = None,
     stages: Mapping[str, str] | None = None,
-    **options: object,
+    **options: Unpack[Options],
 ) -> list[Diagnostic]:
     """Checks the sources of one program: errors, warnings, and what is legal but will hurt. Parameters are those of
     :func:`compile`."""
@@ -243,13 +286,13 @@ def load(
     files: Mapping[str, str | bytes] | None = None,
     include: Include | None = None,
     include_folders: Iterable[str | os.PathLike[str]] = (),
-    **options: object,
+    **options: Unpack[Options],
 ) -> Scene:
     """Loads a scene file with its programs.
 
     :param files: the contents of all files by their paths; without it, they are on disk.
     :raises CompileError: the scene or one of its shaders has errors.
-    :raises OSError: a file cannot be read.
+    :raises OSError: a file cannot be read; ``errno`` and ``filename`` say why and which.
     """
     settings = _settings(None, include, include_folders, None, None, options)
     contents = None
@@ -261,9 +304,17 @@ def load(
     return Scene(inner)
 
 
-def render(path: str | os.PathLike[str], *, precision: str = "f64", **options: Any) -> Picture:
+def render(
+    path: str | os.PathLike[str],
+    *,
+    precision: Literal["f64", "f32"] = "f64",
+    files: Mapping[str, str | bytes] | None = None,
+    include: Include | None = None,
+    include_folders: Iterable[str | os.PathLike[str]] = (),
+    **options: Unpack[Options],
+) -> Picture:
     """Loads a scene and draws it. Parameters are those of :func:`load` and :meth:`Scene.render`."""
-    return load(path, **options).render(precision)
+    return load(path, files=files, include=include, include_folders=include_folders, **options).render(precision)
 
 
 def _settings(
@@ -272,14 +323,10 @@ def _settings(
     include_folders: Iterable[str | os.PathLike[str]],
     attributes: Mapping[str, int] | None,
     outputs: Mapping[str, int] | None,
-    options: Mapping[str, object],
+    options: Options,
 ) -> _glisten.Settings:
-    ask = include
-    if isinstance(include, Mapping):
-        texts = dict(include)
-
-        def ask(path: str, angled: bool, _from: str) -> str | None:
-            return texts.get(path)
+    texts = dict(include) if isinstance(include, Mapping) else {}
+    ask = (lambda path, _angled, _from: texts.get(path)) if isinstance(include, Mapping) else include
 
     return _glisten.Settings(
         [(name.replace("_", "-"), word) for name, value in options.items() for word in _words(value)],

@@ -1,9 +1,13 @@
 """The extension module that `glisten` is built on. Use `glisten`: this may change."""
 
 from collections.abc import Callable
+from typing import final
+
+__all__ = ["Program", "Scene", "Settings", "VERSION", "compile", "load"]
 
 VERSION: str
 
+@final
 class Settings:
     def __new__(
         cls,
@@ -15,6 +19,7 @@ class Settings:
         outputs: list[tuple[str, int]],
     ) -> Settings: ...
 
+@final
 class Program:
     @property
     def is_sound(self) -> bool: ...
@@ -24,6 +29,7 @@ class Program:
     def reflect(self) -> str: ...
     def diagnostics(self, name: str) -> str: ...
 
+@final
 class Scene:
     @property
     def is_sound(self) -> bool: ...
