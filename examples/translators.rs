@@ -115,7 +115,7 @@ fn one(
     let Some(bytes) = translate(draw, stage, folder.path()) else { return "not translated".to_owned() };
     row.translated += 1;
     let drawn = Foreign::read(Some(number), stage, "module", &bytes, *via)
-        .and_then(|module| gpu.prepare_foreign(scene, *via, &[module]))
+        .and_then(|module| gpu.prepare_foreign(scene, *via, &[module], &glisten_specialize::optimize))
         .and_then(|prepared| gpu.draw(&prepared));
     let picture = match drawn {
         Ok(rendered) => rendered.picture,

@@ -146,7 +146,7 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
             let picture = args.scene.within_time(move || {
                 let _work = journal::at_work(&work);
                 let scene = glisten_reference::expand(&scene)?;
-                let prepared = gpu.prepare_foreign(&scene, via, &foreign)?;
+                let prepared = gpu.prepare_foreign(&scene, via, &foreign, &glisten_specialize::optimize)?;
                 Ok(gpu.draw(&prepared)?.picture)
             })?;
             Ok(Drawing { picture, drawn_by })

@@ -28,7 +28,7 @@ const STACK_BYTES: usize = 16 << 20;
 /// The scene, and how to read its shaders.
 #[derive(Args, Clone, Debug)]
 pub(super) struct SceneArgs {
-    /// A scene file, or a model (.obj, .gltf, .glb), which gets a camera and lights
+    /// A scene file, or a model (.obj, .gltf, .glb), which gets a camera and lights; `verify` also takes a folder of scenes
     #[arg(value_name = "SCENE.toml")]
     pub(super) scene: String,
     #[command(flatten)]
@@ -241,6 +241,11 @@ impl SceneArgs {
     /// The arguments for one scene of several.
     pub(super) fn of(scene: &str, machine: &MachineArgs, sources: &SourceArgs, levels: &LevelArgs) -> Self {
         Self { scene: scene.to_owned(), machine: machine.clone(), sources: sources.clone(), levels: levels.clone() }
+    }
+
+    /// The same arguments for another scene.
+    pub(super) fn at(&self, scene: &str) -> Self {
+        Self { scene: scene.to_owned(), ..self.clone() }
     }
 
     /// A session that compiles as the arguments say.

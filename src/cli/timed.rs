@@ -9,7 +9,7 @@ use super::scenes::{DrawError, MachineArgs, told};
 use crate::scene::Scene;
 use crate::verify::{self, Channel, Drawn, OnGpu, Reference, Runner, ThisThread};
 use glisten_gpu::{Foreign, Gpu, Via};
-use glisten_reference::{Contribution, RenderOptions};
+use glisten_reference::{Contribution, RenderOptions, Undefined};
 use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::ops::Range;
@@ -58,6 +58,12 @@ impl Reference for TimedReference<'_> {
             population = self.machine.within_time(drawn)?;
         }
         Ok(population)
+    }
+
+    fn undefined(&self, scene: &Scene, options: &RenderOptions) -> Result<Option<Undefined>, verify::Failure> {
+        self.progress.say("what the language leaves undefined");
+        let (scene, options) = (scene.clone(), *options);
+        Ok(self.machine.within_time(move || Ok(ThisThread.undefined(&scene, &options)?))?)
     }
 
     fn explain(

@@ -1,20 +1,22 @@
 //! `glisten verify`: draws a scene on the GPU and with the CPU reference, and judges each pixel.
 
+mod folder;
+mod headline;
 mod told;
 
-use super::args::ResultFormat;
 use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
+use super::inputs;
 use super::pictures::Target;
 use super::profile::ProfileChoice;
 use super::progress::Progress;
-use super::scenes::{DrawError, SceneArgs};
+use super::scenes::{DrawError, Read, SceneArgs};
 use super::timed::{TimedGpu, TimedReference};
 use super::with::WithArgs;
 use crate::scene::Scene;
-use crate::verify::{self, Conclusion, Demands, Options, Runner, Verification, Weakness, verify};
+use crate::verify::{self, Conclusion, Demands, Options, Runner, UndefinedAt, Verification, Weakness, verify};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::write;
 use glisten_front::source::SourceMap;
@@ -26,7 +28,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Draw a scene on the GPU and the CPU, and compare the pictures
+/// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
 #[derive(Args, Debug)]
 pub(super) struct VerifyArgs {
     #[command(flatten)]
@@ -36,9 +38,9 @@ pub(super) struct VerifyArgs {
     via: Option<ViaChoice>,
     #[command(flatten)]
     with: WithArgs,
-    /// The format of the figures
+    /// The format of the figures; of a folder, `junit` and `github` are for continuous integration
     #[arg(long, value_enum, default_value_t)]
-    format: ResultFormat,
+    format: VerifyFormat,
     /// Judge by this absolute difference per channel instead of the derived envelope
     #[arg(long, value_name = "X", value_parser = parse_tolerance)]
     tolerance: Option<f64>,
@@ -63,6 +65,9 @@ pub(super) struct VerifyArgs {
     /// Judge by the envelope alone, without simulated GPUs
     #[arg(long)]
     no_likely: bool,
+    /// By how many of its widths the hull of what simulated GPUs drew is widened, where envelopes are too wide to judge by
+    #[arg(long, value_name = "X", default_value_t = 4.0, value_parser = parse_margin)]
+    likely_margin: f64,
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
@@ -77,6 +82,21 @@ pub(super) struct VerifyArgs {
     /// Write a picture of what was judged: green, blue at edges, yellow where the envelope is wide, red where it is unlimited
     #[arg(long, value_name = "FILE")]
     evidence: Option<PathBuf>,
+}
+
+/// The format of the result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum VerifyFormat {
+    /// Text for people
+    #[default]
+    #[value(alias = "table")]
+    Human,
+    /// JSON; of a folder, an array
+    Json,
+    /// Annotations of GitHub's Actions, for scenes that do not hold
+    Github,
+    /// JUnit's XML: a test for each scene
+    Junit,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -101,6 +121,13 @@ fn parse_width(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(width) if width >= 0.0 => Ok(width),
         _ => Err(format!("`{text}` is not a width")),
+    }
+}
+
+fn parse_margin(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(margin) if margin >= 0.0 && margin.is_finite() => Ok(margin),
+        _ => Err(format!("`{text}` is not a margin: a number of widths, 0 or more")),
     }
 }
 
@@ -188,16 +215,45 @@ struct Report<'a> {
     evidence_share: f64,
     /// Why too little was judged; null unless the verdict is inconclusive for that reason.
     weakness: Option<&'a Weakness>,
+    /// The places in the picture that the language leaves undefined.
+    undefined: &'a [UndefinedAt],
     /// The adapter that drew, and its driver.
     adapter: &'a str,
     driver: &'a str,
 }
 
+/// A scene that was drawn and judged.
+struct Judged {
+    verification: Verification,
+    runs: Vec<Run>,
+    /// The output of `--format json`.
+    report: String,
+}
+
 /// Runs the command.
 pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
-    let read = match args.scene.begin(console)? {
+    let name = &args.scene.scene;
+    let is_folder = std::path::Path::new(name).is_dir();
+    if is_folder && (args.difference.is_some() || args.evidence.is_some()) {
+        return Err(Failure::usage("--difference and --evidence are pictures of one scene, and this is a folder"));
+    }
+    if is_folder || matches!(args.format, VerifyFormat::Github | VerifyFormat::Junit) {
+        let scenes = inputs::scene_files(std::slice::from_ref(name))?;
+        return folder::run(args, &scenes, console);
+    }
+    let (exit, judged) = examine(args, &args.scene, console)?;
+    if let Some(judged) = judged.filter(|_| args.format == VerifyFormat::Json) {
+        console.output(&judged.report)?;
+    }
+    Ok(exit)
+}
+
+/// Draws a scene and judges it. Of one scene, the text for people is printed; a scene that is not drawn is reported.
+fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit, Option<Judged>), Failure> {
+    let is_alone = of.scene == args.scene.scene && args.format == VerifyFormat::Human;
+    let read = match of.begin(console)? {
         Ok(read) => read,
-        Err(exit) => return Ok(exit),
+        Err(exit) => return Ok((exit, None)),
     };
     let wanted = match args.via.unwrap_or_default() {
         ViaChoice::Spirv => vec![Via::Spirv],
@@ -212,9 +268,9 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     let progress = Progress::new(console, vias.len() + 1);
     let drawn = args.specialize.then(|| read.specialized(args.contract.contract()));
     let scenes = (&read.scene, drawn.as_ref());
-    let (verification, facts) = match compare(args, scenes, read.sources(), (&vias, &foreign), &progress) {
+    let (verification, facts) = match compare((args, of), scenes, read.sources(), (&vias, &foreign), &progress) {
         Ok(compared) => compared,
-        Err(error) => return read.failed(error),
+        Err(error) => return Ok((read.failed(error)?, None)),
     };
     drop(progress);
     if let Some(target) = difference {
@@ -227,47 +283,54 @@ pub(super) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     }
     let runs = Run::all(&verification);
     let skipped: Vec<Skip> = verification.skipped.iter().map(Skip::new).collect();
-    let Some(worse) = worst_of(&runs) else { return Ok(Exit::Ok) };
+    let Some(worse) = worst_of(&runs) else { return Ok((Exit::Ok, None)) };
     let forms_bit_unequal = match &verification.runs[..] {
         [spirv, wgsl] => Some(spirv.picture.bit_unequal(&wgsl.picture)),
         _ => None,
     };
     let holds = verification.holds();
-    let text = match args.format {
-        ResultFormat::Json => {
-            let report = Report {
-                worse: &worse,
-                runs: &runs,
-                skipped: &skipped,
-                forms_bit_unequal,
-                verdict: verification.conclusion(),
-                holds,
-                evidence_share: worse.verdict.share_judged(&verification.demands),
-                weakness: verification.weakness.as_ref(),
-                adapter: &facts.name,
-                driver: &facts.driver,
-            };
-            serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n"
+    if is_alone {
+        let text = human(&verification, &runs, (&skipped, forms_bit_unequal), (&read, console));
+        if read.is_human() {
+            console.remark(&format!("drawn by {facts}{}", read.host_part()));
         }
-        ResultFormat::Human => {
-            let mut text = told::told(&verification, &runs, &skipped, forms_bit_unequal);
-            let notes = [
-                verification.note.as_ref().filter(|_| verification.fails()),
-                verification.weakness.as_ref().and_then(|w| w.note.as_ref()),
-            ];
-            for note in notes.into_iter().flatten() {
-                text.push('\n');
-                text.push_str(&write::human(read.sources(), [note], console.colors_output()));
-            }
-            text
-        }
-    };
-    if args.format == ResultFormat::Human && read.is_human() {
-        console.remark(&format!("drawn by {facts}{}", read.host_part()));
+        console.output(&text)?;
     }
-    console.output(&text)?;
+    let report = Report {
+        worse: &worse,
+        runs: &runs,
+        skipped: &skipped,
+        forms_bit_unequal,
+        verdict: verification.conclusion(),
+        holds,
+        evidence_share: worse.verdict.share_judged(&verification.demands),
+        weakness: verification.weakness.as_ref(),
+        undefined: &verification.undefined,
+        adapter: &facts.name,
+        driver: &facts.driver,
+    };
+    let report = serde_json::to_string_pretty(&report).expect("figures are always JSON") + "\n";
     let exit = if holds { Exit::Ok } else { Exit::Content };
-    Ok(read.finish(Vec::new())?.max(exit))
+    Ok((read.finish(Vec::new())?.max(exit), Some(Judged { verification, runs, report })))
+}
+
+/// The text for people, with excerpts.
+fn human(
+    verification: &Verification,
+    runs: &[Run],
+    (skipped, forms_bit_unequal): (&[Skip], Option<u64>),
+    (read, console): (&Read<'_>, &Console),
+) -> String {
+    let mut text = told::told(verification, runs, skipped, forms_bit_unequal);
+    let notes = [
+        verification.note.as_ref().filter(|_| verification.fails()),
+        verification.weakness.as_ref().and_then(|w| w.note.as_ref()),
+    ];
+    for note in notes.into_iter().flatten() {
+        text.push('\n');
+        text.push_str(&write::human(read.sources(), [note], console.colors_output()));
+    }
+    text
 }
 
 impl VerifyArgs {
@@ -305,15 +368,15 @@ impl Runner for Instead<'_> {
 
 /// Judges what runners make of a scene, or of another one in its place, by the first.
 fn compare(
-    args: &VerifyArgs,
+    (args, of): (&VerifyArgs, &SceneArgs),
     (scene, drawn): (&Scene, Option<&Scene>),
     sources: &SourceMap,
     (vias, foreign): (&[Via], &Arc<[Foreign]>),
     progress: &Progress,
 ) -> Result<(Verification, AdapterFacts), DrawError> {
-    let machine = &args.scene.machine;
-    let gpu = Arc::new(args.scene.gpu()?);
-    let runner = |via: &Via| TimedGpu::new(&gpu, *via, &args.scene.scene, machine, progress).with(foreign);
+    let machine = &of.machine;
+    let gpu = Arc::new(of.gpu()?);
+    let runner = |via: &Via| TimedGpu::new(&gpu, *via, &of.scene, machine, progress).with(foreign);
     let runners: Vec<TimedGpu<'_>> = vias.iter().map(runner).collect();
     let runners: Vec<Instead<'_>> = runners.iter().map(|runner| Instead { runner, scene: drawn }).collect();
     let runners: Vec<&dyn Runner> = runners.iter().map(|runner| runner as &dyn Runner).collect();
@@ -323,6 +386,7 @@ fn compare(
         demands: args.demands(),
         allow_inconclusive: args.allow_inconclusive,
         width: args.width,
+        likely_margin: args.likely_margin,
         sources: Some(sources),
         profile: args.profile.of(&gpu),
         reference: &TimedReference::new(machine, progress),

@@ -7,9 +7,9 @@
 use super::{Failure, Options};
 use crate::scene::Scene;
 use glisten_reference::domain::faults::Faults;
-use glisten_reference::faults_of;
+use glisten_reference::{Undefined, faults_of, hides_undefined};
 use glisten_scene::compare::evidence::Ruler;
-use glisten_scene::compare::population::MIN_SHARE;
+use glisten_scene::compare::population::{MIN_MEMBERS, MIN_PIXELS, MIN_SHARE};
 use glisten_scene::compare::{Compared, Comparison, Criterion, Gauge, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
@@ -22,6 +22,8 @@ const NARROW: f64 = 1.0 / 16.0;
 /// The numbers of simulated GPUs that a picture is compared with if its envelopes leave room: each only if it is suspect by
 /// fewer. More of them never make a picture suspect, because they widen what is likely.
 const MEMBERS: [u32; 5] = [2, 4, 8, 16, 32];
+/// The numbers of simulated GPUs where envelopes are too wide to judge by, so that the population is the evidence.
+const WITNESSES: [u32; 2] = [MIN_MEMBERS, 2 * MIN_MEMBERS];
 
 /// The picture of the reference, with which others are compared. For pictures that no [`Runner`](super::Runner) drew.
 pub struct Expected<'a> {
@@ -30,7 +32,10 @@ pub struct Expected<'a> {
     picture: Picture,
     milliseconds: f64,
     written: Written,
+    likely_margin: f64,
     population: Option<Population>,
+    /// The places that the language leaves undefined; found on demand.
+    undefined: Option<Option<Undefined>>,
     /// The picture with each known fault excused alone, and with all of them; drawn on demand.
     excused: Option<Vec<(&'static str, Picture)>>,
 }
@@ -44,7 +49,17 @@ impl<'a> Expected<'a> {
         let start = Instant::now();
         let picture = options.reference.render(scene, &options.reference_options(Faults::NONE))?;
         let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-        Ok(Self { scene, options, picture, milliseconds, written: Written::of(scene), population: None, excused: None })
+        Ok(Self {
+            scene,
+            options,
+            picture,
+            milliseconds,
+            written: Written::of(scene),
+            likely_margin: options.likely_margin,
+            population: None,
+            undefined: None,
+            excused: None,
+        })
     }
 
     /// The channels that the scene's programs write.
@@ -60,6 +75,11 @@ impl<'a> Expected<'a> {
     /// The reference's picture, and its time in milliseconds.
     pub(super) fn into_picture(self) -> (Picture, f64) {
         (self.picture, self.milliseconds)
+    }
+
+    /// Replaces [`Options::likely_margin`] for the pictures that follow.
+    pub fn set_likely_margin(&mut self, margin: f64) {
+        self.likely_margin = margin;
     }
 
     /// Compares a picture of the scene with the reference.
@@ -78,6 +98,9 @@ impl<'a> Expected<'a> {
         let Options { criterion, excuse_known_faults, .. } = *self.options;
         let is_by_envelope = criterion == Criterion::Envelope;
         let mut compared = self.comparison(&[]).compare(picture, &self.picture);
+        if is_by_envelope && self.needs_undefined(&compared.verdict)? && self.find_undefined()? {
+            compared = self.comparison(&[]).compare(picture, &self.picture);
+        }
         let mut excused = Vec::new();
         if is_by_envelope && excuse_known_faults && compared.verdict.needs_excuse() {
             excused = match self.excused.take() {
@@ -88,7 +111,8 @@ impl<'a> Expected<'a> {
         }
         if is_by_envelope && self.options.demands.likely {
             if !compared.verdict.needs_excuse() && self.leaves_room() {
-                for members in MEMBERS {
+                let numbers: &[u32] = if lacks_evidence(&compared.verdict) { &WITNESSES } else { &MEMBERS };
+                for members in numbers.iter().copied() {
                     if compared.verdict.suspect.is_none() || compared.verdict.is_suspect() {
                         self.populate(members)?;
                         compared = self.comparison(&excused).compare(picture, &self.picture);
@@ -101,6 +125,25 @@ impl<'a> Expected<'a> {
             self.excused = Some(excused);
         }
         Ok(compared)
+    }
+
+    /// Whether something undefined could change the verdict.
+    fn needs_undefined(&self, verdict: &Verdict) -> Result<bool, Failure> {
+        let is_sure = !verdict.needs_excuse() && verdict.undecided == 0 && verdict.evidence.good() == verdict.covered;
+        Ok(self.undefined.is_none() && (!is_sure || hides_undefined(self.scene)?))
+    }
+
+    /// Looks for what the language leaves undefined. Returns whether there is something.
+    fn find_undefined(&mut self) -> Result<bool, Failure> {
+        let found = self.options.reference.undefined(self.scene, &self.options.reference_options(Faults::NONE))?;
+        let is_there = found.is_some();
+        self.undefined = Some(found);
+        Ok(is_there)
+    }
+
+    /// The places in the picture that the language leaves undefined.
+    pub(super) fn undefined(&self) -> Option<&Undefined> {
+        self.undefined.as_ref()?.as_ref()
     }
 
     /// Whether the envelopes leave room in which a fault may hide: enough of them are wider than [`NARROW`].
@@ -117,21 +160,35 @@ impl<'a> Expected<'a> {
 
     /// Draws with more simulated GPUs, so that there are `members`.
     fn populate(&mut self, members: u32) -> Result<(), Failure> {
-        let Picture { width, height, .. } = self.picture;
-        let blank = || {
-            let gauge = Gauge::new(&Ruler::new(&self.picture, &self.written, self.options.width));
-            Population::new(SEED, [width, height], self.picture.attachments.len() as u32).with_gauge(gauge)
+        let population = match self.population.take() {
+            Some(population) => population,
+            None => self.blank(),
         };
-        let population = self.population.take().unwrap_or_else(blank);
         let missing = population.members..members.max(population.members);
         let options = self.options.reference_options(Faults::NONE);
         self.population = Some(self.options.reference.populate(population, self.scene, &options, missing)?);
         Ok(())
     }
 
+    /// A population without members.
+    fn blank(&self) -> Population {
+        let Picture { width, height, .. } = self.picture;
+        let undefined = self.undefined().map_or(&[][..], |undefined| &undefined.pixels);
+        let ruler = Ruler::new(&self.picture, &self.written, self.options.width).without(undefined);
+        Population::new(SEED, [width, height], self.picture.attachments.len() as u32).with_gauge(Gauge::new(&ruler))
+    }
+
     fn comparison<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Comparison<'j> {
-        let Options { criterion, width, .. } = *self.options;
-        Comparison { criterion, faults, written: Some(&self.written), width, population: self.population.as_ref() }
+        let (Options { criterion, width, .. }, likely_margin) = (*self.options, self.likely_margin);
+        Comparison {
+            criterion,
+            faults,
+            written: Some(&self.written),
+            width,
+            population: self.population.as_ref(),
+            likely_margin,
+            undefined: self.undefined().map_or(&[], |undefined| &undefined.pixels),
+        }
     }
 
     /// One picture for each known fault that can show in the scene; and one with all of them, if there are several.
@@ -143,6 +200,12 @@ impl<'a> Expected<'a> {
             named.map(|(name, faults)| (name, self.options.reference_options(faults))).unzip();
         Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())
     }
+}
+
+/// Whether so many pixels have a wide envelope that the population has to judge.
+fn lacks_evidence(verdict: &Verdict) -> bool {
+    let open = verdict.covered.saturating_sub(verdict.evidence.good() + verdict.evidence.undefined);
+    open >= MIN_PIXELS && open as f64 > MIN_SHARE * verdict.covered as f64
 }
 
 #[cfg(test)]

@@ -29,8 +29,8 @@ fn share_color(share: f64) -> [f64; 4] {
 }
 
 /// The meaning of the colors of an [evidence picture](super::Verification::evidence).
-pub const EVIDENCE_LEGEND: &str = "green: judged; blue: at an edge; yellow: weak; red: unlimited; magenta: undecided; \
-                                   gray: excused; black: not covered";
+pub const EVIDENCE_LEGEND: &str = "green: judged; light green: likely; blue: at an edge; yellow: weak; red: unlimited; \
+                                   magenta: undecided; white: undefined; gray: excused; black: not covered";
 
 /// The picture of the classes of pixels in the size of the reference's, by the colors of [`EVIDENCE_LEGEND`].
 pub fn evidence(reference: &Picture, classes: &[Option<Class>]) -> Picture {
@@ -46,6 +46,8 @@ fn class_color(class: Option<Class>) -> [f64; 4] {
         Some(Class::Unlimited) => [0.9, 0.1, 0.1],
         Some(Class::Undecided) => [0.85, 0.1, 0.85],
         Some(Class::Excused) => [0.6, 0.6, 0.6],
+        Some(Class::Likely) => [0.6, 0.9, 0.4],
+        Some(Class::Undefined) => [1.0, 1.0, 1.0],
     };
     [r, g, b, 1.0]
 }
@@ -60,10 +62,12 @@ pub(super) fn worse_classes(classes: &mut Vec<Option<Class>>, other: Vec<Option<
         class.map_or(0, |class| match class {
             Class::Judged => 1,
             Class::Edge => 2,
-            Class::Excused => 3,
-            Class::Weak => 4,
-            Class::Undecided => 5,
-            Class::Unlimited => 6,
+            Class::Likely => 3,
+            Class::Excused => 4,
+            Class::Weak => 5,
+            Class::Undecided => 6,
+            Class::Unlimited => 7,
+            Class::Undefined => 8,
         })
     };
     for (class, other) in classes.iter_mut().zip(other) {

@@ -38,6 +38,7 @@ mod explain;
 mod files;
 mod maps;
 mod runner;
+mod undefined;
 mod verification;
 mod weakness;
 
@@ -49,6 +50,7 @@ pub use runner::OnGpu;
 #[cfg(feature = "gl")]
 pub use runner::OnOpenGl;
 pub use runner::{Channel, Cpu, Drawn, Failure, Reference, Runner, ThisThread};
+pub use undefined::UndefinedAt;
 pub use verification::{Verification, mark};
 pub use weakness::Weakness;
 
@@ -59,6 +61,7 @@ use glisten_front::source::SourceMap;
 use glisten_reference::domain::Profile;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::compare::population::MARGIN;
 use glisten_scene::compare::{self, Compared, Criterion, Verdict};
 pub use glisten_scene::compare::{Conclusion, Demands};
 use glisten_scene::picture::Picture;
@@ -81,6 +84,8 @@ pub struct Options<'a> {
     pub profile: Profile,
     /// The largest width of the envelope of a judged pixel. Default: 1/255 of the range of the picture's values.
     pub width: Option<f64>,
+    /// By how many of its widths the hull of what simulated GPUs drew is widened for what is likely. Default: 4.
+    pub likely_margin: f64,
     /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
     pub sources: Option<&'a SourceMap>,
     /// A folder for the pictures of a failed verification: one of each runner (`spirv.png`), `cpu.png` and
@@ -100,6 +105,7 @@ impl Default for Options<'_> {
             allow_inconclusive: false,
             profile: Profile::default(),
             width: None,
+            likely_margin: MARGIN,
             sources: None,
             failures: None,
             reference: &ThisThread,
@@ -178,6 +184,7 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         Conclusion::Inconclusive => explanations.weakness(expected.picture(), expected.written(), &classes)?,
         Conclusion::Holds | Conclusion::Fails => None,
     };
+    let undefined = UndefinedAt::all(expected.undefined(), options.sources);
     let (reference, reference_milliseconds) = expected.into_picture();
     let mut verification = Verification {
         reference,
@@ -188,6 +195,7 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         classes,
         note,
         weakness,
+        undefined,
         pictures: None,
         demands: options.demands,
         allow_inconclusive: options.allow_inconclusive,

@@ -4,7 +4,7 @@
 
 use crate::scene::Scene;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_reference::{Contribution, LineRule, Precision, RenderOptions};
+use glisten_reference::{Contribution, LineRule, Precision, RenderOptions, Undefined};
 use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::fmt;
@@ -92,6 +92,14 @@ pub trait Reference {
     ) -> Result<Population, Failure> {
         glisten_reference::populate(&mut population, scene, options, members)?;
         Ok(population)
+    }
+
+    /// Finds what the language leaves undefined like [`glisten_reference::undefined`].
+    ///
+    /// # Errors
+    /// The scene cannot be drawn.
+    fn undefined(&self, scene: &Scene, options: &RenderOptions) -> Result<Option<Undefined>, Failure> {
+        Ok(glisten_reference::undefined(scene, options)?)
     }
 
     /// Explains a channel of a pixel like [`glisten_reference::explain`].
@@ -199,7 +207,7 @@ impl Runner for OnGpu<'_> {
 
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
         let scene = glisten_reference::expand(scene)?;
-        let prepared = self.gpu.prepare_foreign(&scene, self.via, self.foreign)?;
+        let prepared = self.gpu.prepare_foreign(&scene, self.via, self.foreign, &glisten_specialize::optimize)?;
         let glisten_gpu::Rendered { picture, milliseconds } = self.gpu.draw(&prepared)?;
         Ok(Drawn { picture, milliseconds })
     }

@@ -3,6 +3,7 @@
 //! *In:* runs. *Out:* the conclusion, pictures, the message of a test.
 
 use super::maps::{difference, evidence};
+use super::undefined::UndefinedAt;
 use super::weakness::Weakness;
 use super::{Run, Skip};
 use glisten_front::diagnostic::Diagnostic;
@@ -30,6 +31,8 @@ pub struct Verification {
     pub note: Option<Diagnostic>,
     /// Why too little was judged, if that is so.
     pub weakness: Option<Weakness>,
+    /// The places in the picture that the language leaves undefined, if [`Options::sources`](super::Options::sources) is set.
+    pub undefined: Vec<UndefinedAt>,
     /// The folder with the pictures of a failure, or the reason why they could not be written.
     pub pictures: Option<Result<PathBuf, String>>,
     /// The demands of the options.

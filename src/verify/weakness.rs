@@ -49,7 +49,8 @@ impl Explanations<'_> {
         let of = |class: Class| -> Vec<usize> {
             (0..classes.len()).filter(|pixel| classes[*pixel] == Some(class)).collect()
         };
-        let candidates = [Class::Weak, Class::Unlimited, Class::Undecided].map(|class| (class, of(class)));
+        let candidates =
+            [Class::Weak, Class::Unlimited, Class::Undecided, Class::Undefined].map(|class| (class, of(class)));
         let Some((class, pixels)) = candidates.into_iter().max_by_key(|(_, pixels)| pixels.len()) else {
             return Ok(None);
         };

@@ -558,6 +558,8 @@ fn verify_prints_the_figures_of_the_contract() {
         "width",
         "evidence_share",
         "suspect",
+        "outside_likely",
+        "undefined",
         "verdict",
         "worst",
         "gpu_ms",

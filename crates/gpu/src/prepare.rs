@@ -102,9 +102,18 @@ impl Gpu {
 
     /// Prepares a scene with modules of others in place of the emitted ones. Those of the other form are not used.
     ///
+    /// A vertex module may leave out a varying that nobody reads. `lean` gives a program without the inputs that it declares
+    /// and never reads; the fragment stage of such a program then takes the place of the emitted one.
+    ///
     /// # Errors
     /// Those of [`Gpu::prepare`], and [`Error::Foreign`] if the interface of a module is not that of the emitted one.
-    pub fn prepare_foreign(&self, scene: &Scene, via: Via, foreign: &[Foreign]) -> Result<Prepared, Error> {
+    pub fn prepare_foreign(
+        &self,
+        scene: &Scene,
+        via: Via,
+        foreign: &[Foreign],
+        lean: &dyn Fn(&Program) -> Program,
+    ) -> Result<Prepared, Error> {
         let target = match via {
             Via::Spirv => Target::Spirv,
             Via::Wgsl => Target::Wgsl,
@@ -116,14 +125,29 @@ impl Gpu {
             })
         };
         let code = |replaced: Replaced, draw: &Draw, stage: Stage| {
-            let ours = emitted(draw, stage, target)?;
-            let index = if stage == Stage::Vertex { replaced[0] } else { replaced[1] };
-            match index.and_then(|index| foreign.get(index)) {
-                Some(module) => module.code_instead_of(
-                    &draw.program.name,
-                    [ours].into_iter().chain(emitted(draw, stage, Target::Wgsl).ok()),
-                ),
-                None => Ok(ours),
+            let [vertex, fragment] = replaced.map(|index| index.and_then(|index| foreign.get(index)));
+            // All forms of a stage that can be read back.
+            let forms = |stage: Stage| {
+                let all = [target, Target::Wgsl].map(|target| emitted(draw, stage, target));
+                all.into_iter().filter_map(Result::ok)
+            };
+            let lean_fragment = || {
+                let program = lean(&draw.program);
+                emit::emit(&program, Stage::Fragment, target, &conventions(draw, target)).map_err(Error::Emit)
+            };
+            match (stage, vertex, fragment) {
+                (Stage::Vertex, Some(vertex), Some(fragment)) => {
+                    vertex.code_instead_of(&draw.program.name, forms(stage), Some(fragment.read_by_it()))
+                }
+                (Stage::Vertex, Some(vertex), None) => {
+                    let read = Foreign::inputs_of([lean_fragment()?].into_iter().chain(forms(Stage::Fragment)));
+                    vertex.code_instead_of(&draw.program.name, forms(stage), read)
+                }
+                (Stage::Fragment, _, Some(fragment)) => {
+                    fragment.code_instead_of(&draw.program.name, forms(stage), None)
+                }
+                (Stage::Fragment, Some(vertex), None) if vertex.leaves_out(forms(Stage::Vertex)) => lean_fragment(),
+                _ => emitted(draw, stage, target),
             }
         };
         self.prepare_replaced(scene, (target, Origin::Emitted), &|number| STAGES.map(|stage| of(number, stage)), &code)

@@ -17,12 +17,14 @@ mod raster;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
+mod undefined;
 mod work;
 
 pub use counts::{Counts, counts};
 pub use exec::Step;
 pub use expand::{expand, has_geometry_stage};
 pub use population::{populate, simulate};
+pub use undefined::{Undefined, UndefinedPlace, hides_undefined, undefined};
 pub use work::{Work, work};
 
 use domain::faults::{self, Fault, Faults, KnownFault};

@@ -1,39 +1,37 @@
-//! The figures of a verification for people: three lines if all is well, one more if it is inconclusive, and a table for each
-//! form if it fails.
+//! The figures of a verification for people: three lines if all is well, one before them if it is inconclusive, and a line and
+//! a table for each form if it fails.
 //!
 //! *In:* a [`Verification`] and its runs. *Out:* text.
 
+use super::headline::{Headline, is_empty};
 use super::{Run, Skip, worst_of};
-use crate::verify::{Conclusion, Verification, Weakness, mark};
+use crate::verify::{Conclusion, Verification, mark};
 use glisten_scene::compare::Verdict;
 
 /// The text for people.
 pub(super) fn told(verification: &Verification, runs: &[Run], skipped: &[Skip], bit_unequal: Option<u64>) -> String {
-    let mut text = match (verification.conclusion(), worst_of(runs)) {
-        (Conclusion::Inconclusive, Some(worst)) if is_empty(&worst.verdict) => String::new(),
-        (Conclusion::Holds | Conclusion::Inconclusive, Some(worst)) => summary(verification, runs, &worst, bit_unequal),
+    let mut text = String::new();
+    let worst = worst_of(runs);
+    if let Some(headline) = worst.as_ref().and_then(|worst| Headline::of(verification, &worst.verdict)) {
+        text.push_str(&headline.text);
+        text.push('\n');
+    }
+    match (verification.conclusion(), &worst) {
+        (Conclusion::Inconclusive, Some(worst)) if is_empty(&worst.verdict) => {}
+        (Conclusion::Holds | Conclusion::Inconclusive, Some(worst)) => {
+            text.push_str(&summary(verification, runs, worst, bit_unequal));
+        }
         _ => {
-            let mut text: String = runs.iter().map(|run| table(run, verification)).collect();
+            text.extend(runs.iter().map(|run| table(run, verification)));
             if let Some(count) = bit_unequal {
                 text.push_str(&format!("spirv and wgsl: {count} pixels are not bit-equal\n"));
             }
-            text
         }
-    };
+    }
     for skip in skipped {
         text.push_str(&format!("{}: not run: {}\n", skip.via, skip.reason));
     }
-    if verification.conclusion() == Conclusion::Inconclusive
-        && let Some(worst) = worst_of(runs)
-    {
-        text.push_str(&format!("inconclusive: {}\n", reason(verification, &worst.verdict)));
-    }
     text
-}
-
-/// Whether there is nothing that figures could be about.
-fn is_empty(verdict: &Verdict) -> bool {
-    verdict.covered == 0 && verdict.undecided == 0 && verdict.edge_pixels == 0 && !verdict.needs_excuse()
 }
 
 /// Three lines: how much was judged, how far the pictures are apart, how long it took.
@@ -78,40 +76,15 @@ fn by(verdict: &Verdict) -> String {
 fn parts(verdict: &Verdict) -> String {
     let evidence = &verdict.evidence;
     let rows = [
+        (evidence.likely, "likely"),
         (evidence.edge, "at edges"),
         (evidence.excused, "excused by known faults"),
         (evidence.weak, "weak"),
         (evidence.unlimited, "unlimited"),
         (evidence.undecided, "undecided"),
+        (evidence.undefined, "undefined"),
     ];
     rows.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!(", {count} {name}")).collect()
-}
-
-/// Why a picture is inconclusive, in words.
-fn reason(verification: &Verification, verdict: &Verdict) -> String {
-    if is_empty(verdict) {
-        return "no pixel is covered, so there is nothing to judge".to_owned();
-    }
-    let (share, wanted) = (verdict.share_judged(&verification.demands), verification.demands.evidence_share);
-    let told = format!(
-        "only {:.1} % of the covered pixels can be judged, {:.1} % are wanted (--evidence-share)",
-        100.0 * share,
-        100.0 * wanted
-    );
-    match &verification.weakness {
-        Some(weakness) => format!("{told}; {}", because(weakness)),
-        None => told,
-    }
-}
-
-/// The place that makes it so.
-fn because(weakness: &Weakness) -> String {
-    let Weakness { class, pixels, x, y, channel, .. } = weakness;
-    let pixels = format!("{pixels} pixels are {class}");
-    match weakness.contributions.first() {
-        Some(one) => format!("{pixels}, because of `{}` at {}:{}:{}", one.operation, one.file, one.line, one.column),
-        None => format!("{pixels}, such as ({x}, {y}) in {channel}"),
-    }
 }
 
 /// All figures of a run.
@@ -135,8 +108,9 @@ fn table(run: &Run, verification: &Verification) -> String {
         verdict.known_faults.iter().map(|count| format!("{} ({})", count.pixels, count.fault)).collect();
     let faults = (!faults.is_empty()).then(|| ("known faults", faults.join(", ")));
     let suspect = verdict.suspect.map(|count| ("suspect", count.to_string()));
+    let unlikely = (verdict.outside_likely > 0).then(|| ("outside likely", verdict.outside_likely.to_string()));
     let mut text = format!("{}: {}\n", run.via, mark(verdict.conclusion(&verification.demands)));
-    for (name, value) in rows.into_iter().chain(suspect).chain(faults) {
+    for (name, value) in rows.into_iter().chain(suspect).chain(unlikely).chain(faults) {
         text.push_str(&format!("  {name:18} {value}\n"));
     }
     text + &worst_pixel(verdict)

@@ -1,7 +1,8 @@
 //! Which parts of a module's interface are not those of the emitted one.
 //!
 //! *In:* two interfaces. *Out:* a sentence for each difference. *Holds:* a module may leave out what it does not read: an
-//! attribute, a varying of the fragment stage, a uniform, a texture. It may not leave out what others read: an output.
+//! attribute, a varying of the fragment stage, a uniform, a texture. It may not leave out what others
+//! read: an output, or a varying that the fragment stage reads.
 
 use super::interface::{Interface, Resource, Slot, kind};
 use glisten_front::hir::Stage;

@@ -22,6 +22,7 @@ use crate::{Error, Via};
 use glisten_emit::Emitted;
 use glisten_front::hir::Stage;
 use interface::Interface;
+use std::collections::BTreeSet;
 
 /// A module of another translator.
 #[derive(Clone, Debug)]
@@ -60,17 +61,38 @@ impl Foreign {
         }
     }
 
+    /// The locations of the inputs that the module declares.
+    pub(crate) fn read_by_it(&self) -> BTreeSet<u32> {
+        self.interface.inputs.keys().copied().collect()
+    }
+
+    /// The locations of the inputs of an emitted fragment stage, of which there may be several forms.
+    pub(crate) fn inputs_of(emitted: impl IntoIterator<Item = Emitted>) -> Option<BTreeSet<u32>> {
+        let interface = emitted_interface(Stage::Fragment, emitted).ok()?;
+        Some(interface.inputs.keys().copied().collect())
+    }
+
+    /// Whether the module lacks an output of the emitted one.
+    pub(crate) fn leaves_out(&self, emitted: impl IntoIterator<Item = Emitted>) -> bool {
+        emitted_interface(self.stage, emitted).is_ok_and(|expected| {
+            expected.outputs.keys().any(|location| !self.interface.outputs.contains_key(location))
+        })
+    }
+
     /// The code, if its interface is that of the emitted module, of which there may be several forms: the first that
-    /// can be read back counts.
+    /// can be read back counts. Of the outputs, only those in `read` must be there, if that is known.
     pub(crate) fn code_instead_of(
         &self,
         program: &str,
         emitted: impl IntoIterator<Item = Emitted>,
+        read: Option<BTreeSet<u32>>,
     ) -> Result<Emitted, Error> {
         let told = |why: String| Error::Foreign(format!("`{}`: {why}", self.name));
-        let module = emitted.into_iter().find_map(|code| read::parse(&code).ok());
-        let module = module.ok_or_else(|| told("the emitted module cannot be read back to compare them".to_owned()))?;
-        let expected = Interface::of(&module, self.stage).map_err(told)?;
+        let mut expected = emitted_interface(self.stage, emitted).map_err(told)?;
+        if let Some(read) = read {
+            let is_there = |location: &u32| read.contains(location) || self.interface.outputs.contains_key(location);
+            expected.outputs.retain(|location, _| is_there(location));
+        }
         let differences = differs::differences(&self.interface, &expected, self.stage);
         if differences.is_empty() {
             return Ok(self.code.clone());
@@ -83,6 +105,13 @@ impl Foreign {
             differences.join("; ")
         )))
     }
+}
+
+/// The interface of an emitted module: of the first form that can be read back.
+fn emitted_interface(stage: Stage, emitted: impl IntoIterator<Item = Emitted>) -> Result<Interface, String> {
+    let module = emitted.into_iter().find_map(|code| read::parse(&code).ok());
+    let module = module.ok_or_else(|| "the emitted module cannot be read back to compare them".to_owned())?;
+    Interface::of(&module, stage)
 }
 
 #[cfg(test)]

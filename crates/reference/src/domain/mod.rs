@@ -46,7 +46,7 @@ pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 pub(crate) use envelope::{binary, unary};
 pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
-pub use number::{Answers, ErrorPart, Number, NumberBlock};
+pub use number::{Answers, Corner, ErrorPart, Number, NumberBlock};
 pub use profile::Profile;
 pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
 pub use simulated::{Gpu, Planes, Simulated, SimulatedFloat};
@@ -92,11 +92,24 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn point_size_share() -> f64 {
         0.0
     }
-    /// A level of detail with the bits that it has.
+    /// A level of detail from the two steps in texels to the neighboring pixels: the logarithm of the longer one (OpenGL
+    /// 3.2 §3.8.11).
     #[inline(always)]
-    fn level(exact: f64) -> f64 {
-        exact
+    fn level(steps: [[f64; 3]; 2]) -> f64 {
+        longest(steps)
     }
+    /// The row and the column of the quad whose steps make the level of detail of all four fragments; none if each has its
+    /// own.
+    #[inline(always)]
+    fn level_corner() -> Option<Corner> {
+        None
+    }
+}
+
+/// The logarithm of the longer one of two steps. Minus infinity if nothing changes.
+pub(crate) fn longest(steps: [[f64; 3]; 2]) -> f64 {
+    let [x, y] = steps.map(|step| step.iter().map(|change| change * change).sum::<f64>().sqrt());
+    x.max(y).log2()
 }
 
 /// The reference: IEEE f64.

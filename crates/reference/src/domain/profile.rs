@@ -25,6 +25,8 @@ pub struct Profile {
     pub fine_derivatives: bool,
     /// Whether the weights of linear filters are floats, for textures of floats. A GPU may give them `subtexel_bits`.
     pub float_weights: bool,
+    /// Whether a level of detail is one for each quad, by a logarithm that is a straight line between powers of two.
+    pub straight_levels: bool,
     /// Whether derivatives are differences in the quad, and determinants sums of products. WGSL states no accuracy.
     pub limits_differences: bool,
 }
@@ -39,6 +41,7 @@ impl Profile {
         exact_halves: false,
         fine_derivatives: false,
         float_weights: false,
+        straight_levels: false,
         limits_differences: true,
     };
 
@@ -56,6 +59,7 @@ impl Profile {
         exact_halves: true,
         fine_derivatives: true,
         float_weights: true,
+        straight_levels: true,
         limits_differences: true,
     };
 

@@ -43,6 +43,8 @@ pub(super) enum PoolSource {
     Constant(u32),
     /// A scalar in a root's flat layout.
     Uniform(RootIndex, u32),
+    /// A scalar that was never written: a number of [`Inner::unwritten`].
+    Unwritten(u32),
 }
 
 /// The purpose for which a stage is compiled. The numbers are the same.
@@ -55,6 +57,8 @@ pub enum Form {
     Unfused,
     /// Besides, what depends on uniforms runs in every invocation, as on a GPU; only constants are computed before.
     Counted,
+    /// Unfused; scalars that are read before anything was written to them may have any number.
+    Guessed,
 }
 
 /// When a section runs.
@@ -115,6 +119,9 @@ pub(super) struct Inner {
     /// The largest number of vertices that an invocation emits.
     pub(super) max_vertices: u32,
     pub(super) mask_slots: usize,
+    /// The declarations of the variables that may be read before anything was written to them; empty unless the form is
+    /// [`Form::Guessed`].
+    pub(super) unwritten: Vec<Span>,
 }
 
 impl Section {

@@ -5,7 +5,7 @@ use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst,
 use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, calls1, calls2, calls3, copy, map1, map2, map3};
 use super::{DFDY_SIGN, LANES};
 use crate::domain::rules;
-use crate::domain::{Block, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
+use crate::domain::{Block, Corner, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
 use glisten_front::builtin::operations::BitFunction;
 use glisten_front::builtin::operations::{DerivativeAxis, DerivativeControl};
 use glisten_scene::picture::Interval;
@@ -230,15 +230,23 @@ fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>, n
             difference(a.at(one), a.at(other), apart)
         };
         let up = |upper: usize, lower: usize| if DFDY_SIGN < 0.0 { less(upper, lower) } else { less(lower, upper) };
-        let of_quad = |a: N, b: N| if op.control() == DerivativeControl::Fine { (a, b) } else { either(a, b) };
+        // One GPU has one of both, which it chooses below.
+        let is_open = N::HAS_INTERVALS && op.control() != DerivativeControl::Fine;
+        let of_quad = |a: N, b: N| if is_open { either(a, b) } else { (a, b) };
         let (top, bottom) = of_quad(less(1, 0), less(3, 2));
         let (left, right) = of_quad(up(0, 2), up(1, 3));
-        let coarse = match op.control() {
-            DerivativeControl::Any => N::coarse(),
-            DerivativeControl::Fine => false,
-            DerivativeControl::Coarse => true,
+        let corner = match op.control() {
+            DerivativeControl::Any => N::corner(),
+            DerivativeControl::Fine => None,
+            DerivativeControl::Coarse => Some(N::corner().unwrap_or(Corner { lower: false, right: false })),
         };
-        let (bottom, right) = if coarse { (top, left) } else { (bottom, right) };
+        let (top, bottom, left, right) = match corner {
+            None => (top, bottom, left, right),
+            Some(corner) => {
+                let (row, column) = (if corner.lower { bottom } else { top }, if corner.right { right } else { left });
+                (row, row, column, column)
+            }
+        };
         let differences = match op.axis() {
             DerivativeAxis::X => [top, top, bottom, bottom],
             DerivativeAxis::Y => [left, right, left, right],

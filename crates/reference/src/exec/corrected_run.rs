@@ -3,7 +3,7 @@
 //! *In:* an [`Exactly`](super::Exactly). *Out:* results without a part of their f32 error.
 
 use super::code::Section;
-use super::inst::{Class, Inst, Use};
+use super::inst::{Class, Inst};
 use super::machine::Machine;
 use crate::domain::{Domain, Integer, Number};
 
@@ -12,26 +12,7 @@ impl<D: Domain> Machine<D> {
     pub(super) fn correct(&mut self, inst: &Inst, section: &Section, place: usize) {
         let Some(exactly) = self.exactly.as_ref().filter(|exactly| exactly.holds(section.runs, place)) else { return };
         let part = exactly.part;
-        let mut written = Vec::new();
-        let mut copy = *inst;
-        copy.visit(&mut |class, using, operand| {
-            if using == Use::Write {
-                written.push((class, *operand));
-            }
-        });
-        for (class, _, list) in inst.lists().into_iter().flatten().filter(|(_, using, _)| *using == Use::Write) {
-            written.extend(section.list(list).iter().map(|operand| (class, *operand)));
-        }
-        if let Inst::Texture { call } = inst
-            && let Some(call) = self.code.inner.textures.get(*call as usize)
-        {
-            call.clone().visit(&mut |class, using, operand| {
-                if using == Use::Write {
-                    written.push((class, *operand));
-                }
-            });
-        }
-        for (class, operand) in written {
+        for (class, operand) in self.written(inst, section) {
             match class {
                 Class::Float => {
                     self.registers.floats.register(operand).change(|number| number.corrected(part));

@@ -72,6 +72,7 @@ impl Code {
 fn pools(inner: &Inner, uniforms: &[Vec<ScalarValue>]) -> [Vec<u64>; 2] {
     let of = |source: &PoolSource| match source {
         PoolSource::Constant(bits) => hashed((2_u8, bits)),
+        PoolSource::Unwritten(_) => hashed((2_u8, &0_u32)),
         PoolSource::Uniform(root, flat) => {
             let value = uniforms.get(root.0 as usize).and_then(|values| values.get(*flat as usize));
             // The bits: a uniform may be a NaN.

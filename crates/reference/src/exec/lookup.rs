@@ -4,7 +4,7 @@ use super::inst::{Lookup, Operand, TextureCall};
 use super::machine::Machine;
 use super::registers::Registers;
 use super::{LANES, Mask};
-use crate::domain::{Domain, Integer, Number, limits, rules};
+use crate::domain::{Corner, Domain, Integer, Number, limits, rules};
 use crate::texture::{self, BoundedFloat, BoundedInt, Gradients, MISSING, Request, Sampled, Steps};
 use glisten_front::hir::{SamplerDim, Scalar, Stage};
 use glisten_scene::Texture;
@@ -268,14 +268,9 @@ impl<D: Domain> LaneLookup<'_, D> {
             _ if stage != Stage::Fragment || self.call.kind.dim == SamplerDim::Rect => return given,
             _ => (self.quad_gradients(), D::HAS_INTERVALS.then(|| self.quad_steps())),
         };
-        let lambda = texture::level_of_detail(
-            texture,
-            self.call.kind,
-            at.map(|bounded| bounded.value),
-            gradients,
-            steps.as_ref(),
-        );
-        let lambda = BoundedFloat { value: D::level(lambda.value), ..lambda };
+        let kind = self.call.kind;
+        let texels = texture::steps_in_texels(texture, kind, at.map(|bounded| bounded.value), gradients);
+        let lambda = texture::level_bounds(texture, kind, D::level(texels), steps.as_ref());
         BoundedFloat { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
     }
 
@@ -311,8 +306,10 @@ impl<D: Domain> LaneLookup<'_, D> {
 
     /// The differences of the coordinates in the lane's quad.
     fn quad_gradients(&self) -> Gradients {
-        let row = self.lane & 2;
-        let column = self.lane & 1;
+        let (row, column) = match D::level_corner() {
+            Some(Corner { lower, right }) => (2 * usize::from(lower), usize::from(right)),
+            None => (self.lane & 2, self.lane & 1),
+        };
         let of = |from: usize, to: usize| -> [f64; 3] {
             let value = |operand: &Operand| self.difference(*operand, from, to).value;
             std::array::from_fn(|k| self.call.coordinate.get(k).map_or(0.0, value))

@@ -3,6 +3,7 @@
 use super::Mask;
 use super::code::{Code, Inner, PoolSource, Port};
 use super::exactly::Exactly;
+use super::guess::Guess;
 use super::inst::Class;
 use super::mute::Muted;
 use super::observe::Observer;
@@ -51,6 +52,8 @@ pub struct Machine<D: Domain> {
     pub(super) observer: Option<Box<dyn Observer<D>>>,
     /// The expressions whose error is left out.
     pub(super) exactly: Option<Arc<Exactly>>,
+    /// The numbers in the place of what is undefined.
+    pub(super) guess: Option<Arc<Guess>>,
     /// The lanes that an observer is shown.
     pub(super) watched: u64,
 }
@@ -66,6 +69,8 @@ pub enum Purpose<D: Domain> {
     Watching(Box<dyn Observer<D>>),
     /// Results without the f32 error of some expressions.
     Corrected(Arc<Exactly>),
+    /// Results with numbers in the place of what the language leaves undefined.
+    Guessing(Arc<Guess>),
 }
 
 impl<D: Domain> Machine<D> {
@@ -83,16 +88,29 @@ impl<D: Domain> Machine<D> {
         uniforms: &[Vec<ScalarValue>],
         textures: &[Option<Arc<Texture>>],
     ) -> Self {
-        let (mut muted, mut observer, mut exactly) = (None, None, None);
+        let (mut muted, mut observer, mut exactly, mut guess) = (None, None, None, None);
         match purpose {
             Purpose::Results => {}
             Purpose::Share(left_out) => muted = Some(left_out),
             Purpose::Watching(watching) => observer = Some(watching),
             Purpose::Corrected(corrected) => exactly = Some(corrected),
+            Purpose::Guessing(numbers) => guess = Some(numbers),
         }
         let inner = &code.inner;
-        let floats = inner.float_pool.iter().map(|source| float_of::<D>(*source, uniforms)).collect();
-        let ints = inner.int_pool.iter().map(|source| int_of::<D>(*source, uniforms)).collect();
+        let unwritten = |source: &PoolSource| match source {
+            PoolSource::Unwritten(index) => guess.as_ref()?.unwritten(*inner.unwritten.get(*index as usize)?),
+            _ => None,
+        };
+        let float = |source: &PoolSource| match unwritten(source) {
+            Some(numbers) => D::Float::from_f64(numbers.float),
+            None => float_of::<D>(*source, uniforms),
+        };
+        let int = |source: &PoolSource| match unwritten(source) {
+            Some(numbers) => D::Int::from_bits(numbers.int),
+            None => int_of::<D>(*source, uniforms),
+        };
+        let floats = inner.float_pool.iter().map(float).collect();
+        let ints = inner.int_pool.iter().map(int).collect();
         let mut machine = Self {
             code: code.clone(),
             registers: Registers::new(inner.preamble_results, floats, ints, profile),
@@ -112,6 +130,7 @@ impl<D: Domain> Machine<D> {
             runaway: Span::default(),
             observer,
             exactly,
+            guess,
             watched: 1,
         };
         machine.execute(&inner.preamble, inner, 1);
@@ -199,6 +218,13 @@ impl<D: Domain> Machine<D> {
         self.registers.ints.get(register)?.lanes()
     }
 
+    /// The number of an output that the stage never writes: 0, unless it is guessed.
+    pub(crate) fn never_written(&self) -> f64 {
+        let span = self.code.inner.unwritten.last().copied();
+        let numbers = self.guess.as_ref().zip(span).and_then(|(guess, span)| guess.unwritten(span));
+        numbers.map_or(0.0, |numbers| numbers.float)
+    }
+
     /// The lanes that the last run discarded.
     pub fn discarded(&self) -> Mask {
         Mask(self.discarded)
@@ -241,6 +267,7 @@ fn float_of<D: Domain>(source: PoolSource, uniforms: &[Vec<ScalarValue>]) -> D::
             Some(ScalarValue::Bool(value)) => f32::from(u8::from(value)),
             None => 0.0,
         },
+        PoolSource::Unwritten(_) => 0.0,
     };
     D::Float::from_f64(f64::from(value))
 }
@@ -255,6 +282,7 @@ fn int_of<D: Domain>(source: PoolSource, uniforms: &[Vec<ScalarValue>]) -> D::In
             Some(ScalarValue::Bool(value)) => u32::from(value),
             None => 0,
         },
+        PoolSource::Unwritten(_) => 0,
     };
     D::Int::from_bits(bits)
 }

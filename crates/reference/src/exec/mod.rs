@@ -50,6 +50,7 @@ mod emitting;
 mod exactly;
 mod explore;
 mod follow;
+mod guess;
 mod identity;
 mod inst;
 mod lookup;
@@ -69,6 +70,7 @@ mod ways;
 
 pub use code::{Code, Form};
 pub use exactly::Exactly;
+pub(crate) use guess::{Guess, Numbers, Place};
 pub(crate) use identity::hashed;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};

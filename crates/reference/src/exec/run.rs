@@ -13,6 +13,7 @@ impl<D: Domain> Machine<D> {
         self.whole = start;
         let watched = self.observer.is_some();
         let corrected = self.exactly.is_some();
+        let guessed = self.guess.is_some();
         while let Some(inst) = section.insts.get(place) {
             place += 1;
             if watched {
@@ -21,6 +22,7 @@ impl<D: Domain> Machine<D> {
                     self.count(inst, (section, place - 1), inner, mask);
                 }
             }
+            let open = if guessed { self.undefined(inst, section, inner, mask) } else { None };
             if D::HAS_INTERVALS && self.muted.is_some() && self.is_muted(section, place - 1) {
                 self.run_muted(inst, section, inner, mask);
                 continue;
@@ -30,9 +32,11 @@ impl<D: Domain> Machine<D> {
                 Inst::StoreInt { dst, a } => self.registers.store_int(dst, a, mask, mask == self.whole),
                 Inst::LoadFloat { dst, table, index } => {
                     self.registers.load_float(dst, section.list(table), index);
+                    self.guess(inst, section, place - 1, open);
                 }
                 Inst::LoadInt { dst, table, index } => {
                     self.registers.load_int(dst, section.list(table), index);
+                    self.guess(inst, section, place - 1, open);
                 }
                 Inst::StoreIndexedFloat { table, index, a } => {
                     self.registers.store_indexed_float(section.list(table), index, a, mask);
@@ -43,6 +47,7 @@ impl<D: Domain> Machine<D> {
                 Inst::Texture { call } => {
                     if let Some(call) = inner.textures.get(call as usize) {
                         self.undecided |= self.texture(call, inner.stage, mask);
+                        self.guess(inst, section, place - 1, open);
                         if corrected {
                             self.correct(inst, section, place - 1);
                         }
@@ -138,6 +143,7 @@ impl<D: Domain> Machine<D> {
                     } else {
                         self.registers.compute(pure, section);
                     }
+                    self.guess(pure, section, place - 1, open);
                     if corrected {
                         self.correct(pure, section, place - 1);
                     }
@@ -151,6 +157,14 @@ impl<D: Domain> Machine<D> {
 }
 
 impl<D: Domain> Machine<D> {
+    /// Puts a guess in the place of what is undefined of an instruction that has just run.
+    #[inline(always)]
+    fn guess(&mut self, inst: &Inst, section: &Section, place: usize, open: Option<(&'static str, u64)>) {
+        if let Some(open) = open {
+            self.put_guess(inst, section, place, open);
+        }
+    }
+
     /// Records that the program does not come to an end at an instruction.
     fn run_away(&mut self, section: &Section, place: usize) {
         self.budget_exceeded = true;

@@ -55,7 +55,7 @@ impl OutputPlan {
                 return missing;
             }
             // An output that is never written is undefined; here it is 0.
-            let unwritten = Channel::Constant(0.0);
+            let unwritten = Channel::Constant(machine.never_written());
             match self.scalar {
                 Scalar::Float => machine.float_output(self.global, flat).map_or(unwritten, Channel::Float),
                 Scalar::Int => machine.int_output(self.global, flat).map_or(unwritten, Channel::Int),

@@ -3,7 +3,7 @@
 //! *In:* a [`Study`]. *Out:* machines for it, each for one piece of the drawing.
 
 use crate::domain::{Domain, ErrorPart, Gpu, Profile};
-use crate::exec::{Code, Exactly, Form, Machine, Observer, Order, Piece, Purpose};
+use crate::exec::{Code, Exactly, Form, Guess, Machine, Observer, Order, Piece, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
@@ -41,6 +41,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) form: Form,
     /// The GPU that is simulated, in the domain of simulated GPUs.
     pub(crate) gpu: Option<Gpu>,
+    /// Numbers in the place of what the language leaves undefined.
+    pub(crate) guess: Option<&'a Arc<Guess>>,
 }
 
 impl<D: Domain> Study<'_, D> {
@@ -55,6 +57,7 @@ impl<D: Domain> Study<'_, D> {
         probe: None,
         form: Form::Fast,
         gpu: None,
+        guess: None,
     };
 }
 
@@ -116,7 +119,7 @@ impl<D: Domain> Watch<'_, D> {
                 let exactly = Exactly::new(code, part, |span| spans.binary_search(&span).is_ok());
                 Purpose::Corrected(Arc::new(exactly))
             }
-            None => Purpose::Results,
+            None => self.study.guess.map_or(Purpose::Results, |guess| Purpose::Guessing(Arc::clone(guess))),
         };
         Machine::with(purpose, profile, code, &draw.uniforms, &draw.textures)
     }

@@ -31,16 +31,9 @@ impl Steps {
     }
 }
 
-/// The level of detail, and the interval for a GPU: the scale factor may be anything from the longest step along one
+/// A level of detail with the interval for a GPU: the scale factor may be anything from the longest step along one
 /// axis to the sum of these (conditions 1 and 2 of §3.8.11). For a cube, the steps are not separated by axis.
-pub(crate) fn level_of_detail(
-    texture: &Texture,
-    kind: SamplerType,
-    at: [f64; 3],
-    gradients: Gradients,
-    steps: Option<&Steps>,
-) -> BoundedFloat {
-    let value = exact(texture, kind, at, gradients);
+pub(crate) fn level_bounds(texture: &Texture, kind: SamplerType, value: f64, steps: Option<&Steps>) -> BoundedFloat {
     let (Some(steps), Some(base)) = (steps, texture.levels.first()) else { return BoundedFloat::exact(value) };
     if kind.dim == SamplerDim::Cube {
         let (low, high) = const { rules::CUBE_LEVEL.between() };
@@ -57,23 +50,24 @@ pub(crate) fn level_of_detail(
     BoundedFloat { value, low: value.min(least.log2()), high: value.max(most.log2()) }
 }
 
-/// `log2(rho)`, where rho is the longer of the two steps in texels of the base level (equation 3.21 and the one below
-/// it). Minus infinity if nothing changes.
-fn exact(texture: &Texture, kind: SamplerType, at: [f64; 3], gradients: Gradients) -> f64 {
-    let Some(base) = texture.levels.first() else { return f64::NEG_INFINITY };
+/// The steps in texels of the base level along the rows and the columns of the picture (equation 3.21).
+pub(crate) fn steps_in_texels(
+    texture: &Texture,
+    kind: SamplerType,
+    at: [f64; 3],
+    gradients: Gradients,
+) -> [[f64; 3]; 2] {
+    let Some(base) = texture.levels.first() else { return [[0.0; 3]; 2] };
     let sizes = [base.width, base.height, base.depth].map(f64::from);
-    let step = |d: [f64; 3]| -> f64 {
-        let scaled = match kind.dim {
-            SamplerDim::Cube => on_face(at, d).map(|change| change * sizes[0]),
-            SamplerDim::Rect => [d[0], d[1], 0.0],
-            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D3 | SamplerDim::Buffer | SamplerDim::Multisample => {
-                let count = usize::from(kind.dimensions());
-                std::array::from_fn(|axis| if axis < count { d[axis] * sizes[axis] } else { 0.0 })
-            }
-        };
-        scaled.iter().map(|change| change * change).sum::<f64>().sqrt()
+    let step = |d: [f64; 3]| match kind.dim {
+        SamplerDim::Cube => on_face(at, d).map(|change| change * sizes[0]),
+        SamplerDim::Rect => [d[0], d[1], 0.0],
+        SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D3 | SamplerDim::Buffer | SamplerDim::Multisample => {
+            let count = usize::from(kind.dimensions());
+            std::array::from_fn(|axis| if axis < count { d[axis] * sizes[axis] } else { 0.0 })
+        }
     };
-    step(gradients.dx).max(step(gradients.dy)).log2()
+    [step(gradients.dx), step(gradients.dy)]
 }
 
 /// How s and t of the face that a direction hits change with the direction.

@@ -11,14 +11,14 @@
 //! The interval is the hull of all texels that a coordinate's interval touches
 //! ([`rules::TEXEL_COORDINATE`](super::domain::rules::TEXEL_COORDINATE)), with the precision of filter weights
 //! ([`Profile`](super::domain::Profile)) and the freedom of a level of detail
-//! from derivatives ([`level_of_detail`]).
+//! from derivatives ([`level_bounds`]).
 
 mod cube;
 mod lod;
 mod sample;
 mod texel;
 
-pub(crate) use lod::{Gradients, Steps, level_of_detail};
+pub(crate) use lod::{Gradients, Steps, level_bounds, steps_in_texels};
 pub(crate) use sample::{Request, gather, sample};
 pub(crate) use texel::{fetch, size};
 

@@ -13,6 +13,9 @@
 //! 5. [`Class::Edge`]: near an edge; judged by the hull of the colors of the primitives that may own it.
 //! 6. [`Class::Judged`]: all others.
 //!
+//! [`Tally`](super::tally) goes on from there: what the language leaves undefined comes before all of them
+//! ([`Class::Undefined`]), and one of classes 2 to 4 on which simulated GPUs agree is [`Class::Likely`].
+//!
 //! The goal is 1/255 of the range of the picture's values, unless it is given: of all channels that the programs write,
 //! over the covered pixels, alpha included. A picture of one value has no range; its goal is 1/255 of 1/255 of its
 //! largest magnitude. In 8 bits, the goal is at least one step, because nothing
@@ -51,11 +54,24 @@ pub enum Class {
     Edge,
     /// Not at all: a known fault of the driver explains it.
     Excused,
+    /// By the hull of what simulated GPUs drew, because its envelope is too wide.
+    Likely,
+    /// Not at all: it depends on what the language leaves undefined.
+    Undefined,
 }
 
 impl Class {
     /// All classes, in the order of reports.
-    pub const ALL: [Self; 6] = [Self::Judged, Self::Weak, Self::Unlimited, Self::Undecided, Self::Edge, Self::Excused];
+    pub const ALL: [Self; 8] = [
+        Self::Judged,
+        Self::Likely,
+        Self::Weak,
+        Self::Unlimited,
+        Self::Undecided,
+        Self::Undefined,
+        Self::Edge,
+        Self::Excused,
+    ];
 
     /// The name in reports.
     pub fn name(self) -> &'static str {
@@ -66,6 +82,8 @@ impl Class {
             Self::Undecided => "undecided",
             Self::Edge => "edge",
             Self::Excused => "excused",
+            Self::Likely => "likely",
+            Self::Undefined => "undefined",
         }
     }
 }
@@ -75,9 +93,11 @@ impl Class {
 #[expect(missing_docs, reason = "the fields are the names of the classes")]
 pub struct Evidence {
     pub judged: u64,
+    pub likely: u64,
     pub weak: u64,
     pub unlimited: u64,
     pub undecided: u64,
+    pub undefined: u64,
     pub edge: u64,
     pub excused: u64,
 }
@@ -92,6 +112,8 @@ impl Evidence {
             Class::Undecided => &mut self.undecided,
             Class::Edge => &mut self.edge,
             Class::Excused => &mut self.excused,
+            Class::Likely => &mut self.likely,
+            Class::Undefined => &mut self.undefined,
         } += 1;
     }
 
@@ -104,6 +126,8 @@ impl Evidence {
             Class::Undecided => self.undecided,
             Class::Edge => self.edge,
             Class::Excused => self.excused,
+            Class::Likely => self.likely,
+            Class::Undefined => self.undefined,
         }
     }
 
@@ -114,7 +138,7 @@ impl Evidence {
 
     /// The pixels that were compared with something that excludes faults.
     pub fn good(&self) -> u64 {
-        self.judged + self.edge + self.excused
+        self.judged + self.likely + self.edge + self.excused
     }
 }
 
@@ -272,6 +296,8 @@ fn full_range(format: Format) -> Option<(f64, f64)> {
 pub struct Ruler<'a> {
     cpu: &'a Picture,
     written: &'a Written,
+    /// The pixels that measure nothing.
+    without: &'a [bool],
     /// The range of the picture's values.
     pub range: f64,
     /// The largest width at which a pixel is judged.
@@ -299,7 +325,13 @@ impl<'a> Ruler<'a> {
         let range = if low <= high { high - low } else { 0.0 };
         let magnitude = if low <= high { low.abs().max(high.abs()) } else { 0.0 };
         let goal = width.unwrap_or_else(|| (range.max(magnitude * GOAL) * GOAL).max(written.step));
-        Self { cpu, written, range, goal }
+        Self { cpu, written, without: &[], range, goal }
+    }
+
+    /// The same measure, with pixels that are left out of [whole pictures](super::whole).
+    #[must_use]
+    pub fn without(self, without: &'a [bool]) -> Self {
+        Self { without, ..self }
     }
 
     /// The width of a pixel's envelope: that of its widest channel.
@@ -316,6 +348,17 @@ impl<'a> Ruler<'a> {
         rounding.max(self.range * LEAST)
     }
 
+    /// How far a number may be outside of what is likely for no reason: a step of the format, and a small share of the
+    /// range.
+    pub(super) fn rounding(&self, value: f64) -> f64 {
+        self.written.step.max(self.written.relative * value.abs()).max(self.range * LEAST)
+    }
+
+    /// The distance of neighboring values of the format; 0 for floats.
+    pub(super) fn step(&self) -> f64 {
+        self.written.step
+    }
+
     /// How far the mean of many numbers of this size may be off for no reason.
     pub(super) fn unit_of_a_mean(&self, value: f64) -> f64 {
         let is_fine = self.written.step == 0.0 && self.written.relative <= relative_step(Format::Rgba32Float);
@@ -327,7 +370,7 @@ impl<'a> Ruler<'a> {
         let flag = |flags: &[bool], pixel: usize| flags.get(pixel).copied().unwrap_or(false);
         let is_plain = |pixel: &usize| {
             let Picture { covered, undecided, near_edge, .. } = self.cpu;
-            flag(covered, *pixel) && !flag(undecided, *pixel) && !flag(near_edge, *pixel)
+            flag(covered, *pixel) && !flag(self.without, *pixel) && !flag(undecided, *pixel) && !flag(near_edge, *pixel)
         };
         (0..self.cpu.covered.len()).filter(is_plain).collect()
     }
@@ -457,7 +500,7 @@ mod tests {
     fn counts_add_up() {
         let mut evidence = Evidence::default();
         Class::ALL.iter().for_each(|class| evidence.add(*class));
-        assert_eq!((evidence.total(), evidence.good()), (6, 3));
+        assert_eq!((evidence.total(), evidence.good()), (8, 4));
         assert!(Class::ALL.iter().all(|class| evidence.of(*class) == 1));
     }
 }

@@ -12,6 +12,13 @@
 //! only one side covers is suspect if no pixel around differs in coverage within the population. If the picture as a whole
 //! is far from those of the members ([`Gauge`]), each pixel of it is suspect. From [`MIN_SHARE`] of the
 //! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
+//!
+//! *What is likely:* a pixel whose envelope is too wide to be judged is judged by the members, if they agree: the hull of
+//! their numbers, widened by [`MARGIN`] times its width and by what the format rounds to, is at most as wide as the goal in
+//! each channel that the programs write. It takes [`MIN_MEMBERS`] members that cover the pixel, none with NaN; they are as
+//! drivers are. Further members err as far as the rules allow. They make no pixel less likely, but what they draw is no
+//! fault: a number up to [`BEYOND_RULES`] widths outside of the range of all members is right as well. At a jump, and near
+//! an edge, where another primitive may own the pixel, the eight pixels around count as above.
 
 use super::evidence::Ruler;
 use super::whole::{Figures, Gauge};
@@ -19,6 +26,16 @@ use crate::picture::{Interval, Picture};
 
 /// How many spreads of the population a number may be outside of its range.
 pub const FAR: f64 = 4.0;
+
+/// By how many of its widths the range of the population is widened for what is likely, unless it is given.
+pub const MARGIN: f64 = 4.0;
+
+/// The number of members that a pixel needs at least to be likely. They are as drivers are; further ones err as far as the
+/// rules allow.
+pub const MIN_MEMBERS: u32 = 16;
+
+/// How many widths of the range of all members a number may be outside of it, if there are more than [`MIN_MEMBERS`].
+pub const BEYOND_RULES: f64 = 0.5;
 
 /// How many widths of the range of the pixels around a number may be outside of it across a jump: a color goes on beyond the
 /// pixels that have it.
@@ -45,6 +62,8 @@ pub struct Population {
     /// For each attachment, pixel and channel, the lowest and highest number of the members, and whether one of them is
     /// NaN. Infinities are bounds like other numbers.
     pub ranges: Vec<Vec<[Interval; 4]>>,
+    /// The ranges of the first [`MIN_MEMBERS`], once there are more.
+    typical: Option<Vec<Vec<[Interval; 4]>>>,
     /// The number of members that cover each pixel.
     pub covered: Vec<u32>,
     /// The measure of pictures as a whole, with the figures of each member.
@@ -70,7 +89,7 @@ impl Population {
     pub fn new(seed: u64, [width, height]: [u32; 2], attachments: u32) -> Self {
         let count = width as usize * height as usize;
         let ranges = vec![vec![[NOTHING; 4]; count]; attachments as usize];
-        Self { members: 0, seed, width, ranges, covered: vec![0; count], whole: None }
+        Self { members: 0, seed, width, ranges, typical: None, covered: vec![0; count], whole: None }
     }
 
     /// The same population without members, whose pictures are also compared as a whole.
@@ -86,6 +105,9 @@ impl Population {
 
     /// Adds the picture of a member.
     pub fn add(&mut self, picture: &Picture) {
+        if self.members == MIN_MEMBERS {
+            self.typical = Some(self.ranges.clone());
+        }
         self.members += 1;
         for (ranges, colors) in self.ranges.iter_mut().zip(&picture.attachments) {
             for (ranges, color) in ranges.iter_mut().zip(colors) {
@@ -128,6 +150,31 @@ impl Population {
         places.max().unwrap_or(Place::Near)
     }
 
+    /// Where a pixel that both sides cover lies, if it is likely: see the rule above. `None` if the members do not agree.
+    pub(super) fn likely(&self, gpu: &Picture, ruler: &Ruler<'_>, pixel: usize, margin: f64) -> Option<Place> {
+        if self.members < MIN_MEMBERS || self.covered.get(pixel) != Some(&self.members) {
+            return None;
+        }
+        let mut place = Place::Near;
+        for (attachment, channel, _) in ruler.written_channels() {
+            let all = self.range(attachment, pixel, channel);
+            let typical =
+                self.typical.as_ref().map_or(Some(all), |typical| Some(typical.get(attachment)?.get(pixel)?[channel]));
+            let (low, high) = widened(typical?, ruler, margin)?;
+            let value = gpu.attachments.get(attachment).and_then(|colors| colors.get(pixel))?[channel];
+            if value >= low && value <= high {
+                continue;
+            }
+            let (around, unit) = (self.range_around(attachment, pixel, channel), ruler.rounding(value));
+            if self.typical.is_some() && distance(all, value, unit) <= BEYOND_RULES {
+                continue;
+            }
+            let is_across = distance(around, value, unit) <= BEYOND_JUMP && value.is_finite();
+            place = place.max(if is_across { Place::AcrossJump } else { Place::Far });
+        }
+        Some(place)
+    }
+
     /// Whether a pixel that only one side covers is suspect.
     pub(super) fn is_covered_by_chance(&self, gpu_covers: bool, pixel: usize) -> bool {
         let expected = if gpu_covers { 0 } else { self.members };
@@ -163,6 +210,19 @@ fn with(range: Interval, value: f64) -> Interval {
         true => Interval { may_be_nan: true, ..range },
         false => Interval { low: range.low.min(value), high: range.high.max(value), ..range },
     }
+}
+
+/// The range of the members with its margin; `None` if it is wider than the goal, or no range of numbers. In a format with
+/// steps, members that are one step apart agree.
+fn widened(range: Interval, ruler: &Ruler<'_>, margin: f64) -> Option<(f64, f64)> {
+    if range.may_be_nan || !(range.low <= range.high && range.low.is_finite() && range.high.is_finite()) {
+        return None;
+    }
+    let width = (range.width() - ruler.step()).max(0.0);
+    let rounding = ruler.rounding(range.low.abs().max(range.high.abs()));
+    let own = if ruler.step() > 0.0 { 0.0 } else { 2.0 * rounding };
+    let reach = margin * width + rounding;
+    (width * (1.0 + 2.0 * margin) + own <= ruler.goal).then_some((range.low - reach, range.high + reach))
 }
 
 /// How far a number is outside of a range, in widths of the range or, if that is more, in units.

@@ -7,10 +7,12 @@
 //! Colors never decide coverage. A pixel that may be uncovered must have a color of its envelope if it is covered. Near
 //! an edge, the envelope is the hull of the colors of the primitives that may own the pixel. Numbers that are not finite
 //! are counted separately and never enter an error figure; if the envelope contains them, they are no mismatch. A
-//! difference that only a known fault of the driver explains is counted under the fault's name.
+//! difference that only a known fault of the driver explains is counted under the fault's name. What depends on something
+//! that the language leaves undefined may have any color: it is counted in the evidence, or as undecided if only one side
+//! covers it, and nowhere else.
 
 use super::evidence::{Class, Ruler, Widths, Written};
-use super::population::{Place, Population, are_too_many};
+use super::population::{MARGIN, Place, Population, are_too_many};
 use super::verdict::{Criterion, FaultCount, Verdict, Worst, ulp_f32};
 use crate::picture::{Interval, Picture};
 
@@ -27,11 +29,23 @@ pub struct Comparison<'a> {
     pub width: Option<f64>,
     /// The pictures of simulated GPUs.
     pub population: Option<&'a Population>,
+    /// By how many of its widths the hull of the simulated GPUs' numbers is widened for what is likely.
+    pub likely_margin: f64,
+    /// For each pixel, whether it depends on what the language leaves undefined; empty if none does.
+    pub undefined: &'a [bool],
 }
 
 impl Default for Comparison<'_> {
     fn default() -> Self {
-        Self { criterion: Criterion::Envelope, faults: &[], written: None, width: None, population: None }
+        Self {
+            criterion: Criterion::Envelope,
+            faults: &[],
+            written: None,
+            width: None,
+            population: None,
+            likely_margin: MARGIN,
+            undefined: &[],
+        }
     }
 }
 
@@ -164,8 +178,12 @@ impl<'a> Tally<'a> {
             [false, false] => {}
             [true, true] => {
                 self.verdict.covered += 1;
+                if self.is_undefined(pixel) {
+                    return self.classify(ruler, pixel, Class::Undefined);
+                }
                 self.colors(pixel, undecided, Some(ruler));
             }
+            _ if self.is_undefined(pixel) => self.verdict.undecided += 1,
             [gpu_covers, _] if undecided || may_miss => {
                 let count = if may_miss { &mut self.verdict.edge_pixels } else { &mut self.verdict.undecided };
                 *count += 1;
@@ -186,16 +204,30 @@ impl<'a> Tally<'a> {
             (0..self.cpu.attachments.len()).map(|attachment| self.judge_channels(attachment, pixel)).collect();
         let is_wrong = errors.iter().any(|error| error.outside || error.finiteness_mismatch > 0);
         let is_edge = self.is_flagged(&self.cpu.near_edge, pixel);
+        // Where exact arithmetic has no number, any number is right, whatever simulated GPUs make of it.
+        let is_defined = !errors.iter().any(|error| error.non_finite[1]);
+        if is_wrong && !(is_edge && self.cpu.intervals.is_none()) && self.excused(pixel) {
+            if let Some(ruler) = ruler {
+                self.classify(ruler, pixel, Class::Excused);
+            }
+            return;
+        }
+        let mut likely = None;
+        let mut is_open = is_open;
+        if let Some(ruler) = ruler {
+            let mut class = self.hard_class(ruler, pixel);
+            if is_defined && matches!(class, Class::Weak | Class::Unlimited | Class::Undecided) {
+                likely = self.likely(ruler, pixel);
+            }
+            if likely.is_some() {
+                (class, is_open) = (Class::Likely, false);
+            }
+            self.classify(ruler, pixel, class);
+        }
         if is_wrong && is_edge && self.cpu.intervals.is_none() {
             self.verdict.edge_pixels += 1;
-            self.classify(ruler, pixel, None);
             return;
         }
-        if is_wrong && self.excused(pixel) {
-            self.classify(ruler, pixel, Some(Class::Excused));
-            return;
-        }
-        self.classify(ruler, pixel, None);
         let any = |test: fn(&PixelError) -> bool| u64::from(errors.iter().any(test));
         self.verdict.outside += any(|error| error.outside);
         self.verdict.finiteness_mismatch += errors.iter().map(|error| error.finiteness_mismatch).sum::<u64>();
@@ -205,9 +237,11 @@ impl<'a> Tally<'a> {
             self.verdict.non_finite_gpu += any(|error| error.non_finite[0]);
             self.verdict.non_finite_cpu += any(|error| error.non_finite[1]);
         }
-        // Where exact arithmetic has no number, any number is right, whatever simulated GPUs make of it.
-        let is_defined = !errors.iter().any(|error| error.non_finite[1]);
-        if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge && is_defined) {
+        if let Some(place) = likely.filter(|_| !is_wrong) {
+            self.examined += u64::from(!is_edge);
+            self.verdict.outside_likely += u64::from(place == Place::Far);
+            self.jumps += u64::from(place == Place::AcrossJump && !is_edge);
+        } else if let Some(ruler) = ruler.filter(|_| !is_wrong && !is_edge && is_defined) {
             let (gpu, cpu) = (self.gpu, self.cpu);
             self.examined += 1;
             let place = self.comparison.population.map(|population| population.place(gpu, cpu, ruler, pixel));
@@ -225,28 +259,43 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Counts a pixel that both sides cover by its class and its width.
-    fn classify(&mut self, ruler: Option<&Ruler<'_>>, pixel: usize, known: Option<Class>) {
-        let Some(ruler) = ruler else { return };
-        let (class, width) = match self.comparison.criterion {
-            Criterion::Envelope => (ruler.class(pixel), ruler.width(pixel)),
+    /// The class of a pixel that both sides cover, by its envelope.
+    fn hard_class(&self, ruler: &Ruler<'_>, pixel: usize) -> Class {
+        match self.comparison.criterion {
+            Criterion::Envelope => ruler.class(pixel),
             // Whoever names a tolerance finds it narrow enough.
-            Criterion::Tolerance(tolerance) => {
+            Criterion::Tolerance(_) => {
                 let flags = [&self.cpu.undecided, &self.cpu.near_edge].map(|flags| self.is_flagged(flags, pixel));
-                let class = match flags {
+                match flags {
                     [true, _] => Class::Undecided,
                     [_, true] => Class::Edge,
                     _ => Class::Judged,
-                };
-                (class, 2.0 * tolerance)
+                }
             }
+        }
+    }
+
+    /// Where a pixel lies among simulated GPUs that agree on it.
+    fn likely(&self, ruler: &Ruler<'_>, pixel: usize) -> Option<Place> {
+        let population = self.comparison.population?;
+        population.likely(self.gpu, ruler, pixel, self.comparison.likely_margin)
+    }
+
+    /// Counts a pixel that both sides cover by its class and its width.
+    fn classify(&mut self, ruler: &Ruler<'_>, pixel: usize, class: Class) {
+        let width = match self.comparison.criterion {
+            Criterion::Envelope => ruler.width(pixel),
+            Criterion::Tolerance(tolerance) => 2.0 * tolerance,
         };
-        let class = known.unwrap_or(class);
         self.verdict.evidence.add(class);
         self.widths.add(width);
         if let Some(slot) = self.classes.get_mut(pixel) {
             *slot = Some(class);
         }
+    }
+
+    fn is_undefined(&self, pixel: usize) -> bool {
+        self.is_flagged(self.comparison.undefined, pixel)
     }
 
     fn count_suspect(&mut self, is_suspect: impl FnOnce(&Population) -> bool) {

@@ -84,7 +84,7 @@ pub enum Conclusion {
 /// The demands on a verdict that holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Demands {
-    /// The smallest share of the covered pixels that is judged, at an edge, or excused.
+    /// The smallest share of the covered pixels that is judged, likely, at an edge, or excused.
     pub evidence_share: f64,
     /// Whether undecided pixels count as judged.
     pub allow_undecided: bool,
@@ -141,6 +141,9 @@ pub struct Verdict {
     /// Pixels inside their envelope, but far outside of what a population of simulated GPUs drew; `None` (null) without a
     /// population.
     pub suspect: Option<u64>,
+    /// Pixels that are judged by the hull of what simulated GPUs drew ([`Class::Likely`](super::Class::Likely)), and are
+    /// outside of it.
+    pub outside_likely: u64,
     /// Pixels that only a known fault of the driver explains; they count nowhere else but in `evidence`.
     pub known_faults: Vec<FaultCount>,
     /// The pixel with the largest difference; `None` (null) if none was compared.
@@ -158,9 +161,9 @@ impl Verdict {
         }
     }
 
-    /// Whether so many pixels are suspect that the picture is.
+    /// Whether so many pixels are suspect, or outside of what is likely, that the picture is.
     pub fn is_suspect(&self) -> bool {
-        population::fails(self.suspect.unwrap_or(0), self.covered)
+        population::fails(self.suspect.unwrap_or(0) + self.outside_likely, self.covered)
     }
 
     /// Whether the conclusion is [`Conclusion::Holds`] by the usual [`Demands`], with undecided pixels as judged ones if
@@ -175,7 +178,7 @@ impl Verdict {
         self.conclusion(&Demands::default()) == Conclusion::Fails
     }
 
-    /// The share of the covered pixels that is judged, at an edge, or excused. Undecided pixels that only one side covers
+    /// The share of the covered pixels that is judged, likely, at an edge, or excused. Undecided pixels that only one side covers
     /// count as covered here.
     pub fn share_judged(&self, demands: &Demands) -> f64 {
         let one_sided = self.undecided.saturating_sub(self.evidence.undecided);
@@ -218,6 +221,7 @@ impl Verdict {
             range: least.range,
             width: least.width,
             suspect: self.suspect.max(other.suspect),
+            outside_likely: self.outside_likely.max(other.outside_likely),
             known_faults: worse_faults(&self.known_faults, &other.known_faults),
             worst: far.worst.clone().or_else(|| near.worst.clone()),
         }

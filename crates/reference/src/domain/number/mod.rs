@@ -8,6 +8,15 @@ use super::{Element, Integer};
 use glisten_front::builtin::operations::{from_half, to_half};
 use glisten_scene::picture::Interval;
 
+/// A row and a column of a quad.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Corner {
+    /// The row that is lower in the picture.
+    pub lower: bool,
+    /// The column to the right.
+    pub right: bool,
+}
+
 /// A part of the error of a result in f32.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorPart {
@@ -304,9 +313,10 @@ pub trait Number: Element<Block: NumberBlock<Self>> {
     fn from_half(bits: Self::Int) -> Self {
         Self::paired(from_half(bits.bits() & 0xffff), from_half(bits.second() & 0xffff))
     }
-    /// Whether derivatives are those of one row and one column of the quad (§8.8 lets a GPU choose).
+    /// The row and the column of the quad whose differences are those of all four; none if each has its own (§8.8 lets a
+    /// GPU choose).
     #[inline(always)]
-    fn coarse() -> bool {
-        false
+    fn corner() -> Option<Corner> {
+        None
     }
 }

@@ -10,6 +10,12 @@ use crate::domain::rules::{self, ulp};
 use crate::domain::{Number, evaluate};
 use glisten_front::builtin::operations::precision::{Precision, Rule};
 
+/// The largest error of the sine and the cosine of drivers, where the rule allows 2^-11.
+const TYPICAL_ANGLE: f64 = 1.0 / 1_048_576.0;
+
+/// The largest error of other functions of drivers in ULP, where the rule allows more.
+const TYPICAL_ULPS: f64 = 64.0;
+
 /// How far a number is in its binade, 0 to 1.
 #[inline(always)]
 pub(super) fn fraction(x: f64) -> f64 {
@@ -39,6 +45,7 @@ impl SimulatedFloat {
         let exact = f(x);
         let by_formula = || !Gpu::is_precise(function) && exact.is_finite() && !gpu.has_second(Form::Inherited);
         let allowed = match rule.precision {
+            Precision::Ulps(ulps) if gpu.typical => ulps.min(TYPICAL_ULPS) * ulp(exact),
             Precision::Ulps(_) | Precision::UlpsWithArgument { .. } => rule.ulps_at(x) * ulp(exact),
             Precision::UlpsOrWithin { ulps, error, low, high } => {
                 let inside = if (low..=high).contains(&x) { error } else { 0.0 };
@@ -96,8 +103,8 @@ impl SimulatedFloat {
         let gpu = Gpu::current();
         let (y, x) = (self.read(&gpu), x.read(&gpu));
         let exact = y.atan2(x);
-        let allowed = rules::ATAN.ulps() * ulp(exact);
-        Self(with_error(&gpu, exact, allowed, Function::Atan, fraction(y / x)))
+        let ulps = rules::ATAN.ulps().min(if gpu.typical { TYPICAL_ULPS } else { f64::INFINITY });
+        Self(with_error(&gpu, exact, ulps * ulp(exact), Function::Atan, fraction(y / x)))
     }
 }
 
@@ -109,9 +116,10 @@ fn angular(gpu: &Gpu, x: f64, exact: f64, function: Function, [error, reduced, l
     }
     let turn = (x / std::f64::consts::TAU).fract().abs();
     let swing = Gpu::swing_of(function);
-    if x.abs() >= lost && !swing.is_none() {
+    if x.abs() >= lost && !swing.is_none() && !gpu.typical {
         return SimulatedFloat(f64::from(swing.at(turn) as f32));
     }
+    let error = if gpu.typical { error.min(TYPICAL_ANGLE) } else { error };
     let angle = if x.abs() > reduced { ulp(x) } else { 0.0 };
     SimulatedFloat(with_error(gpu, exact, error + angle, function, turn).clamp(-1.0, 1.0))
 }

@@ -3,11 +3,13 @@
 //! *In:* a seed and a number. *Out:* the choices, the same for the same seed and number. *Holds:* a choice is a GPU's, not
 //! an operation's: the same operation on the same numbers always has the same result, as in hardware. The first two
 //! GPUs are drawn by no chance: number 0 rounds each operation to the nearest, number 1 as well but interpolates by
-//! planes and flushes subnormals, as most drivers do. The functions of numbers 2 and 3 err as far as they may, up and down:
-//! some rules are the errors of polynomials that drivers use.
+//! planes and flushes subnormals, as most drivers do. The first [`Gpu::TYPICAL`] are as drivers are: their functions err by
+//! no more than drivers' do. Those of the others err by up to what the rules allow; those of the first two of these as far
+//! as they may, up and down.
 
+use super::levels::{Levels, Measure};
 use super::rounding::{Rounder, Rounding};
-use crate::domain::Profile;
+use crate::domain::{Corner, Profile};
 use glisten_scene::random::{mixed, unit};
 use std::cell::Cell;
 
@@ -34,13 +36,15 @@ pub struct Gpu {
     pub(super) sums_backward: bool,
     /// Whether `min` and `max` pass a NaN on.
     pub(super) passes_nan: bool,
-    /// Whether derivatives are those of one row and one column of the quad.
-    pub(super) coarse: bool,
+    /// The row and the column of the quad whose derivatives are those of all four fragments, if they are coarse.
+    pub(super) corner: Option<Corner>,
     pub(super) planes: Planes,
     /// The bits of filter weights; none if they are floats.
     pub(super) weight_bits: Option<u32>,
-    /// The bits of the fraction of a level of detail; none if it is a float.
-    pub(super) level_bits: Option<u32>,
+    /// The level of detail of textures.
+    pub(super) levels: Levels,
+    /// Whether its functions err as those of drivers do, and not as far as the rules allow.
+    pub(super) typical: bool,
     /// A bit for each [`Form`].
     forms: u8,
     /// The error of every function, as a share of the allowed one, of a GPU that errs as far as it may; else 0.
@@ -62,6 +66,11 @@ enum Choice {
     Planes,
     Weights,
     Levels,
+    Corner,
+    Measure,
+    Straight,
+    QuadLevels,
+    LevelCorner,
     Forms,
     Undefined,
     /// Of each [`Function`], from here on.
@@ -153,13 +162,18 @@ impl Gpu {
         fuses: false,
         sums_backward: false,
         passes_nan: false,
-        coarse: false,
+        corner: None,
         planes: Planes::Weights,
         weight_bits: None,
-        level_bits: None,
+        levels: Levels::EXACT,
+        typical: true,
         forms: 0,
         extreme: 0.0,
     };
+
+    /// The number of GPUs that are as drivers are. Those after them err as far as the rules allow.
+    pub const TYPICAL: u32 = 16;
+    const LAST_EXTREME: u32 = Self::TYPICAL + 1;
 
     /// The GPU of this number in the population of a seed.
     pub fn of(seed: u64, number: u32) -> Self {
@@ -169,8 +183,9 @@ impl Gpu {
             _ => {}
         }
         let blank = Self { seed: mixed(seed ^ mixed(u64::from(number))) | 1, ..Self::STRICT };
-        if let 2 | 3 = number {
-            return Self { extreme: if number == 2 { EXTREME } else { -EXTREME }, ..blank };
+        let typical = number < Self::TYPICAL;
+        if let Self::TYPICAL | Self::LAST_EXTREME = number {
+            return Self { extreme: if number == Self::TYPICAL { EXTREME } else { -EXTREME }, typical, ..blank };
         }
         let yes = |choice: Choice| blank.pick(choice, 2) == 1;
         Self {
@@ -183,30 +198,54 @@ impl Gpu {
             fuses: yes(Choice::Fuse),
             sums_backward: yes(Choice::Sums),
             passes_nan: yes(Choice::Nan),
-            coarse: yes(Choice::Coarse),
+            corner: yes(Choice::Coarse).then(|| blank.corner(Choice::Corner)),
             planes: match blank.pick(Choice::Planes, 3) {
                 0 => Planes::Weights,
                 1 => Planes::FromCorner,
                 _ => Planes::FromVertex,
             },
             weight_bits: yes(Choice::Weights).then_some(8),
-            level_bits: match blank.pick(Choice::Levels, 3) {
-                0 => None,
-                1 => Some(8),
-                _ => Some(4),
-            },
+            levels: blank.levels(),
+            typical,
             forms: blank.pick(Choice::Forms, 256) as u8,
             ..blank
         }
     }
 
-    /// The same GPU with what is known of a device.
+    /// The same GPU with what is known of a device, if it is one that is as drivers are.
     #[must_use]
     pub fn on(self, profile: &Profile) -> Self {
+        if !self.typical {
+            return self;
+        }
         Self {
-            coarse: self.coarse && !profile.fine_derivatives,
+            corner: self.corner.filter(|_| !profile.fine_derivatives),
             weight_bits: self.weight_bits.filter(|_| !profile.float_weights),
+            levels: if profile.straight_levels { Levels::LLVMPIPE } else { self.levels },
             ..self
+        }
+    }
+
+    /// A corner of the quad.
+    fn corner(&self, choice: Choice) -> Corner {
+        let bits = self.pick(choice, 4);
+        Corner { lower: bits & 1 == 1, right: bits & 2 == 2 }
+    }
+
+    fn levels(&self) -> Levels {
+        Levels {
+            measure: match self.pick(Choice::Measure, 4) {
+                0 => Measure::LongestAxis,
+                1 => Measure::Sum,
+                _ => Measure::Root,
+            },
+            straight: self.pick(Choice::Straight, 4) == 0,
+            bits: match self.pick(Choice::Levels, 3) {
+                0 => None,
+                1 => Some(8),
+                _ => Some(4),
+            },
+            corner: (self.pick(Choice::QuadLevels, 2) == 1).then(|| self.corner(Choice::LevelCorner)),
         }
     }
 

@@ -9,11 +9,12 @@
 mod block;
 mod functions;
 mod gpu;
+mod levels;
 mod rounding;
 
 pub use gpu::{Gpu, Planes};
 
-use super::{Number, rules};
+use super::{Corner, Number, rules};
 use gpu::{Form, Function, Gpu as Current};
 use smallvec::SmallVec;
 
@@ -207,8 +208,8 @@ impl Number for SimulatedFloat {
         Self::from_f64(f64::from(value))
     }
     #[inline(always)]
-    fn coarse() -> bool {
-        Current::current().coarse
+    fn corner() -> Option<Corner> {
+        Current::current().corner
     }
 }
 
@@ -238,13 +239,10 @@ impl super::Domain for Simulated {
     fn point_size_share() -> f64 {
         Current::swing_of(Function::PointSize).at(0.0)
     }
-    fn level(exact: f64) -> f64 {
-        match Current::current().level_bits {
-            Some(bits) if exact.is_finite() => {
-                let steps = f64::from(1_u32 << bits);
-                (exact * steps).round() / steps
-            }
-            _ => exact,
-        }
+    fn level(steps: [[f64; 3]; 2]) -> f64 {
+        Current::current().levels.of(steps)
+    }
+    fn level_corner() -> Option<Corner> {
+        Current::current().levels.corner
     }
 }

@@ -89,6 +89,11 @@ impl Emitter {
         self.source(class, PoolSource::Constant(0))
     }
 
+    /// A scalar that was never written.
+    pub(super) fn unwritten(&mut self, class: Class, index: u32) -> Operand {
+        self.source(class, PoolSource::Unwritten(index))
+    }
+
     pub(super) fn uniform(&mut self, class: Class, root: RootIndex, flat: u32) -> Operand {
         let uniform = self.source(class, PoolSource::Uniform(root, flat));
         // What reads a register is not moved into the preamble.

@@ -98,6 +98,8 @@ struct Compiler<'a> {
     classes: FxHashMap<TypeId, Rc<[Class]>>,
     /// The constants whose value is undefined.
     open: FxHashSet<VarId>,
+    /// The declarations of the variables that are read before anything was written to them.
+    unwritten: Vec<Span>,
     errors: Vec<Diagnostic>,
 }
 
@@ -151,6 +153,7 @@ impl<'a> Compiler<'a> {
             parted: false,
             classes: FxHashMap::default(),
             open: FxHashSet::default(),
+            unwritten: Vec::new(),
             errors: Vec::new(),
         }
     }
@@ -199,6 +202,7 @@ impl<'a> Compiler<'a> {
             emitted,
             max_vertices: self.shader.geometry.max_vertices.unwrap_or(0),
             mask_slots: mask_slots as usize,
+            unwritten: self.unwritten,
         })
     }
 

@@ -1,11 +1,12 @@
 //! Variables during compilation: the values or homes of their scalars.
 
-use super::super::code::Port;
+use super::super::code::{Form, Port};
 use super::super::inst::{Class, Operand};
 use super::effects::Assigned;
 use super::{Compiler, Val};
 use glisten_front::hir::{Global, GlobalId, LocalId, ScalarValue, Stage, Storage, TypeId, Value, VarRef};
 use glisten_front::link::RootIndex;
+use glisten_front::source::Span;
 use std::rc::Rc;
 
 /// The index of a variable in [`Compiler::vars`].
@@ -157,7 +158,7 @@ impl Compiler<'_> {
         };
         let input = (self.globals.iter().position(|global| *global == Some(var)))
             .filter(|index| self.shader.globals.get(*index).is_some_and(|global| global.storage == Storage::In));
-        let Some(index) = input else { return self.emit.zero(class) };
+        let Some(index) = input else { return self.unwritten(var, class) };
         let register = self.emit.temp(class);
         let global = GlobalId::new(index);
         self.inputs.push(Port { global, flat: flat as u32, class, register: register.number() });
@@ -165,6 +166,36 @@ impl Compiler<'_> {
             *value = Some(register);
         }
         register
+    }
+
+    /// A scalar of a variable to which nothing was assigned: 0, or a number to be guessed.
+    fn unwritten(&mut self, var: VarId, class: Class) -> Operand {
+        let declaration = if self.emit.form == Form::Guessed { self.declaration(var) } else { None };
+        let Some(span) = declaration else { return self.emit.zero(class) };
+        let index = self.unwritten_at(span);
+        self.emit.unwritten(class, index)
+    }
+
+    /// The number of a declaration among those without a value.
+    fn unwritten_at(&mut self, span: Span) -> u32 {
+        let known = self.unwritten.iter().position(|known| *known == span);
+        known.unwrap_or_else(|| {
+            self.unwritten.push(span);
+            self.unwritten.len() - 1
+        }) as u32
+    }
+
+    /// The declaration of a variable of the text. Built-in ones have values of their own.
+    fn declaration(&self, var: VarId) -> Option<Span> {
+        if let Some(index) = self.globals.iter().position(|global| *global == Some(var)) {
+            return self.shader.globals.get(index).filter(|global| global.builtin.is_none()).map(|global| global.span);
+        }
+        let frame = self.frames.iter().rev().find_map(|frame| {
+            let local = frame.locals.iter().position(|local| *local == Some(var))?;
+            Some((frame.function, local))
+        });
+        let (function, local) = frame?;
+        self.shader.function(function).locals.get(local).filter(|local| !local.name.is_empty()).map(|local| local.span)
     }
 
     /// The current values of all scalars.
@@ -249,9 +280,14 @@ impl Compiler<'_> {
     /// Moves every output to a register that persists.
     pub(super) fn settle_outputs(&mut self) -> Vec<Port> {
         let mut ports = Vec::new();
+        let mut never_written = Vec::new();
         for (global, facts) in self.shader.globals() {
             let Some(var) = self.global_var(global).filter(|_| facts.storage == Storage::Out) else { continue };
             if !self.vars.get(var.0).is_some_and(|var| var.written) {
+                let is_color = self.shader.stage == Stage::Fragment && facts.builtin.is_none();
+                if is_color && self.emit.form == Form::Guessed {
+                    never_written.push(facts.span);
+                }
                 continue;
             }
             let classes = self.vars.get(var.0).map(|var| Rc::clone(&var.classes)).unwrap_or_else(|| Rc::new([]));
@@ -260,7 +296,8 @@ impl Compiler<'_> {
                 ports.push(Port { global, flat: flat as u32, class: *class, register: register.number() });
             }
         }
-        let _ = Stage::ALL;
+        // The last one: `Machine::never_written`.
+        never_written.into_iter().for_each(|span| self.unwritten.push(span));
         ports
     }
 }

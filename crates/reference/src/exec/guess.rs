@@ -1,0 +1,282 @@
+//! [`Guess`]: numbers in the place of what the language leaves undefined.
+//!
+//! *In:* code of the form [`Form::Guessed`](super::Form::Guessed), and numbers. *Out:* results with those numbers wherever an
+//! operation is undefined for its operands or a variable was never written; the places where that happened. *Holds:* a
+//! picture that is the same with any numbers does not depend on them. Operations that every GPU defines alike are no such
+//! places: `x / 0.0` is an infinity.
+
+use super::code::{Code, Inner, Section};
+use super::inst::{Composite, Float1, Float2, Float3, FloatToInt, Inst, Lookup, TextureCall, Use};
+use super::machine::Machine;
+use super::{LANES, Mask};
+use crate::domain::{Domain, Integer, Number, Source};
+use crate::texture;
+use glisten_front::source::Span;
+use std::sync::Mutex;
+
+/// The numbers of a guess.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numbers {
+    /// Of floats.
+    pub float: f64,
+    /// Of integers, as bits.
+    pub int: u32,
+}
+
+/// A place where something undefined was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The expression, or the declaration of a variable.
+    pub span: Span,
+    /// The undefined thing, in words.
+    pub what: &'static str,
+}
+
+/// Numbers in the place of undefined ones; the places are collected.
+#[derive(Debug, Default)]
+pub struct Guess {
+    /// The numbers; `None`: those that the domain defines.
+    numbers: Option<Numbers>,
+    /// The only place; all if there is none.
+    only: Option<Place>,
+    found: Mutex<Vec<Place>>,
+}
+
+/// The name that a variable without a value has in reports.
+pub(super) const UNWRITTEN: &str = "a variable that was never written";
+
+impl Guess {
+    /// A guess, at one place or at all.
+    pub fn new(numbers: Option<Numbers>, only: Option<Place>) -> Self {
+        Self { numbers, only, found: Mutex::default() }
+    }
+
+    /// The places where something undefined was computed, in the order of the text.
+    pub fn places(&self) -> Vec<Place> {
+        let mut places = self.found.lock().map(|found| found.clone()).unwrap_or_default();
+        places.sort_by_key(|place| (place.span, place.what));
+        places
+    }
+
+    fn applies(&self, place: Place) -> bool {
+        self.only.is_none_or(|only| only == place)
+    }
+
+    /// The numbers of a variable that was never written.
+    pub(super) fn unwritten(&self, span: Span) -> Option<Numbers> {
+        self.numbers.filter(|_| self.applies(Place { span, what: UNWRITTEN }))
+    }
+
+    fn note(&self, place: Place) {
+        if let Ok(mut found) = self.found.lock()
+            && !found.contains(&place)
+        {
+            found.push(place);
+        }
+    }
+}
+
+impl Code {
+    /// The variables that may be read before anything is written to them, in code of the form
+    /// [`Form::Guessed`](super::Form::Guessed).
+    pub fn unwritten(&self) -> Vec<Place> {
+        self.inner.unwritten.iter().map(|span| Place { span: *span, what: UNWRITTEN }).collect()
+    }
+
+    /// Whether an instruction may be undefined although its envelope does not say so: a texel that is fetched, an element
+    /// at an index, a variable.
+    pub fn hides_undefined(&self) -> bool {
+        let hides = |inst: &Inst| match inst {
+            Inst::LoadFloat { .. } | Inst::LoadInt { .. } => true,
+            Inst::Texture { call } => {
+                self.inner.textures.get(*call as usize).is_some_and(|call| call.lookup == Lookup::Fetch)
+            }
+            _ => false,
+        };
+        !self.inner.unwritten.is_empty() || self.inner.main.insts.iter().any(hides)
+    }
+}
+
+impl<D: Domain> Machine<D> {
+    /// The lanes in which an instruction that is about to run is undefined, and why.
+    pub(super) fn undefined(
+        &self,
+        inst: &Inst,
+        section: &Section,
+        inner: &Inner,
+        mask: u64,
+    ) -> Option<(&'static str, u64)> {
+        self.guess.as_ref()?;
+        let float = |operand| self.registers.float(operand);
+        let int = |operand| self.registers.int(operand);
+        let (what, lanes) = match *inst {
+            Inst::Float1 { op, a, .. } => {
+                let (what, test) = of_one(op)?;
+                (what, lanes1(float(a), mask, test))
+            }
+            Inst::Float2 { op, a, b, .. } => {
+                let (what, test) = of_two(op)?;
+                let (a, b) = (float(a), float(b));
+                (what, lanes_where(mask, |lane| test(a.at(lane).value(), b.at(lane).value())))
+            }
+            Inst::Float3 { op: Float3::Clamp, b, c, .. } => {
+                let (b, c) = (float(b), float(c));
+                (
+                    "`clamp` with a minimum above the maximum",
+                    lanes_where(mask, |lane| b.at(lane).value() > c.at(lane).value()),
+                )
+            }
+            Inst::Float3 { op: Float3::Smoothstep, a, b, .. } => {
+                let (a, b) = (float(a), float(b));
+                let lanes = lanes_where(mask, |lane| a.at(lane).value() >= b.at(lane).value());
+                ("`smoothstep` with edges that are equal or in the wrong order", lanes)
+            }
+            Inst::Composite { op: Composite::Normalize, arguments, .. } => {
+                let all: Vec<_> = section.list(arguments).iter().map(|operand| float(*operand)).collect();
+                let is_zero = |lane: usize| all.iter().all(|one| one.at(lane).value() == 0.0);
+                ("`normalize` of a vector of length 0", lanes_where(mask, is_zero))
+            }
+            Inst::FloatToInt { op: FloatToInt::Int, a, .. } => {
+                let fits = |x: f64| x > -2_147_483_649.0 && x < 2_147_483_648.0;
+                ("`int` of a number that no `int` has", lanes1(float(a), mask, |x| !fits(x)))
+            }
+            Inst::FloatToInt { op: FloatToInt::Uint, a, .. } => {
+                let fits = |x: f64| x > -1.0 && x < 4_294_967_296.0;
+                ("`uint` of a number that no `uint` has", lanes1(float(a), mask, |x| !fits(x)))
+            }
+            Inst::Int2 { op, a, b, .. } => {
+                op.undefined_name()?;
+                let (a, b) = (int(a), int(b));
+                let what = if op.divides() {
+                    "a division of integers by 0, or of negative ones"
+                } else {
+                    "a shift by too much"
+                };
+                (what, lanes_where(mask, |lane| op.is_undefined(a.at(lane).interval(), b.at(lane).interval())))
+            }
+            Inst::LoadFloat { table, index, .. } | Inst::LoadInt { table, index, .. } => {
+                let (index, count) = (int(index), section.list(table).len() as i64);
+                let beyond = |lane: usize| !(0..count).contains(&i64::from(index.at(lane).bits() as i32));
+                ("an index outside of the array", lanes_where(mask, beyond))
+            }
+            Inst::Texture { call } => {
+                let call = inner.textures.get(call as usize).filter(|call| call.lookup == Lookup::Fetch)?;
+                ("`texelFetch` outside of the texture", lanes_where(mask, |lane| self.is_beyond(call, lane)))
+            }
+            _ => return None,
+        };
+        (lanes != 0).then_some((what, lanes))
+    }
+
+    /// Whether a texel that a lane fetches is not in the texture.
+    fn is_beyond(&self, call: &TextureCall, lane: usize) -> bool {
+        let at = |operand: &super::inst::Operand| i64::from(self.registers.int(*operand).at(lane).bits() as i32);
+        let slot = self.registers.int(call.sampler).at(lane).bits() as usize;
+        // A texture that is missing or incomplete is (0, 0, 0, 1).
+        let Some(texture) = self.textures.get(slot).and_then(Option::as_deref) else { return false };
+        let level = call.level.as_ref().filter(|_| call.kind.dim != glisten_front::hir::SamplerDim::Multisample);
+        let size = texture::size(texture, call.kind, level.map_or(0, |level| at(level) as i32));
+        let offset = |axis: usize| call.offset.get(axis).map_or(0, at);
+        let mut places = call.coordinate.iter().zip(size).enumerate();
+        places.any(|(axis, (operand, size))| !(0..i64::from(size)).contains(&(at(operand) + offset(axis))))
+    }
+
+    /// Replaces the results of an instruction that has just run in the lanes in which it is undefined.
+    pub(super) fn put_guess(
+        &mut self,
+        inst: &Inst,
+        section: &Section,
+        place: usize,
+        (what, lanes): (&'static str, u64),
+    ) {
+        let Some(guess) = self.guess.clone() else { return };
+        let place = Place { span: section.spans.get(place).copied().unwrap_or_default(), what };
+        guess.note(place);
+        let Some(Numbers { float, int }) = guess.numbers.filter(|_| guess.applies(place)) else { return };
+        let is_replaced = |lane: usize| lanes >> lane & 1 == 1;
+        for (class, operand) in self.written(inst, section) {
+            match class {
+                super::inst::Class::Float => {
+                    let lanes = self.registers.floats.register(operand).spread();
+                    lanes.update(|lane, old| if is_replaced(lane) { D::Float::from_f64(float) } else { old });
+                }
+                super::inst::Class::Int => {
+                    let lanes = self.registers.ints.register(operand).spread();
+                    lanes.update(|lane, old| if is_replaced(lane) { D::Int::from_bits(int) } else { old });
+                }
+            }
+        }
+    }
+
+    /// The registers that an instruction writes.
+    pub(super) fn written(&self, inst: &Inst, section: &Section) -> Vec<(super::inst::Class, super::inst::Operand)> {
+        let mut written = Vec::new();
+        let mut copy = *inst;
+        let mut note = |class, using, operand: &mut super::inst::Operand| {
+            if using == Use::Write {
+                written.push((class, *operand));
+            }
+        };
+        copy.visit(&mut note);
+        if let Inst::Texture { call } = inst
+            && let Some(call) = self.code.inner.textures.get(*call as usize)
+        {
+            call.clone().visit(&mut note);
+        }
+        for (class, _, list) in inst.lists().into_iter().flatten().filter(|(_, using, _)| *using == Use::Write) {
+            written.extend(section.list(list).iter().map(|operand| (class, *operand)));
+        }
+        written
+    }
+}
+
+/// The lanes of a mask in which a test holds.
+fn lanes_where(mask: u64, test: impl Fn(usize) -> bool) -> u64 {
+    Mask(mask).lanes().filter(|lane| test(*lane)).fold(0, |lanes, lane| lanes | 1 << (lane % LANES))
+}
+
+fn lanes1<N: Number>(a: Source<'_, N>, mask: u64, test: impl Fn(f64) -> bool) -> u64 {
+    match a {
+        Source::One(a) => {
+            if test(a.value()) {
+                mask
+            } else {
+                0
+            }
+        }
+        Source::Lanes(_) => lanes_where(mask, |lane| test(a.at(lane).value())),
+    }
+}
+
+/// The undefined case of a function of one number, and a test of the operand for it.
+type OfOne = (&'static str, fn(f64) -> bool);
+/// The undefined case of a function of two numbers, with its test.
+type OfTwo = (&'static str, fn(f64, f64) -> bool);
+
+/// For which operand a function is undefined (GLSL 1.50 §8.1, §8.2).
+fn of_one(op: Float1) -> Option<OfOne> {
+    Some(match op {
+        Float1::Sqrt => ("`sqrt` of a negative number", |x| x < 0.0),
+        Float1::Inversesqrt => ("`inversesqrt` of 0 or less", |x| x <= 0.0),
+        Float1::Log => ("`log` of 0 or less", |x| x <= 0.0),
+        Float1::Log2 => ("`log2` of 0 or less", |x| x <= 0.0),
+        Float1::Asin => ("`asin` of a number beyond 1", |x| x.abs() > 1.0),
+        Float1::Acos => ("`acos` of a number beyond 1", |x| x.abs() > 1.0),
+        Float1::Acosh => ("`acosh` of a number below 1", |x| x < 1.0),
+        Float1::Atanh => ("`atanh` of 1 or more", |x| x.abs() >= 1.0),
+        _ => return None,
+    })
+}
+
+/// For which operands a function of two is undefined (GLSL 1.50 §8.1 to §8.3).
+fn of_two(op: Float2) -> Option<OfTwo> {
+    Some(match op {
+        Float2::Pow => ("`pow` of a negative number, or of 0 with an exponent of 0 or less", |x, y| {
+            x < 0.0 || x == 0.0 && y <= 0.0
+        }),
+        Float2::Atan2 => ("`atan` of (0, 0)", |y, x| y == 0.0 && x == 0.0),
+        Float2::Div => ("0.0 / 0.0", |a, b| a == 0.0 && b == 0.0),
+        Float2::Mod => ("`mod` by 0", |_, y| y == 0.0),
+        _ => return None,
+    })
+}
