@@ -72,6 +72,7 @@ mod mutation;
 mod mutations;
 #[cfg(feature = "gpu")]
 mod not_checked;
+mod new_scene;
 mod numeric;
 #[cfg(feature = "gl")]
 mod opengl;

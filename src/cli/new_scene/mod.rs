@@ -1,0 +1,269 @@
+//! `glisten new-scene`: writes a scene for a program, with a line for everything that the program reads, that draws at once.
+//!
+//! *In:* the shaders of a program, a fragment shader alone, or one of the fixed-function pipeline's time. *Out:* TOML that loads without a
+//! diagnostic and keeps what the command line says about the sources. The phases: what the program reads ([`reads`]), geometries and
+//! cameras that may suit it ([`forms`]), what its numbers mean ([`meanings`]), their values ([`values`], [`textures`]), the text
+//! ([`text`]), and trials on the reference, which decide ([`trial`]).
+
+mod forms;
+mod meanings;
+mod reads;
+mod text;
+mod textures;
+mod trial;
+mod values;
+
+use super::args::{BindingArgs, LevelArgs, SourceArgs};
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::fullscreen;
+use super::inputs::{Group, Input};
+use super::session::{Session, Unit};
+use crate::engines::{Member, STYLES};
+use crate::sources::{members, stages};
+use clap::Args;
+use forms::{Shape, forms, shape_of};
+use glisten_front::hir::{Global, Shader, Stage, Storage};
+use glisten_front::link::Program;
+use reads::Reads;
+use std::fmt::Write;
+use std::path::{Component, Path, PathBuf};
+use text::{Choice, Head, quoted};
+use trial::{Chosen, Trials, choose};
+use values::Taste;
+
+/// Write a scene for a program, which draws at once
+#[derive(Args, Debug)]
+pub(super) struct NewSceneArgs {
+    /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, or the fixed-function
+    /// pipeline's
+    #[arg(num_args = 1..=3, required = true, value_names = ["A.vert", "B.frag"])]
+    files: Vec<String>,
+    /// The scene file to create (default: standard output)
+    #[arg(short, long, value_name = "SCENE.toml")]
+    output: Option<PathBuf>,
+    /// Draw this mesh: a file, or a shape such as `torus`
+    #[arg(long, value_name = "FILE|SHAPE")]
+    mesh: Option<String>,
+    /// The width and height of the window
+    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    size: u32,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
+    if let Some(output) = args.output.as_deref().filter(|output| output.exists()) {
+        let failure = Failure::usage(format!("`{}` exists already", output.display()));
+        return Err(failure.help("name a new file, or remove the old one"));
+    }
+    let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
+    let inputs = match stages_of(args, &mut session, console)? {
+        Ok(inputs) => inputs,
+        Err(exit) => return Ok(exit),
+    };
+    let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
+    let stages = inputs.iter().map(|input| (input.stage, relative(&input.name, folder))).collect();
+    let name = inputs.first().map(Input::stem).unwrap_or_default();
+    let units = session.compile(vec![Group { name, inputs }]);
+    let exit = session.tell_units(&units, false)?;
+    let Some((unit, program)) = units.first().and_then(|unit| Some((unit, unit.sound_program()?))) else {
+        return Ok(exit.max(Exit::Content));
+    };
+    let head = Head { stages, sources: source_lines(&args.sources, folder) };
+    let text = written(args, &session, (unit, program), &head, folder, console);
+    match &args.output {
+        Some(output) => {
+            files::write(output, text.as_bytes())?;
+            let path = output.display();
+            console.remark(&format!(
+                "wrote {path}; draw it: glisten render {path} -o {}",
+                output.with_extension("png").display()
+            ));
+        }
+        None => console.output(&text)?,
+    }
+    Ok(exit)
+}
+
+/// The text of the scene that shows most.
+fn written(
+    args: &NewSceneArgs,
+    session: &Session<'_>,
+    (unit, program): (&Unit, &Program),
+    head: &Head,
+    folder: Option<&Path>,
+    console: &Console,
+) -> String {
+    let reads = Reads::new(program, &unit.batch.sources);
+    let mesh = args.mesh.as_deref().map(|word| match shape_of(word) {
+        Shape::File(file) => Shape::File(relative(&file, folder)),
+        shape => shape,
+    });
+    let is_flat_engine =
+        args.sources.engine.as_deref().is_some_and(|engine| ["libretro", "minecraft", "isf"].contains(&engine));
+    let forms = forms(&reads, mesh, is_flat_engine);
+    let path = args.output.clone().unwrap_or_else(|| PathBuf::from("scene.toml"));
+    let text = |choice: &Choice| text::scene(&reads, head, choice);
+    let trials = Trials { path: &path.to_string_lossy(), compiler: session.compiler(), text: &text };
+    let Some(Chosen { choice, shown }) = choose(&trials, &forms, args.size) else {
+        let form = forms::Form::Count("triangles", 3);
+        return text(&Choice { form, taste: Taste::default(), side: args.size });
+    };
+    let words = choice.form.words();
+    console.remark(&match shown {
+        Some(shown) if shown.covered == 0.0 => {
+            "no geometry that was tried covers a pixel: fill in what the program needs".to_owned()
+        }
+        Some(shown) => {
+            let flat = if shown.is_flat() { ", in one color" } else { "" };
+            format!("drew {words}: it covers {:.0} % of the window{flat}", shown.covered * 100.0)
+        }
+        None => {
+            format!("chose {words}, which was not drawn: the program takes long, or the reference does not draw it")
+        }
+    });
+    text(&choice)
+}
+
+/// The stages of the program; a vertex shader is written for a fragment shader that needs one. The inner `Err` is the exit code of sources
+/// with errors.
+fn stages_of(
+    args: &NewSceneArgs,
+    session: &mut Session<'_>,
+    console: &Console,
+) -> Result<Result<Vec<Input>, Exit>, Failure> {
+    let input = |name: &str, stage| Input { name: name.to_owned(), path: Some(PathBuf::from(name)), stage, part: None };
+    if let [both] = args.files.as_slice() {
+        if contains_both(both) {
+            return Ok(Ok(vec![input(both, Stage::Vertex), input(both, Stage::Fragment)]));
+        }
+        let stage = stages::by_name(Path::new(both)).unwrap_or(Stage::Fragment);
+        return alone(args, input(both, stage), session, console);
+    }
+    let order = match args.files.len() {
+        2 => &[Stage::Vertex, Stage::Fragment][..],
+        _ => &[Stage::Vertex, Stage::Geometry, Stage::Fragment],
+    };
+    let told = args.files.iter().map(|file| stages::by_name(Path::new(file)));
+    let told: Vec<Option<Stage>> = told.collect();
+    let stage = |index: usize| told.get(index).copied().flatten().or(order.get(index).copied());
+    let mut inputs: Vec<Input> =
+        args.files.iter().enumerate().filter_map(|(index, file)| Some(input(file, stage(index)?))).collect();
+    inputs.sort_by_key(|input| order.iter().position(|stage| *stage == input.stage));
+    if inputs.windows(2).any(|pair| matches!(pair, [a, b] if a.stage == b.stage)) {
+        let failure = Failure::usage("two of the files are of one stage");
+        return Err(failure.help("name a vertex and a fragment shader, and a geometry shader if there is one"));
+    }
+    Ok(Ok(inputs))
+}
+
+/// Whether a file contains the vertex and the fragment shader.
+fn contains_both(file: &str) -> bool {
+    let path = Path::new(file);
+    let text = files::read_source(file, Some(path)).ok();
+    let members = text.map(|text| members(Some(path), &text)).unwrap_or_default();
+    let has = |member: &Member, stage| member.part(stage).is_some();
+    members.first().is_some_and(|member| has(member, Stage::Vertex) && has(member, Stage::Fragment))
+}
+
+/// The stages for a shader that comes alone: with the fixed-function pipeline's other one, or with a vertex shader that is written.
+fn alone(
+    args: &NewSceneArgs,
+    input: Input,
+    session: &mut Session<'_>,
+    console: &Console,
+) -> Result<Result<Vec<Input>, Exit>, Failure> {
+    let units = session.compile(vec![Group { name: input.stem(), inputs: vec![input.clone()] }]);
+    let Some(program) = units.first().and_then(Unit::sound_program) else {
+        return Ok(Err(session.tell_units(&units, false)?.max(Exit::Content)));
+    };
+    let Some(shader) = program.stages.first() else { return Ok(Err(Exit::Content)) };
+    if suits_pipeline(shader) {
+        return Ok(Ok(vec![input]));
+    }
+    if input.stage != Stage::Fragment {
+        let failure = Failure::usage(format!("`{}` is no fragment shader", input.name));
+        return Err(failure.help("name all shaders of the program"));
+    }
+    let Some(output) = &args.output else {
+        let failure =
+            Failure::usage("a fragment shader alone needs a vertex shader, which is written next to the scene");
+        return Err(failure.help("add `-o SCENE.toml`, or name the vertex shader, too"));
+    };
+    let vertex = output.with_file_name(format!("{}_fullscreen.vert", input.stem()));
+    if vertex.exists() {
+        return Err(
+            Failure::usage(format!("`{}` exists already", vertex.display())).help("name it before the fragment shader")
+        );
+    }
+    let text = fullscreen::vertex_shader(&program.types, shader)?;
+    files::write(&vertex, text.as_bytes())?;
+    console.remark(&format!("wrote {}", vertex.display()));
+    let name = vertex.to_string_lossy().into_owned();
+    let written = Input { name, path: Some(vertex), stage: Stage::Vertex, part: None };
+    Ok(Ok(vec![written, input]))
+}
+
+/// Whether the fixed-function pipeline completes a shader: a vertex shader of its time, or a fragment shader that reads nothing but the
+/// pipeline's varyings.
+fn suits_pipeline(shader: &Shader) -> bool {
+    let read = |global: &&Global| global.storage == Storage::In && global.builtin.is_none() && global.used;
+    let mut inputs = shader.globals.iter().filter(read).peekable();
+    glisten_scene::fixed::has_fixed_function(shader)
+        && (shader.stage == Stage::Vertex || (inputs.peek().is_some() && inputs.all(Global::is_fixed)))
+}
+
+/// The lines of a draw for what the command line says about sources.
+fn source_lines(args: &SourceArgs, folder: Option<&Path>) -> String {
+    let mut lines = String::new();
+    let paths = |paths: &[PathBuf]| {
+        let names = paths.iter().map(|path| quoted(&relative(&path.to_string_lossy(), folder)));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let style = args.include_style.and_then(|style| STYLES.iter().find(|row| row.style == style));
+    let texts = [
+        ("engine", args.engine.as_deref()),
+        ("assume_version", args.assume_version.as_deref()),
+        ("include_style", style.map(|row| row.name)),
+    ];
+    for (key, value) in texts {
+        if let Some(value) = value {
+            let _ = writeln!(lines, "{key} = {}", quoted(value));
+        }
+    }
+    for (key, list) in [("includes", &args.include_dirs), ("preludes", &args.preludes)] {
+        if !list.is_empty() {
+            let _ = writeln!(lines, "{key} = [{}]", paths(list));
+        }
+    }
+    if !args.defines.is_empty() {
+        let defines = args.defines.iter().map(|(name, value)| format!("{name} = {}", quoted(value)));
+        let _ = writeln!(lines, "defines = {{ {} }}", defines.collect::<Vec<_>>().join(", "));
+    }
+    lines
+}
+
+/// The name of a file as a scene in `folder` gives it: relative, unless the two have no folder in common but the root.
+fn relative(file: &str, folder: Option<&Path>) -> String {
+    let Some(folder) = folder else { return file.to_owned() };
+    let parts = |path: &Path| {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        path.components()
+            .filter(|part| *part != Component::CurDir)
+            .map(|part| part.as_os_str().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let folder = parts(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    let file = parts(Path::new(file));
+    let common = file.iter().zip(&folder).take_while(|(ours, theirs)| ours == theirs).count();
+    let is_near = common > 1 && !folder.iter().any(|part| part == "..");
+    let up = if is_near { folder.len() - common } else { 0 };
+    let down = if is_near { common } else { 0 };
+    let path: PathBuf = std::iter::repeat_n("..".into(), up).chain(file.into_iter().skip(down)).collect();
+    path.to_string_lossy().into_owned()
+}

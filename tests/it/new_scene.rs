@@ -1,0 +1,184 @@
+//! `new-scene`: for programs of each kind, the scene covers pixels, is not one color, keeps the flags, and draws the same by the reference and
+//! by a driver.
+
+use crate::cli::{Folder, code, err, out};
+use glisten::scene::{DiskFiles, load};
+use glisten::{Compiler, Gpu, Options, Picture, RenderOptions, render};
+use std::fs;
+
+/// The pixels of the window on each side.
+const SIDE: &str = "48";
+/// The share of pixels that a scene covers at least, and the difference between the lightest and the darkest one.
+const COVERED: f64 = 0.05;
+const CONTRAST: f64 = 0.05;
+
+/// The share of covered pixels, and the largest difference of a channel between them.
+fn shown(picture: &Picture) -> (f64, f64) {
+    let covered = picture.covered.iter().filter(|covered| **covered).count() as f64 / picture.covered.len() as f64;
+    let colors = picture.attachments[0].iter().zip(&picture.covered).filter(|(_, covered)| **covered);
+    let colors: Vec<[f64; 4]> = colors.map(|(color, _)| *color).collect();
+    let range = |channel: usize| {
+        let values = colors.iter().map(|color| color[channel].clamp(0.0, 1.0));
+        let (low, high) = values.fold((1.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+        high - low
+    };
+    (covered, (0..3).map(range).fold(0.0, f64::max))
+}
+
+/// Writes the scene of a program, draws it by the reference and by a driver, and returns its text.
+fn draws(files: &[(&str, &str)], arguments: &[&str]) -> String {
+    let bytes: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    let folder = Folder::new(&bytes);
+    let made = folder.run(&[&["new-scene", "-o", "a.toml", "--size", SIDE], arguments].concat());
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    assert!(err(&made).contains("glisten render a.toml -o a.png"), "{}", err(&made));
+    let text = fs::read_to_string(folder.path("a.toml")).expect("written");
+    let rendered = folder.run(&["render", "a.toml", "-o", "a.png", "--deny", "warnings", "--allow", "W0108"]);
+    assert_eq!(code(&rendered), 0, "without a flag: {}\n{text}", err(&rendered));
+    let path = folder.path("a.toml").to_string_lossy().into_owned();
+    let scene = load(&path, &DiskFiles, &Compiler::new(Options::default())).scene.expect("the library loads it, too");
+    let reference = render(&scene, &RenderOptions::default()).expect("it draws");
+    let (covered, contrast) = shown(&reference);
+    assert!(covered >= COVERED && contrast >= CONTRAST, "{covered} {contrast}: {}\n{text}", err(&made));
+    let gpu = Gpu::new(None).expect("there is an adapter");
+    let (of_gpu, of_reference) = (shown(&gpu.render(&scene).expect("it draws").0), shown(&reference));
+    assert!((of_gpu.1 - of_reference.1).abs() < 0.05, "{of_gpu:?} {of_reference:?}\n{text}");
+    text
+}
+
+const WHITE: &str =
+    "#version 330 core\nout vec4 c;\nin vec3 n;\nvoid main() { c = vec4(normalize(n) * 0.5 + 0.5, 1.0); }\n";
+
+#[test]
+fn fixed_function() {
+    let vertex = "varying vec3 n, p;\nvoid main() {\n    n = gl_NormalMatrix * gl_Normal;\n    p = vec3(gl_ModelViewMatrix * gl_Vertex);\n    \
+        gl_TexCoord[0] = gl_MultiTexCoord0;\n    gl_Position = ftransform();\n}\n";
+    let fragment = "varying vec3 n, p;\nuniform sampler2D wood;\nvoid main() {\n    vec3 l = normalize(gl_LightSource[0].position.xyz - p);\n    \
+        gl_FragColor = gl_FrontMaterial.diffuse * max(dot(normalize(n), l), 0.0) * texture2D(wood, gl_TexCoord[0].st);\n}\n";
+    let text = draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+    assert!(text.contains("[camera]") && text.contains("[[light]]") && text.contains("mesh ="), "{text}");
+    assert!(
+        !text.contains("gl_Vertex") && !text.contains("gl_LightSource"),
+        "what follows from the scene is not repeated: {text}"
+    );
+    // One stage alone gets the pipeline's other one.
+    let alone = "uniform float depth;\nvoid main() { gl_FragColor = gl_Color * (0.5 + depth); }\n";
+    draws(&[("a.frag", alone)], &["a.frag"]);
+}
+
+#[test]
+fn matrices_come_from_the_camera() {
+    let vertex = "#version 120\nattribute vec3 vertexPosition_modelspace;\nattribute vec3 vertexNormal_modelspace;\nuniform mat4 MVP, V, M;\n\
+        uniform vec3 LightPosition_worldspace;\nvarying vec3 n, l;\nvoid main() {\n    gl_Position = MVP * vec4(vertexPosition_modelspace, 1.0);\n    \
+        l = LightPosition_worldspace - (M * vec4(vertexPosition_modelspace, 1.0)).xyz;\n    n = (V * M * vec4(vertexNormal_modelspace, 0.0)).xyz;\n}\n";
+    let fragment = "#version 120\nvarying vec3 n, l;\nvoid main() { gl_FragColor = vec4(vec3(0.1 + max(dot(normalize(n), normalize(l)), 0.0)), 1.0); }\n";
+    let text = draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+    for line in
+        ["MVP = \"model_view_projection\"", "V = \"view\"", "M = \"model\"", "position = \"vertexPosition_modelspace\""]
+    {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let names = "#version 330 core\nlayout(location = 0) in vec3 aPos;\nlayout(location = 1) in vec3 aNormal;\nuniform mat4 model, view, projection;\n\
+        out vec3 n;\nvoid main() { n = mat3(model) * aNormal; gl_Position = projection * view * model * vec4(aPos, 1.0); }\n";
+    draws(&[("a.vs", names), ("a.fs", WHITE)], &["a.vs", "a.fs"]);
+    let torus = draws(&[("a.vs", names), ("a.fs", WHITE)], &["a.vs", "a.fs", "--mesh", "torus"]);
+    assert!(torus.contains("shape = \"torus\""), "{torus}");
+    let object = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nvn 1 0 0\nf 1//1 2//2 3//3\n";
+    let file = draws(&[("a.vs", names), ("a.fs", WHITE), ("m/a.obj", object)], &["a.vs", "a.fs", "--mesh", "m/a.obj"]);
+    assert!(file.contains("file = \"m/a.obj\""), "{file}");
+    let cube = "#version 330 core\nlayout(location = 0) in vec3 aPos;\nuniform mat4 view, projection;\nout vec3 n;\n\
+        void main() { n = aPos; gl_Position = (projection * view * vec4(aPos, 1.0)).xyww; }\n";
+    draws(&[("sky.vs", cube), ("sky.fs", WHITE)], &["sky.vs", "sky.fs"]);
+}
+
+#[test]
+fn pictures_in_two_dimensions_fill_the_window() {
+    let vertex = "#version 150\nin vec2 position;\nin vec2 uv;\nout vec2 at;\nvoid main() { at = uv; gl_Position = vec4(position, 0.0, 1.0); }\n";
+    let fragment = "#version 150\nin vec2 at;\nuniform sampler2D screenTexture;\nuniform vec2 resolution;\nout vec4 c;\n\
+        void main() { c = texture(screenTexture, at) * (gl_FragCoord.x / resolution.x); }\n";
+    let text = draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+    assert!(text.contains("resolution = [48.0, 48.0]") && text.contains("triangle_strip"), "{text}");
+    // Positions in pixels.
+    let vertex = "#version 150\nin vec2 corner;\nuniform vec2 windowSize;\nout vec2 at;\nvoid main() {\n    at = corner / windowSize;\n    \
+        gl_Position = vec4(at * 2.0 - 1.0, 0.0, 1.0);\n}\n";
+    let fragment = "#version 150\nin vec2 at;\nout vec4 c;\nvoid main() { c = vec4(at, 0.0, 1.0); }\n";
+    draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+}
+
+#[test]
+fn colors_and_numbers_of_vertices() {
+    let vertex = "#version 300 es\nin vec3 aPos;\nin vec3 aColor;\nout vec3 color;\nvoid main() { color = aColor; gl_Position = vec4(aPos, 1.0); }\n";
+    let fragment = "#version 300 es\nprecision mediump float;\nin vec3 color;\nout vec4 c;\nvoid main() { c = vec4(color, 1.0); }\n";
+    draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+    let strip = "#version 330\nout vec2 at;\nvoid main() {\n    vec2 p = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n    at = p;\n    \
+        gl_Position = vec4(p * 1.6 - 0.8, 0.0, 1.0);\n}\n";
+    let fragment = "#version 330\nin vec2 at;\nout vec4 c;\nvoid main() { c = vec4(at, 0.5, 1.0); }\n";
+    draws(&[("a.vert", strip), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+}
+
+#[test]
+fn geometry_stages_get_their_primitive() {
+    let vertex = "#version 150\nin vec3 position;\nout vec3 place;\nvoid main() { place = position; gl_Position = vec4(position, 1.0); }\n";
+    let geometry = "#version 150\nlayout(points) in;\nlayout(triangle_strip, max_vertices = 3) out;\nin vec3 place[];\nout vec3 n;\nvoid main() {\n    \
+        for (int i = 0; i < 3; i++) {\n        n = place[0];\n        gl_Position = gl_in[0].gl_Position + vec4(0.1 * float(i & 1), 0.1 * float(i >> 1), 0.0, 0.0);\n        \
+        EmitVertex();\n    }\n    EndPrimitive();\n}\n";
+    let text = draws(&[("a.vert", vertex), ("a.geom", geometry), ("a.frag", WHITE)], &["a.vert", "a.geom", "a.frag"]);
+    assert!(text.contains("primitive = \"points\"") && text.contains("geometry = \"a.geom\""), "{text}");
+}
+
+#[test]
+fn flags_stay_in_the_scene() {
+    let toy = "#include \"level.glsl\"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, LEVEL, 1.0) * SCALE; }\n";
+    let text = draws(
+        &[("toy/tunnel.glsl", toy), ("inc/level.glsl", "#define LEVEL 0.5\n")],
+        &["toy/tunnel.glsl", "--engine", "shadertoy", "-I", "inc", "-D", "SCALE=0.75"],
+    );
+    for line in [
+        "engine = \"shadertoy\"",
+        "includes = [\"inc\"]",
+        "defines = { SCALE = \"0.75\" }",
+        "iResolution = [48.0, 48.0, 1.0]",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let book =
+        "uniform vec2 u_resolution;\nvoid main() { gl_FragColor = vec4(gl_FragCoord.xy / u_resolution, 0.0, 1.0); }\n";
+    let text = draws(&[("a.frag", book)], &["a.frag", "--assume-version", "100"]);
+    assert!(text.contains("assume_version = \"100\""), "{text}");
+}
+
+#[test]
+fn engines() {
+    let libretro = "#pragma parameter GAIN \"Gain\" 0.75 0.0 2.0 0.05\n#if defined(VERTEX)\nattribute vec4 VertexCoord;\nattribute vec4 TexCoord;\nvarying vec2 at;\n\
+        uniform mat4 MVPMatrix;\nvoid main() { at = TexCoord.xy; gl_Position = MVPMatrix * VertexCoord; }\n#elif defined(FRAGMENT)\n\
+        varying vec2 at;\nuniform sampler2D Texture;\nuniform vec2 TextureSize;\nuniform float GAIN;\n\
+        void main() { gl_FragColor = texture2D(Texture, at + 0.5 / TextureSize) * GAIN; }\n#endif\n";
+    let text = draws(&[("a.glsl", libretro)], &["a.glsl", "--engine", "libretro"]);
+    assert!(text.contains("GAIN = 0.75"), "{text}");
+    let vertex = "#version 150\nin vec3 Position;\nin vec4 Color;\nin vec2 UV0;\nuniform mat4 ModelViewMat;\nuniform mat4 ProjMat;\nout vec4 color;\nout vec2 at;\n\
+        void main() { gl_Position = ProjMat * ModelViewMat * vec4(Position, 1.0); color = Color; at = UV0; }\n";
+    let fragment = "#version 150\nuniform sampler2D Sampler0;\nuniform vec4 ColorModulator;\nin vec4 color;\nin vec2 at;\nout vec4 fragColor;\n\
+        void main() {\n    vec4 c = texture(Sampler0, at) * color * ColorModulator;\n    if (c.a < 0.1) discard;\n    fragColor = c;\n}\n";
+    draws(&[("a.vsh", vertex), ("a.fsh", fragment)], &["a.vsh", "a.fsh", "--engine", "minecraft"]);
+}
+
+#[test]
+fn only_what_is_read_is_written() {
+    let vertex =
+        "#version 150\nin vec3 position;\nin vec3 unread;\nvoid main() { gl_Position = vec4(position, 1.0); }\n";
+    let fragment = "#version 150\nstruct Light { vec3 position; vec3 color; float range; };\nuniform Light lights[2];\nuniform float gain = 0.5;\nuniform float unread;\n\
+        out vec4 c;\nvoid main() { c = vec4(lights[0].color * gain * gl_FragCoord.x / 48.0 + lights[1].color * 0.1, 1.0); }\n";
+    let text = draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+    assert!(text.contains("\"lights[1].color\"") && text.contains("# gain"), "{text}");
+    assert!(!text.contains("unread") && !text.contains("lights[0].position") && !text.contains("range"), "{text}");
+}
+
+#[test]
+fn stages_in_any_order_and_two_of_one_stage() {
+    let vertex = "#version 150\nin vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n";
+    let fragment = "#version 150\nout vec4 c;\nvoid main() { c = vec4(gl_FragCoord.xy / 48.0, 0.0, 1.0); }\n";
+    draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.frag", "a.vert"]);
+    let folder = Folder::new(&[("a.vert", vertex.as_bytes()), ("b.vert", vertex.as_bytes())]);
+    let two = folder.run(&["new-scene", "a.vert", "b.vert"]);
+    assert!(code(&two) == 2 && err(&two).contains("of one stage"), "{}{}", out(&two), err(&two));
+}
