@@ -8,7 +8,7 @@
 //! most so many programs of each repository, evenly chosen (default: 20); with `--only`, repositories whose names contain the text; with
 //! `--seconds`, each command may take so long (default: 60); with `--keep`, scenes and pictures stay in a folder for each program; with
 //! `--list`, a line for each program is printed. The table says how many programs of each kind draw, cover pixels, are not of one color,
-//! and what `verify` says; then each failure has a row with its reason. It needs a Vulkan adapter, and the program built beside it.
+//! and what `verify` says; then each failure has a row with its reason. It needs a Vulkan adapter, and the program built next to it.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 

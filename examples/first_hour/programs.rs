@@ -6,6 +6,8 @@
 use crate::list::{List, Repository};
 use glisten::cli::survey::{Survey, Surveyed};
 use glisten::{Program, Stage};
+use glisten_front::hir::{Shader, Storage};
+use glisten_scene::fixed::has_fixed_function;
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
@@ -19,6 +21,8 @@ pub(crate) struct Found {
     /// Its files, without repetition.
     pub(crate) files: Vec<String>,
     pub(crate) flags: Vec<String>,
+    /// Whether its fragment stage reads nothing that differs from pixel to pixel.
+    pub(crate) is_flat: bool,
 }
 
 /// Flags of repositories that the list does not have.
@@ -26,6 +30,8 @@ static FLAGS: &[(&str, &[&str])] = &[
     ("OGRECave+ogre", &["--include-style", "ogre", "-I", "{}/Media", "-D", "OGRE_GLSL=330"]),
     ("cinder+Cinder", &["--assume-version", "110"]),
 ];
+/// How many programs are looked at for each of the sample.
+const SPARE: usize = 4;
 /// Flags that take a value of their own.
 const WITH_VALUE: [&str; 5] = ["--engine", "--assume-version", "--include-style", "-I", "-D"];
 
@@ -74,12 +80,16 @@ fn of_repository(
     }
     let mut seen = BTreeSet::new();
     let mut all = Vec::new();
-    for surveyed in Survey::new(&arguments)?.programs() {
+    // Some do not compile, and some are there several times.
+    for surveyed in Survey::new(&arguments)?.sampled(sample * SPARE).programs() {
         let Ok(compilation) = &surveyed.compiled else { continue };
         let Some(program) = &compilation.program else { continue };
         let is_left_out =
             surveyed.files.iter().any(|(file, _)| without.iter().any(|part| file.contains(part.as_str())));
-        let is_whole = program.stage(Stage::Fragment).is_some() || program.stage(Stage::Vertex).is_some();
+        // A vertex shader alone is a program with the fixed-function pipeline's fragment stage.
+        let is_fixed =
+            program.stages.first().is_some_and(|shader| shader.stage == Stage::Vertex && has_fixed_function(shader));
+        let is_whole = program.stage(Stage::Fragment).is_some() || is_fixed;
         let mut hasher = DefaultHasher::new();
         compilation.texts.hash(&mut hasher);
         if is_left_out || !is_whole || !seen.insert(hasher.finish()) {
@@ -90,6 +100,7 @@ fn of_repository(
             kind: kind(program, &flags),
             files: files(&surveyed),
             flags: flags.clone(),
+            is_flat: is_flat(program),
         });
     }
     let count = all.len();
@@ -107,6 +118,12 @@ fn files(surveyed: &Surveyed) -> Vec<String> {
         }
     }
     files
+}
+
+/// Whether the fragment stage reads no varying, no place and no other variable of a fragment.
+fn is_flat(program: &Program) -> bool {
+    let reads = |shader: &Shader| shader.globals.iter().any(|global| global.used && global.storage == Storage::In);
+    program.stage(Stage::Fragment).is_some_and(|shader| !reads(shader))
 }
 
 fn kind(program: &Program, flags: &[String]) -> String {

@@ -12,7 +12,7 @@ use std::process::{Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
 
 /// Pixels of the window, so that the reference judges a picture in a moment.
-const SIDE: &str = "96";
+const SIDE: &str = "48";
 /// The largest difference of a channel up to which a picture is of one color.
 const FLAT: f64 = 0.03;
 
@@ -49,7 +49,7 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// The program that was built beside this one.
+    /// The program that was built next to this one.
     pub(crate) fn new(limit: Duration) -> Result<Self, String> {
         let own = std::env::current_exe().map_err(|error| error.to_string())?;
         let program = own.parent().and_then(Path::parent).map(|folder| folder.join("glisten")).unwrap_or_default();

@@ -18,13 +18,13 @@ struct Row {
 }
 
 impl Row {
-    fn add(&mut self, taken: &Taken) {
+    fn add(&mut self, found: &Found, taken: &Taken) {
         let verdict = |word: &str| usize::from(taken.verdict.as_deref() == Some(word));
         self.all += 1;
         self.written += usize::from(taken.written);
         self.drawn += usize::from(taken.drawn);
         self.covers += usize::from(taken.covers());
-        self.colorful += usize::from(taken.covers() && !taken.is_flat());
+        self.colorful += usize::from(taken.covers() && (!taken.is_flat() || found.is_flat));
         self.holds += verdict("holds");
         self.inconclusive += verdict("inconclusive");
         self.fails += verdict("fails");
@@ -42,7 +42,7 @@ pub(crate) fn line(found: &Found, taken: &Taken) -> String {
     let verdict = taken.verdict.as_deref().unwrap_or("-");
     let state = if !taken.reason.is_empty() {
         taken.reason.as_str()
-    } else if taken.covers() && taken.is_flat() {
+    } else if taken.covers() && taken.is_flat() && !found.is_flat {
         "flat"
     } else {
         ""
@@ -56,12 +56,12 @@ pub(crate) fn tables(results: &[(usize, Found, Taken)]) -> String {
     let mut all = Row::default();
     let mut failures = Vec::new();
     for (_, found, taken) in results {
-        rows.entry(&found.kind).or_default().add(taken);
-        all.add(taken);
+        rows.entry(&found.kind).or_default().add(found, taken);
+        all.add(found, taken);
         let why = match taken {
             Taken { reason, .. } if !reason.is_empty() => reason.clone(),
             taken if !taken.covers() => "it covers nothing".to_owned(),
-            taken if taken.is_flat() => "one color".to_owned(),
+            taken if taken.is_flat() && !found.is_flat => "one color".to_owned(),
             Taken { verdict: Some(verdict), .. } if verdict == "fails" => "verify fails".to_owned(),
             _ => continue,
         };

@@ -2,7 +2,8 @@
 //!
 //! *In:* a fragment shader. *Out:* the text of a vertex shader that writes what it reads. *Holds:* a `vec2` goes from (0, 0) at the
 //! lower left to (1, 1) at the upper right; longer vectors are filled with 0 and 1, a `float` goes from left to right, and
-//! integers are 0.
+//! integers are 0. By their names, a normal is that of a bulge, and directions and places are in front of it; a square matrix is the
+//! identity.
 
 use super::exit::{Exit, Failure};
 use glisten_front::hir::{Interpolation, Scalar, Shader, Storage, Type, Types};
@@ -18,6 +19,22 @@ fn version_line(fragment: &Shader) -> &'static str {
         (true, 300..) => "#version 300 es",
         (true, _) => "#version 100",
     }
+}
+
+/// Words of names, with the extent along x and y, and z, of a vector that is no coordinate of the window.
+static BULGES: &[(&[&str], [f64; 2])] = &[
+    (&["normal", "nrm"], [1.6, 0.8]),
+    (&["light", "half"], [0.6, 1.0]),
+    (&["eye", "view", "dir", "camera"], [-0.4, 1.0]),
+    (&["pos", "world", "point", "vertex"], [2.0, 0.0]),
+];
+
+/// The extent and z of a vector, if its name says that it is a normal, a direction or a place.
+fn bulge(name: &str) -> Option<[f64; 2]> {
+    let name = name.to_ascii_lowercase();
+    let is_named = |words: &&[&str]| words.iter().any(|word| name.contains(word));
+    let is_coordinate = ["tex", "uv", "coord", "col"].iter().any(|word| name.contains(word));
+    BULGES.iter().find(|(words, _)| is_named(words) && !is_coordinate).map(|(_, bulge)| *bulge)
 }
 
 /// The text of the vertex shader.
@@ -39,6 +56,11 @@ pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, 
         let value = match types.get(global.ty) {
             Type::Scalar(Scalar::Float) => format!("{uv}.x"),
             Type::Vector(Scalar::Float, 2) => uv.clone(),
+            Type::Vector(Scalar::Float, size @ 3..=4) if bulge(&global.name).is_some() => {
+                let (end, [scale, z]) = (if size == 4 { ", 1.0" } else { "" }, bulge(&global.name).unwrap_or_default());
+                format!("vec{size}({scale:?} * {uv} - {:?}, {z:?}{end})", scale / 2.0)
+            }
+            Type::Matrix(columns, rows) if columns == rows => format!("mat{columns}(1.0)"),
             Type::Vector(Scalar::Float, 3) => format!("vec3({uv}, 0.0)"),
             Type::Vector(Scalar::Float, 4) => format!("vec4({uv}, 0.0, 1.0)"),
             Type::Scalar(Scalar::Int) => "0".to_owned(),

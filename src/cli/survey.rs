@@ -56,6 +56,16 @@ impl Survey {
         Ok(Self { compiler: session::compiler(&args.sources, &BindingArgs::default(), &engines), groups })
     }
 
+    /// At most so many of the programs, evenly chosen.
+    #[must_use]
+    pub fn sampled(self, most: usize) -> Self {
+        let (count, most) = (self.groups.len(), self.groups.len().min(most).max(1));
+        // Evenly: the index enters a new one of `most` parts.
+        let is_kept = |index: usize| index == 0 || index * most / count != (index - 1) * most / count;
+        let groups = self.groups.into_iter().enumerate().filter(|(index, _)| is_kept(*index)).map(|(_, group)| group);
+        Self { compiler: self.compiler, groups: groups.collect() }
+    }
+
     /// Compiles the programs, one after the other. Files that cannot be read are left out.
     pub fn programs(self) -> impl Iterator<Item = Surveyed> {
         let Self { compiler, groups } = self;

@@ -30,4 +30,4 @@ pub use model::{
     Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,
 };
 pub use portrait::{Portrait, PortraitError, is_model_file, portrait};
-pub use reads::scene_values_read;
+pub use reads::{is_leaf_read, scene_values_read};

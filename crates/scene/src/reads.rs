@@ -5,7 +5,7 @@
 //! not there cannot change the picture.
 
 use glisten_front::hir::{MembersRead, Type, Types};
-use glisten_front::link::{Program, UniformRoot};
+use glisten_front::link::{Program, UniformLeaf, UniformRoot};
 use std::collections::BTreeSet;
 
 /// The uniforms of the module `scene` that a scene fills.
@@ -27,6 +27,17 @@ pub fn scene_values_read(program: &Program) -> BTreeSet<String> {
         names.extend(named.map(|(_, member)| format!("{}.{member}", root.name)));
     }
     names
+}
+
+/// Whether a stage reads the member of its root that a leaf belongs to.
+pub fn is_leaf_read(program: &Program, leaf: &UniformLeaf) -> bool {
+    let Some(root) = program.interface.roots.get(leaf.root.0 as usize) else { return true };
+    let Some(members) = members(&program.types, root).filter(|_| root.block.is_none()) else { return true };
+    let path = leaf.name.strip_prefix(root.name.as_str()).unwrap_or(&leaf.name);
+    let path = if path.starts_with('[') { path.split_once(']').map_or("", |(_, rest)| rest) } else { path };
+    let member = path.trim_start_matches('.').split(['.', '[']).next().unwrap_or_default();
+    let index = members.iter().position(|known| known == member);
+    index.is_none_or(|index| reads(program, root).iter().any(|read| read.contains(index as u32)))
 }
 
 /// The members of a struct or of an array of structs.

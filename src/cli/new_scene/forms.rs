@@ -27,7 +27,7 @@ pub(super) enum Shape {
     File(String),
 }
 
-/// What the matrices contain.
+/// The camera from which matrices follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum View {
     /// A camera that sees a sphere of radius 1.

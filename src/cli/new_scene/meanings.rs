@@ -5,7 +5,7 @@
 
 use glisten_front::hir::{Scalar, Type};
 
-/// What a number of a uniform means.
+/// The meaning of the numbers of a uniform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meaning {
     /// The size of the window in pixels.
@@ -25,7 +25,7 @@ pub(super) enum Meaning {
     Right,
     /// Along the view.
     Forward,
-    /// The same in all components, and 1 in a fourth one.
+    /// A color with this in all components, and 1 in a fourth one.
     Color(f64),
     BaseColor,
     FogColor,

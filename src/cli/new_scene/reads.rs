@@ -5,9 +5,10 @@
 //! `gl_ModelViewMatrix`) is state, not a uniform.
 
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{MembersRead, PrimitiveIn, Scalar, Stage, Type, TypeId, Types};
+use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program, SamplerSlot, UniformLeaf, UniformRoot};
 use glisten_front::source::SourceMap;
+use glisten_scene::is_leaf_read;
 use glisten_scene::roles::{AttributeRole, attribute_role, is_plain_transform, likely_attribute_role, matrix_role};
 use std::collections::BTreeMap;
 
@@ -34,7 +35,7 @@ pub(super) struct FixedReads {
     pub(super) fog: bool,
 }
 
-/// What a program reads.
+/// The variables that a program reads.
 pub(super) struct Reads<'p> {
     pub(super) program: &'p Program,
     pub(super) inputs: Vec<Input<'p>>,
@@ -55,11 +56,10 @@ pub(super) struct Reads<'p> {
 }
 
 impl<'p> Reads<'p> {
-    /// What the program reads; `sources` are its texts.
+    /// The variables that the program reads; `sources` are its texts.
     pub(super) fn new(program: &'p Program, sources: &SourceMap) -> Self {
         let interface = &program.interface;
-        let is_used =
-            |leaf: &&UniformLeaf| leaf.active && !leaf.name.starts_with("gl_") && is_member_read(program, leaf);
+        let is_used = |leaf: &&UniformLeaf| leaf.active && !leaf.name.starts_with("gl_") && is_leaf_read(program, leaf);
         let has_initializer =
             |leaf: &&UniformLeaf| interface.roots.get(leaf.root.0 as usize).is_some_and(|root| root.default.is_some());
         let (initialized, uniforms) = interface.uniforms.iter().filter(is_used).partition(has_initializer);
@@ -157,24 +157,6 @@ fn inputs(program: &Program) -> Vec<Input<'_>> {
         inputs.push(Input { name: &attribute.name, ty: attribute.ty, size, is_integer, role });
     }
     inputs
-}
-
-/// Whether a stage reads the member of the root that a leaf belongs to.
-fn is_member_read(program: &Program, leaf: &UniformLeaf) -> bool {
-    let Some(root) = program.interface.roots.get(leaf.root.0 as usize) else { return true };
-    let mut ty = program.types.get(root.ty);
-    while let Type::Array(element, _) = ty {
-        ty = program.types.get(element);
-    }
-    let Type::Struct(id) = ty else { return true };
-    let path = leaf.name.strip_prefix(root.name.as_str()).unwrap_or(&leaf.name);
-    let path = if path.starts_with('[') { path.split_once(']').map_or("", |(_, rest)| rest) } else { path };
-    let member = path.trim_start_matches('.').split(['.', '[']).next().unwrap_or_default();
-    let members = &program.types.structure(id).members;
-    let Some(index) = members.iter().position(|known| known.name == member) else { return true };
-    let read: Vec<MembersRead> =
-        root.globals.iter().filter_map(|&(stage, global)| Some(program.stage(stage)?.members_read(global))).collect();
-    read.is_empty() || read.iter().any(|read| read.contains(index as u32))
 }
 
 fn fixed(program: &Program) -> FixedReads {

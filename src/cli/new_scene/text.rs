@@ -12,7 +12,7 @@ use glisten_front::link::UniformLeaf;
 use glisten_scene::roles::{AttributeRole, MatrixRole, is_plain_transform, matrix_role};
 use std::fmt::Write;
 
-/// What a scene says besides what the program reads.
+/// The parts of a scene that do not follow from what the program reads.
 pub(super) struct Head {
     /// The stages of the draw with the names of their files.
     pub(super) stages: Vec<(Stage, String)>,

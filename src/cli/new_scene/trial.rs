@@ -28,7 +28,7 @@ const CONTRAST: f64 = 0.03;
 /// The number of tastes.
 const TASTES: usize = 4;
 
-/// What a picture shows.
+/// The extent and the colors of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Shown {
     /// The share of the pixels that are covered.

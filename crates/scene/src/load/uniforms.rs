@@ -8,6 +8,7 @@ use super::matrices::{ROLES, View};
 use super::paste::{self, Lines, key, names as names_of};
 use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::fixed::{FixedFunction, SetError, is_fixed_uniform};
+use crate::reads::is_leaf_read;
 use crate::roles::{MatrixRole, is_plain_transform, matrix_role};
 use crate::values::{Fill, UniformValues, bits, value_text};
 use glisten_front::diagnostic::Diagnostic;
@@ -468,6 +469,8 @@ impl<'p> Values<'p> {
             .get(leaf.root.0 as usize)
             .and_then(|set| set.get(start..start + len as usize))
             .is_none_or(|set| set.iter().all(|&set| set))
+            // Nobody misses what nothing reads.
+            || !is_leaf_read(self.program, leaf)
     }
 }
 
