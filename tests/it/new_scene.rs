@@ -144,8 +144,7 @@ fn flags_stay_in_the_scene() {
     ] {
         assert!(text.contains(line), "{line}: {text}");
     }
-    let book =
-        "uniform vec2 u_resolution;\nvoid main() { gl_FragColor = vec4(gl_FragCoord.xy / u_resolution, 0.0, 1.0); }\n";
+    let book = "precision mediump float;\nuniform vec2 u_resolution;\nvoid main() { gl_FragColor = vec4(gl_FragCoord.xy / u_resolution, 0.0, 1.0); }\n";
     let text = draws(&[("a.frag", book)], &["a.frag", "--assume-version", "100"]);
     assert!(text.contains("assume_version = \"100\""), "{text}");
 }
