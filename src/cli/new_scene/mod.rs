@@ -19,8 +19,10 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::fullscreen;
 use super::inputs::{Group, Input};
+use super::new_scene_model;
 use super::session::{Session, Unit};
 use crate::engines::{Member, STYLES};
+use crate::scene::is_model_file;
 use crate::sources::{members, stages};
 use clap::Args;
 use forms::{Shape, forms, shape_of};
@@ -36,8 +38,8 @@ use values::Taste;
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
 pub(super) struct NewSceneArgs {
-    /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, or the fixed-function
-    /// pipeline's
+    /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, or the
+    /// fixed-function pipeline's; or a model (.obj, .gltf, .glb), which gets a camera and lights
     #[arg(num_args = 1..=3, required = true, value_names = ["A.vert", "B.frag"])]
     files: Vec<String>,
     /// The scene file to create (default: standard output)
@@ -60,6 +62,12 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
     if let Some(output) = args.output.as_deref().filter(|output| output.exists()) {
         let failure = Failure::usage(format!("`{}` exists already", output.display()));
         return Err(failure.help("name a new file, or remove the old one"));
+    }
+    if let [model] = args.files.as_slice()
+        && is_model_file(model)
+    {
+        let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
+        return new_scene_model::run(model, &relative(model, folder), args.output.as_deref(), console);
     }
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let inputs = match stages_of(args, &mut session, console)? {
