@@ -70,9 +70,9 @@ mod multisample;
 mod mutation;
 #[cfg(feature = "gpu")]
 mod mutations;
+mod new_scene;
 #[cfg(feature = "gpu")]
 mod not_checked;
-mod new_scene;
 mod numeric;
 #[cfg(feature = "gl")]
 mod opengl;
