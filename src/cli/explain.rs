@@ -14,7 +14,7 @@ pub(super) struct ExplainArgs {
     /// A code or its name: `E0301`, `undeclared-identifier`
     #[arg(required_unless_present = "list")]
     code: Option<String>,
-    /// List all codes
+    /// List all codes, with a sentence for each
     #[arg(long, conflicts_with = "code")]
     list: bool,
 }
@@ -39,8 +39,20 @@ fn unknown(key: &str) -> Failure {
     }
 }
 
+/// A line for each code: the code, its severity, its name, the first sentence of its page.
 fn list() -> String {
-    codes::all().map(|code| format!("{:6} {:8} {}\n", code.id, code.severity, code.name)).collect()
+    let width = codes::all().map(|code| code.name.len()).max().unwrap_or_default();
+    let line = |code: &Code| {
+        format!("{:6} {:8} {:width$}  {}\n", code.id, code.severity.to_string(), code.name, first_sentence(code.page))
+    };
+    codes::all().map(line).collect()
+}
+
+/// The text up to the first period that a new sentence follows.
+fn first_sentence(page: &str) -> &str {
+    let begins = |rest: &str| rest.starts_with(|first: char| first.is_uppercase() || first == '`');
+    let end = page.match_indices(". ").find(|(at, _)| page.get(at + 2..).is_some_and(begins));
+    end.and_then(|(at, _)| page.get(..=at)).unwrap_or(page)
 }
 
 /// The printed page: heading, meaning, section, examples.

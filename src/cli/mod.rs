@@ -87,7 +87,8 @@ const STACK_BYTES: usize = 16 << 20;
 #[derive(Debug, Parser)]
 #[command(name = "glisten", version, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 nothing wrong found; 1 an input is wrong or a check did not hold;\n\
-    2 wrong usage, or a file cannot be read or written; 3 the machine lacks something.")]
+    2 wrong usage, or a file cannot be read or written; 3 the machine lacks something;\n\
+    130 Ctrl-C stopped it.")]
 struct Cli {
     #[command(flatten)]
     global: GlobalArgs,

@@ -158,10 +158,14 @@ fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failur
         if version > newest && !(target == Target::Es300 && version == 300) {
             let es = if [300, 310, 320].contains(&version) { "ES " } else { "" };
             let name = |number: u16| format!("{}.{:02}", number / 100, number % 100);
-            let message =
-                format!("`{}` is GLSL {es}{}, newer than the target {}", input.name, name(version), name(newest));
+            let goal = if target == Target::Es300 { "ES 3.00".to_owned() } else { name(newest) };
+            let message = format!("`{}` is GLSL {es}{}, newer than the target {goal}", input.name, name(version));
             let failure = Failure::new(Exit::Content, message);
-            return Err(if version <= 330 { failure.help("add `--to 330`") } else { failure });
+            return Err(match version {
+                300 => failure.help("add `--to 300es`"),
+                _ if version <= 330 => failure.help("add `--to 330`"),
+                _ => failure,
+            });
         }
         let text = text_of(unit, input);
         texts.push(Text { text, stage: input.stage, is_shader: true, version });

@@ -8,6 +8,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use clap::{Args, CommandFactory};
 use notify::{Event, EventKind, RecursiveMode, Watcher};
+use std::any::TypeId;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
@@ -34,6 +35,16 @@ pub(super) fn run(args: &WatchArgs, console: &Console) -> Outcome {
     refuse_unknown(&name.to_string_lossy())?;
     let program = std::env::current_exe()
         .map_err(|error| Failure::new(Exit::Machine, format!("the program does not find itself: {error}")))?;
+    let run = || {
+        let run = Command::new(&program).args(&args.command).status();
+        run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))
+    };
+    let named = std::iter::once("glisten".into()).chain(args.command.iter().cloned());
+    match super::Cli::command().try_get_matches_from(named) {
+        Ok(matches) => refuse_missing(&matches)?,
+        // No change of a file mends wrong arguments; the command tells what is wrong with them.
+        Err(_) => return Ok(run()?.code().and_then(|code| u8::try_from(code).ok()).map_or(Exit::Usage, Exit::of_code)),
+    }
     let watched = watched(rest);
     let (sender, changes) = channel();
     let mut watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
@@ -45,9 +56,7 @@ pub(super) fn run(args: &WatchArgs, console: &Console) -> Outcome {
         watcher.watch(folder, RecursiveMode::Recursive).map_err(|error| cannot_watch(&error))?;
     }
     loop {
-        let run = Command::new(&program).args(&args.command).status();
-        let status =
-            run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))?;
+        let status = run()?;
         let list: Vec<String> = watched.folders.iter().map(|folder| format!("`{}`", folder.display())).collect();
         let ended = if status.success() { "OK" } else { "Errors" };
         console.remark(&format!("{ended}. Watching {} (Ctrl-C to stop)", list.join(", ")));
@@ -73,6 +82,28 @@ fn refuse_unknown(name: &str) -> Result<(), Failure> {
         || "write it as without `watch`: `glisten watch lint shaders`".to_owned(),
         |near| format!("did you mean `{near}`?"),
     )))
+}
+
+/// The names of arguments that are paths, or texts that name a file.
+const INPUTS: [&str; 3] = ["files", "scene", "scenes"];
+
+/// Refuses inputs that do not exist: nothing tells when one of them comes into being.
+fn refuse_missing(matches: &clap::ArgMatches) -> Result<(), Failure> {
+    let Some((name, matches)) = matches.subcommand() else { return Ok(()) };
+    let commands = super::Cli::command();
+    let Some(arguments) = commands.find_subcommand(name).map(clap::Command::get_positionals) else { return Ok(()) };
+    let is_path = |argument: &clap::Arg| {
+        argument.get_value_parser().type_id() == TypeId::of::<PathBuf>() || INPUTS.contains(&argument.get_id().as_str())
+    };
+    let raw = |argument: &clap::Arg| matches.try_get_raw(argument.get_id().as_str()).ok().flatten();
+    let mut paths = arguments.filter(|argument| is_path(argument)).filter_map(raw).flatten();
+    match paths.find(|path| *path != "-" && !Path::new(path).exists()) {
+        Some(path) => {
+            let failure = Failure::usage(format!("cannot watch `{}`: it does not exist", path.to_string_lossy()));
+            Err(failure.help("name files and folders that are there"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The folders to watch, and the outputs in them.

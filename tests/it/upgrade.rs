@@ -78,7 +78,11 @@ fn what_cannot_be_upgraded_is_told_and_nothing_is_written() {
         ("clip.vert", b"void main() { gl_ClipVertex = gl_Vertex; gl_Position = ftransform(); }\n"),
         ("wrong.frag", b"void main() { gl_FragColor = missing; }\n"),
         ("new.frag", b"#version 330\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        ("es.frag", b"#version 300 es\nout mediump vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
     ]);
+    let es = folder.run(&["upgrade", "es.frag"]);
+    assert!(err(&es).contains("newer than the target 1.50") && err(&es).contains("add `--to 300es`"), "{}", err(&es));
+    assert_eq!(code(&folder.run(&["upgrade", "es.frag", "--to", "300es"])), 0);
     for (file, exit, told) in
         [("clip.vert", 1, "gl_ClipVertex"), ("wrong.frag", 1, "missing"), ("new.frag", 1, "newer than the target 1.50")]
     {

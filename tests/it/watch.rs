@@ -62,7 +62,7 @@ fn a_command_runs_again_after_a_change() {
     fs::write(&shader, good.replace("1.0", "missing")).expect("the folder can be written to");
     wait_for(&lines, "a.frag changed");
     wait_for(&lines, "`missing` is not declared");
-    wait_for(&lines, "errors; watching .");
+    wait_for(&lines, "Errors. Watching `.`");
     fs::write(&shader, good).expect("the folder can be written to");
     wait_for(&lines, "OK. Watching `.`");
     drop(running);
@@ -78,4 +78,15 @@ fn only_commands_are_watched() {
     assert!(code == Some(2) && told.contains("did you mean `lint`?"), "{told}");
     assert_eq!(run(&["watch", "lint"]).0, Some(2));
     assert_eq!(run(&[]).0, Some(2));
+    let (code, told) = run(&["compile", "nowhere.vert"]);
+    assert!(code == Some(2) && told.contains("--output"), "{told}");
+    for arguments in [
+        &["lint", "nowhere"][..],
+        &["render", "nowhere.toml", "-o", "a.png"],
+        &["verify", "nowhere.toml"],
+        &["test", "nowhere"],
+    ] {
+        let (code, told) = run(arguments);
+        assert!(code == Some(2) && told.contains("it does not exist"), "{arguments:?}: {told}");
+    }
 }
