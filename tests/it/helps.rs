@@ -1,11 +1,15 @@
 //! Help texts that can be pasted: each is applied to the source, which is compiled again. The diagnostic must be gone, and no
 //! error may have come.
 
-use crate::support::{Shader, compile_text, shaders_under};
+mod forms;
+
+use crate::support::{Shader, compile_text, compiler, shaders_under};
+use glisten_front::Source;
 use glisten_front::diagnostic::{Code, Diagnostic, Example, codes};
 use glisten_front::hir::Stage;
 use glisten_front::lint;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// A text that a help offers, and where it goes.
 enum Fix {
@@ -137,4 +141,117 @@ fn branch(condition: &str, before: &str) -> Shader {
     let text =
         format!("#version 150\n{before}#if {condition}\n#error yes\n#else\n#error no\n#endif\nvoid main() {{}}\n");
     Shader { name: "a.frag".into(), text, stage: Stage::Fragment }
+}
+
+/// Codes whose help quotes code that is not to be pasted, and the reason.
+static DESCRIBING: &[(&str, &str)] = &[
+    ("E0209", "where the brace is missing is not known"),
+    ("E0211", "the type is the author's"),
+    ("E0406", "it lists the sets of names"),
+    ("E0416", "the vector may be a long expression before the dot"),
+    ("E0501", "what was to be left is not known"),
+    ("E0514", "the value is the author's"),
+    ("E0605", "the block to move it to is the author's"),
+    ("E0609", "the value is the author's"),
+    ("E0615", "which colors belong where is the author's"),
+    ("E0710", "what fits together is the author's"),
+    ("E0712", "which colors belong where is the author's"),
+    ("E0713", "the number is that of the host"),
+    ("E0731", "the number is that of the host"),
+    ("L0009", "what the negative base means is the author's"),
+    ("L0010", "which of the two is right depends on what the branch is for"),
+    ("L0011", "the condition is the author's"),
+    ("L0013", "the value is the author's"),
+];
+
+/// The shaders of the `bad` example of a code, linked if there are several.
+fn bad_example(code: &'static Code) -> Vec<Shader> {
+    let shader = |&(stage, text): &(Stage, &str)| {
+        let text = if text.contains("#version") { text.to_owned() } else { format!("#version 150\n{text}") };
+        Shader { name: format!("{}.{}", code.id, stage.name()), text, stage }
+    };
+    match code.bad {
+        Example::Program(vertex, fragment) => {
+            [(Stage::Vertex, vertex), (Stage::Fragment, fragment)].iter().map(shader).collect()
+        }
+        Example::Shaders(list) => list.iter().map(shader).collect(),
+        _ => examples(code),
+    }
+}
+
+/// What is found in the shaders of a program: the diagnostics, with the number of the shader and the place in its text.
+fn findings(shaders: &[Shader]) -> Vec<(Diagnostic, Option<(usize, Range<usize>)>)> {
+    let source =
+        |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
+    let compilation = compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
+    let mut all: Vec<Diagnostic> = compilation.diagnostics.iter().cloned().collect();
+    all.extend(compilation.program.iter().flat_map(lint::check));
+    let place = |diagnostic: &Diagnostic| {
+        shaders.iter().enumerate().find_map(|(index, shader)| {
+            let files = compilation.sources.files();
+            let mut files = files.filter(|(_, file)| file.name() == shader.name && **file.text() == *shader.text);
+            let base = files.next()?.1.base() as usize;
+            let range = (diagnostic.primary.span.start as usize).checked_sub(base)?
+                ..(diagnostic.primary.span.end as usize).checked_sub(base)?;
+            shader.text.get(range.clone()).map(|_| (index, range))
+        })
+    };
+    all.into_iter()
+        .map(|diagnostic| {
+            let place = place(&diagnostic);
+            (diagnostic, place)
+        })
+        .collect()
+}
+
+/// The texts of a shader that follow a help. A name that another stage misses is renamed in the whole file.
+fn following(diagnostic: &Diagnostic, text: &str, at: &Range<usize>) -> Vec<String> {
+    let help = diagnostic.help.as_deref().unwrap_or_default();
+    let near = help.strip_prefix("did you mean `").and_then(|rest| rest.strip_suffix("`?"));
+    match near.filter(|near| diagnostic.code.id.starts_with("E07") && !near.contains('`')) {
+        Some(near) => vec![forms::renamed(text, &text[at.clone()], near)],
+        None => forms::applied(help, text, at),
+    }
+}
+
+/// Each help of a page's `bad` example that quotes code is applied to it: the finding is gone, and no other code has come.
+#[test]
+fn every_help_of_a_page_can_be_pasted() {
+    let (mut applied, mut described, mut wrong) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
+    for code in codes::all() {
+        let shaders = bad_example(code);
+        let before = findings(&shaders);
+        let known: BTreeSet<&str> = before.iter().map(|found| found.0.code.id).collect();
+        let count = |list: &[(Diagnostic, _)]| list.iter().filter(|found| found.0.code == code).count();
+        for (diagnostic, place) in before.iter().filter(|found| found.0.code == code) {
+            let help = diagnostic.help.as_deref().unwrap_or_default();
+            if !help.contains('`') {
+                continue;
+            }
+            let (index, at) = place.clone().expect("the finding is in the example");
+            let texts = following(diagnostic, &shaders[index].text, &at);
+            if texts.is_empty() {
+                described.insert(code.id);
+            }
+            for text in texts {
+                applied.insert(code.id);
+                let mut pasted: Vec<Shader> = bad_example(code);
+                pasted[index].text = text;
+                let after = findings(&pasted);
+                let new: Vec<_> = after
+                    .iter()
+                    .filter(|found| !known.contains(found.0.code.id))
+                    .map(|found| &found.0.message)
+                    .collect();
+                if count(&after) >= count(&before) || !new.is_empty() {
+                    wrong.push(format!("{}: {help}: {new:?} in\n{}", code.id, pasted[index].text));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    let excused: BTreeSet<&str> = DESCRIBING.iter().map(|row| row.0).collect();
+    assert_eq!(described, excused, "helps that quote code and cannot be pasted");
+    println!("{} codes have helps that were pasted, {} have helps that describe", applied.len(), described.len());
+    assert!(applied.len() >= 30, "{applied:?}");
 }

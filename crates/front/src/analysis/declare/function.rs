@@ -305,10 +305,10 @@ impl Analyzer<'_> {
             return;
         }
         let message = if function.param_count > 0 { "`main` takes no parameters" } else { "`main` returns nothing" };
+        let returns = function.ret != TypeId::VOID && !function.ret.is_error();
+        let help = if returns { "write `void main()`, and `return;` without a value" } else { "write `void main()`" };
         self.report(
-            Diagnostic::new(&statements::MAIN_SIGNATURE, header.span, message)
-                .here("not the entry point")
-                .help("write `void main()`"),
+            Diagnostic::new(&statements::MAIN_SIGNATURE, header.span, message).here("not the entry point").help(help),
         );
     }
 
