@@ -179,7 +179,7 @@ fn bad_example(code: &'static Code) -> Vec<Shader> {
     }
 }
 
-/// What is found in the shaders of a program: the diagnostics, with the number of the shader and the place in its text.
+/// The diagnostics of the shaders of a program, with the number of the shader and the place in its text.
 fn findings(shaders: &[Shader]) -> Vec<(Diagnostic, Option<(usize, Range<usize>)>)> {
     let source =
         |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
