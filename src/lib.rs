@@ -72,7 +72,7 @@ pub use glisten_scene::picture::Picture;
 pub mod emit {
     pub use glisten_emit::{
         ClipZ, Conventions, Emitted, FloatWidth, GlslVersion, Reflection, SpirvEnv, Target, WindowOrigin, emit,
-        emit_with_sources, reflect, reflection,
+        emit_single_file, emit_with_sources, reflect, reflection,
     };
     pub use glisten_specialize::{left_out, optimize};
 }

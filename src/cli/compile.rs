@@ -83,7 +83,7 @@ pub(super) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         return Err(Failure::usage(format!("no shader was found in `{folder}`")));
     }
     inputs.tell_empty_folders(console);
-    let plan = OutputPlan::new(&args.outputs);
+    let plan = OutputPlan::new(&args.outputs)?;
     let folder = args.output.clone().unwrap_or_default();
     if is_standard_output(&folder) {
         refuse_several(args, &plan, &inputs.groups)?;
@@ -236,9 +236,9 @@ fn refuse_several(args: &CompileArgs, plan: &OutputPlan, groups: &[Group]) -> Re
         ("a depfile names no file", "leave `--depfile` out, or name a folder")
     } else if args.manifest.is_some() {
         ("a manifest names no file", "leave `--manifest` out, or name a folder")
-    } else if !lone {
-        ("there are several stages", "name one file, or a folder with `-o DIR`")
-    } else if args.outputs.targets.is_empty() {
+    } else if groups.len() > 1 || !(lone || plan.single_file) {
+        ("there are several stages", "name one file, write all stages as one with `--single-file`, or name a folder")
+    } else if args.outputs.targets.is_empty() && !plan.single_file {
         ("no target is given", "add `--target wgsl`, or name a folder with `-o DIR`")
     } else if plan.targets.len() > 1 {
         ("there are several targets", "name one target, or a folder with `-o DIR`")

@@ -29,6 +29,9 @@ pub(super) struct OutputArgs {
     /// The target to write (repeatable; default: wgsl and spirv)
     #[arg(long = "target", value_parser = target_words())]
     pub(super) targets: Vec<Target>,
+    /// Write one file for each target, with the entry points `vs_main` and `fs_main` (wgsl, msl, hlsl; default: wgsl)
+    #[arg(long)]
+    pub(super) single_file: bool,
     /// Write source lines into SPIR-V
     #[arg(short = 'g')]
     pub(super) debug_lines: bool,
@@ -61,20 +64,32 @@ pub(super) struct OutputPlan {
     optimize: OptimizeArgs,
     left_out: bool,
     flat: bool,
+    /// Whether all stages of a program are in one file.
+    pub(super) single_file: bool,
     /// Whether outputs have names that the reflection can tell.
     named: bool,
 }
 
 impl OutputPlan {
     /// The plan that the arguments ask for.
-    pub(super) fn new(args: &OutputArgs) -> Self {
+    ///
+    /// # Errors
+    /// `--single-file` for a target that has one file for each stage.
+    pub(super) fn new(args: &OutputArgs) -> Result<Self, Failure> {
         let mut targets: BTreeSet<Target> = args.targets.iter().copied().collect();
         if targets.is_empty() {
-            targets.extend([Target::Wgsl, Target::Spirv]);
+            targets.insert(Target::Wgsl);
+            targets.extend((!args.single_file).then_some(Target::Spirv));
+        }
+        if let Some(target) = targets.iter().find(|target| args.single_file && !target.has_single_file()) {
+            let message =
+                format!("`--single-file` does not write {}, which has one file for each stage", target.name());
+            return Err(Failure::usage(message).help("choose among `--target wgsl`, `msl` and `hlsl`"));
         }
         let conventions = args.conventions.conventions(args.debug_lines);
         let (optimize, left_out, flat) = (args.optimize, args.left_out, args.flat);
-        Self { targets, conventions, optimize, left_out, flat, named: true }
+        let single_file = args.single_file;
+        Ok(Self { targets, conventions, optimize, left_out, flat, single_file, named: true })
     }
 
     /// The plan for outputs whose names depend on their bytes: the reflection does not tell them.
@@ -90,7 +105,10 @@ impl OutputPlan {
     /// The names of a program's outputs, the reflection last.
     pub(super) fn names(&self, group: &Group) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
-        for stage in Stage::ALL {
+        if self.single_file {
+            names.extend(self.targets.iter().map(|target| single_name(group, *target)));
+        }
+        for stage in Stage::ALL.into_iter().filter(|_| !self.single_file) {
             // Several files of one stage have one output, which is named after the first.
             if let Some(input) = group.inputs.iter().find(|input| input.stage == stage) {
                 let file = input.file_name();
@@ -101,13 +119,17 @@ impl OutputPlan {
         names
     }
 
-    /// The stage and the target of each of a program's outputs but the reflection, by their names.
-    pub(super) fn kinds(&self, group: &Group) -> BTreeMap<String, (Stage, Target)> {
-        let mut kinds = BTreeMap::new();
+    /// The stages and the target of each of a program's outputs but the reflection, by their names.
+    pub(super) fn kinds(&self, group: &Group) -> BTreeMap<String, (Vec<Stage>, Target)> {
+        let mut kinds: BTreeMap<String, (Vec<Stage>, Target)> = BTreeMap::new();
         for stage in Stage::ALL {
-            if let Some(input) = group.inputs.iter().find(|input| input.stage == stage) {
-                let name = |target: &Target| format!("{}.{}", input.file_name(), target.extension());
-                kinds.extend(self.targets.iter().map(|target| (name(target), (stage, *target))));
+            let Some(input) = group.inputs.iter().find(|input| input.stage == stage) else { continue };
+            for target in &self.targets {
+                let name = match self.single_file {
+                    true => single_name(group, *target),
+                    false => format!("{}.{}", input.file_name(), target.extension()),
+                };
+                kinds.entry(name).or_insert((Vec::new(), *target)).0.push(stage);
             }
         }
         kinds
@@ -188,7 +210,19 @@ impl OutputPlan {
         let mut texts = Vec::new();
         let sources = Some(sources);
         let optimized = optimize::optimized(program, self.targets.iter().any(|target| self.optimizes(*target)));
-        for shader in &program.stages {
+        for target in self.targets.iter().filter(|_| self.single_file) {
+            let emitted = if self.optimizes(*target) { &optimized } else { program };
+            match emit::emit_single_file(emitted, *target, &self.conventions, sources) {
+                Ok(emitted) => {
+                    if let (Target::Wgsl, Emitted::Text(text)) = (target, &emitted) {
+                        texts.push(text.clone());
+                    }
+                    outputs.push(output(single_name(group, *target), emitted.into_bytes()));
+                }
+                Err(errors) => diagnostics.extend(errors),
+            }
+        }
+        for shader in program.stages.iter().filter(|_| !self.single_file) {
             let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
             for target in &self.targets {
                 let emitted = if self.optimizes(*target) { &optimized } else { program };
@@ -208,8 +242,12 @@ impl OutputPlan {
         let all = self.targets.iter().all(|target| self.optimizes(*target));
         let mut reflection = emit::reflect(if all { &optimized } else { program }, &self.conventions);
         texts.iter().for_each(|text| reflection.name_in_wgsl(text));
+        if self.single_file {
+            reflection.name_single_file();
+        }
         let no_targets = BTreeSet::new();
-        reflection.files = files_of_stages(group, if self.named { &self.targets } else { &no_targets });
+        let named = if self.named { &self.targets } else { &no_targets };
+        reflection.files = files_of_stages(group, named, self.single_file);
         if !self.flat {
             reflection.compact();
         }
@@ -220,19 +258,31 @@ impl OutputPlan {
     }
 }
 
+/// The name of the file that all stages of a program share.
+fn single_name(group: &Group, target: Target) -> String {
+    format!("{}.{}", group.name, target.extension())
+}
+
 fn output(name: String, bytes: Vec<u8>) -> Output {
     (name, Digest::of(&bytes), bytes.into())
 }
 
 /// The files of each stage for the reflection, with the outputs for these targets.
-pub(super) fn files_of_stages(group: &Group, targets: &BTreeSet<Target>) -> BTreeMap<String, StageFiles> {
+pub(super) fn files_of_stages(
+    group: &Group,
+    targets: &BTreeSet<Target>,
+    single_file: bool,
+) -> BTreeMap<String, StageFiles> {
     let mut files: BTreeMap<String, StageFiles> = BTreeMap::new();
     for input in &group.inputs {
         let own = files.entry(input.stage.name().to_owned()).or_default();
         own.sources.push(input.file_name());
         // Several files of one stage have one output, which is named after the first.
         for target in targets {
-            let name = || format!("{}.{}", input.file_name(), target.extension());
+            let name = || match single_file {
+                true => single_name(group, *target),
+                false => format!("{}.{}", input.file_name(), target.extension()),
+            };
             own.outputs.entry(target.word().to_owned()).or_insert_with(name);
         }
     }

@@ -100,7 +100,7 @@ fn reflect_all<'a>(units: &'a [Unit], conventions: &Conventions, optimizes: bool
                 }
             }
             // The same as what `compile` writes by default.
-            reflection.files = files_of_stages(&unit.group, &BTreeSet::from([Target::Wgsl, Target::Spirv]));
+            reflection.files = files_of_stages(&unit.group, &BTreeSet::from([Target::Wgsl, Target::Spirv]), false);
             Reflected { name, program, reflection }
         })
         .collect()

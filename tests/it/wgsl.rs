@@ -221,3 +221,55 @@ fn the_wgsl_in_the_readme_is_what_is_written() {
     let text = fs::read_to_string(root.join("fixtures/programs/phong.frag")).expect("a fixture");
     assert!(wgsl(&text).contains(shown), "the README shows\n{shown}\nand glisten writes\n{}", wgsl(&text));
 }
+
+#[test]
+fn one_file_has_all_stages() {
+    let vertex = "#version 150\nuniform vec4 tint;\nin vec4 p;\nout vec4 v;\n// Shared.\nvec4 shade(vec4 c) { return c * tint; }\n\
+                  float own(float x) { return x + 1.0; }\nvoid main() { v = shade(p) * own(p.x); gl_Position = p; }\n";
+    let fragment = "#version 150\nuniform vec4 tint;\nin vec4 v;\nout vec4 c;\nvec4 shade(vec4 c) { return c * tint; }\n\
+                    float own(float x) { return x * 2.0; }\nvoid main() { c = shade(v) * own(v.x); }\n";
+    let folder = Folder::new(&[("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes())]);
+    let targets = ["--target", "wgsl", "--target", "msl", "--target", "hlsl"];
+    let arguments = [&["compile", "a.vert", "a.frag", "--single-file", "-o", "out"], &targets[..]].concat();
+    let output = folder.run(&arguments);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let read = |name: &str| fs::read_to_string(folder.path(&format!("out/{name}"))).expect("it was written");
+    for name in ["a.wgsl", "a.metal", "a.hlsl"] {
+        let text = read(name);
+        assert!(text.contains(" vs_main(") && text.contains(" fs_main("), "{text}");
+    }
+    let text = read("a.wgsl");
+    for (part, count) in
+        [("fn shade(", 1), ("fn own", 2), ("struct Uniforms", 1), ("var<uniform>", 1), ("// Shared.", 1)]
+    {
+        assert_eq!(text.matches(part).count(), count, "{part} in\n{text}");
+    }
+    let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+    assert_eq!(module.entry_points.len(), 2);
+    let reflection: Value = serde_json::from_str(&read("a.json")).expect("JSON");
+    assert_eq!(reflection["entry_points"]["vertex"], "vs_main");
+    assert_eq!(reflection["targets"]["msl"]["entry_points"]["fragment"], "fs_main");
+    assert_eq!(reflection["files"]["fragment"]["outputs"]["wgsl"], "a.wgsl");
+    let output = folder.run(&["compile", "a.vert", "a.frag", "--single-file", "-o", "-"]);
+    assert_eq!(out(&output), text);
+    let refused = folder.run(&["compile", "a.vert", "a.frag", "--single-file", "--target", "spirv", "-o", "out"]);
+    assert_eq!(code(&refused), 2, "{}", err(&refused));
+}
+
+#[test]
+fn texture_coordinates_are_as_many_as_the_program_names() {
+    let vertex = "#version 120\nvoid main() { gl_Position = gl_Vertex; gl_TexCoord[0] = gl_MultiTexCoord0; }\n";
+    let count = |fragment: &str| {
+        let folder = Folder::new(&[("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes())]);
+        let output = folder.run(&["compile", "a.vert", "a.frag", "--single-file", "-O0", "-o", "-"]);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        let text = out(&output);
+        text.matches(") gl_TexCoord_").count()
+    };
+    assert_eq!(count("#version 120\nvoid main() { gl_FragColor = gl_TexCoord[0]; }\n"), 2);
+    assert_eq!(count("#version 120\nvoid main() { gl_FragColor = gl_TexCoord[0] + gl_TexCoord[1]; }\n"), 4);
+    let declared = "#version 120\nvarying vec4 gl_TexCoord[3];\nvoid main() { gl_FragColor = gl_TexCoord[0]; }\n";
+    assert_eq!(count(declared), 6);
+    let open = "#version 120\nuniform int n;\nvoid main() { gl_FragColor = gl_TexCoord[n]; }\n";
+    assert_eq!(count(open), 16);
+}

@@ -93,10 +93,17 @@ impl Index {
             let digits = digest.to_string();
             let digits = digits.get(..DIGITS).unwrap_or_default();
             let path = match kinds.get(name) {
-                Some((stage, target)) => {
-                    let end = crate::sources::stages::extension(*stage);
-                    let path = format!("{program}/{digits}.{end}.{}", target.extension());
-                    shader.stages.entry(stage.name()).or_default().insert(target.word(), path.clone());
+                Some((stages, target)) => {
+                    let path = match stages.as_slice() {
+                        [stage] => {
+                            let end = crate::sources::stages::extension(*stage);
+                            format!("{program}/{digits}.{end}.{}", target.extension())
+                        }
+                        _ => format!("{program}/{digits}.{}", target.extension()),
+                    };
+                    for stage in stages {
+                        shader.stages.entry(stage.name()).or_default().insert(target.word(), path.clone());
+                    }
                     path
                 }
                 None => {

@@ -91,7 +91,7 @@ struct Run<'a> {
 /// Runs the command.
 pub(super) fn run(job: &Job<'_>, console: &Console) -> Outcome {
     let permutations = file::read(job.file)?;
-    let plan = OutputPlan::new(job.outputs).unnamed();
+    let plan = OutputPlan::new(job.outputs)?.unnamed();
     let session = Session::new(console, job.sources, job.bindings, job.levels, job.jobs)?;
     let recall = Recall::new(job.cache, session.engines(), job.sources, job.bindings, &plan)?;
     let (index, units, made) = (Index::new(), Vec::new(), Vec::new());

@@ -7,15 +7,16 @@
 //! error at the position in the GLSL text, without naga's handles. The same input gives the same bytes.
 
 mod emitted;
+mod merge;
 mod messages;
 mod naga_repairs;
 mod notes;
 pub mod reflection;
 mod targets;
-mod wgsl_text;
+mod wgsl;
 mod write;
 
 pub use emitted::Emitted;
 pub use notes::{levels_of_comparisons, notes};
 pub use reflection::{Reflection, reflect};
-pub use write::{emit, emit_with_sources};
+pub use write::{emit, emit_single_file, emit_with_sources};

@@ -5,10 +5,11 @@
 //! *Holds:* naga's writers run inside `catch_unwind`, since they panic on some modules that its validator accepts.
 
 use super::emitted::Emitted;
+use super::merge::{merged, name_entry_points};
 use super::messages::{chain, without_handles};
 use super::naga_repairs::nesting::is_nested;
 use super::targets::{self, Job};
-use super::wgsl_text::{commented, header};
+use super::wgsl::header;
 use crate::target::{Conventions, FloatWidth, Slots, Target};
 use crate::width::in_width;
 use glisten_front::diagnostic::Diagnostic;
@@ -44,28 +45,74 @@ pub fn emit_with_sources(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
 ) -> Result<Emitted, Vec<Diagnostic>> {
-    let floats = width_of(stage, target, conventions)?;
     if target == Target::Glsl {
+        width_of(stage, target, conventions)?;
         let emitted = targets::glsl::write(program, stage, conventions, sources)?;
-        return Ok(with_comments(emitted, program, stage, target, sources));
+        return Ok(with_header(emitted, program, &[stage], target, sources));
     }
-    let module = crate::lower::lower(program, stage, target, conventions)?;
+    emit_stages(program, &[stage], target, conventions, sources, false)
+}
+
+/// Writes all stages of a program as one module, with the entry points `vs_main` and `fs_main`. What the stages share is in it
+/// once.
+///
+/// # Errors
+/// The same as those of [`emit`]; and SPIR-V and GLSL, which have one file for each stage
+/// ([`Target::has_single_file`]).
+pub fn emit_single_file(
+    program: &Program,
+    target: Target,
+    conventions: &Conventions,
+    sources: Option<&SourceMap>,
+) -> Result<Emitted, Vec<Diagnostic>> {
+    if !target.has_single_file() {
+        let message = format!("{} has one file for each stage", target.name());
+        let refused = Diagnostic::new(&FEATURE_NOT_IN_TARGET, Span::default(), message);
+        return Err(vec![refused.help("choose WGSL, MSL or HLSL, or write one file for each stage")]);
+    }
+    let stages: Vec<Stage> = program.stages.iter().map(|shader| shader.stage).collect();
+    emit_stages(program, &stages, target, conventions, sources, true)
+}
+
+/// Writes these stages as one module.
+fn emit_stages(
+    program: &Program,
+    stages: &[Stage],
+    target: Target,
+    conventions: &Conventions,
+    sources: Option<&SourceMap>,
+    is_single: bool,
+) -> Result<Emitted, Vec<Diagnostic>> {
+    let slots = Slots::of(&program.interface);
+    let mut modules = Vec::with_capacity(stages.len());
+    let mut deep = false;
+    for &stage in stages {
+        let floats = width_of(stage, target, conventions)?;
+        let module = crate::lower::lower(program, stage, target, conventions)?;
+        deep |= program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
+        if let Some(found) = targets::limit(target, &module, &slots) {
+            return Err(vec![found]);
+        }
+        modules.push((module, floats));
+    }
     // naga's validator and writers recurse over nested blocks, which the parser bounds at 256.
     const NESTING: u32 = 512;
-    let deep = program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
-    let slots = Slots::of(&program.interface);
-    if let Some(found) = targets::limit(target, &module, &slots) {
-        return Err(vec![found]);
-    }
     let write = || {
-        let mut module = module;
-        let mut info = validate(&module)?;
-        if floats != FloatWidth::Single {
-            module = in_width(&module, &info, floats)?;
+        let mut modules = modules.into_iter().map(|(module, floats)| valid(module, floats));
+        let Some(first) = modules.next() else {
+            return Err(vec![internal_error(Span::default(), "a program without stages".to_owned())]);
+        };
+        let (mut module, mut info) = first?;
+        for next in modules {
+            module = merged(module, next?.0);
             info = validate(&module)?;
         }
-        let precise = program.stages.iter().any(|shader| shader.stage == stage && shader.precise);
-        let job = Job { module, info: &info, stage, conventions, sources, slots: &slots, precise };
+        if is_single {
+            name_entry_points(&mut module);
+        }
+        let shaders: Vec<_> = program.stages.iter().filter(|shader| stages.contains(&shader.stage)).collect();
+        let (info, slots, types) = (&info, &slots, &program.types);
+        let job = Job { module, info, conventions, sources, slots, types, shaders, is_single };
         targets::write(target, job).map_err(|message| vec![failed(target, &message)])
     };
     let emitted = glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
@@ -73,7 +120,18 @@ pub fn emit_with_sources(
             Err(vec![internal_error(Span::default(), format!("the writer of {} panicked", target.name()))])
         })
     })?;
-    Ok(with_comments(emitted, program, stage, target, sources))
+    Ok(with_header(emitted, program, stages, target, sources))
+}
+
+/// A module with floats of a width, and what the validator knows of it.
+fn valid(module: naga::Module, floats: FloatWidth) -> Result<(naga::Module, ModuleInfo), Vec<Diagnostic>> {
+    let info = validate(&module)?;
+    if floats == FloatWidth::Single {
+        return Ok((module, info));
+    }
+    let module = in_width(&module, &info, floats)?;
+    let info = validate(&module)?;
+    Ok((module, info))
 }
 
 /// The width of floats in a stage.
@@ -92,26 +150,24 @@ fn width_of(stage: Stage, target: Target, conventions: &Conventions) -> Result<F
     }
 }
 
-/// Text with a header, and WGSL with the comments of the source, too, if the sources are known.
-fn with_comments(
+/// Text with a header, if the sources are known.
+fn with_header(
     emitted: Emitted,
     program: &Program,
-    stage: Stage,
+    stages: &[Stage],
     target: Target,
     sources: Option<&SourceMap>,
 ) -> Emitted {
-    let (Emitted::Text(text), Some(shader), Some(sources)) = (&emitted, program.stage(stage), sources) else {
-        return emitted;
-    };
-    let Some(header) = header(shader, sources) else { return emitted };
+    let (Emitted::Text(text), Some(sources)) = (&emitted, sources) else { return emitted };
+    let shaders: Vec<_> = program.stages.iter().filter(|shader| stages.contains(&shader.stage)).collect();
+    let Some(header) = header(&shaders, sources) else { return emitted };
     Emitted::Text(match target {
-        Target::Wgsl => header + &commented(text, &program.types, shader, sources),
         // In GLSL, `#version` comes first: some drivers do not accept a comment before it.
         Target::Glsl => match text.split_once('\n') {
             Some((version, rest)) => format!("{version}\n{header}{}", rest.trim_start_matches('\n')),
             None => header + text,
         },
-        Target::Msl | Target::Hlsl | Target::Spirv => header + text,
+        Target::Wgsl | Target::Msl | Target::Hlsl | Target::Spirv => header + text,
     })
 }
 

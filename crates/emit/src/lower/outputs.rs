@@ -366,7 +366,9 @@ impl Ctx<'_, '_> {
             y = self.add(Expression::Unary { op: UnaryOperator::Negate, expr: y });
         }
         if halve {
-            self.name(w, "w");
+            if self.low.target != Target::Wgsl {
+                self.name(w, "w");
+            }
             let sum = self.op(BinaryOperator::Add, z, w);
             let half = self.float(0.5);
             z = self.op(BinaryOperator::Multiply, sum, half);

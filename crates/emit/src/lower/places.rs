@@ -5,6 +5,7 @@ use super::slots::{GlobalSlot, HostId, LocalSlot};
 use super::types::vector_size;
 use super::uniforms::HostKind;
 use super::{Try, internal};
+use crate::target::Target;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{
     ArraySize, ExprId, ExprKind, LocalKind, MatrixLayout, Scalar, ScalarValue, Storage, Swizzle, Type, TypeId, VarRef,
@@ -485,10 +486,48 @@ impl Ctx<'_, '_> {
         Ok(self.load(copy))
     }
 
+    /// A vector in memory with other values of some components.
+    fn with_components(
+        &mut self,
+        pointer: Handle<Expression>,
+        ty: TypeId,
+        swizzle: Swizzle,
+        value: Handle<Expression>,
+    ) -> Try<Handle<Expression>> {
+        let size = u32::from(self.size_of(ty));
+        let order = swizzle.as_slice();
+        let first = order.first().map_or(0, |first| u32::from(*first));
+        let in_order = order.iter().zip(first..).all(|(component, expected)| u32::from(*component) == expected);
+        let mut components = Vec::new();
+        for index in 0..size {
+            match order.iter().position(|component| u32::from(*component) == index) {
+                Some(from) if !in_order => {
+                    components.push(self.add(Expression::AccessIndex { base: value, index: from as u32 }));
+                }
+                Some(0) => components.push(value),
+                Some(_) => {}
+                None => {
+                    let component = self.add(Expression::AccessIndex { base: pointer, index });
+                    components.push(self.load(component));
+                }
+            }
+        }
+        if let ([whole], true) = (components.as_slice(), in_order) {
+            return Ok(*whole);
+        }
+        let ty = self.low.value_type(ty)?;
+        Ok(self.add(Expression::Compose { ty, components }))
+    }
+
     /// Writes to an l-value.
     pub(super) fn store_place(&mut self, place: &Place, value: Handle<Expression>) -> Try<()> {
         match place {
             Place::Pointer(pointer, _) => self.store(*pointer, value),
+            // WGSL cannot store to several components: one store of the whole vector is shorter.
+            Place::Swizzle(pointer, ty, swizzle) if self.low.target == Target::Wgsl && swizzle.len > 1 => {
+                let whole = self.with_components(*pointer, *ty, *swizzle, value)?;
+                self.store(*pointer, whole);
+            }
             Place::Swizzle(pointer, _, swizzle) => {
                 for (from, to) in swizzle.as_slice().iter().enumerate() {
                     let component = self.add(Expression::AccessIndex { base: value, index: from as u32 });

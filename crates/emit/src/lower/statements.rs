@@ -3,8 +3,8 @@
 use super::Try;
 use super::function::Ctx;
 use super::slots::LocalSlot;
-use crate::target::Target;
-use glisten_front::hir::{ExprId, LocalId, LocalKind, Stmt, StmtKind, TypeId};
+use crate::target::{FloatWidth, Target};
+use glisten_front::hir::{ExprId, LocalId, LocalKind, Scalar, Stmt, StmtKind, Type, TypeId};
 use naga::{Block, Expression, Handle, Statement};
 
 /// How many arms of an `else if` chain nest in the text. After these, a flag continues the chain at the outer level:
@@ -116,6 +116,7 @@ impl Ctx<'_, '_> {
         });
         match value {
             Some(value) if !written && !self.in_switch && !literal => {
+                let value = self.with_own_name(value, declared.ty);
                 if !self.is_named(value) {
                     self.name(value, &declared.name);
                     self.flush();
@@ -140,6 +141,23 @@ impl Ctx<'_, '_> {
             }
         }
         Ok(())
+    }
+
+    /// A value that may have a second name: in WGSL, a conversion to its own type, which is written as the value.
+    fn with_own_name(&mut self, value: Handle<Expression>, ty: TypeId) -> Handle<Expression> {
+        let applies = self.low.target == Target::Wgsl && self.low.conventions.floats == FloatWidth::Single;
+        let is_value = matches!(self.low.types.get(ty), Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..));
+        let (kind, convert) = match self.low.types.scalar_of(ty) {
+            Some(Scalar::Float) => (naga::ScalarKind::Float, Some(4)),
+            Some(Scalar::Int) => (naga::ScalarKind::Sint, Some(4)),
+            Some(Scalar::Uint) => (naga::ScalarKind::Uint, Some(4)),
+            Some(Scalar::Bool) => (naga::ScalarKind::Bool, Some(naga::BOOL_WIDTH)),
+            None => return value,
+        };
+        if !applies || !is_value || !self.is_named(value) {
+            return value;
+        }
+        self.add(Expression::As { expr: value, kind, convert })
     }
 
     /// `if .. else if .. else`, flattened if it is long.

@@ -47,6 +47,14 @@ targets! {
 }
 
 impl Target {
+    /// Whether all stages of a program can be in one file ([`emit_single_file`](crate::emit_single_file)).
+    pub fn has_single_file(self) -> bool {
+        match self {
+            Self::Wgsl | Self::Msl | Self::Hlsl => true,
+            Self::Spirv | Self::Glsl => false,
+        }
+    }
+
     /// The target with this word.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|target| target.word() == word)

@@ -285,6 +285,8 @@ pub struct Shader {
     pub per_vertex_out: Option<PerVertexOut>,
     /// Whether anything is declared `precise` (GLSL 4.00 §4.7).
     pub precise: bool,
+    /// The size that the shader gives `gl_TexCoord` by declaring it again (GLSL 1.20 §7.6).
+    pub tex_coords: Option<u32>,
     /// How the result of a comparison becomes four components.
     pub depth_mode: DepthMode,
     /// The depth of the deepest expression, counted along left operands too. More than a few hundred levels need a
@@ -329,6 +331,7 @@ impl Shader {
             frag_coord: FragCoordLayout::default(),
             per_vertex_out: None,
             precise: false,
+            tex_coords: None,
             depth_mode: DepthMode::default(),
             expr_depth: 0,
             texts: Vec::new(),

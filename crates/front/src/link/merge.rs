@@ -118,6 +118,7 @@ impl Merge<'_> {
         }
         self.all.per_vertex_out = self.all.per_vertex_out.take().or(next.per_vertex_out);
         self.all.texts.extend(next.texts);
+        self.all.tex_coords = self.all.tex_coords.max(next.tex_coords);
         self.all.precise |= next.precise;
         self.all.expr_depth = self.all.expr_depth.max(next.expr_depth);
         self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));

@@ -54,6 +54,7 @@ mod remap;
 mod samplers;
 mod stages;
 mod statements;
+mod tex_coords;
 mod uniforms;
 pub mod usage;
 mod varyings;
@@ -113,6 +114,7 @@ pub fn link(
     stages::check_languages(&shaders, &mut found);
     let mut stages = stages::in_order(&mut types, shaders, &mut found);
     canonical::unify(&mut types, &mut stages, Sizes::Final);
+    tex_coords::size(&mut types, &mut stages);
     fixed::apply(&mut types, &mut stages, bindings.fixed);
     let mut ctx = Linker { types: &types, bindings, diagnostics, failed: false };
     found.into_iter().for_each(|diagnostic| ctx.report(diagnostic));

@@ -7,7 +7,6 @@
 //! | --- | --- |
 //! | `contraction` | naga has a word for `precise` |
 //! | `inline` | naga's text writers name only the loads that need a name |
-//! | `names` | naga's namer follows the scopes of WGSL |
 //! | `nesting` | naga's validator and writers limit how deep they recurse |
 //! | `sample_mask` | naga's SPIR-V writer declares the mask of samples as an array |
 //! | `hlsl` | naga writes HLSL for hosts without wgpu's root signature |
@@ -17,6 +16,5 @@ pub(super) mod contraction;
 pub(super) mod hlsl;
 pub(super) mod inline;
 pub(super) mod lines;
-pub(super) mod names;
 pub(super) mod nesting;
 pub(super) mod sample_mask;

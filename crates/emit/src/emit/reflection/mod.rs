@@ -19,6 +19,7 @@ pub use places::{
 pub use table::table;
 pub use wgsl::{WgslTexture, WgslVariable};
 
+use super::merge::entry_point;
 use crate::target::{ClipZ, Conventions, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{MatrixLayout, Sampling, ScalarValue, Stage, Storage, Type, Types, Value};
@@ -404,6 +405,19 @@ pub fn reflect(program: &Program, conventions: &Conventions) -> Reflection {
         struct_arrays: arrays::arrays(program),
         files: BTreeMap::new(),
         generator: concat!("glisten ", env!("CARGO_PKG_VERSION")).to_owned(),
+    }
+}
+
+impl Reflection {
+    /// Names the entry points as [`emit_single_file`](crate::emit_single_file) does: `vs_main`, `fs_main`.
+    pub fn name_single_file(&mut self) {
+        for points in [&mut self.entry_points, &mut self.targets.msl.entry_points] {
+            for (name, stage) in [(&mut points.vertex, Stage::Vertex), (&mut points.fragment, Stage::Fragment)] {
+                if let Some(name) = name {
+                    *name = entry_point(stage).to_owned();
+                }
+            }
+        }
     }
 }
 

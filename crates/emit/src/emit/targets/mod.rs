@@ -13,7 +13,7 @@ use super::emitted::Emitted;
 use crate::target::{Conventions, Slots, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
-use glisten_front::hir::Stage;
+use glisten_front::hir::{Shader, Stage, Types};
 use glisten_front::source::{SourceMap, Span};
 use naga::Module;
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
@@ -23,18 +23,32 @@ use naga::valid::ModuleInfo;
 pub(super) struct Job<'a> {
     pub(super) module: Module,
     pub(super) info: &'a ModuleInfo,
-    pub(super) stage: Stage,
     pub(super) conventions: &'a Conventions,
     pub(super) sources: Option<&'a SourceMap>,
     pub(super) slots: &'a Slots,
-    /// Whether the stage declares anything `precise`.
-    pub(super) precise: bool,
+    pub(super) types: &'a Types,
+    /// The stages that the module comes from.
+    pub(super) shaders: Vec<&'a Shader>,
+    /// Whether all stages of the program are in one file, with entry points of different names.
+    pub(super) is_single: bool,
+}
+
+impl Job<'_> {
+    /// Whether the module has this stage.
+    fn has(&self, stage: Stage) -> bool {
+        self.shaders.iter().any(|shader| shader.stage == stage)
+    }
+
+    /// Whether anything in it is declared `precise`.
+    fn is_precise(&self) -> bool {
+        self.shaders.iter().any(|shader| shader.precise)
+    }
 }
 
 /// Writes a module for a target.
 pub(super) fn write(target: Target, job: Job<'_>) -> Result<Emitted, String> {
     match target {
-        Target::Wgsl => wgsl::write(job).map(Emitted::Text),
+        Target::Wgsl => wgsl::write(&job).map(Emitted::Text),
         Target::Spirv => spirv::write(&job).map(Emitted::Words),
         Target::Msl => msl::write(job).map(Emitted::Text),
         Target::Hlsl => hlsl::write(job).map(Emitted::Text),

@@ -22,15 +22,16 @@ pub(in crate::emit) fn entry_point(stage: Stage) -> &'static str {
 /// Writes MSL.
 pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
     inline_loads(&mut job.module);
-    let name = entry_point(job.stage);
-    for entry in &mut job.module.entry_points {
-        entry.name = name.to_owned();
+    for entry in job.module.entry_points.iter_mut().filter(|_| !job.is_single) {
+        let stage = if entry.stage == naga::ShaderStage::Vertex { Stage::Vertex } else { Stage::Fragment };
+        entry.name = entry_point(stage).to_owned();
     }
     let Job { module, info, conventions, slots, .. } = &job;
+    let names = module.entry_points.iter().map(|entry| entry.name.clone());
     let options = msl::Options {
         // The lowest version that has `primitive_id`.
         lang_version: (2, 3),
-        per_entry_point_map: [(name.to_owned(), resources(module, slots))].into(),
+        per_entry_point_map: names.map(|name| (name, resources(module, slots))).collect(),
         // A missing binding is an internal error, which must not be hidden.
         fake_missing_bindings: false,
         bounds_check_policies: policies(),
@@ -42,7 +43,7 @@ pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
     };
     let pipeline = msl::PipelineOptions {
         // Metal wants a size where points are drawn and refuses it elsewhere.
-        allow_and_force_point_size: conventions.program_point_size && job.stage == Stage::Vertex,
+        allow_and_force_point_size: conventions.program_point_size && job.has(Stage::Vertex),
         ..msl::PipelineOptions::default()
     };
     msl::write_string(module, info, &options, &pipeline).map(|(text, _)| text).map_err(|error| chain(&error))

@@ -51,7 +51,7 @@ pub(super) fn write(job: &Job<'_>) -> Result<Vec<u32>, String> {
         None => words,
     };
     let words = as_array(words);
-    Ok(if job.precise { forbidden(words) } else { words })
+    Ok(if job.is_precise() { forbidden(words) } else { words })
 }
 
 /// Gives every resource the binding that link has assigned.

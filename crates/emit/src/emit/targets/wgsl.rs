@@ -1,28 +1,25 @@
 //! WGSL, with the names of the source.
 
 use super::Job;
-use crate::emit::messages::chain;
-use crate::emit::naga_repairs::{inline, names, nesting};
-use crate::emit::wgsl_text::{Style, tidied};
+use crate::emit::naga_repairs::nesting;
+use crate::emit::wgsl::{self, Notes, Style};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
-use naga::back::wgsl;
 
 /// The diagnostic for nesting that no parser of WGSL accepts.
 pub(super) fn limit(module: &naga::Module) -> Option<Diagnostic> {
     nesting::too_deep(module)
 }
 
-/// Writes WGSL.
-pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
-    inline::inline_loads(&mut job.module);
-    let Job { module, info, stage, .. } = &job;
-    let text = wgsl::write_string(module, info, wgsl::WriterFlags::empty()).map_err(|error| chain(&error))?;
-    let text = tidied(&names::restored(&text), Style::Full);
+/// Writes WGSL, with the comments of the source.
+pub(super) fn write(job: &Job<'_>) -> Result<String, String> {
+    let Job { module, info, .. } = job;
+    let notes = Notes::of(job.types, &job.shaders, job.sources);
+    let text = wgsl::write(module, info, Style::Full, &notes)?;
     // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
     // cannot prove that control flow is uniform, unless a directive disables that. naga has the directive in its IR
     // but never writes it.
-    if *stage == Stage::Fragment && takes_derivatives(module) {
+    if job.has(Stage::Fragment) && takes_derivatives(module) {
         return Ok(format!("diagnostic(off, derivative_uniformity);\n\n{text}"));
     }
     Ok(text)

@@ -79,8 +79,9 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("it is built in"));
             return true;
         }
-        if matches!(self.types.get(ty), Type::Array(_, ArraySize::Sized(_))) {
+        if let Type::Array(_, ArraySize::Sized(size)) = self.types.get(ty) {
             self.declared.resize_fixed(row.name, span);
+            self.shader.tex_coords = Some(size);
         }
         if let Some(global) = self.shader.globals.get_mut(id.index()) {
             global.interpolation = record.interpolation.map_or(Interpolation::default(), |(word, _)| word);

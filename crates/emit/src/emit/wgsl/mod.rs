@@ -1,0 +1,96 @@
+//! Writes WGSL as a person would: a tree built from naga's module and from what the source says (names, comments,
+//! declarations), printed once.
+//!
+//! ```text
+//!  module ──► effects ──► plan ──► function ──► declarations ──► body_comments ──► scopes ──► print
+//!     └─────► names ──────────────────┘ (expressions, loops)
+//! ```
+//!
+//! *In:* a validated module, and the comments of the source. *Out:* its text. *Holds:* for every fixture, naga reads the
+//! text as the very module that it came from, before declarations move (`tests`).
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `module` | structs, variables, heads of functions |
+//! | `names`, `scopes` | names of the module, names of locals |
+//! | `effects`, `order`, `plan` | which values have names, and which are written where they are used |
+//! | `function`, `expressions`, `lookups`, `inverse` | statements and expressions |
+//! | `loops`, `declarations` | `for`, `while`, `+=`; `let` and `var` at their places |
+//! | `notes`, `comments`, `body_comments` | comments next to declarations, in WGSL's form, inside of functions |
+//! | `tree`, `levels`, `print` | the tree and its text |
+
+mod body_comments;
+mod comments;
+mod declarations;
+mod effects;
+mod expressions;
+mod function;
+mod inverse;
+mod levels;
+mod lookups;
+mod loops;
+mod module;
+mod names;
+mod notes;
+mod order;
+mod plan;
+mod print;
+mod scopes;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub(super) use comments::header;
+pub(super) use notes::Notes;
+
+/// How far to go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Style {
+    /// Only what naga reads as the same module.
+    #[cfg(test)]
+    Same,
+    /// Declarations at the first use, and the shortest words, too.
+    Full,
+}
+
+/// Writes a module.
+///
+/// # Errors
+/// The message of an internal error: what WGSL does not have.
+pub(super) fn write(
+    module: &naga::Module,
+    info: &naga::valid::ModuleInfo,
+    style: Style,
+    notes: &Notes<'_>,
+) -> Result<String, String> {
+    module::write(module, info, style, notes)
+}
+
+/// The blocks directly in a statement.
+fn blocks(statement: &naga::Statement) -> Vec<&naga::Block> {
+    use naga::Statement;
+    match statement {
+        Statement::Block(block) => vec![block],
+        Statement::If { accept, reject, .. } => vec![accept, reject],
+        Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
+        Statement::Loop { body, continuing, .. } => vec![body, continuing],
+        _ => Vec::new(),
+    }
+}
+
+/// Calls `visit` with the operands of a statement, without those of its blocks.
+fn operands(statement: &naga::Statement, mut visit: impl FnMut(naga::Handle<naga::Expression>)) {
+    use naga::Statement;
+    match statement {
+        Statement::If { condition, .. } => visit(*condition),
+        Statement::Switch { selector, .. } => visit(*selector),
+        Statement::Loop { break_if: Some(condition), .. } => visit(*condition),
+        Statement::Return { value: Some(value) } => visit(*value),
+        Statement::Store { pointer, value } => {
+            visit(*pointer);
+            visit(*value);
+        }
+        Statement::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(*argument)),
+        _ => {}
+    }
+}
