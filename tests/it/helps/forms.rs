@@ -10,7 +10,7 @@ use std::ops::Range;
 enum Place {
     /// In place of the primary span. A directive is a line of its own.
     Replace,
-    /// In place of the primary span; each `return` after it becomes the next quoted code.
+    /// In place of the primary span; each `return` in the body behind it becomes the next quoted code.
     ReplaceReturning,
     /// Before the primary span; a directive on a line before.
     Before,
@@ -41,7 +41,7 @@ static FORMS: &[(&str, &[(usize, Place)])] = &[
     ("write `_`", &[(0, Place::Replace)]),
     ("write `_`, and `_` without a value", &[(0, Place::ReplaceReturning)]),
     ("write `_` for the decimal number", &[(0, Place::Replace)]),
-    ("write `_` for the same `_`, or `_` for a `_`", &[(0, Place::Replace), (2, Place::Replace)]),
+    ("write `_` for the same `_`, or `_` for a `_`", &[(0, Place::Replace)]),
     ("write `_` here", &[(0, Place::Before)]),
     ("write `_` before it", &[(0, Place::Before)]),
     ("write `_` after it", &[(0, Place::After)]),
@@ -85,15 +85,15 @@ fn put(place: Place, codes: &[&str], text: &str, at: &Range<usize>) -> Option<St
         Place::Replace if new.starts_with('#') && !old.starts_with('#') => splice(line_start..line_end(at.end), new),
         Place::Replace => splice(at.clone(), new),
         Place::ReplaceReturning => {
-            let returns =
-                words(text).into_iter().rev().filter(|word| word.start > at.end && &text[word.clone()] == "return");
-            let mut text = text.to_owned();
-            for word in returns {
+            let body = at.end..body_end(text, at.end)?;
+            let is_return = |word: &Range<usize>| body.contains(&word.start) && &text[word.clone()] == "return";
+            let mut changed_text = text.to_owned();
+            for word in words(text).into_iter().rev().filter(is_return) {
                 let end = word.end + text[word.end..].find(';')? + 1;
-                text.replace_range(word.start..end, codes.get(1)?);
+                changed_text.replace_range(word.start..end, codes.get(1)?);
             }
-            text.replace_range(at.clone(), new);
-            text
+            changed_text.replace_range(at.clone(), new);
+            changed_text
         }
         Place::Before if !new.starts_with('#') => splice(at.start..at.start, &format!("{new} ")),
         Place::Before | Place::LineBefore => splice(line_start..line_start, &format!("{new}\n")),
@@ -117,6 +117,15 @@ fn put(place: Place, codes: &[&str], text: &str, at: &Range<usize>) -> Option<St
         }
     };
     (!is_open).then_some(changed)
+}
+
+/// The end of the braces that follow a place.
+fn body_end(text: &str, from: usize) -> Option<usize> {
+    let mut depth = 0;
+    text[from..].char_indices().find_map(|(at, letter)| {
+        depth += i32::from(letter == '{') - i32::from(letter == '}');
+        (letter == '}' && depth == 0).then_some(from + at)
+    })
 }
 
 /// The places of the words of a text.
