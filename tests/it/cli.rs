@@ -176,7 +176,11 @@ fn explain_shows_pages_and_the_nearest_of_unknown_codes() {
     assert!(err(&unknown).contains("`E0003`"), "{}", err(&unknown));
     let list = folder.run(&["explain", "--list"]);
     assert_eq!(out(&list).lines().count(), glisten_front::diagnostic::codes::all().count());
-    assert!(out(&list).lines().all(|line| line.ends_with('.') && line.split_whitespace().count() > 5), "{}", out(&list));
+    assert!(
+        out(&list).lines().all(|line| line.ends_with('.') && line.split_whitespace().count() > 5),
+        "{}",
+        out(&list)
+    );
 }
 
 #[test]

@@ -24,6 +24,9 @@ pub(super) struct Effects {
     pub(super) reads: bool,
 }
 
+/// A call: what it calls, with which arguments.
+pub(super) type Call<'m> = (Handle<Function>, &'m [Handle<Expression>]);
+
 /// How an expression has to be handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Class {

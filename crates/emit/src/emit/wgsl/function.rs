@@ -4,7 +4,7 @@
 //! used, by which [`super::declarations`] declares them.
 
 use super::declarations::{Local, Mention, Use};
-use super::effects::Effects;
+use super::effects::{Call, Effects};
 use super::expressions::Try;
 use super::inverse::Inverses;
 use super::loops::{self, Leaves};
@@ -37,7 +37,7 @@ pub(super) struct Builder<'m> {
     named: FxHashMap<Handle<Expression>, NameId>,
     parameters: Vec<NameId>,
     pub(super) locals: Vec<Local<'m>>,
-    calls: FxHashMap<Handle<Expression>, (Handle<Function>, &'m [Handle<Expression>])>,
+    calls: FxHashMap<Handle<Expression>, Call<'m>>,
     /// The variables that the statement in progress uses.
     mentioned: Vec<(Handle<LocalVariable>, Use)>,
     open: BlockId,

@@ -9,7 +9,7 @@
 //! Nothing that reads variables, calls or looks up moves into a branch or a loop.
 
 use super::Style;
-use super::effects::{Class, Effects, classes, root};
+use super::effects::{Call, Class, Effects, classes, root};
 use super::order::Effect;
 use crate::lower::for_each_operand;
 use naga::{Block, Expression, Function, Handle, Statement};
@@ -109,7 +109,7 @@ pub(super) struct Planner<'f> {
     /// Reads, calls and lookups that are evaluated but not written yet.
     pending: Vec<Handle<Expression>>,
     /// For each result of a call: what it calls.
-    pub(super) calls: Vec<Option<(Handle<Function>, &'f [Handle<Expression>])>>,
+    pub(super) calls: Vec<Option<Call<'f>>>,
     atoms: Vec<Handle<Expression>>,
 }
 
