@@ -10,8 +10,8 @@ use glisten_scene::Primitive;
 
 /// The vertex indices of a list, or `None` if drawing `count` vertices in order is the same.
 ///
-/// `provoking_last` may be `false` for a program without flat varyings, whatever OpenGL's state; the order of the
-/// vertices is then that of the scene. Incomplete primitives at the end are dropped, as in OpenGL.
+/// The order does not depend on whether the program has a flat varying: a program that loses its last one draws the same
+/// bits. Incomplete primitives at the end are dropped, as in OpenGL.
 pub(super) fn list(
     primitive: Primitive,
     count: u32,

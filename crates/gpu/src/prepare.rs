@@ -14,7 +14,7 @@ use super::{Error, Foreign, Gpu, Via, assembly, beyond, multisample_upload, spri
 use glisten_emit::{self as emit, Conventions, Emitted, FloatWidth, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
-use glisten_front::hir::{Interpolation, SamplerDim, SamplerType, Stage, Type};
+use glisten_front::hir::{SamplerDim, SamplerType, Stage, Type};
 use glisten_front::link::{Program, SlotBinding};
 use glisten_scene::{Draw, Format, Framebuffer, Scene, State};
 use std::sync::Arc;
@@ -256,8 +256,8 @@ impl Gpu {
             let pipeline = pipeline.clone();
             return Ok(PreparedDraw { pipeline, groups, vertex_buffers, indices: None, count, instances });
         }
-        let turned = draw.state.provoking_last && has_flat_varying(program);
-        let list = assembly::list(draw.state.primitive, draw.vertex_count, draw.indices.as_deref(), turned);
+        let state = &draw.state;
+        let list = assembly::list(state.primitive, draw.vertex_count, draw.indices.as_deref(), state.provoking_last);
         let count = list.as_ref().map_or(draw.vertex_count, |list| list.len() as u32);
         Ok(PreparedDraw {
             pipeline: pipeline.clone(),
@@ -463,10 +463,6 @@ fn refuse_levels(draw: &Draw) -> Result<(), Error> {
         }
         None => Ok(()),
     }
-}
-
-fn has_flat_varying(program: &Program) -> bool {
-    program.interface.varyings.iter().any(|varying| varying.interpolation == Interpolation::Flat)
 }
 
 /// The color targets. An attachment without an output keeps its clear color.

@@ -9,7 +9,6 @@ use super::vertices::Vertices;
 use crate::LineRule;
 use crate::domain::{Domain, Number};
 use crate::raster::{Fixed, NEAR, ONE, Shape, line, point, triangle};
-use glisten_front::hir::Interpolation;
 use glisten_scene::{Cull, Primitive, State};
 
 /// The vertices between which the values of a primitive's fragments are interpolated.
@@ -121,10 +120,9 @@ pub(super) fn primitives<D: Domain>(
     state: &State,
     lines: LineRule,
 ) -> Vec<Prim> {
-    // If nothing is flat, the runner does not move the provoking vertex from where WebGPU has it. The pixels of a
-    // clipped primitive depend on which vertex comes first, if only by rounding.
-    let is_flat = vertices.int_count > 0 || vertices.interpolations.contains(&Interpolation::Flat);
-    let last_first = is_flat && state.provoking_last;
+    // The provoking vertex comes first, as the runner has it, whether or not something is flat. Interpolated values depend on
+    // which vertex comes first, if only by rounding, so the order must be the same for a program that has lost a varying.
+    let last_first = state.provoking_last;
     let mut list = Vec::with_capacity(assembled.size_hint().0);
     for (assembled, id) in assembled {
         let provoking = assembled.provoking(state.provoking_last);
