@@ -10,6 +10,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal")]
 
 mod conformance;
+mod help;
 mod maker;
 mod numbers;
 mod numerics;
@@ -74,6 +75,8 @@ fn program(root: &Path) -> Result<PathBuf, String> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut build = Command::new(cargo);
     build.args(["build", "--quiet", "--bin", "glisten"]).args(release.then_some("--release")).current_dir(root);
+    // With the features of this program, nothing is built again.
+    build.args(cfg!(all(feature = "gl", feature = "remote", feature = "snapshot")).then_some("--all-features"));
     let status = build.status().map_err(|error| format!("cargo cannot run: {error}"))?;
     if !status.success() {
         return Err("the program `glisten` does not build".to_owned());

@@ -20,6 +20,8 @@ enum Source {
     Examined(fn() -> Result<String, String>),
     /// From the output of the program, with these arguments.
     Output(&'static [&'static str]),
+    /// From the help of the program.
+    Help,
     /// From the output of the program, which depends on the machine.
     Measured(&'static [&'static str]),
     /// From the output of a benchmark with an argument.
@@ -32,6 +34,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("claims", Source::Example("claims", &[])),
     ("claims-time", Source::Example("claims", &["time"])),
     ("codes", Source::Tables(diagnostics)),
+    ("commands", Source::Help),
     ("conformance", Source::Examined(super::conformance::conformance)),
     ("faults", Source::Tables(known_faults)),
     ("fitted", Source::Tables(fitted_constants)),
@@ -120,6 +123,10 @@ impl Maker for Generator {
             Source::Output(arguments) => {
                 let text = self.run(arguments)?;
                 self.make(format!("```text\n{}\n```", text.trim_end()))
+            }
+            Source::Help => {
+                let text = super::help::commands(|arguments| self.run(arguments))?;
+                self.make(text)
             }
             Source::Measured(_) | Source::Bench(..) | Source::Example(..) if !self.measured => self.leave(),
             Source::Example(name, arguments) => {
