@@ -70,16 +70,37 @@ fn normal(text: &str) -> String {
     text.lines().map(str::trim_end).collect::<Vec<_>>().join("\n").trim().to_owned()
 }
 
-/// Whether an output is the one shown, in which a line `...` matches any lines.
+/// Whether an output is the one shown, in which each line `...` matches any lines.
 fn is_as_shown(output: &str, shown: &str) -> bool {
-    let (output, shown) = (normal(output), normal(shown));
-    match shown.split_once("\n...\n") {
-        Some((before, after)) => output.starts_with(before) && output.ends_with(after),
-        None => match shown.strip_suffix("\n...") {
-            Some(before) => output.starts_with(before),
-            None => output == shown,
-        },
+    let (output, shown) = (normal(output), format!("\n{}\n", normal(shown)));
+    let output = format!("\n{output}\n");
+    let parts: Vec<String> = shown.split("\n...\n").map(|part| format!("\n{}\n", part.trim_matches('\n'))).collect();
+    let [first, between @ .., last] = parts.as_slice() else {
+        return output == shown;
+    };
+    let Some(mut rest) = output.strip_prefix(first.as_str()).or((first == "\n\n").then_some(&output)) else {
+        return false;
+    };
+    for part in between.iter().filter(|part| *part != "\n\n") {
+        match rest.split_once(part.trim_end_matches('\n')) {
+            Some((_, after)) => rest = after,
+            None => return false,
+        }
     }
+    last == "\n\n" || rest.ends_with(last.as_str()) || format!("\n{rest}").ends_with(last.as_str())
+}
+
+#[test]
+fn elided_outputs_are_compared() {
+    assert!(is_as_shown("a\nb\nc\n", "a\n...\nc"));
+    assert!(is_as_shown("a\nb\nc\n", "a\n..."));
+    assert!(is_as_shown("a\nb\nc\n", "...\nc"));
+    assert!(is_as_shown("a\nb\nc\nd\n", "...\nb\n...\nd"));
+    assert!(is_as_shown("a\nb\n", "a\nb"));
+    assert!(!is_as_shown("a\nb\nc\n", "a\n...\nb"));
+    assert!(!is_as_shown("a\nb\nc\n", "b\n..."));
+    assert!(!is_as_shown("a\nb\nc\nd\n", "...\nx\n...\nd"));
+    assert!(!is_as_shown("a\nb\n", "a"));
 }
 
 /// A text in which each number is `#`, without the lines that name the adapter, and with one space for several.
