@@ -102,7 +102,7 @@ pub(super) struct LevelArgs {
     /// Report diagnostics with this code as warnings
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     warn: Vec<String>,
-    /// Report diagnostics with this code as errors; `warnings` stands for all warnings
+    /// Report diagnostics with this code as errors; `warnings` means all warnings
     #[arg(long, value_name = "CODE|warnings", value_delimiter = ',')]
     deny: Vec<String>,
     /// The format of diagnostics

@@ -92,9 +92,9 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         "report",
         &[
             ("glisten report scene.toml -o out", "error against work and run time, as a page and a table"),
-            ("glisten report scene.toml -o out --ways auto", "with ways that are found by themselves"),
+            ("glisten report scene.toml -o out --ways auto", "with variants that are found automatically"),
             ("glisten report scene.toml -o out --compare old.json", "in CI: what got worse"),
-            ("glisten report scene.toml -o out --budget rmse=1e-3", "the cheapest way that is close enough"),
+            ("glisten report scene.toml -o out --budget rmse=1e-3", "the cheapest variant that is close enough"),
         ],
     ),
     ("gallery", &[("glisten gallery -o out", "a page with the pictures of the library's scenes")]),

@@ -44,7 +44,7 @@ pub(super) struct GalleryArgs {
     specialize: bool,
     #[command(flatten)]
     contract: WithContractArgs,
-    /// The width of the pictures in pixels; the page shows them at half of 640, as sharp screens want
+    /// The width of the pictures in pixels; the page shows them at half of 640, for sharp screens
     #[arg(long, value_name = "PIXELS", default_value_t = 640, value_parser = clap::value_parser!(u32).range(8..=MAX_SIZE))]
     size: u32,
     #[command(flatten)]

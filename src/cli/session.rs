@@ -284,7 +284,7 @@ impl<'a> Session<'a> {
         let Some(summary) = summary(findings, self.dropped).or_else(clean) else { return };
         self.console.remark(&summary);
         if let Some(error) = findings.iter().find(|finding| finding.severity == Severity::Error) {
-            self.console.remark(&format!("`glisten explain {}` tells more about the first error", error.code.id));
+            self.console.remark(&format!("`glisten explain {}` explains the first error", error.code.id));
         }
     }
 

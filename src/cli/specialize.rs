@@ -315,7 +315,7 @@ fn table(account: &Account) -> String {
     for draw in &account.draws {
         let (before, after) = (&draw.before, &draw.after);
         text.push_str(&format!(
-            "{}: {}: {} things left out; SPIR-V {} -> {} instructions, operations {} -> {}\n",
+            "{}: {}: removed {} items; SPIR-V {} -> {} instructions, operations {} -> {}\n",
             account.scene,
             draw.residual,
             draw.left_out.len(),
@@ -346,7 +346,7 @@ fn table(account: &Account) -> String {
 /// The error that the residual makes.
 fn error_line(of: &str, error: &PictureError) -> String {
     let mut line = format!(
-        "{of}: max error {:.3e}, RMSE {:.3e}; to the truth {:.3e} -> {:.3e}",
+        "{of}: max error {:.3e}, RMSE {:.3e}; to the reference {:.3e} -> {:.3e}",
         error.max_abs, error.rmse, error.original.max_abs, error.residual.max_abs,
     );
     for (count, what) in

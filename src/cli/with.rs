@@ -55,7 +55,7 @@ fn parse(text: &str) -> Result<With, String> {
     let via = match extension.as_ref().and_then(|extension| extension.to_str()) {
         Some("wgsl") => Via::Wgsl,
         Some("spv") => Via::Spirv,
-        _ => return Err(format!("`{file}` ends neither in .wgsl nor in .spv, which tells the form of the module")),
+        _ => return Err(format!("`{file}` must end in .wgsl or .spv, which says what the module is")),
     };
     Ok(With { draw, stage, file: file.to_owned(), via })
 }

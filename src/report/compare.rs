@@ -80,7 +80,7 @@ fn compare(new: &Past, old: &Past) -> Result<Comparison, String> {
     for way in &old.ways {
         match new.ways.iter().find(|other| other.key() == way.key()) {
             Some(now) => found.way(now, way, weights, times.then_some(margin)),
-            None => found.worse.push(format!("{}: the variant is gone", way.title())),
+            None => found.worse.push(format!("{}: the variant is no longer there", way.title())),
         }
     }
     for way in new.ways.iter().filter(|way| !old.ways.iter().any(|other| other.key() == way.key())) {

@@ -256,7 +256,7 @@ fn tessellations(report: &ReportTable, draw: &Table) -> Result<Vec<Option<[u32; 
     match (&report.tessellations, shape) {
         (Some(list), Some(_)) if !list.is_empty() => Ok(list.iter().copied().map(Some).collect()),
         (Some(_), Some(_)) => Err("`tessellations` is a list of at least one pair of segments and rings".into()),
-        (Some(_), None) => Err("`tessellations` wants a draw with a mesh by `shape`".into()),
+        (Some(_), None) => Err("`tessellations` needs a draw with a mesh by `shape`".into()),
         (None, None) => Ok(vec![None]),
         (None, Some(mesh)) => Ok(levels(mesh)),
     }

@@ -222,7 +222,7 @@ fn tenths(value: f64) -> f64 {
 
 fn diagnostic(cause: &Cause, help: &str) -> Diagnostic {
     let message = match cause.kind {
-        _ if cause.ill_posed && cause.disagreements > 0 => "the exact result jumps here: f32 decides it the other way",
+        _ if cause.ill_posed && cause.disagreements > 0 => "the exact result jumps here: f32 decides it differently",
         _ if cause.ill_posed => "the exact result jumps here when its inputs move by one rounding",
         _ if cause.non_finite > 0 && cause.non_finite == cause.non_finite_in_exact => {
             "this is not finite in exact arithmetic either: the formula has no answer here"
@@ -235,7 +235,7 @@ fn diagnostic(cause: &Cause, help: &str) -> Diagnostic {
         CauseKind::Domain => "the argument is outside the domain of this function, or at its edge",
         CauseKind::Power => "the exponent multiplies the error of the base",
         CauseKind::Argument => "the angle is too large for f32",
-        CauseKind::Comparison => "f32 decides this comparison the other way",
+        CauseKind::Comparison => "f32 decides this comparison differently",
         CauseKind::Conversion => "f32 rounds this to another number",
         CauseKind::Accumulation => "rounding adds up over the iterations",
     };

@@ -196,7 +196,7 @@ impl Gpu {
         let Framebuffer { width, height, .. } = scene.framebuffer;
         if width == 0 || height == 0 || width > limit || height > limit {
             return Err(Error::Refused(format!(
-                "a framebuffer of {width} x {height} pixels; this adapter takes 1 to {limit} each way"
+                "a framebuffer of {width} x {height} pixels; this adapter takes 1 to {limit} in each direction"
             )));
         }
         let mut made = Vec::new();

@@ -44,7 +44,7 @@ fn inconclusive(verification: &Verification, verdict: &Verdict) -> Headline {
     }
     let demands = &verification.demands;
     let told_share = format!(
-        "only {:.1} % of the covered pixels can be judged, {:.1} % are wanted",
+        "only {:.1} % of the covered pixels can be judged; {:.1} % are required",
         100.0 * verdict.share_judged(demands),
         100.0 * demands.evidence_share
     );

@@ -86,7 +86,7 @@ pub(super) static COLUMNS: &[Column] = &[
     Column {
         id: "pareto_time",
         head: "Front by time",
-        help: "Yes or no if the measured times decide it beyond doubt, otherwise open.",
+        help: "Yes or no if the measured times decide it, open if the difference may be noise.",
         text: |way| way.pareto_time.name().to_owned(),
         key: Some(|way| match way.pareto_time {
             OnFront::Yes => 0.0,

@@ -42,7 +42,7 @@ pub(super) fn facts(report: &Report) -> Vec<Value> {
         (
             "Margin",
             percent(timing.margin),
-            "a variant must be faster than another by so much, beyond doubt, to beat it".to_owned(),
+            "a variant must be faster than another by so much to beat it; smaller differences are noise".to_owned(),
         ),
         ("Baseline", timing.baseline.clone(), frames(timing)),
         ("Weights", report.weights.clone(), "by which operations are counted".to_owned()),

@@ -379,7 +379,7 @@ impl Ctx<'_, '_> {
         let (scalar, size) = match self.low.types.get(ty) {
             Type::Scalar(scalar) => (scalar, 1),
             Type::Vector(scalar, size) => (scalar, size),
-            _ => return Err(self.internal_error("only scalars and vectors stand in a `vec4`")),
+            _ => return Err(self.internal_error("only scalars and vectors can be in a `vec4`")),
         };
         let loaded = if size == 1 {
             let component = self.add(Expression::AccessIndex { base: pointer, index: 0 });

@@ -152,7 +152,7 @@ impl Lower<'_> {
     }
 
     fn layout_slip(&self, ty: TypeId) -> Box<glisten_front::diagnostic::Diagnostic> {
-        internal(Span::default(), format!("the layout of `{}` is not the one std140 wants", self.types.name(ty)))
+        internal(Span::default(), format!("the layout of `{}` is not std140", self.types.name(ty)))
     }
 
     fn struct_host(&mut self, ty: TypeId, layout: MatrixLayout) -> Try<Host> {

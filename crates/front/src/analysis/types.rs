@@ -205,7 +205,7 @@ impl Analyzer<'_> {
                 let declared = found.map_or(Span::default(), |binding| binding.span);
                 self.report(
                     Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("`{spelling}` is {what}, not a type"))
-                        .here("a type is wanted here")
+                        .here("a type is expected here")
                         .label(declared, format!("declared as {what} here")),
                 );
                 TypeId::ERROR

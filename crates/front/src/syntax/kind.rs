@@ -71,7 +71,7 @@ impl Kindness {
             diagnostic.severity = Severity::Error;
             return diagnostic.note("an error because of strict checking");
         }
-        diagnostic.note(format!("forgiven because {}", self.reason))
+        diagnostic.note(format!("accepted because {}", self.reason))
     }
 
     /// Reports one occurrence.

@@ -115,7 +115,7 @@ fn mesh_data(
     let wanted = scalar_of(types, attribute.ty);
     if wanted != Scalar::Float {
         let message = format!("`{}` is {}, and a mesh brings floats", attribute.name, types.name(attribute.ty));
-        reader.error(&SCENE_WRONG_KIND, span, message, "of another kind");
+        reader.error(&SCENE_WRONG_KIND, span, message, "this attribute is not of floats");
         return None;
     }
     let Some((size, values)) = mesh.geometry.data(role) else {
@@ -192,7 +192,7 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
 fn attribute_values(reader: &mut Reader, name: &str, scalar: Scalar, numbers: &[Number]) -> Option<AttributeValues> {
     let mut refuse = |number: &Number, wanted: &str| {
         let message = format!("`{name}` takes {wanted}");
-        reader.error(&SCENE_WRONG_KIND, number.span, message, "of another kind");
+        reader.error(&SCENE_WRONG_KIND, number.span, message, "expected another kind of number");
     };
     match scalar {
         Scalar::Float => {

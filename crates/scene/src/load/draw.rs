@@ -248,7 +248,7 @@ pub(super) fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(Str
             DeValue::Float(number) => number.as_str().replace('_', ""),
             DeValue::Boolean(value) => value.to_string(),
             DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => {
-                reader.wrong_type(node, macro_name, "a number or a text");
+                reader.wrong_type(node, macro_name, "a number or a string");
                 continue;
             }
         };
@@ -376,7 +376,7 @@ fn check_primitive(
 fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> Vec<String> {
     let Some(node) = table.get("dynamic") else { return Vec::new() };
     let Some(array) = node.get_ref().as_array() else {
-        reader.wrong_type(node, "dynamic", "a list of names of uniforms");
+        reader.wrong_type(node, "dynamic", "a list of uniform names");
         return Vec::new();
     };
     let interface = &program.interface;

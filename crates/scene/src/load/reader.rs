@@ -94,7 +94,7 @@ impl Reader {
     pub(super) fn wrong_type(&mut self, node: &Node<'_>, key: &str, wanted: &str) {
         let found = node.get_ref().type_str();
         let span = self.span_of(node);
-        let message = format!("`{key}` wants {wanted}");
+        let message = format!("`{key}` must be {wanted}");
         self.report(Diagnostic::new(&SCENE_WRONG_TYPE, span, message).here(format!("this is of type {found}")));
     }
 
@@ -126,7 +126,7 @@ impl Reader {
     pub(super) fn text<'t>(&mut self, node: &'t Node<'_>, key: &str) -> Option<&'t str> {
         let text = node.get_ref().as_str();
         if text.is_none() {
-            self.wrong_type(node, key, "a text in quotes");
+            self.wrong_type(node, key, "a string");
         }
         text
     }
@@ -226,7 +226,7 @@ impl Reader {
             return array.iter().all(|element| self.gather(element, key, into));
         }
         let Some(value) = as_number(node.get_ref()) else {
-            self.wrong_type(node, key, "numbers");
+            self.wrong_type(node, key, "a list of numbers");
             return false;
         };
         into.push(Number { value, span: self.span_of(node) });

@@ -321,7 +321,7 @@ fn load_samples(
             "`{name}` is {texels} texels of {samples} samples of RGBA, which takes {wanted} numbers, not {}",
             numbers.len()
         );
-        loader.reader.error(&SCENE_WRONG_SIZE, values, message, "of another size");
+        loader.reader.error(&SCENE_WRONG_SIZE, values, message, &format!("expected {wanted} numbers"));
         return None;
     }
     let all = load_texels(loader, name, kind, 4, &numbers)?;
@@ -423,7 +423,7 @@ fn load_level(
             let span = values;
             let shape = if depth > 1 { format!("{width}x{height}x{depth}") } else { format!("{width}x{height}") };
             let message = format!("`{name}` is {shape} texels of RGBA, which takes {} numbers, not {n}", texels * 4);
-            loader.reader.error(&SCENE_WRONG_SIZE, span, message, "of another size");
+            loader.reader.error(&SCENE_WRONG_SIZE, span, message, &format!("expected {} numbers", texels * 4));
             return None;
         }
     };
@@ -451,7 +451,7 @@ fn load_texels(
     };
     if let Some(number) = numbers.iter().find(|number| refused(number) || !in_range(number)) {
         let message = format!("`{name}` is a {}, and this is not a texel of it", kind.name());
-        loader.reader.error(&SCENE_WRONG_KIND, number.span, message, "of another kind");
+        loader.reader.error(&SCENE_WRONG_KIND, number.span, message, "expected another kind of number");
         return None;
     }
     let int = |number: &Number| match number.value {

@@ -109,7 +109,7 @@ fn load_matrices<'p>(
             let declared = values.program.types.name(target.leaf.ty);
             let message = format!("`{}` is declared {declared}, which this role does not fit", target.leaf.name);
             let span = reader.span_of(node);
-            reader.error(&SCENE_WRONG_KIND, span, message, "of another type");
+            reader.error(&SCENE_WRONG_KIND, span, message, "this role has another type");
             values.mark(&target);
             continue;
         };
@@ -184,7 +184,7 @@ impl<'p> Own<'p, '_> {
             }
             Err(SetError::Count { wanted }) => {
                 let message = format!("`{name}` takes {wanted} number{}, not {}", plural(wanted), numbers.len());
-                reader.error(&SCENE_WRONG_SIZE, span, message, "of another size");
+                reader.error(&SCENE_WRONG_SIZE, span, message, &format!("expected {wanted} number{}", plural(wanted)));
             }
         }
     }
@@ -501,7 +501,7 @@ fn convert(
                 numbers.len()
             ),
         };
-        reader.error(&SCENE_WRONG_SIZE, span, message, "of another size");
+        reader.error(&SCENE_WRONG_SIZE, span, message, &format!("expected {whole} numbers"));
         return None;
     }
     let scalar = types.scalar_of(leaf.ty).unwrap_or(Scalar::Float);
@@ -510,10 +510,10 @@ fn convert(
         let Some(value) = scalar_value(scalar, number.value) else {
             let message = format!("`{}` is declared {}", leaf.name, types.name(leaf.ty));
             let wanted = match scalar {
-                Scalar::Float => "a number is wanted",
-                Scalar::Bool => "`true` or `false` is wanted",
-                Scalar::Int => "an integer of 32 bits is wanted",
-                Scalar::Uint => "an unsigned integer of 32 bits is wanted",
+                Scalar::Float => "expected a number",
+                Scalar::Bool => "expected `true` or `false`",
+                Scalar::Int => "expected an integer of 32 bits",
+                Scalar::Uint => "expected an unsigned integer of 32 bits",
             };
             reader.error(&SCENE_WRONG_KIND, number.span, message, wanted);
             return None;

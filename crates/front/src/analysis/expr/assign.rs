@@ -93,7 +93,7 @@ impl Analyzer<'_> {
         if self.types.scalar_of(ty).is_none_or(|scalar| scalar == Scalar::Bool) {
             let (name, at) = (self.type_name(ty), self.span(target));
             self.report(
-                Diagnostic::new(&types::OPERANDS, at, format!("`++` and `--` want numbers, not a `{name}`"))
+                Diagnostic::new(&types::OPERANDS, at, format!("`++` and `--` need numbers, not a `{name}`"))
                     .here(format!("this is a `{name}`")),
             );
             return self.poison(span);

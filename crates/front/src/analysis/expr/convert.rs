@@ -68,7 +68,7 @@ impl Analyzer<'_> {
         let (from, span) = (self.ty(id), self.span(id));
         let (from_name, to_name) = (self.type_name(from), self.type_name(to));
         let finding =
-            Diagnostic::new(&types::MISMATCH, span, format!("{what} is a `{to_name}` and cannot take a `{from_name}`"));
+            Diagnostic::new(&types::MISMATCH, span, format!("{what} is a `{to_name}` and cannot hold a `{from_name}`"));
         let finding = finding.here(format!("this is a `{from_name}`")).maybe_help(self.conversion_help(from, to, span));
         self.report(finding);
         self.poison(span)

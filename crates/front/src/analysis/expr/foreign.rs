@@ -28,10 +28,10 @@ static FUNCTIONS: &[(&str, &str)] = &[
 
 /// Methods of textures in HLSL.
 static METHODS: &[(&str, &str)] = &[
-    ("Sample", "write `texture(s, p)`, with a `sampler2D` in place of the texture and its sampler"),
-    ("SampleLevel", "write `textureLod(s, p, level)`, with a `sampler2D` in place of the texture and its sampler"),
-    ("SampleBias", "write `texture(s, p, bias)`, with a `sampler2D` in place of the texture and its sampler"),
-    ("SampleGrad", "write `textureGrad(s, p, ddx, ddy)`, with a `sampler2D` in place of the texture and its sampler"),
+    ("Sample", "use `texture(s, p)`; declare one `sampler2D` instead of the texture and its sampler"),
+    ("SampleLevel", "use `textureLod(s, p, level)`; declare one `sampler2D` instead of the texture and its sampler"),
+    ("SampleBias", "use `texture(s, p, bias)`; declare one `sampler2D` instead of the texture and its sampler"),
+    ("SampleGrad", "use `textureGrad(s, p, ddx, ddy)`; declare one `sampler2D` instead of the texture and its sampler"),
     ("SampleCmp", "write `texture(s, vec3(p, reference))`, with a `sampler2DShadow`"),
     ("Load", "write `texelFetch(s, ivec2(p), level)`, with a `sampler2D` in place of the texture"),
     ("GetDimensions", "write `textureSize(s, level)`, with a `sampler2D` in place of the texture"),

@@ -43,7 +43,7 @@ impl Analyzer<'_> {
                 .then(|| "use the function `not` for each component of a vector".to_owned());
             let span_of_operand = self.span(operand);
             self.report(
-                Diagnostic::new(&types::OPERANDS, span, format!("`{spelling}` wants {wanted}, not a `{name}`"))
+                Diagnostic::new(&types::OPERANDS, span, format!("`{spelling}` needs {wanted}, not a `{name}`"))
                     .label(span_of_operand, format!("this is a `{name}`"))
                     .maybe_help(help),
             );

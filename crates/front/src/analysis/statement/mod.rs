@@ -199,7 +199,7 @@ impl Analyzer<'_> {
             "a declaration without a type"
         };
         self.report(
-            Diagnostic::new(&qualifiers::MISPLACED, span, format!("{what} may only stand at global scope"))
+            Diagnostic::new(&qualifiers::MISPLACED, span, format!("{what} may only be at global scope"))
                 .here("inside of a function"),
         );
     }

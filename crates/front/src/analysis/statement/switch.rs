@@ -33,7 +33,7 @@ impl Analyzer<'_> {
         let (name, span) = (self.type_name(ty), self.span(selector));
         let help = self.conversion_help(ty, TypeId::INT, span);
         self.report(
-            Diagnostic::new(&statements::SWITCH_TYPE, span, format!("`switch` wants an integer, not a `{name}`"))
+            Diagnostic::new(&statements::SWITCH_TYPE, span, format!("`switch` needs an integer, not a `{name}`"))
                 .here(format!("this is a `{name}`"))
                 .maybe_help(help),
         );
@@ -133,7 +133,7 @@ impl Analyzer<'_> {
 
     fn check_repeated(&mut self, seen: &mut FxHashMap<CaseLabel, Span>, label: CaseLabel, span: Span) {
         if let Some(first) = seen.get(&label) {
-            let what = if label == CaseLabel::Default { "`default` stands" } else { "this case stands" };
+            let what = if label == CaseLabel::Default { "`default` is" } else { "this case is" };
             self.report(
                 Diagnostic::new(&statements::REPEATED_CASE, span, format!("{what} twice in one `switch`"))
                     .here("again here")

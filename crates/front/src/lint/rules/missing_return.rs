@@ -17,7 +17,7 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
             }
             let type_name = program.types.name(function.ret);
             let message = format!("`{}` may end without returning a `{type_name}`", function.name);
-            let finding = findings.at(function.span, message).here("a way through it meets no `return`");
+            let finding = findings.at(function.span, message).here("one path through it has no `return`");
             findings.push(finding.help("its value is undefined then: end it with a `return`"));
         }
     }

@@ -12,7 +12,7 @@ pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
     }
     let Some(main) = producer.main.map(|main| producer.function(main)) else { return };
     let message = format!("the {} stage never writes `gl_Position`", producer.stage.name());
-    findings.push(findings.at(main.span, message).here("where the primitives stand is undefined"));
+    findings.push(findings.at(main.span, message).here("the position of the primitives is undefined"));
 }
 
 fn writes_position(shader: &Shader) -> bool {

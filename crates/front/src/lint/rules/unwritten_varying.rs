@@ -44,7 +44,7 @@ fn compare(
     let (lost, how) = if !never.is_empty() {
         (never, "never writes")
     } else if !sometimes.is_empty() && is_read_on_every_way(fragment, input) {
-        (sometimes, "does not write on every way")
+        (sometimes, "does not write on every path")
     } else {
         return;
     };

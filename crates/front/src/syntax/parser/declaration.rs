@@ -130,7 +130,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
             _ => (
                 format!("expected a declaration, found `{name}`"),
-                format!("write a type before `{name}` to declare it; statements stand inside functions alone"),
+                format!("write a type before `{name}` to declare it; statements belong inside functions"),
             ),
         };
         let span = self.current.span;

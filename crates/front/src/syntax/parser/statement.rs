@@ -150,7 +150,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let name = self.ahead(1);
         let message = format!("the function `{}` is defined inside a function", self.session.spelling(name));
         let diagnostic = Diagnostic::new(&codes::NESTED_FUNCTION, name.span, message)
-            .here("functions stand at global scope alone")
+            .here("functions can only be defined at global scope")
             .label(self.function_brace, "the function around it begins here")
             .help("if this is not a nested function, a `}` is missing above");
         self.session.report(diagnostic);

@@ -347,7 +347,7 @@ impl Preprocessor<'_> {
         if self.argument_depth >= MAX_ARGUMENT_DEPTH {
             let span = argument.first().map_or(Span::default(), |token| session.sources.call_site(token.span));
             let message =
-                format!("macro uses stand in each other's arguments more than {MAX_ARGUMENT_DEPTH} levels deep");
+                format!("macro uses are nested in each other's arguments more than {MAX_ARGUMENT_DEPTH} levels deep");
             session.report(Diagnostic::new(&codes::EXPANSION_TOO_DEEP, span, message));
             self.stop();
             return Vec::new();
