@@ -67,7 +67,8 @@ fn attach(api: &Api, framebuffer: &Framebuffer) -> Result<(), Error> {
     let Framebuffer { width, height, attachments, format, .. } = *framebuffer;
     let limit = api.max_side();
     if width == 0 || height == 0 || width > limit || height > limit {
-        let message = format!("a framebuffer of {width} x {height} pixels; this driver takes 1 to {limit} in each direction");
+        let message =
+            format!("a framebuffer of {width} x {height} pixels; this driver takes 1 to {limit} in each direction");
         return Err(Error::Refused(message));
     }
     let made = api.create_framebuffer().map_err(Error::Refused)?;

@@ -69,10 +69,10 @@ static FLOATS: &[Row] = &[
     (&[&["outercutoff", "cosouter", "outercone", "outerangle"]], &[], Value(0.8)),
     (&[&["cutoff", "innercone", "innerangle", "coscone", "conecos"]], &["freq"], Value(0.9)),
     (&[LIGHTS, &["power", "intensity", "brightness"]], &["exp", "ambient"], Value(20.0)),
-    (&[LIGHTS, &["ambient"]], &["pos", "dir"], Color(0.2)),
+    (&[LIGHTS, &["amb"]], &["pos", "dir", "lamb"], Color(0.2)),
     (
-        &[LIGHTS, &["color", "colour", "diffuse", "specular", "radiance", "intensity", "col", "rgb"]],
-        &["pos", "dir"],
+        &[LIGHTS, &["color", "colour", "diff", "spec", "radiance", "intensity", "col", "rgb"]],
+        &["pos", "dir", "differ"],
         Color(1.0),
     ),
     (&[&["spotdir", "conedir", "lighttarget", "spot_dir"]], &[], SpotDirection),
@@ -184,15 +184,15 @@ static FLOATS: &[Row] = &[
     (&[&["alpha", "opacity", "transparency", "opaque"]], &[], Value(1.0)),
     (&[&["kernel", "samples", "poisson", "offsets"]], &["num", "count"], Samples),
     (&[&["weight", "gauss", "coeff"]], &[], Weights),
-    (&[&["ambient"]], &["occl"], Color(0.2)),
+    (&[&["amb"]], &["occl", "lamb", "ambig"], Color(0.2)),
     (&[&["modulat", "tint", "coldiffuse", "multiply", "colormul"]], &[], Color(1.0)),
     (&[&["specular", "spec"]], &[], Color(0.5)),
     (&[&["plane"]], &["near", "far", "dist"], Plane),
     (&[&["background", "clearcolor", "bgcolor", "skycolor", "horizon", "sky"]], &[], FogColor),
     (&[&["outline", "border", "edgecolor", "shadowcolor", "linecolor"], &["col"]], &[], Color(0.1)),
     (
-        &[&["color", "colour", "diffuse", "albedo", "tone", "rgb", "col"]],
-        &["scale", "size", "count", "colli", "column"],
+        &[&["color", "colour", "diff", "albedo", "tone", "rgb", "col"]],
+        &["scale", "size", "count", "colli", "column", "differ"],
         BaseColor,
     ),
     (
@@ -314,6 +314,7 @@ pub(super) fn meaning(name: &str, ty: Type) -> Meaning {
     let found = rows.iter().find(fits).map(|(_, _, meaning)| *meaning);
     let of_member = || match (name.rsplit(['.', '_']).next(), ty) {
         (Some("position" | "pos"), Type::Vector(..)) if LIGHTS.iter().any(|word| small.contains(word)) => LightPosition,
+        (Some("shi" | "exp"), Type::Scalar(_)) => Value(32.0),
         _ => Meaning::Unknown,
     };
     found.unwrap_or_else(of_member)
@@ -334,16 +335,17 @@ mod tests {
                 Meaning::LightPosition,
             ),
             (&["lightDir", "u_lightDirection", "dirLight.direction"], vector, Meaning::LightDirection),
-            (&["lightColor", "light.diffuse", "LightColor"], vector, Meaning::Color(1.0)),
+            (&["lightColor", "light.diffuse", "LightColor", "light[0].diff"], vector, Meaning::Color(1.0)),
+            (&["light[0].amb", "lights[2].ambient", "material.amb"], vector, Meaning::Color(0.2)),
             (&["iResolution", "u_resolution", "viewportSize"], vector, Meaning::Resolution),
             (&["iTime", "u_time", "time", "osg_SimulationTime"], Type::Scalar(Scalar::Float), Meaning::Time),
             (
-                &["material.shininess", "Shininess", "specularExponent"],
+                &["material.shininess", "Shininess", "specularExponent", "material.shi"],
                 Type::Scalar(Scalar::Float),
                 Meaning::Value(32.0),
             ),
             (&["viewPos", "cameraPosition", "eye_pos"], vector, Meaning::Eye),
-            (&["objectColor", "material.diffuse", "albedo"], vector, Meaning::BaseColor),
+            (&["objectColor", "material.diffuse", "material.diff", "albedo"], vector, Meaning::BaseColor),
             (&["numLights", "sampleCount", "maxIterations"], Type::Scalar(Scalar::Int), Meaning::Count),
             (&["zNear", "near", "near_plane"], Type::Scalar(Scalar::Float), Meaning::Value(0.1)),
             (&["alpha", "uOpacity"], Type::Scalar(Scalar::Float), Meaning::Value(1.0)),

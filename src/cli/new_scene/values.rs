@@ -110,8 +110,21 @@ fn unknown(shape: LeafShape, taste: Taste) -> Vec<f64> {
 
 /// A number of lights, samples or steps: as many as the smallest array has, at most 4.
 fn count(reads: &Reads<'_>, taste: Taste) -> f64 {
-    let sizes = reads.uniforms.iter().filter_map(|leaf| leaf.array_size).filter(|size| *size > 1);
+    let arrays = reads.uniforms.iter().filter_map(|leaf| leaf.array_size);
+    let sizes = arrays.chain(sizes_of_struct_arrays(reads)).filter(|size| *size > 1);
     f64::from(sizes.min().unwrap_or(4).min([4, 1, 16][taste.0 % 3]))
+}
+
+/// The sizes of the arrays of structs, as far as their elements are read: 2 if `light[1].color` is the last one.
+fn sizes_of_struct_arrays(reads: &Reads<'_>) -> Vec<u32> {
+    let mut sizes = std::collections::BTreeMap::<&str, u32>::new();
+    for leaf in &reads.uniforms {
+        let Some((array, _)) = leaf.name.split_once('[') else { continue };
+        let Some(element) = element_of(&leaf.name) else { continue };
+        let size = sizes.entry(array).or_default();
+        *size = (*size).max(element.saturating_add(1));
+    }
+    sizes.into_values().collect()
 }
 
 /// The index of the element of an array that a name is in: 1 of `lights[1].color`.

@@ -36,8 +36,7 @@ fn report(fragment: &Shader, cause: Cause, calls: &[ExprId], findings: &mut Find
     let span = |id: ExprId| fragment.expr(id).span;
     let Some((&first, more)) = calls.split_first() else { return };
     let ExprKind::BuiltinCall(function, _) = &fragment.expr(first).kind else { return };
-    let message =
-        format!("`{}` takes implicit derivatives in non-uniform control flow", function.name());
+    let message = format!("`{}` takes implicit derivatives in non-uniform control flow", function.name());
     let mut finding = findings.at(span(first), message).here("the level of detail is undefined here");
     finding = finding.label(span(cause.condition), "this may differ between fragments");
     if let Some(call) = cause.call {
