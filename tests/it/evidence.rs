@@ -55,10 +55,12 @@ fn a_pixel_on_an_inner_edge_is_judged_by_its_owners() {
     assert_eq!((exit, &json["verdict"], count(&json, "edge")), (0, &"holds".into(), 4096), "{json}");
     compiled(&folder);
     let right = fs::read_to_string(folder.path("out/a.frag.wgsl")).expect("compiled");
-    for (name, wrong) in
-        [("darker", "return c * 0.9;"), ("another hue", "return c.yxzw;"), ("a bit", "return c + 1e-4;")]
-    {
-        let text = right.replace("return c;", wrong);
+    for (name, wrong) in [
+        ("darker", "return 0.9 * vec4"),
+        ("another hue", "return vec4(1.0, 1.0, 0.5, 2.0) - vec4"),
+        ("a bit", "return 1e-4 + vec4"),
+    ] {
+        let text = right.replace("return vec4", wrong);
         assert_ne!(text, right, "{name}");
         fs::write(folder.path("w.wgsl"), text).expect("written");
         let (exit, json) = verify(&folder, &["--with", "fragment=w.wgsl"]);
@@ -289,7 +291,7 @@ fn modules_of_others_are_judged_or_refused() {
         ("fragment=out/a.vert.spv", 1, "no entry point for the fragment stage"),
         ("fragment=missing.spv", 2, "missing.spv"),
         ("1:fragment=out/a.frag.spv", 2, "there is no draw 1"),
-        ("fragment=a.frag", 2, "ends neither in .wgsl nor in .spv"),
+        ("fragment=a.frag", 2, "must end in .wgsl or .spv"),
         ("fragmen=out/a.frag.spv", 2, "did you mean `fragment`?"),
     ];
     for (module, exit, part) in refused {

@@ -175,7 +175,7 @@ fn manual_pages_are_written_for_every_command() {
 fn an_error_names_the_command_that_explains_it() {
     let folder = Folder::new(&[("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(x); }\n")]);
     let output = folder.run(&["lint", "a.frag"]);
-    assert!(err(&output).contains("`glisten explain E0301` tells more"), "{}", err(&output));
+    assert!(err(&output).contains("`glisten explain E0301` explains the first error"), "{}", err(&output));
     let quiet = folder.run(&["lint", "-q", "a.frag"]);
     assert_eq!(err(&quiet), "");
 }
