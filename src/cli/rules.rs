@@ -35,7 +35,7 @@ use toml::Spanned;
 
 /// A string or a list of strings.
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "a text in quotes, or a list of texts")]
+#[serde(untagged, expecting = "a string, or a list of strings")]
 enum Strings {
     One(String),
     Many(Vec<String>),

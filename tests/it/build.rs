@@ -50,7 +50,8 @@ fn check_strictly(folder: &Path, text: &str) {
     command.args(["--edition", "2024", "--crate-type", "lib", "--emit", "metadata", "-D", "warnings"]);
     command.args(STRICT.iter().flat_map(|lint| ["-D", lint]));
     command.arg("-L").arg(format!("dependency={}", dependencies.display()));
-    for name in ["bytemuck", "glam", "wgpu"] {
+    command.arg("--extern").arg(format!("bytemuck={}", bytemuck_with_derive(&dependencies).display()));
+    for name in ["glam", "wgpu"] {
         command.arg("--extern").arg(format!("{name}={}", newest(&dependencies, name).display()));
     }
     let run =
@@ -68,6 +69,29 @@ pub(crate) fn newest(folder: &Path, name: &str) -> PathBuf {
     };
     let built = |path: &PathBuf| fs::metadata(path).and_then(|found| found.modified()).ok();
     paths.filter(is_one).max_by_key(built).unwrap_or_else(|| panic!("{name} is built for the tests"))
+}
+
+/// A `bytemuck` of a folder whose feature `derive` is on: another build of the workspace may have left one without it.
+fn bytemuck_with_derive(folder: &Path) -> PathBuf {
+    static DERIVES: &str =
+        "#[repr(C)]\n#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]\npub struct One(pub u32);\n";
+    let probe = tempfile::tempdir().expect("a folder");
+    let source = probe.path().join("probe.rs");
+    fs::write(&source, DERIVES).expect("the folder can be written to");
+    let entries = fs::read_dir(folder).expect("a folder").filter_map(Result::ok).map(|entry| entry.path());
+    let is_one = |path: &PathBuf| {
+        let own = path.file_name().unwrap_or_default().to_string_lossy();
+        own.starts_with("libbytemuck-") && own.ends_with(".rlib")
+    };
+    let derives = |path: &PathBuf| {
+        let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
+        command.args(["--edition", "2024", "--crate-type", "lib", "--emit", "metadata", "--out-dir"]).arg(probe.path());
+        command.arg("-L").arg(format!("dependency={}", folder.display()));
+        command.arg("--extern").arg(format!("bytemuck={}", path.display())).arg(&source);
+        command.output().is_ok_and(|run| run.status.success())
+    };
+    let found = entries.filter(is_one).find(derives);
+    found.unwrap_or_else(|| panic!("bytemuck with `derive` is built for the tests"))
 }
 
 #[test]

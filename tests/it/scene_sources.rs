@@ -73,9 +73,9 @@ fn a_version_is_assumed_for_both_stages() {
 fn wrong_settings_are_told_before_anything_follows_from_them() {
     for (key, wrong, help) in [
         ("engine = \"shadertoy\"", "engine = \"shadrtoy\"", "did you mean `shadertoy`?"),
-        ("engine = \"shadertoy\"", "engine = 3", "`engine` wants a text"),
+        ("engine = \"shadertoy\"", "engine = 3", "`engine` must be a string"),
         ("engine = \"shadertoy\"", "assume_version = \"33x\"", "`33x` is no version"),
-        ("includes = [\"../lib\"]", "includes = [3]", "`includes` wants a text"),
+        ("includes = [\"../lib\"]", "includes = [3]", "`includes` must be a string"),
         ("engine = \"shadertoy\"", "include_style = \"mojj\"", "did you mean `moj`?"),
         ("../before.glsl", "../after.glsl", "after.glsl"),
     ] {
