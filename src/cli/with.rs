@@ -116,8 +116,8 @@ mod tests {
             ("fragmnt=a.wgsl", "did you mean `fragment`"),
             ("geometry=a.wgsl", "cannot be drawn"),
             ("-1:vertex=a.wgsl", "not the number of a draw"),
-            ("fragment=a.frag", "ends neither"),
-            ("fragment=", "ends neither"),
+            ("fragment=a.frag", "must end in"),
+            ("fragment=", "must end in"),
         ];
         for (text, part) in cases {
             assert!(parse(text).is_err_and(|why| why.contains(part)), "{text}");

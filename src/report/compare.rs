@@ -173,7 +173,7 @@ mod tests {
         assert!(said(|report| report.ways[0].work.operations += 1).contains("operations 16000 -> 16001"));
         assert!(said(|report| report.ways[0].work.texture_lookups += 1).contains("texture_lookups 0 -> 1"));
         assert!(said(|report| report.ways[0].ratio.interval = [9.0, 9.1]).contains("time"));
-        assert!(said(|report| drop(report.ways.remove(0))).contains("the variant is gone"));
+        assert!(said(|report| drop(report.ways.remove(0))).contains("the variant is no longer there"));
     }
 
     #[test]

@@ -69,7 +69,7 @@ static FLOATS: &[Row] = &[
     (&[&["outercutoff", "cosouter", "outercone", "outerangle"]], &[], Value(0.8)),
     (&[&["cutoff", "innercone", "innerangle", "coscone", "conecos"]], &["freq"], Value(0.9)),
     (&[LIGHTS, &["power", "intensity", "brightness"]], &["exp", "ambient"], Value(20.0)),
-    (&[LIGHTS, &["amb"]], &["pos", "dir", "lamb"], Color(0.2)),
+    (&[LIGHTS, &["amb"]], &["pos", "dir", "lambert"], Color(0.2)),
     (
         &[LIGHTS, &["color", "colour", "diff", "spec", "radiance", "intensity", "col", "rgb"]],
         &["pos", "dir", "differ"],
@@ -184,7 +184,7 @@ static FLOATS: &[Row] = &[
     (&[&["alpha", "opacity", "transparency", "opaque"]], &[], Value(1.0)),
     (&[&["kernel", "samples", "poisson", "offsets"]], &["num", "count"], Samples),
     (&[&["weight", "gauss", "coeff"]], &[], Weights),
-    (&[&["amb"]], &["occl", "lamb", "ambig"], Color(0.2)),
+    (&[&["amb"]], &["occl", "lambert", "ambig"], Color(0.2)),
     (&[&["modulat", "tint", "coldiffuse", "multiply", "colormul"]], &[], Color(1.0)),
     (&[&["specular", "spec"]], &[], Color(0.5)),
     (&[&["plane"]], &["near", "far", "dist"], Plane),
