@@ -23,10 +23,22 @@ use glisten::specialize::{SpecializedScene, specialize_scene};
 use glisten_reference::{LineRule, Precision, RenderOptions, render};
 use std::path::{Path, PathBuf};
 
-/// All scenes of a folder and the folders in it.
+/// The folders of scenes. Each of `families` has an uber-shader and scenes that fix different options of it.
+const FOLDERS: [&str; 8] = [
+    "fixtures/scenes",
+    "fixtures/scenes/core",
+    "shader_lib/scenes",
+    "fixtures/specialize/families/decals",
+    "fixtures/specialize/families/particles",
+    "fixtures/specialize/families/skinning",
+    "fixtures/specialize/families/terrain",
+    "fixtures/specialize/families/tiled_lights",
+];
+
+/// All scenes of these folders.
 pub(crate) fn scene_files() -> Vec<PathBuf> {
     let mut files = Vec::new();
-    for folder in ["fixtures/scenes", "fixtures/scenes/core", "shader_lib/scenes"] {
+    for folder in FOLDERS {
         let folder = crate::support::root().join(folder);
         for entry in std::fs::read_dir(folder).expect("a folder of scenes").filter_map(Result::ok) {
             if entry.path().extension().is_some_and(|extension| extension == "toml") {
