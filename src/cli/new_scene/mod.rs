@@ -1,9 +1,9 @@
 //! `glisten new-scene`: writes a scene for a program, with a line for everything that the program reads, that draws at once.
 //!
 //! *In:* the shaders of a program, a fragment shader alone, or one of the fixed-function pipeline's time. *Out:* TOML that loads without a
-//! diagnostic and keeps what the command line says about the sources. The phases: what the program reads ([`reads`]), geometries and
-//! cameras that may suit it ([`forms`]), what its numbers mean ([`meanings`]), their values ([`values`], [`textures`]), the text
-//! ([`text`]), and trials on the reference, which decide ([`trial`]).
+//! diagnostic and keeps what the command line says about the sources. The phases: what the program reads (`reads`), geometries and
+//! cameras that may suit it (`forms`), what its numbers mean (`meanings`), their values (`values`, `textures`), the text
+//! (`text`), and trials on the reference, which decide (`trial`).
 
 mod forms;
 mod meanings;
