@@ -13,7 +13,7 @@
 //! 5. [`Class::Edge`]: near an edge; judged by the hull of the colors of the primitives that may own it.
 //! 6. [`Class::Judged`]: all others.
 //!
-//! [`Tally`](super::tally) goes on from there: what the language leaves undefined comes before all of them
+//! `Tally` goes on from there: what the language leaves undefined comes before all of them
 //! ([`Class::Undefined`]), and one of classes 2 to 4 on which simulated GPUs agree is [`Class::Likely`].
 //!
 //! The goal is 1/255 of the range of the picture's values, unless it is given: of all channels that the programs write,
