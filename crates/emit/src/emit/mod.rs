@@ -12,6 +12,7 @@ mod messages;
 mod naga_repairs;
 mod notes;
 pub mod reflection;
+mod statements;
 mod targets;
 mod wgsl;
 mod write;

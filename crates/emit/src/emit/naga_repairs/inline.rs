@@ -10,6 +10,7 @@
 //! *Holds:* a load is removed only if all of its uses are evaluated in the same run of `Emit`s or by the statement
 //! directly after that run, and that statement evaluates its operands before it does anything else.
 
+use crate::emit::statements::{blocks, operands};
 use crate::lower::for_each_operand;
 use naga::{Block, Expression, Function, Handle, Range, Statement};
 
@@ -168,32 +169,6 @@ impl Uses {
 fn push_range(block: &mut Block, open: Option<(Handle<Expression>, Handle<Expression>)>, span: naga::Span) {
     if let Some((first, last)) = open {
         block.push(Statement::Emit(Range::new_from_bounds(first, last)), span);
-    }
-}
-
-/// The operands that a statement evaluates before it does anything else.
-fn operands(statement: &Statement, mut visit: impl FnMut(Handle<Expression>)) {
-    match statement {
-        Statement::If { condition, .. } => visit(*condition),
-        Statement::Switch { selector, .. } => visit(*selector),
-        Statement::Loop { break_if: Some(condition), .. } => visit(*condition),
-        Statement::Return { value: Some(value) } => visit(*value),
-        Statement::Store { pointer, value } => {
-            visit(*pointer);
-            visit(*value);
-        }
-        Statement::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(*argument)),
-        _ => {}
-    }
-}
-
-fn blocks(statement: &Statement) -> Vec<&Block> {
-    match statement {
-        Statement::Block(block) => vec![block],
-        Statement::If { accept, reject, .. } => vec![accept, reject],
-        Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
-        Statement::Loop { body, continuing, .. } => vec![body, continuing],
-        _ => Vec::new(),
     }
 }
 

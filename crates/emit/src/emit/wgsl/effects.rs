@@ -1,6 +1,7 @@
 //! The effects of expressions and calls, as far as they decide where these can be written.
 
 use super::Style;
+use crate::emit::statements::{blocks, operands};
 use crate::lower::for_each_operand;
 use naga::{
     Arena, Block, Expression, Function, GlobalVariable, Handle, LocalVariable, Statement, TypeInner, UniqueArena,
@@ -150,10 +151,10 @@ fn open(function: &Function, classes: &mut [Class]) {
 }
 
 /// Collects the operands of statements.
-fn in_statements(block: &Block, operands: &mut Vec<Handle<Expression>>) {
+fn in_statements(block: &Block, found: &mut Vec<Handle<Expression>>) {
     for statement in block {
-        super::operands(statement, |operand| operands.push(operand));
-        super::blocks(statement).into_iter().for_each(|inner| in_statements(inner, operands));
+        operands(statement, |operand| found.push(operand));
+        blocks(statement).into_iter().for_each(|inner| in_statements(inner, found));
     }
 }
 
@@ -189,7 +190,7 @@ fn of_block(module: &naga::Module, function: &Function, block: &Block, known: &[
             Statement::If { .. } | Statement::Switch { .. } | Statement::Loop { .. } | Statement::Block(_) => {}
             _ => effects.writes = true,
         }
-        for inner in super::blocks(statement) {
+        for inner in blocks(statement) {
             of_block(module, function, inner, known, effects);
         }
     }

@@ -65,32 +65,3 @@ pub(super) fn write(
 ) -> Result<String, String> {
     module::write(module, info, style, notes)
 }
-
-/// The blocks directly in a statement.
-fn blocks(statement: &naga::Statement) -> Vec<&naga::Block> {
-    use naga::Statement;
-    match statement {
-        Statement::Block(block) => vec![block],
-        Statement::If { accept, reject, .. } => vec![accept, reject],
-        Statement::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
-        Statement::Loop { body, continuing, .. } => vec![body, continuing],
-        _ => Vec::new(),
-    }
-}
-
-/// Calls `visit` with the operands of a statement, without those of its blocks.
-fn operands(statement: &naga::Statement, mut visit: impl FnMut(naga::Handle<naga::Expression>)) {
-    use naga::Statement;
-    match statement {
-        Statement::If { condition, .. } => visit(*condition),
-        Statement::Switch { selector, .. } => visit(*selector),
-        Statement::Loop { break_if: Some(condition), .. } => visit(*condition),
-        Statement::Return { value: Some(value) } => visit(*value),
-        Statement::Store { pointer, value } => {
-            visit(*pointer);
-            visit(*value);
-        }
-        Statement::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(*argument)),
-        _ => {}
-    }
-}

@@ -11,6 +11,7 @@
 use super::Style;
 use super::effects::{Call, Class, Effects, classes, root};
 use super::order::Effect;
+use crate::emit::statements::{blocks, operands};
 use crate::lower::for_each_operand;
 use naga::{Block, Expression, Function, Handle, Statement};
 
@@ -142,7 +143,7 @@ impl<'f> Planner<'f> {
                     }
                 }
             }
-            super::blocks(statement).into_iter().for_each(|inner| self.find_calls(inner));
+            blocks(statement).into_iter().for_each(|inner| self.find_calls(inner));
         }
     }
 
@@ -244,7 +245,7 @@ impl<'f> Planner<'f> {
     fn compound(&mut self, operands: &[Handle<Expression>], statement: &'f Statement) {
         self.anchor(operands, Effect::None);
         self.force_pending(0);
-        for inner in super::blocks(statement) {
+        for inner in blocks(statement) {
             self.block(inner);
         }
     }
@@ -413,12 +414,12 @@ impl<'f> Planner<'f> {
 fn count_in(block: &Block, uses: &mut [u32]) {
     for statement in block {
         if !matches!(statement, Statement::Call { result: Some(_), .. }) {
-            super::operands(statement, |handle| {
+            operands(statement, |handle| {
                 if let Some(place) = uses.get_mut(handle.index()) {
                     *place += 1;
                 }
             });
         }
-        super::blocks(statement).into_iter().for_each(|inner| count_in(inner, uses));
+        blocks(statement).into_iter().for_each(|inner| count_in(inner, uses));
     }
 }
