@@ -1,4 +1,4 @@
-//! What a statement of naga holds.
+//! The parts of a statement of naga: its blocks, its expressions.
 //!
 //! *In:* a statement. *Out:* its blocks, and the expressions that it evaluates itself. *Holds:* the expressions of its blocks are
 //! not among them.
