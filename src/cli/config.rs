@@ -25,53 +25,113 @@
 use super::args::set_level;
 use super::batch::Batch;
 use super::files;
-use super::rules::{Rule, RuleReader, SourceTable};
-use super::toml_errors;
+use super::rules::{KEYS as SOURCE_KEYS, Rule, RuleReader};
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
-use glisten_front::source::{SourceMap, Span};
+use glisten_front::source::SourceMap;
+use glisten_scene::tables::{CONFIGURATION, Reader};
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
-use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
-use toml::Spanned;
+use std::sync::Arc;
+use toml::de::DeTable;
 
 const NAME: &str = "glisten.toml";
 
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Config {
-    #[serde(default)]
-    exclude: Vec<Spanned<String>>,
-    #[serde(default)]
-    lint: LintTable,
-    #[serde(default)]
-    stability: StabilityTable,
-    #[serde(default)]
-    source: Vec<SourceTable>,
+/// The keys of the file and of its tables.
+const KEYS: &[&str] = &["exclude", "lint", "stability", "source"];
+const LINT_KEYS: &[&str] = &["allow", "warn", "deny", "exclude", "assume_version", "assume-version"];
+const LEVELS: &[(&str, Level)] = &[("allow", Level::Allow), ("warn", Level::Warn), ("deny", Level::Deny)];
+
+/// A configuration.
+#[derive(Default)]
+struct Configuration {
+    exclude: Vec<String>,
+    levels: Levels,
+    rules: Vec<Rule>,
+    /// Patterns of scenes and the error that they may have, in the order of the file.
+    bounds: Vec<(String, f64)>,
 }
 
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StabilityTable {
-    #[serde(default)]
-    bounds: BTreeMap<String, Spanned<f64>>,
+impl Configuration {
+    /// Reads the file at `path`, whose text is in `reader`. What is wrong is reported and left out.
+    fn read(reader: &mut Reader, text: &str, path: &Path) -> Self {
+        let Some(document) = reader.document(text) else { return Self::default() };
+        reader.check_keys(&document, "`glisten.toml`", KEYS);
+        let mut read = Self { exclude: patterns(reader, &document), ..Self::default() };
+        let lint = reader.table_at(&document, "lint");
+        if let Some(lint) = lint {
+            reader.check_keys(lint, "`[lint]`", LINT_KEYS);
+            read.exclude.extend(patterns(reader, lint));
+            read.levels = levels(reader, lint);
+        }
+        if let Some(stability) = reader.table_at(&document, "stability") {
+            reader.check_keys(stability, "`[stability]`", &["bounds"]);
+            read.bounds = bounds(reader, stability);
+        }
+        let version = lint.and_then(|lint| {
+            let key = if lint.contains_key("assume_version") { "assume_version" } else { "assume-version" };
+            reader.version_at(lint, key)
+        });
+        let sources = reader.tables_at(&document, "source");
+        for (table, _) in &sources {
+            reader.check_keys(table, "`[[source]]`", SOURCE_KEYS);
+        }
+        let mut rules = RuleReader::new(path.parent().unwrap_or(Path::new("")), reader);
+        read.rules = rules.rules(version, sources.iter().map(|(table, _)| *table));
+        read
+    }
+
+    /// Reads the nearest configuration of a folder. Its errors are reported when its levels are read.
+    fn nearest(folder: &Path) -> Option<(Self, PathBuf)> {
+        let path = nearest(folder)?;
+        let bytes = files::read(&path.to_string_lossy(), &path).ok()?;
+        let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
+        let mut reader = Reader::new(&CONFIGURATION, 0, Arc::clone(&text));
+        Some((Self::read(&mut reader, &text, &path), path))
+    }
 }
 
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LintTable {
-    #[serde(default)]
-    allow: Vec<Spanned<String>>,
-    #[serde(default)]
-    warn: Vec<Spanned<String>>,
-    #[serde(default)]
-    deny: Vec<Spanned<String>>,
-    #[serde(default)]
-    exclude: Vec<Spanned<String>>,
-    #[serde(alias = "assume-version")]
-    assume_version: Option<Spanned<String>>,
+/// The levels of `[lint]`.
+fn levels(reader: &mut Reader, lint: &DeTable<'_>) -> Levels {
+    let mut levels = Levels::default();
+    for (key, level) in LEVELS {
+        for (code, span) in reader.texts_at(lint, key) {
+            if let Err((message, help)) = set_level(&mut levels, *level, code) {
+                reader.report(Diagnostic::new(&BAD_CONFIG, span, message).maybe_help(help));
+            }
+        }
+    }
+    levels
+}
+
+/// The patterns of `exclude`.
+fn patterns(reader: &mut Reader, table: &DeTable<'_>) -> Vec<String> {
+    let mut patterns = Vec::new();
+    for (pattern, span) in reader.texts_at(table, "exclude") {
+        match GitignoreBuilder::new("").add_line(None, pattern) {
+            Ok(_) => patterns.push(pattern.to_owned()),
+            Err(error) => reader.report(Diagnostic::new(&BAD_CONFIG, span, format!("not a pattern: {error}"))),
+        }
+    }
+    patterns
+}
+
+/// The accepted errors of `[stability.bounds]`.
+fn bounds(reader: &mut Reader, stability: &DeTable<'_>) -> Vec<(String, f64)> {
+    let Some(table) = reader.table_at(stability, "bounds") else { return Vec::new() };
+    let mut bounds = Vec::new();
+    for (pattern, node) in table {
+        let Some(bound) = reader.finite(node, pattern.get_ref()) else { continue };
+        if bound > 0.0 {
+            bounds.push((node.span().start, pattern.get_ref().to_string(), bound));
+        } else {
+            let span = reader.span_of(node);
+            reader.report(Diagnostic::new(&BAD_CONFIG, span, "a bound is a positive number"));
+        }
+    }
+    bounds.sort_by_key(|(start, ..)| *start);
+    bounds.into_iter().map(|(_, pattern, bound)| (pattern, bound)).collect()
 }
 
 /// The nearest configuration of a folder or of one above it.
@@ -80,34 +140,26 @@ fn nearest(folder: &Path) -> Option<PathBuf> {
     absolute.ancestors().map(|above| above.join(NAME)).find(|path| path.is_file())
 }
 
-/// The patterns that the nearest configuration excludes. Its errors are reported when its levels are read.
+/// The patterns that the nearest configuration excludes.
 pub(super) fn excluded(folder: &Path) -> Option<Gitignore> {
-    let path = nearest(folder)?;
-    let config: Config =
-        toml::from_str(&String::from_utf8_lossy(&files::read(&path.to_string_lossy(), &path).ok()?)).ok()?;
+    let (configuration, path) = Configuration::nearest(folder)?;
     let mut patterns = GitignoreBuilder::new(path.parent()?);
-    for pattern in config.exclude.iter().chain(&config.lint.exclude) {
+    for pattern in &configuration.exclude {
         // A pattern that is wrong excludes nothing.
-        let _ = patterns.add_line(None, pattern.get_ref());
+        let _ = patterns.add_line(None, pattern);
     }
     patterns.build().ok()
 }
 
-/// The rules of the nearest configuration for the sources of a folder. Its errors are reported when its levels are read.
+/// The rules of the nearest configuration for the sources of a folder.
 pub(super) fn rules(folder: &Path) -> Vec<Rule> {
-    let Some(path) = nearest(folder) else { return Vec::new() };
-    let Ok(bytes) = files::read(&path.to_string_lossy(), &path) else { return Vec::new() };
-    let Ok(config) = toml::from_str::<Config>(&String::from_utf8_lossy(&bytes)) else { return Vec::new() };
-    let mut reader = RuleReader::new(path.parent().unwrap_or(Path::new("")), 0);
-    reader.rules(config.lint.assume_version.as_ref(), &config.source)
+    Configuration::nearest(folder).map_or_else(Vec::new, |(configuration, _)| configuration.rules)
 }
 
 /// The accepted error of a scene by the nearest configuration.
 pub(super) fn stability_bound(scene: &Path) -> Option<f64> {
     let folder = scene.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let path = nearest(folder)?;
-    let text = files::read(&path.to_string_lossy(), &path).ok()?;
-    let config: Config = toml::from_str(&String::from_utf8_lossy(&text)).ok()?;
+    let (configuration, path) = Configuration::nearest(folder)?;
     let root = path.parent()?;
     let absolute = std::path::absolute(scene).ok()?;
     let fits = |pattern: &str| {
@@ -116,9 +168,8 @@ pub(super) fn stability_bound(scene: &Path) -> Option<f64> {
         let patterns = patterns.build().ok()?;
         Some(patterns.matched(&absolute, false).is_ignore())
     };
-    let bounds = config.stability.bounds.iter().filter(|(pattern, _)| fits(pattern).unwrap_or(false));
-    let last = bounds.max_by_key(|(_, bound)| bound.span().start);
-    last.map(|(_, bound)| *bound.get_ref()).filter(|bound| *bound > 0.0)
+    let last = configuration.bounds.iter().rfind(|(pattern, _)| fits(pattern).unwrap_or(false));
+    last.map(|(_, bound)| *bound)
 }
 
 /// The configurations of all folders so far, completed by the levels of the command line.
@@ -152,7 +203,13 @@ impl Configs {
         let mut sources = SourceMap::default();
         let mut levels = Levels::default();
         let diagnostics = match files::read(&name, &path) {
-            Ok(bytes) => parse(&String::from_utf8_lossy(&bytes), &name, &mut sources, &mut levels),
+            Ok(bytes) => {
+                let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
+                let base = sources.add(&name, Arc::clone(&text)).map_or(0, |id| sources.file(id).base());
+                let mut reader = Reader::new(&CONFIGURATION, base, Arc::clone(&text));
+                levels = Configuration::read(&mut reader, &text, &path).levels;
+                reader.diagnostics.into_iter().collect()
+            }
             Err(error) => vec![error.diagnostic(&mut sources, &name)],
         };
         let batch = Batch { sources, diagnostics };
@@ -161,41 +218,4 @@ impl Configs {
         }
         levels
     }
-}
-
-/// Reads a configuration into `levels`.
-fn parse(text: &str, name: &str, sources: &mut SourceMap, levels: &mut Levels) -> Vec<Diagnostic> {
-    let base = sources.add(name, text).map_or(0, |id| sources.file(id).base());
-    let at = |range: Range<usize>| Span::new(base + range.start as u32, base + range.end as u32);
-    let config: Config = match toml::from_str(text) {
-        Ok(config) => config,
-        Err(error) => {
-            let span = error.span().unwrap_or(0..0);
-            let (message, help) = toml_errors::explained(&error);
-            return vec![Diagnostic::new(&BAD_CONFIG, at(span), message).maybe_help(help)];
-        }
-    };
-    let lists = [(Level::Allow, config.lint.allow), (Level::Warn, config.lint.warn), (Level::Deny, config.lint.deny)];
-    let mut diagnostics = Vec::new();
-    for pattern in config.exclude.iter().chain(&config.lint.exclude) {
-        if let Err(error) = GitignoreBuilder::new("").add_line(None, pattern.get_ref()) {
-            diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(pattern.span()), format!("not a pattern: {error}")));
-        }
-    }
-    for bound in
-        config.stability.bounds.values().filter(|bound| !(*bound.get_ref() > 0.0 && bound.get_ref().is_finite()))
-    {
-        diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(bound.span()), "a bound is a positive number"));
-    }
-    let mut reader = RuleReader::new(Path::new(name).parent().unwrap_or(Path::new("")), base);
-    reader.rules(config.lint.assume_version.as_ref(), &config.source);
-    diagnostics.append(&mut reader.diagnostics);
-    for (level, keys) in lists {
-        for key in keys {
-            if let Err((message, help)) = set_level(levels, level, key.get_ref()) {
-                diagnostics.push(Diagnostic::new(&BAD_CONFIG, at(key.span()), message).maybe_help(help));
-            }
-        }
-    }
-    diagnostics
 }

@@ -65,7 +65,6 @@ mod supervisor;
 pub mod survey;
 mod test;
 mod timed;
-mod toml_errors;
 mod trace;
 mod unfinished;
 mod upgrade;

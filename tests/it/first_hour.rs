@@ -519,3 +519,29 @@ fn a_search_passes_over_what_is_ignored() {
     let (list, _) = folder.lint(&["a.frag"]);
     assert_eq!(codes(&list), ["E0015"], "{list:#?}");
 }
+
+#[test]
+fn all_mistakes_of_a_configuration_are_told_at_their_places() {
+    let folder = Folder::new(&[
+        ("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        (
+            "glisten.toml",
+            b"[lint]\nalow = [\"L0001\"]\ndeny = [\"L9999\"]\n[[source]]\nengin = \"iris\"\nversion = 77\n[stabilty]\n",
+        ),
+        (
+            "p.toml",
+            b"[[program]]\nfils = [\"a.frag\"]\n[[program]]\nfiles = [\"a.frag\"]\ndefines = { A = [0, 1] }\n[scene]\nfile = 1\n",
+        ),
+    ]);
+    let (list, exit) = folder.lint(&["a.frag"]);
+    let places: Vec<_> = list.iter().map(|one| one["line"].as_u64().unwrap_or_default()).collect();
+    assert_eq!((codes(&list), places, exit), (vec!["E0015"; 5], vec![7, 2, 3, 5, 6], 1), "{list:#?}");
+    let told = folder.run(&["compile", "--permutations", "p.toml", "-t", "wgsl", "-o", "out"]);
+    let text = err(&told);
+    for part in
+        ["p.toml:2:1", "did you mean `files`?", "p.toml:5:17", "[program.values]", "p.toml:6:1", "write `[[scene]]`"]
+    {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert_eq!(code(&told), 1);
+}

@@ -20,6 +20,7 @@ mod portrait;
 pub mod random;
 mod reads;
 pub mod roles;
+pub mod tables;
 pub mod values;
 
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};

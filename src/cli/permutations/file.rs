@@ -19,82 +19,34 @@
 //! dynamic = ["time"]
 //! ```
 //!
-//! *In:* the text. *Out:* [`Permutations`]. *Holds:* unknown keys are errors; a condition with a name that no variant has, too.
+//! *In:* the text. *Out:* [`Permutations`], or all that is wrong, at its place. *Holds:* unknown keys are errors; a condition with
+//! a name that no variant has, too.
 
 use super::axes::{Axis, Condition, Variant, define, variants};
-use crate::cli::exit::{Exit, Failure};
+use crate::cli::batch::Batch;
 use crate::cli::files;
-use crate::cli::toml_errors;
-use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
+use glisten_front::diagnostic::codes::general::BAD_CONFIG;
+use glisten_front::diagnostic::{Diagnostic, did_you_mean};
+use glisten_front::source::{SourceMap, Span};
+use glisten_scene::tables::{CONFIGURATION, Node, Reader};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use toml::de::{DeTable, DeValue};
 
-/// The file as it is.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    #[serde(default)]
-    program: Vec<ProgramTable>,
-    #[serde(default)]
-    scene: Vec<SceneTable>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ProgramTable {
-    files: Vec<String>,
-    name: Option<String>,
-    #[serde(default)]
-    defines: BTreeMap<String, Value>,
-    #[serde(default)]
-    pragmas: bool,
-    #[serde(default)]
-    keywords: Vec<String>,
-    #[serde(default)]
-    variants: Vec<String>,
-    #[serde(default)]
-    skip: Vec<String>,
-    #[serde(default)]
-    only: Vec<String>,
-    #[serde(default)]
-    values: toml::Table,
-}
+/// The keys of the tables.
+const KEYS: &[&str] = &["program", "scene"];
+const PROGRAM_KEYS: &[&str] =
+    &["files", "name", "defines", "pragmas", "keywords", "variants", "skip", "only", "values"];
+const SCENE_KEYS: &[&str] = &["file", "dynamic"];
 
 /// A scene whose draws are variants of their programs.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug)]
 pub(super) struct SceneTable {
     /// The scene file.
     pub(super) file: String,
     /// The uniforms that change from frame to frame, added to those of the scene.
-    #[serde(default)]
     pub(super) dynamic: Vec<String>,
-}
-
-/// The value of a macro: `false` if it is not defined.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "the value of a macro is a number, a text, `true` or `false`; a list of values, one for each variant, goes under `[program.values]`"
-)]
-enum Value {
-    Flag(bool),
-    Integer(i64),
-    Float(f64),
-    Text(String),
-}
-
-impl Value {
-    fn text(&self) -> Option<String> {
-        match self {
-            Self::Flag(false) => None,
-            Self::Flag(true) => Some("1".to_owned()),
-            Self::Integer(number) => Some(number.to_string()),
-            // As GLSL writes it: with a point.
-            Self::Float(number) => Some(format!("{number:?}")),
-            Self::Text(text) => Some(text.clone()),
-        }
-    }
 }
 
 /// A program with its variants.
@@ -122,104 +74,213 @@ pub(super) struct Permutations {
 /// Reads a file.
 ///
 /// # Errors
-/// It cannot be read, or its content is wrong.
-pub(super) fn read(path: &Path) -> Result<Permutations, Failure> {
+/// It cannot be read, or its content is wrong: the diagnostics.
+pub(super) fn read(path: &Path) -> Result<Permutations, Batch> {
     let name = path.display().to_string();
-    let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
-    let wrong = |why: String| Failure::new(Exit::Content, format!("in `{name}`: {why}"));
-    let text = String::from_utf8(bytes).map_err(|_| wrong("it is not text in UTF-8".to_owned()))?;
-    let file: File = toml::from_str(&text).map_err(|error| {
-        let (message, help) = toml_errors::explained(&error);
-        // The text before the message shows the place.
-        let shown = error.to_string().replace(error.message().trim(), &message);
-        let failure = wrong(shown.trim_end().to_owned());
-        if let Some(help) = help { failure.help(help) } else { failure }
+    let mut sources = SourceMap::default();
+    let bytes = files::read(&name, path).map_err(|error| {
+        let diagnostics = vec![error.diagnostic(&mut sources, &name)];
+        Batch { sources: std::mem::take(&mut sources), diagnostics }
     })?;
-    if file.program.is_empty() && file.scene.is_empty() {
-        return Err(wrong("there is no `[[program]]` and no `[[scene]]`".to_owned()));
+    let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
+    let base = sources.add(name, Arc::clone(&text)).map_or(0, |id| sources.file(id).base());
+    let mut file = File { reader: Reader::new(&CONFIGURATION, base, Arc::clone(&text)), folder: folder_of(path) };
+    let found = file.permutations(&text);
+    if file.reader.diagnostics.is_empty() {
+        return Ok(found);
     }
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut programs: Vec<PermutedProgram> = Vec::new();
-    for table in &file.program {
-        let program = program(table, folder).map_err(|why| {
-            let first = table.files.first().map_or("", String::as_str);
-            wrong(format!("the program `{}`: {why}", table.name.as_deref().unwrap_or(first)))
-        })?;
-        if programs.iter().any(|other| other.name == program.name) {
-            return Err(wrong(format!("two programs are named `{}`; give one of them a `name`", program.name)));
-        }
-        programs.push(program);
-    }
-    let below = |name: &str| folder.join(name).to_string_lossy().into_owned();
-    let scenes = file.scene.into_iter().map(|scene| SceneTable { file: below(&scene.file), ..scene }).collect();
-    Ok(Permutations { programs, scenes })
+    Err(Batch { sources, diagnostics: file.reader.diagnostics.into_iter().collect() })
 }
 
-fn program(table: &ProgramTable, folder: &Path) -> Result<PermutedProgram, String> {
-    let paths: Vec<PathBuf> = table.files.iter().map(|name| folder.join(name)).collect();
-    let first = paths.first().ok_or("it has no files")?;
-    let name = table.name.clone().unwrap_or_else(|| crate::sources::stages::stem(first));
-    let is_name = !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\', '\0']);
-    if !is_name {
-        return Err(format!("`{name}` is no name for a folder"));
-    }
-    let axes = axes(table, &paths)?;
-    let conditions = |texts: &[String]| texts.iter().map(|text| Condition::new(text)).collect::<Result<Vec<_>, _>>();
-    let (skip, only) = (conditions(&table.skip)?, conditions(&table.only)?);
-    let names: BTreeSet<String> =
-        axes.iter().flat_map(|axis| &axis.choices).flat_map(|choice| choice.keys().cloned()).collect();
-    for other in skip.iter().chain(&only).flat_map(Condition::names) {
-        if !names.contains(other) && !table.defines.contains_key(other) {
-            let near = glisten_front::diagnostic::did_you_mean(other, names.iter().map(String::as_str));
-            let help = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-            return Err(format!("no variant has `{other}`{help}"));
-        }
-    }
-    let variants = variants(&axes, &skip, &only)?;
-    if variants.is_empty() {
-        return Err("its conditions leave no variant".to_owned());
-    }
-    let files = paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
-    Ok(PermutedProgram { name, files, variants, names })
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
 }
 
-/// The choices of a program, those of all variants first.
-fn axes(table: &ProgramTable, paths: &[PathBuf]) -> Result<Vec<Axis>, String> {
-    let checked = |name: &str, value: Option<String>| match value {
-        Some(value) => define(&format!("{name}={value}")).map(|(_, value)| Some(value)),
-        None => Ok(None),
-    };
-    let mut axes = Vec::new();
-    for (name, value) in &table.defines {
-        axes.push(Axis::of_values(name, [checked(name, value.text())?]));
+/// A file that is read.
+struct File<'p> {
+    reader: Reader,
+    folder: &'p Path,
+}
+
+impl File<'_> {
+    fn wrong(&mut self, span: Span, message: impl Into<String>, help: Option<String>) {
+        self.reader.report(Diagnostic::new(&BAD_CONFIG, span, message.into()).maybe_help(help));
     }
-    let mut lines = table.keywords.clone();
-    for path in paths.iter().filter(|_| table.pragmas) {
-        let bytes = files::read(&path.to_string_lossy(), path).map_err(|error| error.message)?;
-        for line in String::from_utf8_lossy(&bytes).lines().filter(|line| is_keyword_pragma(line)) {
-            // Both stages may have the line.
-            if !lines.iter().any(|known| known == line.trim()) {
-                lines.push(line.trim().to_owned());
+
+    /// The value, or an error at `span`.
+    fn checked<T>(&mut self, span: Span, value: Result<T, String>) -> Option<T> {
+        value.map_err(|why| self.wrong(span, why, None)).ok()
+    }
+
+    fn permutations(&mut self, text: &str) -> Permutations {
+        let (mut programs, mut scenes) = (Vec::<PermutedProgram>::new(), Vec::new());
+        let Some(document) = self.reader.document(text) else { return Permutations { programs, scenes } };
+        self.reader.check_keys(&document, "the file", KEYS);
+        let tables = self.reader.tables_at(&document, "program");
+        let scene_tables = self.reader.tables_at(&document, "scene");
+        if tables.is_empty() && scene_tables.is_empty() && self.reader.diagnostics.is_empty() {
+            let span = self.reader.span(0..text.len().min(1));
+            let help = "add `[[program]]` with `files`, or `[[scene]]` with `file`".to_owned();
+            self.wrong(span, "there is no `[[program]]` and no `[[scene]]`", Some(help));
+        }
+        for (table, span) in tables {
+            self.reader.check_keys(table, "`[[program]]`", PROGRAM_KEYS);
+            let Some(program) = self.program(table, span) else { continue };
+            if programs.iter().any(|other| other.name == program.name) {
+                let message = format!("two programs are named `{}`; give one of them a `name`", program.name);
+                self.wrong(span, message, None);
+            }
+            programs.push(program);
+        }
+        for (table, span) in scene_tables {
+            self.reader.check_keys(table, "`[[scene]]`", SCENE_KEYS);
+            if !table.contains_key("file") && !self.reader.is_misspelled(table, "file") {
+                self.wrong(span, "`[[scene]]` has no `file`", None);
+            }
+            let Some((file, _)) = self.reader.text_at(table, "file") else { continue };
+            let file = self.folder.join(file).to_string_lossy().into_owned();
+            let dynamic = self.reader.texts_at(table, "dynamic").into_iter().map(|(name, _)| name.to_owned());
+            scenes.push(SceneTable { file, dynamic: dynamic.collect() });
+        }
+        Permutations { programs, scenes }
+    }
+
+    /// A program; `None` (reported) if something in it is wrong.
+    fn program(&mut self, table: &DeTable<'_>, span: Span) -> Option<PermutedProgram> {
+        if !table.contains_key("files") {
+            if !self.reader.is_misspelled(table, "files") {
+                self.wrong(span, "`[[program]]` has no `files`", Some("add `files = [\"a.vert\", \"a.frag\"]`".into()));
+            }
+            return None;
+        }
+        let files = self.reader.texts_at(table, "files");
+        let paths: Vec<PathBuf> = files.iter().map(|(name, _)| self.folder.join(name)).collect();
+        let Some(first) = paths.first() else {
+            self.wrong(span, "the program has no files", None);
+            return None;
+        };
+        let (name, place) = match self.reader.text_at(table, "name") {
+            Some((name, place)) => (name.to_owned(), place),
+            None => (crate::sources::stages::stem(first), span),
+        };
+        if name.is_empty() || name.starts_with('.') || name.contains(['/', '\\', '\0']) {
+            self.wrong(place, format!("`{name}` is not a name for a folder"), None);
+            return None;
+        }
+        let fixed: BTreeSet<String> = self
+            .reader
+            .table_at(table, "defines")
+            .map_or_else(BTreeSet::new, |defines| defines.keys().map(|key| key.get_ref().to_string()).collect());
+        let axes = self.axes(table, span, &paths)?;
+        let names: BTreeSet<String> =
+            axes.iter().flat_map(|axis| &axis.choices).flat_map(|choice| choice.keys().cloned()).collect();
+        let known = |name: &str| names.contains(name) || fixed.contains(name);
+        let skip = self.conditions(table, "skip", &names, &known);
+        let only = self.conditions(table, "only", &names, &known);
+        let variants = self.checked(span, variants(&axes, &skip?, &only?))?;
+        if variants.is_empty() {
+            self.wrong(span, format!("the conditions of `{name}` leave no variant"), None);
+            return None;
+        }
+        let files = paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+        Some(PermutedProgram { name, files, variants, names })
+    }
+
+    /// The conditions under a key.
+    fn conditions(
+        &mut self,
+        table: &DeTable<'_>,
+        key: &str,
+        names: &BTreeSet<String>,
+        known: &impl Fn(&str) -> bool,
+    ) -> Option<Vec<Condition>> {
+        let mut conditions = Vec::new();
+        let before = self.reader.diagnostics.len();
+        for (text, span) in self.reader.texts_at(table, key) {
+            let Some(condition) = self.checked(span, Condition::new(text)) else { continue };
+            for other in condition.names().filter(|name| !known(name)) {
+                let near = did_you_mean(other, names.iter().map(String::as_str));
+                let help = near.map(|near| format!("did you mean `{near}`?"));
+                self.wrong(span, format!("no variant has `{other}`"), help);
+            }
+            conditions.push(condition);
+        }
+        (self.reader.diagnostics.len() == before).then_some(conditions)
+    }
+
+    /// The choices of a program, those of all variants first; `None` (reported) if one is wrong.
+    fn axes(&mut self, table: &DeTable<'_>, span: Span, paths: &[PathBuf]) -> Option<Vec<Axis>> {
+        let before = self.reader.diagnostics.len();
+        let mut axes = Vec::new();
+        for (key, node) in self.reader.table_at(table, "defines").into_iter().flatten() {
+            let Some(name) = self.reader.macro_name(key) else { continue };
+            let value = self.value(node, &name);
+            axes.extend(value.map(|value| Axis::of_values(&name, [value])));
+        }
+        axes.extend(self.keywords(table, span, paths));
+        for (key, node) in self.reader.table_at(table, "values").into_iter().flatten() {
+            let Some(name) = self.reader.macro_name(key) else { continue };
+            axes.extend(self.values(node, &name).map(|values| Axis::of_values(&name, values)));
+        }
+        let lists = self.reader.texts_at(table, "variants");
+        if let (Some((_, first)), texts) = (lists.first(), lists.iter().map(|(text, _)| (*text).to_owned())) {
+            axes.extend(self.checked(*first, Axis::of_lists(&texts.collect::<Vec<_>>())));
+        }
+        (self.reader.diagnostics.len() == before).then_some(axes)
+    }
+
+    /// The axes of lines of keywords: those of the file, then, with `pragmas`, those of the sources.
+    fn keywords(&mut self, table: &DeTable<'_>, span: Span, paths: &[PathBuf]) -> Vec<Axis> {
+        let own = self.reader.texts_at(table, "keywords").into_iter();
+        let mut lines: Vec<(String, Span)> = own.map(|(line, span)| (line.to_owned(), span)).collect();
+        let has_pragmas = self.reader.flag(table, "pragmas", false);
+        for path in paths.iter().filter(|_| has_pragmas) {
+            let read = files::read(&path.to_string_lossy(), path);
+            let bytes = match read {
+                Ok(bytes) => bytes,
+                Err(error) => {
+                    self.reader.report(Diagnostic::new(error.code, span, error.message));
+                    continue;
+                }
+            };
+            for line in String::from_utf8_lossy(&bytes).lines().filter(|line| is_keyword_pragma(line)) {
+                // Both stages may have the line.
+                if !lines.iter().any(|(known, _)| known == line.trim()) {
+                    lines.push((line.trim().to_owned(), span));
+                }
             }
         }
+        lines.into_iter().filter_map(|(line, span)| self.checked(span, Axis::of_keywords(&line))).collect()
     }
-    for line in &lines {
-        axes.push(Axis::of_keywords(line)?);
-    }
-    for (name, list) in &table.values {
-        let values: Vec<Value> = list.clone().try_into().map_err(|_| {
-            format!("`values.{name}` is no list of values; write `{name} = [0, 1]` or `{name} = [false, true]`")
-        })?;
-        if values.is_empty() {
-            return Err(format!("`values.{name}` has no value"));
+
+    /// The values of a macro, one for each variant.
+    fn values(&mut self, node: &Node<'_>, name: &str) -> Option<Vec<Option<String>>> {
+        let span = self.reader.span_of(node);
+        let Some(list) = node.get_ref().as_array() else {
+            let help = format!("write `{name} = [0, 1]` or `{name} = [false, true]`");
+            self.wrong(span, format!("`values.{name}` is not a list of values"), Some(help));
+            return None;
+        };
+        if list.is_empty() {
+            self.wrong(span, format!("`values.{name}` has no value"), None);
         }
-        let values = values.iter().map(|value| checked(name, value.text())).collect::<Result<Vec<_>, _>>()?;
-        axes.push(Axis::of_values(name, values));
+        list.iter().map(|node| self.value(node, name)).collect()
     }
-    if !table.variants.is_empty() {
-        axes.push(Axis::of_lists(&table.variants)?);
+
+    /// The value of a macro: `None` in it for `false`, which does not define it.
+    fn value(&mut self, node: &Node<'_>, name: &str) -> Option<Option<String>> {
+        let span = self.reader.span_of(node);
+        if let DeValue::Array(_) = node.get_ref() {
+            let help = "a list of values, one for each variant, goes under `[program.values]`".to_owned();
+            self.wrong(span, format!("`{name}` has more than one value here"), Some(help));
+            return None;
+        }
+        if let DeValue::Boolean(false) = node.get_ref() {
+            return Some(None);
+        }
+        let text = self.reader.macro_text(node, name, ["0", "1"])?;
+        self.checked(span, define(&format!("{name}={text}"))).map(|(_, value)| Some(value))
     }
-    Ok(axes)
 }
 
 fn is_keyword_pragma(line: &str) -> bool {
@@ -250,20 +311,27 @@ mod tests {
         assert!(program.variants.iter().all(|variant| variant["FIXED"] == "1.0"));
         for (text, why) in [
             ("", "no `[[program]]`"),
-            ("[[program]]\n", "files"),
+            ("[[program]]\n", "has no `files`"),
             ("[[program]]\nfiles = []\n", "no files"),
             ("[[program]]\nfiles = [\"a.frag\"]\nlist = 1\n", "list"),
             ("[[program]]\nfiles = [\"a.frag\"]\nskip = [\"LITT\"]\nvalues = { LIT = [1] }\n", "did you mean `LIT`"),
-            ("[[program]]\nfiles = [\"a.frag\"]\nvalues = { LIT = 1 }\n", "no list"),
+            ("[[program]]\nfiles = [\"a.frag\"]\nvalues = { LIT = 1 }\n", "not a list"),
             ("[[program]]\nfiles = [\"a.frag\"]\nvalues = { LIT = [] }\n", "no value"),
             ("[[program]]\nfiles = [\"a.frag\"]\nvalues = { \"1\" = [1] }\n", "not a name"),
             ("[[program]]\nfiles = [\"a.frag\"]\nkeywords = [\"multi A\"]\n", "multi_compile"),
-            ("[[program]]\nfiles = [\"a.frag\"]\nname = \"../x\"\n", "no name"),
+            ("[[program]]\nfiles = [\"a.frag\"]\nname = \"../x\"\n", "not a name"),
             ("[[program]]\nfiles = [\"a.frag\"]\n[[program]]\nfiles = [\"a.frag\"]\n", "two programs"),
-            ("[[program]]\nfiles = [\"a.frag\"]\nonly = [\"A\"]\nskip = [\"A\"]\nvalues = { A = [1] }\n", "no variant"),
+            (
+                "[[program]]\nfiles = [\"a.frag\"]\nonly = [\"A\"]\nskip = [\"A\"]\nvalues = { A = [1] }\n",
+                "leave no variant",
+            ),
         ] {
-            let failure = format!("{:?}", read(text).expect_err(text));
+            let failure = format!("{:?}", read(text).expect_err(text).diagnostics);
             assert!(failure.contains(why), "{text}: {failure}");
         }
+        // All mistakes of a file are told, each at its place.
+        let all =
+            read("[[program]]\nfils = [\"a.frag\"]\n[[scene]]\nfile = 1\n").expect_err("two mistakes").diagnostics;
+        assert_eq!(all.iter().map(|one| one.primary.span.start).collect::<Vec<_>>(), [13, 48]);
     }
 }

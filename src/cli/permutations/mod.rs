@@ -90,9 +90,12 @@ struct Run<'a> {
 
 /// Runs the command.
 pub(super) fn run(job: &Job<'_>, console: &Console) -> Outcome {
-    let permutations = file::read(job.file)?;
     let plan = OutputPlan::new(job.outputs)?.unnamed();
     let session = Session::new(console, job.sources, job.bindings, job.levels, job.jobs)?;
+    let permutations = match file::read(job.file) {
+        Ok(permutations) => permutations,
+        Err(batch) => return session.tell(&[&batch], false),
+    };
     let recall = Recall::new(job.cache, session.engines(), job.sources, job.bindings, &plan)?;
     let (index, units, made) = (Index::new(), Vec::new(), Vec::new());
     let mut run = Run { job, plan, session, recall, index, units, made, variants: 0, shaders: 0 };

@@ -3,10 +3,10 @@
 use super::mesh::{Mesh, Named};
 use super::missing::{Missing, global_span};
 use super::names::ATTRIBUTE_KINDS;
-use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::fixed::current_attribute;
 use crate::model::{AttributeData, AttributeValues};
 use crate::roles::AttributeRole;
+use crate::tables::{Node, Number, NumberValue, Reader, report_unknown_name};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     MESH_NARROWED, SCENE_BAD_ASSET, SCENE_MISSING_KEY, SCENE_WRONG_KIND, SCENE_WRONG_SIZE,

@@ -2,8 +2,8 @@
 //!
 //! *In:* the table of a unit. *Out:* a [`Combine`]. *Holds:* what a table leaves out is OpenGL's initial state.
 
-use super::reader::{Node, Reader};
 use crate::fixed::{Combination, Combine, CombineFunction, CombineOperand, CombineSource};
+use crate::tables::{Node, Reader};
 use toml::de::DeTable;
 
 /// The keys.

@@ -7,13 +7,13 @@ use super::material::{load_colors, load_material};
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
 use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
-use super::reader::{Node, NumberValue, Reader, report_unknown_name};
 use super::sources::load_sources;
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
 use crate::fixed::{FixedFunction, OtherStage, other_stage, uses_fixed_state};
 use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
+use crate::tables::{Node, NumberValue, Reader, report_unknown_name};
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
@@ -22,7 +22,7 @@ use glisten_front::hir::{Global, Scalar, Shader, Stage};
 use glisten_front::link::{FixedState, Program};
 use glisten_front::source::Span;
 use std::sync::Arc;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 const KEYS: &[&str] = &[
     "program",
@@ -235,29 +235,8 @@ pub(super) fn load_defines(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(Str
     let Some(defines) = reader.table_at(table, "defines") else { return Vec::new() };
     let mut list = Vec::new();
     for (name, node) in defines {
-        let macro_name: &str = name.get_ref();
-        let starts_well = macro_name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
-        if !starts_well || !macro_name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
-            let span = reader.span_of(name);
-            reader.wrong_value(span, format!("`{macro_name}` is not a name for a macro"), "not an identifier");
-            continue;
-        }
-        let value = match node.get_ref() {
-            DeValue::String(text) => text.to_string(),
-            DeValue::Integer(number) => number.as_str().replace('_', ""),
-            DeValue::Float(number) => number.as_str().replace('_', ""),
-            DeValue::Boolean(value) => value.to_string(),
-            DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => {
-                reader.wrong_type(node, macro_name, "a number or a string");
-                continue;
-            }
-        };
-        if value.contains(['\n', '\r']) {
-            let span = reader.span_of(node);
-            reader.wrong_value(span, "a macro's value is one line".to_owned(), "more than one line");
-            continue;
-        }
-        list.push((macro_name.to_owned(), value));
+        let Some(name) = reader.macro_name(name) else { continue };
+        list.extend(reader.macro_text(node, &name, ["false", "true"]).map(|value| (name, value)));
     }
     list
 }

@@ -9,11 +9,11 @@ use super::combine;
 use super::lights::{Lighting, opaque};
 use super::material::Colors;
 use super::matrices::View;
-use super::reader::{Node, Reader};
 use crate::fixed::{
     ColorMaterial, Combine, EnvironmentMode, FixedFunction, FogMode, FogSource, Material, NormalScaling, Pipeline,
     TexGen, TextureTarget, TextureUnit, UNITS,
 };
+use crate::tables::{Node, Reader};
 use glisten_front::diagnostic::codes::scenes::{SCENE_WRONG_SIZE, SCENE_WRONG_VALUE};
 use glisten_front::link::FixedState;
 use toml::de::DeTable;

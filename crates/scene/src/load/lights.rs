@@ -5,8 +5,8 @@
 //! once. Directions keep the length given in the scene.
 
 use super::paste;
-use super::reader::{Node, Reader};
 use crate::fixed::LightSource;
+use crate::tables::{Node, Reader};
 use glam::{DMat4, DVec3};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::SCENE_MISSING_KEY;

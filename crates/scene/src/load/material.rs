@@ -6,8 +6,8 @@
 //! whole. The scene's material does not affect programs that declare none.
 
 use super::lights::Member;
-use super::reader::{Node, Reader};
 use crate::fixed::uses_fixed_state;
+use crate::tables::{Node, Reader};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_MISSING_KEY, SCENE_UNKNOWN_NAME};
 use glisten_front::link::Program;

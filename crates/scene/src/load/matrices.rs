@@ -4,9 +4,9 @@
 //! rounded once to f32. *Holds:* eye space is right-handed and looks down -z; clip-space z is in `[-w, w]`, as with
 //! `gluLookAt` and `gluPerspective`.
 
-use super::reader::Reader;
 use crate::model::Framebuffer;
 use crate::roles::MatrixRole as Role;
+use crate::tables::Reader;
 use glam::{DMat3, DMat4, DQuat, DVec3};
 use glisten_front::hir::Type;
 use toml::de::DeTable;

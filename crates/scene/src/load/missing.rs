@@ -5,8 +5,8 @@
 
 use super::mesh::{Mesh, likely_roles};
 use super::paste::{self, Lines, key};
-use super::reader::Reader;
 use crate::roles::AttributeRole;
+use crate::tables::Reader;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_MISSING_ATTRIBUTE, SCENE_UNSET_ATTRIBUTE};
 use glisten_front::hir::{Scalar, Type};

@@ -17,7 +17,6 @@ mod missing;
 mod names;
 mod paste;
 mod patterns;
-mod reader;
 mod sources;
 mod textures;
 mod uniforms;
@@ -28,7 +27,6 @@ use self::draw::{load_defines, load_draw};
 use self::fixed::GENERATED;
 use self::lights::Lighting;
 use self::names::FORMATS;
-use self::reader::{Node, Reader};
 use self::sources::load_sources;
 use self::unread::warn_unread;
 use crate::files::{FileError, FileSource, relative_to};
@@ -37,6 +35,7 @@ use crate::geometry::Model;
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
 use crate::picture::Transfer;
+use crate::tables::{self, Node, Reader};
 use glisten_front::compiler::{Compiler, Options, Source, SourceSettings};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes::{
@@ -85,7 +84,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
         files,
         library,
         compiler,
-        reader: Reader::default(),
+        reader: Reader::new(&tables::SCENE, 0, Arc::default()),
         sources: SourceMap::default(),
         programs: Vec::new(),
         models: BTreeMap::new(),
@@ -165,15 +164,7 @@ impl Loader<'_> {
         let file = self.sources.add(self.path, Arc::clone(&text))?;
         self.reader.base = self.sources.file(file).base();
         self.reader.text = Arc::clone(&text);
-        let (document, errors) = DeTable::parse_recoverable(&text);
-        for error in &errors {
-            let span = error.span().map_or_else(Span::default, |range| self.reader.span(range));
-            self.reader.report(Diagnostic::new(&SCENE_SYNTAX, span, error.message().trim().replace('\n', ", ")));
-        }
-        if !errors.is_empty() {
-            return None;
-        }
-        let table = document.get_ref();
+        let table = &self.reader.document(&text)?;
         if table.is_empty() {
             let message = format!("`{}` is empty: a scene has a [framebuffer] and a [[draw]] table", self.path);
             self.reader.report(Diagnostic::new(&SCENE_SYNTAX, self.reader.span(0..text.len()), message));
@@ -389,7 +380,7 @@ impl Loader<'_> {
         let (key, stage, node) = stages.into_iter().find_map(|(key, stage)| Some((key, stage, draw.get(key)?)))?;
         let (name, span) = (self.reader.text(node, key)?.to_owned(), self.reader.span_of(node));
         let (path, text) = self.shader_text(&name, span)?;
-        let mut quiet = Reader::default();
+        let mut quiet = Reader::new(&tables::SCENE, 0, Arc::default());
         let own = load_defines(&mut quiet, draw);
         let sources = self.quietly(|loader| load_sources(loader, draw))?;
         let options = Options { defines: self.defines(&own), ..self.compiler.options().clone() };
@@ -419,7 +410,7 @@ impl Loader<'_> {
 
     /// Reads something that is read again later, and then reports its diagnostics.
     fn quietly<R>(&mut self, read: impl FnOnce(&mut Self) -> R) -> R {
-        let quiet = Reader { base: self.reader.base, text: Arc::clone(&self.reader.text), ..Reader::default() };
+        let quiet = Reader::new(&tables::SCENE, self.reader.base, Arc::clone(&self.reader.text));
         let reader = std::mem::replace(&mut self.reader, quiet);
         let result = read(self);
         self.reader = reader;

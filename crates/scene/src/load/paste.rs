@@ -3,7 +3,7 @@
 //! *In:* lines for tables of a draw. *Out:* the help text. *Holds:* a table that the scene writes inline (`mesh = { .. }`) is repeated with
 //! the new keys, as no header can add to it.
 
-use super::reader::Reader;
+use crate::tables::Reader;
 use toml::de::DeTable;
 
 /// Lines for a table of a draw.

@@ -7,8 +7,8 @@
 //! contain the color at each texel's center and repeat. The formulas are in `docs/scenes.md`.
 
 use super::Loader;
-use super::reader::Node;
 use crate::model::{Texels, TextureLevel, Wrap};
+use crate::tables::{Node, list};
 use glisten_front::diagnostic::codes::scenes::{SCENE_WRONG_KIND, SCENE_WRONG_VALUE};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use std::f64::consts::TAU;
@@ -163,7 +163,7 @@ pub(super) fn load(
         if KEYS.contains(&key_name) && !pattern.keys.contains(&key_name) {
             let span = reader.span_of(key);
             let message = format!("the pattern `{}` has no `{key_name}`", pattern.name);
-            let has = format!("it has {}", super::reader::list(pattern.keys));
+            let has = format!("it has {}", list(pattern.keys));
             reader.error(&SCENE_WRONG_VALUE, span, message, &has);
         }
     }

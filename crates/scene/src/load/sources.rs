@@ -4,7 +4,6 @@
 //! [`Library`](crate::Library) knows the names of engines; settings of the compiler itself take precedence.
 
 use super::Loader;
-use super::reader::Node;
 use crate::files::relative_to;
 use glisten_front::compiler::SourceSettings;
 use glisten_front::diagnostic::codes::scenes::SCENE_UNKNOWN_NAME;
@@ -16,14 +15,12 @@ use toml::de::DeTable;
 pub(super) fn load_sources(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Option<SourceSettings> {
     let before = loader.reader.diagnostics.len();
     let (engines, styles) = (loader.library.engines(), loader.library.include_styles());
+    let includes = loader.reader.texts_at(table, "includes");
     let settings = SourceSettings {
         engine: name(loader, table, "engine", &engines),
         version: version(loader, table),
         include_style: name(loader, table, "include_style", &styles),
-        includes: paths(loader, table, "includes")
-            .into_iter()
-            .map(|(path, _)| relative_to(loader.path, &path))
-            .collect(),
+        includes: includes.into_iter().map(|(path, _)| relative_to(loader.path, path)).collect(),
         preludes: preludes(loader, table),
     };
     (loader.reader.diagnostics.len() == before).then_some(settings)
@@ -46,38 +43,15 @@ fn name(loader: &mut Loader<'_>, table: &DeTable<'_>, key: &str, known: &[&'stat
 
 /// The version of sources without a `#version` line: `"330"`, `"300 es"`, or a number.
 fn version(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Option<String> {
-    let key = "assume_version";
-    let node = table.get(key)?;
-    let number = node.get_ref().as_integer().map(|number| number.as_str().to_owned());
-    let text = match number {
-        Some(number) => number,
-        None => loader.reader.text(node, key)?.to_owned(),
-    };
-    match loader.library.checked_version(&text) {
-        Ok(version) => Some(version),
-        Err(message) => {
-            let span = loader.reader.span_of(node);
-            loader.reader.wrong_value(span, message, "no version of GLSL");
-            None
-        }
-    }
-}
-
-/// A list of paths as the scene has them; one path will do.
-fn paths<'t, 'i>(loader: &mut Loader<'_>, table: &'t DeTable<'i>, key: &str) -> Vec<(String, &'t Node<'i>)> {
-    let Some(node) = table.get(key) else { return Vec::new() };
-    let nodes: Vec<&Node<'i>> = match node.get_ref().as_array() {
-        Some(array) => array.iter().collect(),
-        None => vec![node],
-    };
-    nodes.into_iter().filter_map(|node| Some((loader.reader.text(node, key)?.to_owned(), node))).collect()
+    let (text, span) = loader.reader.version_at(table, "assume_version")?;
+    let version = loader.library.checked_version(&text);
+    version.map_err(|message| loader.reader.wrong_value(span, message, "no version of GLSL")).ok()
 }
 
 fn preludes(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Vec<Prelude> {
     let mut preludes = Vec::new();
-    for (name, node) in paths(loader, table, "preludes") {
-        let span = loader.reader.span_of(node);
-        if let Some((path, bytes)) = loader.bytes(&name, span) {
+    for (name, span) in loader.reader.texts_at(table, "preludes") {
+        if let Some((path, bytes)) = loader.bytes(name, span) {
             preludes.push(Prelude { name: path, text: String::from_utf8_lossy(&bytes).into() });
         }
     }

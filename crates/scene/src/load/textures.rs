@@ -6,10 +6,10 @@ use super::mipmaps::chain;
 use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::paste::{self, Lines};
 use super::patterns;
-use super::reader::{Node, Number, NumberValue, report_unknown_name};
 use crate::geometry::gltf_image;
 use crate::model::{Compare, Filter, Sampling, Texels, Texture, TextureLevel, Wrap};
 use crate::picture::{Image, Transfer};
+use crate::tables::{Node, Number, NumberValue, report_unknown_name};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_BAD_ASSET, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,

@@ -6,10 +6,10 @@ use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
 use super::paste::{self, Lines, key, names as names_of};
-use super::reader::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::fixed::{FixedFunction, SetError, is_fixed_uniform};
 use crate::reads::is_leaf_read;
 use crate::roles::{MatrixRole, is_plain_transform, matrix_role};
+use crate::tables::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::values::{Fill, UniformValues, bits, value_text};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{

@@ -4,10 +4,10 @@
 //! key counts as read if one program to which the table applies reads its value. A model that is the one a program of
 //! the library has anyway is no mistake. *Not done here:* tables that no program declares at all (`warn_unlit`).
 
-use super::reader::{Node, Reader};
 use crate::library::Library;
 use crate::model::Draw;
 use crate::reads::scene_values_read;
+use crate::tables::{Node, Reader};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::SCENE_UNREAD_KEY;
 use std::collections::BTreeSet;

@@ -38,7 +38,8 @@ codes! {
          comments."
         bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
     BAD_CONFIG = "E0015" "bad-configuration" Error ""
-        "A `glisten.toml` is not TOML, or contains a key or a code that glisten does not know."
+        "A `glisten.toml` or a file of `--permutations` is not TOML, or contains a key, a value or a code that glisten does not \
+         know."
         bad Text("[lint]\nalow = [\"L0001\"]"), good Text("[lint]\nallow = [\"L0001\"]");
     BAD_HEADER = "E0016" "bad-engine-header" Error ""
         "The engine of the source reads a header in it, such as the JSON of the Interactive Shader Format, and the header \

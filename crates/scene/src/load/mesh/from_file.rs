@@ -3,8 +3,8 @@
 //! *In:* the table of a mesh. *Out:* a [`Geometry`]. *Holds:* a file is read once for all draws of a scene.
 
 use super::super::Loader;
-use super::super::reader::{Node, NumberValue};
 use crate::geometry::{Geometry, Model, Normals};
+use crate::tables::{Node, NumberValue};
 use glisten_front::diagnostic::codes::scenes::{SCENE_BAD_ASSET, SCENE_WRONG_VALUE};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::source::Span;

@@ -9,9 +9,9 @@ mod from_file;
 mod shapes;
 
 use super::Loader;
-use super::reader::{Node, Reader};
 use crate::geometry::Geometry;
 use crate::roles::AttributeRole;
+use crate::tables::{Node, Reader};
 pub(super) use feed::likely_roles;
 use from_file::FILE_KEYS;
 use glisten_front::diagnostic::Diagnostic;

@@ -1,7 +1,7 @@
 //! Shapes by name: grids of vertices mapped to a surface, with exact normals.
 
-use super::super::reader::Reader;
 use crate::geometry::Geometry;
+use crate::tables::Reader;
 use std::f64::consts::TAU;
 use toml::de::DeTable;
 
@@ -181,10 +181,12 @@ fn cube(columns: u32, rows: u32, half: f64) -> Geometry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tables;
+    use std::sync::Arc;
 
     fn table(text: &str) -> Geometry {
         let document = DeTable::parse(text).expect("the test writes TOML");
-        let mut reader = Reader::default();
+        let mut reader = Reader::new(&tables::SCENE, 0, Arc::default());
         let shape = match document.get_ref().get("shape").and_then(|node| node.get_ref().as_str()) {
             Some("torus") => Shape::Torus,
             Some("cube") => Shape::Cube,
