@@ -1,10 +1,10 @@
-//! [`Budget`]: the cheapest way whose error is small enough.
+//! [`Budget`]: the cheapest variant whose error is small enough.
 //!
-//! *In:* limits of error figures (`rmse=1e-3,psnr>=40`), and a report. *Out:* for each model a [`Choice`]: the way within the
-//! limits that takes the least work, and the one that takes the least time if that is beyond doubt.
+//! *In:* limits of error figures (`rmse=1e-3,psnr>=40`), and a report. *Out:* for each model a [`Choice`]: the variant within the
+//! limits that takes the least work, and the one that takes the least time if it is clearly faster.
 //!
-//! *Holds:* a way that is unfit for the fronts is within no budget, nor is one in f16 or f64, whose program GLSL 1.50 cannot
-//! express. Of equal ways the more exact one is chosen, then the first.
+//! *Holds:* a variant that is unfit for the fronts is within no budget, nor is one in f16 or f64, whose program GLSL 1.50 cannot
+//! express. Of equal variants the more exact one is chosen, then the first.
 
 use super::front::{is_faster, unfit};
 use super::model::{Figures, Report, Way};
@@ -44,11 +44,11 @@ pub struct Budget {
 pub struct Choice<'a> {
     /// The model.
     pub model: &'a str,
-    /// The way with the least work within the budget.
+    /// The variant with the least work within the budget.
     pub cheapest: Option<&'a Way>,
-    /// The way with the least time within it, if that is beyond doubt.
+    /// The variant with the least time within it, if it is clearly faster.
     pub fastest: Option<&'a Way>,
-    /// The way with the least RMSE, for those who have nothing within the budget.
+    /// The variant with the least RMSE, for those who have nothing within the budget.
     pub closest: Option<&'a Way>,
 }
 
@@ -69,7 +69,7 @@ impl Budget {
         })
     }
 
-    /// The figures of a way that have limits: `rmse 1.2e-3`.
+    /// The figures of a variant that have limits: `rmse 1.2e-3`.
     pub fn figures(&self, way: &Way) -> String {
         let told = |(measure, _): &(Measure, f64)| {
             let value = (measure.of)(&way.error);
@@ -104,7 +104,7 @@ fn limit(text: &str) -> Result<(Measure, f64), String> {
 }
 
 impl Report {
-    /// The cheapest ways within a budget, a model after the other.
+    /// The cheapest variants within a budget, a model after the other.
     pub fn choose(&self, budget: &Budget) -> Vec<Choice<'_>> {
         let unfit = unfit(&self.ways, &self.truths);
         let fit: Vec<&Way> = self
@@ -140,7 +140,7 @@ fn is_cheaper(way: &Way, than: &Way) -> bool {
     (way.work.operations, way.error.rmse) < (than.work.operations, than.error.rmse)
 }
 
-/// The program of a way: a scene in the explicit core, and the GLSL texts that it names.
+/// The program of a variant: a scene in the explicit core, and the GLSL texts that it names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WayFiles {
     /// The text of the scene.
@@ -150,7 +150,7 @@ pub struct WayFiles {
 }
 
 impl Way {
-    /// The files that draw the way; shaders are named after `stem`.
+    /// The files that draw the variant; shaders are named after `stem`.
     pub fn files(&self, stem: &str) -> WayFiles {
         let (scene, programs) = match &self.programs {
             Some(programs) => ((*self.scene).clone(), programs.clone()),

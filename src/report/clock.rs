@@ -1,8 +1,8 @@
-//! Times all ways of a report, in rounds.
+//! Times all variants of a report, in rounds.
 //!
-//! *In:* ways on the device, and an empty frame. *Out:* their times round by round, and those of a second copy of the first way.
+//! *In:* variants on the device, and an empty frame. *Out:* their times round by round, and those of a second copy of the first variant.
 //!
-//! *Holds:* each round times every way once, in an order by chance with a fixed seed, so that no way always follows the same
+//! *Holds:* each round times every variant once, in an order by chance with a fixed seed, so that no variant always follows the same
 //! other way. A time is the mean of as many frames as last tens of milliseconds. Rounds go on until the interval of every
 //! ratio to the baseline is narrow enough, or a limit is reached.
 
@@ -31,12 +31,12 @@ impl Default for Limits {
 
 /// How narrow the intervals are to be: the width, as a part of the median.
 const NARROW: f64 = 0.03;
-/// The rounds before intervals can be narrow enough: fewer cannot decide which way is faster.
+/// The rounds before intervals can be narrow enough: fewer cannot decide which variant is faster.
 const DECIDING: u32 = 20;
 /// The seed of the orders.
 pub(super) const SEED: u64 = 1;
 
-/// A way on the device.
+/// A variant on the device.
 pub(super) struct Candidate {
     pub(super) prepared: Prepared,
     /// The frames of a measurement.
@@ -46,9 +46,9 @@ pub(super) struct Candidate {
 /// The times of a run.
 #[derive(Debug)]
 pub(super) struct Times {
-    /// Of each way, round by round, in milliseconds per frame.
+    /// Of each variant, round by round, in milliseconds per frame.
     pub(super) ways: Vec<Vec<f64>>,
-    /// Of the second copy of the first way.
+    /// Of the second copy of the first variant.
     pub(super) again: Vec<f64>,
     /// Of a frame that only clears, if it is measured.
     pub(super) empty: Vec<f64>,
@@ -80,7 +80,7 @@ impl Times {
     }
 }
 
-/// Times all ways and the empty frame; the steps of the watcher are those before it and one a round. An error names the way by
+/// Times all variants and the empty frame; the steps of the watcher are those before it and one a round. An error names the variant by
 /// its number.
 pub(super) fn time(
     gpu: &Gpu,
@@ -90,7 +90,7 @@ pub(super) fn time(
 ) -> Result<Times, (usize, Error)> {
     let mut times =
         Times { ways: vec![Vec::new(); candidates.len()], again: Vec::new(), empty: Vec::new(), ended: Ended::Rounds };
-    // The second copy of the baseline, and then the empty frame, are numbered after the ways.
+    // The second copy of the baseline, and then the empty frame, are numbered after the variants.
     let turns: Vec<&Candidate> = candidates.iter().chain(candidates.first()).chain(empty).collect();
     let mut random = Random::new(SEED);
     let start = Instant::now();

@@ -3,7 +3,7 @@
 //! *In:* a report and an earlier one of the same scene. *Out:* a [`Comparison`]: lines that say what got worse, and notes.
 //!
 //! *Holds:* errors and work are compared to the digit. Times are compared only where the drivers are the same, and only where
-//! the intervals part by the margin of the noisier run, or by [`BETWEEN_RUNS`] if that is more. A way that is gone is worse, since nothing watches its figures any
+//! the intervals part by the margin of the noisier run, or by [`BETWEEN_RUNS`] if that is more. A variant that is gone is worse, since nothing watches its figures any
 //! longer; a new one is not.
 
 use super::model::Report;
@@ -149,7 +149,7 @@ mod tests {
         Past::of(&example()).expect("a report can be read")
     }
 
-    /// The lines of what is worse, from a report in which one way was changed to an earlier one.
+    /// The lines of what is worse, from a report in which one variant was changed to an earlier one.
     fn worse(change: impl FnOnce(&mut Report)) -> Vec<String> {
         let mut report = example();
         change(&mut report);

@@ -1,6 +1,6 @@
-//! [`Drawing`]: draws truths and ways, and compares their pictures.
+//! [`Drawing`]: draws references and variants, and compares their pictures.
 //!
-//! *In:* the scene of a way. *Out:* a [`Way`] with its errors and its work, and the way on the device. *Holds:* a way that was
+//! *In:* the scene of a variant. *Out:* a [`Way`] with its errors and its work, and the variant on the device. *Holds:* a variant that was
 //! found and cannot be drawn is skipped, with the reason; one that the scene's file declares is an error.
 
 use super::clock::Candidate;
@@ -17,13 +17,13 @@ use glisten_scene::compare::flip;
 use glisten_scene::picture::Picture;
 use std::sync::Arc;
 
-/// A way that was drawn.
+/// A variant that was drawn.
 pub(super) struct Draw {
     pub(super) way: Way,
     pub(super) candidate: Candidate,
 }
 
-/// The truths and ways that were drawn so far.
+/// The references and variants that were drawn so far.
 pub(super) struct Drawing<'a> {
     pub(super) gpu: &'a Gpu,
     pub(super) options: &'a Options,
@@ -45,7 +45,7 @@ impl Drawing<'_> {
         self.steps += 1;
     }
 
-    /// Draws the truth of a model.
+    /// Draws the reference of a model.
     pub(super) fn truth(
         &mut self,
         planned: &PlannedTruth,
@@ -63,7 +63,7 @@ impl Drawing<'_> {
         Ok(())
     }
 
-    /// Draws a way on the reference and on the GPU.
+    /// Draws a variant on the reference and on the GPU.
     pub(super) fn way(&mut self, planned: &PlannedWay, scene: &Scene, watcher: &mut dyn Watcher) -> Result<(), Error> {
         match self.drawn(planned, scene, watcher) {
             Ok(draw) => self.done.push(draw),
@@ -133,7 +133,7 @@ impl Drawing<'_> {
     }
 }
 
-/// Why a way cannot be drawn, in a sentence.
+/// Why a variant cannot be drawn, in a sentence.
 fn reason(error: &Error) -> String {
     let first = |messages: Vec<&str>| messages.first().map_or_else(String::new, |message| (*message).to_owned());
     match error {

@@ -1,18 +1,18 @@
-//! The fronts: the ways that no other way of their model beats, in error and work, and in error and time.
+//! The fronts: the variants that no other variant of their model beats, in error and work, and in error and time.
 //!
-//! *In:* ways with their figures, and the times of all rounds. *Out:* their marks.
+//! *In:* variants with their figures, and the times of all rounds. *Out:* their marks.
 //!
-//! *Holds:* a way beats another if it is better in one and not worse in the other; equal ways do not beat each other. The
-//! error is the RMSE. A way whose picture is not finite where that of another way of the model is, or that covers too little
-//! of what the truth covers, is *unfit*: it is on no front and beats nothing, since its RMSE leaves out what is wrong.
+//! *Holds:* a variant beats another if it is better in one and not worse in the other; equal variants do not beat each other. The
+//! error is the RMSE. A variant whose picture is not finite where that of another variant of the model is, or that covers too little
+//! of what the reference covers, is *unfit*: it is on no front and beats nothing, since its RMSE leaves out what is wrong.
 //!
-//! Work is exact. Time is measured, so a way is faster than another only beyond doubt: the interval of the median of their
-//! ratios, round by round, parts from 1 by a margin. What is neither faster nor slower beyond doubt is open.
+//! Work is exact. Time is measured, so a variant is *clearly* faster than another only by this: the interval of the median of their
+//! ratios, round by round, parts from 1 by a margin. What is neither clearly faster nor clearly slower is open.
 
 use super::interval::{DECISIVE, median_interval};
 use super::model::{OnFront, Spread, Truth, Way};
 
-/// The least margin by which a way must be faster than another.
+/// The least margin by which a variant must be faster than another.
 const LEAST_MARGIN: f64 = 0.1;
 
 /// The margin of a run, by the noise of its baseline against itself: as far as its interval reaches, and its quartiles.
@@ -22,13 +22,13 @@ pub(super) fn margin(same_again: &Spread) -> f64 {
     reach.iter().map(|far| far - 1.0).filter(|far| far.is_finite()).fold(LEAST_MARGIN, f64::max)
 }
 
-/// Whether the first way is faster than the second beyond doubt, given their times round by round.
+/// Whether the first variant is clearly faster than the second, given their times round by round.
 pub(super) fn is_faster(first: &[f64], second: &[f64], margin: f64) -> bool {
     let ratios: Vec<f64> = first.iter().zip(second).map(|(first, second)| first / second).collect();
     median_interval(&ratios, DECISIVE).is_some_and(|[_, high]| high < 1.0 / (1.0 + margin))
 }
 
-/// For each way, whether its figures leave out what is wrong with it.
+/// For each variant, whether its figures leave out what is wrong with it.
 pub(super) fn unfit(ways: &[Way], truths: &[Truth]) -> Vec<bool> {
     let least = |model: &str| {
         ways.iter().filter(|way| way.model == model).map(|way| way.error.non_finite).min().unwrap_or_default()
@@ -62,13 +62,13 @@ pub(super) fn mark(ways: &mut [Way], truths: &[Truth], margin: f64) {
     }
 }
 
-/// Whether none of the ways that are as close to the truth beats the way in work.
+/// Whether none of the variants that are as close to the reference beats the variant in work.
 fn by_work(way: &Way, as_close: &[&Way]) -> bool {
     let point = |way: &Way| (way.error.rmse, way.work.operations);
     !as_close.iter().any(|other| other.work.operations <= way.work.operations && point(other) != point(way))
 }
 
-/// Whether each of the ways that are as close to the truth is slower, or one of them faster.
+/// Whether each of the variants that are as close to the reference is slower, or one of them faster.
 fn by_time(way: &Way, as_close: &[&Way], margin: f64) -> OnFront {
     if as_close.iter().any(|other| is_faster(&other.times, &way.times, margin)) {
         OnFront::No
@@ -85,7 +85,7 @@ mod tests {
     use super::super::random::Random;
     use super::*;
 
-    /// Ways of one model with these errors, operations and times; each round is off by up to `noise`.
+    /// Variants of one model with these errors, operations and times; each round is off by up to `noise`.
     fn ways(points: &[(f64, u64, f64)], rounds: usize, noise: f64, seed: u64) -> Vec<Way> {
         let mut random = Random::new(seed);
         let mut ways: Vec<Way> = points.iter().map(|(error, work, _)| way("m", *error, *work)).collect();

@@ -8,7 +8,7 @@
 
 /// The confidence of the intervals that a report shows.
 pub(super) const SHOWN: f64 = 0.95;
-/// The confidence by which one way may beat another. There are many pairs and many runs.
+/// The confidence by which one variant may beat another. There are many pairs and many runs.
 pub(super) const DECISIVE: f64 = 0.9999;
 /// The fewest values that have an interval of 95 %.
 pub(super) const FEWEST: u32 = 6;

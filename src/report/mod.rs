@@ -1,8 +1,8 @@
 //! Reports on error against run time, as tables, plots and pages.
 //!
-//! *In:* a scene file, which may have a `[report]` table that names the ways to shade it (see `docs/scenes.md`).
-//! *Out:* a [`Report`]: for each way the difference between its picture and the f64 truth of its model, and its GPU
-//! time as a ratio to the first way's, from one run in which all ways take turns.
+//! *In:* a scene file, which may have a `[report]` table that names the variants to shade it (see `docs/scenes.md`).
+//! *Out:* a [`Report`]: for each variant the difference between its picture and the f64 reference of its model, and its GPU
+//! time as a ratio to the first variant's, from one run in which all variants take turns.
 //!
 //! *Holds:* nothing here prints or writes files; [`Report::table`], [`Report::json`] and [`Report::html`] return
 //! texts. *Not done here:* the pass or fail verdict of `glisten verify`.

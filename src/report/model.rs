@@ -12,7 +12,7 @@ use glisten_scene::picture::{Picture, Transfer};
 use serde::{Serialize, Serializer};
 use std::sync::Arc;
 
-/// The error against run time of each way to shade a scene.
+/// The error against run time of each variant to shade a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// The scene's name.
@@ -25,7 +25,7 @@ pub struct Report {
     /// How pictures on the page are encoded.
     #[serde(skip)]
     pub encode: Transfer,
-    /// Whether all ways were drawn, and timed as long as was asked for.
+    /// Whether all variants were drawn, and timed as long as was asked for.
     pub complete: bool,
     /// The version of glisten.
     pub version: &'static str,
@@ -37,13 +37,13 @@ pub struct Report {
     pub via: &'static str,
     /// The name of the weights by which operations were counted.
     pub weights: String,
-    /// The truths, one per model.
+    /// The references, one per model.
     pub truths: Vec<Truth>,
     /// How times were measured.
     pub timing: Timing,
-    /// The ways, in the order of the scene, coarse to fine, then those that were found.
+    /// The variants, in the order of the scene, coarse to fine, then those that were found.
     pub ways: Vec<Way>,
-    /// The ways that were found and could not be drawn.
+    /// The variants that were found and could not be drawn.
     pub skipped: Vec<Skipped>,
 }
 
@@ -58,7 +58,7 @@ pub struct Machine {
     pub load: Option<f64>,
 }
 
-/// A way that was found and could not be drawn.
+/// A variant that was found and could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Skipped {
     /// The name.
@@ -78,12 +78,12 @@ pub struct Adapter {
     pub driver: String,
 }
 
-/// The picture with which the ways of a model are compared.
+/// The picture with which the variants of a model are compared.
 #[derive(Clone, Debug, Serialize)]
 pub struct Truth {
     /// The model.
     pub model: String,
-    /// The way that draws it.
+    /// The variant that draws it.
     pub way: String,
     /// The segments and rings of its mesh, if that was tessellated for the report.
     pub tessellation: Option<[u32; 2]>,
@@ -97,13 +97,13 @@ pub struct Truth {
 /// How times were measured.
 #[derive(Clone, Debug, Serialize)]
 pub struct Timing {
-    /// The way whose time is 1.
+    /// The variant whose time is 1.
     pub baseline: String,
     /// Its median time in milliseconds per frame.
     pub baseline_ms: f64,
-    /// The median time of a frame that only clears: a part of every way's time.
+    /// The median time of a frame that only clears: a part of every variant's time.
     pub empty_ms: f64,
-    /// How often all ways were drawn, each round in an order by chance.
+    /// How often all variants were drawn, each round in an order by chance.
     pub rounds: u32,
     /// The seed of the orders.
     pub seed: u64,
@@ -111,7 +111,7 @@ pub struct Timing {
     pub ended: Ended,
     /// The ratio of a second copy of the baseline to the first in the same run: its distance from 1 is noise.
     pub same_again: Spread,
-    /// By how much one way must be faster than another to beat it, after the noise of the same again: 0.1 is 10 %.
+    /// By how much one variant must be faster than another to beat it, after the noise of the same again: 0.1 is 10 %.
     pub margin: f64,
 }
 
@@ -142,16 +142,16 @@ pub struct Spread {
     pub interval: [f64; 2],
 }
 
-/// A way to shade the scene.
+/// A variant to shade the scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Way {
-    /// The name in the scene, or that of a way that was found.
+    /// The name in the scene, or that of a variant that was found.
     pub name: String,
-    /// The kind of way in a word: `declared` in the scene, or that of a way that was found.
+    /// The kind of variant in a word: `declared` in the scene, or that of a variant that was found.
     pub kind: &'static str,
     /// A sentence on what is done, if there is more to say than the name.
     pub about: String,
-    /// The model, which selects the truth.
+    /// The model, which selects the reference.
     pub model: String,
     /// The segments and rings of its mesh, if that was tessellated for the report.
     pub tessellation: Option<[u32; 2]>,
@@ -161,17 +161,17 @@ pub struct Way {
     pub fragments: Option<u64>,
     /// The work of the reference for the picture.
     pub work: Work,
-    /// The GPU's picture compared with the truth.
+    /// The GPU's picture compared with the reference.
     pub error: Figures,
-    /// The GPU's picture compared with the same way in f64: the effect of rounding alone.
+    /// The GPU's picture compared with the same variant in f64: the effect of rounding alone.
     pub rounding: Figures,
     /// The median GPU time in milliseconds per frame.
     pub milliseconds: f64,
     /// The time relative to the baseline's.
     pub ratio: Spread,
-    /// Whether no other way of the model takes less work and is closer to the truth.
+    /// Whether no other variant of the model takes less work and is closer to the reference.
     pub pareto: bool,
-    /// Whether no other way of the model is faster and closer to the truth.
+    /// Whether no other variant of the model is faster and closer to the reference.
     pub pareto_time: OnFront,
     /// The form of the code that the GPU ran.
     pub via: &'static str,
@@ -190,7 +190,7 @@ pub struct Way {
     /// The picture.
     #[serde(skip)]
     pub picture: Picture,
-    /// For each pixel, the largest difference of its channels from the truth; `None` where only one picture covers
+    /// For each pixel, the largest difference of its channels from the reference; `None` where only one picture covers
     /// it.
     #[serde(skip)]
     pub difference: Vec<Option<f64>>,
@@ -209,13 +209,13 @@ pub struct Work {
     pub texture_lookups: u64,
 }
 
-/// Whether a way is on the front of error against time.
+/// Whether a variant is on the front of error against time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum OnFront {
-    /// Every way that is as close to the truth is slower beyond doubt.
+    /// Every variant that is as close to the reference is clearly slower.
     Yes,
-    /// A way that is as close to the truth is faster beyond doubt.
+    /// A variant that is as close to the reference is clearly faster.
     No,
     /// The measured times do not tell.
     Open,
@@ -241,7 +241,7 @@ pub struct Figures {
     pub rmse: f64,
     /// Decibels against a peak of 1; null for equal pictures.
     pub psnr: Option<f64>,
-    /// The largest difference in units in the last place (ULP) of the truth as an f32.
+    /// The largest difference in units in the last place (ULP) of the reference as an f32.
     pub max_ulp: f64,
     /// The mean FLIP error of the whole pictures, if it was computed: 0 (the same) to 1.
     #[serde(skip_serializing_if = "Option::is_none")]

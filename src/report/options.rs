@@ -20,16 +20,16 @@ pub enum Error {
         /// Whether a file that it names cannot be read.
         io_error: bool,
     },
-    /// The reference cannot draw a way.
+    /// The reference cannot draw a variant.
     Reference {
-        /// The way.
+        /// The variant.
         way: String,
         /// The diagnostics.
         diagnostics: Vec<Diagnostic>,
     },
-    /// The GPU cannot draw a way.
+    /// The GPU cannot draw a variant.
     Gpu {
-        /// The way.
+        /// The variant.
         way: String,
         /// The reason.
         error: glisten_gpu::Error,
@@ -54,7 +54,7 @@ impl Watcher for () {
     fn step(&mut self, _what: &str) {}
 }
 
-/// Which ways to compare.
+/// Which variants to compare.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ways {
     /// Those that the scene's file declares, or the scene alone.
@@ -64,14 +64,14 @@ pub enum Ways {
     Auto,
 }
 
-/// The ways to compare, and how to measure them.
+/// The variants to compare, and how to measure them.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The form of the emitted code that the GPU runs.
     pub via: Via,
-    /// Adds each way with residual programs of this contract.
+    /// Adds each variant with residual programs of this contract.
     pub specialized: Option<Contract>,
-    /// Which ways to compare.
+    /// Which variants to compare.
     pub ways: Ways,
     /// The weights of operations.
     pub weights: Weights,

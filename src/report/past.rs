@@ -32,7 +32,7 @@ pub(super) struct PastTiming {
     pub(super) margin: Option<f64>,
 }
 
-/// A way of an earlier run.
+/// A variant of an earlier run.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(super) struct PastWay {
     pub(super) name: String,

@@ -1,24 +1,24 @@
-//! The ways that a scene file asks to compare, each as a scene of its own.
+//! The variants that a scene file asks to compare, each as a scene of its own.
 //!
-//! *In:* the text of a scene file, with or without a `[report]` table, or the ways that were found by themselves. *Out:*
-//! [`Plan`]: for every way and tessellation a scene, or the text of one, which is drawn exactly as `glisten render` would
+//! *In:* the text of a scene file, with or without a `[report]` table, or the variants that were found by themselves. *Out:*
+//! [`Plan`]: for every variant and tessellation a scene, or the text of one, which is drawn exactly as `glisten render` would
 //! draw it.
 //!
 //! ```toml
 //! [report]
-//! draw = 0                                         # the draw whose keys the ways replace
+//! draw = 0                                         # the draw whose keys the variants replace
 //! tessellations = [[16, 8], [32, 16], [64, 32]]    # segments and rings of its mesh
-//! truth_tessellation = [256, 128]                  # of the mesh of the truth
+//! truth_tessellation = [256, 128]                  # of the mesh of the reference
 //! rounds = 40                                      # at most
 //!
 //! [[report.way]]
 //! name = "Phong per fragment"
-//! model = "Phong"                                  # ways of one model have one truth
-//! truth = true                                     # the f64 picture of this way is the truth of its model
+//! model = "Phong"                                  # variants of one model have one reference
+//! truth = true                                     # the f64 picture of this variant is the reference of its model
 //! set = { vertex = "phong.vert", fragment = "phong.frag" }    # replaces or adds keys of the draw
 //! ```
 //!
-//! Without the table there is one way: the scene as it is, with a quarter, a half and all of its mesh's segments and
+//! Without the table there is one variant: the scene as it is, with a quarter, a half and all of its mesh's segments and
 //! rings. *Holds:* `set` merges tables (`set = { mesh = { radius = 2.0 } }` keeps the other keys of the mesh).
 
 use super::ways::{AS_WRITTEN, FoundTruth, FoundWay};
@@ -28,21 +28,22 @@ use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
 use glisten_front::hir::Stage;
 use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::Via;
+use glisten_scene::tables::{Reader, SCENE};
 use glisten_scene::{Scene, default_tessellation};
 use serde::Deserialize;
 use std::ops::Range;
 use toml::{Table, Value};
 
-/// The ways and truths to draw.
+/// The variants and references to draw.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Plan {
-    /// The ways, in the order of the file, coarse to fine.
+    /// The variants, in the order of the file, coarse to fine.
     pub(super) ways: Vec<PlannedWay>,
-    /// The truths, one per model, in the order in which models are first named.
+    /// The references, one per model, in the order in which models are first named.
     pub(super) truths: Vec<PlannedTruth>,
-    /// How often all ways are timed, if the scene says so.
+    /// How often all variants are timed, if the scene says so.
     pub(super) rounds: Option<u32>,
-    /// Whether the scene's file declares ways.
+    /// Whether the scene's file declares variants.
     pub(super) declared: bool,
     /// The text of the scene's file without the report's table.
     pub(super) text: String,
@@ -57,18 +58,18 @@ pub(super) enum Drawn {
     Scene(Box<Scene>),
 }
 
-/// A way to draw.
+/// A variant to draw.
 #[derive(Clone, Debug)]
 pub(super) struct PlannedWay {
     pub(super) name: String,
-    /// The kind of the way in a word: `declared` for those of the scene's file.
+    /// The kind of the variant in a word: `declared` for those of the scene's file.
     pub(super) kind: &'static str,
     /// A sentence on what is done, if there is more to say than the name.
     pub(super) about: String,
     pub(super) model: String,
     pub(super) tessellation: Option<[u32; 2]>,
     pub(super) drawn: Drawn,
-    /// The form of the code that this way needs.
+    /// The form of the code that this variant needs.
     pub(super) via: Option<Via>,
     /// The width of floats on the GPU.
     pub(super) floats: FloatWidth,
@@ -76,7 +77,7 @@ pub(super) struct PlannedWay {
     pub(super) programs: Option<Vec<Vec<(Stage, String)>>>,
 }
 
-/// The truth of a model.
+/// The reference of a model.
 #[derive(Clone, Debug)]
 pub(super) struct PlannedTruth {
     pub(super) model: String,
@@ -85,7 +86,7 @@ pub(super) struct PlannedTruth {
     pub(super) drawn: Drawn,
 }
 
-/// The kind of the ways that a scene's file declares.
+/// The kind of the variants that a scene's file declares.
 pub(super) const DECLARED: &str = "declared";
 
 /// The `[report]` table.
@@ -119,11 +120,27 @@ struct SceneFile {
     report: Option<toml::Spanned<ReportTable>>,
 }
 
+/// The keys of the tables.
+const KEYS: &[&str] = &["draw", "tessellations", "truth_tessellation", "rounds", "way"];
+const WAY_KEYS: &[&str] = &["name", "model", "truth", "set"];
 const MOST_ROUNDS: u32 = 1000;
-/// How much finer the truth's mesh is than the finest way's, unless `truth_tessellation` is given.
+/// How much finer the reference's mesh is than the finest variant's, unless `truth_tessellation` is given.
 const TRUTH_FACTOR: u32 = 4;
 /// The coarsest mesh that is compared, in segments and rings, of shapes that have as many by default.
 const COARSEST: [u32; 2] = [3, 2];
+
+/// The first key of the tables that they do not have.
+fn check_keys(text: &str, base: u32) -> Result<(), Box<Diagnostic>> {
+    let mut reader = Reader::new(&SCENE, base, text.into());
+    let document = reader.document(text);
+    if let Some(report) = document.as_ref().and_then(|document| reader.table_at(document, "report")) {
+        reader.check_keys(report, "`[report]`", KEYS);
+        for (way, _) in reader.tables_at(report, "way") {
+            reader.check_keys(way, "`[[report.way]]`", WAY_KEYS);
+        }
+    }
+    reader.diagnostics.into_iter().next().map_or(Ok(()), |first| Err(Box::new(first)))
+}
 
 /// Reads the plan of the scene file `name`.
 ///
@@ -137,6 +154,7 @@ pub(super) fn plan(scene_name: &str, text: &str, base: u32) -> Result<Plan, Box<
         let message = error.message().trim().replace('\n', ", ");
         Box::new(Diagnostic::new(&SCENE_SYNTAX, at(error.span()), message).here("here"))
     };
+    check_keys(text, base)?;
     let file: SceneFile = toml::from_str(text).map_err(syntax)?;
     let mut scene: Table = toml::from_str(text).map_err(syntax)?;
     scene.remove("report");
@@ -149,7 +167,7 @@ pub(super) fn plan(scene_name: &str, text: &str, base: u32) -> Result<Plan, Box<
 }
 
 impl Plan {
-    /// Adds the ways that were found by themselves, after those that the scene's file declares.
+    /// Adds the variants that were found by themselves, after those that the scene's file declares.
     pub(super) fn add(&mut self, scene: &Scene, found: Vec<FoundWay>) {
         if !self.declared {
             self.ways.clear();
@@ -238,7 +256,7 @@ fn model(way: &WayTable) -> String {
     way.model.clone().unwrap_or_else(|| way.name.clone())
 }
 
-/// The way that is the truth of its model: the one that says so, or the only one.
+/// The variant that is the reference of its model: the one that says so, or the only one.
 fn truth_way<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable, String> {
     let members: Vec<&WayTable> = ways.iter().filter(|way| model(way) == model_name).collect();
     let marked: Vec<&WayTable> = members.iter().copied().filter(|way| way.truth).collect();
@@ -250,7 +268,7 @@ fn truth_way<'a>(ways: &'a [WayTable], model_name: &str) -> Result<&'a WayTable,
     }
 }
 
-/// The tessellations at which every way is drawn; only `None` if the draw's mesh cannot be tessellated.
+/// The tessellations at which every variant is drawn; only `None` if the draw's mesh cannot be tessellated.
 fn tessellations(report: &ReportTable, draw: &Table) -> Result<Vec<Option<[u32; 2]>>, String> {
     let shape = draw.get("mesh").and_then(Value::as_table).filter(|mesh| mesh.contains_key("shape"));
     match (&report.tessellations, shape) {
@@ -276,14 +294,14 @@ fn levels(mesh: &Table) -> Vec<Option<[u32; 2]>> {
     levels
 }
 
-/// The mesh of the truth: as asked for, or finer than the finest.
+/// The mesh of the reference: as asked for, or finer than the finest.
 fn finest(tessellations: &[Option<[u32; 2]>], asked: Option<[u32; 2]>) -> Option<[u32; 2]> {
     let finest =
         tessellations.iter().flatten().max_by_key(|[segments, rings]| u64::from(*segments) * u64::from(*rings))?;
     Some(asked.unwrap_or_else(|| finest.map(|n| n.saturating_mul(TRUTH_FACTOR).min(1024))))
 }
 
-/// The scene with the keys of a way and of a tessellation.
+/// The scene with the keys of a variant and of a tessellation.
 fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[u32; 2]>) -> Result<String, String> {
     let mut scene = scene.clone();
     let table = scene
@@ -324,7 +342,7 @@ pub(super) fn base_of(sources: &SourceMap, path: &str) -> u32 {
 mod tests {
     use super::*;
 
-    const SCENE: &str = r#"
+    const BALL: &str = r#"
 [[draw]]
 vertex = "a.vert"
 fragment = "a.frag"
@@ -332,7 +350,7 @@ mesh = { shape = "sphere", position = "p", radius = 0.1 }
 "#;
 
     fn planned(report: &str) -> Result<Plan, Box<Diagnostic>> {
-        plan("ball", &format!("{SCENE}\n{report}"), 0)
+        plan("ball", &format!("{BALL}\n{report}"), 0)
     }
 
     fn text(way: &PlannedWay) -> &str {
@@ -355,7 +373,7 @@ mesh = { shape = "sphere", position = "p", radius = 0.1 }
     #[test]
     fn each_shape_has_levels_of_its_own() {
         let levels = |mesh: &str| {
-            let scene = SCENE.replace("shape = \"sphere\"", mesh);
+            let scene = BALL.replace("shape = \"sphere\"", mesh);
             let plan = plan("ball", &scene, 0).expect("a plan");
             plan.ways.iter().filter_map(|way| way.tessellation).collect::<Vec<_>>()
         };
@@ -397,7 +415,7 @@ set = { fragment = "b.frag", mesh = { radius = 2.0 } }
     #[test]
     fn mistakes_say_what_and_where() {
         let cases = [
-            ("[report]\nround = 3", "unknown field `round`"),
+            ("[report]\nround = 3", "has no key `round`"),
             ("[report]\nrounds = 1", "`rounds` is 3 to"),
             ("[report]\ndraw = 4", "no draw 4"),
             (

@@ -1,6 +1,6 @@
 //! The plot of error against work for a reader without the page's script, which draws a better one in its place.
 //!
-//! *In:* a report. *Out:* an SVG. *Holds:* both axes are logarithmic; a point is labeled by the number of its way in the
+//! *In:* a report. *Out:* an SVG. *Holds:* both axes are logarithmic; a point is labeled by the number of its variant in the
 //! table; the front of each model is joined, its points are filled, and all others are hollow. No color is written here: the
 //! page's style sheet sets those of `.model-0`, `.model-1`, ... so that the plot follows its light and dark themes.
 
@@ -79,7 +79,7 @@ fn grid(svg: &mut String, Axes { x, y }: &Axes) {
     );
 }
 
-/// The front of a model and its ways.
+/// The front of a model and its variants.
 fn ways(svg: &mut String, axes: &Axes, model: usize, members: &[(usize, &Way)]) {
     let mut front: Vec<(f64, f64)> =
         members.iter().filter(|(_, way)| way.pareto).map(|(_, way)| axes.place(way)).collect();

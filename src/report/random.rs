@@ -22,7 +22,7 @@ impl Random {
     pub(super) fn permutation(&mut self, count: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..count).collect();
         for last in (1..count).rev() {
-            // The bias of the remainder is below 2^-50 for any number of ways.
+            // The bias of the remainder is below 2^-50 for any number of variants.
             let chosen = (self.0.bits() % (last as u64 + 1)) as usize;
             order.swap(last, chosen);
         }

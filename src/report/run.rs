@@ -1,6 +1,6 @@
-//! Draws and times every way of a plan.
+//! Draws and times every variant of a plan.
 //!
-//! *In:* a scene file, or what is found for it. *Out:* a [`Report`]. *Holds:* a user who ends it gets the ways that are drawn,
+//! *In:* a scene file, or what is found for it. *Out:* a [`Report`]. *Holds:* a user who ends it gets the variants that are drawn,
 //! and the rounds that are complete, as a report that says so.
 
 use super::clock::{Candidate, Limits, SEED, Times, time};
@@ -18,10 +18,10 @@ use glisten_front::diagnostic::Diagnostics;
 use glisten_front::source::SourceMap;
 use glisten_gpu::Gpu;
 
-/// Compares the ways of the scene at `path`.
+/// Compares the variants of the scene at `path`.
 ///
 /// # Errors
-/// [`Error`]; the first way of the scene's file that cannot be drawn ends the report.
+/// [`Error`]; the first variant of the scene's file that cannot be drawn ends the report.
 pub fn run(
     path: &str,
     files: &dyn FileSource,
@@ -77,7 +77,7 @@ pub fn run(
     })
 }
 
-/// Draws all ways, and each specialized where that is asked for.
+/// Draws all variants, and each specialized where that is asked for.
 fn draw_ways(
     files: &Files<'_>,
     plan: &Plan,
@@ -101,7 +101,7 @@ fn draw_ways(
     Ok(())
 }
 
-/// Enters the times into the ways, and marks the fronts.
+/// Enters the times into the variants, and marks the fronts.
 fn settle(ways: &mut [Way], truths: &[Truth], times: Times) -> Timing {
     let same_again = times.ratio(&times.again);
     for (way, series) in ways.iter_mut().zip(&times.ways) {
@@ -154,7 +154,7 @@ impl Files<'_> {
         })
     }
 
-    /// Adds the ways that are found by themselves.
+    /// Adds the variants that are found by themselves.
     fn find(&self, scene: &Scene, plan: &mut Plan) {
         let text = plan.text.clone();
         let name = stem(self.path);

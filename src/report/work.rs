@@ -1,4 +1,4 @@
-//! The work of a way: what the reference executes for its picture.
+//! The work of a variant: what the reference executes for its picture.
 
 use super::model::Work;
 use super::weights::Weights;

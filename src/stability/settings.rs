@@ -15,10 +15,14 @@ use super::sweep::{Sweep, parse_range};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
 use glisten_front::source::Span;
+use glisten_scene::tables::{Reader, SCENE};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
+
+/// The keys of the table.
+const KEYS: &[&str] = &["bound", "sweep", "range"];
 
 /// The statements of a scene about its stability.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -61,6 +65,7 @@ impl Settings {
     /// One diagnostic at its place.
     pub fn read(text: &str, base: u32) -> Result<Self, Box<Diagnostic>> {
         let at = |range: Range<usize>| Span::new(base + range.start as u32, base + range.end as u32);
+        check_keys(text, base)?;
         let file: File = toml::from_str(text).map_err(|error| {
             let message = error.message().trim().replace('\n', ", ");
             let span = error.span().map_or_else(Span::default, at);
@@ -84,6 +89,16 @@ impl Settings {
         };
         Ok(Self { bound: bound.map(Spanned::into_inner), sweeps: ranges(sweep)?, ranges: ranges(range)? })
     }
+}
+
+/// The first key of the table that it does not have.
+fn check_keys(text: &str, base: u32) -> Result<(), Box<Diagnostic>> {
+    let mut reader = Reader::new(&SCENE, base, text.into());
+    let document = reader.document(text);
+    if let Some(table) = document.as_ref().and_then(|document| reader.table_at(document, "stability")) {
+        reader.check_keys(table, "`[stability]`", KEYS);
+    }
+    reader.diagnostics.into_iter().next().map_or(Ok(()), |first| Err(Box::new(first)))
 }
 
 fn of_value(name: &str, value: RangeValue) -> Result<Sweep, String> {

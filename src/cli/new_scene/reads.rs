@@ -128,7 +128,7 @@ fn inputs(program: &Program) -> Vec<Input<'_>> {
     let mut inputs: Vec<Input<'_>> = Vec::new();
     let of = |attribute: &Attribute| types.get(attribute.ty);
     let attributes: Vec<&Attribute> = program.interface.attributes.iter().filter(own).collect();
-    // A name beyond doubt comes before one that suggests the role.
+    // An unmistakable name comes before one that suggests the role.
     let certain: Vec<_> = attributes.iter().map(|attribute| attribute_role(&attribute.name, of(attribute))).collect();
     let mut taken: Vec<AttributeRole> = Vec::new();
     let mut first = |role: AttributeRole| {

@@ -1,6 +1,6 @@
 //! [`Album`]: the pictures of a page, each embedded once.
 //!
-//! *In:* the truths and ways of a report. *Out:* PNG data URIs, and which of them each truth and way has.
+//! *In:* the references and variants of a report. *Out:* PNG data URIs, and which of them each reference and variant has.
 //!
 //! *Holds:* pictures that are equal in the 8 bits of a screen are one. If all pictures together are too large for a page, they
 //! are made smaller by a whole number: colors by their mean, differences and bands by their largest.
@@ -24,14 +24,14 @@ pub(super) struct Album {
     pub(super) uris: Vec<String>,
     /// By how much width and height are reduced.
     pub(super) factor: u32,
-    /// Those of the truths.
+    /// Those of the references.
     pub(super) truths: Vec<OfTruth>,
-    /// Those of the ways.
+    /// Those of the variants.
     pub(super) ways: Vec<OfWay>,
     known: BTreeMap<String, usize>,
 }
 
-/// The pictures of a truth, by their numbers, and its profile.
+/// The pictures of a reference, by their numbers, and its profile.
 pub(super) struct OfTruth {
     pub(super) picture: usize,
     pub(super) bands: usize,
@@ -42,7 +42,7 @@ pub(super) struct OfTruth {
     pub(super) profile: Vec<Option<f64>>,
 }
 
-/// The pictures of a way, by their numbers, and its profile.
+/// The pictures of a variant, by their numbers, and its profile.
 pub(super) struct OfWay {
     pub(super) picture: usize,
     pub(super) difference: usize,
@@ -58,7 +58,7 @@ struct Model {
     truth: OfLuminance,
     bound: f64,
     row: usize,
-    /// By the number of the way.
+    /// By the number of the variant.
     ways: BTreeMap<usize, OfLuminance>,
 }
 
@@ -95,7 +95,7 @@ impl Album {
             let of_model = models.iter().find_map(|model| Some((model.ways.get(&number)?, model.bound)));
             let (bands, profile) = match of_model {
                 Some(((second, profile), bound)) => (album.bands(second, size, bound), profile.clone()),
-                // A report that was ended may lack the truth of a way.
+                // A report that was ended may lack the reference of a variant.
                 None => (picture, Vec::new()),
             };
             album.ways.push(OfWay { picture, difference, bands, profile });

@@ -1,6 +1,6 @@
 //! The columns of the table of figures: what each shows, by what it is sorted, and what it means.
 //!
-//! *In:* a way. *Out:* cells. *Holds:* a column's help is a sentence that needs no other; keys of figures that there are not
+//! *In:* a variant. *Out:* cells. *Holds:* a column's help is a sentence that needs no other; keys of figures that there are not
 //! are empty, and the script sorts them last.
 
 use super::super::model::{OnFront, Report, Way};
@@ -18,7 +18,7 @@ pub(super) struct Column {
     key: Option<fn(&Way) -> f64>,
 }
 
-/// All columns but the first, which is the way's name.
+/// All columns but the first, which is the variant's name.
 pub(super) static COLUMNS: &[Column] = &[
     Column {
         id: "model",
@@ -175,7 +175,7 @@ pub(super) fn heads() -> Vec<Value> {
     COLUMNS.iter().map(head).collect()
 }
 
-/// The cells of a way, with what they are sorted by.
+/// The cells of a variant, with what they are sorted by.
 pub(super) fn cells(way: &Way) -> Vec<Value> {
     let cell = |column: &Column| {
         let key = column.key.map(|key| key(way)).map(|key| if key.is_nan() { String::new() } else { key.to_string() });
@@ -185,7 +185,7 @@ pub(super) fn cells(way: &Way) -> Vec<Value> {
     COLUMNS.iter().map(cell).collect()
 }
 
-/// The sentence about the ways that could not be drawn, if there are any.
+/// The sentence about the variants that could not be drawn, if there are any.
 pub(super) fn skipped(report: &Report) -> Vec<Value> {
     let one = |skipped: &super::super::model::Skipped| {
         context! { name => &skipped.name, model => &skipped.model, because => &skipped.because }

@@ -1,7 +1,7 @@
 //! The data that the page's script reads: the report as in `report.json`, and what only the page needs.
 //!
 //! *In:* a report and its album. *Out:* JSON that may be embedded in HTML. *Holds:* no text of it ends the element that it is
-//! in. Programs are listed once each, however many ways have them.
+//! in. Programs are listed once each, however many variants have them.
 
 use super::super::front::{is_faster, unfit};
 use super::super::model::{Report, Way};
@@ -40,11 +40,11 @@ struct Model {
     profile: Vec<Option<f64>>,
 }
 
-/// A way on the page.
+/// A variant on the page.
 #[derive(Serialize)]
 struct OnPage {
     title: String,
-    /// The number of the model; null in a report that was ended before its truth was drawn.
+    /// The number of the model; null in a report that was ended before its reference was drawn.
     model: Option<usize>,
     picture: usize,
     difference: usize,
@@ -52,7 +52,7 @@ struct OnPage {
     profile: Vec<Option<f64>>,
     /// On no front, because its figures leave out what is wrong with it.
     unfit: bool,
-    /// The ways of the model that take more time beyond doubt.
+    /// The variants of the model that clearly take more time.
     faster_than: Vec<usize>,
     /// Names of shaders, and the numbers of their texts.
     programs: Vec<(String, usize)>,

@@ -1,6 +1,6 @@
 //! The picture of a difference, whose colors are codes.
 //!
-//! *In:* differences from the truth. *Out:* colors. *Holds:* the color of a pixel says how large its difference is, to 4 %,
+//! *In:* differences from the reference. *Out:* colors. *Holds:* the color of a pixel says how large its difference is, to 4 %,
 //! over eight decades: the script of the page reads it back and shows it on any scale. Without the script the picture is one
 //! on the scale of the upper four decades: all below is black to the eye, but not to the script.
 

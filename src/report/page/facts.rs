@@ -68,7 +68,7 @@ fn ended(ended: Ended) -> &'static str {
     }
 }
 
-/// The widths of the intervals of the times, relative to the median: that of the middle way, and the largest.
+/// The widths of the intervals of the times, relative to the median: that of the middle variant, and the largest.
 fn widths(ways: &[Way]) -> [f64; 2] {
     let width = |way: &Way| (way.ratio.interval[1] - way.ratio.interval[0]) / way.ratio.median;
     let mut widths: Vec<f64> = ways.iter().map(width).filter(|width| width.is_finite()).collect();

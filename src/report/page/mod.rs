@@ -173,7 +173,7 @@ fn decade(exponent: i32) -> String {
     }
 }
 
-/// The ways of the front by work from the cheapest to the most exact.
+/// The variants of the front by work from the cheapest to the most exact.
 fn front(ways: &[&Way]) -> Vec<Value> {
     let mut best: Vec<&&Way> = ways.iter().filter(|way| way.pareto).collect();
     best.sort_by_key(|way| way.work.operations);
@@ -220,7 +220,7 @@ pub(in crate::report) mod tests {
         Arc::new(Scene { name: "none".into(), framebuffer, draws: Vec::new() })
     }
 
-    /// A way with this error and this number of operations.
+    /// A variant with this error and this number of operations.
     pub(in crate::report) fn way(model: &str, rmse: f64, operations: u64) -> Way {
         let (error, difference) = compare(&picture(1.0), &picture(1.0));
         Way {
@@ -327,7 +327,7 @@ pub(in crate::report) mod tests {
         ] {
             assert!(page.contains(told), "{told}");
         }
-        // Every way has a card, a row, and a point in the plot.
+        // Every variant has a card, a row, and a point in the plot.
         for number in 0..report.ways.len() {
             for part in
                 [format!("href=\"#way-{number}\""), format!("id=\"way-{number}\""), format!("id=\"row-{number}\"")]
@@ -348,7 +348,7 @@ pub(in crate::report) mod tests {
         let different: BTreeSet<&&str> = uris.iter().collect();
         assert_eq!(different.len(), uris.len());
         assert_eq!(page.matches("data:image/png;base64,").count(), uris.len());
-        // Three pictures a way, and two a truth, some of them equal.
+        // Three pictures a variant, and two a reference, some of them equal.
         assert_eq!(page.matches("data-picture=\"").count(), 3 * report.ways.len() + 2 * report.truths.len());
     }
 

@@ -1,8 +1,8 @@
-//! Finds the ways of a scene, in a fixed order by kind.
+//! Finds the variants of a scene, in a fixed order by kind.
 //!
-//! *In:* the scene as written. *Out:* the ways, each added to a list that takes no two alike. *Holds:* a change of a program
+//! *In:* the scene as written. *Out:* the variants, each added to a list that takes no two alike. *Holds:* a change of a program
 //! starts from the specialized one, where exponents are numbers and loops are written out; the specialized program itself is
-//! among the ways, so that what a change gains can be told from what specializing gains.
+//! among the variants, so that what a change gains can be told from what specializing gains.
 
 use super::coarser::{Part, tessellated};
 use super::models;
@@ -20,7 +20,7 @@ const TEXELS: [u32; 4] = [16, 64, 256, 1024];
 /// Filters of tables.
 const FILTERS: [(Filter, &str); 2] = [(Filter::Nearest, "nearest"), (Filter::Linear, "linear")];
 
-/// The scene, and what most ways start from.
+/// The scene, and what most variants start from.
 struct Finder<'a, 'o> {
     origin: &'a Origin<'o>,
     /// Specialized.
@@ -28,7 +28,7 @@ struct Finder<'a, 'o> {
     list: &'a mut List,
 }
 
-/// Adds all ways of a scene.
+/// Adds all variants of a scene.
 pub(super) fn all(origin: &Origin<'_>, list: &mut List) {
     let base = specialized(origin.scene, Contract::default());
     let mut finder = Finder { origin, base, list };
@@ -213,7 +213,7 @@ impl Finder<'_, '_> {
         self.list.add(FoundWay { tessellation: Some(counts), ..way });
     }
 
-    /// Other models of the library, each with a truth of its own.
+    /// Other models of the library, each with a reference of its own.
     fn models(&mut self, table: &Table) {
         let shaded = self.list.ways.iter().any(|way| way.kind == "vertex" && way.tessellation.is_none());
         let own = if shaded { None } else { models::per_vertex(table) };

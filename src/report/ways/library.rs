@@ -1,7 +1,7 @@
 //! The report on the library: one scene, shaded by each of its models, per fragment and per vertex.
 //!
 //! *In:* nothing. *Out:* [`LibraryFiles`], which has the scene with its `[report]` table as a file. *Holds:* the standard
-//! program per fragment is the truth of each model; a program of its own, where there is one, is another way of that model.
+//! program per fragment is the reference of each model; a program of its own, where there is one, is another variant of that model.
 
 use glisten_scene::{FileError, FileSource};
 use std::fmt::Write;
@@ -49,7 +49,7 @@ static MODELS: &[Model] = &[
     ),
 ];
 
-/// The scene without its ways: a knot under a warm and a dim blue light.
+/// The scene without its variants: a knot under a warm and a dim blue light.
 const SCENE: &str = r#"
 global_ambient = [0.03, 0.03, 0.04]
 

@@ -1,7 +1,7 @@
 //! The other models of the library, for scenes that the library shades.
 //!
 //! *In:* a scene, and its file as a table. *Out:* the scene with another model of light: by the uniforms of the standard
-//! program, or by another program of the library. *Holds:* a model is no approximation of another one, so each has a truth of
+//! program, or by another program of the library. *Holds:* a model is no approximation of another one, so each has a reference of
 //! its own.
 
 use glisten_front::hir::ScalarValue;

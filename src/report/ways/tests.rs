@@ -1,4 +1,4 @@
-//! The ways of whole scenes: what is found, that it draws, and that what is exact in exact arithmetic is so but for rounding.
+//! The variants of whole scenes: what is found, that it draws, and that what is exact in exact arithmetic is so but for rounding.
 
 use super::edit::{differs, stage_text};
 use super::{AS_WRITTEN, FoundWay, Origin, found};
@@ -24,7 +24,7 @@ fn compiler() -> Compiler {
     Compiler::new(Options::default()).with_includes(crate::library::Embedded)
 }
 
-/// The ways of a scene by its text.
+/// The variants of a scene by its text.
 fn ways(path: &str, text: &str, files: &dyn FileSource) -> Vec<FoundWay> {
     let compiler = compiler();
     let loaded = |text: &str| load(path, &Text(path, text, files), &compiler);
@@ -63,7 +63,7 @@ fn distance(a: &Picture, b: &Picture) -> (f64, usize) {
 /// Kinds that are the scene as written in exact arithmetic.
 const EXACT: &[&str] = &["specialized", "moved", "stable", "pow", "inversesqrt", "naive"];
 
-/// Draws every way, and checks those that are exact. A line for each way.
+/// Draws every variant, and checks those that are exact. A line for each variant.
 fn check(name: &str, ways: &[FoundWay]) -> Vec<String> {
     let truth = picture(&ways[0].scene, Precision::F64);
     let finite = truth.attachments.iter().flatten().flatten().filter(|x| x.is_finite());
@@ -88,7 +88,7 @@ fn check(name: &str, ways: &[FoundWay]) -> Vec<String> {
     lines
 }
 
-/// The ways of a ball that a fragment stage shades. It has the varyings `N` and `P`, and the uniforms `L`, `V`, `k` and `K`.
+/// The variants of a ball that a fragment stage shades. It has the varyings `N` and `P`, and the uniforms `L`, `V`, `k` and `K`.
 fn ball(fragment: &str, draw: &str) -> Vec<FoundWay> {
     let vertex = "#version 150\nin vec3 pv;\nin vec3 nv;\nuniform mat4 mc;\nout vec3 N;\nout vec3 P;\n\
                   flat out float patch;\n\
@@ -115,7 +115,7 @@ fn has(ways: &[FoundWay], kind: &str) -> bool {
     ways.iter().any(|way| way.kind == kind && way.tessellation.is_none())
 }
 
-/// The text of the fragment stage of a way.
+/// The text of the fragment stage of a variant.
 fn fragment(ways: &[FoundWay], name: &str) -> String {
     let way = ways.iter().find(|way| way.name == name).unwrap_or_else(|| panic!("no way `{name}`"));
     let program = &way.scene.draws[0].program;

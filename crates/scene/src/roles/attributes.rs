@@ -166,7 +166,7 @@ static NAMES: &[(AttributeRole, &[&str])] = &[
     (Tangent, &["tangent", "tangents", "tang", "tan", "vertextangent"]),
 ];
 
-/// The role that the name of an attribute says beyond doubt, if its type can take the data.
+/// The role that the name of an attribute says unmistakably, if its type can take the data.
 pub fn attribute_role(name: &str, ty: Type) -> Option<AttributeRole> {
     let forms = forms(name, AFFIXES);
     let has = |names: &[&str]| forms.iter().any(|form| names.contains(&form.as_str()));
