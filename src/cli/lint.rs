@@ -11,6 +11,7 @@ use std::path::PathBuf;
 
 /// Check shaders and the programs that they form
 #[derive(Args, Debug)]
+#[command(mut_arg("diagnostics", |argument| argument.hide(true)))]
 pub(super) struct LintArgs {
     /// Shaders, folders to search for shaders, or `-` for standard input (default: the current folder)
     #[arg(value_name = "FILE|DIR")]
@@ -21,7 +22,7 @@ pub(super) struct LintArgs {
     sources: SourceArgs,
     #[command(flatten)]
     levels: LevelArgs,
-    /// Another name for --diagnostics
+    /// The format of findings (`--diagnostics` of other commands)
     #[arg(long, value_enum, conflicts_with = "diagnostics")]
     format: Option<DiagnosticFormat>,
     #[command(flatten)]

@@ -20,8 +20,6 @@ use std::path::PathBuf;
 /// Draw a scene
 #[derive(Args, Debug)]
 pub(super) struct RenderArgs {
-    #[command(flatten)]
-    scene: SceneArgs,
     /// The picture: .npy (float32), .png (8 bits) or .exr (float32); `%d` in the name counts attachments
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
@@ -41,6 +39,8 @@ pub(super) struct RenderArgs {
     specialize: bool,
     #[command(flatten)]
     contract: WithContractArgs,
+    #[command(flatten)]
+    scene: SceneArgs,
 }
 
 /// The backend that draws a scene.

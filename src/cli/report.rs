@@ -33,8 +33,6 @@ use std::time::Duration;
     scene.required(false).required_unless_present("library").default_value_if("library", library, LIBRARY_SCENE)
 }))]
 pub(super) struct ReportArgs {
-    #[command(flatten)]
-    scene: SceneArgs,
     /// Compare the models of the library in one scene instead, per fragment and per vertex
     #[arg(long, conflicts_with = "scene")]
     library: bool,
@@ -63,6 +61,8 @@ pub(super) struct ReportArgs {
     seconds: Option<f64>,
     #[command(flatten)]
     checks: CheckArgs,
+    #[command(flatten)]
+    scene: SceneArgs,
 }
 
 /// Which variants to compare.

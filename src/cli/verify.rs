@@ -31,8 +31,6 @@ use std::sync::Arc;
 /// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
 #[derive(Args, Debug)]
 pub(super) struct VerifyArgs {
-    #[command(flatten)]
-    scene: SceneArgs,
     /// The form of the code that the GPU runs (default: both; with --with, those of the modules)
     #[arg(long, value_enum)]
     via: Option<ViaChoice>,
@@ -82,6 +80,8 @@ pub(super) struct VerifyArgs {
     /// Write a picture of what was judged: green, blue at edges, yellow where the envelope is wide, red where it is unlimited
     #[arg(long, value_name = "FILE")]
     evidence: Option<PathBuf>,
+    #[command(flatten)]
+    scene: SceneArgs,
 }
 
 /// The format of the result.
