@@ -47,7 +47,7 @@ static ORDER: &[(&str, &[&str])] = &[
     (
         "crates/scene/src",
         &[
-            "random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "roles",
+            "random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "roles", "tables",
             "geometry", "load", "portrait",
         ],
     ),

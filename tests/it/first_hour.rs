@@ -536,7 +536,7 @@ fn all_mistakes_of_a_configuration_are_told_at_their_places() {
     let (list, exit) = folder.lint(&["a.frag"]);
     let places: Vec<_> = list.iter().map(|one| one["line"].as_u64().unwrap_or_default()).collect();
     assert_eq!((codes(&list), places, exit), (vec!["E0015"; 5], vec![7, 2, 3, 5, 6], 1), "{list:#?}");
-    let told = folder.run(&["compile", "--permutations", "p.toml", "-t", "wgsl", "-o", "out"]);
+    let told = folder.run(&["compile", "--permutations", "p.toml", "--target", "wgsl", "-o", "out"]);
     let text = err(&told);
     for part in
         ["p.toml:2:1", "did you mean `files`?", "p.toml:5:17", "[program.values]", "p.toml:6:1", "write `[[scene]]`"]

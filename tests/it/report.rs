@@ -78,5 +78,5 @@ fn a_mistake_in_the_report_table_is_shown_where_it_stands() {
     let run = report(&path, folder.path());
     let told = String::from_utf8_lossy(&run.stderr).into_owned();
     assert_eq!(run.status.code(), Some(1), "{told}");
-    assert!(told.contains("unknown field `round`") && told.contains(&format!("small.toml:{line}:")), "{told}");
+    assert!(told.contains("`[report]` has no key `round`") && told.contains(&format!("small.toml:{line}:")), "{told}");
 }

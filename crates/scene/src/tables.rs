@@ -71,7 +71,7 @@ pub struct Reader {
     pub(crate) base: u32,
     /// The file's text.
     pub(crate) text: Arc<str>,
-    /// What was found so far.
+    /// The findings so far.
     pub diagnostics: Diagnostics,
     /// Known keys that unknown ones are similar to, with the address of their table.
     meant: Vec<(usize, String)>,

@@ -164,7 +164,7 @@ fn figures_are_the_same_on_every_run_and_with_any_number_of_threads() {
 fn wrong_settings_are_told_at_their_place() {
     for (more, told) in [
         ("[stability]\nbound = -1.0\n", "`bound` is a positive number"),
-        ("[stability]\nbond = 1.0\n", "unknown field `bond`"),
+        ("[stability]\nbond = 1.0\n", "`[stability]` has no key `bond`"),
         ("[stability.sweep]\nsize = \"0\"\n", "LOW..HIGH"),
         ("[stability.sweep]\nsize = [1]\n", "[low, high]"),
     ] {

@@ -463,7 +463,7 @@ impl Ctx<'_, '_> {
             return Ok(self.argument("gl_FragCoord", ty, position));
         }
         self.refuse_unknown_height()?;
-        let position = self.argument("position", ty, position);
+        let position = self.argument("frag_coord", ty, position);
         let mut part = |index| self.add(Expression::AccessIndex { base: position, index });
         let (mut x, mut y, z, w) = (part(0), part(1), part(2), part(3));
         if upside_down {

@@ -2,7 +2,7 @@
 //! [`WIDTH`] columns where that is possible.
 
 use super::levels::{Level, compared, fits, level_of};
-use super::tree::{BlockId, Body, Expr, Stmt, StmtKind};
+use super::tree::{Block, BlockId, Body, Expr, Stmt, StmtKind};
 
 /// The longest line.
 pub(super) const WIDTH: usize = 110;
@@ -181,11 +181,7 @@ impl Printer<'_, '_> {
     /// The branches after an `if`, up to the last brace.
     fn otherwise(&mut self, mut reject: BlockId, indent: usize) {
         while let Some(block) = self.body.blocks.get(reject.0)
-            && let [Stmt { kind: StmtKind::If { condition, accept, reject: next }, above, behind, .. }] =
-                block.statements.as_slice()
-            && above.is_empty()
-            && behind.is_empty()
-            && block.end.is_empty()
+            && let Some(StmtKind::If { condition, accept, reject: next }) = only(block)
         {
             self.indent(indent);
             self.text.push_str("} else if ");
@@ -291,6 +287,12 @@ impl Printer<'_, '_> {
                 self.text.truncate(start);
                 self.chain(op, left, right, indent, tail);
             }
+            Expr::Member(base, member) if matches!(**base, Expr::Call(..)) => {
+                self.text.truncate(start);
+                self.wrapped(base, indent, tail + 1 + member.len());
+                self.text.push('.');
+                self.text.push_str(member);
+            }
             _ => {}
         }
     }
@@ -368,4 +370,14 @@ impl Printer<'_, '_> {
             }
         }
     }
+}
+
+/// The statement of a block that has one, and no comments.
+fn only<'b, 'm>(block: &'b Block<'m>) -> Option<&'b StmtKind<'m>> {
+    let is_bare = |stmt: &Stmt<'_>| stmt.above.is_empty() && stmt.behind.is_empty();
+    if !block.head.is_empty() || !block.end.is_empty() || !block.statements.iter().all(is_bare) {
+        return None;
+    }
+    let mut kinds = block.statements.iter().map(|stmt| &stmt.kind).filter(|kind| !matches!(kind, StmtKind::Empty));
+    kinds.next().filter(|_| kinds.next().is_none())
 }
