@@ -92,6 +92,8 @@ mod raster;
 mod read_back;
 #[cfg(feature = "cli")]
 mod readme;
+#[cfg(feature = "cli")]
+mod release;
 #[cfg(feature = "remote")]
 mod remote;
 #[cfg(feature = "cli")]
