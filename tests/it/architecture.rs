@@ -47,8 +47,8 @@ static ORDER: &[(&str, &[&str])] = &[
     (
         "crates/scene/src",
         &[
-            "random", "picture", "compare", "fixed", "model", "files", "library", "values", "reads", "roles", "tables",
-            "geometry", "load", "portrait",
+            "random", "dynamic", "picture", "compare", "fixed", "model", "files", "library", "values", "reads",
+            "roles", "tables", "geometry", "load", "portrait",
         ],
     ),
     (

@@ -9,6 +9,7 @@
 //! Files come through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
 
 pub mod compare;
+pub mod dynamic;
 mod files;
 pub mod fixed;
 mod geometry;

@@ -11,6 +11,7 @@ use super::sources::load_sources;
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
+use crate::dynamic::names_anything;
 use crate::fixed::{FixedFunction, OtherStage, other_stage, uses_fixed_state};
 use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
 use crate::tables::{Node, NumberValue, Reader, report_unknown_name};
@@ -365,7 +366,7 @@ fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> 
     let mut names = Vec::new();
     for node in array {
         let Some(name) = reader.text(node, "dynamic") else { continue };
-        let known = candidates.contains(&name) || candidates.contains(&name.trim_end_matches("[0]"));
+        let known = names_anything(interface, name) || candidates.contains(&name);
         if !known {
             let span = reader.span_of(node);
             report_unknown_name(reader, span, "uniform", name, &candidates);

@@ -247,7 +247,13 @@ fn textures(text: &mut String, draw: &Draw) {
     text.push_str("[draw.textures]\n");
     for (name, texture) in given {
         let Some(level) = texture.levels.first() else { continue };
-        let _ = writeln!(text, "{} = {{ {}values = [{}] }}", quoted(name), texture_keys(texture, level), texels(level));
+        let _ = writeln!(
+            text,
+            "{} = {{ {}values = [{}] }}",
+            quoted(name),
+            texture_keys(texture, level),
+            texels(texture, level)
+        );
     }
 }
 
@@ -286,17 +292,33 @@ fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
     if sampling.fixed_point_depth {
         keys.push_str("fixed_point = true, ");
     }
-    if texture.levels.len() > 1 {
-        keys.push_str("mipmaps = true, ");
+    match texture.levels.len() {
+        samples if kind.dim == SamplerDim::Multisample => {
+            let _ = write!(keys, "samples = {samples}, ");
+        }
+        0 | 1 => {}
+        _ => keys.push_str("mipmaps = true, "),
     }
     keys
 }
 
-fn texels(level: &TextureLevel) -> String {
-    let values: Vec<String> = match &level.texels {
-        Texels::Float(texels) => texels.iter().flatten().map(|value| single(*value)).collect(),
-        Texels::Int(texels) => texels.iter().flatten().map(i32::to_string).collect(),
-        Texels::Uint(texels) => texels.iter().flatten().map(u32::to_string).collect(),
-    };
-    values.join(", ")
+/// The numbers of the first level; of a multisample texture sample by sample within a texel.
+fn texels(texture: &Texture, first: &TextureLevel) -> String {
+    let n_texels = first.width as usize * first.height as usize * first.depth as usize;
+    if texture.kind.dim != SamplerDim::Multisample {
+        return (0..n_texels).map(|at| texel(first, at)).collect::<Vec<_>>().join(", ");
+    }
+    let each = (0..n_texels).flat_map(|at| texture.levels.iter().map(move |sample| texel(sample, at)));
+    each.collect::<Vec<_>>().join(", ")
+}
+
+fn texel(level: &TextureLevel, at: usize) -> String {
+    fn four<T: Copy>(texels: &[[T; 4]], at: usize, write: impl Fn(T) -> String) -> String {
+        texels.get(at).map_or_else(String::new, |texel| texel.map(write).join(", "))
+    }
+    match &level.texels {
+        Texels::Float(texels) => four(texels, at, single),
+        Texels::Int(texels) => four(texels, at, |value| value.to_string()),
+        Texels::Uint(texels) => four(texels, at, |value| value.to_string()),
+    }
 }
