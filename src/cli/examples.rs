@@ -77,6 +77,7 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         &[
             ("glisten specialize scene.toml -o out", "programs of which nothing is left but what the scene needs"),
             ("glisten specialize scene.toml --check", "whether anything could be left out"),
+            ("glisten specialize scenes/*.toml --suggest", "which uniforms are worth fixing"),
         ],
     ),
     (

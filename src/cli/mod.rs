@@ -61,6 +61,7 @@ mod specialize;
 mod stability;
 mod stability_library;
 mod stages;
+mod suggest;
 mod supervisor;
 pub mod survey;
 mod test;

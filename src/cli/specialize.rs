@@ -2,13 +2,14 @@
 //!
 //! *Holds:* the names of all outputs are known before anything is written; equal residuals are written once.
 
-use super::args::{ContractArgs, ConventionArgs, LevelArgs, SourceArgs};
+use super::args::{ContractArgs, ConventionArgs, LevelArgs, ResultFormat, SourceArgs};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::outputs::target_words;
 use super::progress::Progress;
 use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
+use super::suggest;
 use crate::account::{PAGE, SceneOnPage, page};
 use crate::sources::stages::extension;
 use crate::specialize::{Account, PictureError, Pictures, SpecializedScene, account, pictures, specialize_scene_by};
@@ -18,6 +19,7 @@ use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::SourceMap;
 use glisten_reference::Precision;
+use glisten_scene::dynamic::names_anything;
 use glisten_scene::{Scene, ShaderFiles, write};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -29,7 +31,7 @@ pub(super) struct SpecializeArgs {
     #[arg(value_name = "SCENE.toml", required = true)]
     scenes: Vec<String>,
     /// The output folder
-    #[arg(short, long, value_name = "DIR", required_unless_present = "check")]
+    #[arg(short, long, value_name = "DIR", required_unless_present_any = ["check", "suggest"])]
     output: Option<PathBuf>,
     /// A uniform or sampler that changes from frame to frame, added to those of the scenes (repeatable)
     #[arg(long, value_name = "NAME")]
@@ -37,6 +39,12 @@ pub(super) struct SpecializeArgs {
     /// Write nothing, and tell whether anything can be left out
     #[arg(long)]
     check: bool,
+    /// Write nothing, and rank the uniforms by what fixing them saves in all scenes together
+    #[arg(long, conflicts_with = "check")]
+    suggest: bool,
+    /// The format of --suggest
+    #[arg(long, value_enum, default_value_t, requires = "suggest")]
+    format: ResultFormat,
     #[command(flatten)]
     contract: ContractArgs,
     /// The target to write (repeatable; default: wgsl and spirv)
@@ -97,11 +105,16 @@ pub(super) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     let progress = Progress::new(console, args.scenes.len());
     let mut residuals = Residuals::default();
     let mut done = Vec::new();
+    let mut suggested = Vec::new();
     let mut exit = Exit::Ok;
     for name in &args.scenes {
         progress.say(name);
         let scene = SceneArgs::of(name, &args.machine, &args.sources, &args.levels);
         match scene.read(console)? {
+            Ok(read) if args.suggest => {
+                check_dynamic(args, &read.scene)?;
+                suggested.push((stem(name), read.scene));
+            }
             Ok(read) => match specialized(args, name, read, &mut residuals)? {
                 Ok(one) => done.push(one),
                 Err(worse) => exit = exit.max(worse),
@@ -111,6 +124,10 @@ pub(super) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
         progress.step();
     }
     drop(progress);
+    if args.suggest {
+        let answer = suggest::run(suggested, &args.dynamic, &args.machine, (args.format, console));
+        return answer.map(|answer| answer.max(exit));
+    }
     if args.check {
         return checked(&done, console).map(|answer| answer.max(exit));
     }
@@ -181,14 +198,19 @@ fn specialized(
 /// A name of `--dynamic` that no program of a scene has is a mistake.
 fn check_dynamic(args: &SpecializeArgs, scene: &Scene) -> Result<(), Failure> {
     for name in &args.dynamic {
-        let base = name.split(['[', '.']).next().unwrap_or(name);
-        let leaves = scene.draws.iter().flat_map(|draw| {
-            let interface = &draw.program.interface;
-            let leaves = interface.uniforms.iter().map(|leaf| leaf.name.as_str());
-            leaves.chain(interface.samplers.iter().map(|slot| slot.name.as_str())).collect::<Vec<_>>()
-        });
-        let names: BTreeSet<&str> = leaves.filter_map(|leaf| leaf.split(['[', '.']).next()).collect();
-        if !names.contains(base) {
+        let known = scene.draws.iter().any(|draw| names_anything(&draw.program.interface, name));
+        if !known {
+            let base = name.split(['[', '.']).next().unwrap_or(name);
+            let leaves = scene.draws.iter().flat_map(|draw| {
+                let interface = &draw.program.interface;
+                let leaves = interface.uniforms.iter().map(|leaf| leaf.name.as_str());
+                leaves.chain(interface.samplers.iter().map(|slot| slot.name.as_str())).collect::<Vec<_>>()
+            });
+            let leaves: BTreeSet<&str> = leaves.collect();
+            let bases: BTreeSet<&str> = leaves.iter().filter_map(|leaf| leaf.split(['[', '.']).next()).collect();
+            // Of a member that is not there the nearest member, else the nearest uniform.
+            let names = if bases.contains(base) { leaves } else { bases };
+            let base = if names.iter().any(|one| one.contains('.')) { name.as_str() } else { base };
             let near = glisten_front::diagnostic::did_you_mean(base, names.iter().copied());
             let failure = Failure::usage(format!("no program has a uniform `{name}` (--dynamic)"));
             return Err(match near {
@@ -325,6 +347,15 @@ fn table(account: &Account) -> String {
             after.vertex_operations + after.fragment_operations,
         ));
         let of = format!("{}: {}", account.scene, draw.residual);
+        match draw.kept {
+            Some("program") => {
+                text.push_str(&format!("{of}: the program stays as it is, since no residual is as short\n"));
+            }
+            Some(kept) => {
+                text.push_str(&format!("{of}: {kept} stay as they are, since the residual would be longer\n"))
+            }
+            None => {}
+        }
         if let Some(moves) = &draw.move_to_vertex {
             for moved in &moves.moved {
                 let place = format!("{}:{}", moved.file, moved.line);

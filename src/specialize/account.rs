@@ -4,12 +4,11 @@
 
 use super::error::{PictureError, options, picture_error};
 use super::residual::SpecializedScene;
-use glisten_emit::{Conventions, Emitted, Target, emit};
+pub use super::smallest::{body_instructions, spirv_instructions};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::link::Program;
 use glisten_reference::{Precision, Work, work};
 use glisten_scene::{Draw, Scene};
-use glisten_specialize::Moved;
+use glisten_specialize::{Extent, Moved};
 use serde::Serialize;
 
 /// The account of a scene.
@@ -36,6 +35,9 @@ pub struct DrawAccount {
     pub fragment: String,
     /// The stem of the residual's files.
     pub residual: String,
+    /// What stayed as it was because the residual would have been longer than the original without it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kept: Option<&'static str>,
     /// What was left out.
     pub left_out: Vec<Entry>,
     /// The work of the original.
@@ -146,6 +148,7 @@ pub fn account(
             vertex: vertex.clone(),
             fragment: fragment.clone(),
             residual: residual.clone(),
+            kept: kept(done.extent),
             left_out: left_out.collect(),
             before: figures(scene, &before),
             after: figures(&specialized.scene, &after),
@@ -161,6 +164,16 @@ pub fn account(
         fast_math: error.filter(|_| contract.fast_math),
         move_to_vertex: error.filter(|_| contract.move_to_vertex),
     })
+}
+
+/// What an extent leaves as it was.
+fn kept(extent: Extent) -> Option<&'static str> {
+    match extent {
+        Extent::All => None,
+        Extent::LoopsKept => Some("loops"),
+        Extent::FunctionsKept => Some("loops and functions"),
+        Extent::Nothing => Some("program"),
+    }
 }
 
 fn moved_entry(moved: &Moved) -> MovedEntry {
@@ -189,31 +202,4 @@ fn figures(draw: &Draw, work: Work) -> Figures {
         vertex_operations: work.vertex_operations,
         fragment_operations: work.fragment_operations,
     }
-}
-
-/// Instructions between `OpFunction` and `OpFunctionEnd` of both stages.
-pub fn spirv_instructions(program: &Program) -> u64 {
-    let stages = program.stages.iter();
-    stages
-        .map(|shader| match emit(program, shader.stage, Target::Spirv, &Conventions::default()) {
-            Ok(Emitted::Words(words)) => body_instructions(&words),
-            Ok(_) | Err(_) => 0,
-        })
-        .sum()
-}
-
-/// Instructions between `OpFunction` and `OpFunctionEnd` of a module, both included.
-pub fn body_instructions(words: &[u32]) -> u64 {
-    const HEADER: usize = 5;
-    const FUNCTION: u32 = 54;
-    const FUNCTION_END: u32 = 56;
-    let (mut at, mut inside, mut count) = (HEADER, false, 0);
-    while let Some(word) = words.get(at) {
-        let (length, opcode) = ((word >> 16).max(1) as usize, word & 0xffff);
-        inside |= opcode == FUNCTION;
-        count += u64::from(inside);
-        inside &= opcode != FUNCTION_END;
-        at += length;
-    }
-    count
 }

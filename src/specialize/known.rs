@@ -3,7 +3,8 @@
 //! *In:* a [`Draw`] and its framebuffer. *Out:* a [`Known`].
 
 use glisten_front::hir::{GlobalId, Scalar, ScalarValue, Stage};
-use glisten_front::link::UniformLeaf;
+use glisten_front::link::{Interface, UniformLeaf};
+use glisten_scene::dynamic::{names_sampler, names_uniform};
 use glisten_scene::{AttributeData, Cull, Draw, Framebuffer, Primitive, Texels, Texture};
 use glisten_specialize::{Input, Known, KnownState, KnownTexture};
 
@@ -11,13 +12,13 @@ use glisten_specialize::{Input, Known, KnownState, KnownTexture};
 /// member of it, a sampler.
 pub fn known(draw: &Draw, framebuffer: &Framebuffer, dynamic: &[String]) -> Known {
     let names: Vec<&str> = draw.dynamic.iter().chain(dynamic).map(String::as_str).collect();
-    let mut known = Known { state: state(draw, framebuffer), ..Known::default() };
     let interface = &draw.program.interface;
+    let mut known = Known { state: state(draw, framebuffer), ..Known::default() };
     if !moves(draw, &names) {
         known.state.interpolation_reach = glisten_reference::interpolation_reach(draw, *framebuffer);
     }
     for leaf in &interface.uniforms {
-        if is_dynamic(&names, leaf) {
+        if is_dynamic(interface, &names, leaf) {
             continue;
         }
         if let Some(values) = leaf_values(draw, leaf) {
@@ -31,7 +32,7 @@ pub fn known(draw: &Draw, framebuffer: &Framebuffer, dynamic: &[String]) -> Know
     }
     for (slot, texture) in interface.samplers.iter().zip(&draw.textures) {
         if let Some(texture) = texture
-            && !names.iter().any(|name| names_it(name, &slot.name))
+            && !names.iter().any(|name| names_sampler(name, &slot.name))
         {
             known.textures.insert(slot.name.clone(), known_texture(texture));
         }
@@ -45,23 +46,14 @@ fn moves(draw: &Draw, names: &[&str]) -> bool {
     let in_vertex = |globals: &[(Stage, GlobalId)]| globals.iter().any(|(stage, _)| *stage == Stage::Vertex);
     let uniform = interface.uniforms.iter().any(|leaf| {
         let root = interface.roots.get(leaf.root.0 as usize);
-        is_dynamic(names, leaf) && root.is_some_and(|root| in_vertex(&root.globals))
+        is_dynamic(interface, names, leaf) && root.is_some_and(|root| in_vertex(&root.globals))
     });
-    let sampled = |name: &str| names.iter().any(|dynamic| names_it(dynamic, name));
+    let sampled = |name: &str| names.iter().any(|dynamic| names_sampler(dynamic, name));
     uniform || interface.samplers.iter().any(|slot| sampled(&slot.name) && in_vertex(&slot.globals))
 }
 
-/// Whether a name of `dynamic` is this uniform or what it is part of.
-fn names_it(name: &str, leaf: &str) -> bool {
-    let name = name.strip_suffix("[0]").filter(|base| *base == leaf).unwrap_or(name);
-    leaf.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-}
-
-fn is_dynamic(names: &[&str], leaf: &UniformLeaf) -> bool {
-    let elements = leaf.array_size.is_some();
-    // An element of an array of numbers is named, too: then all of it changes.
-    let part = |name: &str| elements && name.strip_prefix(leaf.name.as_str()).is_some_and(|rest| rest.starts_with('['));
-    names.iter().any(|name| names_it(name, &leaf.name) || part(name))
+fn is_dynamic(interface: &Interface, names: &[&str], leaf: &UniformLeaf) -> bool {
+    names.iter().any(|name| names_uniform(interface, name, leaf))
 }
 
 /// The scalars of a uniform in a draw.
@@ -167,12 +159,13 @@ fn one_input(data: &AttributeData, vertices: &Vertices, column: u32, rows: u32, 
 fn hull(mut values: impl Iterator<Item = ScalarValue>) -> Input {
     let Some(first) = values.next() else { return Input::Open };
     let (mut same, mut low, mut high) = (true, f32::INFINITY, f32::NEG_INFINITY);
-    let mut finite = true;
+    let (mut finite, mut signed) = (true, false);
     for value in std::iter::once(first).chain(values) {
         match (value, first) {
             (ScalarValue::Float(value), ScalarValue::Float(first)) => {
                 same &= value.to_bits() == first.to_bits();
                 finite &= value.is_finite();
+                signed |= value == 0.0 && value.is_sign_negative();
                 (low, high) = (low.min(value), high.max(value));
             }
             _ => same &= value == first,
@@ -180,7 +173,8 @@ fn hull(mut values: impl Iterator<Item = ScalarValue>) -> Input {
     }
     match first {
         _ if same && finite => Input::Value(first),
-        ScalarValue::Float(_) if finite => Input::Between(low, high),
+        ScalarValue::Float(_) if finite && signed => Input::Between(low, high),
+        ScalarValue::Float(_) if finite => Input::Unsigned(low, high),
         _ if same && first.scalar() != Scalar::Float => Input::Value(first),
         _ => Input::Open,
     }

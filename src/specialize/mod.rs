@@ -16,8 +16,13 @@ mod error;
 mod known;
 #[cfg(feature = "reference")]
 mod residual;
+mod smallest;
+#[cfg(feature = "reference")]
+mod suggest;
+mod variants;
 
 pub use glisten_front::hir::ScalarValue;
+pub use glisten_specialize::Extent;
 /// Options of [`specialize_with`].
 pub use glisten_specialize::Options as SpecializeOptions;
 pub use glisten_specialize::{
@@ -34,3 +39,9 @@ pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 pub use known::known;
 #[cfg(feature = "reference")]
 pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, with_program};
+pub use smallest::specialize_smallest;
+#[cfg(not(feature = "reference"))]
+pub use smallest::{body_instructions, spirv_instructions};
+#[cfg(feature = "reference")]
+pub use suggest::{Point, Ranked, Suggestion, suggest};
+pub use variants::{Variant, Variants};

@@ -5,11 +5,14 @@
 //! *Holds:* equal residuals are one program.
 
 use super::known::{known, leaf_values};
+use super::smallest::specialize_smallest;
 use glisten_front::hir::{ScalarValue, Stage};
-use glisten_front::link::Program;
+use glisten_front::link::{Interface, Program};
 use glisten_front::source::{SourceMap, Span};
+use glisten_scene::dynamic::{names_anything, names_element};
 use glisten_scene::{AttributeData, AttributeValues, Draw, Scene};
-use glisten_specialize::{LeftOut, Moved, Options, Residual, specialize_with};
+use glisten_specialize::{Extent, LeftOut, Moved, Options, Residual};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The changes that a specialization may make to a picture. The default allows none.
@@ -52,6 +55,8 @@ pub struct SpecializedDraw {
     pub moved: Vec<Moved>,
     /// The texts that the residual was read back from, for diagnostics about it.
     pub sources: SourceMap,
+    /// How far it was evaluated: less than all where the residual would have been longer than the original.
+    pub extent: Extent,
     /// Why the program was left as it was, should that ever be.
     pub fault: Option<String>,
 }
@@ -83,16 +88,20 @@ pub fn specialize_scene_by(
     sources: &SourceMap,
     dynamic: &[String],
 ) -> SpecializedScene {
-    let options =
-        Options { sources: Some(sources), fast_math: contract.fast_math, move_to_vertex: contract.move_to_vertex };
+    let options = Options {
+        sources: Some(sources),
+        fast_math: contract.fast_math,
+        move_to_vertex: contract.move_to_vertex,
+        ..Options::default()
+    };
     let mut draws = Vec::with_capacity(scene.draws.len());
     let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();
     let mut result = scene.clone();
     result.draws.clear();
     for draw in &scene.draws {
         let known = known(draw, &scene.framebuffer, dynamic);
-        let Residual { stages, program, left_out, moved, sources, fault } =
-            specialize_with(&draw.program, &known, &options);
+        let Residual { stages, program, left_out, moved, sources, extent, fault } =
+            specialize_smallest(&draw.program, &known, &options);
         let lines = stages.iter().map(|stage| (stage.stage, stage.lines.clone())).collect();
         let texts: StageTexts = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
         let program = match residuals.iter().find(|(known, other)| *known == texts && alike(other, &program)) {
@@ -104,7 +113,7 @@ pub fn specialize_scene_by(
             }
         };
         result.draws.push(with_program(draw, program, dynamic));
-        draws.push(SpecializedDraw { texts, lines, left_out, moved, sources, fault });
+        draws.push(SpecializedDraw { texts, lines, left_out, moved, sources, extent, fault });
     }
     SpecializedScene { contract, scene: result, draws }
 }
@@ -144,19 +153,19 @@ pub fn with_program(draw: &Draw, program: Arc<Program>, dynamic: &[String]) -> D
     let textures = textures.collect();
     let mut names: Vec<String> = draw.dynamic.clone();
     names.extend(dynamic.iter().filter(|name| !draw.dynamic.contains(name)).cloned());
-    names.retain(|name| is_left(&program, name));
+    names = names.iter().filter_map(|name| left_name(old, new, name)).collect();
+    let mut told = BTreeSet::new();
+    names.retain(|name| told.insert(name.clone()));
     let drawn = Draw { attributes, uniforms, textures, dynamic: names, program, ..draw.clone() };
     without_unused_vertices(drawn)
 }
 
-/// Whether a program still has what a name of `dynamic` names.
-fn is_left(program: &Program, name: &str) -> bool {
-    let base = name.split(['[', '.']).next().unwrap_or(name);
-    let interface = &program.interface;
-    let names = interface.uniforms.iter().map(|leaf| &leaf.name);
-    names
-        .chain(interface.samplers.iter().map(|slot| &slot.name))
-        .any(|leaf| leaf.split(['[', '.']).next() == Some(base))
+/// A name of `dynamic` as a program has it: of an element of an array the whole array, whose end may be gone. None if nothing
+/// of it is left.
+fn left_name(old: &Interface, new: &Interface, name: &str) -> Option<String> {
+    let whole = old.uniforms.iter().find(|leaf| names_element(name, leaf)).map(|leaf| leaf.name.as_str());
+    let name = whole.unwrap_or(name);
+    names_anything(new, name).then(|| name.to_owned())
 }
 
 /// Of an attribute that has more components than its vector the others are dropped.

@@ -6,9 +6,10 @@
 
 use crate::forward::{Reason, Walked};
 use crate::known::Known;
-use crate::residual::{Moved, Options};
+use crate::left::Left;
+use crate::residual::Moved;
 use glisten_front::Program;
-use glisten_front::hir::{ExprId, ExprKind, ScalarValue, Shader, Stage, Stmt, StmtKind, VarRef};
+use glisten_front::hir::{ExprId, ExprKind, Global, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, VarRef};
 use glisten_front::link::{Interface, UniformLeaf};
 use glisten_front::source::{SourceMap, Span};
 use rustc_hash::FxHashSet;
@@ -67,33 +68,32 @@ pub struct LeftOut {
     pub extent: Span,
 }
 
-/// Lists what was left out of a program: `shaders` are the residual's stages, whose spans are the original's, `residual` is the
-/// interface of the residual.
-pub(crate) fn left_out(
-    program: &Program,
-    known: &Known,
-    options: &Options<'_>,
-    walked: &[(Stage, Walked)],
-    moved: &[Moved],
-    (shaders, residual): (&[Shader], &Interface),
-) -> Vec<LeftOut> {
-    let mut account = Account { program, known, sources: options.sources, moved, list: Vec::new() };
+/// How a program became what is left of it.
+pub(crate) struct How<'a> {
+    /// What was known; nothing where nothing was evaluated.
+    pub(crate) known: &'a Known,
+    /// What the forward walk decided, by stage.
+    pub(crate) walked: &'a [(Stage, Walked)],
+    /// What moved to the vertex stage.
+    pub(crate) moved: &'a [Moved],
+}
+
+/// Lists what was left out of a program.
+pub(crate) fn left_out(program: &Program, sources: Option<&SourceMap>, how: &How<'_>, left: &Left<'_>) -> Vec<LeftOut> {
+    let mut account = Account { program, how, sources, list: Vec::new() };
     for shader in &program.stages {
-        let left = shaders.iter().find(|left| left.stage == shader.stage);
-        let stage = walked.iter().find(|(stage, _)| *stage == shader.stage);
-        if let (Some(left), Some((_, walked))) = (left, stage) {
-            account.functions(shader, left, walked);
+        if let Some(left) = left.shaders.iter().find(|left| left.stage == shader.stage) {
+            account.functions(shader, left);
         }
     }
-    account.interface(residual);
+    account.interface(left);
     account.list
 }
 
 struct Account<'a> {
     program: &'a Program,
-    known: &'a Known,
+    how: &'a How<'a>,
     sources: Option<&'a SourceMap>,
-    moved: &'a [Moved],
     list: Vec<LeftOut>,
 }
 
@@ -110,6 +110,16 @@ impl Account<'_> {
         });
         let (file, line) = place.unwrap_or_default();
         self.list.push(LeftOut { what, name, file, line, because, span, extent });
+    }
+
+    /// What the forward walk decided at a place.
+    fn decided(&self, stage: Stage, span: Span) -> Option<&Reason> {
+        self.how.walked.iter().find(|(of, _)| *of == stage)?.1.reasons.get(&span)
+    }
+
+    /// Whether a value may have been known.
+    fn evaluates(&self) -> bool {
+        !self.how.walked.is_empty()
     }
 
     /// From a place to the end of a body.
@@ -136,7 +146,7 @@ impl Account<'_> {
         if line.chars().count() > 80 { line.chars().take(77).chain("...".chars()).collect() } else { line.to_owned() }
     }
 
-    fn functions(&mut self, shader: &Shader, left: &Shader, walked: &Walked) {
+    fn functions(&mut self, shader: &Shader, left: &Shader) {
         let names: FxHashSet<Span> = left.functions.iter().map(|function| function.span).collect();
         let mut kept: FxHashSet<Span> = FxHashSet::default();
         for function in &left.functions {
@@ -150,7 +160,7 @@ impl Account<'_> {
         for function in shader.functions.iter().filter(|function| function.body.is_some()) {
             if names.contains(&function.span) {
                 let body = function.body.as_deref().unwrap_or(&[]);
-                self.statements(shader, body, &kept, walked);
+                self.statements(shader, body, &kept);
             } else {
                 let because = if !function.reachable {
                     "`main` never calls it".to_owned()
@@ -163,13 +173,13 @@ impl Account<'_> {
         }
     }
 
-    fn statements(&mut self, shader: &Shader, body: &[Stmt], kept: &FxHashSet<Span>, walked: &Walked) {
+    fn statements(&mut self, shader: &Shader, body: &[Stmt], kept: &FxHashSet<Span>) {
         for stmt in body {
-            self.statement(shader, stmt, kept, walked);
+            self.statement(shader, stmt, kept);
         }
     }
 
-    fn statement(&mut self, shader: &Shader, stmt: &Stmt, kept: &FxHashSet<Span>, walked: &Walked) {
+    fn statement(&mut self, shader: &Shader, stmt: &Stmt, kept: &FxHashSet<Span>) {
         let inside = |bodies: &[Stmt]| {
             let mut any = false;
             shader.visit_statements(bodies, &mut |stmt| any |= kept.contains(&stmt.span));
@@ -178,15 +188,15 @@ impl Account<'_> {
         match &stmt.kind {
             StmtKind::If { arms, otherwise } => {
                 for (condition, body) in arms {
-                    self.branch(shader, *condition, body, inside(body), kept, walked);
+                    self.branch(shader, *condition, body, inside(body), kept);
                 }
                 if !otherwise.is_empty() {
                     let last = arms.last().map(|(condition, _)| *condition);
                     if inside(otherwise) {
-                        self.statements(shader, otherwise, kept, walked);
+                        self.statements(shader, otherwise, kept);
                     } else if let Some(condition) = last {
                         let name = format!("else of `{}`", self.text(shader.expr(condition).span));
-                        let because = self.because(shader, condition, walked);
+                        let because = self.because(shader, condition);
                         let span = otherwise.first().map_or(stmt.span, |first| first.span);
                         let extent = self.extent(span, otherwise);
                         self.tell_all(Kind::Branch, name, span, because, extent);
@@ -194,7 +204,7 @@ impl Account<'_> {
                 }
             }
             StmtKind::Loop { body, .. } if !kept.contains(&stmt.span) || !inside(body) => {
-                let because = match walked.reasons.get(&stmt.span) {
+                let because = match self.decided(shader.stage, stmt.span) {
                     Some(Reason::Unrolled(0)) => "it never runs".to_owned(),
                     Some(Reason::Unrolled(1)) => "it runs once".to_owned(),
                     Some(Reason::Unrolled(rounds)) if inside(body) => format!("it runs {rounds} times, written out"),
@@ -208,16 +218,16 @@ impl Account<'_> {
                     // The body is there in another form.
                     let head = Span { end: stmt.span.start.saturating_add(1).min(stmt.span.end), ..stmt.span };
                     self.tell_all(Kind::Loop, line, stmt.span, because, head);
-                    self.statements(shader, body, kept, walked);
+                    self.statements(shader, body, kept);
                 } else {
                     self.tell(Kind::Loop, line, stmt.span, because);
                 }
             }
             StmtKind::Switch { selector, cases } => {
-                let because = self.because(shader, *selector, walked);
+                let because = self.because(shader, *selector);
                 for case in cases.iter().filter(|case| !case.body.is_empty()) {
                     if inside(&case.body) {
-                        self.statements(shader, &case.body, kept, walked);
+                        self.statements(shader, &case.body, kept);
                     } else if case.body.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Break)) {
                         let span = case.body.first().map_or(stmt.span, |first| first.span);
                         let name = format!("case: {}", self.text(span));
@@ -226,46 +236,42 @@ impl Account<'_> {
                     }
                 }
             }
-            StmtKind::Block(body) | StmtKind::Loop { body, .. } => self.statements(shader, body, kept, walked),
+            StmtKind::Block(body) | StmtKind::Loop { body, .. } => self.statements(shader, body, kept),
             StmtKind::Break | StmtKind::Continue | StmtKind::Return(None) => {}
             StmtKind::Local(local, None) => {
                 let _ = local;
             }
             _ if kept.contains(&stmt.span) => {}
             _ => {
-                let moved =
-                    self.moved.iter().find(|one| one.span.start >= stmt.span.start && one.span.end <= stmt.span.end);
+                let moved = self
+                    .how
+                    .moved
+                    .iter()
+                    .find(|one| one.span.start >= stmt.span.start && one.span.end <= stmt.span.end);
                 let because = match moved {
                     Some(moved) => format!("it moved to the vertex stage, as `{}`", moved.name),
-                    None => "nothing that is drawn depends on it, or its value is known".to_owned(),
+                    None if self.evaluates() => "nothing that is drawn depends on it, or its value is known".to_owned(),
+                    None => "nothing reads what it computes".to_owned(),
                 };
                 self.tell(Kind::Statement, self.line(stmt.span), stmt.span, because);
             }
         }
     }
 
-    fn branch(
-        &mut self,
-        shader: &Shader,
-        condition: ExprId,
-        body: &[Stmt],
-        inside: bool,
-        kept: &FxHashSet<Span>,
-        walked: &Walked,
-    ) {
+    fn branch(&mut self, shader: &Shader, condition: ExprId, body: &[Stmt], inside: bool, kept: &FxHashSet<Span>) {
         if inside {
-            self.statements(shader, body, kept, walked);
+            self.statements(shader, body, kept);
             return;
         }
         let span = shader.expr(condition).span;
-        let because = self.because(shader, condition, walked);
+        let because = self.because(shader, condition);
         let extent = self.extent(span, body);
         self.tell_all(Kind::Branch, self.text(span), span, because, extent);
     }
 
     /// The reason why a condition is decided: the values of what it names.
-    fn because(&self, shader: &Shader, condition: ExprId, walked: &Walked) -> String {
-        let decided = match walked.reasons.get(&shader.expr(condition).span) {
+    fn because(&self, shader: &Shader, condition: ExprId) -> String {
+        let decided = match self.decided(shader.stage, shader.expr(condition).span) {
             Some(Reason::Condition(_, truth)) => format!("`{}` is {truth}", self.text(shader.expr(condition).span)),
             Some(Reason::Selector(_)) => format!("`{}` is known", self.text(shader.expr(condition).span)),
             _ => return "nobody reads what it computes".to_owned(),
@@ -285,7 +291,7 @@ impl Account<'_> {
         let mut values = Vec::new();
         let text = self.sources.map_or("", |sources| sources.snippet(shader.expr(root).span));
         for leaf in &self.program.interface.uniforms {
-            let Some(known) = self.known.uniforms.get(&leaf.name) else { continue };
+            let Some(known) = self.how.known.uniforms.get(&leaf.name) else { continue };
             let root = self.program.interface.roots.get(leaf.root.0 as usize);
             let member = leaf.name.rsplit_once('.').map_or("", |(_, member)| member);
             if known.len() <= 4 && text.contains(member) && root.is_some_and(|root| roots.contains(root.name.as_str()))
@@ -298,15 +304,15 @@ impl Account<'_> {
     }
 
     /// Lists the parts of the stages' interfaces that are gone.
-    fn interface(&mut self, left: &Interface) {
+    fn interface(&mut self, left: &Left<'_>) {
         let program = self.program;
         let own = &program.interface;
         let place = |stage: Stage, id: glisten_front::hir::GlobalId| {
             let shader = program.stage(stage);
             shader.and_then(|shader| shader.globals.get(id.index())).map_or_else(Span::default, |global| global.span)
         };
-        for attribute in own.attributes.iter().filter(|one| left.attributes.iter().all(|kept| kept.name != one.name)) {
-            let because = match self.known.attributes.get(&attribute.name) {
+        for attribute in own.attributes.iter().filter(|one| !left.attributes.contains(one.name.as_str())) {
+            let because = match self.how.known.attributes.get(&attribute.name) {
                 _ if !attribute.active => "the vertex stage never reads it",
                 Some(inputs) if inputs.iter().all(|input| matches!(input, crate::known::Input::Value(_))) => {
                     "it is the same at all vertices"
@@ -316,7 +322,7 @@ impl Account<'_> {
             self.tell(Kind::Attribute, attribute.name.clone(), place(Stage::Vertex, attribute.global), because.into());
         }
         let mut told: BTreeSet<String> = BTreeSet::new();
-        for varying in own.varyings.iter().filter(|one| left.varyings.iter().all(|kept| kept.name != one.name)) {
+        for varying in own.varyings.iter().filter(|one| !left.varyings.contains(one.name.as_str())) {
             let end = varying.to.map(|to| (Stage::Fragment, to)).or(varying.from.map(|from| (Stage::Vertex, from)));
             let Some((stage, end)) = end else { continue };
             let because = if varying.active {
@@ -328,24 +334,25 @@ impl Account<'_> {
                 self.tell(Kind::Varying, varying.name.clone(), place(stage, end.global), because.into());
             }
         }
-        for output in own.outputs.iter().filter(|one| left.outputs.iter().all(|kept| kept.name != one.name)) {
+        self.undeclared(own);
+        for output in own.outputs.iter().filter(|one| !left.outputs.contains(one.name.as_str())) {
             let because = "no attachment takes it".to_owned();
             self.tell(Kind::Output, output.name.clone(), place(Stage::Fragment, output.global), because);
         }
-        for block in own.blocks.iter().filter(|one| left.blocks.iter().all(|kept| kept.name != one.name)) {
+        for block in own.blocks.iter().filter(|one| !left.blocks.contains(one.name.as_str())) {
             let root = own.roots.get(block.root.0 as usize).and_then(|root| root.globals.first());
             let span = root.map_or_else(Span::default, |(stage, id)| place(*stage, *id));
             self.tell(Kind::Block, block.name.clone(), span, "no stage reads it any more".into());
         }
-        for leaf in own.uniforms.iter().filter(|one| left.uniforms.iter().all(|kept| kept.name != one.name)) {
+        for leaf in own.uniforms.iter().filter(|one| !left.uniforms.contains(one.name.as_str())) {
             let root = own.roots.get(leaf.root.0 as usize).and_then(|root| root.globals.first());
             let span = root.map_or_else(Span::default, |(stage, id)| place(*stage, *id));
             let because = self.of_uniform(leaf);
             self.tell(Kind::Uniform, leaf.name.clone(), span, because);
         }
-        for slot in own.samplers.iter().filter(|one| left.samplers.iter().all(|kept| kept.name != one.name)) {
+        for slot in own.samplers.iter().filter(|one| !left.samplers.contains(one.name.as_str())) {
             let span = slot.globals.first().map_or_else(Span::default, |(stage, id)| place(*stage, *id));
-            let one_color = self.known.textures.get(&slot.name).is_some_and(|texture| {
+            let one_color = self.how.known.textures.get(&slot.name).is_some_and(|texture| {
                 texture.channels.iter().all(|channel| matches!(channel, crate::known::Input::Value(_)))
             });
             let because = if one_color { "it has one color" } else { "no lookup of it is left" };
@@ -353,8 +360,22 @@ impl Account<'_> {
         }
     }
 
+    /// Outputs of the vertex stage that the fragment stage does not declare: no varying stands for them.
+    fn undeclared(&mut self, interface: &Interface) {
+        let program = self.program;
+        let (Some(vertex), Some(_)) = (program.stage(Stage::Vertex), program.stage(Stage::Fragment)) else { return };
+        let linked = program.stage(Stage::Geometry).is_none();
+        let plain = |global: &Global| global.storage == Storage::Out && global.builtin.is_none();
+        for (id, global) in vertex.globals().filter(|(_, global)| linked && plain(global)) {
+            if !interface.varyings.iter().any(|varying| varying.from.is_some_and(|from| from.global == id)) {
+                let because = "the fragment stage does not declare it".to_owned();
+                self.tell(Kind::Varying, global.name.clone(), global.span, because);
+            }
+        }
+    }
+
     fn of_uniform(&self, leaf: &UniformLeaf) -> String {
-        match self.known.uniforms.get(&leaf.name) {
+        match self.how.known.uniforms.get(&leaf.name) {
             _ if !leaf.active => "no stage reads it".into(),
             Some(values) if values.len() <= 4 => format!("it is {}", written(values)),
             Some(_) => "its value is known".into(),

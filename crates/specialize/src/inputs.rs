@@ -107,8 +107,14 @@ fn outside(input: Input) -> Fact {
     match input {
         Input::Value(value) => Fact::bound(value),
         Input::Between(low, high) => Fact::in_range(Range::between(f64::from(low), f64::from(high))),
+        Input::Unsigned(low, high) => unsigned(low, high),
         Input::Open => Fact::ANY,
     }
+}
+
+/// A range without -0.
+pub(super) fn unsigned(low: f32, high: f32) -> Fact {
+    Fact::in_range(Range { negative_zero: false, ..Range::between(f64::from(low), f64::from(high)) })
 }
 
 /// Facts of varyings. One that is the same at all vertices is known, since equal values are interpolated to that very value. Others are in the

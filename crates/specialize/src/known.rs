@@ -28,6 +28,8 @@ pub enum Input {
     Value(ScalarValue),
     /// It is a finite `float` between two numbers, both included.
     Between(f32, f32),
+    /// The same, and it is never -0.
+    Unsigned(f32, f32),
     /// Nothing.
     Open,
 }

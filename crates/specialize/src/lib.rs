@@ -41,6 +41,7 @@ mod fast;
 mod forward;
 mod inputs;
 mod known;
+mod left;
 mod motion;
 mod optimize;
 mod prune;
@@ -51,6 +52,6 @@ mod text;
 pub use account::{Kind, LeftOut};
 pub use known::{Input, Known, KnownState, KnownTexture};
 pub use optimize::{left_out, optimize};
-pub use residual::{Moved, Options, Residual, ResidualStage, specialize, specialize_with};
+pub use residual::{Extent, Moved, Options, Residual, ResidualStage, specialize, specialize_with};
 
 pub use glisten_front::Program;

@@ -7,14 +7,14 @@
 //! *Holds:* the interface has the same rows with the same locations, offsets and bindings, in the same order. Only `active`
 //! changes, and only from yes to no. Blocks keep their layout. Nothing is evaluated.
 
-use crate::account::{Kind, LeftOut};
+use crate::account::{self, How, LeftOut};
+use crate::known::Known;
+use crate::left::Left;
 use crate::prune;
 use glisten_front::Program;
-use glisten_front::hir::{Global, GlobalId, Shader, Stage, Stmt, StmtKind, Storage};
+use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage};
 use glisten_front::link::Interface;
-use glisten_front::source::{SourceMap, Span};
-use rustc_hash::FxHashSet;
-use std::collections::BTreeSet;
+use glisten_front::source::SourceMap;
 
 /// Leaves out of a program what reaches no output.
 pub fn optimize(program: &Program) -> Program {
@@ -93,130 +93,11 @@ fn mark_active(program: &mut Program) {
     }
 }
 
-/// What [`optimize`] left out, in the order of the source.
+/// What [`optimize`] left out, in the order of the source, told as it is of a residual.
 pub fn left_out(program: &Program, optimized: &Program, sources: Option<&SourceMap>) -> Vec<LeftOut> {
-    let mut list = List { sources, list: Vec::new() };
-    for shader in &program.stages {
-        if let Some(left) = optimized.stage(shader.stage) {
-            list.stage(shader, left);
-        }
-    }
-    list.interface(program, optimized);
-    list.list.sort_by_key(|one| (one.span.start, one.what));
-    list.list
-}
-
-struct List<'a> {
-    sources: Option<&'a SourceMap>,
-    list: Vec<LeftOut>,
-}
-
-impl List<'_> {
-    fn tell(&mut self, what: Kind, name: String, span: Span, because: &str) {
-        let place = self.sources.and_then(|sources| {
-            let place = sources.location(span)?;
-            Some((sources.file(place.file).name().to_owned(), place.line))
-        });
-        let (file, line) = place.unwrap_or_default();
-        self.list.push(LeftOut { what, name, file, line, because: because.to_owned(), span, extent: span });
-    }
-
-    /// The first line of the text of a span.
-    fn text(&self, span: Span) -> String {
-        let text = self.sources.map_or("", |sources| sources.snippet(span));
-        text.lines().next().unwrap_or("").trim().to_owned()
-    }
-
-    fn stage(&mut self, shader: &Shader, left: &Shader) {
-        let kept: FxHashSet<Span> = left.functions.iter().map(|function| function.span).collect();
-        let mut statements: FxHashSet<Span> = FxHashSet::default();
-        for function in &left.functions {
-            let body = function.body.as_deref().unwrap_or(&[]);
-            left.visit_statements(body, &mut |stmt| {
-                statements.insert(stmt.span);
-            });
-        }
-        for function in shader.functions.iter().filter(|function| function.body.is_some()) {
-            if kept.contains(&function.span) {
-                self.body(shader, function.body.as_deref().unwrap_or(&[]), &statements);
-            } else {
-                let because = if function.reachable { "no call of it is left" } else { "`main` never calls it" };
-                self.tell(Kind::Function, function.name.clone(), function.span, because);
-            }
-        }
-    }
-
-    fn body(&mut self, shader: &Shader, body: &[Stmt], kept: &FxHashSet<Span>) {
-        for stmt in body {
-            let bodies = stmt.kind.bodies();
-            let mut inside = false;
-            for body in &bodies {
-                shader.visit_statements(body, &mut |stmt| inside |= kept.contains(&stmt.span));
-            }
-            // Of a declaration the type may be on the line above: its name is what is told.
-            let declares = matches!(stmt.kind, StmtKind::Local(_, None));
-            let jumps = matches!(stmt.kind, StmtKind::Break | StmtKind::Continue | StmtKind::Return(None));
-            if inside || kept.contains(&stmt.span) {
-                bodies.into_iter().for_each(|body| self.body(shader, body, kept));
-            } else if !declares && !jumps {
-                let what = match stmt.kind {
-                    StmtKind::Loop { .. } => Kind::Loop,
-                    StmtKind::If { .. } | StmtKind::Switch { .. } => Kind::Branch,
-                    _ => Kind::Statement,
-                };
-                self.tell(what, self.text(stmt.span), stmt.span, "nothing reads what it computes");
-            }
-        }
-    }
-
-    fn interface(&mut self, program: &Program, optimized: &Program) {
-        let (old, new) = (&program.interface, &optimized.interface);
-        let place = |stage: Stage, id: GlobalId| {
-            let global = program.stage(stage).and_then(|shader| shader.globals.get(id.index()));
-            global.map_or_else(Span::default, |global| global.span)
-        };
-        let first = |globals: &[(Stage, GlobalId)]| {
-            globals.first().map_or_else(Span::default, |(stage, id)| place(*stage, *id))
-        };
-        for (old, new) in old.attributes.iter().zip(&new.attributes).filter(|(_, new)| !new.active) {
-            let because = because(old.active, "the vertex stage never reads it");
-            self.tell(Kind::Attribute, new.name.clone(), place(Stage::Vertex, old.global), because);
-        }
-        let mut told: BTreeSet<(Stage, GlobalId)> = BTreeSet::new();
-        for (old, _) in old.varyings.iter().zip(&new.varyings).filter(|(_, new)| !new.active) {
-            let end = old.to.map(|to| (Stage::Fragment, to.global));
-            let end = end.or(old.from.map(|from| (Stage::Vertex, from.global)));
-            let Some((stage, id)) = end.filter(|end| told.insert(*end)) else { continue };
-            let because = because(old.active, "the fragment stage never reads it");
-            self.tell(Kind::Varying, old.name.clone(), place(stage, id), because);
-        }
-        for (old, new) in old.roots.iter().zip(&new.roots).filter(|(_, new)| !new.active) {
-            let what = if old.block.is_some() { Kind::Block } else { Kind::Uniform };
-            self.tell(what, new.name.clone(), first(&old.globals), because(old.active, "no stage reads it"));
-        }
-        for (old, new) in old.samplers.iter().zip(&new.samplers).filter(|(_, new)| !new.active) {
-            self.tell(Kind::Texture, new.name.clone(), first(&old.globals), because(old.active, "no stage reads it"));
-        }
-        self.unread_outputs(program, old);
-    }
-
-    /// Outputs of the vertex stage that the fragment stage does not declare: no varying stands for them.
-    fn unread_outputs(&mut self, program: &Program, interface: &Interface) {
-        let (Some(vertex), Some(_)) = (program.stage(Stage::Vertex), program.stage(Stage::Fragment)) else { return };
-        let linked = program.stage(Stage::Geometry).is_none();
-        for (id, global) in vertex.globals().filter(|(_, global)| linked && is_plain_output(global)) {
-            if !interface.varyings.iter().any(|varying| varying.from.is_some_and(|from| from.global == id)) {
-                let because = "the fragment stage does not declare it";
-                self.tell(Kind::Varying, global.name.clone(), global.span, because);
-            }
-        }
-    }
-}
-
-fn is_plain_output(global: &Global) -> bool {
-    global.storage == Storage::Out && global.builtin.is_none()
-}
-
-fn because(was_active: bool, never: &'static str) -> &'static str {
-    if was_active { "it reaches no output" } else { never }
+    let how = How { known: &Known::default(), walked: &[], moved: &[] };
+    let left = Left::active(&optimized.stages, &optimized.interface);
+    let mut list = account::left_out(program, sources, &how, &left);
+    list.sort_by_key(|one| (one.span.start, one.what));
+    list
 }

@@ -1,8 +1,9 @@
 //! [`specialize`]: the phases in their order, over all stages.
 
-use crate::account::{self, LeftOut};
+use crate::account::{self, How, LeftOut};
 use crate::forward::{self, Walked};
 use crate::known::Known;
+use crate::left::Left;
 use crate::prune::{self, Pruned};
 use crate::settle::{self, Demand, Demands, Settled};
 use crate::{fast, inputs, motion, text};
@@ -21,6 +22,27 @@ pub struct Options<'a> {
     pub fast_math: bool,
     /// Lets what is affine in varyings move from the fragment stage to the vertex stage, which changes rounding, too.
     pub move_to_vertex: bool,
+    /// How far the program is evaluated.
+    pub extent: Extent,
+}
+
+/// How far a program is evaluated. What is written out is faster, and may be longer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Extent {
+    /// Loops are written out, functions are cloned for each kind of call.
+    #[default]
+    All,
+    /// Loops that run more than once stay loops.
+    LoopsKept,
+    /// Functions are not cloned, either.
+    FunctionsKept,
+    /// Nothing is evaluated: what reaches no output goes, as by [`optimize`](crate::optimize).
+    Nothing,
+}
+
+impl Extent {
+    /// From the furthest to none.
+    pub const ALL: [Self; 4] = [Self::All, Self::LoopsKept, Self::FunctionsKept, Self::Nothing];
 }
 
 /// A program of which nothing is left but what is needed.
@@ -36,6 +58,8 @@ pub struct Residual {
     pub left_out: Vec<LeftOut>,
     /// What moved to the vertex stage.
     pub moved: Vec<Moved>,
+    /// How far the program was evaluated.
+    pub extent: Extent,
     /// Why the residual did not read back, a fault of this crate: the program is then as it was.
     pub fault: Option<String>,
 }
@@ -92,6 +116,9 @@ pub fn specialize(program: &Program, known: &Known) -> Residual {
 
 /// The same with the texts at hand.
 pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) -> Residual {
+    if options.extent == Extent::Nothing {
+        return unevaluated(program, options);
+    }
     let textures = inputs::textures(program, known);
     let (vertex, fragment) = (program.stage(Stage::Vertex), program.stage(Stage::Fragment));
     let whole = program.stage(Stage::Geometry).is_none();
@@ -102,7 +129,7 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
             shader,
             inputs::inputs(program, shader, known, ends),
             &textures,
-            options.fast_math,
+            (options.fast_math, options.extent),
         )
     };
     let vertex = vertex.map(|shader| (shader, walk(shader, None)));
@@ -229,8 +256,9 @@ fn assemble(
         shaders.iter().map(|shader| ResidualStage::of(&types, shader, options.sources)).collect();
     match read_back(program, &stages) {
         Ok((left, sources)) => {
-            let left_out = account::left_out(program, known, options, &walked, &moved, (&shaders, &left.interface));
-            Residual { stages, program: left, sources, left_out, moved, fault: None }
+            let how = How { known, walked: &walked, moved: &moved };
+            let left_out = account::left_out(program, options.sources, &how, &Left::all(&shaders, &left.interface));
+            Residual { stages, program: left, sources, left_out, moved, extent: options.extent, fault: None }
         }
         Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
     }
@@ -269,10 +297,32 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
     }
 }
 
+/// The program without what reaches no output.
+fn unevaluated(program: &Program, options: &Options<'_>) -> Residual {
+    let optimized = crate::optimize(program);
+    let stages: Vec<ResidualStage> =
+        optimized.stages.iter().map(|shader| ResidualStage::of(&optimized.types, shader, options.sources)).collect();
+    match read_back(program, &stages) {
+        Ok((program_left, sources)) => {
+            let left_out = crate::left_out(program, &optimized, options.sources);
+            Residual { stages, program: program_left, left_out, sources, ..whole(program, options) }
+        }
+        Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
+    }
+}
+
 /// The program as it was.
 fn whole(program: &Program, options: &Options<'_>) -> Residual {
     let stages =
         program.stages.iter().map(|shader| ResidualStage::of(&program.types, shader, options.sources)).collect();
     let sources = options.sources.cloned().unwrap_or_default();
-    Residual { stages, program: program.clone(), sources, left_out: Vec::new(), moved: Vec::new(), fault: None }
+    Residual {
+        stages,
+        program: program.clone(),
+        sources,
+        left_out: Vec::new(),
+        moved: Vec::new(),
+        extent: Extent::Nothing,
+        fault: None,
+    }
 }

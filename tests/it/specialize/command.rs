@@ -193,6 +193,82 @@ fn what_is_dynamic_stays() {
     assert!(!place.read("out/a.toml").contains("\"move\""), "{}", place.read("out/a.toml"));
 }
 
+/// Names that are parts of something: what is left of them decides, and the scene reads back.
+#[test]
+fn parts_of_blocks_structs_and_arrays_may_be_dynamic() {
+    let place = Folder::new();
+    let fragment = "#version 150\nstruct Light { vec4 color; vec4 unused; };\nuniform Block { vec4 tint; vec4 gone; };\n\
+        uniform Named { vec4 shade; vec4 lost; } named;\nuniform Light light[2];\nuniform float weights[4];\n\
+        in vec4 shade;\nout vec4 color;\n\
+        void main() { color = shade * tint + named.shade * light[1].color + weights[1]; if (gl_FragCoord.x < 0.0) color = gone; }\n";
+    place.write("a.frag", fragment);
+    let uniforms = "moves = false\nmove = [1, 2, 3, 4]\ntint = [1, 1, 1, 1]\ngone = [0, 0, 0, 1]\n\
+        \"Named.shade\" = [0.5, 0.5, 0.5, 1]\n\"Named.lost\" = [0, 0, 0, 0]\n\"light[0].color\" = [1, 0, 0, 1]\n\
+        \"light[1].color\" = [0, 1, 0, 1]\n\"light[0].unused\" = [1, 0, 0, 1]\n\"light[1].unused\" = [0, 1, 0, 1]\n\
+        weights = [0.25, 0.5, 0.75, 1]\n";
+    let head = SCENE.split("[draw.uniforms]").next().expect("the attributes");
+    place.write("a.toml", &format!("{head}[draw.uniforms]\n{uniforms}"));
+    let cases: &[(&str, bool)] = &[
+        ("tint", true),
+        ("gone", false),
+        ("Block", true),
+        ("Named.shade", true),
+        ("Named.lost", false),
+        ("Named", true),
+        ("light[1]", true),
+        ("light[0]", false),
+        ("light[1].unused", false),
+        ("light", true),
+        ("weights[1]", true),
+        ("weights[3]", true),
+        ("weights", true),
+    ];
+    place.expect(0, &["render", "a.toml", "-o", "a.npy", "--backend", "cpu", "--precision", "f32"]);
+    for (name, stays) in cases {
+        place.expect(0, &["specialize", "a.toml", "-o", "out", "--dynamic", name]);
+        let text = place.read("out/a.toml");
+        assert_eq!(text.contains("dynamic = "), *stays, "{name}:\n{text}");
+        place.expect(0, &["render", "out/a.toml", "-o", "b.npy", "--backend", "cpu", "--precision", "f32"]);
+        assert!(fs::read(place.path("a.npy")).ok() == fs::read(place.path("b.npy")).ok(), "{name}");
+        // The scene itself may name it, too.
+        place.write(
+            "b.toml",
+            &place.read("a.toml").replace("[draw.attributes]", &format!("dynamic = [\"{name}\"]\n[draw.attributes]")),
+        );
+        place.expect(0, &["specialize", "b.toml", "-o", "out"]);
+    }
+    for name in ["tin", "Named.shad", "light[2]", "weights[4]"] {
+        let text = place.expect(2, &["specialize", "a.toml", "-o", "out", "--dynamic", name]);
+        assert!(text.contains("no program has a uniform"), "{name}: {text}");
+    }
+}
+
+#[test]
+fn a_scene_of_a_multisample_texture_comes_back() {
+    let place = Folder::new();
+    let fragment = "#version 150\nuniform sampler2DMS plain;\nuniform int mode;\nin vec4 shade;\nout vec4 color;\n\
+        void main() { color = mode == 1 ? shade : texelFetch(plain, ivec2(gl_FragCoord.xy) % 2, int(gl_FragCoord.x) % 3); }\n";
+    place.write("a.frag", fragment);
+    let values: Vec<String> = (0..48).map(|n| format!("{}", f64::from(n) / 48.0)).collect();
+    let head = SCENE.split("[draw.uniforms]").next().expect("the attributes");
+    let texture = format!(
+        "{{ kind = \"2d_multisample\", width = 2, height = 2, samples = 3, values = [{}] }}",
+        values.join(", ")
+    );
+    place.write(
+        "a.toml",
+        &format!("{head}[draw.uniforms]\nmoves = false\nmode = 0\n[draw.textures]\nplain = {texture}\n"),
+    );
+    place.expect(0, &["specialize", "a.toml", "-o", "out"]);
+    let draw = |scene: &str| {
+        place.expect(0, &["render", scene, "-o", "a.npy", "--backend", "cpu", "--precision", "f32"]);
+        fs::read(place.path("a.npy")).expect("a picture")
+    };
+    let text = place.read("out/a.toml");
+    assert!(text.contains("samples = 3") && !text.contains("mipmaps"), "{text}");
+    assert!(draw("a.toml") == draw("out/a.toml"), "{text}");
+}
+
 #[test]
 fn several_scenes_share_residuals() {
     let place = Folder::new();
@@ -225,6 +301,27 @@ fn targets_are_those_that_were_asked_for() {
         assert!(names.contains(&format!("a.frag.{extension}")), "{names:?}");
     }
     assert!(!names.contains("a.frag.wgsl"), "{names:?}");
+}
+
+#[test]
+fn suggestions_are_text_or_json() {
+    let place = Folder::new();
+    place.write("b.toml", &SCENE.replace("mode = 0", "mode = 1"));
+    let text = place.expect(0, &["specialize", "a.toml", "b.toml", "--suggest"]);
+    for word in ["2 scenes", "mode", "paint", "fixed so far", "+ mode"] {
+        assert!(text.contains(word), "{word}:\n{text}");
+    }
+    let output = place.run(&["specialize", "a.toml", "b.toml", "--suggest", "--format", "json", "--dynamic", "paint"]);
+    let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(keys(&json), ["curve", "operations_all", "operations_none", "scenes", "uniforms"]);
+    let names: Vec<&str> =
+        json["uniforms"].as_array().expect("a list").iter().filter_map(|one| one["name"].as_str()).collect();
+    assert!(names.contains(&"mode") && !names.contains(&"paint"), "{names:?}");
+    assert_eq!((&json["curve"][0]["fixed"], &json["curve"][0]["variants"]), (&Value::Null, &1.into()));
+    assert!(place.names("out").is_empty());
+    place.expect(2, &["specialize", "a.toml", "--suggest", "--check"]);
+    place.expect(2, &["specialize", "a.toml", "-o", "out", "--format", "json"]);
+    place.expect(2, &["specialize", "a.toml", "--suggest", "--dynamic", "pain"]);
 }
 
 #[test]

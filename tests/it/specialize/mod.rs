@@ -2,11 +2,15 @@
 
 #[cfg(feature = "cli")]
 mod account;
+mod agreement;
 mod by_hand;
 #[cfg(feature = "cli")]
 mod command;
 #[cfg(feature = "gpu")]
 mod drawn;
+mod library;
+#[cfg(feature = "gpu")]
+mod qualifiers;
 #[cfg(feature = "gpu")]
 mod random;
 mod reach;

@@ -1,15 +1,18 @@
 //! [`Fact`]: what is known of a scalar while a program is specialized.
 //!
 //! *In:* what a scene fixes, and the facts of operands. *Out:* the fact of a result.
-//! *Holds:* a [`What::Value`] is what every conforming target computes, bit for bit: only correctly rounded operations on
-//! exact operands give one (see [`exact`]). A range holds whatever a conforming target may compute.
+//! *Holds:* a [`What::Value`] is what the reference computes in f32, bit for bit: mostly what every conforming target computes
+//! (see [`exact`]), else a value that the original's envelope has in it (see [`folded`]). A range holds whatever a conforming
+//! target may compute.
 
 mod builtins;
 mod exact;
+mod folded;
 mod operators;
 mod range;
 
 pub(crate) use builtins::{Call, builtin};
+pub(crate) use folded::{Operation, Values, by_reference, folded};
 pub(crate) use operators::{binary, convert, mat_mul, unary};
 pub(crate) use range::{GREATEST, Range};
 
@@ -192,7 +195,7 @@ pub(crate) fn spread(facts: &[Fact], index: usize) -> Fact {
 }
 
 /// All values, if all are known.
-pub(crate) fn values(facts: &[Fact]) -> Option<SmallVec<[ScalarValue; 4]>> {
+pub(crate) fn values(facts: &[Fact]) -> Option<Values> {
     if facts.is_empty() { None } else { facts.iter().map(|fact| fact.value()).collect() }
 }
 

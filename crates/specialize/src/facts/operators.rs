@@ -142,7 +142,10 @@ fn integer(op: BinaryOp, a: (i64, i64), b: (i64, i64), scalar: Scalar) -> What {
         _ => return What::Any,
     };
     match scalar {
+        // Whatever the operands are, it is exactly this.
+        Scalar::Int if low == high && i32::try_from(low).is_ok() => What::Value(ScalarValue::Int(low as i32)),
         Scalar::Int => Fact::int(low, high).what,
+        Scalar::Uint if low == high && u32::try_from(low).is_ok() => What::Value(ScalarValue::Uint(low as u32)),
         Scalar::Uint if low >= 0 && high <= i64::from(u32::MAX) => What::Uint(low as u32, high as u32),
         _ => What::Any,
     }

@@ -4,22 +4,9 @@
 //! compiler's constant folding computes from known operands, and what algebra says of the others (`x * 0.0` is 0).
 //! *Holds:* a result that is not finite, or subnormal, is not folded: the target computes it.
 
-use crate::facts::{Fact, Facts, GREATEST, Range, What, at, values};
+use crate::facts::{self, Fact, Facts, GREATEST, Operation, Range, Values, What, at, values};
 use glisten_front::builtin::BuiltinFunction as F;
-use glisten_front::fold;
-use glisten_front::hir::{
-    BinaryOp, ConstructKind, ExprId, ExprKind, Scalar, ScalarValue, Shader, Type, TypeId, Types, UnaryOp,
-};
-use glisten_front::source::Span;
-
-/// An operation without its operands.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Operation {
-    Convert,
-    Unary(UnaryOp),
-    Binary(BinaryOp),
-    Call(F),
-}
+use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, Shader, Type, TypeId, Types};
 
 /// Facts and the type of an operand.
 type Operand<'a> = (&'a [Fact], TypeId);
@@ -61,36 +48,10 @@ pub(crate) fn finite(types: &Types, ty: TypeId, facts: Facts) -> Facts {
 
 /// The value of an operation on known operands.
 fn folded(types: &Types, like: &Shader, operation: Operation, operands: &[Operand<'_>], ty: TypeId) -> Option<Facts> {
-    let mut shader = Shader::new(like.stage, like.version);
-    let mut ids = Vec::with_capacity(operands.len());
-    for (facts, ty) in operands {
-        ids.push(constant(types, &mut shader, &values(facts)?, *ty)?);
-    }
-    let (first, second) = (ids.first().copied(), ids.get(1).copied());
-    let kind = match operation {
-        Operation::Convert => ExprKind::Convert(first?),
-        Operation::Unary(op) => ExprKind::Unary(op, first?),
-        Operation::Binary(op) => ExprKind::Binary(op, first?, second?),
-        // The interpolation of a constant has no slope, but a target may find one for it.
-        Operation::Call(function)
-            if matches!(function.class(), glisten_front::builtin::operations::Class::Derivative(_)) =>
-        {
-            return None;
-        }
-        Operation::Call(function) => ExprKind::BuiltinCall(function, ids),
-    };
-    let id = shader.push(kind, ty, Span::default());
-    let value = fold::evaluate(&shader, types, id, &|_| None)?;
-    let usable = |value: &ScalarValue| match value {
-        ScalarValue::Float(value) => value.is_normal() || *value == 0.0,
-        ScalarValue::Bool(_) | ScalarValue::Int(_) | ScalarValue::Uint(_) => true,
-    };
-    // The exact rules know all that is defined of integers.
-    let floats = operands.iter().map(|(_, ty)| *ty).chain([ty]).any(|ty| types.scalar_of(ty) == Some(Scalar::Float));
-    if !floats || !value.scalars.iter().all(usable) {
-        return None;
-    }
-    Some(value.scalars.into_iter().map(unsigned_zero).map(Fact::bound).collect())
+    let known: Vec<(Values, TypeId)> =
+        operands.iter().map(|(facts, ty)| Some((values(facts)?, *ty))).collect::<Option<_>>()?;
+    let folded = facts::folded(types, like, operation, &known, ty)?;
+    Some(folded.into_iter().map(unsigned_zero).map(Fact::bound).collect())
 }
 
 fn unsigned_zero(value: ScalarValue) -> ScalarValue {
@@ -98,19 +59,6 @@ fn unsigned_zero(value: ScalarValue) -> ScalarValue {
         // -0 and 0 make 0; other numbers stay.
         ScalarValue::Float(value) => ScalarValue::Float(value + 0.0),
         value => value,
-    }
-}
-
-/// Numbers as an expression.
-fn constant(types: &Types, shader: &mut Shader, values: &[ScalarValue], ty: TypeId) -> Option<ExprId> {
-    let scalar = TypeId::vector(types.scalar_of(ty)?, 1);
-    let mut parts = Vec::with_capacity(values.len());
-    for value in values {
-        parts.push(shader.push(ExprKind::Literal(*value), scalar, Span::default()));
-    }
-    match types.get(ty) {
-        Type::Scalar(_) => parts.first().copied(),
-        _ => Some(shader.push(ExprKind::Construct(ConstructKind::Compose, parts), ty, Span::default())),
     }
 }
 

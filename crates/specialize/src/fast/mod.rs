@@ -14,4 +14,4 @@ mod facts;
 mod powers;
 
 pub(crate) use algebra::simplify;
-pub(crate) use facts::{Operation, finite, improved};
+pub(crate) use facts::{finite, improved};

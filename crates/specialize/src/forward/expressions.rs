@@ -1,8 +1,8 @@
 //! Expressions: evaluated with what is known, written down as they are.
 
 use super::{Forward, Val};
-use crate::facts::{self, Call, Fact, Facts, What, at};
-use crate::fast::{self, Operation};
+use crate::facts::{self, Call, Fact, Facts, Operation, What, at};
+use crate::fast;
 use crate::known::Input;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
@@ -72,10 +72,10 @@ impl Forward<'_> {
         }
     }
 
-    /// Under fast math, better facts of an operation's result.
+    /// Better facts of an operation's result: by the reference's arithmetic, under fast math by algebra, too.
     fn improved(&self, operation: Operation, operands: &[(&[Fact], TypeId)], ty: TypeId, facts: Facts) -> Facts {
         if !self.fast {
-            return facts;
+            return facts::by_reference(self.types, self.shader, operation, operands, ty, facts);
         }
         fast::improved(self.types, self.shader, operation, operands, ty, facts)
     }
@@ -335,7 +335,9 @@ impl Forward<'_> {
 fn looked_up(channel: Input) -> Fact {
     match channel {
         Input::Value(value) => Fact::bound(value),
-        Input::Between(low, high) => Fact::in_range(facts::Range::between(f64::from(low), f64::from(high))),
+        Input::Between(low, high) | Input::Unsigned(low, high) => {
+            Fact::in_range(facts::Range::between(f64::from(low), f64::from(high)))
+        }
         Input::Open => Fact::ANY,
     }
 }
@@ -345,6 +347,6 @@ fn fetched(channel: Input) -> Fact {
     match channel {
         Input::Value(ScalarValue::Float(value)) => Fact::in_range(facts::Range::point(value)),
         Input::Value(_) | Input::Open => Fact::ANY,
-        Input::Between(..) => looked_up(channel),
+        Input::Between(..) | Input::Unsigned(..) => looked_up(channel),
     }
 }

@@ -4,7 +4,7 @@
 //! `do { first; second; } while (false);`. With such a `continue` each iteration becomes one. A loop with both is kept.
 
 use super::effects::Assigned;
-use super::{Forward, Jump, Reason, Target};
+use super::{Extent, Forward, Jump, Reason, Target};
 use crate::facts::{Fact, What, at};
 use glisten_front::hir::{
     BinaryOp, Condition, ExprId, ExprKind, IncDec, LoopKind, ScalarValue, Stmt, StmtKind, TypeId, VarRef,
@@ -148,7 +148,8 @@ impl Forward<'_> {
             }
             // What gains nothing by being written out stays a loop.
             let most = if open.is_some() { ALWAYS } else { self.most(first) };
-            let too_long = grown > ALWAYS && grown > most;
+            let repeats = self.extent > Extent::All && rounds > 1;
+            let too_long = repeats || (grown > ALWAYS && grown > most);
             if rounds >= MOST_ROUNDS || too_long || !self.may_grow() {
                 return None;
             }

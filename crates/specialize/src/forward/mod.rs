@@ -23,6 +23,7 @@ pub(crate) use effects::Effects;
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
+use super::residual::Extent;
 use calls::Variants;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef,
@@ -151,20 +152,26 @@ pub(crate) struct Forward<'a> {
     weight: u64,
     /// Whether algebra is allowed that changes rounding.
     fast: bool,
+    /// How much may be written out.
+    extent: Extent,
 }
 
 /// Walks a stage. `inputs` are the facts of its globals, `textures` those of the interface's sampler slots; `fast` allows
-/// algebra that changes rounding.
+/// algebra that changes rounding, `extent` says how much may be written out.
 pub(crate) fn walk(
     types: &Types,
     shader: &Shader,
     inputs: Vec<Vec<Fact>>,
     textures: &[Option<KnownTexture>],
-    fast: bool,
+    (fast, extent): (bool, Extent),
 ) -> Walked {
     with_stack(shader.expr_depth.saturating_mul(2).saturating_add(4096), move || {
         let mut forward = Forward::new(types, shader, textures);
         forward.fast = fast;
+        forward.extent = extent;
+        if extent > Extent::LoopsKept {
+            forward.fuel = 0;
+        }
         forward.run(inputs);
         let ends = forward.ends();
         let Forward { out, notes, before, origins, reasons, named, .. } = forward;
@@ -202,6 +209,7 @@ impl<'a> Forward<'a> {
             fuel: shader.exprs.len() as u64 * 6 + 20_000,
             weight: 0,
             fast: false,
+            extent: Extent::All,
         }
     }
 

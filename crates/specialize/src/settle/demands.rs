@@ -3,10 +3,12 @@
 //! *In:* a walked stage. *Out:* flags, raised until nothing changes. *Holds:* rounds are bounded: should they not settle,
 //! everything is demanded of everything, which is always right.
 
+use super::cancels::cancelling;
 use super::{Demand, danger};
 use crate::forward::Walked;
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, ParamMode, Stmt, StmtKind, Types, VarRef};
+use rustc_hash::FxHashSet;
 use smallvec::SmallVec;
 
 /// After so many rounds everything is demanded.
@@ -24,6 +26,8 @@ pub(crate) struct Demands {
     changed: bool,
     /// Under fast math nothing is demanded of anything.
     fast: bool,
+    /// The differences and quotients whose operands must not become one expression.
+    cancelling: FxHashSet<ExprId>,
 }
 
 impl Demands {
@@ -36,6 +40,7 @@ impl Demands {
             results: vec![Demand::NONE; functions.len()],
             changed: false,
             fast: walked.fast,
+            cancelling: if walked.fast { FxHashSet::default() } else { cancelling(walked) },
         };
         if demands.fast {
             return demands;
@@ -173,6 +178,9 @@ impl Demands {
             return SmallVec::from_elem(Demand::NONE, kind.children().len());
         }
         let mut demands = danger::own(types, walked, id);
+        if self.cancelling.contains(&id) {
+            demands.iter_mut().for_each(|slot| *slot = Demand::APART);
+        }
         let through = self.through(walked, id, demand);
         match kind {
             ExprKind::Index(..) => demands[0] = demand,
@@ -209,7 +217,7 @@ impl Demands {
             | ExprKind::Convert(_)
             | ExprKind::Construct(..)
             | ExprKind::Unary(..) => true,
-            ExprKind::Binary(op, ..) => transparent_op(Some(*op)),
+            ExprKind::Binary(op, ..) => transparent_op(Some(*op)) || demand.is_apart(),
             ExprKind::BuiltinCall(function, _) => matches!(
                 function,
                 F::Abs
@@ -231,7 +239,7 @@ impl Demands {
         }
         match (constant, transparent) {
             // A driver could compute it from literals, whatever it comes to.
-            (true, _) => Demand::KEEP,
+            (true, _) => demand.and(Demand::KEEP),
             (false, true) => demand,
             (false, false) => Demand::NONE,
         }

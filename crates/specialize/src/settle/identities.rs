@@ -99,20 +99,17 @@ fn is_below(x: Fact, c: Fact) -> bool {
     floats && !range.nan && !limit.nan && range.high <= limit.low && !zero
 }
 
-/// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers, or under fast math of any.
+/// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers, or under fast math of any. What is left of the other is a 0 of
+/// either sign, which changes nothing but a -0.
 fn mixed<'w>(fast: bool, facts: &dyn Fn(usize) -> &'w [Fact]) -> Option<usize> {
     let moderate = |facts: &[Fact]| {
-        let small = |fact: &Fact| {
-            let range = fact.range();
-            range.is_finite() && !range.negative_zero && range.magnitude() < GREATEST / 4.0
-        };
+        let small = |fact: &Fact| fact.range().is_finite() && fact.range().magnitude() < GREATEST / 4.0;
         !facts.is_empty() && facts.iter().all(small)
     };
-    if !fast && (!moderate(facts(0)) || !moderate(facts(1))) {
-        return None;
-    }
     let all = |value: f32| !facts(2).is_empty() && facts(2).iter().all(|fact| is(*fact, value) && !is_integer(*fact));
-    if all(0.0) { Some(0) } else { all(1.0).then_some(1) }
+    let kept = if all(0.0) { 0 } else { all(1.0).then_some(1)? };
+    let exact = moderate(facts(0)) && moderate(facts(1)) && facts(kept).iter().all(|fact| !fact.range().negative_zero);
+    (fast || exact).then_some(kept)
 }
 
 fn is_integer(fact: Fact) -> bool {

@@ -7,6 +7,7 @@
 //! it was, down to the uniform, attribute or texture that it comes from; a variable hands the demand on to what is stored
 //! in it. Literals of the source are literals in any case.
 
+mod cancels;
 mod danger;
 mod demands;
 mod identities;
@@ -30,6 +31,8 @@ impl Demand {
     pub(super) const NO_ZERO: Self = Self(1);
     /// Nothing at all.
     pub(super) const KEEP: Self = Self(3);
+    /// Nothing at all, and no operation is left out because of what is known.
+    pub(super) const APART: Self = Self(7);
 
     /// Both.
     pub(super) fn and(self, other: Self) -> Self {
@@ -39,6 +42,11 @@ impl Demand {
     /// Whether anything is demanded.
     pub(super) fn is_some(self) -> bool {
         self != Self::NONE
+    }
+
+    /// Whether operations stay that give an operand back.
+    pub(super) fn is_apart(self) -> bool {
+        self == Self::APART
     }
 
     /// Whether a value with these facts must stay what it was.

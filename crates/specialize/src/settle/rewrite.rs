@@ -146,7 +146,7 @@ impl Writer<'_> {
         if let Some(values) = self.walked.literal(id, demand) {
             return self.known(&kind, &values, ty, span);
         }
-        if let Some(operand) = identities::operand(self.walked, id) {
+        if let Some(operand) = identities::operand(self.walked, id).filter(|_| !demand.is_apart()) {
             let child = kind.children().get(operand).copied();
             if let Some(child) = child {
                 let own = self.demands.of_operands(self.types, self.walked, self.function, id, demand);
