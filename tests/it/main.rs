@@ -6,6 +6,8 @@ mod architecture;
 mod bazel;
 #[cfg(feature = "cli")]
 mod bindings;
+#[cfg(feature = "cli")]
+mod borders;
 mod build;
 #[cfg(unix)]
 mod build_runs;

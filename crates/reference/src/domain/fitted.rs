@@ -49,6 +49,7 @@ pub static FITTED: &[Fitted] = &[
     row(&rules::VARYING, rules::VARYING.ulps(), "ULP", ENVELOPE_TEST),
     row(&rules::SLOPE, rules::SLOPE.ulps(), "ULP", ENVELOPE_TEST),
     row(&rules::SNAPPING, rules::SNAPPING.absolute(), "pixels", ENVELOPE_TEST),
+    row(&rules::POINT_VARYING, rules::POINT_VARYING.ulps(), "ULP", "`cargo test --test it -- borders`"),
     row(&rules::POINT_COORD, rules::POINT_COORD.absolute(), "", RASTER_TEST),
     row(&rules::TEXEL_COORDINATE, rules::TEXEL_COORDINATE.ulps(), "ULP", ENVELOPE_TEST),
     row(&rules::CUBE_COORDINATE, rules::CUBE_COORDINATE.ulps(), "ULP", ENVELOPE_TEST),

@@ -70,6 +70,8 @@ steps! { OWN: "Rules where no specification speaks. `cargo test --test it -- env
         "for each fragment, of the value and of the terms of the plane there: its value at the window's corner, and its slope times the distance; besides, the error of the slope; measured: up to 35 % of that";
     SNAPPING = "vertices that varyings are interpolated between, in pixels", OfSize(0.0),
         "where they are computed to be, not where they are snapped for coverage; measured: 1e-4 pixel, 1/512 of snapping would be 2e-3";
+    POINT_VARYING = "varyings of points", OfUlps(2.0),
+        "if w is not 1: the vertex's value times 1/w and w; measured: 1 ULP";
     POINT_COORD = "gl_PointCoord", OfSize(4.768_371_582_031_25e-7), "four ULP of 1; measured: within 1 ULP";
     TEXEL_COORDINATE = "coordinate in texels", OfUlps(1.0),
         "the coordinate times the size, rounded once; a lookup may read every texel that the interval touches";

@@ -174,7 +174,13 @@ impl<D: Domain> Machine<D> {
         let slot = self.registers.int(call.sampler).at(lane).bits() as usize;
         // A texture that is missing or incomplete is (0, 0, 0, 1).
         let Some(texture) = self.textures.get(slot).and_then(Option::as_deref) else { return false };
-        let level = call.level.as_ref().filter(|_| call.kind.dim != glisten_front::hir::SamplerDim::Multisample);
+        // A multisample texture has samples in place of levels.
+        let is_multisample = call.kind.dim == glisten_front::hir::SamplerDim::Multisample;
+        let samples = 0..texture.levels.len() as i64;
+        if is_multisample && call.level.as_ref().is_some_and(|sample| !samples.contains(&at(sample))) {
+            return true;
+        }
+        let level = call.level.as_ref().filter(|_| !is_multisample);
         let size = texture::size(texture, call.kind, level.map_or(0, |level| at(level) as i32));
         let offset = |axis: usize| call.offset.get(axis).map_or(0, at);
         let mut places = call.coordinate.iter().zip(size).enumerate();

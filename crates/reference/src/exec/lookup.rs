@@ -270,7 +270,7 @@ impl<D: Domain> LaneLookup<'_, D> {
         };
         let kind = self.call.kind;
         let texels = texture::steps_in_texels(texture, kind, at.map(|bounded| bounded.value), gradients);
-        let lambda = texture::level_bounds(texture, kind, D::level(texels), steps.as_ref());
+        let lambda = texture::level_bounds(texture, kind, at, D::level(texels), steps.as_ref());
         BoundedFloat { value: lambda.value + given.value, low: lambda.low + given.low, high: lambda.high + given.high }
     }
 

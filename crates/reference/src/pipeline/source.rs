@@ -271,7 +271,8 @@ impl<'v, D: Domain> Source<'v, D> {
         to: &mut [D::Float],
     ) {
         if interpolation == Interpolation::Flat || matches!(self.kind, Kind::Point) {
-            to.fill(self.flat.get(index).copied().unwrap_or_default());
+            let value = self.flat.get(index).copied().unwrap_or_default();
+            to.fill(if self.is_scaled(interpolation) { of_point(value) } else { value });
             return;
         }
         let values = self.quotients.map(|quotients| quotients.get(index).copied().unwrap_or_default());
@@ -279,7 +280,9 @@ impl<'v, D: Domain> Source<'v, D> {
         let w = &w[lanes.clone()];
         match (interpolation, &self.plain) {
             (Interpolation::Smooth, None) => {
-                if let Some(value) = self.same_at_all(index) {
+                if !self.is_sloped()
+                    && let Some(value) = self.same_at_all(index)
+                {
                     to.fill(value);
                     return;
                 }
@@ -306,7 +309,22 @@ impl<'v, D: Domain> Source<'v, D> {
     }
 }
 
+/// The value of a point's vertex, with the error of a GPU that interpolates it like that of a triangle.
+fn of_point<F: Number>(value: F) -> F {
+    let size = value.value();
+    if size.is_finite() { value.widened(const { rules::POINT_VARYING.ulps() } * rules::ulp(size)) } else { value }
+}
+
 impl<D: Domain> Source<'_, D> {
+    /// Whether it is a point whose varyings a GPU may divide by w, and multiply by it again.
+    fn is_scaled(&self, interpolation: Interpolation) -> bool {
+        let w = self.reciprocals[0];
+        D::HAS_INTERVALS
+            && interpolation == Interpolation::Smooth
+            && matches!(self.kind, Kind::Point)
+            && !(w.value() == 1.0 && w.error() == 0.0)
+    }
+
     /// The part of the error of a varying that neighbors do not share, at the fragments in some lanes.
     pub(super) fn noise(
         &self,
@@ -336,6 +354,7 @@ impl<D: Domain> Source<'_, D> {
 
     /// The value of a varying that is the same at all vertices: it is interpolated to that very value, as
     /// [`linear`] does in the window. Programs compare such values for equality, and what is known of them is a constant.
+    /// A GPU that interpolates quotients by slopes is off by an ULP or two, and a simulated one is, too.
     #[inline(always)]
     fn same_at_all(&self, index: usize) -> Option<D::Float> {
         let [a, b, c] = self.values.map(|values| values.get(index).copied().unwrap_or_default());

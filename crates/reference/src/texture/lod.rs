@@ -17,6 +17,8 @@ pub(crate) struct Gradients {
 pub(crate) struct Steps {
     pub(crate) least: [f64; 3],
     pub(crate) most: [f64; 3],
+    /// The largest width of the interval of a change.
+    pub(crate) width: f64,
 }
 
 impl Steps {
@@ -27,17 +29,30 @@ impl Steps {
             // If the intervals are disjoint, it is known which of both directions is the longer one.
             *low = low.max(least);
             *high = high.max(change.low.abs()).max(change.high.abs());
+            self.width = self.width.max(change.high - change.low);
         }
     }
 }
 
 /// A level of detail with the interval for a GPU: the scale factor may be anything from the longest step along one
 /// axis to the sum of these (conditions 1 and 2 of §3.8.11). For a cube, the steps are not separated by axis.
-pub(crate) fn level_bounds(texture: &Texture, kind: SamplerType, value: f64, steps: Option<&Steps>) -> BoundedFloat {
+pub(crate) fn level_bounds(
+    texture: &Texture,
+    kind: SamplerType,
+    at: [BoundedFloat; 3],
+    value: f64,
+    steps: Option<&Steps>,
+) -> BoundedFloat {
     let (Some(steps), Some(base)) = (steps, texture.levels.first()) else { return BoundedFloat::exact(value) };
     if kind.dim == SamplerDim::Cube {
         let (low, high) = const { rules::CUBE_LEVEL.between() };
-        return BoundedFloat { value, low: value + low, high: value + high };
+        let (scale, off) = (value.exp2(), f64::from(base.width) * cube_error(at, steps));
+        let least = (scale * low.exp2() - off).max(0.0);
+        return BoundedFloat {
+            value,
+            low: least.log2().min(value),
+            high: (scale * high.exp2() + off).log2().max(value),
+        };
     }
     let sizes = match kind.dim {
         SamplerDim::Rect => [1.0; 3],
@@ -48,6 +63,15 @@ pub(crate) fn level_bounds(texture: &Texture, kind: SamplerType, value: f64, ste
     let least = scaled(steps.least).fold(0.0, f64::max);
     let most: f64 = scaled(steps.most).sum();
     BoundedFloat { value, low: value.min(least.log2()), high: value.max(most.log2()) }
+}
+
+/// The largest error of the scale factor on a face of size 1, if the direction and its changes have errors. It is the
+/// derivative of a change of s or t, `(dc m - c dm) / (2 m^2)` with `|c| <= m`, twice: for s and for t.
+fn cube_error(at: [BoundedFloat; 3], steps: &Steps) -> f64 {
+    let off = at.iter().map(|at| at.error()).fold(0.0, f64::max);
+    let axis = cube::face_of(at.map(|at| at.value)).ma - off;
+    let most = steps.most.iter().copied().fold(0.0, f64::max);
+    if axis > 0.0 { 2.0 * (steps.width + 2.0 * most * off / axis) / axis } else { f64::INFINITY }
 }
 
 /// The steps in texels of the base level along the rows and the columns of the picture (equation 3.21).

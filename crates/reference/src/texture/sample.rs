@@ -108,7 +108,9 @@ pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> 
             let sum: f64 = around.iter().flatten().map(|texel| texel.value).sum();
             return BoundedFloat::anything(sum / 3.0);
         };
-        if positions > limits::MOST_TEXELS {
+        // On a cube, farther texels may be those of any face.
+        let is_far = footprint.cube && request.bounded && (x.error >= 1.0 || y.error >= 1.0);
+        if positions > limits::MOST_TEXELS || is_far {
             return BoundedFloat::anything(likely.value);
         }
         let mut hull = likely;
@@ -208,9 +210,19 @@ fn axis(at: BoundedFloat, offset: i32, linear: bool, request: &Request) -> Axis 
     Axis { first, second, weight: if linear { base - floor } else { 0.0 }, error: at.error() + weight, touched }
 }
 
+/// The texels of a face of a cube that a lookup may touch.
+#[derive(Clone, Copy, Debug)]
+struct OnFace {
+    face: i64,
+    x: (i64, i64),
+    y: (i64, i64),
+}
+
 /// The coordinates of a lookup in a level, as axes, and the face or layer.
 struct Footprint {
     axes: [Axis; 3],
+    /// The texels of each face of a cube that it may touch, in an envelope.
+    faces: [Option<OnFace>; 6],
     count: usize,
     slice: i64,
     /// The layers that it may be.
@@ -223,18 +235,7 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
     let kind = request.kind;
     let mut axes = [Axis::default(); 3];
     if kind.dim == SamplerDim::Cube {
-        let there = cube::face_of(request.at.map(|at| at.value));
-        let error = request.at.iter().map(|at| at.error()).fold(0.0, f64::max) / there.ma;
-        for (axis_at, c) in axes.iter_mut().zip([there.sc, there.tc]) {
-            let s = if there.ma > 0.0 { 0.5 * (c / there.ma + 1.0) } else { 0.5 };
-            let bounded =
-                BoundedFloat::exact(s).widened(error + const { rules::CUBE_COORDINATE.ulps() } * rules::ulp(1.0));
-            *axis_at = axis(in_texels(kind, bounded, level.width), 0, linear, request);
-        }
-        let face = there.face as i64;
-        let (layer, layers) = if kind.arrayed { layers(level.depth / 6, request.layer) } else { (0, (0, 0)) };
-        let slices = (6 * layers.0 + face, 6 * layers.1 + face);
-        return Footprint { axes, count: 2, slice: 6 * layer + face, slices, wrap: Wrap::ClampToEdge, cube: true };
+        return on_cube(level, request, linear);
     }
     let count = usize::from(kind.dimensions());
     for (place, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
@@ -242,7 +243,45 @@ fn footprint(texture: &Texture, level: &TextureLevel, request: &Request, linear:
     }
     let (slice, slices) = if kind.arrayed { layers(level.depth, request.layer) } else { (0, (0, 0)) };
     let wrap = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { texture.wrap };
-    Footprint { axes, count, slice, slices, wrap, cube: false }
+    Footprint { axes, faces: [None; 6], count, slice, slices, wrap, cube: false }
+}
+
+/// The footprint in a cube. A direction within intervals may hit several faces, each in a part of its own.
+fn on_cube(level: &TextureLevel, request: &Request, linear: bool) -> Footprint {
+    let kind = request.kind;
+    let there = cube::face_of(request.at.map(|at| at.value));
+    let of = |value: f64, (low, high): (f64, f64)| {
+        let bounded = BoundedFloat { value, low: value.min(low), high: value.max(high) }.map(|c| 0.5 * (c + 1.0));
+        let bounded = bounded.widened(const { rules::CUBE_COORDINATE.ulps() } * rules::ulp(1.0));
+        axis(in_texels(kind, bounded, level.width), 0, linear, request)
+    };
+    let mut axes = [Axis::default(); 3];
+    let mut faces = [None; 6];
+    let around = if request.bounded { cube::on_plane(there.face, request.at) } else { [(0.0, 0.0); 2] };
+    for ((axis_at, c), around) in axes.iter_mut().zip([there.sc, there.tc]).zip(around) {
+        let value = if there.ma > 0.0 { c / there.ma } else { 0.0 };
+        *axis_at = of(value, if request.bounded { around } else { (value, value) });
+    }
+    if request.bounded {
+        // A nearest lookup stays within its face, a linear one reads the texels next to it.
+        let beyond = i64::from(linear);
+        let texels = |between: (f64, f64)| {
+            let (low, high) = of(between.0, between).touched;
+            let limited = |at: i64| at.clamp(-beyond, i64::from(level.width.max(1)) - 1 + beyond);
+            (limited(low), limited(high))
+        };
+        for (face, found) in faces.iter_mut().enumerate() {
+            *found = cube::region(face, request.at).map(|region| OnFace {
+                face: face as i64,
+                x: texels(region.sc),
+                y: texels(region.tc),
+            });
+        }
+    }
+    let face = there.face as i64;
+    let (layer, layers) = if kind.arrayed { layers(level.depth / 6, request.layer) } else { (0, (0, 0)) };
+    let slices = (6 * layers.0 + face, 6 * layers.1 + face);
+    Footprint { axes, faces, count: 2, slice: 6 * layer + face, slices, wrap: Wrap::ClampToEdge, cube: true }
 }
 
 impl Footprint {
@@ -267,12 +306,15 @@ impl Footprint {
 
     /// Shows every texel that it may touch. Returns false if there are too many.
     fn each_touched(&self, level: &TextureLevel, mut show: impl FnMut([i64; 3])) -> bool {
+        if self.cube {
+            return self.each_on_faces(level, show);
+        }
         let sizes = [level.width, level.height, level.depth].map(i64::from);
         let mut ranges = [(0i64, 0i64); 3];
         let mut total = self.slices.1 - self.slices.0 + 1;
         for (axis, range) in ranges.iter_mut().enumerate().take(self.count) {
             let (low, high) = self.axes[axis].touched;
-            let clamped = self.wrap == Wrap::ClampToEdge && !self.cube;
+            let clamped = self.wrap == Wrap::ClampToEdge;
             let limit = |at: i64| if clamped { at.clamp(-1, sizes[axis]) } else { at };
             let (low, high) = (limit(low), limit(high));
             // Two periods are everything there is, since mirrored textures repeat after two.
@@ -287,6 +329,28 @@ impl Footprint {
                 for y in ranges[1].0..=ranges[1].1 {
                     for x in ranges[0].0..=ranges[0].1 {
                         if let Some(place) = self.place_in(level, [x, y, z], slice) {
+                            show(place);
+                        }
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Shows every texel of a cube that it may touch. Returns false if there are too many.
+    fn each_on_faces(&self, level: &TextureLevel, mut show: impl FnMut([i64; 3])) -> bool {
+        let count = |(low, high): (i64, i64)| high - low + 1;
+        let layers = (self.slices.0.div_euclid(6), self.slices.1.div_euclid(6));
+        let texels: i64 = self.faces.iter().flatten().map(|on| count(on.x).saturating_mul(count(on.y))).sum();
+        if texels.saturating_mul(count(layers)) > limits::MOST_TEXELS {
+            return false;
+        }
+        for layer in layers.0..=layers.1 {
+            for on in self.faces.iter().flatten() {
+                for y in on.y.0..=on.y.1 {
+                    for x in on.x.0..=on.x.1 {
+                        if let Some(place) = self.place_in(level, [x, y, 0], 6 * layer + on.face) {
                             show(place);
                         }
                     }
