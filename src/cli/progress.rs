@@ -1,22 +1,22 @@
-//! [`Progress`]: a progress bar on the terminal for work that takes longer than a second.
+//! [`Progress`]: a progress bar on the terminal for work that takes longer than two seconds.
 //!
-//! *Holds:* it is drawn on standard error, only if that is a terminal, only without `--quiet`, and never in the first
-//! second. It disappears when the work is done.
+//! *Holds:* it is drawn on standard error, only if that is a terminal, only without `--quiet`, and never in the first two
+//! seconds; after that also in the middle of a long step. It disappears when the work is done.
 
 use super::console::Console;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
+use std::time::Duration;
 
 /// How long nothing is shown.
-const PATIENCE: Duration = Duration::from_secs(1);
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Counts steps of a piece of work.
 pub(super) struct Progress {
     bar: ProgressBar,
-    start: Instant,
-    watched: bool,
-    shown: AtomicBool,
+    /// Held while the work goes on.
+    working: Option<Sender<()>>,
 }
 
 impl Progress {
@@ -25,7 +25,16 @@ impl Progress {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{wide_msg} [{bar:30}] {pos}/{len} {elapsed}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
-        Self { bar, start: Instant::now(), watched: console.is_watched(), shown: AtomicBool::new(false) }
+        let working = console.is_watched().then(|| show_late(&bar));
+        Self { bar, working }
+    }
+
+    /// This bar, but never shown if the result is for a program.
+    pub(super) fn unless(mut self, is_for_program: bool) -> Self {
+        if is_for_program {
+            self.working = None;
+        }
+        self
     }
 
     /// This bar with an estimate of the time that is left.
@@ -40,35 +49,44 @@ impl Progress {
         self.bar.set_length(steps as u64);
     }
 
+    /// Adds steps.
+    pub(super) fn extend_by(&self, steps: usize) {
+        self.bar.inc_length(steps as u64);
+    }
+
     /// Sets how many steps of how many are done.
     pub(super) fn reach(&self, done: usize, steps: usize) {
         self.bar.set_length(steps as u64);
         self.bar.set_position(done as u64);
-        self.show_if_late();
     }
 
     /// Shows the current step.
     pub(super) fn say(&self, what: &str) {
         self.bar.set_message(what.to_owned());
-        self.show_if_late();
     }
 
     /// Completes a step.
     pub(super) fn step(&self) {
         self.bar.inc(1);
-        self.show_if_late();
     }
+}
 
-    fn show_if_late(&self) {
-        if self.watched && self.start.elapsed() > PATIENCE && !self.shown.swap(true, Ordering::Relaxed) {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            self.bar.enable_steady_tick(Duration::from_millis(200));
+/// Shows the bar if the work is not done in time.
+fn show_late(bar: &ProgressBar) -> Sender<()> {
+    let (working, done) = channel();
+    let bar = bar.clone();
+    thread::spawn(move || {
+        if done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+            bar.enable_steady_tick(Duration::from_millis(200));
         }
-    }
+    });
+    working
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
+        self.working = None;
         self.bar.finish_and_clear();
     }
 }

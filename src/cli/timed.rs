@@ -51,11 +51,13 @@ impl Reference for TimedReference<'_> {
         members: Range<u32>,
     ) -> Result<Population, verify::Failure> {
         let mut population = population;
+        self.progress.extend_by(members.len());
         for number in members {
             self.progress.say(&format!("the simulated GPU {}", number + 1));
             let (scene, options) = (scene.clone(), *options);
             let drawn = move || Ok(ThisThread.populate(population, &scene, &options, number..number + 1)?);
             population = self.machine.within_time(drawn)?;
+            self.progress.step();
         }
         Ok(population)
     }

@@ -265,7 +265,7 @@ fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit
     let [difference, evidence] =
         [&args.difference, &args.evidence].map(|file| file.as_deref().map(Target::parse).transpose());
     let (difference, evidence) = (difference?, evidence?);
-    let progress = Progress::new(console, vias.len() + 1);
+    let progress = Progress::new(console, vias.len() + 1).unless(args.format == VerifyFormat::Json);
     let drawn = args.specialize.then(|| read.specialized(args.contract.contract()));
     let scenes = (&read.scene, drawn.as_ref());
     let (verification, facts) = match compare((args, of), scenes, read.sources(), (&vias, &foreign), &progress) {
