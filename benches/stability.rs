@@ -47,7 +47,13 @@ fn main() {
             3 => trace(&scene, &options).map(drop),
             _ => examine(
                 &scene,
-                &mut ExamineOptions { bound: BOUND, all: false, figures: false, progress: &mut |_, _| true },
+                &mut ExamineOptions {
+                    bound: BOUND,
+                    bound_relative: 0.0,
+                    all: false,
+                    figures: false,
+                    progress: &mut |_, _| true,
+                },
             )
             .map(drop),
         };

@@ -14,7 +14,7 @@ use super::scenes::{MachineArgs, Read, SceneArgs};
 use super::stability_library::{self, LibraryArgs};
 use crate::stability::settings::Settings;
 use crate::stability::stiff::{self, Worst};
-use crate::stability::sweep::{self, Parameter, Sweep, SweepPoint};
+use crate::stability::sweep::{self, Drawn, Parameter, Sweep, SweepPoint};
 use crate::stability::{BOUND, Examination, ExamineOptions, Findings, Stability, find, heat, with_exact};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::{self, Diagnostic};
@@ -32,7 +32,8 @@ pub(super) struct StabilityArgs {
     /// Scene files, or folders to search for them
     #[arg(value_name = "SCENE.toml|DIR", required_unless_present = "library")]
     scenes: Vec<String>,
-    /// Examine the functions of the library instead: all, or those of a module, or one
+    /// Examine the library instead: its functions, and the standard programs by the values of its scenes; all, or those of a
+    /// module, or one
     #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, conflicts_with_all = ["scenes", "sweeps", "stiff", "worst", "heat", "exact"])]
     library: Option<Option<String>>,
     /// The number of calls of each function of the library
@@ -51,6 +52,10 @@ pub(super) struct StabilityArgs {
     /// The largest error of the picture that is accepted (default: that of the scene, or 1/1024)
     #[arg(long, value_name = "X", value_parser = parse_bound)]
     bound: Option<f64>,
+    /// Accept errors of this share of a pixel's largest channel, too (for colors far above 1, of which f32 has fewer digits;
+    /// default: that of the scene, or none)
+    #[arg(long, value_name = "X", value_parser = parse_bound)]
+    bound_relative: Option<f64>,
     /// Report causes whose harm is below the bound, too
     #[arg(long)]
     all: bool,
@@ -104,6 +109,9 @@ struct SceneResult {
     findings: Findings,
     /// The accepted error.
     bound: f64,
+    /// The accepted share of a pixel's largest channel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bound_relative: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     sweep: Option<SweepResult>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -116,6 +124,8 @@ struct SceneResult {
 #[derive(Serialize)]
 struct SweepResult {
     points: Vec<SweepPoint>,
+    /// The number of combinations; fewer points were drawn if the time was up.
+    combinations: usize,
     /// The point that was examined.
     worst: SweepPoint,
 }
@@ -191,8 +201,9 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     };
     let of_project = || config::stability_bound(Path::new(name));
     let bound = args.bound.or(settings.bound).or_else(of_project).unwrap_or(BOUND);
+    let relative = args.bound_relative.or(settings.bound_relative);
     let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
-    let progress = Progress::new(console, 0);
+    let progress = Progress::new(console, 0).unless(args.format == StabilityFormat::Json);
     progress.say(name);
     let (started, limit) = (Instant::now(), args.machine.time_limit());
     let stopped = Cell::new(false);
@@ -211,7 +222,9 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
             Err(found) => return Ok(Err(found)),
         }
     } else {
-        match swept(sweeps, &read.scene, &progress)? {
+        // The other half is for the experiments.
+        let mut goes_on = || started.elapsed() < limit / 2 || stop();
+        match swept(sweeps, &read.scene, relative.unwrap_or(0.0), &progress, &mut goes_on)? {
             Ok((scene, sweep)) => (scene, sweep, None),
             Err(found) => return Ok(Err(found)),
         }
@@ -220,17 +233,33 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
         progress.reach(done, of);
         started.elapsed() < limit || stop()
     };
-    let mut options = ExamineOptions { bound, all: args.all, figures: args.output.is_some(), progress: &mut step };
+    let mut options = ExamineOptions {
+        bound,
+        bound_relative: relative.unwrap_or(0.0),
+        all: args.all,
+        figures: args.output.is_some(),
+        progress: &mut step,
+    };
     let reload = |file: &str, text: &str| read.reloaded(name, file, text);
     let found = find(&scene, sources, &mut options, Some(&reload));
-    if stopped.get() {
+    if let Some(sweep) = sweep.as_ref().filter(|sweep| sweep.points.len() < sweep.combinations) {
+        let (drawn, of) = (sweep.points.len(), sweep.combinations);
+        console.remark(&format!("{name}: the sweep ended after {drawn} of {of} values (`--timeout` gives more time)"));
+    } else if stopped.get() {
         let message = format!("{name}: stopped after {} s, so there may be more to find", limit.as_secs_f64());
         console.remark(&format!("{message} (`--timeout` gives more time)"));
     }
     let found = if args.exact { found.and_then(|found| with_exact(&scene, found, bound)) } else { found };
     Ok(found.map(|(findings, examined)| {
-        let result =
-            SceneResult { scene: name.to_owned(), findings, bound, sweep, stiff, examined_scene: scene.clone() };
+        let result = SceneResult {
+            scene: name.to_owned(),
+            findings,
+            bound,
+            bound_relative: relative,
+            sweep,
+            stiff,
+            examined_scene: scene.clone(),
+        };
         (result, examined)
     }))
 }
@@ -238,8 +267,15 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
 /// The scene to examine with the points of the sweeps, or the diagnostics of a failure to draw.
 type Swept = Result<(Scene, Option<SweepResult>), Vec<Diagnostic>>;
 
-/// The scene with the worst values of the sweeps, or as it is.
-fn swept(sweeps: &[Sweep], scene: &Scene, progress: &Progress) -> Result<Swept, Failure> {
+/// The scene with the worst values of the sweeps, or as it is. Ends with what it has if `goes_on` is false before a picture; one
+/// is drawn in any case.
+fn swept(
+    sweeps: &[Sweep],
+    scene: &Scene,
+    relative: f64,
+    progress: &Progress,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Swept, Failure> {
     if sweeps.is_empty() {
         return Ok(Ok((scene.clone(), None)));
     }
@@ -247,23 +283,12 @@ fn swept(sweeps: &[Sweep], scene: &Scene, progress: &Progress) -> Result<Swept, 
         sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
     let parameters = found.map_err(|message| Failure::new(Exit::Content, message))?;
     let combinations = sweep::combinations(sweeps).map_err(Failure::usage)?;
-    progress.extend_to(combinations.len());
-    let mut points = Vec::new();
-    let mut worst: Option<(SweepPoint, Scene)> = None;
-    for values in &combinations {
-        let (point, changed) = match sweep::point(scene, &parameters, values) {
-            Ok(point) => point,
-            Err(found) => return Ok(Err(found)),
-        };
-        progress.step();
-        points.push(point.clone());
-        if worst.as_ref().is_none_or(|(most, _)| point.is_worse_than(most)) {
-            worst = Some((point, changed));
-        }
-    }
-    Ok(Ok(match worst {
-        Some((worst, changed)) => (changed, Some(SweepResult { points, worst })),
-        None => (scene.clone(), None),
+    let step = &mut |done: usize, of: usize| {
+        progress.reach(done, of);
+        goes_on()
+    };
+    Ok(sweep::draw(scene, &parameters, &combinations, relative, step).map(|Drawn { points, worst, scene }| {
+        (scene, Some(SweepResult { points, combinations: combinations.len(), worst }))
     }))
 }
 
@@ -298,11 +323,15 @@ fn findings(done: &[Done<'_>]) -> Vec<diagnostic::write::Finding> {
 }
 
 fn human(done: &Done<'_>, console: &Console) -> String {
-    let SceneResult { scene, findings, bound, sweep, stiff, .. } = &done.result;
+    let SceneResult { scene, findings, bound, bound_relative, sweep, stiff, .. } = &done.result;
     let picture = &findings.picture;
     let mut text = format!("{scene}: {}\n", findings.verdict);
     let mut row = |name: &str, value: String| text.push_str(&format!("  {name:18} {value}\n"));
-    row("largest error", format!("{:.2e} (accepted: {bound:.2e}), rmse {:.2e}", picture.max_abs, picture.rmse));
+    let besides = bound_relative.map_or_else(String::new, |share| format!(", or {share:.2e} of the color"));
+    row(
+        "largest error",
+        format!("{:.2e} (accepted: {bound:.2e}{besides}), rmse {:.2e}", picture.max_abs, picture.rmse),
+    );
     let pixels = done.examined.errors.not_finite();
     row("not finite", format!("{} results, {pixels} pixels", findings.non_finite));
     if let Some(exact) = &findings.exact {
@@ -331,7 +360,11 @@ fn human(done: &Done<'_>, console: &Console) -> String {
     }
     if let Some(sweep) = sweep {
         let values: Vec<String> = sweep.worst.values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-        row("worst values", format!("{} (of {} drawn)", values.join(", "), sweep.points.len()));
+        let drawn = match sweep.points.len() {
+            all if all == sweep.combinations => format!("{all} drawn"),
+            some => format!("{some} drawn before the time was up, {} asked for", sweep.combinations),
+        };
+        row("worst values", format!("{} (of {drawn})", values.join(", ")));
     }
     if !findings.causes.is_empty() {
         text.push_str("\n  harm      kind          bits  place\n");

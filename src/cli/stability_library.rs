@@ -29,7 +29,7 @@ pub(super) struct LibraryArgs<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &LibraryArgs<'_>, console: &Console) -> Outcome {
-    let progress = Progress::new(console, 0);
+    let progress = Progress::new(console, 0).unless(args.is_json);
     let mut step = |done: usize, of: usize, name: &str| {
         progress.reach(done, of);
         progress.say(name);
@@ -67,7 +67,7 @@ fn name(verdict: Verdict) -> &'static str {
 }
 
 fn table(found: &[FunctionFound]) -> String {
-    let width = found.iter().map(|found| found.function.len()).max().unwrap_or(0);
+    let width = found.iter().map(|found| name_of(found).len()).max().unwrap_or(0);
     let mut text = format!(
         "{:width$}  {:8}  {:>8}  {:>11}  {:>8}  {:>9} | {:>8}  {:>10}  {:>5}\n",
         "function", "verdict", "error", "bound", "max abs", "condition", "naive", "not finite", "cost"
@@ -80,7 +80,7 @@ fn table(found: &[FunctionFound]) -> String {
         let figures = &found.figures;
         text += &format!(
             "{:width$}  {:8}  {:8.1e}  {bound:>11}  {:8.1e}  {:9.1e} | {}\n",
-            found.function,
+            name_of(found),
             name(found.verdict),
             figures.unexplained,
             figures.max_abs,
@@ -107,6 +107,11 @@ fn table(found: &[FunctionFound]) -> String {
          multiple of the naive form's.\n",
         found.len()
     )
+}
+
+/// A function's name, or a program with its scene.
+fn name_of(found: &FunctionFound) -> &str {
+    if found.signature.starts_with(&format!("{} (", found.function)) { &found.signature } else { &found.function }
 }
 
 fn naive(naive: Option<&Naive>, cost: Option<f64>) -> String {

@@ -37,6 +37,8 @@ pub struct Findings {
 pub struct PictureFigures {
     /// The largest finite difference of a channel.
     pub max_abs: f64,
+    /// The largest finite difference as a share of the pixel's largest channel, which counts as 1 if it is less.
+    pub max_relative: f64,
     /// The root of the mean squared difference over the pixels.
     pub rmse: f64,
     /// The pixel with the largest difference; `None` if there is no difference.
@@ -128,8 +130,8 @@ pub fn find(
 }
 
 fn figures(scene: &Scene, examined: &Examination) -> Result<PictureFigures, Vec<Diagnostic>> {
-    let errors = &examined.errors;
-    let worst = errors.first_not_finite().or_else(|| errors.worst().map(|(index, _)| index));
+    let (errors, all) = (&examined.errors, &examined.all_errors);
+    let worst = errors.first_not_finite().or_else(|| errors.worst().or_else(|| all.worst()).map(|(index, _)| index));
     let worst = match worst {
         None => None,
         Some(index) => {
@@ -149,7 +151,8 @@ fn figures(scene: &Scene, examined: &Examination) -> Result<PictureFigures, Vec<
             })
         }
     };
-    Ok(PictureFigures { max_abs: errors.worst().map_or(0.0, |(_, error)| error), rmse: errors.rmse(), worst })
+    let max_abs = all.worst().map_or(0.0, |(_, error)| error);
+    Ok(PictureFigures { max_abs, max_relative: all.worst_relative(&examined.exact), rmse: all.rmse(), worst })
 }
 
 fn finite(value: f64) -> Option<f64> {

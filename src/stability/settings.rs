@@ -5,6 +5,7 @@
 //! ```toml
 //! [stability]
 //! bound = 0.001                     # the error of the picture that is accepted
+//! bound_relative = 1e-6             # besides, this share of a pixel's largest channel
 //! [stability.sweep]
 //! "material.shininess" = [1, 10000, 32]         # low, high, number of values; "1..10000:32" is the same
 //! [stability.range]
@@ -29,6 +30,8 @@ const KEYS: &[&str] = &["bound", "sweep", "range"];
 pub struct Settings {
     /// The error of the picture that is accepted.
     pub bound: Option<f64>,
+    /// The share of a pixel's largest channel that is accepted as well.
+    pub bound_relative: Option<f64>,
     /// Uniforms to vary.
     pub sweeps: Vec<Sweep>,
     /// The values that a search may try.
@@ -45,6 +48,7 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Table {
     bound: Option<Spanned<f64>>,
+    bound_relative: Option<Spanned<f64>>,
     #[serde(default)]
     sweep: BTreeMap<String, Spanned<RangeValue>>,
     #[serde(default)]
@@ -74,11 +78,13 @@ impl Settings {
         let wrong = |range: Range<usize>, message: String| {
             Box::new(Diagnostic::new(&SCENE_WRONG_VALUE, at(range), message).here("here"))
         };
-        let Table { bound, sweep, range } = file.stability;
-        if let Some(bound) = &bound
-            && (!bound.get_ref().is_finite() || *bound.get_ref() <= 0.0)
-        {
-            return Err(wrong(bound.span(), "`bound` is a positive number".to_owned()));
+        let Table { bound, bound_relative, sweep, range } = file.stability;
+        for (name, bound) in [("bound", &bound), ("bound_relative", &bound_relative)] {
+            if let Some(bound) = bound
+                && (!bound.get_ref().is_finite() || *bound.get_ref() <= 0.0)
+            {
+                return Err(wrong(bound.span(), format!("`{name}` is a positive number")));
+            }
         }
         let ranges = |table: BTreeMap<String, Spanned<RangeValue>>| -> Result<Vec<Sweep>, Box<Diagnostic>> {
             let each = table.into_iter().map(|(name, value)| {
@@ -87,7 +93,8 @@ impl Settings {
             });
             each.collect()
         };
-        Ok(Self { bound: bound.map(Spanned::into_inner), sweeps: ranges(sweep)?, ranges: ranges(range)? })
+        let [bound, bound_relative] = [bound, bound_relative].map(|bound| bound.map(Spanned::into_inner));
+        Ok(Self { bound, bound_relative, sweeps: ranges(sweep)?, ranges: ranges(range)? })
     }
 }
 

@@ -9,10 +9,10 @@
 
 use super::sweep::{Parameter, Sweep};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::hir::{Scalar, Type};
+use glisten_front::hir::Scalar;
 use glisten_reference::stability::pictures_of;
 use glisten_scene::values::LeafShape;
-use glisten_scene::{AttributeValues, Scene};
+use glisten_scene::{AttributeData, AttributeValues, Scene};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write;
@@ -29,6 +29,9 @@ const ROUNDS: usize = 3;
 /// The number of values tried of a stated range.
 const FROM_RANGE: usize = 9;
 
+/// The numbers of a 4 by 4 matrix.
+const MATRIX: u32 = 16;
+
 /// A change of one input.
 #[derive(Clone, Debug)]
 enum Change {
@@ -43,6 +46,8 @@ enum Change {
 enum Distortion {
     /// All numbers are multiplied.
     Scaled(f32),
+    /// Places are this far away.
+    Far(f32),
     /// Every third vertex has the value 0.
     ZeroAtThird,
     /// Every second vertex of three moves to the first, but for a millionth of the distance: triangles become slivers.
@@ -184,10 +189,15 @@ impl Change {
             Self::Uniform(values) => values.iter().for_each(|(parameter, value)| parameter.set(scene, *value)),
             Self::Attribute(draw, attribute, distortion) => {
                 let data = scene.draws.get_mut(*draw).and_then(|draw| draw.attributes.get_mut(*attribute));
-                if let Some(Some(data)) = data
-                    && let AttributeValues::Float(numbers) = &mut data.values
-                {
-                    distortion.apply(numbers, data.size.max(1) as usize);
+                let Some(Some(data)) = data else { return };
+                match &mut data.values {
+                    AttributeValues::Float(numbers) => distortion.apply(numbers, data.size.max(1) as usize),
+                    AttributeValues::Int(numbers) => numbers.iter_mut().for_each(|number| {
+                        *number = distortion.of_integer(f64::from(*number)) as i32;
+                    }),
+                    AttributeValues::Uint(numbers) => numbers.iter_mut().for_each(|number| {
+                        *number = distortion.of_integer(f64::from(*number)) as u32;
+                    }),
                 }
             }
         }
@@ -198,6 +208,12 @@ impl Distortion {
     fn apply(self, numbers: &mut [f32], size: usize) {
         match self {
             Self::Scaled(factor) => numbers.iter_mut().for_each(|number| *number *= factor),
+            Self::Far(distance) => numbers.chunks_mut(size).for_each(|row| {
+                // The last column of a matrix but for its last number is a place; the fourth number of a place is not one.
+                let place =
+                    if size == MATRIX as usize { MATRIX as usize - 4..MATRIX as usize - 1 } else { 0..size.min(3) };
+                row.get_mut(place).into_iter().flatten().for_each(|number| *number += distance);
+            }),
             Self::ZeroAtThird => numbers.chunks_mut(size).step_by(3).for_each(|row| row.fill(0.0)),
             Self::Collapsed => {
                 for triangle in numbers.chunks_mut(3 * size) {
@@ -210,8 +226,18 @@ impl Distortion {
         }
     }
 
+    /// An integer after the change.
+    fn of_integer(self, number: f64) -> f64 {
+        match self {
+            Self::Scaled(factor) => number * f64::from(factor),
+            Self::Far(distance) => number + f64::from(distance),
+            Self::ZeroAtThird | Self::Collapsed => number,
+        }
+    }
+
     fn describe(self) -> String {
         match self {
+            Self::Far(distance) => format!("{distance:e} away"),
             Self::Scaled(factor) => format!("multiplied by {factor:e}"),
             Self::ZeroAtThird => "0 at every third vertex".to_owned(),
             Self::Collapsed => "triangles collapsed to slivers".to_owned(),
@@ -237,23 +263,22 @@ fn trials(scene: &Scene, ranges: &[Sweep]) -> Vec<Trial> {
                 (0..size.min(2)).map(|element| format!("{}[{element}]", leaf.name)).collect()
             });
             for name in elements {
-                let is_new = !known.contains(&name) && !stated(&name);
-                if is_new && shape.scalar == Scalar::Float && shape.columns == 1 {
-                    list.extend(of_uniform(scene, &name, shape.rows));
-                    known.push(name);
+                if known.contains(&name) || stated(&name) {
+                    continue;
                 }
+                list.extend(match shape.scalar {
+                    Scalar::Float if shape.columns == 1 => of_uniform(scene, &name, shape.rows),
+                    Scalar::Float => of_matrix(scene, &name, (shape.columns as usize, shape.rows as usize)),
+                    Scalar::Int | Scalar::Uint | Scalar::Bool => of_integer(scene, &name, shape),
+                });
+                known.push(name);
             }
         }
     }
     for (index, draw) in scene.draws.iter().enumerate() {
         for (place, attribute) in draw.program.interface.attributes.iter().enumerate().filter(|(_, it)| it.active) {
-            let is_float = matches!(
-                draw.program.types.get(attribute.ty),
-                Type::Scalar(Scalar::Float) | Type::Vector(Scalar::Float, _)
-            );
-            if is_float {
-                list.extend(of_attribute(index, place, &attribute.name));
-            }
+            let Some(Some(data)) = draw.attributes.get(place) else { continue };
+            list.extend(of_attribute((index, place), &attribute.name, data));
         }
     }
     list
@@ -316,6 +341,65 @@ fn of_uniform(scene: &Scene, name: &str, components: u32) -> Option<Trial> {
     Some(Trial { name: name.to_owned(), choices })
 }
 
+/// Names of integers that count the iterations of a loop, or of things: large values would only take long.
+const COUNTS: &[&str] =
+    &["count", "num", "step", "iter", "sample", "octave", "level", "bounce", "pass", "tap", "max", "lights"];
+
+/// The values to try of an integer or `bool` uniform: a count stays small, another number may be any that a host counts up to,
+/// such as a frame's. Vectors are as a whole.
+fn of_integer(scene: &Scene, name: &str, shape: LeafShape) -> Option<Trial> {
+    let elements = shape.n_each();
+    let parameters: Vec<Parameter> =
+        (0..elements).map(|element| Parameter::element(scene, name, element)).collect::<Option<_>>()?;
+    let own: Vec<f64> = parameters.iter().map(|parameter| parameter.get(scene)).collect::<Option<_>>()?;
+    let largest = own.iter().copied().fold(0.0, f64::max);
+    let last = name.rsplit('.').next().unwrap_or(name).to_lowercase();
+    let is_count = last.len() == 1 || COUNTS.iter().any(|word| last.contains(word));
+    let values: &[f64] = match shape.scalar {
+        Scalar::Bool => &[0.0, 1.0],
+        _ if is_count => &[0.0, 1.0, (2.0 * largest).min(256.0), (8.0 * largest).min(256.0)],
+        Scalar::Int => &[0.0, 1.0, -1.0, 65_535.0, 16_777_217.0, 2_147_483_647.0],
+        _ => &[0.0, 1.0, 65_535.0, 16_777_217.0, 4_294_967_295.0],
+    };
+    let choice = |value: &f64| {
+        let all = parameters.iter().cloned().map(|parameter| (parameter, *value)).collect();
+        (format!("{value}"), Change::Uniform(all))
+    };
+    Some(Trial { name: name.to_owned(), choices: values.iter().map(choice).collect() })
+}
+
+/// The changes of a matrix: its place moves far away, its axes shrink and grow, two of them are nearly the same.
+fn of_matrix(scene: &Scene, name: &str, (columns, rows): (usize, usize)) -> Option<Trial> {
+    let parameters: Vec<Parameter> =
+        (0..columns * rows).map(|element| Parameter::element(scene, name, element)).collect::<Option<_>>()?;
+    let own: Vec<f64> = parameters.iter().map(|parameter| parameter.get(scene)).collect::<Option<_>>()?;
+    let axes = if (columns, rows) == (4, 4) { 3 } else { columns };
+    let place = |element: usize| (element / rows, element % rows);
+    let is_axis = |element: usize| place(element).0 < axes && place(element).1 < 3;
+    let is_place = |element: usize| columns == 4 && place(element).0 == 3 && place(element).1 < 3;
+    let with = |new: &dyn Fn(usize, f64) -> f64| -> Vec<f64> {
+        own.iter().enumerate().map(|(element, value)| new(element, *value)).collect()
+    };
+    let moved = |far: f64| with(&|element, value| if is_place(element) { value + far } else { value });
+    let scaled = |factor: f64| with(&|element, value| if is_axis(element) { value * factor } else { value });
+    // The second axis is the first one but for a millionth of it.
+    let flat = with(&|element, value| match place(element) {
+        (1, row) if is_axis(element) => own.get(row).map_or(value, |first| first + 1e-6 * value),
+        _ => value,
+    });
+    let mut choices = vec![
+        ("axes times 1e-3".to_owned(), scaled(1e-3)),
+        ("axes times 1e3".to_owned(), scaled(1e3)),
+        ("two axes nearly parallel".to_owned(), flat),
+    ];
+    if columns == 4 {
+        choices.extend([("1e4 away".to_owned(), moved(1e4)), ("1e6 away".to_owned(), moved(1e6))]);
+    }
+    let change = |values: Vec<f64>| Change::Uniform(parameters.iter().cloned().zip(values).collect());
+    let choices = choices.into_iter().map(|(words, values)| (words, change(values)));
+    Some(Trial { name: name.to_owned(), choices: choices.collect() })
+}
+
 /// A direction stays a direction and turns to the axes, to grazing and against itself; a place moves to 0 and far away; a color
 /// goes to black.
 fn vectors(own: &[f64]) -> Vec<Vec<f64>> {
@@ -345,14 +429,30 @@ fn of_direction_or_place(own: &[f64]) -> Vec<Vec<f64>> {
     list
 }
 
-/// The distortions of an attribute: those of directions shrink and vanish, places collapse.
-fn of_attribute(draw: usize, attribute: usize, name: &str) -> Option<Trial> {
+/// The distortions of an attribute: those of directions shrink and vanish, places collapse. Data of instances move far away,
+/// shrink and grow, whatever their names.
+fn of_attribute((draw, attribute): (usize, usize), name: &str, data: &AttributeData) -> Option<Trial> {
     let lower = name.to_lowercase();
+    let is_float = matches!(data.values, AttributeValues::Float(_));
+    let is_instance = data.divisor > 0;
     let distortions: &[Distortion] = match () {
-        () if lower.contains("norm") || lower.contains("tangent") => {
+        () if is_float && (lower.contains("norm") || lower.contains("tangent")) => {
             &[Distortion::ZeroAtThird, Distortion::Scaled(1e-20), Distortion::Scaled(1e-39), Distortion::Scaled(1e20)]
         }
-        () if lower.contains("pos") || lower.contains("vert") || lower == "pv" => &[Distortion::Collapsed],
+        () if is_float && is_instance && data.size == MATRIX => {
+            &[Distortion::Far(1e4), Distortion::Far(1e6), Distortion::Scaled(1e-3), Distortion::Scaled(1e3)]
+        }
+        () if is_float && is_instance => &[
+            Distortion::Far(1e4),
+            Distortion::Far(1e6),
+            Distortion::Scaled(0.0),
+            Distortion::Scaled(1e-3),
+            Distortion::Scaled(1e3),
+        ],
+        () if is_instance => &[Distortion::Scaled(0.0), Distortion::Scaled(1e3), Distortion::Scaled(1e6)],
+        () if is_float && (lower.contains("pos") || lower.contains("vert") || lower == "pv") => {
+            &[Distortion::Collapsed]
+        }
         () => return None,
     };
     let choice = |distortion: &Distortion| (distortion.describe(), Change::Attribute(draw, attribute, *distortion));

@@ -4,7 +4,7 @@
 
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::hir::{Scalar, ScalarValue};
-use glisten_reference::stability::{ErrorMap, Stability, errors_of};
+use glisten_reference::stability::{Stability, pictures_of};
 use glisten_scene::Scene;
 use glisten_scene::values::{LeafShape, UniformValues};
 use serde::Serialize;
@@ -120,6 +120,20 @@ impl Parameter {
         }
     }
 
+    /// A number of a uniform by its position in it: a matrix's are column by column.
+    pub(super) fn element(scene: &Scene, name: &str, element: usize) -> Option<Self> {
+        let mut places = Vec::new();
+        for (index, draw) in scene.draws.iter().enumerate() {
+            let Some((leaf, array)) = UniformValues::find(&draw.program, name) else { continue };
+            let shape = LeafShape::of(&draw.program.types, leaf)?;
+            if element < shape.n_each() {
+                let at = leaf.flat_offset as usize + array.unwrap_or(0) as usize * shape.n_each() + element;
+                places.push((index, leaf.root.0 as usize, at, shape.scalar));
+            }
+        }
+        (!places.is_empty()).then(|| Self { name: name.to_owned(), places })
+    }
+
     /// The scene with another value.
     pub fn set(&self, scene: &mut Scene, value: f64) {
         for &(draw, root, at, scalar) in &self.places {
@@ -194,7 +208,7 @@ fn place(program: &glisten_front::link::Program, name: &str) -> Result<Option<(u
 pub struct SweepPoint {
     /// The values by name.
     pub values: BTreeMap<String, f64>,
-    /// The largest finite difference of a channel.
+    /// The largest finite difference of a channel that is not accepted for the size of the color.
     pub max_abs: f64,
     /// The number of pixels that are not finite in f32.
     pub non_finite_pixels: u64,
@@ -222,19 +236,82 @@ impl SweepPoint {
     }
 }
 
-/// Draws a scene with values in place of its own.
+/// Draws a scene with values in place of its own. Errors up to a share of a color, `relative`, do not count.
 ///
 /// # Errors
 /// The errors of drawing.
-pub fn point(scene: &Scene, parameters: &[Parameter], values: &[f64]) -> Result<(SweepPoint, Scene), Vec<Diagnostic>> {
+pub fn point(
+    scene: &Scene,
+    parameters: &[Parameter],
+    values: &[f64],
+    relative: f64,
+) -> Result<(SweepPoint, Scene), Vec<Diagnostic>> {
     let mut changed = scene.clone();
     for (parameter, value) in parameters.iter().zip(values) {
         parameter.set(&mut changed, *value);
     }
-    let errors: ErrorMap = errors_of(&changed)?;
+    let pair = pictures_of(&changed)?;
+    let errors = pair.errors.beyond(&pair.exact, relative);
     let named = parameters.iter().zip(values).map(|(parameter, value)| (parameter.name.clone(), *value)).collect();
     let max_abs = errors.worst().map_or(0.0, |(_, error)| error);
     Ok((SweepPoint { values: named, max_abs, non_finite_pixels: errors.not_finite() }, changed))
+}
+
+/// The drawings of sweeps.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The drawings, in the order of the combinations.
+    pub points: Vec<SweepPoint>,
+    /// The first of the worst.
+    pub worst: SweepPoint,
+    /// The scene of that one.
+    pub scene: Scene,
+}
+
+/// Draws a scene with combinations of values. `progress` is called before each picture but the first, with the number of those
+/// drawn and of all; `false` ends the sweep with what it has. What it has is spread over all combinations: both ends, then
+/// the middle, then the middles of the halves, and so on.
+///
+/// # Errors
+/// The errors of drawing.
+pub fn draw(
+    scene: &Scene,
+    parameters: &[Parameter],
+    combinations: &[Vec<f64>],
+    relative: f64,
+    progress: &mut dyn FnMut(usize, usize) -> bool,
+) -> Result<Drawn, Vec<Diagnostic>> {
+    let mut drawn: Vec<(usize, SweepPoint)> = Vec::new();
+    for place in spread(combinations.len()) {
+        if !drawn.is_empty() && !progress(drawn.len(), combinations.len()) {
+            break;
+        }
+        let values = combinations.get(place).map_or(&[][..], Vec::as_slice);
+        drawn.push((place, point(scene, parameters, values, relative)?.0));
+    }
+    drawn.sort_by_key(|(place, _)| *place);
+    let worst = drawn.iter().reduce(|worst, one| if one.1.is_worse_than(&worst.1) { one } else { worst }).cloned();
+    let Some((place, worst)) = worst else { return Err(Vec::new()) };
+    let mut changed = scene.clone();
+    for (parameter, value) in parameters.iter().zip(combinations.get(place).into_iter().flatten()) {
+        parameter.set(&mut changed, *value);
+    }
+    Ok(Drawn { points: drawn.into_iter().map(|(_, point)| point).collect(), worst, scene: changed })
+}
+
+/// All numbers below a count: the first, the last, and then those between, by halves.
+fn spread(count: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = [0, count.saturating_sub(1)].into_iter().filter(|place| *place < count).collect();
+    order.dedup();
+    let mut gaps = std::collections::VecDeque::from([(0, count.saturating_sub(1))]);
+    while let Some((low, high)) = gaps.pop_front() {
+        if high > low + 1 {
+            let middle = low + (high - low) / 2;
+            order.push(middle);
+            gaps.extend([(low, middle), (middle, high)]);
+        }
+    }
+    order
 }
 
 /// All combinations of the values of sweeps, in order: the last one varies first.
@@ -261,7 +338,7 @@ pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<f64>>, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Sweep, combinations, parse};
+    use super::{Sweep, combinations, parse, spread};
 
     #[test]
     fn a_sweep_is_read_with_both_ends_among_its_values() {
@@ -276,6 +353,16 @@ mod tests {
     fn what_is_no_sweep_is_told() {
         for text in ["t", "t=", "t=1", "t=1..", "t=1..x", "t=1..2:1", "t=1..2:0.5", "t=nan..1", "=1..2", "t=1..2:1e9"] {
             assert!(parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_order_by_halves_has_every_number_once() {
+        assert_eq!(spread(5), [0, 4, 2, 1, 3]);
+        for count in 0..40 {
+            let mut all = spread(count);
+            all.sort_unstable();
+            assert_eq!(all, (0..count).collect::<Vec<_>>());
         }
     }
 

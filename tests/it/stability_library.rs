@@ -29,7 +29,7 @@ fn number(value: &Value) -> f64 {
 
 #[test]
 fn every_function_holds_its_bound_and_every_naive_form_is_told() {
-    let (code, found) = functions(&["--library", "--cases", "192"]);
+    let (code, found) = functions(&["--library", "--cases", "128"]);
     let wrong: Vec<String> = found
         .iter()
         .filter(|function| {
@@ -44,11 +44,19 @@ fn every_function_holds_its_bound_and_every_naive_form_is_told() {
         .collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert_eq!(code, Some(0));
+    let is_program = |function: &&Value| function["module"] == "standard";
+    let judged = found.iter().filter(|function| !is_program(function));
     let judged: BTreeSet<String> =
-        found.iter().map(|function| function["signature"].as_str().unwrap_or_default().to_owned()).collect();
+        judged.map(|function| function["signature"].as_str().unwrap_or_default().to_owned()).collect();
     let forms = glisten::measure::forms().filter(|form| form.module != "naive");
     let expected: BTreeSet<String> = forms.map(|form| form.signature.to_owned()).collect();
     assert_eq!(judged, expected, "every function is called");
+    let programs: Vec<&Value> = found.iter().filter(is_program).collect();
+    assert!(programs.len() >= 12, "the scenes of the standard programs: {programs:?}");
+    for program in programs {
+        assert!(number(&program["cases"]) > 20.0 && number(&program["max_abs"]) > 0.0, "it is drawn: {program}");
+        assert!(program["at"]["pixel"].is_array(), "{program}");
+    }
 }
 
 #[test]

@@ -141,7 +141,8 @@ impl Scenery {
         use glisten::stability::{BOUND, ExamineOptions, find};
         let scene = self.scene()?;
         let mut go_on = |_, _| true;
-        let mut options = ExamineOptions { bound: BOUND, all: false, figures: false, progress: &mut go_on };
+        let mut options =
+            ExamineOptions { bound: BOUND, bound_relative: 0.0, all: false, figures: false, progress: &mut go_on };
         let (findings, _) = find(scene, &self.report.sources, &mut options, None).map_err(|errors| {
             Error::content(write::human(&self.report.sources, &errors, false).trim_end().to_owned())
         })?;

@@ -69,6 +69,9 @@ fn command(args: &StabilityArgs, done: &Done<'_>) -> String {
     if let Some(bound) = args.bound {
         words.push(format!("--bound {bound:?}"));
     }
+    if let Some(share) = args.bound_relative {
+        words.push(format!("--bound-relative {share:?}"));
+    }
     for (set, word) in
         [(args.stiff, "--stiff"), (args.all, "--all"), (args.exact, "--exact"), (args.sources.strict, "--strict")]
     {

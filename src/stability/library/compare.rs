@@ -201,6 +201,26 @@ pub(super) fn compare(
 }
 
 impl Figures {
+    /// Adds a pixel: its error, the part that moving the inputs does not explain, the change by moving them, and the exact color.
+    pub(super) fn add(&mut self, error: f64, left: f64, change: f64, color: &[f64]) {
+        if !error.is_finite() || !is_finite(color) {
+            self.non_finite += 1;
+            self.undefined += usize::from(!is_finite(color));
+            return;
+        }
+        let size = size(color);
+        if change <= ANOTHER * size {
+            self.max_abs = self.max_abs.max(error);
+            self.max_ulp = self.max_ulp.max(error / ulp(size));
+        }
+        self.beyond_rounding = self.beyond_rounding.max(left / size.max(1.0));
+        self.another += usize::from(left > ANOTHER * size.max(1.0));
+        if left >= self.unexplained {
+            self.unexplained = left;
+            self.condition = if size > 0.0 { change / size / f64::from(f32::EPSILON) } else { 0.0 };
+        }
+    }
+
     /// The verdict.
     pub(super) fn verdict(&self) -> Verdict {
         match () {

@@ -10,11 +10,13 @@
 //! ```
 //!
 //! *Holds:* inputs and figures are the same on every run. The literal transcriptions (module `naive`) are not judged: they
-//! are what the others are compared with. *Not done here:* functions that read uniforms.
+//! are what the others are compared with. Functions that read uniforms are those of the standard programs, which are drawn with
+//! the values of scenes.
 
 mod bound;
 mod calls;
 mod compare;
+mod drawn;
 mod inputs;
 mod literal;
 
@@ -81,7 +83,7 @@ impl FunctionFound {
 pub struct LibraryOptions<'a> {
     /// The number of calls of each function.
     pub cases: usize,
-    /// Only functions of this module, or of this name.
+    /// Only functions and programs of this module, or of this name.
     pub only: Option<&'a str>,
     /// Called before each function with the number of those done and of all, and its name.
     pub progress: &'a mut dyn FnMut(usize, usize, &str),
@@ -106,11 +108,16 @@ pub fn examine_library(options: &mut LibraryOptions<'_>) -> Result<Vec<FunctionF
             Some((*function, forms().find(is_form)?))
         })
         .collect();
-    let total = with_forms.len();
+    let programs = drawn::standard_programs(options.only);
+    let (functions, total) = (with_forms.len(), with_forms.len() + programs.len());
     let mut found = Vec::new();
     for (done, (function, form)) in with_forms.into_iter().enumerate() {
         (options.progress)(done, total, &function.signature);
         found.push(examine_function(function, form, options.cases)?);
+    }
+    for (done, program) in programs.iter().enumerate() {
+        (options.progress)(functions + done, total, &program.signature());
+        found.push(program.examine(options.cases)?);
     }
     Ok(found)
 }

@@ -173,3 +173,114 @@ fn wrong_settings_are_told_at_their_place() {
         assert!(err(&output).contains(told), "{more}: {}", err(&output));
     }
 }
+
+/// Where an argument has lost its digits before, the line where it did is among the first two causes, as a rounding.
+#[test]
+fn the_place_where_an_argument_lost_its_digits_is_named() {
+    let cases = [
+        // A counter times a constant, an angle, a far coordinate, a count of frames; the lines from `main` on are 6, 7, 8.
+        (1_234_567.0, "float turns = k * 0.618034;", "float x = turns + at.x;", "float f = fract(x);", [6, 7]),
+        (86_400.25, "float angle = k * 277.0885;", "float s = sin(angle + at.x);", "float f = 0.5 + 0.5 * s;", [6, 6]),
+        (
+            2_097_152.7,
+            "vec2 far = at * 3.3 + k;",
+            "vec2 tile = far * 4.0;",
+            "float f = mod(floor(tile.x), 2.0);",
+            [6, 6],
+        ),
+        (9_000_001.0, "float t = k * 0.2055;", "int n = int(t + 3.0 * at.x);", "float f = float(n % 5) / 4.0;", [6, 7]),
+    ];
+    for (k, first, second, third, lines) in cases {
+        let fragment = format!(
+            "#version 150\nin vec2 at;\nuniform float k;\nout vec4 o;\nvoid main() {{\n    {first}\n    {second}\n    {third}\n    \
+             o = vec4(f, 0.0, 0.0, 1.0);\n}}\n"
+        );
+        let scene = format!("{}[draw.uniforms]\nk = {k:?}\n", SCENE.replace("16", "32"));
+        let folder = Folder::new(&[
+            ("a.vert", VERTEX.as_bytes()),
+            ("a.frag", fragment.as_bytes()),
+            ("a.toml", scene.as_bytes()),
+        ]);
+        let (exit, found) = json(&folder, &[]);
+        let causes: Vec<&Value> =
+            found["causes"].as_array().map_or(Vec::new(), |causes| causes.iter().take(2).collect());
+        let is_origin = |cause: &&&Value| {
+            cause["kind"] == "rounding" && cause["line"].as_u64().is_some_and(|line| lines.contains(&line))
+        };
+        assert_eq!((exit, causes.iter().filter(is_origin).count()), (1, 1), "{first}: {}", found["causes"]);
+    }
+}
+
+#[test]
+fn a_bound_can_be_relative_to_the_color() {
+    // One ULP of 30,000 is 0.002.
+    let fragment = "#version 150\nin vec2 at;\nuniform float size;\nout vec4 o;\nvoid main() {\n    \
+                    o = vec4(30000.0 * size * (1.7 + at.x * 0.3), 0.0, 0.0, 1.0);\n}\n";
+    let folder = folder(0.9, "");
+    fs::write(folder.path("a.frag"), fragment).expect("written");
+    let (exit, found) = json(&folder, &[]);
+    assert_eq!((exit, found["verdict"].as_str()), (1, Some("degraded")), "{found}");
+    let (exit, relative) = json(&folder, &["--bound-relative", "1e-6"]);
+    assert_eq!(
+        (exit, relative["verdict"].as_str(), relative["bound_relative"].as_f64()),
+        (0, Some("stable"), Some(1e-6))
+    );
+    assert_eq!(relative["picture"]["max_abs"], found["picture"]["max_abs"], "the figures are of all errors");
+    assert!(
+        relative["picture"]["max_relative"].as_f64().is_some_and(|most| (1e-9..1e-6).contains(&most)),
+        "{relative}"
+    );
+    let (exit, found) = json(&folder, &["--bound-relative", "1e-9"]);
+    assert_eq!((exit, found["verdict"].as_str()), (1, Some("degraded")));
+    let scene = format!("{SCENE}[draw.uniforms]\nsize = 0.9\n[stability]\nbound_relative = 1e-6\n");
+    fs::write(folder.path("a.toml"), scene).expect("written");
+    let (exit, found) = json(&folder, &[]);
+    assert_eq!((exit, found["bound_relative"].as_f64()), (0, Some(1e-6)));
+    assert_eq!(code(&folder.run(&["stability", "a.toml", "--bound-relative", "0"])), 2);
+}
+
+#[test]
+fn a_search_varies_matrices_integers_and_data_of_instances() {
+    let vertex = "#version 150\nin vec2 p;\nin vec2 place;\nuniform mat4 model;\nuniform int frame;\nout vec2 at;\nvoid main() {\n    \
+                  at = (model * vec4(p + place, 0.0, 1.0)).xy + fract(float(frame) * 0.37);\n    gl_Position = vec4(p, 0.0, 1.0);\n}\n";
+    let fragment = "#version 150\nin vec2 at;\nout vec4 o;\nvoid main() { o = vec4(fract(at), 0.0, 1.0); }\n";
+    let with = |frame: &str, model: &str, place: &str| {
+        let scene = format!(
+            "{}place = {{ size = 2, divisor = 1, values = [0.1, 0.2] }}\n[draw.uniforms]\nframe = 3\n\
+             model = [0.4, 0, 0, 0, 0, 0.4, 0, 0, 0, 0, 0.4, 0, 0.3, 0.2, 0, 1]\n",
+            SCENE.replace("primitive", "instances = 1\nprimitive")
+        );
+        let vertex = vertex
+            .replace("float(frame)", frame)
+            .replace("(model * vec4(p + place, 0.0, 1.0)).xy", &format!("({model} * vec4(p + {place}, 0.0, 1.0)).xy"));
+        Folder::new(&[("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes()), ("a.toml", scene.as_bytes())])
+    };
+    for (name, folder) in [
+        ("frame", with("float(frame)", "mat4(0.4)", "vec2(0.3)")),
+        ("model", with("3.0", "model", "vec2(0.3)")),
+        ("place", with("3.0", "mat4(0.4)", "place")),
+    ] {
+        let (exit, found) = json(&folder, &["--stiff", "--worst", "worst.toml"]);
+        assert_eq!(exit, 1, "{name}: {found}");
+        assert_eq!(found["stiff"]["changed"][0]["name"], name, "{found}");
+        let again = folder.run(&["stability", "worst.toml", "--format", "json"]);
+        let again: Value = serde_json::from_str(&out(&again)).unwrap_or(Value::Null);
+        assert_eq!(again["picture"]["max_abs"], found["picture"]["max_abs"], "{name}: the scene shows what was found");
+    }
+}
+
+#[test]
+fn the_time_ends_a_sweep_with_what_it_has() {
+    let folder = folder(0.5, "");
+    let large = SCENE.replace("16", "256") + "[draw.uniforms]\nsize = [0.5]\n";
+    fs::write(folder.path("a.toml"), large).expect("written");
+    let arguments = ["stability", "a.toml", "--sweep", "size=1e-3..1:4096", "--timeout", "1", "--format", "json"];
+    let output = folder.run(&arguments);
+    let found: Value = serde_json::from_str(&out(&output)).unwrap_or(Value::Null);
+    let drawn = found["sweep"]["points"].as_array().map_or(0, Vec::len);
+    assert!((1..4096).contains(&drawn), "{drawn} drawn");
+    assert_eq!((code(&output), found["sweep"]["combinations"].as_u64()), (1, Some(4096)));
+    // The ends come first, so the worst value is among what was drawn.
+    assert_eq!(found["sweep"]["worst"]["values"]["size"].as_f64(), Some(1e-3));
+    assert!(err(&output).contains(&format!("the sweep ended after {drawn} of 4096 values")), "{}", err(&output));
+}

@@ -44,7 +44,8 @@ fn found(scene: &str) -> Findings {
     let loaded = load(&path, &DiskFiles, &compiler().with_includes(NextTo));
     let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{path}: {told:?}"));
-    let mut options = ExamineOptions { bound: BOUND, all: false, figures: false, progress: &mut |_, _| true };
+    let mut options =
+        ExamineOptions { bound: BOUND, bound_relative: 0.0, all: false, figures: false, progress: &mut |_, _| true };
     let (findings, _) =
         find(&scene, &loaded.sources, &mut options, None).unwrap_or_else(|found| panic!("{path}: {found:?}"));
     findings

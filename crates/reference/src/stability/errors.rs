@@ -51,6 +51,25 @@ impl ErrorMap {
         Self { width: exact.width, errors, counted }
     }
 
+    /// The errors that are larger than a share of the pixel's exact color, by its largest channel; the others are 0.
+    #[must_use]
+    pub fn beyond(mut self, exact: &Picture, relative: f64) -> Self {
+        if relative > 0.0 {
+            for (at, error) in self.errors.iter_mut().enumerate() {
+                if *error <= relative * size(exact, at) {
+                    *error = 0.0;
+                }
+            }
+        }
+        self
+    }
+
+    /// The largest finite error as a share of the pixel's exact color, by its largest channel; a color below 1 counts as 1.
+    pub fn worst_relative(&self, exact: &Picture) -> f64 {
+        let finite = self.errors.iter().enumerate().filter(|(_, error)| error.is_finite());
+        finite.map(|(at, error)| error / size(exact, at).max(1.0)).fold(0.0, f64::max)
+    }
+
     /// The column and row of a pixel by its index.
     pub fn place(&self, index: usize) -> [u32; 2] {
         let width = self.width.max(1) as usize;
@@ -83,6 +102,12 @@ impl ErrorMap {
         // An empty sum is -0.
         (finite.iter().map(|error| error * error).fold(0.0, |sum, square| sum + square) / count as f64).sqrt()
     }
+}
+
+/// The largest finite channel of a pixel.
+fn size(picture: &Picture, at: usize) -> f64 {
+    let channels = picture.attachments.iter().filter_map(|pixels| pixels.get(at)).flatten();
+    channels.map(|channel| channel.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max)
 }
 
 fn pixel_error(single: &[f64; 4], exact: &[f64; 4], format: Format) -> f64 {

@@ -7,8 +7,8 @@
 //! *Not done here:* texture lookups. Their coordinates are rounded to f64, and f64 filters the texels.
 
 use super::Examination;
+use super::bench::drawing_options;
 use super::errors::{shown, unrounded};
-use super::experiment::drawing_options;
 use crate::domain::Exact;
 use crate::exec::Form;
 use crate::pipeline::{self, BIN_SIDE, Study};
@@ -129,7 +129,13 @@ mod tests {
 
     fn recomputed(body: &str) -> Vec<ExactPixel> {
         let (scene, _) = scene_of(body, "");
-        let mut options = ExamineOptions { bound: BOUND, all: false, figures: false, progress: &mut |_, _| true };
+        let mut options = ExamineOptions {
+            bound: BOUND,
+            bound_relative: 0.0,
+            all: false,
+            figures: false,
+            progress: &mut |_, _| true,
+        };
         let examined = examine(&scene, &mut options).unwrap_or_else(|found| panic!("{found:?}"));
         recompute(&scene, &examined).unwrap_or_else(|found| panic!("{found:?}"))
     }

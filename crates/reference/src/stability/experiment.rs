@@ -1,63 +1,24 @@
 //! Measures the harm of expressions: the picture is drawn again with one of them exact.
 //!
 //! *In:* a scene, and the tallies of its expressions. *Out:* [`Cause`]s with their harm, worst first. *Holds:* pictures and
-//! order do not depend on threads. Experiments draw only the bins of the picture with the largest errors.
+//! order do not depend on threads.
 
-use super::errors::ErrorMap;
+use super::bench::{Bench, Found, Outcome, significant};
 use super::kinds::CauseKind;
 use super::loops::Loops;
-use super::record::{Act, Place, SIGNIFICAND, Tally};
+use super::origin::{coarse_varying, lost_before};
+use super::record::{Act, Place, Tally};
 use super::{CAUSE_BITS, Cause, ExamineOptions};
-use crate::domain::{ErrorPart, F64, Shadow};
-use crate::exec::{Form, Kind};
-use crate::pipeline::{self, Chosen, Study};
-use crate::{Positions, RenderOptions};
+use crate::domain::ErrorPart;
+use crate::exec::Kind;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::hir::{GlobalId, Stage, Storage};
+use glisten_front::hir::Stage;
 use glisten_front::source::Span;
-use glisten_scene::picture::Picture;
-use glisten_scene::{Format, Scene};
+use glisten_scene::Scene;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The number of expressions that are tried at most.
 const MOST_CANDIDATES: usize = 64;
-
-/// The number of bins that experiments draw at most.
-const MOST_BINS: usize = 16;
-
-/// The number of times that the inputs are moved by an ULP.
-const JITTERS: u64 = 6;
-
-/// The side of a bin of the pipeline in pixels.
-const BIN: usize = pipeline::BIN_SIDE;
-
-/// The scene under test, its pictures, and the part of them that experiments draw.
-pub(super) struct Bench<'a> {
-    pub(super) scene: &'a Scene,
-    /// The format that the scene asks for.
-    pub(super) format: Format,
-    pub(super) options: RenderOptions,
-    pub(super) exact: &'a Picture,
-    pub(super) errors: &'a ErrorMap,
-    bins: Vec<bool>,
-}
-
-/// The result of an experiment.
-struct Outcome {
-    /// By how much the errors of pixels shrank at most; infinite if a pixel became finite.
-    harm: f64,
-    /// The pixel where that is.
-    index: usize,
-    /// By how much each pixel's error shrank.
-    gains: Vec<f64>,
-}
-
-impl Outcome {
-    /// The number of pixels that become finite.
-    fn cured(&self) -> u64 {
-        self.gains.iter().filter(|gain| gain.is_infinite()).count() as u64
-    }
-}
 
 /// An expression that may be a cause.
 #[derive(Clone, Copy)]
@@ -71,83 +32,6 @@ struct Candidate {
     repeats: bool,
     /// Whether only its own rounding counts: see [`Loops`].
     own: bool,
-}
-
-/// The options for both pictures.
-pub(super) fn drawing_options() -> RenderOptions {
-    RenderOptions { positions: Positions::Own, ..RenderOptions::default() }
-}
-
-impl<'a> Bench<'a> {
-    pub(super) fn new(scene: &'a Scene, format: Format, exact: &'a Picture, errors: &'a ErrorMap) -> Self {
-        let columns = (scene.framebuffer.width as usize).div_ceil(BIN);
-        let rows = (scene.framebuffer.height as usize).div_ceil(BIN);
-        let mut worst = vec![0.0_f64; columns * rows];
-        for (index, error) in errors.errors.iter().enumerate() {
-            let [x, y] = errors.place(index).map(|at| at as usize / BIN);
-            if let Some(worst) = worst.get_mut(y * columns + x) {
-                *worst = worst.max(*error);
-            }
-        }
-        let mut order: Vec<usize> = (0..worst.len()).filter(|bin| worst[*bin] > 0.0).collect();
-        order.sort_by(|a, b| worst[*b].total_cmp(&worst[*a]));
-        let mut bins = vec![false; worst.len()];
-        order.iter().take(MOST_BINS).for_each(|bin| bins[*bin] = true);
-        Self { scene, format, options: drawing_options(), exact, errors, bins }
-    }
-
-    fn holds(&self, index: usize) -> bool {
-        let columns = (self.errors.width as usize).div_ceil(BIN);
-        let [x, y] = self.errors.place(index).map(|at| at as usize / BIN);
-        self.bins.get(y * columns + x).copied().unwrap_or(false)
-    }
-
-    /// Draws with a part of the error of some expressions left out.
-    fn without(&self, stage: Stage, spans: &[Span], part: ErrorPart) -> Result<Outcome, Vec<Diagnostic>> {
-        self.drawn(Study { exactly: Some(Chosen { stage, spans, part }), ..Study::NONE })
-    }
-
-    fn drawn(&self, study: Study<'_, Shadow>) -> Result<Outcome, Vec<Diagnostic>> {
-        let study = Study { bins: Some(&self.bins), form: Form::Unfused, ..study };
-        let picture = pipeline::render_studied::<Shadow>(self.scene, &self.options, study)?;
-        let left = ErrorMap::new(&picture, self.exact, self.format);
-        let gain = |index: usize| -> f64 {
-            let (before, after) = (self.errors.errors[index], left.errors.get(index).copied().unwrap_or(0.0));
-            if !self.holds(index) || before <= after { 0.0 } else { before - after }
-        };
-        let gains: Vec<f64> = (0..self.errors.errors.len()).map(gain).collect();
-        let worst = gains
-            .iter()
-            .copied()
-            .enumerate()
-            .fold((0, 0.0), |worst, (index, gain)| if gain > worst.1 { (index, gain) } else { worst });
-        Ok(Outcome { harm: worst.1, index: worst.0, gains })
-    }
-
-    /// Draws with an exact varying.
-    fn with_exact_varying(&self, varying: GlobalId) -> Result<Outcome, Vec<Diagnostic>> {
-        self.drawn(Study { exact_inputs: &[varying], ..Study::NONE })
-    }
-
-    /// The changes of [`Self::jitter`], drawn once.
-    fn jittered<'m>(&self, moved: &'m mut Option<Vec<f64>>) -> Result<&'m [f64], Vec<Diagnostic>> {
-        if moved.is_none() {
-            *moved = Some(self.jitter()?);
-        }
-        Ok(moved.as_deref().unwrap_or(&[]))
-    }
-
-    /// The exact picture's largest change at each pixel when the inputs move by an ULP.
-    fn jitter(&self) -> Result<Vec<f64>, Vec<Diagnostic>> {
-        let mut most = vec![0.0_f64; self.errors.errors.len()];
-        for seed in 1..=JITTERS {
-            let study = Study { jitter: Some(seed), bins: Some(&self.bins), ..Study::NONE };
-            let picture = pipeline::render_studied::<F64>(self.scene, &self.options, study)?;
-            let moved = ErrorMap::new(&picture, self.exact, self.format);
-            most.iter_mut().zip(moved.errors).for_each(|(most, moved)| *most = most.max(moved));
-        }
-        Ok(most)
-    }
 }
 
 /// The causes of the picture's error, worst first.
@@ -169,6 +53,7 @@ pub(super) fn causes(
             found.push(cause);
         }
     }
+    found.extend(lost_before(bench, tallies, &loops, &found, options)?);
     let explained = found.iter().filter_map(|cause| cause.harm).fold(0.0, f64::max);
     let worst = bench.errors.worst().map_or(0.0, |(_, error)| error);
     if worst > options.bound && explained < 0.5 * worst && !found.iter().any(|cause| cause.harm.is_none()) {
@@ -281,38 +166,6 @@ fn try_candidate(
     Ok(Some(found.cause(bench, (stage, span), tally)))
 }
 
-/// The results of the experiments with an expression.
-struct Found {
-    kind: CauseKind,
-    /// The number of pixels that become finite.
-    cured: u64,
-    harm: Option<f64>,
-    index: usize,
-    ill_posed: bool,
-    equality: bool,
-}
-
-impl Found {
-    fn cause(self, bench: &Bench<'_>, (stage, span): (Stage, Span), tally: &Tally) -> Cause {
-        let Self { kind, cured, harm, index, ill_posed, equality } = self;
-        Cause {
-            stage,
-            span,
-            kind,
-            harm,
-            lost_bits: tally.lost_bits,
-            first_lost_bits: if kind == CauseKind::Accumulation { SIGNIFICAND } else { tally.first_lost_bits },
-            condition: tally.condition,
-            non_finite: tally.non_finite().max(cured),
-            non_finite_in_exact: tally.births_in_both,
-            disagreements: tally.disagreements,
-            at: bench.errors.place(index),
-            ill_posed,
-            equality,
-        }
-    }
-}
-
 /// Whether a comparison disagrees on numbers that are as good as f32 has them: the exact ones are at the threshold. A test for
 /// equality is not: a tolerance helps.
 fn is_at_edge(candidate: &Candidate) -> bool {
@@ -328,14 +181,6 @@ fn is_ill_posed(outcome: &Outcome, moved: &[f64], least: f64) -> bool {
         outcome.gains.iter().copied().zip(moved.iter().copied()).filter(|(gain, _)| *gain >= least).collect();
     let jumping = harmed.iter().filter(|(gain, moved)| *moved >= 0.5 * gain).count();
     !harmed.is_empty() && 2 * jumping >= harmed.len()
-}
-
-/// Three significant digits, so that figures that differ by noise alone are equal.
-fn significant(value: f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// If no expression loses bits, many lose a little, or a number is too coarse for what follows: the expressions whose own
@@ -380,45 +225,4 @@ fn roundings(
         found.extend(coarse_varying(bench, tallies, options)?);
     }
     Ok(found)
-}
-
-/// If an exact varying makes the picture better, and no expression does: what the vertex stage writes is too large for f32 to
-/// interpolate. The expression of the vertex stage that rounds most is to blame, or the varying itself if none rounds.
-fn coarse_varying(
-    bench: &Bench<'_>,
-    tallies: &BTreeMap<Place, Tally>,
-    options: &ExamineOptions<'_>,
-) -> Result<Option<Cause>, Vec<Diagnostic>> {
-    let mut worst: Option<(Outcome, Span)> = None;
-    for (id, span) in varyings(bench.scene) {
-        let outcome = bench.with_exact_varying(id)?;
-        if outcome.harm.is_finite() && worst.as_ref().is_none_or(|(known, _)| outcome.harm > known.harm) {
-            worst = Some((outcome, span));
-        }
-    }
-    let Some((outcome, declared)) = worst.filter(|(outcome, _)| outcome.harm >= options.least()) else {
-        return Ok(None);
-    };
-    let of_vertices = tallies.iter().filter(|((stage, span, _), _)| *stage == Stage::Vertex && span.is_known());
-    let coarsest = of_vertices.max_by(|(_, a), (_, b)| a.added.total_cmp(&b.added));
-    let harm = Some(significant(outcome.harm));
-    let found =
-        Found { kind: CauseKind::Rounding, cured: 0, harm, index: outcome.index, ill_posed: false, equality: false };
-    Ok(Some(match coarsest.filter(|(_, tally)| tally.added > 0.0) {
-        Some((&(stage, span, _), tally)) => found.cause(bench, (stage, span), tally),
-        None => found.cause(bench, (Stage::Fragment, declared), &Tally::default()),
-    }))
-}
-
-/// The varyings that fragment stages read, with their declarations.
-fn varyings(scene: &Scene) -> Vec<(GlobalId, Span)> {
-    let mut all = Vec::new();
-    for shader in scene.draws.iter().filter_map(|draw| draw.program.stage(Stage::Fragment)) {
-        for (index, global) in shader.globals.iter().enumerate() {
-            if global.storage == Storage::In && global.span.is_known() {
-                all.push((GlobalId::new(index), global.span));
-            }
-        }
-    }
-    all
 }

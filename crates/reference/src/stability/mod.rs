@@ -21,6 +21,7 @@
 //! *Not done here:* a GPU's own approximations of `sin` and so on, and its weights of linear filtering, are not modeled:
 //! they round once.
 
+mod bench;
 mod birth;
 mod births;
 mod draw;
@@ -29,6 +30,7 @@ mod exact;
 mod experiment;
 mod kinds;
 mod loops;
+mod origin;
 mod record;
 #[cfg(test)]
 mod tests;
@@ -41,8 +43,9 @@ pub use kinds::CauseKind;
 use super::domain::{F64, Shadow, Stepwise};
 use super::pipeline::{self, Probe, Study};
 use super::{RenderOptions, exec};
+use bench::{Bench, drawing_options};
 use births::BirthCounter;
-use experiment::{Bench, causes, drawing_options};
+use experiment::causes;
 use glisten_front::diagnostic::{Diagnostic, codes};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
@@ -148,6 +151,9 @@ pub struct Cause {
 pub struct ExamineOptions<'a> {
     /// The error of the picture that is accepted.
     pub bound: f64,
+    /// An error of this share of a pixel's largest channel is accepted, too: f32 has no more digits for large values. 0
+    /// accepts none.
+    pub bound_relative: f64,
     /// Whether causes below the bound are told, too.
     pub all: bool,
     /// Whether the figures of every expression are wanted, even if nothing hurts.
@@ -174,8 +180,10 @@ pub struct Examination {
     pub single: Picture,
     /// The picture of exact arithmetic.
     pub exact: Picture,
-    /// The difference, pixel by pixel.
+    /// The difference, pixel by pixel, where it is more than [`ExamineOptions::bound_relative`] accepts.
     pub errors: ErrorMap,
+    /// The difference, pixel by pixel, all of it.
+    pub all_errors: ErrorMap,
     /// The number of results in all invocations that are not finite in f32 although their operands are.
     pub non_finite: u64,
     /// The causes, worst first.
@@ -258,13 +266,17 @@ pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examin
     let shared = Arc::clone(&births);
     let make = move || -> Box<dyn exec::Observer<Stepwise>> { Box::new(BirthCounter::new(&shared)) };
     let single = pipeline::render_watched::<Stepwise>(scene, &drawing, Some(&make))?;
-    let errors = ErrorMap::new(&single, &exact, format);
+    let all_errors = ErrorMap::new(&single, &exact, format);
+    let errors = all_errors.clone().beyond(&exact, options.bound_relative);
     let non_finite = births.load(Ordering::Relaxed);
     let worst = errors.worst().map_or(0.0, |(_, error)| error);
     let hurts = worst > options.least() || errors.not_finite() > 0;
     let tallies = if hurts || options.figures { recorded(scene, &drawing)?.1 } else { BTreeMap::new() };
-    let causes =
-        if hurts { causes(&Bench::new(scene, format, &exact, &errors), &tallies, options)? } else { Vec::new() };
+    let causes = if hurts {
+        causes(&Bench::new(scene, format, &exact, (&errors, options.bound_relative)), &tallies, options)?
+    } else {
+        Vec::new()
+    };
     let breaks = |cause: &Cause| {
         let decides = cause.disagreements > 0 && cause.kind.is_decision();
         (decides || cause.non_finite > 0) && cause.harm.is_none_or(|harm| harm > options.bound)
@@ -274,7 +286,7 @@ pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examin
         () if worst > options.bound => Stability::Degraded,
         () => Stability::Stable,
     };
-    Ok(Examination { single, exact, errors, non_finite, causes, spans: spans(&tallies), verdict })
+    Ok(Examination { single, exact, errors, all_errors, non_finite, causes, spans: spans(&tallies), verdict })
 }
 
 /// Both pictures of a scene, and their difference.
@@ -300,6 +312,17 @@ pub fn pictures_of(scene: &Scene) -> Result<Pair, Vec<Diagnostic>> {
     let single = pipeline::render::<Stepwise>(scene, &drawing)?;
     let errors = ErrorMap::new(&single, &exact, format);
     Ok(Pair { single, exact, errors })
+}
+
+/// The largest change of each pixel of the exact picture when all inputs of its fragment move by an ULP of f32.
+///
+/// # Errors
+/// The errors of [`cpu::render`](super::render).
+pub fn changes_of(scene: &Scene) -> Result<Vec<f64>, Vec<Diagnostic>> {
+    let format = scene.framebuffer.format;
+    let scene = &Scene { framebuffer: errors::unrounded(scene.framebuffer), ..scene.clone() };
+    let exact = pipeline::render::<F64>(scene, &drawing_options())?;
+    bench::changes(scene, (&exact, format), None)
 }
 
 /// The difference of [`pictures_of`].

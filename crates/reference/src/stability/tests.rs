@@ -147,7 +147,8 @@ fn a_texel_that_f32_misses_is_laid_at_the_lookup() {
 /// The examination of a body, and the texts and kinds of its causes, worst first.
 fn examined(body: &str) -> (Examination, Vec<(String, CauseKind)>) {
     let (scene, sources) = scene_of(body, "");
-    let mut options = ExamineOptions { bound: BOUND, all: false, figures: false, progress: &mut |_, _| true };
+    let mut options =
+        ExamineOptions { bound: BOUND, bound_relative: 0.0, all: false, figures: false, progress: &mut |_, _| true };
     let found = examine(&scene, &mut options).unwrap_or_else(|found| panic!("{found:?}"));
     let causes = found.causes.iter().map(|cause| (sources.snippet(cause.span).to_owned(), cause.kind)).collect();
     (found, causes)
