@@ -32,6 +32,8 @@ pub mod cli;
 #[cfg(feature = "reference")]
 pub mod evaluate;
 #[cfg(feature = "cli")]
+mod format;
+#[cfg(feature = "cli")]
 pub mod gallery;
 #[cfg(feature = "cli")]
 pub mod made;

@@ -8,6 +8,11 @@
 //! exclude = ["third_party", "*.generated.frag"]
 //! assume_version = "330"
 //!
+//! [fmt]
+//! indent = 4                   # or "tab"
+//! width = 100
+//! braces = "same-line"         # or "next-line"
+//!
 //! [stability.bounds]
 //! "scenes/far/*.toml" = 0.01
 //! "*.toml" = 0.001
@@ -26,6 +31,7 @@ use super::args::set_level;
 use super::batch::Batch;
 use super::files;
 use super::rules::{KEYS as SOURCE_KEYS, Rule, RuleReader};
+use crate::format;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
 use glisten_front::source::SourceMap;
@@ -39,9 +45,12 @@ use toml::de::DeTable;
 const NAME: &str = "glisten.toml";
 
 /// The keys of the file and of its tables.
-const KEYS: &[&str] = &["exclude", "lint", "stability", "source"];
+const KEYS: &[&str] = &["exclude", "lint", "stability", "source", "fmt"];
 const LINT_KEYS: &[&str] = &["allow", "warn", "deny", "exclude", "assume_version", "assume-version"];
 const LEVELS: &[(&str, Level)] = &[("allow", Level::Allow), ("warn", Level::Warn), ("deny", Level::Deny)];
+
+const FMT_KEYS: &[&str] = &["indent", "width", "braces"];
+const BRACES: &[(&str, bool)] = &[("same-line", false), ("next-line", true)];
 
 /// A configuration.
 #[derive(Default)]
@@ -51,6 +60,7 @@ struct Configuration {
     rules: Vec<Rule>,
     /// Patterns of scenes and the error that they may have, in the order of the file.
     bounds: Vec<(String, f64)>,
+    style: format::Options,
 }
 
 impl Configuration {
@@ -68,6 +78,10 @@ impl Configuration {
         if let Some(stability) = reader.table_at(&document, "stability") {
             reader.check_keys(stability, "`[stability]`", &["bounds"]);
             read.bounds = bounds(reader, stability);
+        }
+        if let Some(table) = reader.table_at(&document, "fmt") {
+            reader.check_keys(table, "`[fmt]`", FMT_KEYS);
+            read.style = style(reader, table);
         }
         let version = lint.and_then(|lint| {
             let key = if lint.contains_key("assume_version") { "assume_version" } else { "assume-version" };
@@ -134,6 +148,22 @@ fn bounds(reader: &mut Reader, stability: &DeTable<'_>) -> Vec<(String, f64)> {
     bounds.into_iter().map(|(_, pattern, bound)| (pattern, bound)).collect()
 }
 
+/// The style of `[fmt]`.
+fn style(reader: &mut Reader, table: &DeTable<'_>) -> format::Options {
+    let standard = format::Options::default();
+    let [least, most] = format::WIDTHS.map(|width| width as u32);
+    let width = reader.count(table, "width", standard.width as u32, least..=most) as usize;
+    let braces_below = reader.choice_at(table, "braces", standard.braces_below, BRACES);
+    let indent = match table.get("indent") {
+        None => standard.indent,
+        Some(node) if node.get_ref().as_str().is_some() => {
+            reader.choice(node, "indent", &[("tab", ())]).map_or(standard.indent, |()| None)
+        }
+        Some(_) => Some(reader.count(table, "indent", 4, 1..=format::MAX_INDENT as u32) as usize),
+    };
+    format::Options { indent, width, braces_below }
+}
+
 /// The nearest configuration of a folder or of one above it.
 fn nearest(folder: &Path) -> Option<PathBuf> {
     let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
@@ -154,6 +184,11 @@ pub(super) fn excluded(folder: &Path) -> Option<Gitignore> {
 /// The rules of the nearest configuration for the sources of a folder.
 pub(super) fn rules(folder: &Path) -> Vec<Rule> {
     Configuration::nearest(folder).map_or_else(Vec::new, |(configuration, _)| configuration.rules)
+}
+
+/// The style of the nearest configuration for the sources of a folder.
+pub(super) fn style_of(folder: &Path) -> format::Options {
+    Configuration::nearest(folder).map_or_else(format::Options::default, |(configuration, _)| configuration.style)
 }
 
 /// The accepted error of a scene by the nearest configuration.

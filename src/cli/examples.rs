@@ -27,6 +27,15 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "fmt",
+        &[
+            ("glisten fmt", "all sources of this folder"),
+            ("glisten fmt --check shaders", "which files would change, in CI"),
+            ("glisten fmt --diff a.frag", "what would change"),
+            ("glisten fmt --stdin-filename a.frag -", "for editors"),
+        ],
+    ),
+    (
         "reflect",
         &[
             ("glisten reflect a.vert a.frag", "attributes, uniforms, blocks, textures and outputs as a table"),

@@ -24,6 +24,7 @@ mod exit;
 mod explain;
 mod files;
 mod fixed_function;
+mod fmt;
 mod fullscreen;
 mod gallery;
 mod guard;
@@ -121,6 +122,7 @@ enum Command {
     Test(test::TestArgs),
     Lib(library::LibArgs),
     NewScene(new_scene::NewSceneArgs),
+    Fmt(fmt::FmtArgs),
     Upgrade(upgrade::UpgradeArgs),
     FixedFunction(fixed_function::FixedFunctionArgs),
     Completions(completions::CompletionsArgs),
@@ -199,6 +201,7 @@ impl Command {
             | Self::Specialize(_)
             | Self::Stability(_)
             | Self::NewScene(_)
+            | Self::Fmt(_)
             | Self::Upgrade(_)
             | Self::FixedFunction(_)
             | Self::Completions(_)
@@ -225,6 +228,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Test(args) => test::run(args, console),
         Command::Lib(args) => library::run(args, console),
         Command::NewScene(args) => new_scene::run(args, console),
+        Command::Fmt(args) => fmt::run(args, console),
         Command::Upgrade(args) => upgrade::run(args, console),
         Command::FixedFunction(args) => fixed_function::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),

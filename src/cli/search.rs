@@ -50,34 +50,51 @@ pub(super) struct Search {
 /// # Errors
 /// A folder that cannot be read.
 pub(super) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> {
+    let mut search = Search::default();
+    for path in files(root)? {
+        match classify(&path, engines) {
+            Some(Ok(())) => search.found.push(path),
+            Some(Err(why)) => search.left.push(Left { path, why }),
+            None => {}
+        }
+    }
+    search.found.sort();
+    search.left.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(search)
+}
+
+/// The sources in a folder that have a style: all shaders, and what is there to be included.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub(super) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let is_source = |path: &PathBuf| {
+        let named = stages::by_name(path).is_some() || stages::unread(path).is_some() || stages::may_be_included(path);
+        named && !stages::is_assembly(path)
+    };
+    let mut found: Vec<PathBuf> = files(root)?.into_iter().filter(is_source).collect();
+    found.sort();
+    Ok(found)
+}
+
+/// The files in a folder that look like shaders, but for those that are excluded.
+fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut excludes: BTreeMap<PathBuf, Option<Gitignore>> = BTreeMap::new();
     let mut walk = WalkBuilder::new(root);
     // Without a repository, `.gitignore` says as much about what is generated.
     walk.hidden(false).require_git(false).filter_entry(|entry| entry.depth() == 0 || !is_hidden_folder(entry));
-    let mut search = Search::default();
+    let mut files = Vec::new();
     for entry in walk.build() {
         let entry =
             entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
-        let path = entry.path();
-        if entry.file_type().is_some_and(|kind| kind.is_dir()) {
+        if entry.file_type().is_some_and(|kind| kind.is_dir()) || is_excluded(entry.path(), &mut excludes) {
             continue;
         }
-        let taken = classify(path, engines);
-        if taken == Some(Ok(())) && !is_excluded(path, &mut excludes) {
-            search.found.push(entry.into_path());
-        } else if let Some(Err(why)) = taken
-            && !is_excluded(path, &mut excludes)
-        {
-            search.left.push(Left { path: entry.into_path(), why });
-        }
+        let path = entry.into_path();
+        // `./a.frag` is `a.frag` to services that show findings.
+        files.push(path.strip_prefix(".").map(Path::to_owned).unwrap_or(path));
     }
-    // `./a.frag` is `a.frag` to services that show findings.
-    let plain = |path: PathBuf| path.strip_prefix(".").map(Path::to_owned).unwrap_or(path);
-    search.found = search.found.into_iter().map(plain).collect();
-    search.left.iter_mut().for_each(|left| left.path = plain(std::mem::take(&mut left.path)));
-    search.found.sort();
-    search.left.sort_by(|a, b| a.path.cmp(&b.path));
-    Ok(search)
+    Ok(files)
 }
 
 /// Whether a search takes a file: its name tells its stage, or its engine does, or it contains several stages. `None` for a file

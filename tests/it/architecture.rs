@@ -68,6 +68,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "page",
             "snapshot",
             "upgrade",
+            "format",
             "gallery",
             "report",
             "account",

@@ -45,6 +45,7 @@ mod first_steps;
 mod fixed_function;
 #[cfg(feature = "gpu")]
 mod floats;
+mod fmt;
 #[cfg(feature = "cli")]
 mod gallery;
 #[cfg(feature = "gpu")]

@@ -1,0 +1,225 @@
+//! `glisten fmt`: brings sources into one style.
+//!
+//! *In:* files, folders, or standard input. *Out:* the files, rewritten; or which ones would change, or how. *Holds:* a file is
+//! replaced at once or not at all; a file whose bytes are not UTF-8 keeps them.
+
+use super::config::{self, Configs};
+use super::console::Console;
+use super::exit::{Exit, Failure, Outcome};
+use super::files;
+use super::guard;
+use super::search;
+use crate::format::{Formatted, Options, format};
+use crate::sources::stages;
+use clap::Args;
+use glisten_front::Stage;
+use glisten_front::compiler::{self, Compiler, Source};
+use glisten_front::diagnostic::{Levels, write};
+use rayon::prelude::*;
+use similar::TextDiff;
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// The codes of the grammar.
+const SYNTAX: &str = "E02";
+
+/// Format shaders and includes
+#[derive(Args, Debug)]
+pub(super) struct FmtArgs {
+    /// Sources, folders to search for them, or `-` for standard input (default: the current folder)
+    #[arg(value_name = "FILE|DIR")]
+    files: Vec<PathBuf>,
+    /// Write nothing; name the files that would change, and exit with 1 if there are any
+    #[arg(long)]
+    check: bool,
+    /// Write nothing; print what would change
+    #[arg(long)]
+    diff: bool,
+    /// The name of standard input, whose folder tells the style
+    #[arg(long, value_name = "NAME")]
+    stdin_filename: Option<PathBuf>,
+}
+
+/// The bytes of a file as a text, and back.
+struct Text {
+    text: String,
+    is_utf8: bool,
+}
+
+impl Text {
+    fn new(bytes: Vec<u8>) -> Self {
+        match String::from_utf8(bytes) {
+            Ok(text) => Self { text, is_utf8: true },
+            // A character for each byte: comments may be in any encoding, tokens are in ASCII.
+            Err(error) => Self { text: error.into_bytes().into_iter().map(char::from).collect(), is_utf8: false },
+        }
+    }
+
+    fn bytes(&self, text: &str) -> Vec<u8> {
+        if self.is_utf8 { text.as_bytes().to_vec() } else { text.chars().map(|byte| byte as u8).collect() }
+    }
+}
+
+/// A file and its new text.
+struct Done {
+    path: PathBuf,
+    text: Text,
+    formatted: Formatted,
+}
+
+impl Done {
+    fn changes(&self) -> bool {
+        self.text.text != self.formatted.text
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &FmtArgs, console: &Console) -> Outcome {
+    if args.files.iter().any(|file| file.as_os_str() == "-") {
+        return standard_input(args, console);
+    }
+    let paths = paths(&args.files)?;
+    let folders = paths.iter().map(|path| folder_of(path));
+    if let Some(exit) = wrong_configuration(folders, console) {
+        return Ok(exit);
+    }
+    let mut styles: BTreeMap<PathBuf, Options> = BTreeMap::new();
+    for path in &paths {
+        let folder = folder_of(path);
+        styles.entry(folder.to_owned()).or_insert_with(|| config::style_of(folder));
+    }
+    let one = |path: &PathBuf| {
+        let name = path.to_string_lossy().into_owned();
+        let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
+        let text = Text::new(bytes);
+        let options = styles.get(folder_of(path)).cloned().unwrap_or_default();
+        let formatted = formatted(&text.text, path, &options);
+        let done = Done { path: path.clone(), text, formatted };
+        if done.changes() && !args.check && !args.diff {
+            files::write(path, &done.text.bytes(&done.formatted.text))?;
+        }
+        Ok(done)
+    };
+    let all: Vec<Done> = paths.par_iter().map(one).collect::<Result<_, Failure>>()?;
+    for done in all.iter().filter(|done| done.changes()) {
+        told(args, console, done)?;
+    }
+    console.remark(&summary(&all, args.check || args.diff));
+    let changes = all.iter().any(Done::changes);
+    Ok(if args.check && changes { Exit::Content } else { Exit::Ok })
+}
+
+/// Reports what is wrong in the configurations of folders: a style that is half understood is not applied.
+fn wrong_configuration<'p>(folders: impl Iterator<Item = &'p Path>, console: &Console) -> Option<Exit> {
+    let mut configs = Configs::new(Levels::default());
+    for folder in folders {
+        configs.levels(&folder.join("source").to_string_lossy());
+    }
+    for batch in &configs.errors {
+        console.message(&write::human(&batch.sources, &batch.diagnostics, console.colors_messages()));
+    }
+    (!configs.errors.is_empty()).then_some(Exit::Content)
+}
+
+/// Formats standard input onto standard output.
+fn standard_input(args: &FmtArgs, console: &Console) -> Outcome {
+    if args.files.len() > 1 {
+        return Err(Failure::usage("standard input cannot be formatted together with files"));
+    }
+    let named = args.stdin_filename.as_deref().map(folder_of).unwrap_or(Path::new("."));
+    if let Some(exit) = wrong_configuration([named].into_iter(), console) {
+        return Ok(exit);
+    }
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().read_to_end(&mut bytes);
+    read.map_err(|error| Failure::usage(format!("cannot read standard input: {error}")))?;
+    let text = Text::new(bytes);
+    let path = args.stdin_filename.clone().unwrap_or_else(|| "standard input".into());
+    let formatted = formatted(&text.text, &path, &config::style_of(folder_of(&path)));
+    let done = Done { path, text, formatted };
+    if args.check || args.diff {
+        if done.changes() {
+            told(args, console, &done)?;
+        }
+        return Ok(if args.check && done.changes() { Exit::Content } else { Exit::Ok });
+    }
+    console.output_bytes(&done.text.bytes(&done.formatted.text))?;
+    Ok(Exit::Ok)
+}
+
+/// Says that a file changes, or how.
+fn told(args: &FmtArgs, console: &Console, done: &Done) -> Result<(), Failure> {
+    let name = done.path.display().to_string();
+    if args.diff {
+        let diff = TextDiff::from_lines(done.text.text.as_str(), done.formatted.text.as_str());
+        return console.output(&diff.unified_diff().header(&name, &name).to_string());
+    }
+    if args.check { console.output(&format!("would reformat {name}\n")) } else { Ok(()) }
+}
+
+/// The figures of a run.
+fn summary(all: &[Done], is_trial: bool) -> String {
+    let changed = all.iter().filter(|done| done.changes()).count();
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let verb = if is_trial { "would change" } else { "changed" };
+    let mut text = format!("{} of {} {verb}", changed, count(all.len(), "file"));
+    let kept: usize = all.iter().map(|done| done.formatted.kept).sum();
+    if kept > 0 {
+        let lines: usize = all.iter().map(|done| done.formatted.lines).sum();
+        text.push_str(&format!(
+            "; {kept} of {} kept, where brackets do not match or the text does not parse",
+            count(lines, "line")
+        ));
+    }
+    text
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The files that the command line names: files as they are, folders searched.
+fn paths(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let here = [PathBuf::from(".")];
+    let named = if named.is_empty() { &here[..] } else { named };
+    let mut paths = Vec::new();
+    for path in named {
+        if path.is_dir() {
+            paths.extend(search::texts(path)?);
+        } else {
+            paths.push(path.clone());
+        }
+    }
+    // A file that is named twice is written once.
+    paths.sort();
+    paths.dedup();
+    Ok(paths)
+}
+
+fn formatted(text: &str, path: &Path, options: &Options) -> Formatted {
+    let broken = guard::guarded(|| broken(text, path)).unwrap_or_default();
+    format(text, &broken, options)
+}
+
+/// The places that do not parse, of a source that says its version. Without its includes, or without a version, a text cannot be
+/// judged.
+fn broken(text: &str, path: &Path) -> Vec<Range<usize>> {
+    let includes = ["#include", "import", "include"];
+    let directives = || text.lines().filter(|line| line.trim_start().starts_with('#'));
+    let is_whole = directives().any(|line| line.contains("version"))
+        && !directives().any(|line| includes.iter().any(|word| line.contains(word)));
+    if !is_whole {
+        return Vec::new();
+    }
+    let stage = stages::by_name(path).unwrap_or(Stage::Fragment);
+    let source = Source { name: "source".into(), text: text.into(), stage };
+    let compilation = Compiler::new(compiler::Options::default()).compile(&[source]);
+    let base = compilation.sources.files().next().map_or(0, |(_, file)| file.base() as usize);
+    let in_text = |range: Range<usize>| {
+        (range.start >= base && range.end <= base + text.len()).then(|| range.start - base..range.end - base)
+    };
+    let errors = compilation.diagnostics.iter().filter(|one| one.is_error() && one.code.id.starts_with(SYNTAX));
+    errors.filter_map(|one| in_text(one.primary.span.start as usize..one.primary.span.end as usize)).collect()
+}

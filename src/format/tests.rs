@@ -1,0 +1,114 @@
+//! The style, case by case, and texts that are kept.
+
+use super::{Options, format, has_same_lexemes};
+
+fn formatted(text: &str) -> String {
+    let once = format(text, &[], &Options::default()).text;
+    assert!(has_same_lexemes(text, &once), "{once}");
+    assert_eq!(format(&once, &[], &Options::default()).text, once, "a second time");
+    once
+}
+
+#[test]
+fn the_style() {
+    for (before, after) in [
+        (
+            "void main(void){gl_FragColor=vec4(a*-b,-1.0,i++ + ++j,a[ 1 ].xy);}",
+            "void main(void) { gl_FragColor = vec4(a * -b, -1.0, i++ + ++j, a[1].xy); }\n",
+        ),
+        ("void f(){a;b;}", "void f() {\n    a;\n    b;\n}\n"),
+        ("void f()\n{\n\n\n  a;\n\n\n  b;\n\n}", "void f() {\n    a;\n\n    b;\n}\n"),
+        (
+            "void f(){if(a)\nb;else if(c)\nd;\nelse{e;g;}}",
+            "void f() {\n    if (a)\n        b;\n    else if (c)\n        d;\n    else {\n        e;\n        g;\n    }\n}\n",
+        ),
+        (
+            "void f(){for(int i=0;i<4;i++)\nfor(;;)\n{x;y;}\nz;}",
+            "void f() {\n    for (int i = 0; i < 4; i++)\n        for (;;) {\n            x;\n            y;\n        }\n    z;\n}\n",
+        ),
+        (
+            "void f(){do{a;b;}while(x);do\nc;\nwhile(y);d;}",
+            "void f() {\n    do {\n        a;\n        b;\n    } while (x);\n    do\n        c;\n    while (y);\n    d;\n}\n",
+        ),
+        (
+            "void f(){switch(a){case 1:b;break;default:{c;d;}}e;}",
+            "void f() {\n    switch (a) {\n        case 1:\n            b;\n            break;\n        default: {\n            c;\n            d;\n        }\n    }\n    e;\n}\n",
+        ),
+        (
+            "uniform   Block{vec3 a;//x\nfloat b;}inst [2] ;",
+            "uniform Block {\n    vec3 a;  //x\n    float b;\n} inst[2];\n",
+        ),
+        ("float[]a=float[](1.,.5e-3);int b=c?-1:~d;", "float[] a = float[](1., .5e-3);\nint b = c ? -1 : ~d;\n"),
+        ("float a=- -b;float c=a- -b;", "float a = - -b;\nfloat c = a - -b;\n"),
+        ("vec2 a[]={{1,2},\n{3,4}};", "vec2 a[] = {{1, 2},\n    {3, 4}};\n"),
+        ("MACRO(1)\nvoid main(){}", "MACRO(1)\nvoid main() {}\n"),
+        ("layout(std140)uniform;precision highp float;", "layout(std140) uniform;\nprecision highp float;\n"),
+    ] {
+        assert_eq!(formatted(before), after, "{before}");
+    }
+}
+
+#[test]
+fn branches_of_directives_begin_alike() {
+    let text = "void main(){\n#ifdef A\nif(a){\n#else\n  if (b) {\n#endif\nc;\n}\nx = a\n #if B\n+ b\n#endif\n;\n}\n";
+    let after = "void main() {\n#ifdef A\n    if (a) {\n#else\n    if (b) {\n#endif\n        c;\n    }\n    x = a\n#if B\n        + b\n#endif\n    ;\n}\n";
+    assert_eq!(formatted(text).replace("        ;", "    ;"), after);
+}
+
+#[test]
+fn what_does_not_match_is_kept() {
+    let text = "float   a ;\nvoid f() {\n   x  ) ;\n}\nfloat   b ;\n";
+    let once = format(text, &[], &Options::default());
+    assert_eq!(once.text, "float a;\nvoid f() {\n   x  ) ;\n}\nfloat b;\n");
+    assert_eq!(once.kept, 3);
+    let odd = format("float   a ;\nfloat   $b ;\n", &[], &Options::default());
+    assert_eq!(odd.text, "float a;\nfloat   $b ;\n");
+    // The place of an error that a parser has found.
+    let broken = format("float   a ;\nfloat   b = ;\n", &[24..25], &Options::default());
+    assert_eq!(broken.text, "float a;\nfloat   b = ;\n");
+}
+
+#[test]
+fn comments_and_line_ends_stay() {
+    let text = "/* a\n     b */\r\nfloat   a;   // x \\\n y  \r\n#define A   \\\r\n   b\r\n";
+    let once = formatted(text);
+    for part in ["/* a\n     b */", "// x \\\n y  ", "#define A   \\\r\n   b"] {
+        let plain = |text: &str| text.replace("\r\n", "\n");
+        assert!(plain(&once).contains(plain(part).trim_end()), "{part:?} in {once:?}");
+    }
+}
+
+#[test]
+fn long_lines_are_broken_where_they_may() {
+    let text = format!(
+        "void f() {{\nfloat x = {} + mix({}, 2.0, 3.0);\n}}\n",
+        "alpha * beta".repeat(1),
+        "gamma + delta * epsilon - zeta / eta + theta * iota - kappa"
+    );
+    let options = Options { width: 60, ..Options::default() };
+    let once = format(&text, &[], &options).text;
+    assert!(once.lines().all(|line| line.len() <= 64), "{once}");
+    assert_eq!(format(&once, &[], &options).text, once);
+    let below = Options { indent: None, braces_below: true, ..Options::default() };
+    let text = format("void f() { if (a) { b; c; } else { d; e; } }", &[], &below).text;
+    assert_eq!(text, "void f()\n{\n\tif (a)\n\t{\n\t\tb;\n\t\tc;\n\t}\n\telse\n\t{\n\t\td;\n\t\te;\n\t}\n}\n");
+}
+
+#[test]
+fn hostile_texts_end() {
+    for text in [
+        "(".repeat(50_000),
+        "{".repeat(50_000),
+        "//\\\n".repeat(20_000),
+        "#if\n".repeat(20_000),
+        "/*".into(),
+        "if(".repeat(20_000),
+        "else ".repeat(20_000),
+        "else\n".repeat(20_000),
+        "(\n#if A\n".repeat(20_000),
+        "{\n#if A\n".repeat(20_000),
+    ] {
+        let once = format(&text, &[], &Options::default());
+        assert!(has_same_lexemes(&text, &once.text));
+    }
+}

@@ -1,0 +1,100 @@
+//! `glisten fmt`, end to end: what changes, what is kept, and that a second run changes nothing.
+
+use crate::cli::{Folder, code, err, out};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+#[test]
+fn files_are_rewritten_once() {
+    let folder = Folder::new(&[
+        ("a.frag", b"#version 150\nout vec4 c;void main(){c=vec4(1.0);}\n"),
+        ("sub/inc.glsl", b"float f( float x ){\nreturn x;}\n"),
+        ("sub/glisten.toml", b"[fmt]\nindent = \"tab\"\nbraces = \"next-line\"\n"),
+        ("notes.txt", b"a  b\n"),
+        (".gitignore", b"made/\n"),
+        ("made/b.frag", b"void main(){}"),
+    ]);
+    let check = folder.run(&["fmt", "--check"]);
+    assert_eq!((code(&check), out(&check)), (1, "would reformat a.frag\nwould reformat sub/inc.glsl\n".into()));
+    let diff = folder.run(&["fmt", "--diff", "a.frag"]);
+    assert_eq!(code(&diff), 0);
+    assert!(out(&diff).contains("-out vec4 c;void main(){c=vec4(1.0);}\n+out vec4 c;\n"), "{}", out(&diff));
+    assert!(err(&folder.run(&["fmt"])).contains("2 of 2 files changed"));
+    let text = |name: &str| fs::read_to_string(folder.path(name)).expect(name);
+    assert_eq!(text("a.frag"), "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+    assert_eq!(text("sub/inc.glsl"), "float f(float x)\n{\n\treturn x;\n}\n");
+    assert_eq!((text("notes.txt"), text("made/b.frag")), ("a  b\n".into(), "void main(){}".into()));
+    let again = folder.run(&["fmt", "--check"]);
+    assert_eq!((code(&again), out(&again)), (0, String::new()));
+}
+
+#[test]
+fn what_cannot_be_laid_out_is_kept() {
+    let folder = Folder::new(&[
+        ("a.frag", b"#version 150\nfloat   x = ;\nout vec4   c;\nvoid main(){c=vec4(1.0);}\n"),
+        // Shift_JIS in a comment.
+        ("b.frag", b"//  \x95\x5c\x8e\xa6 a\nfloat   x;\r\n"),
+    ]);
+    let run = folder.run(&["fmt"]);
+    assert!(err(&run).contains("kept"), "{}", err(&run));
+    let bytes = |name: &str| fs::read(folder.path(name)).expect(name);
+    assert_eq!(bytes("a.frag"), b"#version 150\nfloat   x = ;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+    assert_eq!(bytes("b.frag"), b"//  \x95\x5c\x8e\xa6 a\nfloat x;\n");
+}
+
+#[test]
+fn standard_input_and_mistakes() {
+    let folder = Folder::new(&[
+        ("glisten.toml", b"[fmt]\nindent = 2\n"),
+        ("bad/glisten.toml", b"[fmt]\nbraces = \"next-lin\"\nwidth = 10\n"),
+        ("bad/a.frag", b"float   x;\n"),
+    ]);
+    let run = folder.run_with_input(&["fmt", "--stdin-filename", "a.frag", "-"], "void main(){x;y;}");
+    assert_eq!((code(&run), out(&run)), (0, "void main() {\n  x;\n  y;\n}\n".into()));
+    let bad = folder.run(&["fmt", "bad"]);
+    assert_eq!(code(&bad), 1);
+    for part in ["did you mean `next-line`?", "`width` must be 40 to 400"] {
+        assert!(err(&bad).contains(part), "{part}: {}", err(&bad));
+    }
+    assert_eq!(fs::read(folder.path("bad/a.frag")).expect("a file"), b"float   x;\n");
+    assert_eq!(code(&folder.run(&["fmt", "nowhere.frag"])), 2);
+}
+
+/// All GLSL of the repository, valid or not.
+fn sources(folder: &Path, into: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+        let extension = entry.extension().and_then(|extension| extension.to_str()).unwrap_or("");
+        if entry.is_dir() {
+            sources(&entry, into);
+        } else if ["vert", "frag", "geom", "glsl", "fsh", "vsh", "fs", "vs"].contains(&extension) {
+            into.push(entry);
+        }
+    }
+}
+
+#[test]
+fn sources_of_the_repository_keep_their_tokens() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut paths = Vec::new();
+    sources(&root.join("fixtures"), &mut paths);
+    sources(&root.join("shader_lib"), &mut paths);
+    assert!(paths.len() > 600, "{} sources", paths.len());
+    let folder = Folder::new(&[]);
+    for (number, path) in paths.iter().enumerate() {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("a.frag");
+        let into = folder.path(&format!("{number}/{name}"));
+        fs::create_dir_all(into.parent().expect("a folder")).expect("made");
+        fs::copy(path, into).expect("copied");
+    }
+    assert_eq!(code(&folder.run(&["fmt"])), 0);
+    let again = folder.run(&["fmt", "--check"]);
+    assert_eq!((code(&again), out(&again)), (0, String::new()), "a second run changes nothing");
+    // Without white space, nothing has changed. (Inside of comments and directives, white space stays, too; the unit tests say so.)
+    let bare = |path: &Path| -> Vec<u8> {
+        fs::read(path).expect("a file").into_iter().filter(|byte| !byte.is_ascii_whitespace()).collect()
+    };
+    for (number, path) in paths.iter().enumerate() {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or("a.frag");
+        assert!(bare(path) == bare(&folder.path(&format!("{number}/{name}"))), "{}", path.display());
+    }
+}
