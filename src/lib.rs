@@ -54,7 +54,6 @@ pub mod snapshot;
 pub mod specialize;
 #[cfg(feature = "stability")]
 pub mod stability;
-#[cfg(feature = "cli")]
 pub mod upgrade;
 #[cfg(feature = "reference")]
 pub mod verify;

@@ -70,6 +70,9 @@ typedef struct glisten_reply glisten_reply;
 // A scene and everything that is wrong with it. It never changes.
 typedef struct glisten_scene glisten_scene;
 
+// The sources of a program in another version. It never changes.
+typedef struct glisten_upgrade glisten_upgrade;
+
 // A host's function for included files. `path` is that of the `#include`, `angled` whether it is in angle brackets, `from` the
 // name of the file with the `#include`. It answers by `glisten_reply_found` or `glisten_reply_missing`, or not at all. It must not
 // throw, nor jump out. It is called from each thread that compiles.
@@ -287,6 +290,24 @@ glisten_status glisten_program_diagnostic(const glisten_program *program,
 glisten_status glisten_program_diagnostics(const glisten_program *program,
                                            glisten_format format,
                                            glisten_blob **text);
+
+// Rewrites the sources of a program, as `glisten upgrade` does, for the version `150`, `330` or `300es`. Files that they include
+// stay as they are. With errors in the sources, which `glisten_last_error` shows, the status is `GLISTEN_STATUS_CONTENT`; so it is
+// if a source is newer than the version, or has a name that the version has no counterpart for.
+glisten_status glisten_upgrade_sources(const glisten_compiler *compiler,
+                                       const glisten_source *sources,
+                                       size_t count,
+                                       const char *version,
+                                       glisten_upgrade **upgraded);
+
+// Frees an upgrade.
+void glisten_upgrade_free(glisten_upgrade *upgrade);
+
+// The new text of the source with this number, from 0; NULL if there is none.
+const char *glisten_upgrade_text(const glisten_upgrade *upgrade, size_t index);
+
+// A sentence for the author of the host, from 0; NULL if there is none with this number.
+const char *glisten_upgrade_note(const glisten_upgrade *upgrade, size_t index);
 
 // Loads the scene at a path: from the disk, or with the files of `function`, unless it is NULL. Statuses are those of
 // `glisten_compile`, and `GLISTEN_STATUS_FILE` if a file is missing.

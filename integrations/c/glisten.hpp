@@ -25,6 +25,7 @@ struct Free {
     void operator()(glisten_picture *handle) const noexcept { glisten_picture_free(handle); }
     void operator()(glisten_program *handle) const noexcept { glisten_program_free(handle); }
     void operator()(glisten_scene *handle) const noexcept { glisten_scene_free(handle); }
+    void operator()(glisten_upgrade *handle) const noexcept { glisten_upgrade_free(handle); }
 };
 
 template <class Handle>
@@ -108,6 +109,13 @@ public:
 
 private:
     Owned<glisten_program> handle_;
+};
+
+// The sources of a program in another version.
+struct Upgraded {
+    std::vector<std::string> texts;
+    // Sentences for the author of the host.
+    std::vector<std::string> notes;
 };
 
 // A picture: RGBA of every pixel, top row first.
@@ -203,6 +211,20 @@ public:
 
     Program lint(const std::vector<Source> &sources) const { return made(sources, glisten_lint); }
 
+    // Rewrites sources for the version `150`, `330` or `300es`.
+    Upgraded upgrade(const std::vector<Source> &sources, const std::string &version = "150") const {
+        const std::vector<glisten_source> rows = rows_of(sources);
+        glisten_upgrade *handle = nullptr;
+        check(glisten_upgrade_sources(handle_.get(), rows.data(), rows.size(), version.c_str(), &handle));
+        const Owned<glisten_upgrade> owned(handle);
+        Upgraded upgraded;
+        for (std::size_t index = 0; const char *text = glisten_upgrade_text(handle, index); ++index)
+            upgraded.texts.emplace_back(text);
+        for (std::size_t index = 0; const char *note = glisten_upgrade_note(handle, index); ++index)
+            upgraded.notes.emplace_back(note);
+        return upgraded;
+    }
+
     // Loads a scene from the disk. A scene with errors can be asked for its diagnostics.
     Scene load(const std::string &path) const {
         glisten_scene *scene = nullptr;
@@ -212,11 +234,17 @@ public:
     }
 
 private:
-    template <class Function>
-    Program made(const std::vector<Source> &sources, Function function) const {
+    // They live as long as the sources.
+    static std::vector<glisten_source> rows_of(const std::vector<Source> &sources) {
         std::vector<glisten_source> rows;
         for (const Source &source : sources)
             rows.push_back({source.name.c_str(), source.text.c_str(), source.text.size(), source.stage});
+        return rows;
+    }
+
+    template <class Function>
+    Program made(const std::vector<Source> &sources, Function function) const {
+        const std::vector<glisten_source> rows = rows_of(sources);
         glisten_program *program = nullptr;
         const glisten_status status = function(handle_.get(), rows.data(), rows.size(), &program);
         if (status != GLISTEN_STATUS_CONTENT) check(status);

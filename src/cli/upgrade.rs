@@ -14,16 +14,16 @@ use super::inputs::{self, Input};
 use super::session::{Session, Unit};
 use crate::engines;
 use crate::scene::{self, DiskFiles, Scene};
-use crate::upgrade::{Plan, Target, Text, rewrite};
+use crate::upgrade::{Plan, Refused, Target, Text, completed, plan_of, rewrite};
 use clap::{Args, ValueEnum};
 use glisten_front::Stage;
 use glisten_front::compiler::{Compiler, Preparation, Prepared, Source};
-use glisten_front::source::{Completion, IncludeForm, IncludeResolver, Included, Prelude, SourceMap, version_line};
+use glisten_front::source::version_line;
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::{FileError, FileSource};
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30 or ES 3.00
@@ -106,11 +106,6 @@ pub(super) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
     let mut written = Vec::new();
     for unit in &units {
         let plan = Arc::new(plan(unit, session.compiler(), args.to.into())?);
-        if let Some(name) = plan.refused.first() {
-            let failure = Failure::new(Exit::Content, format!("`{name}` has no counterpart, and nothing was written"));
-            return Err(failure
-                .help("write it in the terms of GLSL 1.50 first; for `gl_ClipVertex`, that is `gl_ClipDistance`"));
-        }
         plan.notes.iter().for_each(|note| console.remark(&format!("note: {note}")));
         let texts = rewritten(unit, &plan);
         let compiler = checker(args, session.compiler(), &plan)?;
@@ -139,39 +134,25 @@ fn version_of(unit: &Unit, stage: Stage) -> u16 {
     unit.program.as_ref().and_then(|program| program.stage(stage)).map_or(110, |shader| shader.version.number)
 }
 
-/// The texts that a stage reads besides its own: preludes and included files.
-fn other_texts(compiler: &Compiler, unit: &Unit, input: &Input) -> Vec<Arc<str>> {
-    let text = text_of(unit, input);
-    let source = Source { name: input.name.clone(), text: text.into(), stage: input.stage };
-    let sources = compiler.compile(&[source]).sources;
-    let is_other = |name: &str| ![input.name.as_str(), SourceMap::COMMAND_LINE, Completion::ASSUMED].contains(&name);
-    sources.files().filter(|(_, file)| is_other(file.name())).map(|(_, file)| Arc::clone(file.text())).collect()
-}
-
 /// The plan of a program.
 fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failure> {
-    let newest = if target == Target::Core330 { 330 } else { 150 };
-    let others: Vec<Vec<Arc<str>>> = unit.group.inputs.iter().map(|input| other_texts(compiler, unit, input)).collect();
-    let mut texts = Vec::new();
-    for (input, others) in unit.group.inputs.iter().zip(&others) {
-        let version = version_of(unit, input.stage);
-        if version > newest && !(target == Target::Es300 && version == 300) {
-            let es = if [300, 310, 320].contains(&version) { "ES " } else { "" };
-            let name = |number: u16| format!("{}.{:02}", number / 100, number % 100);
-            let goal = if target == Target::Es300 { "ES 3.00".to_owned() } else { name(newest) };
-            let message = format!("`{}` is GLSL {es}{}, newer than the target {goal}", input.name, name(version));
-            let failure = Failure::new(Exit::Content, message);
-            return Err(match version {
-                300 => failure.help("add `--to 300es`"),
-                _ if version <= 330 => failure.help("add `--to 330`"),
-                _ => failure,
-            });
+    let source = |input: &Input| {
+        let (name, text) = (input.name.clone(), text_of(unit, input).into());
+        Source { name, text, stage: input.stage }
+    };
+    let sources: Vec<Source> = unit.group.inputs.iter().map(source).collect();
+    let versions: Vec<(&Source, u16)> = sources.iter().map(|source| (source, version_of(unit, source.stage))).collect();
+    plan_of(compiler, &versions, target).map_err(|refused| {
+        let failure = Failure::new(Exit::Content, refused.to_string());
+        match refused {
+            Refused::Newer { version: 300, .. } => failure.help("add `--to 300es`"),
+            Refused::Newer { version, .. } if version <= 330 => failure.help("add `--to 330`"),
+            Refused::NoCounterpart(_) => {
+                failure.help("write it in the terms of GLSL 1.50 first; for `gl_ClipVertex`, that is `gl_ClipDistance`")
+            }
+            _ => failure,
         }
-        let text = text_of(unit, input);
-        texts.push(Text { text, stage: input.stage, is_shader: true, version });
-        texts.extend(others.iter().map(|text| Text { text, stage: input.stage, is_shader: false, version }));
-    }
-    Ok(Plan::new(&texts, target))
+    })
 }
 
 fn rewritten(unit: &Unit, plan: &Plan) -> Vec<Upgraded> {
@@ -329,38 +310,8 @@ struct Upgrading {
     plan: Arc<Plan>,
 }
 
-impl Upgrading {
-    fn part(&self, text: &str, stage: Stage) -> Arc<str> {
-        rewrite(&Text { text, stage, is_shader: false, version: 110 }, &self.plan).into()
-    }
-}
-
 impl Preparation for Upgrading {
     fn prepare(&self, source: &Source) -> Prepared {
-        let mut prepared = self.engines.prepare(source);
-        let preludes = std::mem::take(&mut prepared.completion.preludes);
-        let new = |prelude: Prelude| Prelude { text: self.part(&prelude.text, source.stage), ..prelude };
-        prepared.completion.preludes = preludes.into_iter().map(new).collect();
-        let inner = prepared.includes.unwrap_or_else(|| Arc::new(self.engines.includes()));
-        prepared.includes = Some(Arc::new(NewIncludes { inner, plan: Arc::clone(&self.plan), stage: source.stage }));
-        prepared
-    }
-}
-
-/// Included files with their new texts.
-struct NewIncludes {
-    inner: Arc<dyn IncludeResolver + Send + Sync>,
-    plan: Arc<Plan>,
-    stage: Stage,
-}
-
-impl IncludeResolver for NewIncludes {
-    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
-        let found = self.inner.resolve(path, form, from)?;
-        if !Path::new(&found.name).exists() {
-            return Ok(found);
-        }
-        let text = rewrite(&Text { text: &found.text, stage: self.stage, is_shader: false, version: 110 }, &self.plan);
-        Ok(Included { text: text.into(), ..found })
+        completed(self.engines.prepare(source), Arc::new(self.engines.includes()), &self.plan, source.stage)
     }
 }

@@ -1,13 +1,15 @@
 //! Upgrades: a source of GLSL 1.10 to 1.40, of the compatibility profile or of ES 1.00, written as 1.50 core, 3.30 or ES 3.00.
 //!
 //! *In:* the texts of a program, each with its stage. *Out:* the new texts and notes on what the host has to do differently.
-//! *Holds:* only words are replaced and declarations added: comments, macros, includes and layout stay as they are. Nothing is
-//! decided here about whether the result is valid; a compiler has to check it.
+//! *Holds:* only words are replaced and declarations added: comments, macros, includes and layout stay as they are. [`rewrite()`]
+//! does not decide whether the result is valid; [`upgrade()`] lets a compiler check it.
 
 mod names;
 mod plan;
+mod program;
 mod rewrite;
 mod tokens;
 
 pub use plan::{Plan, Target, Text};
+pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
 pub use rewrite::rewrite;

@@ -30,6 +30,11 @@ impl Target {
             Self::Es300 => "#version 300 es",
         }
     }
+
+    /// The number of the newest desktop version that is rewritten.
+    pub(super) fn newest(self) -> u16 {
+        if self == Self::Core330 { 330 } else { 150 }
+    }
 }
 
 /// A text of a program.

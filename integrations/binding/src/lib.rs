@@ -11,6 +11,7 @@ mod program;
 #[cfg(feature = "render")]
 mod scene;
 mod settings;
+mod upgrade;
 
 pub use error::{Error, Kind, Unreadable, guarded};
 pub use includes::{Answer, Includes};
@@ -18,6 +19,7 @@ pub use program::{Compiled, Format, compile, stage_of_name, stage_of_word, targe
 #[cfg(feature = "render")]
 pub use scene::{Drawn, Files, Scenery};
 pub use settings::{OPTIONS, Settings};
+pub use upgrade::{Upgraded, upgrade};
 
 #[cfg(feature = "render")]
 pub use glisten::Precision;

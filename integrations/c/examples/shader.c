@@ -136,6 +136,25 @@ static void draw(const glisten_compiler *compiler) {
     glisten_picture_free(picture);
 }
 
+/* Sources of older versions are rewritten. */
+static void upgrade(const glisten_compiler *compiler) {
+    const glisten_source old = {"old.frag", "varying vec4 tint;\nvoid main() { gl_FragColor = tint; }\n", GLISTEN_NUL_TERMINATED, 0};
+    glisten_upgrade *upgraded;
+    CHECK(glisten_upgrade_sources(compiler, &old, 1, "330", &upgraded));
+    printf("%s", glisten_upgrade_text(upgraded, 0));
+    EXPECT(strstr(glisten_upgrade_text(upgraded, 0), "in vec4 tint;"));
+    EXPECT(glisten_upgrade_text(upgraded, 1) == NULL && glisten_upgrade_note(upgraded, 0) == NULL);
+    glisten_upgrade_free(upgraded);
+    EXPECT(glisten_upgrade_sources(compiler, &old, 1, "440", &upgraded) == GLISTEN_STATUS_ARGUMENT && upgraded == NULL);
+    const glisten_source wrong = {"wrong.frag", "void main() { colour; }\n", GLISTEN_NUL_TERMINATED, 0};
+    EXPECT(glisten_upgrade_sources(compiler, &wrong, 1, "330", &upgraded) == GLISTEN_STATUS_CONTENT);
+    EXPECT(strstr(glisten_last_error(), "`colour` is not declared"));
+    EXPECT(glisten_upgrade_sources(NULL, &old, 1, "330", &upgraded) == GLISTEN_STATUS_ARGUMENT);
+    EXPECT(glisten_upgrade_sources(compiler, &old, 1, NULL, &upgraded) == GLISTEN_STATUS_ARGUMENT);
+    EXPECT(glisten_upgrade_text(NULL, 0) == NULL && glisten_upgrade_note(NULL, 0) == NULL);
+    glisten_upgrade_free(NULL);
+}
+
 /* Wrong arguments end in a status, never in a crash. */
 static void misuse(glisten_compiler *compiler) {
     glisten_program *program = (glisten_program *)1;
@@ -178,6 +197,7 @@ int main(void) {
     show_code(program);
     show_errors(compiler);
     draw(compiler);
+    upgrade(compiler);
     misuse(compiler);
     glisten_compiler_free(compiler);
     show_code(program); /* A program outlives its compiler. */

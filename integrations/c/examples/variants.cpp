@@ -63,6 +63,19 @@ void errors() {
     }
 }
 
+void upgrade() {
+    const std::vector<glisten::Source> old = {{"old.vert", "void main() { gl_Position = ftransform(); }\n"}};
+    const glisten::Upgraded upgraded = glisten::Compiler().upgrade(old, "330");
+    expect(upgraded.texts.at(0).find("modelViewProjectionMatrix * vertex") != std::string::npos, "built-in names are replaced");
+    expect(upgraded.notes.size() == 1, "the host has to provide them");
+    try {
+        glisten::Compiler().upgrade({{"old.vert", "void main() { gl_ClipVertex = gl_Vertex; }\n"}});
+        expect(false, "some names have no counterpart");
+    } catch (const glisten::Error &error) {
+        expect(error.status() == GLISTEN_STATUS_CONTENT, "the status says whose fault it is");
+    }
+}
+
 }  // namespace
 
 int main(int count, char **arguments) try {
@@ -73,6 +86,7 @@ int main(int count, char **arguments) try {
     expect(codes[2] == other.get(), "the same input has the same code on every thread");
     expect(codes[1] != codes[2], "variants differ");
     errors();
+    upgrade();
     if (count > 1) {
         const glisten::Scene scene = glisten::Compiler().load(arguments[1]);
         const glisten::Picture picture = scene.render();

@@ -19,3 +19,4 @@ pub mod reply;
 #[cfg(feature = "render")]
 pub mod scene;
 pub mod status;
+pub mod upgrade;

@@ -41,7 +41,7 @@ const _: () = {
 ///
 /// # Safety
 /// `sources` are `count` sources with their texts.
-unsafe fn sources_of(sources: *const Source, count: usize) -> Result<Vec<glisten_binding::Source>, Error> {
+pub(crate) unsafe fn sources_of(sources: *const Source, count: usize) -> Result<Vec<glisten_binding::Source>, Error> {
     // SAFETY: the caller's.
     let sources = unsafe { slice(sources, count, "sources")? };
     let source = |source: &Source| {

@@ -9,7 +9,8 @@ fn the_header_is_current() {
     let config = cbindgen::Config::from_file(folder.join("cbindgen.toml")).expect("a configuration");
     let mut builder = cbindgen::Builder::new().with_config(config);
     // The order of the header.
-    for file in ["status", "names", "blob", "diagnostic", "reply", "compiler", "program", "scene", "picture"] {
+    for file in ["status", "names", "blob", "diagnostic", "reply", "compiler", "program", "upgrade", "scene", "picture"]
+    {
         builder = builder.with_src(folder.join(format!("src/{file}.rs")));
     }
     let mut bytes = Vec::new();

@@ -7,6 +7,7 @@ mod failure;
 mod input;
 mod program;
 mod scene;
+mod upgrade;
 
 /// The functions and types of the module.
 #[pyo3::pymodule(name = "_glisten")]
@@ -17,6 +18,8 @@ mod module {
     use super::program::{Program, compile};
     #[pymodule_export]
     use super::scene::{Scene, load};
+    #[pymodule_export]
+    use super::upgrade::{Upgraded, upgrade};
 
     #[pymodule_export]
     const VERSION: &str = glisten_binding::VERSION;

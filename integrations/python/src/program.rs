@@ -21,11 +21,16 @@ pub(crate) fn compile(
     lints: bool,
 ) -> PyResult<Program> {
     let (settings, trouble) = settings.for_call(py);
-    let sources: Result<Vec<Source>, Error> = sources.into_iter().map(source).collect();
-    let sources = sources.map_err(raised)?;
+    let sources = sources_of(sources)?;
     let compiled = py.detach(|| guarded(|| glisten_binding::compile(&settings, &sources, lints)));
     reraised(&trouble)?;
     Ok(Program { compiled: compiled.map_err(raised)? })
+}
+
+/// The sources of a call.
+pub(crate) fn sources_of(sources: Vec<(String, String, Option<String>)>) -> PyResult<Vec<Source>> {
+    let sources: Result<Vec<Source>, Error> = sources.into_iter().map(source).collect();
+    sources.map_err(raised)
 }
 
 fn source((name, text, stage): (String, String, Option<String>)) -> Result<Source, Error> {

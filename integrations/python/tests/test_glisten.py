@@ -72,6 +72,25 @@ def test_lint_returns_what_is_wrong():
     assert all(one.severity == "error" for one in denied)
 
 
+def test_old_sources_are_rewritten(tmp_path):
+    old = {
+        "a.vert": "varying vec4 tint;\nvoid main() { tint = gl_Color; gl_Position = ftransform(); }\n",
+        "a.frag": "varying vec4 tint;\nvoid main() { gl_FragColor = tint; }\n",
+    }
+    upgraded = glisten.upgrade(old, to="330")
+    assert list(upgraded.texts) == list(old) and "out vec4 tint;" in upgraded.texts["a.vert"]
+    assert any("`gl_Vertex` is `vertex`" in note for note in upgraded.notes)
+    assert glisten.compile(upgraded.texts).stages == ["vertex", "fragment"]
+    (tmp_path / "a.frag").write_text(old["a.frag"])
+    assert "fragColor" in glisten.upgrade(tmp_path / "a.frag").texts[str(tmp_path / "a.frag")]
+    with pytest.raises(glisten.CompileError, match="`x`"):
+        glisten.upgrade({"a.frag": "void main() { x; }\n"})
+    with pytest.raises(ValueError, match="gl_ClipVertex"):
+        glisten.upgrade({"a.vert": "void main() { gl_ClipVertex = gl_Vertex; }\n"})
+    with pytest.raises(ValueError, match="no version"):
+        glisten.upgrade(old, to="440")
+
+
 def test_includes():
     sources = {"a.frag": '#version 150\n#include "l.glsl"\nout vec4 c;\nvoid main() { c = vec4(L); }\n'}
     asked = []
@@ -176,6 +195,12 @@ def test_the_stubs_name_what_is_there():
                 assert f"def {inner}(" in stubs, f"{name}.{inner}"
 
 
+def test_stubs_are_those_of_the_module(tmp_path):
+    pytest.importorskip("mypy.stubtest", reason="mypy compares the stubs")
+    run = subprocess.run([sys.executable, "-m", "mypy.stubtest", "glisten"], capture_output=True, text=True, cwd=tmp_path)
+    assert run.returncode == 0, run.stdout + run.stderr
+
+
 def test_wrong_options_are_no_types(tmp_path):
     """Lines that end in `# wrong` are errors, and no others."""
     source = tmp_path / "host.py"
@@ -187,6 +212,7 @@ def test_wrong_options_are_no_types(tmp_path):
         'glisten.render("s.toml", precision="f32", files={"s.toml": b""}, spirv_env="vulkan")\n'
         'glisten.render("s.toml", precision="f16")  # wrong\n'
         'glisten.load("s.toml", optimise=True)  # wrong\n'
+        'glisten.upgrade("a.frag", to="440")  # wrong\n'
     )
     words = ["--strict", "--cache-dir", str(tmp_path / "cache"), str(source)]
     run = subprocess.run([sys.executable, "-m", "mypy", *words], capture_output=True, text=True, cwd=tmp_path)

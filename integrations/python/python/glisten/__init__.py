@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 __version__: str = _glisten.VERSION
-__all__ = ["CompileError", "Diagnostic", "Options", "Picture", "Program", "Scene", "compile", "lint", "load", "render"]
+__all__ = [
+    "CompileError", "Diagnostic", "Options", "Picture", "Program", "Scene", "Upgraded", "compile", "lint", "load", "render", "upgrade",
+]  # fmt: skip
 
 Sources = Union[Mapping[str, str], str, "os.PathLike[str]", Iterable[Union[str, "os.PathLike[str]"]]]
 Include = Union[Callable[[str, bool, str], Union[str, None]], Mapping[str, str]]
@@ -278,6 +280,41 @@ def lint(
     :func:`compile`."""
     settings = _settings(defines, include, include_folders, attributes, outputs, options)
     return Diagnostic._all(_glisten.compile(settings, _texts(sources, stages), True).diagnostics("json"))
+
+
+@dataclass(frozen=True)
+class Upgraded:
+    """The sources of a program in another version."""
+
+    texts: dict[str, str]
+    """The new text of each source, by its name."""
+    notes: tuple[str, ...]
+    """Sentences for the author of the host."""
+
+
+def upgrade(
+    sources: Sources,
+    *,
+    to: Literal["150", "330", "300es"] = "150",
+    defines: Mapping[str, object] | None = None,
+    include: Include | None = None,
+    include_folders: Iterable[str | os.PathLike[str]] = (),
+    stages: Mapping[str, str] | None = None,
+    **options: Unpack[Options],
+) -> Upgraded:
+    """Rewrites sources of GLSL 1.10 to 1.40, of the compatibility profile or of ES 1.00, as ``glisten upgrade`` does. Files that they
+    include stay as they are.
+
+    :param to: the version to write.
+    :raises CompileError: the sources have errors.
+    :raises ValueError: a source is newer than the version, or has a name that the version has no counterpart for.
+    """
+    settings = _settings(defines, include, include_folders, None, None, options)
+    texts = _texts(sources, stages)
+    inner = _glisten.upgrade(settings, texts, to)
+    if not inner.is_sound:
+        raise CompileError(inner.diagnostics("human").rstrip(), Diagnostic._all(inner.diagnostics("json")))
+    return Upgraded({name: new for (name, _, _), new in zip(texts, inner.texts)}, tuple(inner.notes))
 
 
 def load(
