@@ -20,7 +20,7 @@ fn residual(vertex: &str, fragment: &str, known: &[(&str, &[f32])], fast_math: b
     for (name, numbers) in known {
         values.uniforms.insert((*name).into(), numbers.iter().map(|value| ScalarValue::Float(*value)).collect());
     }
-    let how = How { sources: Some(&compiled.sources), fast_math, move_to_vertex };
+    let how = How { sources: Some(&compiled.sources), fast_math, move_to_vertex, ..How::default() };
     let residual = specialize_with(&program, &values, &how);
     assert!(residual.fault.is_none(), "{:?}", residual.fault);
     residual
