@@ -20,6 +20,7 @@ use glisten_scene::{FileError, FileSource};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// The tolerance that `verify` is compared with.
 const PLAIN: f64 = 1.0 / 255.0;
@@ -52,10 +53,42 @@ struct Edit {
     replace: String,
 }
 
+/// What an edited program should get from `verify`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum CaseKind {
+    /// The scene as it is.
+    Sound,
+    /// A rewriting that is legal.
+    Legal,
+    /// A mistake.
+    Fault,
+    /// A mistake that does not show in this scene.
+    Subtle,
+}
+
+impl CaseKind {
+    fn wanted(self, scenes: &str) -> Conclusion {
+        match (self, scenes) {
+            (Self::Sound, "undefined" | "empty") => Conclusion::Inconclusive,
+            (Self::Fault, _) => Conclusion::Fails,
+            _ => Conclusion::Holds,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Sound => "sound",
+            Self::Legal => "legal",
+            Self::Fault => "fault",
+            Self::Subtle => "fault that does not show",
+        }
+    }
+}
+
 /// A rewriting or a mistake.
 struct Case {
     what: String,
-    is_fault: bool,
+    kind: CaseKind,
     edits: Vec<Edit>,
 }
 
@@ -65,7 +98,7 @@ fn cases(path: &Path) -> Result<(String, Vec<Case>), String> {
     let of =
         |table: &toml::Table, key: &str| table.get(key).and_then(|value| value.as_str()).unwrap_or_default().to_owned();
     let mut found = Vec::new();
-    for (key, is_fault) in [("legal", false), ("fault", true)] {
+    for (key, kind) in [("legal", CaseKind::Legal), ("fault", CaseKind::Fault)] {
         for case in
             table.get(key).and_then(|list| list.as_array()).into_iter().flatten().filter_map(|case| case.as_table())
         {
@@ -76,7 +109,9 @@ fn cases(path: &Path) -> Result<(String, Vec<Case>), String> {
                 replace: of(edit, "replace"),
             };
             let edits = edits.filter_map(|one| one.as_table()).map(edit).collect();
-            found.push(Case { what: of(case, "what"), is_fault, edits });
+            let is_subtle = case.get("subtle").and_then(|subtle| subtle.as_bool()) == Some(true);
+            let kind = if is_subtle { CaseKind::Subtle } else { kind };
+            found.push(Case { what: of(case, "what"), kind, edits });
         }
     }
     Ok((of(&table, "kind"), found))
@@ -173,39 +208,34 @@ fn study(path: &Path, gpu: &Gpu, arguments: &Arguments, margins: &[f64], tables:
     let sound = draw(&original)?;
     let tolerance = Comparison { criterion: Criterion::Tolerance(PLAIN), ..Comparison::default() };
     let is_plain = !tolerance.compare(&sound, expected.picture()).verdict.needs_excuse();
-    let mut judge = |picture: &_, what: &str, is_fault: Option<bool>| -> Result<(), String> {
+    let mut judge = |picture: &_, what: &str, case: CaseKind| -> Result<(), String> {
         let is_caught = tolerance.compare(picture, expected.picture()).verdict.needs_excuse();
         for (index, (margin, table)) in margins.iter().zip(tables.iter_mut()).enumerate() {
             expected.set_likely_margin(*margin);
             let verdict = expected.compare(picture).map_err(|failure| failure.to_string())?;
             let conclusion = verdict.conclusion(&options.demands);
             let counts = table.entry(kind.clone()).or_default();
-            let (column, wanted) = match is_fault {
-                None => (&mut counts.sound, Conclusion::Holds),
-                Some(false) => (&mut counts.legal, Conclusion::Holds),
-                Some(true) => (&mut counts.faults, Conclusion::Fails),
-            };
-            column[place(conclusion)] += 1;
-            if is_fault == Some(true) && is_plain {
+            match case {
+                CaseKind::Sound => counts.sound[place(conclusion)] += 1,
+                CaseKind::Legal => counts.legal[place(conclusion)] += 1,
+                CaseKind::Fault => counts.faults[place(conclusion)] += 1,
+                CaseKind::Subtle => {}
+            }
+            if case == CaseKind::Fault && is_plain {
                 counts.plain += u32::from(is_caught);
                 counts.plain_of += 1;
             }
-            let is_as_wanted = match (kind.as_str(), is_fault) {
-                ("undefined" | "empty", None) => conclusion == Conclusion::Inconclusive,
-                _ => conclusion == wanted,
-            };
-            if index == 0 && (arguments.list || !is_as_wanted) {
+            if index == 0 && (arguments.list || conclusion != case.wanted(&kind)) {
                 let plain = if is_caught { "; 1/255 fails" } else { "" };
-                println!("{name}: {what}: {}{plain}", words(&verdict));
+                println!("{name}: {}: {what}: {}{plain}", case.name(), words(&verdict));
             }
         }
         Ok(())
     };
-    judge(&sound, "as it is", None)?;
+    judge(&sound, "as it is", CaseKind::Sound)?;
     for case in &cases {
         let edited = scene(&file, &case.edits).map_err(|why| format!("{}: {why}", case.what))?;
-        let label = if case.is_fault { "fault" } else { "legal" };
-        judge(&draw(&edited)?, &format!("{label}: {}", case.what), Some(case.is_fault))?;
+        judge(&draw(&edited)?, &case.what, case.kind)?;
     }
     Ok(())
 }
@@ -241,9 +271,12 @@ fn main() -> ExitCode {
         [Options::default().likely_margin].into_iter().chain(arguments.margins.iter().copied()).collect();
     let mut tables: Vec<Table> = margins.iter().map(|_| Table::new()).collect();
     for file in &files {
-        if let Err(why) = study(file, &gpu, &arguments, &margins, &mut tables) {
+        let start = Instant::now();
+        let told = study(file, &gpu, &arguments, &margins, &mut tables);
+        if let Err(why) = told {
             println!("{}: {why}", file.display());
         }
+        eprintln!("{}: {:.1} s", file.display(), start.elapsed().as_secs_f64());
     }
     for (margin, table) in margins.iter().zip(&tables) {
         println!("\nmargin {margin}\n\n{HEAD}");

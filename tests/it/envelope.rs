@@ -5,7 +5,7 @@
 
 #![expect(clippy::print_stdout, reason = "figures of the docs are printed here")]
 
-use crate::drawing::{as_on_vulkan, from_disk, gpu, loaded, reference, strict};
+use crate::drawing::{as_on_vulkan, from_disk, from_texts, gpu, loaded, reference, strict};
 use crate::support::{compiler, fixture};
 use glisten::scene::{MemoryFiles, Scene, load};
 use glisten::verify::{Expected, Options};
@@ -47,6 +47,34 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
     assert!(!verdict.fails(), "{verdict:?}");
     let found: Vec<&str> = verdict.known_faults.iter().map(|count| count.fault).collect();
     assert_eq!(found, ["clipped_noperspective"]);
+}
+
+/// A triangle whose third corner is behind the eye. Where sides of the window cut it, a new corner has w = 0, and Mesa derives
+/// NaN from the position there.
+#[test]
+fn noperspective_through_the_eye_is_linear_in_the_window() {
+    let text = "framebuffer = { width = 64, height = 64 }\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n[draw.attributes]\n\
+                p = { size = 4, values = [-2, -1, -0.5, 1, 2, -1, -0.5, 1, 0, 3, -3.5, -2] }\n\
+                c = { size = 3, values = [1, 0, 0, 0, 1, 0, 0, 0, 1] }\n";
+    let vertex =
+        "#version 150\nin vec4 p; in vec3 c;\nnoperspective out vec3 v;\nvoid main() { gl_Position = p; v = c; }\n";
+    let fragment = "#version 150\nnoperspective in vec3 v;\nout vec4 o;\nvoid main() { o = vec4(v, 1.0); }\n";
+    let scene = from_texts([("a.toml", text), ("a.vert", vertex), ("a.frag", fragment)]);
+    let options = Options::default();
+    let mut expected = Expected::new(&scene, &options).expect("the reference draws it");
+    let picture = expected.picture();
+    let covered = (0..64 * 64).filter(|pixel| picture.covered[*pixel]);
+    let red = |pixel: usize| {
+        let [x, y] = [pixel % 64, pixel / 64].map(|place| (place as f64 + 0.5) / 32.0 - 1.0);
+        // 1 at (-2, -1), 0 at (2, -1), and 0 at (0, -1.5), which is the third corner over its w.
+        1.5 - 0.25 * x - y
+    };
+    let errors: Vec<f64> = covered.map(|pixel| (picture.attachments[0][pixel][0] - red(pixel)).abs()).collect();
+    assert!(errors.len() > 200 && errors.iter().all(|error| *error < 1e-9), "{errors:?}");
+    let verdict = expected.compare(&drawn(&gpu(), &scene)).expect("the reference draws it");
+    // The driver has NaN at each of these pixels, which no driver may.
+    assert_eq!((verdict.outside, verdict.non_finite_cpu), (0, 0), "{verdict:?}");
+    assert_eq!(verdict.non_finite_gpu > 0, verdict.fails(), "{verdict:?}");
 }
 
 /// For the channels of covered pixels: the width of the envelope, and lavapipe's error.
@@ -275,7 +303,7 @@ fn a_prepass_decides_depth() {
     let lit = "#version 150\nin vec3 n;\nout vec4 color;\nvoid main() { color = vec4(n * 0.5 + 0.5, 1.0); }\n";
     let undecided = |function: &str, invariant: &str| {
         let (text, vertex) = (draws(function), vertex(invariant));
-        let scene = crate::drawing::from_texts([
+        let scene = from_texts([
             ("a.toml", text.as_str()),
             ("a.vert", vertex.as_str()),
             ("dark.frag", dark),

@@ -127,6 +127,8 @@ mod stability_exact;
 mod stability_library;
 #[cfg(feature = "cli")]
 mod stability_page;
+#[cfg(feature = "gpu")]
+mod study;
 mod support;
 mod targets;
 #[cfg(feature = "gpu")]

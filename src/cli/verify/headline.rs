@@ -43,18 +43,26 @@ fn inconclusive(verification: &Verification, verdict: &Verdict) -> Headline {
         return Headline { text: text.to_owned(), place: None };
     }
     let demands = &verification.demands;
-    let told_share = format!(
-        "only {:.1} % of the covered pixels can be judged; {:.1} % are required",
-        100.0 * verdict.share_judged(demands),
-        100.0 * demands.evidence_share
-    );
-    if let Some(undefined) = verification.undefined.first().filter(|_| is_mostly_undefined(verdict)) {
-        let UndefinedAt { what, file, line, column, .. } = undefined;
+    let share = verdict.share_judged(demands);
+    let undefined = verdict.evidence.undefined;
+    let told_share = match share < demands.evidence_share {
+        true => format!(
+            "only {:.1} % of the covered pixels can be judged; {:.1} % are required",
+            100.0 * share,
+            100.0 * demands.evidence_share
+        ),
+        false => format!(
+            "{:.1} % of the covered pixels are undefined",
+            100.0 * undefined as f64 / verdict.covered.max(1) as f64
+        ),
+    };
+    let is_mostly = is_mostly_undefined(verdict) || share >= demands.evidence_share;
+    if let Some(first) = verification.undefined.first().filter(|_| is_mostly) {
+        let UndefinedAt { what, file, line, column, .. } = first;
         let place = (file.clone(), *line, *column);
         let text = format!(
-            "inconclusive: {told_share}; {} pixels depend on what GLSL leaves undefined: {what}, at {}: change that, or \
+            "inconclusive: {told_share}; {undefined} pixels depend on what GLSL leaves undefined: {what}, at {}: change that, or \
              {ACCEPT}",
-            verdict.evidence.undefined,
             told(&place)
         );
         return Headline { text, place: Some(place) };

@@ -82,9 +82,9 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn planes() -> Planes {
         Planes::Weights
     }
-    /// The bits of the weights of linear filtering; none if they are the domain's numbers.
+    /// The steps of the weights of linear filtering; none if they are the domain's numbers.
     #[inline(always)]
-    fn weight_bits() -> Option<u32> {
+    fn weights() -> Option<FixedPoint> {
         None
     }
     /// The error of a point's size, as a share of the allowed one, -1 to 1.
@@ -98,11 +98,35 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn level(steps: [[f64; 3]; 2]) -> f64 {
         longest(steps)
     }
+    /// A level of detail, bias included, with the steps that it has.
+    #[inline(always)]
+    fn stepped_level(level: f64) -> f64 {
+        level
+    }
     /// The row and the column of the quad whose steps make the level of detail of all four fragments; none if each has its
     /// own.
     #[inline(always)]
     fn level_corner() -> Option<Corner> {
         None
+    }
+}
+
+/// A number with a few bits of fraction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedPoint {
+    /// The bits of the fraction.
+    pub bits: u32,
+    /// Whether what is between two steps becomes the lower one, not the nearer one.
+    pub down: bool,
+}
+
+impl FixedPoint {
+    /// The step that a number becomes.
+    #[inline(always)]
+    pub fn nearest(self, number: f64) -> f64 {
+        let steps = f64::from(1_u32 << self.bits.min(24));
+        let scaled = number * steps;
+        (if self.down { scaled.floor() } else { scaled.round() }) / steps
     }
 }
 

@@ -11,6 +11,7 @@ use super::machine::Machine;
 use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number, Source};
 use crate::texture;
+use glisten_front::hir::Stage;
 use glisten_front::source::Span;
 use std::sync::Mutex;
 
@@ -44,6 +45,8 @@ pub struct Guess {
 
 /// The name that a variable without a value has in reports.
 pub(super) const UNWRITTEN: &str = "a variable that was never written";
+const SPLIT_LOOKUP: &str = "a lookup by derivatives that only a part of the quad runs";
+const SPLIT_DERIVATIVE: &str = "a derivative that only a part of the quad runs";
 
 impl Guess {
     /// A guess, at one place or at all.
@@ -84,16 +87,23 @@ impl Code {
     }
 
     /// Whether an instruction may be undefined although its envelope does not say so: a texel that is fetched, an element
-    /// at an index, a variable.
+    /// at an index, a variable, a derivative in a branch or a loop.
     pub fn hides_undefined(&self) -> bool {
+        let insts = &self.inner.main.insts;
+        let branches = insts.iter().any(|inst| {
+            matches!(inst, Inst::Arm { .. } | Inst::LoopTest { .. } | Inst::LoopBack { .. } | Inst::CaseMask { .. })
+        });
         let hides = |inst: &Inst| match inst {
             Inst::LoadFloat { .. } | Inst::LoadInt { .. } => true,
-            Inst::Texture { call } => {
-                self.inner.textures.get(*call as usize).is_some_and(|call| call.lookup == Lookup::Fetch)
-            }
+            Inst::Derivative { .. } => branches,
+            Inst::Texture { call } => self.inner.textures.get(*call as usize).is_some_and(|call| match call.lookup {
+                Lookup::Fetch => true,
+                Lookup::Implicit | Lookup::QueryLod => branches,
+                _ => false,
+            }),
             _ => false,
         };
-        !self.inner.unwritten.is_empty() || self.inner.main.insts.iter().any(hides)
+        !self.inner.unwritten.is_empty() || insts.iter().any(hides)
     }
 }
 
@@ -160,12 +170,39 @@ impl<D: Domain> Machine<D> {
                 ("an index outside of the array", lanes_where(mask, beyond))
             }
             Inst::Texture { call } => {
-                let call = inner.textures.get(call as usize).filter(|call| call.lookup == Lookup::Fetch)?;
-                ("`texelFetch` outside of the texture", lanes_where(mask, |lane| self.is_beyond(call, lane)))
+                let call = inner.textures.get(call as usize)?;
+                match call.lookup {
+                    Lookup::Fetch => {
+                        ("`texelFetch` outside of the texture", lanes_where(mask, |lane| self.is_beyond(call, lane)))
+                    }
+                    Lookup::Implicit | Lookup::QueryLod if inner.stage == Stage::Fragment => {
+                        let split = self.split(mask);
+                        (SPLIT_LOOKUP, lanes_where(split, |lane| self.needs_level(call, lane)))
+                    }
+                    _ => return None,
+                }
             }
+            Inst::Derivative { .. } => (SPLIT_DERIVATIVE, self.split(mask)),
             _ => return None,
         };
         (lanes != 0).then_some((what, lanes))
+    }
+
+    /// The lanes whose quad has lanes elsewhere in the program: these derivatives are undefined (GLSL 1.50 §8.7, §8.8).
+    /// Discarded fragments go on as helpers.
+    fn split(&self, mask: u64) -> u64 {
+        let elsewhere = self.whole & !mask & !self.discarded;
+        let split = (0..LANES).step_by(4).map(|first| 0xf << first).filter(|quad| elsewhere & quad != 0);
+        mask & split.fold(0, |lanes, quad: u64| lanes | quad)
+    }
+
+    /// Whether a lookup depends on the level of detail.
+    fn needs_level(&self, call: &TextureCall, lane: usize) -> bool {
+        let slot = self.registers.int(call.sampler).at(lane).bits() as usize;
+        let texture = self.textures.get(slot).and_then(Option::as_deref);
+        texture.is_some_and(|texture| {
+            texture.filter.uses_levels() && texture.levels.len() > 1 || texture.sampling.has_two_filters(texture.filter)
+        })
     }
 
     /// Whether a texel that a lane fetches is not in the texture.

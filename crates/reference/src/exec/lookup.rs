@@ -243,15 +243,15 @@ impl<D: Domain> LaneLookup<'_, D> {
             },
             offset: self.ints(&self.call.offset),
             bounded: D::HAS_INTERVALS,
-            weight_bits: D::weight_bits(),
+            weights: D::weights(),
             profile: self.registers.profile,
         }
     }
 
-    /// The level of detail with the texture's own bias (OpenGL 3.2 §3.8.11).
+    /// The level of detail with the texture's own bias (OpenGL 3.2 §3.8.11), and the steps that the domain gives it.
     fn level(&self, texture: &Texture, stage: Stage, at: [BoundedFloat; 3]) -> BoundedFloat {
         let bias = f64::from(texture.sampling.lod_bias);
-        self.unbiased_level(texture, stage, at).map(|level| level + bias)
+        self.unbiased_level(texture, stage, at).map(|level| D::stepped_level(level + bias))
     }
 
     /// The level of detail.

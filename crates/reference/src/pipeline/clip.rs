@@ -8,7 +8,7 @@
 //! edge is computed in each domain from its own positions. Afterwards `w > 0`, so equation (108) is valid everywhere.
 //! Varyings of new vertices: `smooth` ones by the `t` of the cut (§2.19.1), `noperspective` ones by the `t` that is
 //! linear in window space, `t w_in / w`. That is also correct where a driver derives it from a difference of
-//! coordinates that may be 0.
+//! coordinates that may be 0. Where w is about 0, they are computed from their products with w.
 
 use super::vertices::Vertices;
 use crate::domain::faults::Fault;
@@ -24,6 +24,17 @@ pub(super) const SIDES: u32 = 0b1111;
 
 /// The corners of the remaining part of a triangle.
 pub(super) type Polygon = SmallVec<[u32; 12]>;
+
+/// A cut is at the eye if its w is at most this share of that of the ends of its edge.
+const AT_EYE: f32 = 1.0 / 1024.0;
+
+/// A vertex that a cut has added where w is about 0. Varyings that are linear in the window are large there, or infinite.
+#[derive(Debug)]
+pub(super) struct AtEye<F> {
+    vertex: u32,
+    /// Each `noperspective` varying times w.
+    products: Vec<F>,
+}
 
 /// How far along an edge a plane cuts it: in the domain, from the f32 positions in f32, and from them in f64.
 #[derive(Clone, Copy, Debug)]
@@ -115,6 +126,9 @@ impl<D: Domain> Vertices<D> {
         let clip: [D::Float; 4] = std::array::from_fn(|i| mix(self.clip[a][i], self.clip[b][i], t));
         let clip32: [f32; 4] = self.cut32(a, b, cut);
         let in_window = t.mul(self.clip[b][3]).div(clip[3]);
+        let is_at_eye = clip32[3].abs() <= AT_EYE * self.clip32[a][3].abs().max(self.clip32[b][3].abs());
+        let starts_at_eye = [a, b].map(|end| self.at_eye.iter().any(|one| one.vertex as usize == end));
+        let mut products = Vec::new();
         self.clip.push(clip);
         self.clip32.push(clip32);
         self.size.push(mix32(self.size[a], self.size[b]));
@@ -129,7 +143,13 @@ impl<D: Domain> Vertices<D> {
             self.floats.push(match self.interpolations[i] {
                 Interpolation::Smooth => mix(x, y, t),
                 Interpolation::Noperspective => {
-                    let value = mix(x, y, in_window);
+                    let value = if is_at_eye || starts_at_eye != [false; 2] {
+                        let product = mix(self.product(a, i), self.product(b, i), t);
+                        products.push(product);
+                        product.div(clip[3])
+                    } else {
+                        mix(x, y, in_window)
+                    };
                     if self.faults.excuses(Fault::ClippedNoperspective) {
                         self.excused(value, self.lost_in_window(a, b), (y.value() - x.value()).abs())
                     } else {
@@ -140,11 +160,23 @@ impl<D: Domain> Vertices<D> {
                 Interpolation::Flat => x,
             });
         }
+        if is_at_eye && !products.is_empty() {
+            self.at_eye.push(AtEye { vertex: id, products });
+        }
         for i in 0..self.int_count {
             self.ints.push(self.ints[a * self.int_count + i]);
         }
         self.finish_last();
         id
+    }
+
+    /// A `noperspective` varying times w, which is linear in clip space as well, and finite where w is 0.
+    fn product(&self, vertex: usize, varying: usize) -> D::Float {
+        let is_linear = |interpolation: &&Interpolation| **interpolation == Interpolation::Noperspective;
+        let place = self.interpolations[..varying].iter().filter(is_linear).count();
+        let kept = self.at_eye.iter().find(|one| one.vertex as usize == vertex);
+        kept.and_then(|one| one.products.get(place).copied())
+            .unwrap_or_else(|| self.floats[vertex * self.float_count + varying].mul(self.clip[vertex][3]))
     }
 
     /// The f32 position of a cut. If an end is so far out that f32 has no digits left for the cut, the position

@@ -4,6 +4,7 @@
 //! vertex of every instance, in the draw's domain, and positions also in f32, which decide coverage. *Holds:* a
 //! vertex that several indices refer to is shaded once. The order does not depend on threads.
 
+use super::clip::AtEye;
 use super::invoke::Job;
 use super::plan::Plan;
 use super::watch::{Watch, jittered};
@@ -41,6 +42,8 @@ pub(super) struct Vertices<D: Domain> {
     pub(super) floats: Vec<D::Float>,
     /// Smooth varyings divided by w, others as written: the values that (108) and (106) interpolate.
     pub(super) quotients: Vec<D::Float>,
+    /// The vertices that cuts have added where w is about 0.
+    pub(super) at_eye: Vec<AtEye<D::Float>>,
     /// The number of scalars.
     pub(super) float_count: usize,
     /// Integer varyings, `int_count` for each vertex.
@@ -93,6 +96,7 @@ impl<D: Domain> Vertices<D> {
             distance_count: distance_count(draw, plan),
             floats: Vec::with_capacity(count * plan.floats.len()),
             quotients: Vec::with_capacity(count * plan.floats.len()),
+            at_eye: Vec::new(),
             float_count: plan.floats.len(),
             ints: Vec::with_capacity(count * plan.ints.len()),
             int_count: plan.ints.len(),

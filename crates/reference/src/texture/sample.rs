@@ -2,7 +2,7 @@
 
 use super::texel;
 use super::{BoundedFloat, BoundedInt, Sampled, cube, level};
-use crate::domain::{Profile, limits, rules};
+use crate::domain::{FixedPoint, Profile, limits, rules};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use glisten_scene::{Compare, Texture, TextureLevel, Wrap};
 
@@ -21,8 +21,8 @@ pub(crate) struct Request {
     pub(crate) offset: [i32; 3],
     /// Whether intervals are needed.
     pub(crate) bounded: bool,
-    /// The bits of the weights of linear filtering; none if they are exact.
-    pub(crate) weight_bits: Option<u32>,
+    /// The steps of the weights of linear filtering; none if they are exact.
+    pub(crate) weights: Option<FixedPoint>,
     /// The precision of the filters.
     pub(crate) profile: Profile,
 }
@@ -436,14 +436,6 @@ fn at_level(texture: &Texture, number: usize, request: &Request, linear: bool) -
     if request.bounded { limited(texture, level, request, &footprint, linear, result) } else { result }
 }
 
-/// A weight with the bits that it has.
-#[inline(always)]
-fn quantized(weight: f64, bits: Option<u32>) -> f64 {
-    let Some(bits) = bits else { return weight };
-    let steps = f64::from(1_u32 << bits.min(24));
-    (weight * steps).round() / steps
-}
-
 /// The weighted sum over the corners of the footprint.
 fn blend(
     texture: &Texture,
@@ -453,6 +445,9 @@ fn blend(
     linear: bool,
 ) -> [BoundedFloat; 4] {
     let corners = if linear { 1usize << footprint.count } else { 1 };
+    // A GPU may round the share of the texels that pass a comparison instead.
+    let is_share = |steps: &FixedPoint| request.kind.shadow && !steps.down;
+    let (of_share, of_weights) = (request.weights.filter(is_share), request.weights.filter(|steps| !is_share(steps)));
     let mut sum = [BoundedFloat::default(); 4];
     let mut missing = 0.0;
     let mut present: [Option<[BoundedFloat; 4]>; 8] = [None; 8];
@@ -466,7 +461,7 @@ fn blend(
     for (corner, kept) in present.iter_mut().enumerate().take(corners) {
         let pick = |axis: usize| {
             let side = footprint.axes[axis];
-            let weight = quantized(side.weight, request.weight_bits);
+            let weight = of_weights.map_or(side.weight, |steps| steps.nearest(side.weight));
             if corner >> axis & 1 == 1 { (side.second, weight) } else { (side.first, 1.0 - weight) }
         };
         let weight: f64 = (0..footprint.count).map(|axis| pick(axis).1).product();
@@ -485,6 +480,9 @@ fn blend(
     if missing > 0.0 {
         // Three texels meet at a cube's corner: the fourth is their mean.
         present.iter().flatten().for_each(|texel| add(&mut sum, missing / 3.0, texel));
+    }
+    if let (Some(steps), [share, ..]) = (of_share, &mut sum) {
+        share.value = steps.nearest(share.value);
     }
     sum
 }

@@ -7,7 +7,7 @@
 //!
 //! 1. [`Class::Excused`]: outside its envelope, and explained by a known fault of the driver.
 //! 2. [`Class::Undecided`]: a discard, a depth test or a branch is undecided there.
-//! 3. [`Class::Unlimited`]: a channel has no finite bound, or the full range of the format.
+//! 3. [`Class::Unlimited`]: a channel has no finite bound, the full range of the format, or may be NaN.
 //! 4. [`Class::Weak`]: a channel's envelope is wider than the goal. Near an edge, the envelope of each primitive that may
 //!    own the pixel counts alone, not their hull.
 //! 5. [`Class::Edge`]: near an edge; judged by the hull of the colors of the primitives that may own it.
@@ -403,7 +403,9 @@ impl<'a> Ruler<'a> {
             };
         }
         match () {
-            () if self.channels(pixel).any(|interval| self.written.is_unlimited(interval)) => Class::Unlimited,
+            () if self.channels(pixel).any(|interval| interval.may_be_nan || self.written.is_unlimited(interval)) => {
+                Class::Unlimited
+            }
             () if self.width(pixel) > self.goal => Class::Weak,
             () => Class::Judged,
         }

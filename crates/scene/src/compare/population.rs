@@ -135,11 +135,15 @@ impl Population {
                 (0..4).map(move |channel| {
                     let (value, unit) = (color[channel], ruler.unit(color[channel]));
                     let far = |range: Interval| distance(range, value, unit);
+                    let is_far = || {
+                        let scale = unit.max(self.usual_width(attachment, pixel, channel));
+                        distance(self.range(attachment, pixel, channel), value, scale) > FAR
+                    };
                     let around = || self.range_around(attachment, pixel, channel);
                     // A NaN is no width.
                     let width = intervals[channel].width();
                     let may_jump = width.is_nan() || width > ruler.goal;
-                    match far(self.range(attachment, pixel, channel)) > FAR {
+                    match far(self.range(attachment, pixel, channel)) > FAR && is_far() {
                         false => Place::Near,
                         true if may_jump && far(around()) <= BEYOND_JUMP => Place::AcrossJump,
                         true => Place::Far,
@@ -183,6 +187,15 @@ impl Population {
 
     fn range(&self, attachment: usize, pixel: usize, channel: usize) -> Interval {
         self.ranges.get(attachment).and_then(|ranges| ranges.get(pixel)).map_or(NOTHING, |ranges| ranges[channel])
+    }
+
+    /// The median width of the ranges of a pixel and those around it. A few dozen members may agree on one pixel by
+    /// chance, but not on most of nine.
+    fn usual_width(&self, attachment: usize, pixel: usize, channel: usize) -> f64 {
+        let widths = self.around(pixel).map(|place| self.range(attachment, place, channel).width());
+        let mut widths: Vec<f64> = widths.map(|width| if width.is_finite() { width } else { 0.0 }).collect();
+        widths.sort_by(f64::total_cmp);
+        widths.get(widths.len() / 2).copied().unwrap_or(0.0).max(0.0)
     }
 
     /// The range at a pixel and those around it.
@@ -289,6 +302,24 @@ mod tests {
         // Farther away the step cannot be, unless the envelope is wide and the step one pixel away.
         assert_eq!(suspects([0.25, 0.25, 0.75, 0.75, 0.25, 0.25], false), [2, 4, 5]);
         assert_eq!(suspects([0.25, 0.25, 0.75, 0.75, 0.25, 0.25], true), [5]);
+    }
+
+    #[test]
+    fn members_that_agree_on_one_pixel_by_chance_say_nothing() {
+        let suspects_where = |agree: usize| {
+            let mut population = Population::new(1, [9, 1], 1);
+            for red in [0.25, 0.26] {
+                let reds = (0..9).map(|x| if x < agree { 0.255 } else { red });
+                population.add(&Picture::of_colors(9, 1, reds.map(|red| [red, 0.0, 0.0, 1.0]).collect()));
+            }
+            let gpu = Picture::of_colors(9, 1, vec![[0.275, 0.0, 0.0, 1.0]; 9]);
+            let mut reference = Picture::of_colors(9, 1, vec![[0.255, 0.0, 0.0, 1.0]; 9]);
+            reference.intervals = Some(vec![vec![[0.255, 0.0, 0.0, 1.0].map(|value| Interval::around(value, 0.5)); 9]]);
+            let written = super::super::evidence::Written::everything(1);
+            let ruler = Ruler::new(&reference, &written, None);
+            (0..9).filter(|pixel| population.place(&gpu, &reference, &ruler, *pixel) == Place::Far).count()
+        };
+        assert_eq!([1, 5].map(suspects_where), [0, 5]);
     }
 
     #[test]

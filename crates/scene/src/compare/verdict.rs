@@ -74,12 +74,15 @@ pub struct FaultCount {
 pub enum Conclusion {
     /// Every difference is explained, and enough of the picture was judged.
     Holds,
-    /// Every difference is explained, but too little of the picture was judged: nothing is covered, or too few of the
-    /// covered pixels have a narrow envelope.
+    /// Every difference is explained, but too little of the picture was judged: nothing is covered, too few of the
+    /// covered pixels have a narrow envelope, or too many depend on what the language leaves undefined.
     Inconclusive,
     /// There is a difference that is not explained.
     Fails,
 }
+
+/// The share of the covered pixels that may depend on what the language leaves undefined.
+const UNDEFINED_SHARE: f64 = 0.01;
 
 /// The demands on a verdict that holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,6 +160,7 @@ impl Verdict {
         match () {
             () if self.needs_excuse() || suspects => Conclusion::Fails,
             () if self.covered == 0 || self.share_judged(demands) < demands.evidence_share => Conclusion::Inconclusive,
+            () if self.is_undefined(demands) => Conclusion::Inconclusive,
             () => Conclusion::Holds,
         }
     }
@@ -164,6 +168,15 @@ impl Verdict {
     /// Whether so many pixels are suspect, or outside of what is likely, that the picture is.
     pub fn is_suspect(&self) -> bool {
         population::fails(self.suspect.unwrap_or(0) + self.outside_likely, self.covered)
+    }
+
+    /// Whether so many pixels depend on what the language leaves undefined that the program should be changed: more than
+    /// 1 % of the covered ones, and at least eight. Who asks for less evidence than usual accepts these, too.
+    pub fn is_undefined(&self, demands: &Demands) -> bool {
+        let (undefined, most) = (self.evidence.undefined, UNDEFINED_SHARE * self.covered as f64);
+        demands.evidence_share >= Demands::default().evidence_share
+            && undefined >= population::MIN_PIXELS
+            && undefined as f64 > most
     }
 
     /// Whether the conclusion is [`Conclusion::Holds`] by the usual [`Demands`], with undecided pixels as judged ones if
@@ -345,6 +358,21 @@ mod tests {
             (verdict.evidence.unlimited, verdict.conclusion(&Demands::default())),
             (2, Conclusion::Inconclusive)
         );
+    }
+
+    #[test]
+    fn undefined_pixels_say_that_the_program_should_change() {
+        let of = |undefined: u64| Verdict {
+            covered: 1000,
+            evidence: Evidence { judged: 1000 - undefined, undefined, ..Evidence::default() },
+            ..Verdict::default()
+        };
+        let usual = Demands::default();
+        assert_eq!([10, 11, 60].map(|count| of(count).conclusion(&usual)), {
+            [Conclusion::Holds, Conclusion::Inconclusive, Conclusion::Inconclusive]
+        });
+        let few = Demands { evidence_share: 0.9, ..usual };
+        assert_eq!([60, 200].map(|count| of(count).conclusion(&few)), [Conclusion::Holds, Conclusion::Inconclusive]);
     }
 
     /// A verdict on pixels of which the first `wide` have an envelope as wide as the picture's range.

@@ -194,6 +194,13 @@ impl NumberBlock<SimulatedFloat> for SimulatedBlock {
     fn div(&self, other: &Self) -> Self {
         let gpu = Gpu::current();
         let (a, b) = (self.read(&gpu), other.read(&gpu));
+        if gpu.typical && !Gpu::is_precise(Function::Divide) {
+            return each(
+                #[inline(always)]
+                |lane| functions::by_reciprocal(a.0[lane], b.0[lane]),
+            )
+            .rounded(&gpu);
+        }
         let exact = each(
             #[inline(always)]
             |lane| a.0[lane] / b.0[lane],

@@ -23,12 +23,24 @@ pub(super) fn fraction(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & FRACTION | 1.0_f64.to_bits()) - 1.0
 }
 
-/// The f32 near an exact result that is off by the swing of a GPU's error at a place, at most by `allowed`.
+/// The f32 near an exact result that is off by the swing of a GPU's error at a place, at most by `allowed`. Zeros, infinities,
+/// and what follows from infinities are exact, as on every GPU.
 #[inline(always)]
 pub(super) fn off(exact: f64, allowed: f64, swing: Swing, place: f64) -> f64 {
+    if exact == 0.0 || !exact.is_finite() || !allowed.is_finite() {
+        return exact;
+    }
     // The rounding to f32 is a part of it.
     let room = (allowed - 0.5 * ulp(exact)).max(0.0);
     f64::from((exact + swing.at(place) * room) as f32)
+}
+
+/// `a * (1.0 / b)`, the reciprocal rounded to the nearest. Where it has no f32, the quotient.
+#[inline(always)]
+pub(super) fn by_reciprocal(a: f64, b: f64) -> f64 {
+    let reciprocal = f64::from((1.0 / b) as f32);
+    let has_one = (reciprocal.abs() >= f64::from(f32::MIN_POSITIVE)) & reciprocal.is_finite();
+    if has_one { a * reciprocal } else { a / b }
 }
 
 /// The exact result with this GPU's error, at most `allowed`.
@@ -71,11 +83,14 @@ impl SimulatedFloat {
         Self(with_error(&gpu, exact, allowed, function, fraction(x)))
     }
 
-    /// `a / b`
+    /// `a / b`. Drivers divide, or multiply by the reciprocal.
     pub(super) fn quotient(self, other: Self) -> Self {
         let gpu = Gpu::current();
         let (a, b) = (self.read(&gpu), other.read(&gpu));
         let exact = a / b;
+        if gpu.typical && !Gpu::is_precise(Function::Divide) {
+            return Self(gpu.rounded(by_reciprocal(a, b)));
+        }
         Self(with_error(&gpu, exact, rules::DIV.ulps() * ulp(exact), Function::Divide, fraction(b)))
     }
 
@@ -158,6 +173,32 @@ mod tests {
             }
             self.counted += u32::from(interval.low < interval.high);
         }
+    }
+
+    /// What follows from an infinity has no error: `pow(0.0, 16.0)` is 0 on every GPU.
+    #[test]
+    fn infinities_have_no_error() {
+        for number in 0..48 {
+            Gpu::of(3, number).enter();
+            let of = |value: f64| SimulatedFloat::from_f64(value);
+            assert_eq!(of(0.0).pow(of(16.0)).value(), 0.0, "{:?}", Gpu::current());
+            assert_eq!(of(f64::NEG_INFINITY).exp2().value(), 0.0);
+            assert_eq!(of(f64::INFINITY).inversesqrt().value(), 0.0);
+            assert_eq!(of(6.0).div(of(f64::INFINITY)).value(), 0.0);
+        }
+        Gpu::STRICT.enter();
+    }
+
+    /// Drivers that multiply by the reciprocal divide a number by itself, and by a power of two, without an error.
+    #[test]
+    fn gpus_that_are_as_drivers_are_divide_as_they_do() {
+        for number in 0..Gpu::TYPICAL {
+            Gpu::of(1, number).enter();
+            let divided = |a: f64, b: f64| SimulatedFloat::from_f64(a).div(SimulatedFloat::from_f64(b)).value();
+            assert_eq!([(2.0, 2.0), (5.0, 4.0)].map(|(a, b)| divided(a, b)), [1.0, 1.25]);
+            assert!(divided(3.0, 3.0) >= 1.0, "so that `mod` is 0");
+        }
+        Gpu::STRICT.enter();
     }
 
     /// Every function of every GPU of the population is inside of the envelope of the same function.

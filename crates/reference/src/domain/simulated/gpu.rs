@@ -9,7 +9,7 @@
 
 use super::levels::{Levels, Measure};
 use super::rounding::{Rounder, Rounding};
-use crate::domain::{Corner, Profile};
+use crate::domain::{Corner, FixedPoint, Profile};
 use glisten_scene::random::{mixed, unit};
 use std::cell::Cell;
 
@@ -39,8 +39,8 @@ pub struct Gpu {
     /// The row and the column of the quad whose derivatives are those of all four fragments, if they are coarse.
     pub(super) corner: Option<Corner>,
     pub(super) planes: Planes,
-    /// The bits of filter weights; none if they are floats.
-    pub(super) weight_bits: Option<u32>,
+    /// The steps of filter weights; none if they are floats.
+    pub(super) weights: Option<FixedPoint>,
     /// The level of detail of textures.
     pub(super) levels: Levels,
     /// Whether its functions err as those of drivers do, and not as far as the rules allow.
@@ -75,6 +75,8 @@ enum Choice {
     Undefined,
     /// Of each [`Function`], from here on.
     Functions,
+    WeightsDown = 1 << 16,
+    LevelsDown,
 }
 
 /// A function with an error of its own.
@@ -164,7 +166,7 @@ impl Gpu {
         passes_nan: false,
         corner: None,
         planes: Planes::Weights,
-        weight_bits: None,
+        weights: None,
         levels: Levels::EXACT,
         typical: true,
         forms: 0,
@@ -204,7 +206,7 @@ impl Gpu {
                 1 => Planes::FromCorner,
                 _ => Planes::FromVertex,
             },
-            weight_bits: yes(Choice::Weights).then_some(8),
+            weights: yes(Choice::Weights).then_some(FixedPoint { bits: 8, down: yes(Choice::WeightsDown) }),
             levels: blank.levels(),
             typical,
             forms: blank.pick(Choice::Forms, 256) as u8,
@@ -220,7 +222,7 @@ impl Gpu {
         }
         Self {
             corner: self.corner.filter(|_| !profile.fine_derivatives),
-            weight_bits: self.weight_bits.filter(|_| !profile.float_weights),
+            weights: self.weights.filter(|_| !profile.float_weights),
             levels: if profile.straight_levels { Levels::LLVMPIPE } else { self.levels },
             ..self
         }
@@ -240,11 +242,12 @@ impl Gpu {
                 _ => Measure::Root,
             },
             straight: self.pick(Choice::Straight, 4) == 0,
-            bits: match self.pick(Choice::Levels, 3) {
+            steps: match self.pick(Choice::Levels, 3) {
                 0 => None,
                 1 => Some(8),
                 _ => Some(4),
-            },
+            }
+            .map(|bits| FixedPoint { bits, down: self.pick(Choice::LevelsDown, 2) == 1 }),
             corner: (self.pick(Choice::QuadLevels, 2) == 1).then(|| self.corner(Choice::LevelCorner)),
         }
     }

@@ -3,7 +3,7 @@
 //! *In:* steps in texels. *Out:* a level of detail. *Holds:* the scale factor is between the longest step along one axis of
 //! the texture and the sum of these, as OpenGL 3.2 §3.8.11 lets it be.
 
-use crate::domain::{Corner, longest};
+use crate::domain::{Corner, FixedPoint, longest};
 
 /// How the lengths of steps are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,15 +22,15 @@ pub(super) struct Levels {
     pub(super) measure: Measure,
     /// Whether the logarithm of a square is a straight line between powers of two, as llvmpipe computes it.
     pub(super) straight: bool,
-    /// The bits of the fraction; none if it is a float.
-    pub(super) bits: Option<u32>,
+    /// The steps of the fraction, after a bias is added; none if it is a float.
+    pub(super) steps: Option<FixedPoint>,
     /// The row and the column whose steps count for a quad; none if each fragment has its own.
     pub(super) corner: Option<Corner>,
 }
 
 impl Levels {
     /// By the equations.
-    pub(super) const EXACT: Self = Self { measure: Measure::Root, straight: false, bits: None, corner: None };
+    pub(super) const EXACT: Self = Self { measure: Measure::Root, straight: false, steps: None, corner: None };
     /// Those of llvmpipe.
     pub(super) const LLVMPIPE: Self =
         Self { straight: true, corner: Some(Corner { lower: false, right: false }), ..Self::EXACT };
@@ -45,12 +45,13 @@ impl Levels {
                 sum(steps[0]).max(sum(steps[1])).log2()
             }
         };
-        let level = if self.straight { 0.5 * straight(2.0 * exact) } else { exact };
-        match self.bits {
-            Some(bits) if level.is_finite() => {
-                let steps = f64::from(1_u32 << bits);
-                (level * steps).round() / steps
-            }
+        if self.straight { 0.5 * straight(2.0 * exact) } else { exact }
+    }
+
+    /// The level of detail with the steps that it has.
+    pub(super) fn stepped(self, level: f64) -> f64 {
+        match self.steps {
+            Some(steps) if level.is_finite() => steps.nearest(level),
             _ => level,
         }
     }
@@ -76,7 +77,10 @@ mod tests {
         let slanted = [[3.0, 4.0, 0.0], [0.0; 3]];
         let of = |measure| Levels { measure, ..Levels::EXACT }.of(slanted);
         assert_eq!([of(Measure::Root), of(Measure::LongestAxis), of(Measure::Sum)], [5.0, 4.0, 7.0].map(f64::log2));
-        assert_eq!(Levels { bits: Some(4), ..Levels::EXACT }.of(steps(1.03)), 0.0625);
+        let fixed = |down| Levels { steps: Some(FixedPoint { bits: 4, down }), ..Levels::EXACT };
+        assert_eq!([0.05, 0.03, -0.01].map(|level| fixed(false).stepped(level)), [0.0625, 0.0, 0.0]);
+        assert_eq!([0.05, 0.07, -0.01].map(|level| fixed(true).stepped(level)), [0.0, 0.0625, -0.0625]);
+        assert_eq!(fixed(true).stepped(f64::NEG_INFINITY), f64::NEG_INFINITY);
         assert_eq!(Levels::LLVMPIPE.of([[0.0; 3]; 2]), f64::NEG_INFINITY);
     }
 }

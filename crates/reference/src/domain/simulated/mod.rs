@@ -14,7 +14,7 @@ mod rounding;
 
 pub use gpu::{Gpu, Planes};
 
-use super::{Corner, Number, rules};
+use super::{Corner, FixedPoint, Number, rules};
 use gpu::{Form, Function, Gpu as Current};
 use smallvec::SmallVec;
 
@@ -233,14 +233,17 @@ impl super::Domain for Simulated {
     fn planes() -> Planes {
         Current::current().planes
     }
-    fn weight_bits() -> Option<u32> {
-        Current::current().weight_bits
+    fn weights() -> Option<FixedPoint> {
+        Current::current().weights
     }
     fn point_size_share() -> f64 {
         Current::swing_of(Function::PointSize).at(0.0)
     }
     fn level(steps: [[f64; 3]; 2]) -> f64 {
         Current::current().levels.of(steps)
+    }
+    fn stepped_level(level: f64) -> f64 {
+        Current::current().levels.stepped(level)
     }
     fn level_corner() -> Option<Corner> {
         Current::current().levels.corner
