@@ -53,7 +53,7 @@ struct Edit {
     replace: String,
 }
 
-/// What an edited program should get from `verify`.
+/// The verdict that an edited program should get.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum CaseKind {
     /// The scene as it is.

@@ -175,7 +175,7 @@ mod tests {
         }
     }
 
-    /// What follows from an infinity has no error: `pow(0.0, 16.0)` is 0 on every GPU.
+    /// A result of an infinity has no error: `pow(0.0, 16.0)` is 0 on every GPU.
     #[test]
     fn infinities_have_no_error() {
         for number in 0..48 {
