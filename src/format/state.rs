@@ -202,9 +202,9 @@ impl State {
 
     /// Whether a `(` is the head of the control that has just begun.
     fn head_next(&self) -> bool {
-        self.count == 2
-            && matches!(self.controls.last(), Some(open) if open.depth == self.frames.len() && matches!(open.control, Control::If | Control::Loop))
-            || self.ends_do && self.count == 2
+        let is_headed =
+            |open: &Open| open.depth == self.frames.len() && matches!(open.control, Control::If | Control::Loop);
+        self.count == 2 && (self.ends_do || self.controls.last().is_some_and(is_headed))
     }
 
     fn in_parens(&self) -> bool {

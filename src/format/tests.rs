@@ -64,7 +64,7 @@ fn what_does_not_match_is_kept() {
     let odd = format("float   a ;\nfloat   $b ;\n", &[], &Options::default());
     assert_eq!(odd.text, "float a;\nfloat   $b ;\n");
     // The place of an error that a parser has found.
-    let broken = format("float   a ;\nfloat   b = ;\n", &[24..25], &Options::default());
+    let broken = format("float   a ;\nfloat   b = ;\n", std::slice::from_ref(&(24..25)), &Options::default());
     assert_eq!(broken.text, "float a;\nfloat   b = ;\n");
 }
 
@@ -82,8 +82,7 @@ fn comments_and_line_ends_stay() {
 fn long_lines_are_broken_where_they_may() {
     let text = format!(
         "void f() {{\nfloat x = {} + mix({}, 2.0, 3.0);\n}}\n",
-        "alpha * beta".repeat(1),
-        "gamma + delta * epsilon - zeta / eta + theta * iota - kappa"
+        "alpha * beta", "gamma + delta * epsilon - zeta / eta + theta * iota - kappa"
     );
     let options = Options { width: 60, ..Options::default() };
     let once = format(&text, &[], &options).text;

@@ -317,7 +317,6 @@ const INCONCLUSIVE: &[(&str, &str)] = &[
     ("lower_chosen", "an index is outside of its array"),
     ("lower_constants", "it divides by numbers beyond those for which Vulkan has a rule"),
     ("lower_parameters", "it reads a global that was never written"),
-    ("lower_textures", "linear filtering between hard contrasts, at levels that are uncertain"),
     ("lower_varyings", "an index is outside of its array"),
     ("root_of_negative", "GLSL leaves the root and the power of a negative number undefined"),
 ];

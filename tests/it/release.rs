@@ -6,6 +6,7 @@ use super::support::root;
 use std::process::Command;
 
 #[test]
+#[expect(clippy::print_stderr, reason = "a registry that was not asked is told aloud")]
 fn nobody_else_has_the_names_of_the_packages() {
     let output = Command::new("python3").arg(root().join("integrations/release/ready")).arg("names").output();
     let output = output.expect("Python starts");

@@ -44,6 +44,7 @@ mod known;
 mod left;
 mod motion;
 mod optimize;
+mod options;
 mod prune;
 mod residual;
 mod settle;
@@ -52,6 +53,7 @@ mod text;
 pub use account::{Kind, LeftOut};
 pub use known::{Input, Known, KnownState, KnownTexture};
 pub use optimize::{left_out, optimize};
-pub use residual::{Extent, Moved, Options, Residual, ResidualStage, specialize, specialize_with};
+pub use options::{Extent, Options};
+pub use residual::{Moved, Residual, ResidualStage, specialize, specialize_with};
 
 pub use glisten_front::Program;

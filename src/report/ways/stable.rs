@@ -22,6 +22,10 @@ enum Form {
     OneMinusCos(ExprId),
     Squares(ExprId, ExprId),
     Roots(ExprId, ExprId),
+    /// A root less a positive number.
+    RootMinus(ExprId, ExprId),
+    /// A positive number less a root.
+    MinusRoot(ExprId, ExprId),
     Cosine(ExprId, ExprId, ExprId),
 }
 
@@ -90,7 +94,18 @@ fn difference(shader: &Shader, a: ExprId, b: ExprId) -> Option<Form> {
     if let (Some(x), Some(y)) = (square(shader, a), square(shader, b)) {
         return Some(Form::Squares(x, y));
     }
-    Some(Form::Roots(argument(a, BuiltinFunction::Sqrt)?, argument(b, BuiltinFunction::Sqrt)?))
+    let root = |id| argument(id, BuiltinFunction::Sqrt);
+    // A known root is a number.
+    let number = |id: ExprId| match shader.expr(id).kind {
+        ExprKind::Literal(ScalarValue::Float(number)) => (number > 0.0 && (number * number).is_finite()).then_some(id),
+        _ => None,
+    };
+    match (root(a), root(b)) {
+        (Some(x), Some(y)) => Some(Form::Roots(x, y)),
+        (Some(x), None) => Some(Form::RootMinus(x, number(b)?)),
+        (None, Some(y)) => Some(Form::MinusRoot(number(a)?, y)),
+        (None, None) => None,
+    }
 }
 
 /// The operand of `x * x`, if it has no effects.
@@ -146,7 +161,25 @@ fn is_unit(shader: &Shader, names: &Names, located: Located, depth: usize) -> bo
         ExprKind::BuiltinCall(BuiltinFunction::Normalize, _) => true,
         ExprKind::BuiltinCall(BuiltinFunction::Reflect, list) => list.iter().all(unit),
         ExprKind::Unary(UnaryOp::Negate, inner) => unit(inner),
+        // A known unit vector is three numbers.
+        ExprKind::Construct(_, list) => {
+            let square = |id: &ExprId| number(shader, *id).map(|number| number * number);
+            let length: Option<f64> = list.iter().map(square).sum();
+            list.len() == 3 && length.is_some_and(|length| (length - 1.0).abs() <= ROUNDED_UNIT)
+        }
         _ => false,
+    }
+}
+
+/// How far the squared length of a unit vector may be from 1 by the rounding of its components to f32.
+const ROUNDED_UNIT: f64 = 1e-6;
+
+/// The number that an expression is, with its sign.
+fn number(shader: &Shader, id: ExprId) -> Option<f64> {
+    match &shader.expr(id).kind {
+        ExprKind::Literal(ScalarValue::Float(number)) => Some(f64::from(*number)),
+        ExprKind::Unary(UnaryOp::Negate, inner) => number(shader, *inner).map(|number| -number),
+        _ => None,
     }
 }
 
@@ -161,6 +194,14 @@ fn rewrite(types: &Types, open: &mut Open, id: ExprId, form: &Form) {
         Form::Roots(x, y) => {
             let body = "return a == b ? 0.0 : (a - b) / (sqrt(a) + sqrt(b));";
             ("difference_of_roots", &[FLOAT, FLOAT], body, vec![x, y])
+        }
+        Form::RootMinus(x, y) => {
+            let body = "return (a - b * b) / (sqrt(a) + b);";
+            ("root_minus_number", &[FLOAT, FLOAT], body, vec![x, y])
+        }
+        Form::MinusRoot(x, y) => {
+            let body = "return (a * a - b) / (a + sqrt(b));";
+            ("number_minus_root", &[FLOAT, FLOAT], body, vec![x, y])
         }
         Form::Cosine(a, b, k) => ("cosine_power", &[TypeId::VEC3, TypeId::VEC3, FLOAT], COSINE_POWER, vec![a, b, k]),
     };

@@ -23,7 +23,7 @@ pub(crate) use effects::Effects;
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
-use super::residual::Extent;
+use super::options::Extent;
 use calls::Variants;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef,
