@@ -23,7 +23,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 /// The keys of the table.
-const KEYS: &[&str] = &["bound", "sweep", "range"];
+const KEYS: &[&str] = &["bound", "bound_relative", "sweep", "range"];
 
 /// The statements of a scene about its stability.
 #[derive(Clone, Debug, Default, PartialEq)]
