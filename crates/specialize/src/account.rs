@@ -7,7 +7,6 @@
 use crate::forward::{Reason, Walked};
 use crate::known::Known;
 use crate::left::Left;
-use crate::residual::Moved;
 use glisten_front::Program;
 use glisten_front::hir::{ExprId, ExprKind, Global, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, VarRef};
 use glisten_front::link::{Interface, UniformLeaf};
@@ -66,6 +65,21 @@ pub struct LeftOut {
     pub span: Span,
     /// All that went with it: of a branch its body, of a function all of it.
     pub extent: Span,
+}
+
+/// A computation that moved from the fragment stage to the vertex stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Moved {
+    /// The varying that carries its result.
+    pub name: String,
+    /// Its text in the original.
+    pub expression: String,
+    /// The file that it was in.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u32,
+    /// Where it was, in the original's texts.
+    pub span: Span,
 }
 
 /// How a program became what is left of it.

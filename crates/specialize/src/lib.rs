@@ -50,10 +50,10 @@ mod residual;
 mod settle;
 mod text;
 
-pub use account::{Kind, LeftOut};
+pub use account::{Kind, LeftOut, Moved};
 pub use known::{Input, Known, KnownState, KnownTexture};
 pub use optimize::{left_out, optimize};
 pub use options::{Extent, Options};
-pub use residual::{Moved, Residual, ResidualStage, specialize, specialize_with};
+pub use residual::{Residual, ResidualStage, specialize, specialize_with};
 
 pub use glisten_front::Program;

@@ -28,7 +28,7 @@ pub enum Extent {
     LoopsKept,
     /// Functions are not cloned, either.
     FunctionsKept,
-    /// Nothing is evaluated: what reaches no output goes, as by [`optimize`](crate::optimize).
+    /// Nothing is evaluated: what reaches no output goes, as by [`optimize`](crate::optimize()).
     Nothing,
 }
 

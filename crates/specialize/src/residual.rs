@@ -1,6 +1,6 @@
 //! [`specialize`]: the phases in their order, over all stages.
 
-use crate::account::{self, How, LeftOut};
+use crate::account::{self, How, LeftOut, Moved};
 use crate::forward::{self, Walked};
 use crate::known::Known;
 use crate::left::Left;
@@ -30,21 +30,6 @@ pub struct Residual {
     pub extent: Extent,
     /// Why the residual did not read back, a fault of this crate: the program is then as it was.
     pub fault: Option<String>,
-}
-
-/// A computation that moved from the fragment stage to the vertex stage.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Moved {
-    /// The varying that carries its result.
-    pub name: String,
-    /// Its text in the original.
-    pub expression: String,
-    /// The file that it was in.
-    pub file: String,
-    /// The line, from 1.
-    pub line: u32,
-    /// Where it was, in the original's texts.
-    pub span: Span,
 }
 
 /// A stage of a residual.

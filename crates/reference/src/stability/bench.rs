@@ -34,7 +34,7 @@ pub(super) struct Bench<'a> {
     pub(super) options: RenderOptions,
     pub(super) exact: &'a Picture,
     pub(super) errors: &'a ErrorMap,
-    /// See [`ExamineOptions::bound_relative`].
+    /// See [`bound_relative`](super::ExamineOptions::bound_relative).
     pub(super) relative: f64,
     bins: Vec<bool>,
 }

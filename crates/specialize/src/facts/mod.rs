@@ -2,7 +2,7 @@
 //!
 //! *In:* what a scene fixes, and the facts of operands. *Out:* the fact of a result.
 //! *Holds:* a [`What::Value`] is what the reference computes in f32, bit for bit: mostly what every conforming target computes
-//! (see [`exact`]), else a value that the original's envelope has in it (see [`folded`]). A range holds whatever a conforming
+//! (see [`exact`]), else a value that the original's envelope has in it (see [`folded()`]). A range holds whatever a conforming
 //! target may compute.
 
 mod builtins;
