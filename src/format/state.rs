@@ -53,13 +53,13 @@ pub(super) struct State {
     pub(super) label: bool,
     /// Whether the head of a control is complete, and its body has not begun.
     pub(super) body_next: bool,
-    /// The lexemes of the statement so far, up to three: enough to know a macro that stands alone.
+    /// The number of lexemes of the statement so far, without comments.
     count: usize,
     /// Whether the first word may be a macro.
     is_name: bool,
     /// Whether the statement is such a word and one pair of parentheses.
     macro_call: bool,
-    /// `while` of a `do`.
+    /// Whether the statement is the `while` of a `do`.
     ends_do: bool,
 }
 
