@@ -1,7 +1,7 @@
 //! Reads files completely, with a clear message for each possible failure, and writes them completely or not at all.
 
 use super::exit::Failure;
-use super::{trace, unfinished};
+use super::{buffers, trace, unfinished};
 use crate::scene::{DiskFiles, FileError, FileSource};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
@@ -74,6 +74,9 @@ impl FileSource for SceneFiles {
 }
 
 fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
+    if let Some(bytes) = buffers::get(path) {
+        return Ok(bytes.to_vec());
+    }
     let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;
     if metadata.is_dir() {
         return Err(ReadError::new(&general::FILE_IS_FOLDER, format!("`{name}` is a folder, not a file")));

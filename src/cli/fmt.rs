@@ -9,6 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
 use super::search;
+use super::texts::{Text, diff};
 use crate::format::{Formatted, Options, format};
 use crate::sources::stages;
 use clap::Args;
@@ -16,7 +17,6 @@ use glisten_front::Stage;
 use glisten_front::compiler::{self, Compiler, Source};
 use glisten_front::diagnostic::{Levels, write};
 use rayon::prelude::*;
-use similar::TextDiff;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::ops::Range;
@@ -40,26 +40,6 @@ pub(super) struct FmtArgs {
     /// The name of standard input, whose folder tells the style
     #[arg(long, value_name = "NAME")]
     stdin_filename: Option<PathBuf>,
-}
-
-/// The bytes of a file as a text, and back.
-struct Text {
-    text: String,
-    is_utf8: bool,
-}
-
-impl Text {
-    fn new(bytes: Vec<u8>) -> Self {
-        match String::from_utf8(bytes) {
-            Ok(text) => Self { text, is_utf8: true },
-            // A character for each byte: comments may be in any encoding, tokens are in ASCII.
-            Err(error) => Self { text: error.into_bytes().into_iter().map(char::from).collect(), is_utf8: false },
-        }
-    }
-
-    fn bytes(&self, text: &str) -> Vec<u8> {
-        if self.is_utf8 { text.as_bytes().to_vec() } else { text.chars().map(|byte| byte as u8).collect() }
-    }
 }
 
 /// A file and its new text.
@@ -153,8 +133,7 @@ fn standard_input(args: &FmtArgs, console: &Console) -> Outcome {
 fn told(args: &FmtArgs, console: &Console, done: &Done) -> Result<(), Failure> {
     let name = done.path.display().to_string();
     if args.diff {
-        let diff = TextDiff::from_lines(done.text.text.as_str(), done.formatted.text.as_str());
-        return console.output(&diff.unified_diff().header(&name, &name).to_string());
+        return console.output(&diff(&name, &done.text.text, &done.formatted.text));
     }
     if args.check { console.output(&format!("would reformat {name}\n")) } else { Ok(()) }
 }

@@ -2,10 +2,11 @@
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use super::console::Console;
-use super::exit::Outcome;
-use super::inputs;
+use super::exit::{Failure, Outcome};
+use super::fix::{FixArgs, Fixer};
+use super::inputs::{self, Group, Inputs};
 use super::not_checked;
-use super::session::Session;
+use super::session::{Session, Unit};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -26,6 +27,8 @@ pub(super) struct LintArgs {
     #[arg(long, value_enum, conflicts_with = "diagnostics")]
     format: Option<DiagnosticFormat>,
     #[command(flatten)]
+    fixes: FixArgs,
+    #[command(flatten)]
     bindings: BindingArgs,
     /// The number of threads (0: one per core)
     #[arg(short, long, default_value_t = 0, value_name = "N")]
@@ -39,12 +42,31 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     inputs.tell_empty_folders(console);
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     session.set_format(args.format.unwrap_or(args.levels.diagnostics));
-    let mut units = session.compile(std::mem::take(&mut inputs.groups));
+    let groups = std::mem::take(&mut inputs.groups);
+    let mut units = checked(&mut session, groups.clone(), &inputs);
+    if !args.fixes.any() {
+        return session.tell_units(&units, true);
+    }
+    if groups.iter().flat_map(|group| &group.inputs).any(|input| input.path.is_none()) {
+        let message = "standard input cannot be fixed in its place";
+        return Err(Failure::usage(message).help("name the file"));
+    }
+    let mut fixer = Fixer::new(args.fixes);
+    while fixer.advance(&units) {
+        units = checked(&mut session, groups.clone(), &inputs);
+    }
+    fixer.finish(console)?;
+    session.tell_units(&units, !args.fixes.prints())
+}
+
+/// Compiles the groups, and adds the findings of the rules.
+fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> Vec<Unit> {
+    let mut units = session.compile(groups);
     for unit in &mut units {
         if let Some(program) = &unit.program {
             session.add(&mut unit.batch, glisten_front::lint::check(program));
         }
     }
-    not_checked::settle(&mut session, &mut units, &inputs);
-    session.tell_units(&units, true)
+    not_checked::settle(session, &mut units, inputs);
+    units
 }

@@ -9,6 +9,7 @@
 
 mod args;
 mod batch;
+mod buffers;
 mod cache;
 mod cache_command;
 mod child;
@@ -23,6 +24,7 @@ mod examples;
 mod exit;
 mod explain;
 mod files;
+mod fix;
 mod fixed_function;
 mod fmt;
 mod fullscreen;
@@ -66,6 +68,7 @@ mod suggest;
 mod supervisor;
 pub mod survey;
 mod test;
+mod texts;
 mod timed;
 mod trace;
 mod unfinished;

@@ -22,7 +22,7 @@ use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::preprocess::INCLUDE_WITHOUT_EXTENSION;
 use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding, Scope};
-use glisten_front::diagnostic::{Code, Diagnostic, Level, Severity};
+use glisten_front::diagnostic::{Applicability, Code, Diagnostic, Level, Severity};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
@@ -173,6 +173,7 @@ impl<'a> Session<'a> {
 
     /// Compiles every group and applies the levels.
     pub(super) fn compile(&mut self, groups: Vec<Group>) -> Vec<Unit> {
+        self.dropped = 0;
         self.compile_by(groups, compile_group)
     }
 
@@ -283,6 +284,9 @@ impl<'a> Session<'a> {
         let clean = || scope.filter(|scope| scope.files > 0).map(|scope| format!("{}: nothing found", counted(scope)));
         let Some(summary) = summary(findings, self.dropped).or_else(clean) else { return };
         self.console.remark(&summary);
+        if let Some(offer) = scope.and_then(|_| fixable(findings)) {
+            self.console.remark(&offer);
+        }
         if let Some(error) = findings.iter().find(|finding| finding.severity == Severity::Error) {
             self.console.remark(&format!("`glisten explain {}` explains the first error", error.code.id));
         }
@@ -367,6 +371,21 @@ fn counted(scope: &Scope) -> String {
     match scope.programs {
         0 => count(scope.files, "file"),
         n_programs => format!("{}, {}", count(scope.files, "file"), count(n_programs, "program")),
+    }
+}
+
+/// How many findings have a fix.
+fn fixable(findings: &[Finding]) -> Option<String> {
+    let has = |finding: &&Finding, kind| finding.fixes.iter().any(|fix| fix.applicability == kind);
+    let safe = findings.iter().filter(|finding| has(finding, Applicability::Safe)).count();
+    let other = |finding: &&Finding| has(finding, Applicability::Unsafe) && !has(finding, Applicability::Safe);
+    match (safe, findings.iter().filter(other).count()) {
+        (0, 0) => None,
+        (0, guessed) => Some(format!("`--unsafe-fixes` changes the text for {guessed} of them")),
+        (safe, 0) => Some(format!("`--fix` changes the text for {safe} of them")),
+        (safe, guessed) => {
+            Some(format!("`--fix` changes the text for {safe} of them, `--unsafe-fixes` for {guessed} more"))
+        }
     }
 }
 

@@ -5,7 +5,7 @@ mod forms;
 
 use crate::support::{Shader, compile_text, compiler, shaders_under};
 use glisten_front::Source;
-use glisten_front::diagnostic::{Code, Diagnostic, Example, codes};
+use glisten_front::diagnostic::{Code, Diagnostic, Example, Patch, Severity, codes, write};
 use glisten_front::hir::Stage;
 use glisten_front::lint;
 use std::collections::BTreeSet;
@@ -242,4 +242,55 @@ fn every_help_of_a_page_can_be_pasted() {
     assert_eq!(described, excused, "helps that quote code and cannot be pasted");
     println!("{} codes have helps that were pasted, {} have helps that describe", applied.len(), described.len());
     assert!(applied.len() >= 30, "{applied:?}");
+}
+
+/// The texts of the shaders after a fix of one of their findings; `None` if it changes none of them.
+fn fixed(shaders: &[Shader], fix: &write::FindingFix) -> Option<Vec<Shader>> {
+    let mut patch = Patch::default();
+    assert!(patch.add(fix), "a fix has edits that do not meet: {fix:?}");
+    let changed = |shader: &Shader| {
+        let text = patch.applied(&shader.name, &shader.text).expect("the edits are in the text");
+        Shader { name: shader.name.clone(), text, stage: shader.stage }
+    };
+    let new: Vec<Shader> = shaders.iter().map(changed).collect();
+    new.iter().zip(shaders).any(|(new, old)| new.text != old.text).then_some(new)
+}
+
+/// The findings of the shaders of a program, with their fixes.
+fn resolved(shaders: &[Shader]) -> Vec<write::Finding> {
+    let source =
+        |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
+    let compilation = compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
+    let mut all: Vec<Diagnostic> = compilation.diagnostics.iter().cloned().collect();
+    all.extend(compilation.program.iter().flat_map(lint::check));
+    write::findings(&compilation.sources, &all)
+}
+
+/// Each fix removes its finding and brings no error; a safe one brings nothing that was not there.
+#[test]
+#[expect(clippy::print_stdout, reason = "how many fixes are applied is worth a look")]
+fn every_fix_removes_its_finding() {
+    let folders = ["fixtures/invalid", "fixtures/valid", "fixtures/lint", "fixtures/link"];
+    let files = folders.iter().flat_map(|folder| shaders_under(folder)).map(|shader| vec![shader]);
+    let pages = codes::all().map(bad_example);
+    let (mut tried, mut wrong, mut n_fixes) = (BTreeSet::new(), Vec::new(), 0);
+    for shaders in files.chain(pages) {
+        let before = resolved(&shaders);
+        let errors = |list: &[write::Finding]| list.iter().filter(|one| one.severity == Severity::Error).count();
+        for finding in &before {
+            for fix in &finding.fixes {
+                let Some(new) = fixed(&shaders, fix) else { continue };
+                let after = resolved(&new);
+                (tried.insert(finding.code.id), n_fixes += 1);
+                let count = |list: &[write::Finding]| list.iter().filter(|one| one.code == finding.code).count();
+                if count(&after) >= count(&before) || errors(&after) > errors(&before) {
+                    let messages: Vec<&str> = after.iter().map(|one| one.message.as_str()).collect();
+                    wrong.push(format!("{} {}: {}: {messages:?}", finding.region.file, finding.code, fix.title));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    println!("{n_fixes} fixes of {} codes", tried.len());
+    assert!(tried.len() > 25, "{tried:?}");
 }

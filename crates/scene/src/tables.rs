@@ -8,7 +8,7 @@ use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_SYNTAX, SCENE_UNKNOWN_KEY, SCENE_UNKNOWN_NAME, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
-use glisten_front::diagnostic::{Code, Diagnostic, Diagnostics, did_you_mean};
+use glisten_front::diagnostic::{Advice, Code, Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::source::Span;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
@@ -126,8 +126,7 @@ impl Reader {
             let message = format!("{place} has no key `{name}`");
             let near = did_you_mean(name, known.iter().copied());
             self.meant.extend(near.map(|near| (address(table), near.to_owned())));
-            let help = near
-                .map_or_else(|| format!("the keys here are {}", list(known)), |near| format!("did you mean `{near}`?"));
+            let help = near.map_or_else(|| format!("the keys here are {}", list(known)).into(), Advice::meant);
             let span = self.span_of(key);
             self.report(Diagnostic::new(self.codes.unknown_key, span, message).here("unknown key").help(help));
         }
@@ -401,9 +400,13 @@ pub fn report_unknown_name<'c>(
 ) -> Option<&'c str> {
     let near = did_you_mean(name, candidates.iter().copied());
     let help = match near {
-        Some(near) => Some(format!("did you mean `{near}`?")),
-        None if candidates.is_empty() => Some(format!("the program has no {what} at all")),
-        None if candidates.len() <= 12 => Some(format!("the program has {}", list(candidates))),
+        Some(near) if near.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') => {
+            Some(Advice::meant(near))
+        }
+        // A key with other characters needs quotes.
+        Some(near) => Some(format!("did you mean `{near}`?").into()),
+        None if candidates.is_empty() => Some(format!("the program has no {what} at all").into()),
+        None if candidates.len() <= 12 => Some(format!("the program has {}", list(candidates)).into()),
         None => None,
     };
     let message = format!("the program declares no {what} `{name}`");

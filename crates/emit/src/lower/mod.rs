@@ -54,8 +54,8 @@ pub(crate) use operands::for_each_operand;
 
 use crate::target::{Conventions, Target};
 use facts::Facts;
-use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::{general, targets};
+use glisten_front::diagnostic::{Advice, Diagnostic};
 use glisten_front::hir::{FunctionId, GlobalId, Shader, Stage, Types};
 use glisten_front::link::{Interface, Program};
 use glisten_front::source::Span;
@@ -196,7 +196,7 @@ fn unsupported(span: Span, message: impl Into<String>) -> Box<Diagnostic> {
 }
 
 /// The diagnostic for something that the target lacks, with a way out.
-fn lacking(span: Span, message: impl Into<String>, help: impl Into<String>) -> Box<Diagnostic> {
+fn lacking(span: Span, message: impl Into<String>, help: impl Into<Advice>) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&targets::FEATURE_NOT_IN_TARGET, span, message).help(help))
 }
 

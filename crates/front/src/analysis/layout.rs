@@ -5,7 +5,7 @@ use super::features::remedy;
 use super::qualifiers::Qualifiers;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::qualifiers;
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, did_you_mean};
 use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
 use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
@@ -250,7 +250,7 @@ impl Analyzer<'_> {
         }
         let message =
             if row.value { format!("`{spelling}` needs a value") } else { format!("`{spelling}` takes no value") };
-        let help = row.value.then(|| format!("write `{} = 0`", row.name));
+        let help = row.value.then(|| Advice::write(Applicability::Unsafe, format!("{} = 0", row.name)));
         self.report(Diagnostic::new(&qualifiers::LAYOUT_VALUE, id.name.span, message).maybe_help(help));
         None
     }
@@ -340,9 +340,9 @@ fn unknown(spelling: &str, span: Span, version: Version) -> Diagnostic {
         Some(&(_, since)) if version.reaches(Since::new(since, NEVER)) => {
             return Diagnostic::new(&NOT_SUPPORTED_YET, span, format!("the layout `{spelling}` is not supported yet"));
         }
-        Some((_, NEVER)) => Some(format!("`{spelling}` belongs to GLSL 4.50 for Vulkan")),
-        Some((_, since)) => Some(format!("`{spelling}` came with GLSL {}.{:02}", since / 100, since % 100)),
-        None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(|near| format!("did you mean `{near}`?")),
+        Some((_, NEVER)) => Some(format!("`{spelling}` belongs to GLSL 4.50 for Vulkan").into()),
+        Some((_, since)) => Some(format!("`{spelling}` came with GLSL {}.{:02}", since / 100, since % 100).into()),
+        None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(Advice::meant),
     };
     Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is not a layout identifier"))
         .here("not known in this version")

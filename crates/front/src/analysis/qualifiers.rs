@@ -2,7 +2,7 @@
 
 use super::context::Analyzer;
 use crate::diagnostic::codes::qualifiers;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::hir::{Interpolation, Sampling};
 use crate::language::Feature;
 use crate::source::Span;
@@ -177,7 +177,7 @@ impl Analyzer<'_> {
                 format!("{what} is not allowed before {context_name}"),
             )
             .here("not allowed here")
-            .help("remove it"),
+            .help(Advice::new(Applicability::Safe, "remove it", Place::Over, "")),
         );
         false
     }

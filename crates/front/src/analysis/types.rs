@@ -4,7 +4,7 @@ use super::context::Analyzer;
 use super::keywords;
 use super::scope::Entry;
 use crate::diagnostic::codes::{names, qualifiers, types};
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
@@ -214,7 +214,7 @@ impl Analyzer<'_> {
                 if let Some(ty) = self.fixed_struct(spelling) {
                     return ty;
                 }
-                let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_type(spelling)?));
+                let near = |this: &mut Self| Some(Advice::meant(this.nearest_type(spelling)?));
                 let help = super::expr::foreign::type_name(spelling).or_else(|| near(self));
                 let finding =
                     Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("there is no type `{spelling}`"))

@@ -6,16 +6,20 @@
 //!
 //! *Holds:* a phase reports and continues; nothing here prints.
 
+mod advice;
 pub mod codes;
 mod fix;
 mod levels;
+mod patch;
 mod saved;
 mod sink;
 pub mod write;
 
+pub use advice::{Advice, Place};
 pub use codes::{Code, Example};
 pub use fix::{Applicability, Edit, Fix};
 pub use levels::{Level, Levels};
+pub use patch::Patch;
 pub use saved::Saved;
 pub use sink::Diagnostics;
 
@@ -113,18 +117,22 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the help text.
+    /// Sets the help text and the fix, if the advice is a change of the text at the primary span. They replace earlier ones.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+    pub fn help(mut self, advice: impl Into<Advice>) -> Self {
+        let advice = advice.into();
+        self.fixes = advice.fix(self.primary.span).into_iter().collect();
+        self.help = Some(advice.sentence);
         self
     }
 
     /// Sets the help text, if there is one.
     #[must_use]
-    pub fn maybe_help(mut self, help: Option<String>) -> Self {
-        self.help = help.or(self.help);
-        self
+    pub fn maybe_help(self, advice: Option<impl Into<Advice>>) -> Self {
+        match advice {
+            Some(advice) => self.help(advice),
+            None => self,
+        }
     }
 
     /// Adds a change of the text that removes it.
@@ -132,23 +140,6 @@ impl Diagnostic {
     pub fn fix(mut self, fix: Fix) -> Self {
         self.fixes.push(fix);
         self
-    }
-
-    /// Sets the help text ``write `text` ``, and the fix that puts the text in place of the primary span.
-    #[must_use]
-    pub fn write(self, applicability: Applicability, text: impl Into<String>) -> Self {
-        let (text, span) = (text.into(), self.primary.span);
-        let title = format!("write `{text}`");
-        self.help(title.clone()).fix(Fix::new(applicability, title, span, text))
-    }
-
-    /// Sets the help text ``did you mean `name`?``, and the fix that puts the name in place of the primary span.
-    #[must_use]
-    pub fn meant(self, name: Option<impl Into<String>>) -> Self {
-        let Some(name) = name.map(Into::into) else { return self };
-        let span = self.primary.span;
-        let fix = Fix::new(Applicability::Unsafe, format!("write `{name}`"), span, name.clone());
-        self.help(format!("did you mean `{name}`?")).fix(fix)
     }
 
     /// Whether this is an error.

@@ -6,10 +6,11 @@
 
 use super::Linker;
 use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
-use super::usage::is_assigned;
-use crate::diagnostic::{Diagnostic, codes, did_you_mean};
+use super::usage::{is_assigned, uses};
+use crate::diagnostic::{Applicability, Diagnostic, Edit, Fix, codes, did_you_mean};
 use crate::hir::{ArraySize, Global, GlobalId, Sampling, Shader, Stage, Storage, Type, TypeId, Types};
 use crate::language::Feature;
+use crate::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Whether a global is an ordinary output or input, which needs a partner in the other stage.
@@ -131,11 +132,26 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
         diagnostic = diagnostic
             .label(output.span, format!("the nearest output of the {stage} stage"))
             .help(format!("did you mean `{}`?", output.match_name()));
+        if let Some(fix) = renaming(consumer, input, output.match_name()) {
+            diagnostic = diagnostic.fix(fix);
+        }
     } else if same_name.is_none() {
         diagnostic =
             diagnostic.help(format!("declare it in the {stage} stage: `{}`", declaration(ctx.types, consumer, input)));
     }
     ctx.report(diagnostic);
+}
+
+/// The fix that gives an input the name of an output, everywhere in its shader.
+fn renaming(consumer: &Shader, input: &Global, name: &str) -> Option<Fix> {
+    // A name of a block, or one that the shader has already, is no simple matter.
+    let is_free =
+        input.block.is_none() && !name.contains('.') && consumer.globals.iter().all(|other| other.name != name);
+    let edit = |span: Span| Edit { span, text: name.to_owned() };
+    let edits = || consumer.globals().find(|(_, other)| other.span == input.span).map(|(id, _)| uses(consumer, id));
+    let edits = if is_free { edits()? } else { return None };
+    let edits = [input.span].into_iter().chain(edits).map(edit).collect();
+    Some(Fix { title: format!("call it `{name}`"), applicability: Applicability::Unsafe, edits })
 }
 
 fn describe_other(global: &Global) -> &'static str {

@@ -2,7 +2,7 @@
 
 use super::{Linker, merge};
 use crate::analysis::{SHADERTOY_HELP, SHADERTOY_NOTE, is_shadertoy};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Applicability, Diagnostic, Fix, codes, did_you_mean};
 use crate::hir::{FunctionId, Shader, Stage, Types};
 
 /// One shader per stage, in pipeline order; several shaders of one stage are merged.
@@ -101,13 +101,17 @@ fn missing_main(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) {
     let code = if lone { &codes::link::LONE_WITHOUT_MAIN } else { &codes::link::MISSING_MAIN };
     let message = format!("the {} stage has no `main`", shader.stage.name());
     let names = shader.functions.iter().map(|function| function.name.as_str());
-    let help =
-        crate::diagnostic::did_you_mean("main", names).map(|name| format!("did you mean `{name}` to be `main`?"));
+    let near = did_you_mean("main", names);
+    let near = near.and_then(|name| shader.functions.iter().find(|function| function.name == name));
     let finding = Diagnostic::new(code, shader.anchor(), message);
-    ctx.report(if is_shadertoy(shader) {
-        finding.note(SHADERTOY_NOTE).help(SHADERTOY_HELP)
-    } else {
-        finding.maybe_help(help)
+    ctx.report(match near {
+        _ if is_shadertoy(shader) => finding.note(SHADERTOY_NOTE).help(SHADERTOY_HELP),
+        Some(function) => {
+            let fix =
+                Fix::new(Applicability::Unsafe, format!("call `{}` `main`", function.name), function.span, "main");
+            finding.help(format!("did you mean `{}` to be `main`?", function.name)).fix(fix)
+        }
+        None => finding,
     });
 }
 

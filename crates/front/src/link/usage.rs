@@ -54,6 +54,22 @@ pub(super) fn is_assigned(shader: &Shader, global: GlobalId) -> bool {
     found
 }
 
+/// Where a global is named in the text, in order.
+pub(super) fn uses(shader: &Shader, global: GlobalId) -> Vec<Span> {
+    let mut spans = Vec::new();
+    for function in &shader.functions {
+        shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
+            let expr = shader.expr(expr);
+            if matches!(&expr.kind, ExprKind::Var(VarRef::Global(id)) if *id == global) {
+                spans.push(expr.span);
+            }
+        });
+    }
+    spans.sort_unstable();
+    spans.dedup();
+    spans
+}
+
 /// Where a global is first named in the text of the functions that `main` reaches.
 pub fn first_use(shader: &Shader, global: GlobalId) -> Option<Span> {
     let mut first: Option<Span> = None;

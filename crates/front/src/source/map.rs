@@ -239,6 +239,13 @@ impl SourceMap {
         Some(self.file(self.file_of(span)?).line_at(span.start))
     }
 
+    /// The line of the text that a span begins in, with its end.
+    pub fn line_of(&self, span: Span) -> Option<Span> {
+        let file = self.file(self.file_of(span)?);
+        let range = file.line_range(file.line_at(span.start))?;
+        Some(Span { start: file.base + range.start as u32, end: file.base + range.end as u32, ..span })
+    }
+
     /// The number that an earlier `#line` directive of its file gave to the line of a span, if there is such a
     /// directive.
     pub fn presented_line(&self, span: Span) -> Option<u32> {

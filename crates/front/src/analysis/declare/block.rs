@@ -7,8 +7,8 @@ use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::structure::MemberList;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers, types};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::hir::{
     ArraySize, BlockInfo, BlockLayout, GlobalId, Interpolation, MatrixLayout, Member, MemberPlace, Scalar, Stage,
     Storage, Type, TypeId, VarRef,
@@ -165,7 +165,7 @@ impl Analyzer<'_> {
                 )
                 .here("another storage than the block")
                 .label(context.word_span, format!("the block is `{block}`"))
-                .help("remove it"),
+                .help(Advice::new(Applicability::Unsafe, "remove it", Place::Over, "")),
             );
         }
         if context.storage == Storage::Uniform || (self.stage == Stage::Vertex && context.storage == Storage::In) {
@@ -218,7 +218,12 @@ impl Analyzer<'_> {
                 )
                 .here("integers are not interpolated")
                 .label(name, "declared here")
-                .help("write `flat` before it, on both sides"),
+                .help(Advice::new(
+                    Applicability::Unsafe,
+                    "write `flat` before it, on both sides",
+                    Place::Before,
+                    "flat ",
+                )),
             );
         }
         ty

@@ -2,8 +2,8 @@
 
 use super::super::context::Analyzer;
 use super::super::qualifiers::{Qualifiers, StorageWord};
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, types};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::hir::{ArraySize, Interpolation, Scalar, Stage, Storage, Type, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
@@ -61,8 +61,10 @@ impl Analyzer<'_> {
         }
         if self.types.contains_sampler(ty) && storage != Storage::Uniform {
             let help = match storage {
-                Storage::Private => "write `uniform` before it",
-                _ => "declare it `uniform`, with no other storage qualifier",
+                Storage::Private => {
+                    Advice::new(Applicability::Safe, "write `uniform` before it", Place::Before, "uniform ")
+                }
+                _ => "declare it `uniform`, with no other storage qualifier".into(),
             };
             self.report_sampler(ty, ty_span, name, help);
             return TypeId::ERROR;
@@ -77,7 +79,7 @@ impl Analyzer<'_> {
     }
 
     /// Reports a sampler that is neither a uniform nor a parameter.
-    pub(in crate::analysis) fn report_sampler(&mut self, ty: TypeId, span: Span, name: Span, help: &str) {
+    pub(in crate::analysis) fn report_sampler(&mut self, ty: TypeId, span: Span, name: Span, help: impl Into<Advice>) {
         let type_name = self.type_name(ty);
         self.report(
             Diagnostic::new(&types::SAMPLER, span, format!("a `{type_name}` must be a uniform or a parameter"))
@@ -120,7 +122,7 @@ impl Analyzer<'_> {
             self.report(
                 Diagnostic::new(&qualifiers::GEOMETRY_INPUT, name, "an input of a geometry shader must be an array")
                     .here("one element for each vertex of the primitive")
-                    .help("write `[]` after the name"),
+                    .help(Advice::new(Applicability::Safe, "write `[]` after the name", Place::After, "[]")),
             );
             return TypeId::ERROR;
         }

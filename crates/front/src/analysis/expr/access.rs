@@ -5,7 +5,7 @@ use super::super::features::remedy;
 use super::super::state::ArrayKey;
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, StructId, Type, TypeId, VarRef};
 use crate::language::{Extensions, Feature, NEVER, Since};
 use crate::source::Span;
@@ -23,7 +23,7 @@ impl Analyzer<'_> {
                 }
                 let structure = self.types.structure(id);
                 let near = did_you_mean(spelling, structure.members.iter().map(|member| member.name.as_str()));
-                let help = near.map(|near| format!("did you mean `{near}`?"));
+                let help = near.map(Advice::meant);
                 let name = self.type_name(self.ty(base));
                 self.report(
                     Diagnostic::new(&names::NO_MEMBER, field.span, format!("`{name}` has no member `{spelling}`"))

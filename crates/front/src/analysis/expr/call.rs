@@ -10,7 +10,7 @@ use super::overload::{Resolution, Rules, resolve};
 use crate::builtin::functions;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::{names, types};
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
@@ -91,7 +91,7 @@ impl Analyzer<'_> {
             self.report(finding);
             return false;
         }
-        let near = |this: &mut Self| Some(format!("did you mean `{}`?", this.nearest_function(spelling)?));
+        let near = |this: &mut Self| Some(Advice::meant(this.nearest_function(spelling)?));
         let help = super::foreign::function(spelling).or_else(|| near(self));
         self.report(
             Diagnostic::new(&names::UNKNOWN_FUNCTION, name.span, format!("there is no function `{spelling}`"))

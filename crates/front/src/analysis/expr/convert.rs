@@ -3,8 +3,8 @@
 //! *Holds:* a conversion is an expression of its own in the typed program; nothing later converts.
 
 use super::super::context::Analyzer;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, Type, TypeId, Types};
 use crate::language::Feature;
 
@@ -80,21 +80,26 @@ impl Analyzer<'_> {
         from: TypeId,
         to: TypeId,
         span: crate::source::Span,
-    ) -> Option<String> {
+    ) -> Option<Advice> {
         let name = self.type_name(to);
         let text = self.sources.snippet(span);
         if let (Type::Scalar(Scalar::Float), Type::Scalar(whole @ (Scalar::Int | Scalar::Uint))) =
             (self.types.get(from), self.types.get(to))
             && let Some(number) = whole_literal(text).filter(|_| !span.expansion.is_some())
         {
-            return Some(format!("write `{number}{}`", if whole == Scalar::Uint { "u" } else { "" }));
+            let suffix = if whole == Scalar::Uint { "u" } else { "" };
+            return Some(Advice::write(Applicability::Safe, format!("{number}{suffix}")));
         }
         let short = if text.is_empty() || text.len() > 40 || span.expansion.is_some() { "..." } else { text };
+        let around = |arguments: &str| {
+            let call = |inner: &str| format!("{name}({})", arguments.replace("...", inner));
+            Some(Advice::new(Applicability::Unsafe, format!("write `{}`", call(short)), Place::Around, call("...")))
+        };
         match (self.types.get(from), self.types.get(to)) {
-            (Type::Scalar(_), Type::Scalar(_) | Type::Vector(..)) => Some(format!("write `{name}({short})`")),
-            (Type::Vector(_, from), Type::Vector(_, to)) if from >= to => Some(format!("write `{name}({short})`")),
-            (Type::Vector(_, 3), Type::Vector(_, 4)) => Some(format!("write `{name}({short}, 1.0)`")),
-            (Type::Matrix(..), Type::Matrix(..)) => Some(format!("write `{name}({short})`")),
+            (Type::Scalar(_), Type::Scalar(_) | Type::Vector(..)) => around("..."),
+            (Type::Vector(_, from), Type::Vector(_, to)) if from >= to => around("..."),
+            (Type::Vector(_, 3), Type::Vector(_, 4)) => around("..., 1.0"),
+            (Type::Matrix(..), Type::Matrix(..)) => around("..."),
             (Type::Array(_, ArraySize::Unsized), _) => Some("give the array a size in its declaration".into()),
             _ => None,
         }

@@ -2,6 +2,7 @@
 //!
 //! *In:* an unknown name. *Out:* what to write instead. *Not done here:* misspelled names.
 
+use crate::diagnostic::{Advice, Applicability, Place};
 use crate::language::{self, Extensions, NEVER, Since, Version};
 
 /// Functions of HLSL and similar languages, and their equivalent in GLSL.
@@ -24,6 +25,13 @@ static FUNCTIONS: &[(&str, &str)] = &[
     ("texCUBE", "write `texture(s, p)`"),
     ("tex2Dlod", "write `textureLod(s, p.xy, p.w)`"),
     ("printf", "a shader can only write to its outputs"),
+];
+
+/// Those that take the same arguments under another name.
+#[rustfmt::skip]
+static RENAMED: &[(&str, &str)] = &[
+    ("lerp", "mix"), ("frac", "fract"), ("rsqrt", "inversesqrt"), ("fmod", "mod"), ("atan2", "atan"), ("ddx", "dFdx"),
+    ("ddy", "dFdy"), ("tex2D", "texture"), ("texCUBE", "texture"),
 ];
 
 /// Methods of textures in HLSL.
@@ -93,12 +101,19 @@ pub(super) fn reason(name: &str) -> Option<(&'static str, &'static str)> {
 }
 
 /// The replacement for a function that does not exist.
-pub(super) fn function(name: &str) -> Option<String> {
-    let foreign = FUNCTIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_owned());
-    let ty = || Some(format!("write `{}(..)`", language::foreign::type_name(name)?));
+pub(super) fn function(name: &str) -> Option<Advice> {
+    let renamed = RENAMED.iter().find(|row| row.0 == name);
+    let foreign = FUNCTIONS.iter().find(|row| row.0 == name).map(|&(_, sentence)| match renamed {
+        Some(&(_, other)) => Advice::new(Applicability::Unsafe, sentence, Place::Over, other),
+        None => sentence.into(),
+    });
+    let ty = || {
+        let ty = language::foreign::type_name(name)?;
+        Some(Advice::new(Applicability::Unsafe, format!("write `{ty}(..)`"), Place::Over, ty))
+    };
     foreign.or_else(ty).or_else(|| {
         let since = LATER.iter().find(|row| row.0 == name)?.1;
-        Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100))
+        Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100).into())
     })
 }
 
@@ -123,6 +138,6 @@ pub(super) fn variable(name: &str) -> Option<String> {
 }
 
 /// The replacement for a type that does not exist.
-pub(in crate::analysis) fn type_name(name: &str) -> Option<String> {
-    language::foreign::type_name(name).map(|ty| format!("write `{ty}`"))
+pub(in crate::analysis) fn type_name(name: &str) -> Option<Advice> {
+    language::foreign::type_name(name).map(|ty| Advice::write(Applicability::Unsafe, ty))
 }

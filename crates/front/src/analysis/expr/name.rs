@@ -7,7 +7,7 @@ use super::super::scope::Entry;
 use crate::builtin::{constants, fixed, variables};
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
 use crate::source::Span;
 use crate::syntax::ast::Ident;
@@ -133,9 +133,9 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
             return;
         }
-        let help = super::foreign::variable(spelling);
-        let help = help.or_else(|| self.nearest_variable(spelling).map(|near| format!("did you mean `{near}`?")));
-        let help = help.or_else(|| self.missing_macro(spelling));
+        let help = super::foreign::variable(spelling).map(Advice::from);
+        let help = help.or_else(|| self.nearest_variable(spelling).map(Advice::meant));
+        let help = help.or_else(|| self.missing_macro(spelling).map(Advice::from));
         self.report(
             Diagnostic::new(&names::UNDECLARED, name.span, format!("`{spelling}` is not declared"))
                 .here("not known here")

@@ -1,8 +1,8 @@
 //! Analyzes operators without side effects (§5.9): unary, binary, `?:` and `,`.
 
 use super::super::context::Analyzer;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Fix, Place};
 use crate::hir::{ArraySize, BinaryOp, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId, UnaryOp};
 use crate::language::Feature;
 use crate::source::Span;
@@ -303,17 +303,37 @@ impl Analyzer<'_> {
             return;
         }
         let (name, span) = (self.type_name(ty), self.span(id));
-        let help = match self.types.get(ty) {
-            _ if matches!(self.expr_at(id).kind, ExprKind::Assign(None, ..)) => Some(ASSIGNS),
-            Type::Scalar(_) => Some("compare it: `... != 0`"),
-            Type::Vector(Scalar::Bool, _) => Some("use `any(...)` or `all(...)`"),
+        let assigned = match self.expr_at(id).kind {
+            ExprKind::Assign(None, left, right) => Some((self.span(left), self.span(right))),
             _ => None,
         };
-        self.report(
-            Diagnostic::new(&types::CONDITION, span, format!("{what} must be a `bool`, not a `{name}`"))
-                .here(format!("this is a `{name}`"))
-                .maybe_help(help.map(str::to_owned)),
-        );
+        let help = match self.types.get(ty) {
+            _ if assigned.is_some() => Some(ASSIGNS.into()),
+            Type::Scalar(scalar) => Some(self.compared(id, scalar)),
+            Type::Vector(Scalar::Bool, _) => Some("use `any(...)` or `all(...)`".into()),
+            _ => None,
+        };
+        let mut finding = Diagnostic::new(&types::CONDITION, span, format!("{what} must be a `bool`, not a `{name}`"))
+            .here(format!("this is a `{name}`"))
+            .maybe_help(help);
+        if let Some((left, right)) = assigned {
+            let between = Span { start: left.end, end: right.start, ..span };
+            finding = finding.fix(Fix::new(Applicability::Unsafe, "write `==` to compare", between, " == "));
+        }
+        self.report(finding);
+    }
+
+    /// The comparison of a number with zero, which is what other languages mean by a number as a condition.
+    fn compared(&self, id: ExprId, scalar: Scalar) -> Advice {
+        let zero = match scalar {
+            Scalar::Float => "0.0",
+            Scalar::Uint => "0u",
+            Scalar::Int | Scalar::Bool => "0",
+        };
+        use ExprKind::{Assign, Binary, Comma, Ternary};
+        let is_compound = matches!(self.expr_at(id).kind, Assign(..) | Binary(..) | Comma(..) | Ternary(..));
+        let text = if is_compound { format!("(...) != {zero}") } else { format!("... != {zero}") };
+        Advice::new(Applicability::Safe, format!("compare it: `... != {zero}`"), Place::Around, text)
     }
 
     /// Reports operands that an operator does not accept.

@@ -2,7 +2,7 @@
 
 use super::super::context::Analyzer;
 use crate::diagnostic::codes::statements;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place, Severity};
 use crate::hir::{ExprId, Stage, StmtKind, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
@@ -78,7 +78,12 @@ impl Analyzer<'_> {
             format!("the returned `{from}` becomes a `{to}` by itself only since GLSL 4.20"),
         )
         .here(format!("this is a `{from}`"))
-        .help(format!("write `{to}(...)` around it"));
+        .help(Advice::new(
+            Applicability::Safe,
+            format!("write `{to}(...)` around it"),
+            Place::Around,
+            format!("{to}(...)"),
+        ));
         if self.strict {
             finding.severity = Severity::Error;
         }

@@ -1,8 +1,8 @@
 //! Analyzes `switch` (§6.2).
 
 use super::super::context::Analyzer;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::statements;
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::hir::{Case, CaseLabel, ExprId, ScalarValue, StmtKind, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
@@ -85,7 +85,7 @@ impl Analyzer<'_> {
             self.report(
                 Diagnostic::new(&statements::EMPTY_CASE, span, "a label at the end of a `switch` without a statement")
                     .here("nothing follows")
-                    .help("write `break;` after it"),
+                    .help(Advice::new(Applicability::Safe, "write `break;` after it", Place::After, " break;")),
             );
         }
         cases
@@ -120,7 +120,12 @@ impl Analyzer<'_> {
                     format!("a case of type `{name}` in a `switch` over a `{wanted}`"),
                 )
                 .here(format!("this is a `{name}`"))
-                .help(format!("write `{wanted}(...)` around it")),
+                .help(Advice::new(
+                    Applicability::Safe,
+                    format!("write `{wanted}(...)` around it"),
+                    Place::Around,
+                    format!("{wanted}(...)"),
+                )),
             );
             return None;
         }

@@ -133,10 +133,25 @@ fn resolved(sources: &SourceMap, fix: &Fix) -> Option<FindingFix> {
         let is_written_here = sources.expansion(edit.span.expansion).is_none();
         let at = sources.location(edit.span).filter(|_| is_written_here)?;
         (!sources.file(at.file).name().starts_with('<')).then_some(())?;
-        edits.push(FindingEdit { region: region(sources, edit.span), text: edit.text.clone() });
+        let span = if edit.text.is_empty() { removed(sources, edit.span) } else { edit.span };
+        edits.push(FindingEdit { region: region(sources, span), text: edit.text.clone() });
     }
     edits.sort_by(|a, b| a.region.cmp(&b.region));
     Some(FindingFix { title: fix.title.clone(), applicability: fix.applicability, edits })
+}
+
+/// What goes with a text that is removed: the whole line if nothing else is on it, otherwise the blanks behind it.
+fn removed(sources: &SourceMap, span: Span) -> Span {
+    let Some(line) = sources.line_of(span) else { return span };
+    let before = sources.snippet(Span { end: span.start, ..line });
+    let after = sources.snippet(Span { start: span.end, ..line });
+    let is_blank = |text: &str| text.chars().all(char::is_whitespace);
+    if span.end <= line.end && is_blank(before) && is_blank(after) {
+        return Span { start: line.start, end: line.end, ..span };
+    }
+    let blanks = after.len() - after.trim_start_matches([' ', '\t']).len();
+    let stands_apart = before.is_empty() || before.ends_with([' ', '\t', '(']);
+    if stands_apart && span.end <= line.end { Span { end: span.end + blanks as u32, ..span } } else { span }
 }
 
 /// FNV-1a over the code, the message and the line of text without its indentation.

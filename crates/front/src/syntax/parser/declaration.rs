@@ -2,7 +2,7 @@
 
 use super::types::is_qualifier;
 use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::source::Span;
 use crate::syntax::ast::{
     BlockDecl, Declaration, DeclarationKind, Declarator, FunctionHeader, Ident, ParamDecl, Qualifier, Stmt, TypeBase,
@@ -26,7 +26,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             TokenKind::Semicolon => {
                 let span = self.bump().span;
                 let message = "a lone `;` at global scope";
-                let diagnostic = kind::STRAY_SEMICOLON.diagnostic(self.strict, span, message).help("leave it out");
+                let advice = Advice::new(Applicability::Safe, "leave it out", Place::Over, "");
+                let diagnostic = kind::STRAY_SEMICOLON.diagnostic(self.strict, span, message).help(advice);
                 self.session.report(diagnostic);
                 Ok(DeclarationKind::Empty)
             }
@@ -172,7 +173,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let diagnostic =
             Diagnostic::new(&codes::UNEXPECTED_TOKEN, at, "`{` is missing before the body of the function")
                 .here("expected `{`")
-                .help("write `{` here");
+                .help(Advice::new(Applicability::Unsafe, "write `{` here", Place::Before, " {"));
         let _: Reported = self.report_found(diagnostic);
         self.function_brace = at;
         self.braces += 1;

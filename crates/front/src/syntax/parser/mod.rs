@@ -25,7 +25,7 @@ use super::of_later_word;
 use super::session::{ParseSession, TokenSource};
 use super::token::{Token, TokenKind};
 use crate::diagnostic::codes::{general, syntax as codes};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::language::NEVER;
 use crate::source::Span;
 use crate::stack::with_stack;
@@ -221,7 +221,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             format!("`;` is missing after {what}"),
         )
         .here("expected `;`")
-        .help("write `;` here");
+        .help(Advice::new(Applicability::Safe, "write `;` here", Place::Before, ";"));
         let _: Reported = self.report_found(diagnostic);
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Parses statements (GLSL 1.50 §6.2 to §6.4, §9).
 
 use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Advice, Applicability, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Condition, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
 
@@ -81,7 +81,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 let message = format!("`{name}` is not a keyword of GLSL");
                 let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, message)
                     .here("expected a statement")
-                    .help("write `else if`");
+                    .help(Advice::write(Applicability::Safe, "else if"));
                 self.session.report(diagnostic);
                 self.if_statement()
             }

@@ -1,7 +1,7 @@
 //! Parses qualifiers, types, structs and their members (GLSL 1.50 §4, §9).
 
 use super::{Parse, Parser, TokenKind, TokenSource, codes};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Advice, Applicability, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{
     ArrayDim, Declarator, ExprId, ExprKind, LayoutId, MemberDecl, Qualifier, QualifierKind, StructSpec, TypeBase,
@@ -194,9 +194,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let token = self.bump();
         let name = self.session.spelling(token).to_owned();
         let help = match name.as_str() {
-            "double" | "half" | "fixed" => Some("write `float`"),
-            "long" | "short" => Some("write `int`"),
-            "unsigned" => Some("write `uint`"),
+            "double" | "half" | "fixed" => Some("float"),
+            "long" | "short" => Some("int"),
+            "unsigned" => Some("uint"),
             _ => None,
         };
         let diagnostic = Diagnostic::new(
@@ -205,7 +205,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             format!("the reserved word `{name}` is not a type in this version"),
         )
         .here("reserved for later versions")
-        .maybe_help(help.map(str::to_owned));
+        .maybe_help(help.map(|word| Advice::write(Applicability::Unsafe, word)));
         self.session.report(of_later_word(diagnostic, &name, self.session.version));
     }
 

@@ -2,7 +2,7 @@
 
 use super::definition::Macro;
 use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
-use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, did_you_mean};
 
 /// How deep parentheses and unary operators may nest in an `#if`.
 const MAX_NESTING: usize = 64;
@@ -295,7 +295,7 @@ impl Evaluator<'_> {
 
     /// The help text for an undefined name, the last token read: the text to write in its place, if there it is only true
     /// or false; otherwise a definition that gives it the value that it has now.
-    fn guarded(&self, name: &str) -> String {
+    fn guarded(&self, name: &str) -> Advice {
         let at = self.next.saturating_sub(1);
         let before = at.checked_sub(1).and_then(|before| self.tokens.get(before)).map(|token| token.kind);
         let after = self.tokens.get(self.next).map(|token| token.kind);
@@ -309,11 +309,11 @@ impl Evaluator<'_> {
             kind.is_some_and(|kind| precedence(kind).is_some_and(|strength| strength > 2) || kind == TokenKind::Tilde)
         };
         if ends && before == Some(TokenKind::Bang) {
-            format!("write `(defined({name}) && {name})`")
+            Advice::write(Applicability::Safe, format!("(defined({name}) && {name})"))
         } else if starts && ends && !(alone && compared.iter().any(is_value)) {
-            format!("write `defined({name}) && {name}`")
+            Advice::write(Applicability::Safe, format!("defined({name}) && {name}"))
         } else {
-            format!("define it before, as `#ifndef {name}`, `#define {name} 0`, `#endif` on lines of their own")
+            format!("define it before, as `#ifndef {name}`, `#define {name} 0`, `#endif` on lines of their own").into()
         }
     }
 
@@ -334,7 +334,7 @@ impl Evaluator<'_> {
             let near = if few && session.may_suggest() { did_you_mean(&name, names) } else { None };
             let message = format!("`{name}` is not defined and counts as 0");
             let help = match near {
-                Some(near) => format!("did you mean `{near}`?"),
+                Some(near) => Advice::meant(near),
                 None => self.guarded(&name),
             };
             let diagnostic = kind::UNDEFINED_IN_CONDITION.diagnostic(self.strict, token.span, message).help(help);

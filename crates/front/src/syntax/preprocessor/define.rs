@@ -5,7 +5,7 @@ use super::{
     Feature, ParseSession, Preprocessor, Profile, Span, Symbol, Token, TokenFlags, TokenKind, codes, kind, predefined,
     version,
 };
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Applicability, Diagnostic, Fix};
 use crate::source::SourceMap;
 
 /// The largest number of parameters of a macro.
@@ -250,14 +250,20 @@ impl Preprocessor<'_> {
         if old.span == new.span || self.engine.redefines || old.same(new, session) {
             return;
         }
-        let diagnostic = Diagnostic::new(
+        let undef = format!("#undef {}", new.name);
+        let mut diagnostic = Diagnostic::new(
             &codes::MACRO_REDEFINED,
             name.span,
             format!("the macro `{}` is defined again with a different body", new.name),
         )
         .here("a different definition")
         .label(old.span, "defined here before")
-        .help(format!("write `#undef {}` first", new.name));
+        .help(format!("write `{undef}` first"));
+        if let Some(line) = session.sources.line_of(name.span) {
+            let start = Span { end: line.start, ..line };
+            let title = format!("write `{undef}` first");
+            diagnostic = diagnostic.fix(Fix::new(Applicability::Safe, title, start, format!("{undef}\n")));
+        }
         session.report(diagnostic);
     }
 }

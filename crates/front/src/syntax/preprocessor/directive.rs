@@ -1,7 +1,7 @@
 //! Directives by name, conditional groups, `#line`, `#error` and `#pragma` (GLSL 1.50 §3.3).
 
 use super::{Extensions, Feature, Mode, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 
 /// An open conditional group.
 #[derive(Clone, Copy, Debug)]
@@ -117,8 +117,8 @@ impl Preprocessor<'_> {
     fn unknown_directive(&mut self, session: &mut ParseSession<'_>, token: Token, span: Span) {
         let name = session.sources.snippet(token.span).to_owned();
         let near = did_you_mean(&name, DIRECTIVES.iter().map(|row| row.0));
-        let of_engine = ENGINES.iter().find(|row| row.0 == name).map(|row| row.1.to_owned());
-        let help = of_engine.or(near.map(|near| format!("did you mean `#{near}`?")));
+        let of_engine = ENGINES.iter().find(|row| row.0 == name).map(|row| Advice::from(row.1));
+        let help = of_engine.or(near.map(|near| Advice::meant(format!("#{near}"))));
         let diagnostic = Diagnostic::new(&codes::UNKNOWN_DIRECTIVE, span, format!("there is no directive `#{name}`"))
             .maybe_help(help);
         session.report(diagnostic);

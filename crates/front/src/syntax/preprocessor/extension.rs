@@ -3,7 +3,7 @@
 use super::{
     Behavior, Extensions, Feature, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, kind,
 };
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use std::sync::LazyLock;
 
 /// An extension that glisten implements.
@@ -197,7 +197,7 @@ impl Preprocessor<'_> {
         } else {
             let names = REGISTERED.lines().chain(IMPLEMENTED.iter().map(|row| row.name));
             let near = if session.may_suggest() { did_you_mean(name, names) } else { None };
-            let near = near.map(|near| format!("did you mean `{near}`?"));
+            let near = near.map(Advice::meant);
             (format!("there is no extension `{name}`"), near)
         };
         let here = if required { "and the source requires it" } else { "the line is ignored" };

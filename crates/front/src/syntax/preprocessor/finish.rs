@@ -2,8 +2,8 @@
 //! and drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
 use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::syntax;
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::syntax::number::{self, Malformed, Numeral, NumeralWarning};
 
 impl Preprocessor<'_> {
@@ -105,19 +105,30 @@ fn malformed_number(text: &str, malformed: Malformed, span: Span) -> Diagnostic 
             Diagnostic::new(&syntax::INTEGER_TOO_LARGE, span, message).here("at most 4294967295")
         }
         Malformed::OctalDigit => wrong(format!("`{text}` is octal because of its leading 0 and cannot hold 8 or 9"))
-            .help(format!("write `{}` for the decimal number", text.trim_start_matches('0'))),
+            .help(decimal(text.trim_start_matches('0'))),
         Malformed::NoDigits => wrong(format!("`{text}` has no digits after its prefix")),
         Malformed::NoExponent => wrong(format!("`{text}` has no digits in its exponent")),
         Malformed::Suffix(at) => {
             let (number, suffix) = text.split_at_checked(at).unwrap_or((text, ""));
             let help = match suffix {
-                "f" | "F" => Some(format!("write `{number}.0f` or `{number}.0`")),
-                "lf" | "LF" => Some("doubles belong to GLSL 4.00; omit the suffix".to_owned()),
+                "f" | "F" => {
+                    let sentence = format!("write `{number}.0f` or `{number}.0`");
+                    Some(Advice::new(Applicability::Safe, sentence, Place::Over, format!("{number}.0")))
+                }
+                "lf" | "LF" => {
+                    let sentence = "doubles belong to GLSL 4.00; omit the suffix";
+                    Some(Advice::new(Applicability::Unsafe, sentence, Place::Over, number))
+                }
                 _ => None,
             };
             wrong(format!("`{suffix}` is not a suffix of a number")).here(format!("in `{text}`")).maybe_help(help)
         }
     }
+}
+
+fn decimal(digits: &str) -> Advice {
+    let sentence = format!("write `{digits}` for the decimal number");
+    Advice::new(Applicability::Unsafe, sentence, Place::Over, digits)
 }
 
 /// Reports the first character of a token that GLSL does not have.
@@ -174,7 +185,7 @@ fn illegal_character(session: &mut ParseSession<'_>, span: Span) -> Option<Token
         ),
     };
     let meant = LOOK_ALIKES.iter().find(|row| row.0 == character).map(|row| row.1);
-    let help = meant.map(|kind| format!("write `{}`", kind.spelling())).or(help.map(str::to_owned));
+    let help = meant.map(|kind| Advice::write(Applicability::Safe, kind.spelling())).or(help.map(Advice::from));
     session.report(Diagnostic::new(&codes::ILLEGAL_CHARACTER, span, message).maybe_help(help));
     meant
 }

@@ -3,7 +3,7 @@
 use super::{
     Extensions, FileId, ParseSession, Preprocessor, Span, Token, TokenFlags, TokenKind, codes, extension, kind,
 };
-use crate::diagnostic::{Diagnostic, codes::general};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place, codes::general};
 use crate::source::{IncludeForm, Included, Inclusion};
 
 /// The largest depth of nested includes.
@@ -58,7 +58,12 @@ impl Preprocessor<'_> {
         if !self.extensions.contains(Extensions::INCLUDE) && !resolved {
             let diagnostic = kind::INCLUDE_WITHOUT_EXTENSION
                 .diagnostic(self.strict, whole, "`#include` without the extension that provides it")
-                .help("write `#extension GL_ARB_shading_language_include : require` before it");
+                .help(Advice::new(
+                    Applicability::Unsafe,
+                    "write `#extension GL_ARB_shading_language_include : require` before it",
+                    Place::Before,
+                    "#extension GL_ARB_shading_language_include : require\n",
+                ));
             session.report(diagnostic);
         } else if let Some(warning) = extension::warning_of_use(self.extensions, Extensions::INCLUDE, whole) {
             session.report(warning);

@@ -34,7 +34,7 @@ use super::names::Names;
 use super::session::{ParseSession, TokenSource};
 use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
-use crate::diagnostic::{Diagnostic, codes::general};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Fix, Place, codes::general};
 use crate::language::Feature;
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span, Unrolled};
 use definition::Macro;
@@ -226,7 +226,12 @@ impl<'a> Preprocessor<'a> {
             let span = Span::new(source.base(), source.base() + '\u{feff}'.len_utf8() as u32);
             let diagnostic = kind::BYTE_ORDER_MARK
                 .diagnostic(self.strict, span, "a byte order mark before the text")
-                .help("save the file as UTF-8 without a byte order mark");
+                .help(Advice::new(
+                    Applicability::Safe,
+                    "save the file as UTF-8 without a byte order mark",
+                    Place::Over,
+                    "",
+                ));
             session.report(diagnostic);
         }
         let source = session.sources.file(file);
@@ -383,9 +388,15 @@ impl<'a> Preprocessor<'a> {
             if crate::diagnostic::codes::find(code).is_none() {
                 let all = crate::diagnostic::codes::all().flat_map(|code| [code.id, code.name]);
                 let near = if session.may_suggest() { crate::diagnostic::did_you_mean(code, all) } else { None };
-                let near = near.map(|near| format!("did you mean `{near}`?"));
                 let message = format!("there is no code `{code}` to allow");
-                session.report(Diagnostic::new(&codes::UNKNOWN_ALLOW, span, message).maybe_help(near));
+                let mut diagnostic = Diagnostic::new(&codes::UNKNOWN_ALLOW, span, message);
+                if let (Some(near), Some(at)) = (near, session.sources.snippet(span).find(code.as_str())) {
+                    let start = span.start + at as u32;
+                    let word = Span { start, end: start + code.len() as u32, ..span };
+                    let fix = Fix::new(Applicability::Unsafe, format!("write `{near}`"), word, near);
+                    diagnostic = diagnostic.help(format!("did you mean `{near}`?")).fix(fix);
+                }
+                session.report(diagnostic);
             }
         }
         self.outcome.allows.push(Allow { span, codes: wanted });

@@ -1,0 +1,246 @@
+//! `glisten lint --fix`: applies the fixes of findings until nothing changes.
+//!
+//! *In:* the checked units of a round. *Out:* texts in place of the files ([`super::buffers`]), and in the end the files themselves,
+//! or what would change in them. *Holds:* each fix is applied whole or not at all, and only where the text on the disk is the one
+//! that was checked; a round after which there are more errors than before is taken back, and its fixes are tried in smaller
+//! groups; a file is replaced at once or not at all, and one that somebody else changed meanwhile is left.
+
+use super::buffers;
+use super::console::Console;
+use super::exit::Failure;
+use super::files;
+use super::session::Unit;
+use super::texts::{Text, diff};
+use clap::Args;
+use glisten_front::diagnostic::write::{Finding, FindingFix};
+use glisten_front::diagnostic::{Applicability, Patch};
+use glisten_front::source::{SourceFile, SourceMap};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// How often the sources are checked again: a fix may bring another finding to light.
+const MAX_ROUNDS: usize = 100;
+
+/// Which fixes to apply, and where to.
+#[derive(Args, Clone, Copy, Debug, Default)]
+#[command(next_help_heading = "Fixes")]
+pub(super) struct FixArgs {
+    /// Apply the safe fixes until nothing changes: they keep what is drawn, or are the only reading of a wrong text
+    #[arg(long)]
+    fix: bool,
+    /// Apply the unsafe fixes, too: they may change what is drawn, or guess
+    #[arg(long)]
+    unsafe_fixes: bool,
+    /// Write nothing; print what the fixes would change
+    #[arg(long)]
+    diff: bool,
+}
+
+impl FixArgs {
+    /// Whether fixes are applied.
+    pub(super) fn any(self) -> bool {
+        self.fix || self.unsafe_fixes || self.diff
+    }
+
+    /// Whether standard output is for what would change.
+    pub(super) fn prints(self) -> bool {
+        self.diff
+    }
+}
+
+/// A file that fixes change.
+struct Changed {
+    name: String,
+    /// Its bytes when they were read first.
+    original: Vec<u8>,
+    text: Text,
+    /// The text of each round that still counts, the last one at the end.
+    rounds: Vec<(usize, String)>,
+}
+
+impl Changed {
+    fn current(&self) -> &str {
+        self.rounds.last().map_or(&self.text.text, |(_, text)| text)
+    }
+}
+
+/// A fix, and what tells it from others across rounds.
+struct Offer {
+    fix: FindingFix,
+    key: String,
+}
+
+/// Applies fixes round by round.
+pub(super) struct Fixer {
+    args: FixArgs,
+    files: BTreeMap<PathBuf, Changed>,
+    /// The fixes of the last round.
+    last: Vec<String>,
+    /// Fixes that brought errors.
+    refused: BTreeSet<String>,
+    /// How many fixes a round applies at most.
+    at_once: usize,
+    errors: usize,
+    round: usize,
+    /// The number of fixes that count, by round.
+    applied: BTreeMap<usize, usize>,
+}
+
+impl Fixer {
+    /// Nothing is applied yet.
+    pub(super) fn new(args: FixArgs) -> Self {
+        let (files, applied) = (BTreeMap::new(), BTreeMap::new());
+        let (last, refused) = (Vec::new(), BTreeSet::new());
+        Self { args, files, last, refused, at_once: usize::MAX, errors: usize::MAX, round: 0, applied }
+    }
+
+    /// Applies the fixes of findings to the texts; returns whether the sources are to be checked again.
+    pub(super) fn advance(&mut self, units: &[Unit]) -> bool {
+        let errors = n_errors(units);
+        if errors > self.errors {
+            self.take_back();
+            return true;
+        }
+        self.errors = errors;
+        if self.round >= MAX_ROUNDS {
+            return false;
+        }
+        if self.last.len() < self.at_once {
+            self.at_once = self.at_once.saturating_mul(2);
+        }
+        self.round += 1;
+        let (mut patch, mut taken) = (Patch::default(), Vec::new());
+        for offer in self.offers(units) {
+            if taken.len() < self.at_once && !self.refused.contains(&offer.key) && patch.add(&offer.fix) {
+                taken.push(offer.key);
+            }
+        }
+        let texts: Option<Vec<(PathBuf, String)>> = patch
+            .files()
+            .map(|name| {
+                let path = PathBuf::from(name);
+                let text = patch.applied(name, self.files.get(&path)?.current())?;
+                Some((path, text))
+            })
+            .collect();
+        let texts = texts.unwrap_or_default();
+        if texts.is_empty() {
+            return false;
+        }
+        for (path, text) in texts {
+            if let Some(file) = self.files.get_mut(&path) {
+                buffers::put(&path, file.text.bytes(&text));
+                file.rounds.push((self.round, text));
+            }
+        }
+        self.applied.insert(self.round, taken.len());
+        self.last = taken;
+        true
+    }
+
+    /// Undoes the last round. A single fix is refused for good; of several, half are tried next.
+    fn take_back(&mut self) {
+        for (path, file) in &mut self.files {
+            if file.rounds.pop_if(|(round, _)| *round == self.round).is_some() {
+                buffers::put(path, file.text.bytes(file.current()));
+            }
+        }
+        self.applied.remove(&self.round);
+        if let [only] = self.last.as_slice() {
+            self.refused.insert(only.clone());
+        }
+        self.at_once = (self.last.len() / 2).max(1);
+        self.last.clear();
+    }
+
+    /// The fixes that may be applied, in the order of the findings.
+    fn offers(&mut self, units: &[Unit]) -> Vec<Offer> {
+        let mut offers = Vec::new();
+        for unit in units {
+            for diagnostic in &unit.batch.diagnostics {
+                let finding = Finding::new(&unit.batch.sources, diagnostic);
+                let mut fixes = finding.fixes.iter();
+                let allowed = |fix: &&FindingFix| self.args.unsafe_fixes || fix.applicability == Applicability::Safe;
+                // Several fixes of a finding are alternatives.
+                let Some(fix) = fixes.find(allowed) else { continue };
+                if fix.edits.iter().all(|edit| self.is_as_checked(&unit.batch.sources, &edit.region.file, fix)) {
+                    offers.push(Offer { key: key(&finding, fix), fix: fix.clone() });
+                }
+            }
+        }
+        offers
+    }
+
+    /// Whether the lines that a fix changes are the same on the disk as in the text that was checked: an engine may have put one
+    /// together from several files.
+    fn is_as_checked(&mut self, sources: &SourceMap, name: &str, fix: &FindingFix) -> bool {
+        let Some((_, checked)) = sources.files().find(|(_, file)| file.name() == name) else { return false };
+        let Some(file) = self.file(name) else { return false };
+        let mut map = SourceMap::default();
+        let Some(id) = map.add(name, file.current()) else { return false };
+        let own = fix.edits.iter().filter(|edit| edit.region.file == name);
+        let lines = own.flat_map(|edit| edit.region.line..=edit.region.end_line);
+        let line = |file: &SourceFile, number: u32| file.line(number).map(str::to_owned);
+        lines.into_iter().all(|number| line(checked, number) == line(map.file(id), number))
+    }
+
+    /// The file of this name, read when it is needed first.
+    fn file(&mut self, name: &str) -> Option<&Changed> {
+        let path = PathBuf::from(name);
+        if !self.files.contains_key(&path) {
+            let original = files::read(name, &path).ok()?;
+            let text = Text::new(original.clone());
+            let changed = Changed { name: name.to_owned(), original, text, rounds: Vec::new() };
+            self.files.insert(path.clone(), changed);
+        }
+        self.files.get(&path)
+    }
+
+    /// Writes the files, or prints what would change in them, and tells how much that is.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub(super) fn finish(self, console: &Console) -> Result<(), Failure> {
+        let changed: Vec<(&PathBuf, &Changed)> =
+            self.files.iter().filter(|(_, file)| file.current() != file.text.text).collect();
+        let mut n_written = 0;
+        for (path, file) in &changed {
+            if self.args.diff {
+                console.output(&diff(&file.name, &file.text.text, file.current()))?;
+                n_written += 1;
+            } else if is_unchanged(path, &file.original) {
+                files::write(path, &file.text.bytes(file.current()))?;
+                n_written += 1;
+            } else {
+                console.message(&format!(
+                    "warning: `{}` changed while it was being fixed; it is left as it is\n",
+                    file.name
+                ));
+            }
+        }
+        let count = |n: usize, what: &str, many: &str| format!("{n} {}", if n == 1 { what } else { many });
+        let n_fixes: usize = self.applied.values().sum();
+        let verb = if self.args.diff { "would change" } else { "changed" };
+        let fixes = count(n_fixes, "fix", "fixes");
+        console.remark(&format!("{fixes} {verb} {}", count(n_written, "file", "files")));
+        Ok(())
+    }
+}
+
+fn n_errors(units: &[Unit]) -> usize {
+    let batches = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch]));
+    batches.flat_map(|batch| &batch.diagnostics).filter(|one| one.is_error()).count()
+}
+
+/// What a fix is known by when lines above it have come or gone.
+fn key(finding: &Finding, fix: &FindingFix) -> String {
+    format!(
+        "{} {} {:x} {} {}",
+        finding.region.file, finding.code.id, finding.fingerprint, finding.region.column, fix.title
+    )
+}
+
+/// Whether a file still has the bytes that were read.
+fn is_unchanged(path: &Path, original: &[u8]) -> bool {
+    std::fs::read(path).is_ok_and(|bytes| bytes == original)
+}
