@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use glisten_emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::constants::{MAX_DRAW_BUFFERS, MAX_VERTEX_ATTRIBS};
 use glisten_front::compiler::Options;
-use glisten_front::diagnostic::{Code, Level, Levels, Severity, codes, did_you_mean};
+use glisten_front::diagnostic::{Key, Level, Levels, Severity, codes, did_you_mean};
 use glisten_front::link::FixedState;
 use std::path::PathBuf;
 
@@ -96,14 +96,14 @@ impl SourceArgs {
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Diagnostics")]
 pub(super) struct LevelArgs {
-    /// Drop warnings with this code
-    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    /// Drop warnings with this code, or of this group of rules
+    #[arg(long, value_name = "CODE|GROUP", value_delimiter = ',')]
     allow: Vec<String>,
-    /// Report diagnostics with this code as warnings
-    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    /// Report diagnostics with this code, or of this group, as warnings
+    #[arg(long, value_name = "CODE|GROUP", value_delimiter = ',')]
     warn: Vec<String>,
-    /// Report diagnostics with this code as errors; `warnings` means all warnings
-    #[arg(long, value_name = "CODE|warnings", value_delimiter = ',')]
+    /// Report diagnostics with this code, or of this group, as errors; `warnings` means all warnings
+    #[arg(long, value_name = "CODE|GROUP|warnings", value_delimiter = ',')]
     deny: Vec<String>,
     /// The format of diagnostics
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
@@ -131,7 +131,7 @@ impl LevelArgs {
     }
 }
 
-/// Sets the level of one code, or of all `warnings`. On failure, returns the message and a suggestion.
+/// Sets the level of one code or group, or of all `warnings`. On failure, returns the message and a suggestion.
 pub(super) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<(), (String, Option<String>)> {
     if key == "warnings" {
         if level == Level::Deny {
@@ -140,27 +140,30 @@ pub(super) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<
         }
         return Err(("`warnings` as a whole can only be denied".to_owned(), None));
     }
-    let Some(code) = codes::find(key) else {
+    let Some(found) = Key::find(key) else {
         return Err((
-            format!("there is no code `{key}`"),
+            format!("there is no code or group `{key}`"),
             nearest_code(key).map(|near| format!("did you mean `{near}`?")),
         ));
     };
-    if code.severity == Severity::Error {
-        return Err((format!("{code} ({}) is an error, which no level changes", code.name), None));
+    let named = match found {
+        Key::Code(code) => format!("{code} ({})", code.name),
+        Key::Group(group) => format!("the group `{}`", group.name()),
+    };
+    if matches!(found, Key::Code(code) if code.severity == Severity::Error) {
+        return Err((format!("{named} is an error, which no level changes"), None));
     }
-    if levels.get(code).is_some_and(|given| given != level) {
-        return Err((format!("{code} ({}) has another level already", code.name), None));
+    if levels.given(found).is_some_and(|given| given != level) {
+        return Err((format!("{named} has another level already"), None));
     }
-    levels.set(code, level);
+    levels.set_key(found, level);
     Ok(())
 }
 
 /// The identifier or name of the code that is most similar to `key`.
 pub(super) fn nearest_code(key: &str) -> Option<&'static str> {
-    let names = || codes::all().flat_map(|code: &'static Code| [code.id, code.name]);
     let letters = did_you_mean(&key.to_ascii_uppercase(), codes::all().map(|code| code.id));
-    did_you_mean(key, names()).or(letters).or_else(|| {
+    did_you_mean(key, Key::words()).or(letters).or_else(|| {
         // A part of a name: `undeclared` for `undeclared-identifier`.
         let lower = key.to_ascii_lowercase();
         codes::all().map(|code| code.name).find(|name| lower.len() >= 3 && name.contains(lower.as_str()))

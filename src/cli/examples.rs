@@ -43,6 +43,13 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
             ("glisten reflect a.vert a.frag --find light.position", "one name, as glGetUniformLocation"),
         ],
     ),
+    (
+        "rules",
+        &[
+            ("glisten rules", "all lint rules with their groups, levels and fixes"),
+            ("glisten rules --group numerics --format json", "those of a group, for a script"),
+        ],
+    ),
     ("explain", &[("glisten explain E0301", "a code, with an example"), ("glisten explain --list", "all codes")]),
     (
         "render",

@@ -64,7 +64,8 @@ fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> Ve
     let mut units = session.compile(groups);
     for unit in &mut units {
         if let Some(program) = &unit.program {
-            session.add(&mut unit.batch, glisten_front::lint::check(program));
+            let found = glisten_front::lint::check(program, &unit.batch.sources);
+            session.add(&mut unit.batch, found);
         }
     }
     not_checked::settle(session, &mut units, inputs);

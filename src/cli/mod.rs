@@ -35,6 +35,7 @@ mod interrupt;
 mod journal;
 mod library;
 mod lint;
+mod lint_rules;
 mod lone;
 mod machine;
 mod made;
@@ -116,6 +117,7 @@ enum Command {
     Compile(compile::CompileArgs),
     Reflect(reflect::ReflectArgs),
     Explain(explain::ExplainArgs),
+    Rules(lint_rules::RulesArgs),
     Render(render::RenderArgs),
     Verify(verify::VerifyArgs),
     Specialize(specialize::SpecializeArgs),
@@ -201,6 +203,7 @@ impl Command {
             | Self::Compile(_)
             | Self::Reflect(_)
             | Self::Explain(_)
+            | Self::Rules(_)
             | Self::Specialize(_)
             | Self::Stability(_)
             | Self::NewScene(_)
@@ -222,6 +225,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Compile(args) => compile::run(args, console),
         Command::Reflect(args) => reflect::run(args, console),
         Command::Explain(args) => explain::run(args, console),
+        Command::Rules(args) => lint_rules::run(args, console),
         Command::Render(args) => render::run(args, console),
         Command::Verify(args) => verify::run(args, console),
         Command::Specialize(args) => specialize::run(args, console),

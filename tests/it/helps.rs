@@ -23,7 +23,7 @@ fn diagnostics(shader: &Shader) -> (Vec<Diagnostic>, usize) {
     let base = file.map_or(0, |(_, file)| file.base());
     let mut all: Vec<Diagnostic> = compilation.diagnostics.iter().cloned().collect();
     if let Some(program) = &compilation.program {
-        all.extend(lint::check(program));
+        all.extend(lint::check(program, &compilation.sources));
     }
     (all, base as usize)
 }
@@ -172,7 +172,7 @@ fn findings(shaders: &[Shader]) -> Vec<Found> {
         |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
     let compilation = compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
     let mut all: Vec<Diagnostic> = compilation.diagnostics.iter().cloned().collect();
-    all.extend(compilation.program.iter().flat_map(lint::check));
+    all.extend(compilation.program.iter().flat_map(|program| lint::check(program, &compilation.sources)));
     let place = |diagnostic: &Diagnostic| {
         shaders.iter().enumerate().find_map(|(index, shader)| {
             let files = compilation.sources.files();
@@ -262,7 +262,7 @@ fn resolved(shaders: &[Shader]) -> Vec<write::Finding> {
         |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
     let compilation = compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
     let mut all: Vec<Diagnostic> = compilation.diagnostics.iter().cloned().collect();
-    all.extend(compilation.program.iter().flat_map(lint::check));
+    all.extend(compilation.program.iter().flat_map(|program| lint::check(program, &compilation.sources)));
     write::findings(&compilation.sources, &all)
 }
 

@@ -2,13 +2,14 @@
 
 use crate::support::{Settings, Shader, root, shaders_under};
 use glisten::{Compiler, Options, Source, lint};
-use glisten_front::diagnostic::{Example, Severity};
+use glisten_front::diagnostic::{Code, Example, Severity};
 use glisten_front::hir::Stage;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The codes that the rules raise, with the severity of each. A diagnostic of the front end is a failure.
-fn lints(shaders: &[Shader]) -> Vec<(&'static str, Severity)> {
+/// The codes that the rules raise, with the severity of each, without rules that are off but for `rule`. A diagnostic of the front
+/// end is a failure.
+fn lints(shaders: &[Shader], rule: Option<&Code>) -> Vec<(&'static str, Severity)> {
     let settings = Settings::default();
     let options = Options { defines: settings.defines, strict: settings.strict, ..Options::default() };
     let sources: Vec<Source> = shaders
@@ -19,7 +20,9 @@ fn lints(shaders: &[Shader]) -> Vec<(&'static str, Severity)> {
     let names: Vec<&str> = shaders.iter().map(|shader| shader.name.as_str()).collect();
     let messages: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
     let program = compilation.program.unwrap_or_else(|| panic!("{names:?} give no program: {messages:?}"));
-    lint::check(&program).iter().map(|found| (found.code.id, found.severity)).collect()
+    let found = lint::check(&program, &compilation.sources);
+    let is_on = |code: &Code| !code.is_off() || rule == Some(code);
+    found.iter().filter(|found| is_on(found.code)).map(|found| (found.code.id, found.severity)).collect()
 }
 
 fn example(example: Example) -> Vec<Shader> {
@@ -41,10 +44,10 @@ fn every_rules_page_shows_what_it_finds() {
     for rule in lint::rules() {
         let id = rule.code.id;
         assert!(
-            lints(&example(rule.code.bad)).iter().any(|(found, _)| *found == id),
+            lints(&example(rule.code.bad), Some(rule.code)).iter().any(|(found, _)| *found == id),
             "{id}: the bad example is silent"
         );
-        assert_eq!(lints(&example(rule.code.good)), [], "{id}: the good example");
+        assert_eq!(lints(&example(rule.code.good), Some(rule.code)), [], "{id}: the good example");
     }
 }
 
@@ -63,7 +66,7 @@ fn every_rule_has_fixtures_that_raise_it_and_fixtures_that_do_not() {
         assert!(count("bad") > 0 && count("good") > 0, "{id} lacks fixtures");
         for (stem, mut shaders) in programs {
             shaders.sort_by_key(|shader| shader.stage);
-            let found = lints(&shaders);
+            let found = lints(&shaders, Some(rule.code));
             let raised = found.iter().any(|(code, _)| *code == id);
             assert_eq!(raised, stem.starts_with("bad"), "{id}/{stem}: {found:?}");
             let warns = found.iter().any(|(_, severity)| *severity > Severity::Note);
@@ -81,7 +84,8 @@ fn ordinary_programs_raise_no_warning() {
     }
     assert!(!programs.is_empty(), "no programs under {}", root().display());
     for (stem, shaders) in programs {
-        let warnings: Vec<_> = lints(&shaders).into_iter().filter(|(_, severity)| *severity > Severity::Note).collect();
+        let warnings: Vec<_> =
+            lints(&shaders, None).into_iter().filter(|(_, severity)| *severity > Severity::Note).collect();
         assert_eq!(warnings, [], "{stem}");
     }
 }
@@ -111,7 +115,7 @@ fn every_way_through_a_function_is_followed_to_its_return() {
         let text = format!(
             "#version 150\nuniform int n; in float x; out vec4 c; float f() {{ {body} }} void main() {{ c = vec4(f()); }}"
         );
-        let found = lints(&[Shader { name: "a.frag".to_owned(), text, stage: Stage::Fragment }]);
+        let found = lints(&[Shader { name: "a.frag".to_owned(), text, stage: Stage::Fragment }], None);
         assert_eq!(!found.iter().any(|(code, _)| *code == "L0013"), is_whole, "{body}: {found:?}");
     }
 }
@@ -130,7 +134,7 @@ fn unwritten(vertex: &str, fragment: &str) -> Vec<String> {
     let compilation = Compiler::new(Options::default()).compile(&sources);
     let told: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
     let program = compilation.program.unwrap_or_else(|| panic!("{told:?}"));
-    let found = lint::check(&program);
+    let found = lint::check(&program, &compilation.sources);
     let found = found.iter().filter(|found| found.code.id == "L0014");
     found
         .map(|found| found.message.replace("the fragment stage reads ", "").replace("which the vertex stage ", ""))

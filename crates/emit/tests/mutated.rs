@@ -271,7 +271,9 @@ fn take(shaders: &[(Stage, String)]) -> Result<(), String> {
     let mut codes: Vec<(&str, String)> =
         compilation.diagnostics.iter().map(|finding| (finding.code.id, finding.message.clone())).collect();
     if let Some(program) = &compilation.program {
-        codes.extend(lint::check(program).iter().map(|finding| (finding.code.id, finding.message.clone())));
+        codes.extend(
+            lint::check(program, &compilation.sources).iter().map(|finding| (finding.code.id, finding.message.clone())),
+        );
         let targets = [Target::Wgsl, Target::Spirv, Target::Glsl];
         for (stage, target) in shaders.iter().flat_map(|(stage, _)| targets.map(|target| (*stage, target))) {
             let errors = emit(program, stage, target, &Conventions::default()).err().unwrap_or_default();

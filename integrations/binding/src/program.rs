@@ -109,7 +109,7 @@ pub fn compile(settings: &Settings, sources: &[Source], lints: bool) -> Result<C
         Report { sources: compilation.sources, diagnostics: compilation.diagnostics.into_iter().collect() };
     match &compilation.program {
         Some(program) if lints => {
-            let mut found = lint::check(program);
+            let mut found = lint::check(program, &report.sources);
             found.retain_mut(|diagnostic| settings.levels.apply(&report.sources, diagnostic));
             report.diagnostics.extend(found);
         }

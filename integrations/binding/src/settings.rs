@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::includes::Includes;
-use glisten::diagnostic::{Level, Levels, Severity, codes, did_you_mean};
+use glisten::diagnostic::{Key, Level, Levels, Severity, codes, did_you_mean};
 use glisten::emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, WindowOrigin};
 use glisten::{Compiler, Options};
 
@@ -135,11 +135,13 @@ impl Settings {
             self.levels.deny_warnings();
             return Ok(());
         }
-        let code = codes::find(key).ok_or_else(|| format!("there is no code `{key}`"))?;
-        if code.severity == Severity::Error {
+        let found = Key::find(key).ok_or_else(|| format!("there is no code or group `{key}`"))?;
+        if let Key::Code(code) = found
+            && code.severity == Severity::Error
+        {
             return Err(format!("{code} ({}) is an error, which no level changes", code.name));
         }
-        self.levels.set(code, level);
+        self.levels.set_key(found, level);
         Ok(())
     }
 

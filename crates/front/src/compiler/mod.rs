@@ -8,7 +8,7 @@ use crate::analysis::{analyze, keep_decisive, keep_understood, point_to_engine};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
-use crate::hir::{Stage, Types};
+use crate::hir::{Origin, Stage, Types};
 use crate::link::{Bindings, FixedState, Program, Understood, check_understood, link};
 use crate::source::{Completion, Edits, FileId, IncludeResolver, Language, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
@@ -245,6 +245,11 @@ impl Compiler {
             let start = map.file(file).base();
             shader.version.span = Span::new(start, start);
         }
+        shader.origin = Origin {
+            file: Some(file),
+            inclusions: ast.inclusions.clone(),
+            allows: ast.allows.iter().map(|allow| (allow.span, allow.codes.clone())).collect(),
+        };
         let edits = Edits { inclusions: &ast.inclusions, unrolled: &ast.unrolled, preludes: &ast.preludes };
         // A macro that nothing asks for is no part of the text: with and without it, the outputs are the same.
         let mut defines = options.defines;

@@ -1,12 +1,12 @@
 //! [`Levels`]: which diagnostics the user wants, and at which severity.
 //!
-//! *In:* levels by code, and comments `// glisten: allow(CODE)` in the sources. *Out:* each diagnostic is dropped, or
+//! *In:* levels by code and by group, and comments `// glisten: allow(CODE)` in the sources. *Out:* each diagnostic is dropped, or
 //! gets its severity.
 //!
-//! *Holds:* levels affect only warnings and notes, never errors of the language. A level for a code takes precedence
-//! over `deny warnings`; a comment takes precedence over both.
+//! *Holds:* levels affect only warnings and notes, never errors of the language. The level of a code takes precedence over that of
+//! its group, that over `deny warnings`, and a comment over all. A rule that is off reports where a level asks for it.
 
-use super::{Code, Diagnostic, Severity, codes};
+use super::{Code, Diagnostic, Group, Key, Severity};
 use crate::source::SourceMap;
 use std::collections::BTreeMap;
 
@@ -21,10 +21,11 @@ pub enum Level {
     Deny,
 }
 
-/// Levels by code.
+/// Levels by code and by group.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Levels {
     by_code: BTreeMap<&'static str, Level>,
+    by_group: BTreeMap<Group, Level>,
     deny_warnings: bool,
 }
 
@@ -39,9 +40,36 @@ impl Levels {
         self.deny_warnings = true;
     }
 
-    /// The level that a code has been given.
+    /// Sets the level of a group of lint rules.
+    pub fn set_group(&mut self, group: Group, level: Level) {
+        self.by_group.insert(group, level);
+    }
+
+    /// Sets the level of what a word names.
+    pub fn set_key(&mut self, key: Key, level: Level) {
+        match key {
+            Key::Code(code) => self.set(code, level),
+            Key::Group(group) => self.set_group(group, level),
+        }
+    }
+
+    /// The level that exactly this has been given: the code itself, or the group as a whole.
+    pub fn given(&self, key: Key) -> Option<Level> {
+        match key {
+            Key::Code(code) => self.by_code.get(code.id).copied(),
+            Key::Group(group) => self.by_group.get(&group).copied(),
+        }
+    }
+
+    /// The level that a code has been given, itself or with its group.
     pub fn get(&self, code: &Code) -> Option<Level> {
-        self.by_code.get(code.id).copied()
+        let of_group = || self.by_group.get(&code.group()?).copied();
+        self.by_code.get(code.id).copied().or_else(of_group)
+    }
+
+    /// Whether a lint rule can report anything under these levels, comments aside.
+    pub fn may_report(&self, code: &Code) -> bool {
+        self.get(code).map_or(!code.is_off(), |level| level != Level::Allow)
     }
 
     /// These levels, completed by those of `base`.
@@ -49,7 +77,9 @@ impl Levels {
     pub fn over(&self, base: &Self) -> Self {
         let mut by_code = base.by_code.clone();
         by_code.extend(self.by_code.iter().map(|(id, level)| (*id, *level)));
-        Self { by_code, deny_warnings: self.deny_warnings || base.deny_warnings }
+        let mut by_group = base.by_group.clone();
+        by_group.extend(&self.by_group);
+        Self { by_code, by_group, deny_warnings: self.deny_warnings || base.deny_warnings }
     }
 
     /// Gives a diagnostic its severity under these levels; `false` if it is to be dropped. The only place where levels and
@@ -72,6 +102,7 @@ impl Levels {
             Some(Level::Allow) => None,
             Some(Level::Warn) => Some(Severity::Warning),
             Some(Level::Deny) => Some(Severity::Error),
+            None if diagnostic.code.is_off() => None,
             None if self.deny_warnings && diagnostic.severity == Severity::Warning => Some(Severity::Error),
             None => Some(diagnostic.severity),
         }
@@ -82,7 +113,7 @@ impl Levels {
 fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
     let Some(at) = sources.location(sources.call_site(diagnostic.primary.span)) else { return false };
     let file = sources.file(at.file);
-    let allows = |line: &str| allowed(line).any(|key| codes::find(key) == Some(diagnostic.code));
+    let allows = |line: &str| allowed(line).any(|key| Key::find(key).is_some_and(|key| key.names(diagnostic.code)));
     if file.line(at.line).is_some_and(allows) {
         return true;
     }
@@ -119,7 +150,10 @@ fn is_comment(line: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Level, Levels};
-    use crate::diagnostic::codes::general::{LONE_STAGE, TOO_DEEP};
+    use crate::diagnostic::codes::{
+        self,
+        general::{LONE_STAGE, TOO_DEEP},
+    };
     use crate::diagnostic::{Diagnostic, Severity};
     use crate::source::{SourceMap, Span};
 
@@ -143,6 +177,29 @@ mod tests {
         levels.set(&TOO_DEEP, Level::Allow);
         let error = Diagnostic::new(&TOO_DEEP, warning.primary.span, "deep");
         assert_eq!(levels.severity(&sources, &error), Some(Severity::Error));
+    }
+
+    #[test]
+    fn a_code_beats_its_group_and_rules_that_are_off_stay_off() {
+        let off = codes::all().find(|code| code.is_off()).expect("some rule is off");
+        let group = off.group().expect("it is a lint rule");
+        let (sources, _) = warning_on_line("int x;\n", 1);
+        let note = Diagnostic::new(off, Span::new(1, 2), "off");
+        let mut levels = Levels::default();
+        assert_eq!((levels.severity(&sources, &note), levels.may_report(off)), (None, false));
+        levels.deny_warnings();
+        assert_eq!(levels.severity(&sources, &note), None);
+        levels.set_group(group, Level::Deny);
+        assert_eq!(levels.severity(&sources, &note), Some(Severity::Error));
+        levels.set(off, Level::Warn);
+        assert_eq!(levels.severity(&sources, &note), Some(Severity::Warning));
+        let mut above = Levels::default();
+        above.set_group(group, Level::Allow);
+        assert_eq!(above.over(&levels).severity(&sources, &note), Some(Severity::Warning));
+        for word in [group.name().to_uppercase(), off.name.to_owned()] {
+            let (sources, _) = warning_on_line(&format!("x // glisten: allow({word})\n"), 1);
+            assert_eq!(levels.severity(&sources, &note), None, "{word}");
+        }
     }
 
     #[test]

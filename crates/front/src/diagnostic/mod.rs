@@ -9,6 +9,7 @@
 mod advice;
 pub mod codes;
 mod fix;
+pub mod group;
 mod levels;
 mod patch;
 mod saved;
@@ -16,8 +17,9 @@ mod sink;
 pub mod write;
 
 pub use advice::{Advice, Place};
-pub use codes::{Code, Example};
+pub use codes::{Code, Example, Key};
 pub use fix::{Applicability, Edit, Fix};
+pub use group::{Fixable, Group, LintInfo};
 pub use levels::{Level, Levels};
 pub use patch::Patch;
 pub use saved::Saved;
@@ -139,6 +141,13 @@ impl Diagnostic {
     #[must_use]
     pub fn fix(mut self, fix: Fix) -> Self {
         self.fixes.push(fix);
+        self
+    }
+
+    /// Adds a change of the text that removes it, if there is one.
+    #[must_use]
+    pub fn maybe_fix(mut self, fix: Option<Fix>) -> Self {
+        self.fixes.extend(fix);
         self
     }
 

@@ -29,7 +29,7 @@ pub use handles::{FunctionId, GlobalId, LocalId};
 pub use members::MembersRead;
 pub use print::{Notes, print, print_with};
 pub use shader::{
-    BlockInfo, BlockLayout, DepthMode, FragCoordLayout, Function, GeometryLayout, Global, Local, LocalKind,
+    BlockInfo, BlockLayout, DepthMode, FragCoordLayout, Function, GeometryLayout, Global, Local, LocalKind, Origin,
     PerVertexOut, PrimitiveIn, PrimitiveOut, Shader,
 };
 pub use stmt::{Case, CaseLabel, Condition, LoopKind, Stmt, StmtKind};

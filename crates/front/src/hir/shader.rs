@@ -3,7 +3,7 @@
 use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Stmt, Type, TypeId, Types, Value, VarRef};
 use crate::builtin::BuiltinVariable;
 use crate::language::{Interpolation, ParamMode, Sampling, Stage, Storage, Version};
-use crate::source::Span;
+use crate::source::{FileId, Inclusion, Span};
 use std::sync::Arc;
 
 /// The layout of a uniform block (§4.3.8.3).
@@ -262,6 +262,17 @@ impl DepthMode {
     }
 }
 
+/// The text that a shader was made from, for who looks at the text itself.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    /// Its own file; none for a shader that was not compiled from text.
+    pub file: Option<FileId>,
+    /// The files that were included, in reading order.
+    pub inclusions: Vec<Inclusion>,
+    /// The comments `// glisten: allow(CODE, ..)` in text that is not skipped, each with its codes.
+    pub allows: Vec<(Span, Vec<String>)>,
+}
+
 /// One stage.
 #[derive(Clone, Debug)]
 pub struct Shader {
@@ -295,6 +306,8 @@ pub struct Shader {
     /// The text for an OpenGL driver, one for each source ([`whole_text`](crate::source::whole_text)); empty for a
     /// shader that was not compiled from text.
     pub texts: Vec<Arc<str>>,
+    /// The text that it was made from.
+    pub origin: Origin,
 }
 
 impl Shader {
@@ -335,6 +348,7 @@ impl Shader {
             depth_mode: DepthMode::default(),
             expr_depth: 0,
             texts: Vec::new(),
+            origin: Origin::default(),
         }
     }
 

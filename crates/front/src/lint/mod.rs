@@ -1,25 +1,33 @@
 //! Lint rules: legal programs that will cause trouble, with one file for each rule. Rules read and never change a
 //! program.
 //!
-//! *In:* a linked [`Program`]. *Out:* warnings and notes, each with a code of its own
+//! *In:* a linked [`Program`] and the texts that it was made from. *Out:* warnings and notes, each with a code of its own
 //! ([`crate::diagnostic::codes::lints`]), in the order of the rules. *Holds:* an ordinary good program raises nothing
-//! but notes; a rule that cannot be sure says nothing. *Not done here:* levels and comments that silence a rule.
-//! Whoever prints the diagnostics applies them.
+//! but notes; a rule that cannot be sure says nothing; a fix is a change of text that is written in place, never of a macro's
+//! body. *Not done here:* levels and comments that silence a rule. Whoever prints the diagnostics applies them, and drops what
+//! rules find that are off.
 
 mod assigned;
 mod divergence;
+mod range;
+mod rate;
 mod rules;
+mod subject;
+mod texts;
+mod uses;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::hir::Shader;
 use crate::link::Program;
+use crate::source::SourceMap;
 use crate::stack::with_stack;
+use subject::{Place, Subject};
 
 /// A lint rule.
 pub struct Rule {
     /// The code: name, level, page and examples.
     pub code: &'static Code,
-    check: fn(&Program, &mut Findings<'_>),
+    check: fn(&Subject<'_>, &mut Findings<'_>),
 }
 
 /// Collects the diagnostics of a rule.
@@ -44,13 +52,19 @@ pub fn rules() -> &'static [Rule] {
     rules::RULES
 }
 
-/// Checks a program against all rules.
-pub fn check(program: &Program) -> Vec<Diagnostic> {
+/// Checks a program against all rules, those that are off included. `sources` are the texts that it was compiled from.
+pub fn check(program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
+    check_some(program, sources, |_| true)
+}
+
+/// Checks a program against those rules whose codes are wanted, which need not run all.
+pub fn check_some(program: &Program, sources: &SourceMap, wanted: impl Fn(&Code) -> bool) -> Vec<Diagnostic> {
     let depth = program.stages.iter().map(|shader| shader.expr_depth).max().unwrap_or(0);
     with_stack(depth, || {
+        let subject = Subject::new(program, sources);
         let mut list = Vec::new();
-        for rule in rules() {
-            (rule.check)(program, &mut Findings { code: rule.code, list: &mut list });
+        for rule in rules().iter().filter(|rule| wanted(rule.code)) {
+            (rule.check)(&subject, &mut Findings { code: rule.code, list: &mut list });
         }
         list
     })

@@ -13,6 +13,7 @@
 pub mod ast;
 pub mod keywords;
 mod kind;
+mod lexemes;
 mod lexer;
 pub mod names;
 mod number;
@@ -26,6 +27,7 @@ use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
 use crate::source::{Completion, FileId, IncludeResolver, SourceMap, Span};
 use ast::{Ast, Profile, Version};
+pub use lexemes::Lexemes;
 use names::Names;
 use parser::Parser;
 use preprocessor::Preprocessor;

@@ -18,7 +18,7 @@
 //! | `W01xx` to `W07xx` | forgiven, or legal but harmful; the hundreds are those of the errors |
 //! | `L0xxx` | lint rules |
 
-use super::Severity;
+use super::{Group, LintInfo, Severity, group};
 use std::fmt;
 
 /// A row of the registry.
@@ -38,6 +38,20 @@ pub struct Code {
     pub bad: Example,
     /// The example, corrected.
     pub good: Example,
+    /// For a lint rule: its group, its level and its fixes.
+    pub lint: Option<LintInfo>,
+}
+
+impl Code {
+    /// Whether it is dropped unless a level asks for it.
+    pub fn is_off(&self) -> bool {
+        self.lint.is_some_and(|lint| lint.level == group::Default::Off)
+    }
+
+    /// The group, of a lint rule.
+    pub fn group(&self) -> Option<Group> {
+        self.lint.map(|lint| lint.group)
+    }
 }
 
 impl PartialEq for Code {
@@ -83,10 +97,35 @@ macro_rules! codes {
         #[doc(alias = $id)]
         pub static $ident: $crate::diagnostic::Code = $crate::diagnostic::Code {
             id: $id, name: $name, severity: $crate::diagnostic::Severity::$severity, section: $section,
-            page: $page, bad: $bad, good: $good,
+            page: $page, bad: $bad, good: $good, lint: ::core::option::Option::None,
         };)*
         /// All rows of this phase.
         pub(super) static ALL: &[&$crate::diagnostic::Code] = &[$(&$ident),*];
+    };
+}
+
+/// Declares the rows of lint rules: those of [`codes!`] with the level, the group and the fixes in place of the severity, and with
+/// the reason of the level.
+macro_rules! lints {
+    ($($(#[$doc:meta])* $ident:ident = $id:literal $name:literal $level:ident $group:ident $fixable:ident $since:literal
+        $section:literal $page:literal why $why:literal bad $bad:expr, good $good:expr;)*) => {
+        $(#[doc = concat!("`", $id, "` ", $name)]
+        #[doc = ""]
+        #[doc = $page]
+        #[doc(alias = $id)]
+        pub static $ident: $crate::diagnostic::Code = $crate::diagnostic::Code {
+            id: $id, name: $name, section: $section, page: $page, bad: $bad, good: $good,
+            severity: match $crate::diagnostic::group::Default::$level {
+                $crate::diagnostic::group::Default::Warning => $crate::diagnostic::Severity::Warning,
+                _ => $crate::diagnostic::Severity::Note,
+            },
+            lint: ::core::option::Option::Some($crate::diagnostic::LintInfo {
+                group: $crate::diagnostic::Group::$group, level: $crate::diagnostic::group::Default::$level,
+                fixable: $crate::diagnostic::Fixable::$fixable, since: $since, rationale: $why,
+            }),
+        };)*
+        /// All rows of this group.
+        pub(in crate::diagnostic::codes) static ALL: &[&$crate::diagnostic::Code] = &[$(&$ident),*];
     };
 }
 
@@ -114,12 +153,46 @@ static PHASES: &[&[&Code]] = &[
     link::ALL,
     targets::ALL,
     scenes::ALL,
-    lints::ALL,
+    lints::correctness::ALL,
+    lints::port::ALL,
+    lints::numerics::ALL,
+    lints::performance::ALL,
+    lints::style::ALL,
+    lints::legacy::ALL,
 ];
 
 /// All codes, in the order of the phases.
 pub fn all() -> impl Iterator<Item = &'static Code> {
     PHASES.iter().flat_map(|phase| phase.iter().copied())
+}
+
+/// What a level or a comment names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// One code.
+    Code(&'static Code),
+    /// All lint rules of a group.
+    Group(Group),
+}
+
+impl Key {
+    /// What an identifier, the name of a code, or the name of a group stands for.
+    pub fn find(key: &str) -> Option<Self> {
+        find(key).map(Self::Code).or_else(|| Group::find(key).map(Self::Group))
+    }
+
+    /// Whether a code is meant.
+    pub fn names(self, code: &Code) -> bool {
+        match self {
+            Self::Code(named) => named == code,
+            Self::Group(group) => code.group() == Some(group),
+        }
+    }
+
+    /// All words that stand for something.
+    pub fn words() -> impl Iterator<Item = &'static str> {
+        all().flat_map(|code| [code.id, code.name]).chain(Group::ALL.into_iter().map(Group::name))
+    }
 }
 
 /// The code with this identifier or name (`E0301`, `e0301` or `undeclared-identifier`).

@@ -1,16 +1,16 @@
 //! `divergent-derivative`: an implicit derivative where neighboring fragments may have taken another path (§8.7,
 //! §8.8).
 
-use super::super::Findings;
 use super::super::divergence::{self, Cause, DivergentCall};
+use super::super::{Findings, Subject};
 use crate::hir::{ExprId, ExprKind, Shader, Stage, Type, Types};
-use crate::link::Program;
 use rustc_hash::FxHashMap;
 
 /// How many further calls under one condition get a label.
 const MAX_LABELS: usize = 4;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     let Some(fragment) = program.stage(Stage::Fragment) else { return };
     let mut groups: Vec<(Cause, Vec<ExprId>)> = Vec::new();
     let mut indices: FxHashMap<ExprId, usize> = FxHashMap::default();

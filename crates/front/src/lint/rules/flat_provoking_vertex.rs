@@ -1,10 +1,10 @@
 //! `flat-provoking-vertex`: a `flat` varying takes another vertex's value on WebGPU and Vulkan.
 
-use super::super::Findings;
+use super::super::{Findings, Subject};
 use crate::hir::{Interpolation, Stage, Storage};
-use crate::link::Program;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     let Some(fragment) = program.stage(Stage::Fragment).filter(|_| program.stages.len() > 1) else { return };
     let flat = fragment.globals.iter().filter(|global| {
         global.storage == Storage::In

@@ -3,12 +3,12 @@
 //! The values of constant conditions are known; other conditions may be either. A function without any `return` is an
 //! error, which this rule leaves alone.
 
-use super::super::{Findings, running};
+use super::super::{Findings, Subject, running};
 use crate::fold;
 use crate::hir::{CaseLabel, ExprId, LoopKind, ScalarValue, Shader, Stmt, StmtKind, TypeId, Types};
-use crate::link::Program;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     for shader in &program.stages {
         let ways = Ways { shader, types: &program.types };
         for (function, body) in running(shader) {

@@ -1,13 +1,26 @@
 //! The rules, one file each. A row here registers a rule.
 
+mod assignment_in_condition;
+mod comparison_chain;
+mod constant_condition;
 mod divergent_derivative;
 mod division_by_zero;
+mod empty_body;
 mod flat_provoking_vertex;
+mod float_equality;
+mod float_loop_counter;
+mod identical_branches;
 mod infinite_loop;
+mod integer_division;
+mod loop_counts_away;
+mod maybe_uninitialized;
+mod missing_default;
 mod missing_return;
 mod non_finite_constant;
 mod position_not_written;
 mod pow_of_negative;
+mod self_assignment;
+mod self_comparison;
 mod uninitialized_read;
 mod unreachable_code;
 mod unused_varying;
@@ -33,4 +46,17 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::UNREACHABLE_CODE, check: unreachable_code::check },
     Rule { code: &lints::MISSING_RETURN, check: missing_return::check },
     Rule { code: &lints::UNWRITTEN_VARYING, check: unwritten_varying::check },
+    Rule { code: &lints::MAYBE_UNINITIALIZED, check: maybe_uninitialized::check },
+    Rule { code: &lints::ASSIGNMENT_IN_CONDITION, check: assignment_in_condition::check },
+    Rule { code: &lints::LOOP_COUNTS_AWAY, check: loop_counts_away::check },
+    Rule { code: &lints::SELF_ASSIGNMENT, check: self_assignment::check },
+    Rule { code: &lints::IDENTICAL_BRANCHES, check: identical_branches::check },
+    Rule { code: &lints::EMPTY_BODY, check: empty_body::check },
+    Rule { code: &lints::COMPARISON_CHAIN, check: comparison_chain::check },
+    Rule { code: &lints::CONSTANT_CONDITION, check: constant_condition::check },
+    Rule { code: &lints::INTEGER_DIVISION, check: integer_division::check },
+    Rule { code: &lints::MISSING_DEFAULT, check: missing_default::check },
+    Rule { code: &lints::SELF_COMPARISON, check: self_comparison::check },
+    Rule { code: &lints::FLOAT_EQUALITY, check: float_equality::check },
+    Rule { code: &lints::FLOAT_LOOP_COUNTER, check: float_loop_counter::check },
 ];

@@ -1,11 +1,11 @@
 //! `non-finite-constant`: a constant operation that yields an infinity or NaN from finite operands.
 
-use super::super::{Findings, running};
+use super::super::{Findings, Subject, running};
 use crate::fold;
 use crate::hir::{ExprId, ExprKind, ScalarValue, Shader, Types};
-use crate::link::Program;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     for shader in &program.stages {
         for (_, body) in running(shader) {
             shader.visit_body(body, &mut |expr| examine(&program.types, shader, expr, findings));

@@ -1,11 +1,11 @@
 //! `position-not-written`: a vertex stage that feeds a fragment stage and never writes `gl_Position`.
 
-use super::super::Findings;
+use super::super::{Findings, Subject};
 use crate::builtin::BuiltinVariable;
 use crate::hir::{Shader, Stage};
-use crate::link::Program;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     let [.., producer, fragment] = program.stages.as_slice() else { return };
     if fragment.stage != Stage::Fragment || writes_position(producer) {
         return;

@@ -1,12 +1,12 @@
 //! `pow-of-negative`: `pow` with a base that is a negative constant.
 
-use super::super::{Findings, running};
+use super::super::{Findings, Subject, running};
 use crate::builtin::BuiltinFunction;
 use crate::fold;
 use crate::hir::{ExprKind, ScalarValue};
-use crate::link::Program;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     for shader in &program.stages {
         for (_, body) in running(shader) {
             shader.visit_body(body, &mut |expr| {

@@ -3,12 +3,12 @@
 //! The traversal follows the text. An earlier assignment on any path counts, and the assignments in a loop count from
 //! its first line on. So the rule errs on the side of silence.
 
-use super::super::{Findings, running};
+use super::super::{Findings, Subject, running};
 use crate::hir::{ExprId, ExprKind, Function, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, VarRef};
-use crate::link::Program;
 use crate::link::usage::written_by;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     for shader in &program.stages {
         for (function, body) in running(shader) {
             let assigned = function.locals.iter().enumerate().map(|(index, local)| {

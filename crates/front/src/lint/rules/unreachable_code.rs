@@ -1,10 +1,10 @@
 //! `unreachable-code`: statements after `return`, `break`, `continue` or `discard` in the same body.
 
-use super::super::{Findings, running};
+use super::super::{Findings, Subject, running};
 use crate::hir::{Stmt, StmtKind};
-use crate::link::Program;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     for shader in &program.stages {
         for (_, body) in running(shader) {
             examine(body, findings);

@@ -1,8 +1,7 @@
 //! `unused-varying`: an output that a stage writes and the next stage does not declare.
 
-use super::super::Findings;
+use super::super::{Findings, Subject};
 use crate::hir::{Global, Storage};
-use crate::link::Program;
 use crate::link::usage::first_use;
 
 /// The name by which the next stage reads an output. The color of a back face comes in place of the front color (GLSL 1.20
@@ -15,7 +14,8 @@ fn read_as(output: &Global) -> &str {
     }
 }
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     for pair in program.stages.windows(2) {
         let [producer, consumer] = pair else { continue };
         let located = |global: &Global| consumer.globals.iter().any(|other| other.location == global.location);

@@ -1,11 +1,11 @@
 //! `unwritten-out-parameter`: an `out` parameter that its function never assigns.
 
-use super::super::{Findings, running};
+use super::super::{Findings, Subject, running};
 use crate::hir::{LocalKind, ParamMode, VarRef};
-use crate::link::Program;
 use crate::link::usage::written_by;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     for shader in &program.stages {
         for (function, body) in running(shader) {
             let mut written = vec![false; function.param_count];

@@ -1,10 +1,10 @@
 //! `unwritten-output`: a color that a fragment shader declares and never writes.
 
-use super::super::Findings;
+use super::super::{Findings, Subject};
 use crate::hir::{Stage, Storage};
-use crate::link::Program;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     let Some(fragment) = program.stage(Stage::Fragment) else { return };
     for output in fragment.globals.iter().filter(|global| global.storage == Storage::Out && global.builtin.is_none()) {
         if !output.written {

@@ -5,13 +5,14 @@
 //! reads the varying on every way, for else the same condition may rule both.
 
 use super::super::assigned::{Components, assigned, components_of, moderate_len, suffix};
-use super::super::{Findings, running};
+use super::super::{Findings, Subject, running};
 use crate::hir::{ExprId, ExprKind, GlobalId, Shader, Stage, Stmt, StmtKind, VarRef};
 use crate::link::Program;
 use crate::link::usage::first_use;
 use std::collections::BTreeSet;
 
-pub(super) fn check(program: &Program, findings: &mut Findings<'_>) {
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    let program = subject.program;
     let [vertex, fragment] = program.stages.as_slice() else { return };
     if (vertex.stage, fragment.stage) != (Stage::Vertex, Stage::Fragment) {
         return;

@@ -34,7 +34,7 @@ use super::names::Names;
 use super::session::{ParseSession, TokenSource};
 use super::token::{Symbol, Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::preprocess as codes;
-use crate::diagnostic::{Advice, Applicability, Diagnostic, Fix, Place, codes::general};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Fix, Key, Place, codes::general};
 use crate::language::Feature;
 use crate::source::{FileId, IncludeForm, IncludeResolver, Inclusion, Span, Unrolled};
 use definition::Macro;
@@ -385,9 +385,9 @@ impl<'a> Preprocessor<'a> {
             return;
         };
         for code in &wanted {
-            if crate::diagnostic::codes::find(code).is_none() {
-                let all = crate::diagnostic::codes::all().flat_map(|code| [code.id, code.name]);
-                let near = if session.may_suggest() { crate::diagnostic::did_you_mean(code, all) } else { None };
+            if Key::find(code).is_none() {
+                let near =
+                    if session.may_suggest() { crate::diagnostic::did_you_mean(code, Key::words()) } else { None };
                 let message = format!("there is no code `{code}` to allow");
                 let mut diagnostic = Diagnostic::new(&codes::UNKNOWN_ALLOW, span, message);
                 if let (Some(near), Some(at)) = (near, session.sources.snippet(span).find(code.as_str())) {

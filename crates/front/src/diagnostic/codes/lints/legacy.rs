@@ -1,0 +1,3 @@
+//! Lint rules of the group `legacy`: what later versions replaced.
+
+lints! {}

@@ -1,0 +1,182 @@
+//! [`Texts`]: the texts of a program as rules see them.
+//!
+//! *In:* the source map. *Out:* for a span: whether it is written in the shader's own file, and its text; for a name: where it is
+//! written, also in text that the preprocessor skips. *Holds:* a span in a macro's body has no text here, so that no fix
+//! changes it.
+
+use crate::diagnostic::{Applicability, Edit, Fix};
+use crate::hir::Shader;
+use crate::source::{FileId, SourceMap, Span};
+use crate::syntax::Lexemes;
+use crate::syntax::token::{Token, TokenKind};
+use rustc_hash::FxHashMap;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// The texts of a program.
+pub(super) struct Texts<'a> {
+    sources: &'a SourceMap,
+    lexemes: RefCell<FxHashMap<FileId, Rc<Lexemes>>>,
+}
+
+/// The words of directives that bring in another file.
+const INCLUDES: &[&str] = &["include", "import", "moj_import"];
+
+impl<'a> Texts<'a> {
+    pub(super) fn new(sources: &'a SourceMap) -> Self {
+        Self { sources, lexemes: RefCell::default() }
+    }
+
+    pub(super) fn sources(&self) -> &'a SourceMap {
+        self.sources
+    }
+
+    /// The tokens of a file, which are read once.
+    pub(super) fn lexemes(&self, file: FileId) -> Rc<Lexemes> {
+        let mut all = self.lexemes.borrow_mut();
+        Rc::clone(all.entry(file).or_insert_with(|| Rc::new(Lexemes::new(self.sources.file(file)))))
+    }
+
+    /// Whether a span is written in the file of the shader itself, outside of macros.
+    pub(super) fn is_own(&self, shader: &Shader, span: Span) -> bool {
+        let own = shader.origin.file.filter(|file| !self.sources.file(*file).name().starts_with('<'));
+        span.is_known() && !span.expansion.is_some() && own.is_some() && self.sources.file_of(span) == own
+    }
+
+    /// The text of a span, if it is written in place.
+    pub(super) fn text(&self, span: Span) -> Option<&'a str> {
+        let text = if span.is_known() && !span.expansion.is_some() { self.sources.snippet(span) } else { "" };
+        Some(text).filter(|text| !text.is_empty())
+    }
+
+    /// The text of an operand, in parentheses unless it is one name, one number, one call or one selection.
+    pub(super) fn operand(&self, span: Span) -> Option<String> {
+        let text = self.text(span)?;
+        let tokens = self.lexemes(self.sources.file_of(span)?);
+        let (mut depth, mut bare) = (0_i32, true);
+        for token in tokens.within(span) {
+            match token.kind {
+                TokenKind::LeftParen | TokenKind::LeftBracket => depth += 1,
+                TokenKind::RightParen | TokenKind::RightBracket => depth -= 1,
+                TokenKind::Word | TokenKind::Number | TokenKind::Dot => {}
+                _ => bare &= depth > 0,
+            }
+            bare &= depth >= 0;
+        }
+        Some(if bare && depth == 0 { text.to_owned() } else { format!("({text})") })
+    }
+
+    /// The files of a shader: its own, then those that it includes.
+    pub(super) fn files(&self, shader: &Shader) -> Vec<FileId> {
+        let mut files: Vec<FileId> = shader.origin.file.into_iter().collect();
+        for file in shader.origin.inclusions.iter().filter_map(|inclusion| inclusion.file) {
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        files
+    }
+
+    /// How often a word stands in the texts of a shader, also where it is skipped.
+    pub(super) fn mentions(&self, shader: &Shader, word: &str) -> usize {
+        self.files(shader).into_iter().map(|file| self.lexemes(file).count(word)).sum()
+    }
+
+    /// Whether all files that the texts name were read: none is included in text that is skipped.
+    pub(super) fn are_whole(&self, shader: &Shader) -> bool {
+        self.files(shader).into_iter().all(|file| {
+            let lexemes = self.lexemes(file);
+            let named = lexemes.directives().filter(|(word, index)| {
+                let next = lexemes.tokens().get(index + 2);
+                INCLUDES.contains(word)
+                    || *word == "pragma" && next.is_some_and(|next| INCLUDES.contains(&lexemes.spelling(next)))
+            });
+            let in_file = |span: Span| self.sources.file_of(span) == Some(file);
+            let read = shader.origin.inclusions.iter().filter(|inclusion| in_file(inclusion.directive));
+            let mut starts: Vec<u32> = read.map(|inclusion| inclusion.directive.start).collect();
+            starts.dedup();
+            named.count() <= starts.len()
+        })
+    }
+
+    /// The file of a span, and the index of the token that begins there.
+    pub(super) fn token_at(&self, span: Span) -> Option<(Rc<Lexemes>, usize)> {
+        let lexemes = self.lexemes(self.sources.file_of(span).filter(|_| !span.expansion.is_some())?);
+        let index = lexemes.from(span.start);
+        Some((lexemes, index))
+    }
+
+    /// The kind of the next token behind a span.
+    pub(super) fn next_kind(&self, span: Span) -> Option<TokenKind> {
+        let (lexemes, _) = self.token_at(span)?;
+        lexemes.tokens().get(lexemes.from(span.end)).map(|token| token.kind)
+    }
+
+    /// The statement around a span: from behind the last `;`, `{` or `}` to its own `;`, if no other declarator, directive or
+    /// bracket is in it.
+    pub(super) fn simple_statement(&self, span: Span) -> Option<Span> {
+        let (lexemes, index) = self.token_at(span)?;
+        let tokens = lexemes.tokens();
+        let ends =
+            |token: &Token| matches!(token.kind, TokenKind::Semicolon | TokenKind::LeftBrace | TokenKind::RightBrace);
+        let first = tokens.get(..index)?.iter().rposition(ends)? + 1;
+        let length = tokens.get(index..)?.iter().position(ends)?;
+        let last = tokens.get(index + length).filter(|token| token.kind == TokenKind::Semicolon)?;
+        let inside = tokens.get(first..index + length)?;
+        let mut depth = 0_i32;
+        for token in inside {
+            match token.kind {
+                TokenKind::LeftParen | TokenKind::LeftBracket => depth += 1,
+                TokenKind::RightParen | TokenKind::RightBracket => depth -= 1,
+                TokenKind::Comma if depth == 0 => return None,
+                TokenKind::Hash | TokenKind::Colon => return None,
+                TokenKind::Word
+                    if matches!(lexemes.spelling(token), "for" | "if" | "else" | "while" | "do" | "struct") =>
+                {
+                    return None;
+                }
+                _ => {}
+            }
+        }
+        let start = inside.first()?.span.start;
+        (depth == 0).then(|| Span::new(start, last.span.end))
+    }
+
+    /// The span with the white space around it that goes with it: the whole line, if there is nothing else on it.
+    pub(super) fn with_line(&self, span: Span) -> Span {
+        let Some(file) = self.sources.file_of(span).map(|id| self.sources.file(id)) else { return span };
+        let (text, base) = (file.text(), file.base());
+        let before = text.get(..(span.start - base) as usize).unwrap_or("");
+        let after = text.get((span.end - base) as usize..).unwrap_or("");
+        let indent = before.len() - before.trim_end_matches([' ', '\t']).len();
+        let tail = after.len() - after.trim_start_matches([' ', '\t']).len();
+        let starts_line =
+            indent == before.len() || before.get(..before.len() - indent).is_some_and(|text| text.ends_with('\n'));
+        let rest = after.get(tail..).unwrap_or("");
+        let line_end = if rest.starts_with("\r\n") { 2 } else { usize::from(rest.starts_with('\n')) };
+        if starts_line && line_end > 0 {
+            return Span::new(span.start - indent as u32, span.end + (tail + line_end) as u32);
+        }
+        if starts_line { span } else { Span::new(span.start - indent as u32, span.end) }
+    }
+
+    /// A fix of one replacement, if the span is written in place.
+    pub(super) fn replace(&self, applicability: Applicability, span: Span, text: impl Into<String>) -> Option<Fix> {
+        let text = text.into();
+        self.text(span)?;
+        Some(Fix::new(applicability, format!("write `{text}`"), span, text))
+    }
+
+    /// A fix that removes a span, and its line if nothing else is on it.
+    pub(super) fn remove(&self, applicability: Applicability, span: Span, title: &str) -> Option<Fix> {
+        self.text(span)?;
+        Some(Fix::new(applicability, title, self.with_line(span), ""))
+    }
+
+    /// A fix of several edits, if all of them are written in place.
+    pub(super) fn edits(&self, applicability: Applicability, title: String, edits: Vec<(Span, String)>) -> Option<Fix> {
+        let is_written = |span: Span| span.is_known() && !span.expansion.is_some();
+        let edits = edits.into_iter().map(|(span, text)| is_written(span).then_some(Edit { span, text }));
+        Some(Fix { title, applicability, edits: edits.collect::<Option<_>>()? })
+    }
+}

@@ -1,0 +1,268 @@
+//! How a function uses its variables: reads, writes, conditions; and whether expressions have the same form.
+//!
+//! *In:* the statements of a function. *Out:* a [`LocalUse`] for each local.
+
+use super::subject::Place;
+use crate::builtin::BuiltinFunction;
+use crate::builtin::operations::Class;
+use crate::hir::{BinaryOp, ExprId, ExprKind, Function, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
+use crate::link::usage::written_by;
+
+/// The uses of a local.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LocalUse {
+    /// The value in its declaration.
+    pub(super) initializer: Option<ExprId>,
+    /// Whether it is declared in a statement (and not a parameter or the variable of a condition).
+    pub(super) is_declared: bool,
+    /// How often it is assigned, besides its declaration.
+    pub(super) writes: usize,
+    /// How often its value is used, other than for a new value of itself.
+    pub(super) reads: usize,
+    /// Whether a condition names it.
+    pub(super) in_condition: bool,
+}
+
+/// The uses of all locals of a function.
+pub(super) fn of_locals(shader: &Shader, function: &Function, statements: &[&Stmt]) -> Vec<LocalUse> {
+    let mut locals = vec![LocalUse::default(); function.locals.len()];
+    for statement in statements {
+        match &statement.kind {
+            StmtKind::Local(id, initializer) => {
+                if let Some(local) = locals.get_mut(id.index()) {
+                    (local.initializer, local.is_declared) = (*initializer, true);
+                }
+            }
+            StmtKind::Loop { condition: Some(condition), .. } => {
+                let local = condition.local.and_then(|id| locals.get_mut(id.index()));
+                local.into_iter().for_each(|local| local.reads += 1);
+            }
+            _ => {}
+        }
+        for root in statement.kind.exprs() {
+            let is_whole = matches!(statement.kind, StmtKind::Expr(_)) || is_step(statement, root);
+            visit(shader, root, is_whole, &mut locals);
+        }
+        conditions(shader, statement, &mut |condition| mark(shader, condition, &mut locals));
+    }
+    locals
+}
+
+fn is_step(statement: &Stmt, root: ExprId) -> bool {
+    matches!(statement.kind, StmtKind::Loop { step: Some(step), .. } if step == root)
+}
+
+/// Counts the reads and writes of an expression. The value of `root` is dropped if it is a whole statement.
+fn visit(shader: &Shader, root: ExprId, is_whole: bool, locals: &mut [LocalUse]) {
+    let mut pending = vec![(root, is_whole)];
+    while let Some((id, is_dropped)) = pending.pop() {
+        let kind = &shader.expr(id).kind;
+        let written = |target: ExprId, locals: &mut [LocalUse], reads: bool| {
+            if let Some(VarRef::Local(local)) = shader.root_variable(target)
+                && let Some(local) = locals.get_mut(local.index())
+            {
+                local.writes += 1;
+                local.reads += usize::from(reads);
+            }
+        };
+        match kind {
+            ExprKind::Var(VarRef::Local(local)) => {
+                locals.get_mut(local.index()).into_iter().for_each(|local| local.reads += 1);
+            }
+            ExprKind::Assign(_, target, value) => {
+                written(*target, locals, !is_dropped);
+                pending.extend(indices(shader, *target).into_iter().map(|index| (index, false)));
+                pending.push((*value, false));
+            }
+            ExprKind::IncDec(_, target) => {
+                written(*target, locals, !is_dropped);
+                pending.extend(indices(shader, *target).into_iter().map(|index| (index, false)));
+            }
+            ExprKind::Comma(first, second) => pending.extend([(*first, true), (*second, is_dropped)]),
+            ExprKind::Call(..) | ExprKind::BuiltinCall(..) => {
+                let mut outs = Vec::new();
+                written_by(shader, id, &mut |target| outs.push(target));
+                for (index, argument) in kind.children().into_iter().enumerate() {
+                    let reads = match kind {
+                        ExprKind::Call(callee, _) => shader.function(*callee).param_mode(index) != ParamMode::Out,
+                        _ => false,
+                    };
+                    if outs.contains(&argument) {
+                        written(argument, locals, reads);
+                        pending.extend(indices(shader, argument).into_iter().map(|index| (index, false)));
+                    } else {
+                        pending.push((argument, false));
+                    }
+                }
+            }
+            _ => pending.extend(kind.children().into_iter().map(|child| (child, false))),
+        }
+    }
+}
+
+/// The indices on the way to a part of a variable.
+fn indices(shader: &Shader, target: ExprId) -> Vec<ExprId> {
+    let (mut found, mut at) = (Vec::new(), target);
+    loop {
+        match &shader.expr(at).kind {
+            ExprKind::Index(inner, index) => {
+                found.push(*index);
+                at = *inner;
+            }
+            ExprKind::Member(inner, _) | ExprKind::Swizzle(inner, _) => at = *inner,
+            _ => return found,
+        }
+    }
+}
+
+/// Calls `f` for each condition of a statement and of the expressions in it.
+fn conditions(shader: &Shader, statement: &Stmt, f: &mut dyn FnMut(ExprId)) {
+    match &statement.kind {
+        StmtKind::If { arms, .. } => arms.iter().for_each(|(condition, _)| f(*condition)),
+        StmtKind::Loop { condition: Some(condition), .. } => f(condition.expr),
+        StmtKind::Switch { selector, .. } => f(*selector),
+        _ => {}
+    }
+    for root in statement.kind.exprs() {
+        shader.visit_expr(root, &mut |expr| match &shader.expr(expr).kind {
+            ExprKind::Ternary(condition, ..) | ExprKind::Logical(_, condition, _) => f(*condition),
+            _ => {}
+        });
+    }
+}
+
+fn mark(shader: &Shader, condition: ExprId, locals: &mut [LocalUse]) {
+    shader.visit_expr(condition, &mut |expr| {
+        if let ExprKind::Var(VarRef::Local(local)) = shader.expr(expr).kind {
+            locals.get_mut(local.index()).into_iter().for_each(|local| local.in_condition = true);
+        }
+    });
+}
+
+/// Whether a condition of the function names a global.
+pub(super) fn is_in_condition(place: &Place<'_>, global: GlobalId) -> bool {
+    let mut found = false;
+    for statement in &place.statements {
+        conditions(place.shader, statement, &mut |condition| {
+            place.shader.visit_expr(condition, &mut |expr| {
+                found |= matches!(place.kind(expr), ExprKind::Var(VarRef::Global(named)) if *named == global);
+            });
+        });
+    }
+    found
+}
+
+/// Whether evaluating an expression does nothing but give a value.
+pub(super) fn is_pure(shader: &Shader, root: ExprId) -> bool {
+    let mut pure = true;
+    shader.visit_expr(root, &mut |expr| {
+        pure &= match &shader.expr(expr).kind {
+            ExprKind::Error | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) => false,
+            ExprKind::BuiltinCall(function, _) => has_no_effect(*function),
+            _ => true,
+        };
+    });
+    pure
+}
+
+/// Whether a built-in function does nothing but give a value.
+pub(super) fn has_no_effect(function: BuiltinFunction) -> bool {
+    is_plain(function) || matches!(function.class(), Class::Texture(_) | Class::Derivative(_))
+}
+
+/// Whether the value of a built-in function follows from its arguments alone.
+pub(super) fn is_plain(function: BuiltinFunction) -> bool {
+    !matches!(
+        function.class(),
+        Class::Texture(_) | Class::Derivative(_) | Class::Emission(_) | Class::Modf | Class::Composed
+    )
+}
+
+/// Whether two expressions have the same form and name the same variables, and evaluating them has no effect.
+pub(super) fn same(shader: &Shader, a: ExprId, b: ExprId) -> bool {
+    const MOST: usize = 256;
+    let mut pending = vec![(a, b)];
+    let mut count = 0;
+    while let Some((a, b)) = pending.pop() {
+        count += 1;
+        let (one, other) = (shader.expr(a), shader.expr(b));
+        let alike = one.ty == other.ty
+            && match (&one.kind, &other.kind) {
+                (ExprKind::Literal(a), ExprKind::Literal(b)) => a == b,
+                (ExprKind::Var(a), ExprKind::Var(b)) => a == b,
+                (ExprKind::Member(_, a), ExprKind::Member(_, b)) => a == b,
+                (ExprKind::Swizzle(_, a), ExprKind::Swizzle(_, b)) => a == b,
+                (ExprKind::Index(..), ExprKind::Index(..))
+                | (ExprKind::Convert(_), ExprKind::Convert(_))
+                | (ExprKind::Ternary(..), ExprKind::Ternary(..)) => true,
+                (ExprKind::Construct(a, _), ExprKind::Construct(b, _)) => a == b,
+                (ExprKind::Unary(a, _), ExprKind::Unary(b, _)) => a == b,
+                (ExprKind::Binary(a, ..), ExprKind::Binary(b, ..)) => a == b,
+                (ExprKind::Logical(a, ..), ExprKind::Logical(b, ..)) => a == b,
+                (ExprKind::BuiltinCall(a, _), ExprKind::BuiltinCall(b, _)) => a == b && has_no_effect(*a),
+                _ => false,
+            };
+        let (first, second) = (one.kind.children(), other.kind.children());
+        if !alike || count > MOST || first.len() != second.len() {
+            return false;
+        }
+        pending.extend(first.into_iter().zip(second));
+    }
+    true
+}
+
+/// Whether two bodies do the same, statement by statement. Bodies that declare variables are never the same.
+pub(super) fn same_statements(shader: &Shader, a: &[Stmt], b: &[Stmt]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_statement(shader, a, b))
+}
+
+fn same_statement(shader: &Shader, a: &Stmt, b: &Stmt) -> bool {
+    match (&a.kind, &b.kind) {
+        (StmtKind::Expr(a), StmtKind::Expr(b)) => same_effect(shader, *a, *b),
+        (StmtKind::Block(a), StmtKind::Block(b)) => same_statements(shader, a, b),
+        (StmtKind::Return(Some(a)), StmtKind::Return(Some(b))) => same(shader, *a, *b),
+        (StmtKind::Return(None), StmtKind::Return(None))
+        | (StmtKind::Break, StmtKind::Break)
+        | (StmtKind::Continue, StmtKind::Continue)
+        | (StmtKind::Discard, StmtKind::Discard) => true,
+        _ => false,
+    }
+}
+
+/// Whether two expressions that stand alone do the same.
+fn same_effect(shader: &Shader, a: ExprId, b: ExprId) -> bool {
+    match (&shader.expr(a).kind, &shader.expr(b).kind) {
+        (ExprKind::Assign(one, target, value), ExprKind::Assign(other, other_target, other_value)) => {
+            one == other && same(shader, *target, *other_target) && same(shader, *value, *other_value)
+        }
+        (ExprKind::IncDec(one, a), ExprKind::IncDec(other, b)) => one == other && same(shader, *a, *b),
+        (ExprKind::Call(one, a), ExprKind::Call(other, b)) => {
+            one == other && a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(shader, *a, *b))
+        }
+        _ => same(shader, a, b),
+    }
+}
+
+/// What an expression itself writes, each with whether it is read, too; and the indices on the way there.
+pub(super) fn written_by_parts(shader: &Shader, id: ExprId) -> (Vec<(ExprId, bool)>, Vec<ExprId>) {
+    let kind = &shader.expr(id).kind;
+    let mut written = Vec::new();
+    written_by(shader, id, &mut |target| written.push(target));
+    let reads = |target: ExprId| match kind {
+        ExprKind::Assign(operator, ..) => operator.is_some(),
+        ExprKind::IncDec(..) => true,
+        ExprKind::Call(callee, arguments) => {
+            let index = arguments.iter().position(|argument| *argument == target);
+            index.is_some_and(|index| shader.function(*callee).param_mode(index) == ParamMode::Inout)
+        }
+        _ => false,
+    };
+    let inner = written.iter().flat_map(|target| indices(shader, *target)).collect();
+    (written.iter().map(|target| (*target, reads(*target))).collect(), inner)
+}
+
+/// Whether an operator compares.
+pub(super) fn compares(operator: BinaryOp) -> bool {
+    use BinaryOp::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
+    matches!(operator, Less | Greater | LessEqual | GreaterEqual | Equal | NotEqual)
+}
