@@ -3,17 +3,17 @@
 /// A group of lint rules, which levels can name as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Group {
-    /// What is hardly meant, or undefined.
+    /// Constructs that are hardly meant, or undefined.
     Correctness,
-    /// What another machine or another interface of graphics does differently, or does not have.
+    /// Constructs that another machine or another interface of graphics takes differently, or does not have.
     Port,
     /// Values that are infinite, not a number, or less exact than they look.
     Numerics,
     /// Work that need not be done, or not so often.
     Performance,
-    /// What can be said more simply, and what nothing uses.
+    /// Text that can be simpler, and declarations that nothing uses.
     Style,
-    /// What later versions of the language replaced.
+    /// Forms that later versions of the language replaced.
     Legacy,
 }
 

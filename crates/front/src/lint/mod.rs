@@ -9,6 +9,9 @@
 
 mod assigned;
 mod divergence;
+mod domain;
+mod interval;
+mod loop_invariant;
 mod range;
 mod rate;
 mod rules;

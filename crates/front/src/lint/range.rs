@@ -5,131 +5,11 @@
 //! are those of exact arithmetic, except where the rounding of a product of unit vectors passes 1.
 //! *Not done here:* conditions around the expression ([`Place::is_guarded`]).
 
+use super::interval::Range;
 use super::rate::{Rate, rate};
 use super::subject::Place;
 use crate::builtin::{BuiltinFunction as B, BuiltinVariable};
 use crate::hir::{BinaryOp, ConstructKind, ExprId, ExprKind, Scalar, Type, UnaryOp, VarRef};
-use rustc_hash::FxHashMap;
-use std::cell::RefCell;
-
-/// The bounds of all components of a value.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
-    pub(super) low: f64,
-    pub(super) high: f64,
-    /// Whether some input leads to the lower bound, or below zero if there is no bound.
-    pub(super) reaches_low: bool,
-    /// Whether some input leads to the upper bound, or above zero if there is no bound.
-    pub(super) reaches_high: bool,
-}
-
-/// The ranges of a function's expressions that were asked for.
-#[derive(Debug, Default)]
-pub(super) struct Ranges(RefCell<FxHashMap<ExprId, Range>>);
-
-impl Range {
-    const UNKNOWN: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY, reaches_low: false, reaches_high: false };
-
-    /// Bounds that are both reached.
-    const fn reached(low: f64, high: f64) -> Self {
-        Self { low, high, reaches_low: true, reaches_high: true }
-    }
-
-    /// Bounds of which nothing more is known.
-    const fn within(low: f64, high: f64) -> Self {
-        Self { low, high, reaches_low: false, reaches_high: false }
-    }
-
-    fn negated(self) -> Self {
-        Self { low: -self.high, high: -self.low, reaches_low: self.reaches_high, reaches_high: self.reaches_low }
-    }
-
-    fn hull(self, other: Self) -> Self {
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-            reaches_low: if self.low <= other.low { self.reaches_low } else { other.reaches_low },
-            reaches_high: if self.high >= other.high { self.reaches_high } else { other.reaches_high },
-        }
-    }
-
-    /// The sum; it reaches its bounds only if one side is a constant, since two values may depend on each other.
-    fn plus(self, other: Self) -> Self {
-        let fixed = self.is_point() || other.is_point();
-        Self {
-            low: self.low + other.low,
-            high: self.high + other.high,
-            reaches_low: fixed && self.reaches_low && other.reaches_low,
-            reaches_high: fixed && self.reaches_high && other.reaches_high,
-        }
-    }
-
-    fn times(self, other: Self) -> Self {
-        let (this, other) = if self.is_point() { (other, self) } else { (self, other) };
-        if other.is_point() {
-            let scale = |bound: f64| if other.low == 0.0 { 0.0 } else { bound * other.low };
-            let scaled = Self { low: scale(this.low), high: scale(this.high), ..this };
-            return if other.low < 0.0 {
-                Self {
-                    low: scaled.high,
-                    high: scaled.low,
-                    reaches_low: this.reaches_high,
-                    reaches_high: this.reaches_low,
-                }
-            } else {
-                scaled
-            };
-        }
-        let corners = [this.low * other.low, this.low * other.high, this.high * other.low, this.high * other.high];
-        if corners.iter().any(|corner| corner.is_nan()) {
-            let negative = this.low < 0.0 || other.low < 0.0;
-            return Self::within(if negative { f64::NEG_INFINITY } else { 0.0 }, f64::INFINITY);
-        }
-        Self::within(
-            corners.iter().copied().fold(f64::INFINITY, f64::min),
-            corners.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        )
-    }
-
-    fn is_point(self) -> bool {
-        self.low == self.high
-    }
-
-    /// The range under a function that grows.
-    fn under(self, grows: impl Fn(f64) -> f64) -> Self {
-        Self { low: grows(self.low), high: grows(self.high), ..self }
-    }
-
-    fn at_least(self, other: Self) -> Self {
-        let low_is_other = other.low > self.low;
-        Self {
-            low: self.low.max(other.low),
-            high: self.high.max(other.high),
-            // A maximum is at its lower bound where the other operand is below it.
-            reaches_low: if low_is_other {
-                other.is_point() && self.reaches_low
-            } else {
-                self.reaches_low && other.is_point()
-            },
-            reaches_high: self.reaches_high && other.is_point(),
-        }
-    }
-
-    fn at_most(self, other: Self) -> Self {
-        self.negated().at_least(other.negated()).negated()
-    }
-
-    fn abs(self) -> Self {
-        if self.low >= 0.0 {
-            return self;
-        }
-        if self.high <= 0.0 {
-            return self.negated();
-        }
-        let reaches = self.reaches_low && self.reaches_high;
-        Self { low: 0.0, high: self.high.max(-self.low), reaches_low: reaches, reaches_high: reaches }
-    }
-}
 
 /// The largest that the product of two unit vectors can be after rounding.
 const BEYOND_ONE: f64 = 1.0 + 1.0 / 4_194_304.0;
@@ -146,11 +26,11 @@ fn walk(place: &Place<'_>, id: ExprId, depth: u32) -> Range {
     if depth > DEPTH || !is_number(place, id) {
         return Range::UNKNOWN;
     }
-    if let Some(known) = place.ranges.0.borrow().get(&id) {
+    if let Some(known) = place.ranges.borrow().get(&id) {
         return *known;
     }
     let found = of(place, id, depth + 1);
-    place.ranges.0.borrow_mut().insert(id, found);
+    place.ranges.borrow_mut().insert(id, found);
     found
 }
 

@@ -3,17 +3,19 @@
 //! *In:* a program and its texts. *Out:* a [`Place`] for each function that `main` reaches. *Holds:* what several rules need of a
 //! function is found once.
 
-use super::range::Ranges;
+use super::interval::Range;
 use super::texts::Texts;
 use super::uses::{self, LocalUse};
 use crate::fold;
 use crate::hir::{
-    Expr, ExprId, ExprKind, Function, FunctionId, LocalId, Shader, Stmt, Type, TypeId, Types, Value, VarRef,
+    Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, Shader, Stmt, Type, TypeId, Types, Value, VarRef,
 };
 use crate::link::Program;
 use crate::source::SourceMap;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::cell::RefCell;
 
-/// What rules look at.
+/// A program as rules see it.
 pub(super) struct Subject<'a> {
     pub(super) program: &'a Program,
     pub(super) texts: Texts<'a>,
@@ -35,7 +37,9 @@ pub(super) struct Place<'a> {
     /// The uses of each local.
     pub(super) locals: Vec<LocalUse>,
     /// The ranges of expressions that were asked for.
-    pub(super) ranges: Ranges,
+    pub(super) ranges: RefCell<FxHashMap<ExprId, Range>>,
+    /// The globals that conditions name.
+    conditions: FxHashSet<GlobalId>,
 }
 
 impl<'a> Subject<'a> {
@@ -70,8 +74,8 @@ impl<'a> Place<'a> {
                 shader.visit_expr(root, &mut |expr| exprs.push(expr));
             }
         });
-        let locals = uses::of_locals(shader, function, &statements);
-        Self { types, shader, id, function, body, exprs, statements, locals, ranges: Ranges::default() }
+        let (locals, conditions) = uses::of_variables(shader, function, &statements);
+        Self { types, shader, id, function, body, exprs, statements, locals, ranges: RefCell::default(), conditions }
     }
 
     pub(super) fn expr(&self, id: ExprId) -> &'a Expr {
@@ -123,7 +127,7 @@ impl<'a> Place<'a> {
         self.numbers(id).is_some_and(|all| all.iter().all(|one| (one - number).abs() == 0.0))
     }
 
-    /// What a local stands for, if it is given a value where it is declared and never again; otherwise the expression itself.
+    /// The value that a local stands for, if it is given a value where it is declared and never again; otherwise the expression itself.
     pub(super) fn meaning(&self, id: ExprId) -> ExprId {
         let mut at = id;
         // A local is declared after all that its initializer names.
@@ -147,7 +151,7 @@ impl<'a> Place<'a> {
         self.leaves(id, &mut |variable| {
             named |= match variable {
                 VarRef::Local(local) => self.locals.get(local.index()).is_some_and(|uses| uses.in_condition),
-                VarRef::Global(global) => uses::is_in_condition(self, global),
+                VarRef::Global(global) => self.conditions.contains(&global),
             };
         });
         named

@@ -77,7 +77,7 @@ impl<'a> Texts<'a> {
         files
     }
 
-    /// How often a word stands in the texts of a shader, also where it is skipped.
+    /// How often a word is written in the texts of a shader, also where it is skipped.
     pub(super) fn mentions(&self, shader: &Shader, word: &str) -> usize {
         self.files(shader).into_iter().map(|file| self.lexemes(file).count(word)).sum()
     }

@@ -2,11 +2,11 @@
 //!
 //! *In:* the statements of a function. *Out:* a [`LocalUse`] for each local.
 
-use super::subject::Place;
 use crate::builtin::BuiltinFunction;
 use crate::builtin::operations::Class;
 use crate::hir::{BinaryOp, ExprId, ExprKind, Function, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
 use crate::link::usage::written_by;
+use rustc_hash::FxHashSet;
 
 /// The uses of a local.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,9 +23,14 @@ pub(super) struct LocalUse {
     pub(super) in_condition: bool,
 }
 
-/// The uses of all locals of a function.
-pub(super) fn of_locals(shader: &Shader, function: &Function, statements: &[&Stmt]) -> Vec<LocalUse> {
+/// The uses of all locals of a function, and the globals that its conditions name.
+pub(super) fn of_variables(
+    shader: &Shader,
+    function: &Function,
+    statements: &[&Stmt],
+) -> (Vec<LocalUse>, FxHashSet<GlobalId>) {
     let mut locals = vec![LocalUse::default(); function.locals.len()];
+    let mut globals = FxHashSet::default();
     for statement in statements {
         match &statement.kind {
             StmtKind::Local(id, initializer) => {
@@ -43,9 +48,9 @@ pub(super) fn of_locals(shader: &Shader, function: &Function, statements: &[&Stm
             let is_whole = matches!(statement.kind, StmtKind::Expr(_)) || is_step(statement, root);
             visit(shader, root, is_whole, &mut locals);
         }
-        conditions(shader, statement, &mut |condition| mark(shader, condition, &mut locals));
+        conditions(shader, statement, &mut |condition| mark(shader, condition, &mut locals, &mut globals));
     }
-    locals
+    (locals, globals)
 }
 
 fn is_step(statement: &Stmt, root: ExprId) -> bool {
@@ -131,25 +136,16 @@ fn conditions(shader: &Shader, statement: &Stmt, f: &mut dyn FnMut(ExprId)) {
     }
 }
 
-fn mark(shader: &Shader, condition: ExprId, locals: &mut [LocalUse]) {
-    shader.visit_expr(condition, &mut |expr| {
-        if let ExprKind::Var(VarRef::Local(local)) = shader.expr(expr).kind {
+fn mark(shader: &Shader, condition: ExprId, locals: &mut [LocalUse], globals: &mut FxHashSet<GlobalId>) {
+    shader.visit_expr(condition, &mut |expr| match shader.expr(expr).kind {
+        ExprKind::Var(VarRef::Local(local)) => {
             locals.get_mut(local.index()).into_iter().for_each(|local| local.in_condition = true);
         }
+        ExprKind::Var(VarRef::Global(global)) => {
+            globals.insert(global);
+        }
+        _ => {}
     });
-}
-
-/// Whether a condition of the function names a global.
-pub(super) fn is_in_condition(place: &Place<'_>, global: GlobalId) -> bool {
-    let mut found = false;
-    for statement in &place.statements {
-        conditions(place.shader, statement, &mut |condition| {
-            place.shader.visit_expr(condition, &mut |expr| {
-                found |= matches!(place.kind(expr), ExprKind::Var(VarRef::Global(named)) if *named == global);
-            });
-        });
-    }
-    found
 }
 
 /// Whether evaluating an expression does nothing but give a value.
@@ -243,7 +239,7 @@ fn same_effect(shader: &Shader, a: ExprId, b: ExprId) -> bool {
     }
 }
 
-/// What an expression itself writes, each with whether it is read, too; and the indices on the way there.
+/// The l-values that an expression itself writes, each with whether it is read, too; and the indices on the way there.
 pub(super) fn written_by_parts(shader: &Shader, id: ExprId) -> (Vec<(ExprId, bool)>, Vec<ExprId>) {
     let kind = &shader.expr(id).kind;
     let mut written = Vec::new();

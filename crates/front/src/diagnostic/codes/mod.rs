@@ -166,7 +166,7 @@ pub fn all() -> impl Iterator<Item = &'static Code> {
     PHASES.iter().flat_map(|phase| phase.iter().copied())
 }
 
-/// What a level or a comment names.
+/// The rules that a level or a comment names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
     /// One code.
@@ -176,7 +176,7 @@ pub enum Key {
 }
 
 impl Key {
-    /// What an identifier, the name of a code, or the name of a group stands for.
+    /// The meaning of an identifier, the name of a code, or the name of a group.
     pub fn find(key: &str) -> Option<Self> {
         find(key).map(Self::Code).or_else(|| Group::find(key).map(Self::Group))
     }

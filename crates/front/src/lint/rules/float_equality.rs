@@ -1,6 +1,7 @@
 //! `float-equality`: `==` and `!=` of floats that were computed. Comparisons with constants are left out, which are often exact.
 
-use super::super::range::{Range, range};
+use super::super::interval::Range;
+use super::super::range::range;
 use super::super::{Findings, Place, Subject};
 use crate::hir::{BinaryOp, ExprId, ExprKind};
 

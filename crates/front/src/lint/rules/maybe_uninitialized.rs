@@ -71,7 +71,7 @@ impl Walk<'_> {
             StmtKind::Local(id, value) => {
                 value.iter().for_each(|value| self.expr(*value, &mut state));
                 self.depth.iter_mut().skip(id.index()).take(1).for_each(|depth| *depth = self.conditions);
-                // A loop declares it anew.
+                // A loop declares it again.
                 state.iter_mut().skip(id.index()).take(1).for_each(|one| *one = value.is_some());
                 self.ever.iter_mut().skip(id.index()).take(1).for_each(|one| *one |= value.is_some());
             }

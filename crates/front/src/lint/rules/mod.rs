@@ -1,9 +1,12 @@
 //! The rules, one file each. A row here registers a rule.
 
+mod acos_beyond_one;
 mod assignment_in_condition;
 mod comparison_chain;
 mod constant_condition;
+mod depth_written;
 mod divergent_derivative;
+mod division_by_clamped_zero;
 mod division_by_zero;
 mod empty_body;
 mod flat_provoking_vertex;
@@ -12,21 +15,35 @@ mod float_loop_counter;
 mod identical_branches;
 mod infinite_loop;
 mod integer_division;
+mod interpolated_normal;
+mod late_discard;
+mod log_of_zero;
 mod loop_counts_away;
+mod loop_invariant_call;
+mod loop_invariant_lookup;
+mod matrix_inverse;
 mod maybe_uninitialized;
 mod missing_default;
 mod missing_return;
 mod non_finite_constant;
+mod normal_by_model_matrix;
+mod normalize_of_zero;
 mod position_not_written;
+mod pow_maybe_negative;
 mod pow_of_negative;
 mod self_assignment;
 mod self_comparison;
+mod sqrt_maybe_negative;
+mod uniform_branch;
+mod uniform_work;
 mod uninitialized_read;
+mod unnormalized_direction;
 mod unreachable_code;
 mod unused_varying;
 mod unwritten_out_parameter;
 mod unwritten_output;
 mod unwritten_varying;
+mod vertex_work;
 
 use super::Rule;
 use crate::diagnostic::codes::lints;
@@ -59,4 +76,21 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::SELF_COMPARISON, check: self_comparison::check },
     Rule { code: &lints::FLOAT_EQUALITY, check: float_equality::check },
     Rule { code: &lints::FLOAT_LOOP_COUNTER, check: float_loop_counter::check },
+    Rule { code: &lints::POW_MAYBE_NEGATIVE, check: pow_maybe_negative::check },
+    Rule { code: &lints::SQRT_MAYBE_NEGATIVE, check: sqrt_maybe_negative::check },
+    Rule { code: &lints::ACOS_BEYOND_ONE, check: acos_beyond_one::check },
+    Rule { code: &lints::LOG_OF_ZERO, check: log_of_zero::check },
+    Rule { code: &lints::DIVISION_BY_CLAMPED_ZERO, check: division_by_clamped_zero::check },
+    Rule { code: &lints::NORMALIZE_OF_ZERO, check: normalize_of_zero::check },
+    Rule { code: &lints::INTERPOLATED_NORMAL, check: interpolated_normal::check },
+    Rule { code: &lints::UNNORMALIZED_DIRECTION, check: unnormalized_direction::check },
+    Rule { code: &lints::NORMAL_BY_MODEL_MATRIX, check: normal_by_model_matrix::check },
+    Rule { code: &lints::LOOP_INVARIANT_LOOKUP, check: loop_invariant_lookup::check },
+    Rule { code: &lints::LOOP_INVARIANT_CALL, check: loop_invariant_call::check },
+    Rule { code: &lints::UNIFORM_WORK, check: uniform_work::check },
+    Rule { code: &lints::MATRIX_INVERSE, check: matrix_inverse::check },
+    Rule { code: &lints::VERTEX_WORK, check: vertex_work::check },
+    Rule { code: &lints::UNIFORM_BRANCH, check: uniform_branch::check },
+    Rule { code: &lints::LATE_DISCARD, check: late_discard::check },
+    Rule { code: &lints::DEPTH_WRITTEN, check: depth_written::check },
 ];

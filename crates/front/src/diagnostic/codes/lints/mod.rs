@@ -11,5 +11,6 @@ pub mod style;
 
 pub use correctness::*;
 pub use numerics::*;
+pub use performance::*;
 pub use port::*;
 pub use style::*;

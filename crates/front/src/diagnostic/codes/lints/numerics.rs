@@ -1,6 +1,6 @@
 //! Lint rules of the group `numerics`: infinities, values that are not a number, lost precision.
 
-use super::super::Example::Fragment;
+use super::super::Example::{Fragment, Program, Vertex};
 
 lints! {
     NON_FINITE_CONSTANT = "L0007" "non-finite-constant" Warning Numerics No "0.1.0" "GLSL 1.50 §4.1.4"
@@ -19,7 +19,7 @@ lints! {
          return NaN."
         why "The base is known, so there is no doubt."
         bad Fragment("uniform float k; out vec4 c; void main() { c = vec4(pow(-2.0, k)); }"),
-        good Fragment("uniform float k; out vec4 c; void main() { c = vec4(pow(2.0, k)); }");
+        good Fragment("in float k; out vec4 c; void main() { c = vec4(pow(2.0, k)); }");
     FLOAT_EQUALITY = "L0026" "float-equality" Note Numerics No "0.1.0" "GLSL 1.50 §4.1.4"
         "`==` or `!=` compares floats that were computed. Rounding, which differs between machines, decides the \
          result."
@@ -38,4 +38,102 @@ lints! {
             "out vec4 c; void main() { c = vec4(0.0); for (float t = 0.0; t < 1.0; t += 0.1) c += t; }"),
         good Fragment(
             "out vec4 c; void main() { c = vec4(0.0); for (int i = 0; i < 10; i++) c += float(i) * 0.1; }");
+    POW_MAYBE_NEGATIVE = "L0028" "pow-maybe-negative" Warning Numerics Unsafe "0.1.0" "GLSL 1.50 §8.2"
+        "The base of `pow` is negative for some input: a cosine that is not clamped, a sine, a component of a \
+         direction. `pow` is undefined then, and drivers return NaN."
+        why
+        "The range of the base must be known and be reached; what is clamped, or may be guarded by a condition, is \
+         left out."
+        bad Fragment(
+            "in vec3 n; in vec3 l; out vec4 c; void main() { c = vec4(pow(dot(normalize(n), normalize(l)), 8.0)); }"),
+        good Fragment(
+            "in vec3 n; in vec3 l; out vec4 c; void main() { c = vec4(pow(max(dot(normalize(n), normalize(l)), 0.0), \
+             8.0)); }");
+    SQRT_MAYBE_NEGATIVE = "L0029" "sqrt-maybe-negative" Warning Numerics Unsafe "0.1.0" "GLSL 1.50 §8.2"
+        "A root is taken of a number that is negative for some input, also by rounding alone: `1.0 - x * x` of a \
+         cosine `x` can be less than zero. The root is NaN then."
+        why
+        "The range must be known and be reached; what is clamped, or may be guarded by a condition, is left out."
+        bad Fragment(
+            "in vec3 n; in vec3 l; out vec4 c; void main() { float x = dot(normalize(n), normalize(l)); c = \
+             vec4(sqrt(1.0 - x * x)); }"),
+        good Fragment(
+            "in vec3 n; in vec3 l; out vec4 c; void main() { float x = dot(normalize(n), normalize(l)); c = \
+             vec4(sqrt(max(1.0 - x * x, 0.0))); }");
+    ACOS_BEYOND_ONE = "L0030" "acos-beyond-one" Warning Numerics Unsafe "0.1.0" "GLSL 1.50 §8.1"
+        "The product of two directions of length 1 can be 1.0000001, because lengths are rounded. `acos` and `asin` \
+         are undefined there, and drivers return NaN."
+        why
+        "The range must be known and be reached; what is clamped, or may be guarded by a condition, is left out."
+        bad Fragment(
+            "in vec3 a; in vec3 b; out vec4 c; void main() { c = vec4(acos(dot(normalize(a), normalize(b)))); }"),
+        good Fragment(
+            "in vec3 a; in vec3 b; out vec4 c; void main() { c = vec4(acos(clamp(dot(normalize(a), normalize(b)), \
+             -1.0, 1.0))); }");
+    LOG_OF_ZERO = "L0031" "log-of-zero" Warning Numerics Unsafe "0.1.0" "GLSL 1.50 §8.2"
+        "The argument of a logarithm is zero or less for some input, where the logarithm is infinite or undefined."
+        why
+        "The range must be known and be reached; what is clamped above zero, or may be guarded by a condition, is \
+         left out."
+        bad Fragment(
+            "in vec3 n; in vec3 l; out vec4 c; void main() { c = vec4(log(max(dot(normalize(n), normalize(l)), \
+             0.0))); }"),
+        good Fragment(
+            "in vec3 n; in vec3 l; out vec4 c; void main() { c = vec4(log(max(dot(normalize(n), normalize(l)), \
+             1e-6))); }");
+    DIVISION_BY_CLAMPED_ZERO = "L0032" "division-by-clamped-zero" Warning Numerics Unsafe "0.1.0" "GLSL 1.50 §5.9"
+        "A number is divided by one that was clamped at zero, so that zero is its least value: `1.0 / max(dot(n, v), \
+         0.0)`. The quotient is infinite or NaN at every grazing angle."
+        why
+        "The clamp shows that zero occurs. What a condition may guard is left out."
+        bad Fragment(
+            "in vec3 n; in vec3 v; out vec4 c; void main() { c = vec4(1.0 / max(dot(normalize(n), normalize(v)), \
+             0.0)); }"),
+        good Fragment(
+            "in vec3 n; in vec3 v; out vec4 c; void main() { c = vec4(1.0 / max(dot(normalize(n), normalize(v)), \
+             1e-3)); }");
+    NORMALIZE_OF_ZERO = "L0033" "normalize-of-zero" Warning Numerics No "0.1.0" "GLSL 1.50 §8.4"
+        "A vector that is zero, always or for some input, is normalized. It has no direction, and the result is NaN."
+        why
+        "Only vectors that are zero by their form count: constants, `a - a`, `cross(a, a)`, vectors that are clamped \
+         at zero."
+        bad Fragment(
+            "in vec3 n; out vec4 c; void main() { c = vec4(normalize(n - n), 1.0); }"),
+        good Fragment(
+            "in vec3 n; in vec3 p; out vec4 c; void main() { c = vec4(normalize(n - p), 1.0); }");
+    INTERPOLATED_NORMAL = "L0034" "interpolated-normal" Note Numerics Unsafe "0.1.0" "GLSL 1.50 §4.3.6"
+        "The vertex stage normalizes a vector, and the fragment stage uses what is interpolated as if it had the \
+         length 1. Between the vertices it is shorter, so highlights are too dark and change shape."
+        why
+        "On a fine mesh the difference is small, and some shaders accept it, so it is a note. Only programs whose \
+         vertex stage writes nothing but normalized values count."
+        bad Program(
+            "in vec4 p; in vec3 a; out vec3 normal; void main() { normal = normalize(a); gl_Position = p; }",
+            "in vec3 normal; uniform vec3 light; out vec4 c; void main() { c = vec4(max(dot(normal, light), 0.0)); }"),
+        good Program(
+            "in vec4 p; in vec3 a; out vec3 normal; void main() { normal = normalize(a); gl_Position = p; }",
+            "in vec3 normal; uniform vec3 light; out vec4 c; void main() { c = vec4(max(dot(normalize(normal), \
+             light), 0.0)); }");
+    UNNORMALIZED_DIRECTION = "L0035" "unnormalized-direction" Note Numerics Unsafe "0.1.0" "GLSL 1.50 §8.4"
+        "A cosine is computed with the difference of two places, which is as long as their distance. The light \
+         becomes brighter with the distance."
+        why
+        "If the length is taken anywhere in the function, the product may be divided by it, and the rule is silent."
+        bad Fragment(
+            "in vec3 n; in vec3 p; uniform vec3 light; out vec4 c; void main() { c = vec4(max(dot(normalize(n), \
+             light - p), 0.0)); }"),
+        good Fragment(
+            "in vec3 n; in vec3 p; uniform vec3 light; out vec4 c; void main() { c = vec4(max(dot(normalize(n), \
+             normalize(light - p)), 0.0)); }");
+    NORMAL_BY_MODEL_MATRIX = "L0036" "normal-by-model-matrix" Note Numerics No "0.1.0" ""
+        "A normal is transformed by the 3x3 part of a model matrix. If the matrix scales directions differently, \
+         normals must be transformed by the transposed inverse, or they no longer stand on their surfaces."
+        why
+        "Right if the host scales evenly, which the shader does not show; so it is a note."
+        bad Vertex(
+            "in vec4 p; in vec3 aNormal; uniform mat4 model; out vec3 n; void main() { n = mat3(model) * aNormal; \
+             gl_Position = model * p; }"),
+        good Vertex(
+            "in vec4 p; in vec3 aNormal; uniform mat4 model; uniform mat3 normalMatrix; out vec3 n; void main() { n \
+             = normalMatrix * aNormal; gl_Position = model * p; }");
 }

@@ -1,0 +1,15 @@
+//! `pow-maybe-negative`: `pow` of a base that is negative for some input.
+
+use super::super::domain::{Fault, calls};
+use super::super::{Findings, Subject};
+use crate::builtin::BuiltinFunction as B;
+
+const FAULT: Fault = Fault {
+    is_in: |range| range.low < 0.0 && range.reaches_low,
+    message: "the base of `pow` can be negative, which gives NaN",
+    guard: ["max(", ", 0.0)"],
+};
+
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    calls(subject, &FAULT, findings, |function| function == B::Pow);
+}
