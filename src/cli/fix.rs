@@ -171,17 +171,23 @@ impl Fixer {
         offers
     }
 
-    /// Whether the lines that a fix changes are the same on the disk as in the text that was checked: an engine may have put one
-    /// together from several files.
+    /// Whether the lines that a fix changes are the same on the disk as in the text that was checked, as far as the change
+    /// reaches: an engine may have put a text together from several files, and comments may be in another encoding.
     fn is_as_checked(&mut self, sources: &SourceMap, name: &str, fix: &FindingFix) -> bool {
         let Some((_, checked)) = sources.files().find(|(_, file)| file.name() == name) else { return false };
         let Some(file) = self.file(name) else { return false };
         let mut map = SourceMap::default();
         let Some(id) = map.add(name, file.current()) else { return false };
         let own = fix.edits.iter().filter(|edit| edit.region.file == name);
-        let lines = own.flat_map(|edit| edit.region.line..=edit.region.end_line);
-        let line = |file: &SourceFile, number: u32| file.line(number).map(str::to_owned);
-        lines.into_iter().all(|number| line(checked, number) == line(map.file(id), number))
+        own.into_iter().all(|edit| {
+            let at = &edit.region;
+            (at.line..=at.end_line).all(|number| {
+                let kept = if number == at.end_line { (at.end_column as usize).saturating_sub(1) } else { usize::MAX };
+                let line =
+                    |file: &SourceFile| file.line(number).map(|line| line.chars().take(kept).collect::<String>());
+                line(checked) == line(map.file(id))
+            })
+        })
     }
 
     /// The file of this name, read when it is needed first.

@@ -43,6 +43,7 @@ mod first_hour;
 mod first_steps;
 #[cfg(feature = "cli")]
 mod fixed_function;
+mod fixes;
 #[cfg(feature = "gpu")]
 mod floats;
 mod fmt;

@@ -58,6 +58,10 @@ impl Analyzer<'_> {
         let first = self.first_component(argument);
         let converted = self.with_scalar(first, scalar);
         if converted != argument {
+            // What is found about the value is about the whole call.
+            if let Some(expr) = self.shader.exprs.get_mut(converted.index()) {
+                expr.span = span;
+            }
             return converted;
         }
         // `float(x)` of a float is `x`, but not an l-value.
