@@ -49,6 +49,7 @@ mod prune;
 mod residual;
 mod settle;
 mod text;
+mod unlocated;
 
 pub use account::{Kind, LeftOut, Moved};
 pub use known::{Input, Known, KnownState, KnownTexture};

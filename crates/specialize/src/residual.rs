@@ -7,7 +7,7 @@ use crate::left::Left;
 use crate::options::{Extent, Options};
 use crate::prune::{self, Pruned};
 use crate::settle::{self, Demand, Demands, Settled};
-use crate::{fast, inputs, motion, text};
+use crate::{fast, inputs, motion, text, unlocated};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{GlobalId, Shader, Stage, Storage, Types};
 use glisten_front::source::{SourceMap, Span};
@@ -205,16 +205,25 @@ fn assemble(
     let mut shaders: Vec<Shader> = pruned.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
     shaders.extend(program.stage(Stage::Geometry).cloned());
     shaders.sort_by_key(|shader| shader.stage);
-    let stages: Vec<ResidualStage> =
-        shaders.iter().map(|shader| ResidualStage::of(&types, shader, options.sources)).collect();
+    let renamed = unlocated::by_name(&mut shaders);
+    let stages = written(&types, &shaders, options.sources);
     match read_back(program, &stages) {
         Ok((left, sources)) => {
             let how = How { known, walked: &walked, moved: &moved };
-            let left_out = account::left_out(program, options.sources, &how, &Left::all(&shaders, &left.interface));
+            let mut names = Left::all(&shaders, &left.interface);
+            let kept = renamed.iter().filter(|row| names.varyings.contains(row.new.as_str()));
+            let kept: Vec<&str> = kept.map(|row| row.old.as_str()).collect();
+            names.varyings.extend(kept);
+            let left_out = account::left_out(program, options.sources, &how, &names);
             Residual { stages, program: left, sources, left_out, moved, extent: options.extent, fault: None }
         }
         Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
     }
+}
+
+/// The stages as text.
+fn written(types: &Types, shaders: &[Shader], sources: Option<&SourceMap>) -> Vec<ResidualStage> {
+    shaders.iter().map(|shader| ResidualStage::of(types, shader, sources)).collect()
 }
 
 /// Compiles the residual, with the locations that a host has bound.
@@ -253,8 +262,9 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
 /// The program without what reaches no output.
 fn unevaluated(program: &Program, options: &Options<'_>) -> Residual {
     let optimized = crate::optimize(program);
-    let stages: Vec<ResidualStage> =
-        optimized.stages.iter().map(|shader| ResidualStage::of(&optimized.types, shader, options.sources)).collect();
+    let mut shaders = optimized.stages.clone();
+    unlocated::by_name(&mut shaders);
+    let stages = written(&optimized.types, &shaders, options.sources);
     match read_back(program, &stages) {
         Ok((program_left, sources)) => {
             let left_out = crate::left_out(program, &optimized, options.sources);
@@ -266,8 +276,9 @@ fn unevaluated(program: &Program, options: &Options<'_>) -> Residual {
 
 /// The program as it was.
 fn whole(program: &Program, options: &Options<'_>) -> Residual {
-    let stages =
-        program.stages.iter().map(|shader| ResidualStage::of(&program.types, shader, options.sources)).collect();
+    let mut shaders = program.stages.clone();
+    unlocated::by_name(&mut shaders);
+    let stages = written(&program.types, &shaders, options.sources);
     let sources = options.sources.cloned().unwrap_or_default();
     Residual {
         stages,

@@ -49,6 +49,13 @@ impl<'a> Outputs<'a> {
     }
 }
 
+/// The outputs of a stage with the inputs of the next one that they feed.
+pub fn partners(producer: &Shader, consumer: &Shader) -> Vec<(GlobalId, GlobalId)> {
+    let outputs = Outputs::new(producer);
+    let inputs = consumer.globals().filter(|(_, input)| is_interface(input, Storage::In));
+    inputs.filter_map(|(id, input)| Some((outputs.partner(input)?.0, id))).collect()
+}
+
 /// For how many inputs without a partner the help text searches all outputs.
 const MAX_SUGGESTIONS: usize = 16;
 

@@ -61,6 +61,7 @@ mod varyings;
 
 pub use fixed::FixedState;
 pub use layout::MAX_BLOCK_BYTES;
+pub use matching::partners;
 pub use partial::{Understood, check_understood};
 pub use program::{
     Attribute, Block, BlockIndex, GeometryInput, Interface, Output, Program, RootIndex, SamplerSlot, SlotBinding,

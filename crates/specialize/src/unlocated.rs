@@ -1,0 +1,87 @@
+//! Varyings without locations, so that GLSL 1.50 can declare them (GLSL 4.10 §4.4.1 brought the locations).
+//!
+//! *In:* the stages of a program, in order. *Out:* the same stages, in which an input and the output that feeds it have one name and
+//! no location. *Holds:* the name is the output's; where the other stage uses it for something else, both get a new one.
+
+use glisten_front::hir::{Global, GlobalId, Shader, Storage};
+use glisten_front::link::partners;
+use std::collections::BTreeSet;
+
+/// A varying with a new name.
+pub(crate) struct Renamed {
+    /// The name in the original.
+    pub(crate) old: String,
+    /// The name in the residual.
+    pub(crate) new: String,
+}
+
+/// Matches the varyings of neighboring stages by their names alone.
+pub(crate) fn by_name(stages: &mut [Shader]) -> Vec<Renamed> {
+    let mut renamed = Vec::new();
+    for at in 1..stages.len() {
+        let (before, after) = stages.split_at_mut(at);
+        if let (Some(producer), Some(consumer)) = (before.last_mut(), after.first_mut()) {
+            pair(producer, consumer, &mut renamed);
+        }
+    }
+    renamed
+}
+
+/// Matches the varyings from one stage to the next.
+fn pair(producer: &mut Shader, consumer: &mut Shader, renamed: &mut Vec<Renamed>) {
+    let crosses = |global: &Global, storage| global.storage == storage && global.builtin.is_none() && !global.is_fixed();
+    let is_located = |shader: &Shader, storage| {
+        shader.globals.iter().any(|global| crosses(global, storage) && global.location.is_some())
+    };
+    if !is_located(producer, Storage::Out) && !is_located(consumer, Storage::In) {
+        return;
+    }
+    let pairs = partners(producer, consumer);
+    let others = |shader: &Shader, known: &BTreeSet<GlobalId>| {
+        let globals = shader.globals().filter(|(id, _)| !known.contains(id));
+        globals.map(|(_, global)| own_name(global).to_owned()).collect::<BTreeSet<String>>()
+    };
+    let mut taken = others(consumer, &pairs.iter().map(|(_, to)| *to).collect());
+    let of_producer = others(producer, &BTreeSet::new());
+    for (from, to) in pairs {
+        let old = own_name(producer.global(from)).to_owned();
+        let mut new = old.clone();
+        for number in 2.. {
+            if !taken.contains(&new) && (new == old || !of_producer.contains(&new)) {
+                break;
+            }
+            new = format!("{}_{number}", old.trim_end_matches('_'));
+        }
+        taken.insert(new.clone());
+        for (shader, id) in [(&mut *producer, from), (&mut *consumer, to)] {
+            if let Some(global) = shader.globals.get_mut(id.index()) {
+                rename(global, &new);
+            }
+        }
+        if new != old {
+            renamed.push(Renamed { old, new });
+        }
+    }
+    for (shader, storage) in [(producer, Storage::Out), (consumer, Storage::In)] {
+        for global in shader.globals.iter_mut().filter(|global| crosses(global, storage)) {
+            (global.location, global.component) = (None, None);
+        }
+    }
+}
+
+/// The name by which stages know a global.
+fn own_name(global: &Global) -> &str {
+    global.block.as_ref().map_or(&global.name, |block| &block.name)
+}
+
+fn rename(global: &mut Global, new: &str) {
+    match &mut global.block {
+        Some(block) => {
+            if global.name == block.name {
+                new.clone_into(&mut global.name);
+            }
+            new.clone_into(&mut block.name);
+        }
+        None => new.clone_into(&mut global.name),
+    }
+}
