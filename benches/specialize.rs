@@ -4,18 +4,21 @@
 //! `cargo bench --bench specialize` prints both as Markdown, for `docs/specialize.md`; with `draw` or `make` one of them, with
 //! `draw edge spot` only these scenes.
 //! A ratio is the median over rounds of the residual's time to the original's of the same round, which are drawn in turns;
-//! the last column is that of the original to itself, which shows the noise.
+//! the last column tells how far that of the original to itself reaches, which is the noise. Operations are counted on the reference.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
+use glisten::emit::FloatWidth;
+use glisten::report::{Limits, Weights, paired, steps, work};
 use glisten::scene::{DiskFiles, Scene, load};
 use glisten::specialize::{Known, ScalarValue, specialize, specialize_scene};
 use glisten::{Compiler, Options, Program, Source, Stage};
-use glisten_gpu::{Gpu, Prepared, Via};
+use glisten_gpu::{Gpu, Via};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-const ROUNDS: usize = 15;
+/// The rounds of a scene.
+const LIMITS: Limits = Limits { rounds: 60, time: Duration::from_secs(6) };
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
@@ -28,16 +31,26 @@ fn main() {
     }
 }
 
-/// The scenes of the gallery, and the standard program with one directional light and no highlight.
-fn scenes() -> Vec<PathBuf> {
+/// The folders of scenes: the gallery, programs with a twin by hand, and families of uber-shaders.
+static FOLDERS: &[(&str, &str)] = &[
+    ("gallery", "shader_lib/scenes"),
+    ("with a twin by hand", "fixtures/specialize/by_hand"),
+    ("decals", "fixtures/specialize/families/decals"),
+    ("particles", "fixtures/specialize/families/particles"),
+    ("skinning", "fixtures/specialize/families/skinning"),
+    ("terrain", "fixtures/specialize/families/terrain"),
+    ("tiled lights", "fixtures/specialize/families/tiled_lights"),
+];
+
+/// The scenes of a folder.
+fn scenes(folder: &str) -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder = std::fs::read_dir(root.join("shader_lib/scenes")).expect("the gallery");
+    let folder = std::fs::read_dir(root.join(folder)).expect("a folder of scenes");
     let mut scenes: Vec<PathBuf> = folder
         .filter_map(|entry| Some(entry.ok()?.path()))
         .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
         .collect();
     scenes.sort();
-    scenes.push(root.join("fixtures/specialize/by_hand/standard.toml"));
     scenes
 }
 
@@ -48,53 +61,49 @@ fn median(numbers: &mut [f64]) -> f64 {
 }
 
 fn drawn(asked: &[String]) {
-    let gpu = Gpu::new(None).expect("a Vulkan adapter: apt-get install mesa-vulkan-drivers");
-    println!("| scene | original, ms | residual, ms | ratio | noise |\n| --- | --- | --- | --- | --- |");
-    let mut ratios = Vec::new();
-    for path in scenes() {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        if asked.len() > 1 && !asked.contains(&name) {
-            continue;
-        }
-        let loaded = load(&path.to_string_lossy(), &DiskFiles, &Compiler::new(Options::default()));
-        let scene = loaded.scene.expect("the scene is valid");
-        let residual = specialize_scene(&scene, &loaded.sources, &[]).scene;
-        let [before, after, ratio, noise] = compared(&gpu, &scene, &residual);
-        println!("| `{name}` | {before:.2} | {after:.2} | {ratio:.3} | {noise:.3} |");
-        ratios.push(ratio);
-    }
-    // The last one is not of the gallery.
-    let one_light = ratios.pop().unwrap_or(f64::NAN);
-    let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let median = median(&mut ratios);
+    let gpu = Gpu::new(Some("software")).expect("a Vulkan adapter: apt-get install mesa-vulkan-drivers");
     println!(
-        "\nGallery: median {median:.3}, worst {worst:.3}. The standard program with one directional light and no highlight: \
-         {one_light:.3}."
+        "| scene | operations | original, ms | residual, ms | ratio | interval | noise |\n| --- | --- | --- | --- | --- | --- | --- |"
+    );
+    let mut summaries = Vec::new();
+    for (family, folder) in FOLDERS {
+        let (mut ratios, mut n_slower) = (Vec::new(), 0);
+        for path in scenes(folder) {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            if asked.len() > 1 && !asked.contains(&name) {
+                continue;
+            }
+            let loaded = load(&path.to_string_lossy(), &DiskFiles, &Compiler::new(Options::default()));
+            let scene = loaded.scene.expect("the scene is valid");
+            let residual = specialize_scene(&scene, &loaded.sources, &[]).scene;
+            let times = paired(&gpu, [&scene, &residual], Via::Spirv, LIMITS, &mut ()).expect("it can be drawn");
+            let ([low, high], [_, noise]) = (times.ratio.interval, times.same_again.interval);
+            println!(
+                "| `{name}` | {:.3} | {:.2} | {:.2} | {:.3} | [{low:.3}, {high:.3}] | {noise:.3} |",
+                operations(&residual) / operations(&scene),
+                times.first_ms,
+                times.second_ms,
+                times.ratio.median,
+            );
+            ratios.push(times.ratio.median);
+            n_slower += usize::from(times.slower);
+        }
+        if !ratios.is_empty() {
+            let worst = ratios.iter().copied().fold(0.0, f64::max);
+            let n_scenes = ratios.len();
+            summaries.push(format!("| {family} | {n_scenes} | {:.3} | {worst:.3} | {n_slower} |", median(&mut ratios)));
+        }
+    }
+    println!(
+        "\n| family | scenes | median | worst | slower |\n| --- | --- | --- | --- | --- |\n{}",
+        summaries.join("\n")
     );
 }
 
-/// The times in milliseconds, the ratio, and the ratio of the original to itself.
-fn compared(gpu: &Gpu, scene: &Scene, residual: &Scene) -> [f64; 4] {
-    let [original, residual] = [scene, residual].map(|scene| gpu.prepare(scene, Via::Spirv).expect("it can be drawn"));
-    let frames = gpu.frames_for_a_stretch(&original).expect("it draws");
-    let time = |prepared: &Prepared| gpu.measure(prepared, frames).expect("it draws");
-    let (mut before, mut after, mut ratios, mut noise) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    time(&residual);
-    for round in 0..ROUNDS {
-        let first = time(&original);
-        // The order of the other two alternates.
-        let (again, left) = if round % 2 == 0 {
-            let left = time(&residual);
-            (time(&original), left)
-        } else {
-            (time(&original), time(&residual))
-        };
-        before.push(first);
-        after.push(left);
-        ratios.push(left / first);
-        noise.push(again / first);
-    }
-    [&mut before, &mut after, &mut ratios, &mut noise].map(|numbers| median(numbers))
+/// The operations of a scene's picture, counted on the reference.
+fn operations(scene: &Scene) -> f64 {
+    let counts = steps(scene).expect("the reference draws it");
+    work(&counts, &Weights::default(), FloatWidth::Single).operations as f64
 }
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin vec4 q;\nout vec4 v;\nvoid main() { v = q; gl_Position = p; }\n";

@@ -2,6 +2,9 @@
 //!
 //! *Holds:* the names of all outputs are known before anything is written; equal residuals are written once.
 
+mod time;
+
+use self::time::Clock;
 use super::args::{ContractArgs, ConventionArgs, LevelArgs, ResultFormat, SourceArgs};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -12,7 +15,9 @@ use super::scenes::{DrawError, MachineArgs, Read, SceneArgs};
 use super::suggest;
 use crate::account::{PAGE, SceneOnPage, page};
 use crate::sources::stages::extension;
-use crate::specialize::{Account, PictureError, Pictures, SpecializedScene, account, pictures, specialize_scene_by};
+use crate::specialize::{
+    Account, PictureError, Pictures, SpecializedScene, Times, account, pictures, specialize_scene_by,
+};
 use clap::Args;
 use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::hir::Stage;
@@ -39,6 +44,9 @@ pub(super) struct SpecializeArgs {
     /// Write nothing, and tell whether anything can be left out
     #[arg(long)]
     check: bool,
+    /// Draw each scene and its residual in turns on the GPU, and keep the original where the residual is slower
+    #[arg(long, conflicts_with_all = ["check", "suggest"])]
+    time: bool,
     /// Write nothing, and rank the uniforms by what fixing them saves in all scenes together
     #[arg(long, conflicts_with = "check")]
     suggest: bool,
@@ -71,6 +79,8 @@ struct Done {
     sources: SourceMap,
     /// For each draw the files of the original's shaders and the stem of the residual.
     names: Vec<[String; 3]>,
+    /// The times of original and residual.
+    times: Option<Times>,
 }
 
 /// The residuals of all scenes, by their stems.
@@ -104,6 +114,7 @@ pub(super) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     refuse_equal_names(&args.scenes)?;
     let progress = Progress::new(console, args.scenes.len());
     let mut residuals = Residuals::default();
+    let clock = if args.time { Some(Clock::new(&args.machine)?) } else { None };
     let mut done = Vec::new();
     let mut suggested = Vec::new();
     let mut exit = Exit::Ok;
@@ -115,7 +126,7 @@ pub(super) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
                 check_dynamic(args, &read.scene)?;
                 suggested.push((stem(name), read.scene));
             }
-            Ok(read) => match specialized(args, name, read, &mut residuals)? {
+            Ok(read) => match specialized(args, name, read, (clock.as_ref(), &mut residuals))? {
                 Ok(one) => done.push(one),
                 Err(worse) => exit = exit.max(worse),
             },
@@ -171,11 +182,16 @@ fn specialized(
     args: &SpecializeArgs,
     name: &str,
     read: Read<'_>,
-    residuals: &mut Residuals,
+    (clock, residuals): (Option<&Clock>, &mut Residuals),
 ) -> Result<Result<Done, Exit>, Failure> {
     check_dynamic(args, &read.scene)?;
     let contract = args.contract.contract();
-    let specialized = specialize_scene_by(contract, &read.scene, read.sources(), &args.dynamic);
+    let mut specialized = specialize_scene_by(contract, &read.scene, read.sources(), &args.dynamic);
+    let mut times = None;
+    if let Some(clock) = clock {
+        let (chosen, measured) = clock.choose(&read.scene, read.sources(), specialized, &args.dynamic)?;
+        (specialized, times) = (chosen, Some(measured));
+    }
     let mut names = Vec::new();
     for (draw, (left, done)) in read.scene.draws.iter().zip(specialized.scene.draws.iter().zip(&specialized.draws)) {
         if let Some(fault) = &done.fault {
@@ -192,7 +208,14 @@ fn specialized(
         };
         names.push([file(Stage::Vertex), file(Stage::Fragment), stem]);
     }
-    Ok(Ok(Done { name: stem(name), scene: read.scene.clone(), specialized, sources: read.sources().clone(), names }))
+    Ok(Ok(Done {
+        name: stem(name),
+        scene: read.scene.clone(),
+        specialized,
+        sources: read.sources().clone(),
+        names,
+        times,
+    }))
 }
 
 /// A name of `--dynamic` that no program of a scene has is a mistake.
@@ -298,11 +321,15 @@ fn write_scene(
         Ok((account(&name, &scene, &specialized, &names)?, drawn))
     });
     match counted {
-        Ok((account, pictures)) => {
+        Ok((mut account, pictures)) => {
+            account.time = one.times;
             let json = serde_json::to_string_pretty(&account).expect("an account is always JSON") + "\n";
             files::write(&folder.join(format!("{}.account.json", one.name)), json.as_bytes())?;
             if !console.is_quiet() {
                 console.output(&table(&account))?;
+                if let Some(times) = &account.time {
+                    console.output(&time::line(&account.scene, times))?;
+                }
             }
             Ok((account, pictures))
         }

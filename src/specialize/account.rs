@@ -24,6 +24,28 @@ pub struct Account {
     /// Where computations may move to the vertex stage, the error of the whole picture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub move_to_vertex: Option<PictureError>,
+    /// The times of the original and the residual, where they were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<Times>,
+}
+
+/// The times of a scene, drawn in turns with its original and with its residual programs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Times {
+    /// The median of the original, in milliseconds a frame.
+    pub before_ms: f64,
+    /// The median of the residual.
+    pub after_ms: f64,
+    /// The median of the residual's time to that of the original in the same round.
+    pub ratio: f64,
+    /// The interval that holds this median with a confidence of 95 %.
+    pub interval: [f64; 2],
+    /// The same interval of the original against itself.
+    pub noise: [f64; 2],
+    /// The rounds.
+    pub rounds: u32,
+    /// Whether the residual is slower, so that the original stays.
+    pub slower: bool,
 }
 
 /// The account of a draw.
@@ -163,6 +185,7 @@ pub fn account(
         draws,
         fast_math: error.filter(|_| contract.fast_math),
         move_to_vertex: error.filter(|_| contract.move_to_vertex),
+        time: None,
     })
 }
 

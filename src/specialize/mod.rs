@@ -31,14 +31,17 @@ pub use glisten_specialize::{
 
 #[cfg(feature = "reference")]
 pub use account::{
-    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, account, body_instructions, spirv_instructions,
+    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account, body_instructions, spirv_instructions,
 };
 #[cfg(feature = "reference")]
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
 #[cfg(feature = "reference")]
 pub use known::known;
 #[cfg(feature = "reference")]
-pub use residual::{Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, with_program};
+pub use residual::{
+    Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, unspecialized_scene,
+    with_program,
+};
 pub use smallest::specialize_smallest;
 #[cfg(not(feature = "reference"))]
 pub use smallest::{body_instructions, spirv_instructions};

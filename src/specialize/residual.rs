@@ -88,7 +88,23 @@ pub fn specialize_scene_by(
     sources: &SourceMap,
     dynamic: &[String],
 ) -> SpecializedScene {
+    specialize_to(Extent::default(), contract, scene, sources, dynamic)
+}
+
+/// The scene with its programs as they are, but for what reaches no output.
+pub fn unspecialized_scene(scene: &Scene, sources: &SourceMap, dynamic: &[String]) -> SpecializedScene {
+    specialize_to(Extent::Nothing, Contract::default(), scene, sources, dynamic)
+}
+
+fn specialize_to(
+    extent: Extent,
+    contract: Contract,
+    scene: &Scene,
+    sources: &SourceMap,
+    dynamic: &[String],
+) -> SpecializedScene {
     let options = Options {
+        extent,
         sources: Some(sources),
         fast_math: contract.fast_math,
         move_to_vertex: contract.move_to_vertex,

@@ -29,7 +29,8 @@ pub(crate) fn by_name(stages: &mut [Shader]) -> Vec<Renamed> {
 
 /// Matches the varyings from one stage to the next.
 fn pair(producer: &mut Shader, consumer: &mut Shader, renamed: &mut Vec<Renamed>) {
-    let crosses = |global: &Global, storage| global.storage == storage && global.builtin.is_none() && !global.is_fixed();
+    let crosses =
+        |global: &Global, storage| global.storage == storage && global.builtin.is_none() && !global.is_fixed();
     let is_located = |shader: &Shader, storage| {
         shader.globals.iter().any(|global| crosses(global, storage) && global.location.is_some())
     };

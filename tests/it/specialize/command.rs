@@ -410,3 +410,59 @@ fn the_gallery_is_one_set_of_residuals() {
         assert!(place.names("out").contains(&format!("{stem}.frag.spv")), "{stem}");
     }
 }
+
+/// Residuals are GLSL 1.50, in which varyings have no locations: names take their place, wherever both stages have their own.
+#[test]
+fn varyings_with_locations_are_matched_by_name() {
+    let place = Folder::new();
+    place.write(
+        "l.vert",
+        "#version 440\nlayout(location = 0) in vec4 place;\nlayout(location = 1) in vec4 tint;\nuniform vec4 scale;\n\
+         layout(location = 0) out vec4 first;\nlayout(location = 1) out vec4 second;\nlayout(location = 2) out Lit { vec4 glow; } lit;\n\
+         layout(location = 4) out vec4 color;\n\
+         void main() { first = tint; second = tint * scale; lit.glow = tint.zyxw; color = tint.yxzw; gl_Position = place; }\n",
+    );
+    place.write(
+        "l.frag",
+        "#version 440\nlayout(location = 1) in vec4 first;\nlayout(location = 0) in vec4 second;\n\
+         layout(location = 2) in Glowing { vec4 glow; } lit;\nlayout(location = 4) in vec4 fourth;\nuniform float unread;\n\
+         layout(location = 0) out vec4 color;\n\
+         void main() { vec4 third = fourth; color = first * 0.5 + second * 0.25 + lit.glow * 0.125 + third; }\n",
+    );
+    place.write(
+        "l.toml",
+        "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"l.vert\"\nfragment = \"l.frag\"\n[draw.attributes]\n\
+         place = { size = 2, values = [-1, -1, 1, -1, 0, 1] }\ntint = { size = 3, values = [1, 0, 0, 0, 1, 0, 0, 0, 1] }\n\
+         [draw.uniforms]\nscale = [1, 2, 3, 4]\nunread = 1.0\n",
+    );
+    place.expect(0, &["specialize", "l.toml", "-o", "out"]);
+    for name in ["out/l.vert", "out/l.frag"] {
+        let text = place.read(name);
+        let crosses = |line: &&str| line.contains("out ") || line.contains("in ");
+        let located = text.lines().filter(crosses).filter(|line| line.contains("location")).count();
+        assert_eq!(located, if name.ends_with("vert") { 2 } else { 1 }, "attributes and colors alone: {text}");
+    }
+    let render = |scene: &str, out: &str| place.expect(0, &["render", scene, "--backend", "cpu", "-o", out]);
+    (render("l.toml", "a.npy"), render("out/l.toml", "b.npy"));
+    assert_eq!(fs::read(place.path("a.npy")).expect("drawn"), fs::read(place.path("b.npy")).expect("drawn"));
+    let account = place.json("out/l.account.json");
+    let gone = account["draws"][0]["left_out"].as_array().expect("entries");
+    assert!(gone.iter().all(|entry| entry["what"] != "varying"), "{gone:?}");
+    place.expect(0, &["verify", "out/l.toml"]);
+}
+
+/// The times of original and residual stand in the account; the original stays where the residual is slower, which it is not here.
+#[test]
+fn times_are_measured_in_turns() {
+    let place = Folder::new();
+    let text = place.expect(0, &["specialize", "a.toml", "-o", "out", "--time", "--adapter", "software"]);
+    assert!(text.contains(" of the time ["), "{text}");
+    let account = place.json("out/a.account.json");
+    let time = &account["time"];
+    let expected = ["after_ms", "before_ms", "interval", "noise", "ratio", "rounds", "slower"];
+    assert_eq!(keys(time), expected, "{account}");
+    let number = |key: &str| time[key].as_f64().expect("a number");
+    assert!(number("rounds") >= 6.0 && number("ratio") > 0.0, "{time}");
+    let kept = account["draws"][0]["kept"] == "program";
+    assert_eq!(time["slower"].as_bool(), Some(kept), "{account}");
+}
