@@ -1,7 +1,8 @@
 //! Varyings without locations, so that GLSL 1.50 can declare them (GLSL 4.10 §4.4.1 brought the locations).
 //!
 //! *In:* the stages of a program, in order. *Out:* the same stages, in which an input and the output that feeds it have one name and
-//! no location. *Holds:* the name is the output's; where the other stage uses it for something else, both get a new one.
+//! no location. *Holds:* the name is the input's, as in the interface of the original; where the stage before uses it for something
+//! else, both get a new one.
 
 use glisten_front::hir::{Global, GlobalId, Shader, Storage};
 use glisten_front::link::partners;
@@ -42,13 +43,13 @@ fn pair(producer: &mut Shader, consumer: &mut Shader, renamed: &mut Vec<Renamed>
         let globals = shader.globals().filter(|(id, _)| !known.contains(id));
         globals.map(|(_, global)| own_name(global).to_owned()).collect::<BTreeSet<String>>()
     };
-    let mut taken = others(consumer, &pairs.iter().map(|(_, to)| *to).collect());
-    let of_producer = others(producer, &BTreeSet::new());
+    let mut taken = others(producer, &pairs.iter().map(|(from, _)| *from).collect());
+    let of_consumer = others(consumer, &BTreeSet::new());
     for (from, to) in pairs {
-        let old = own_name(producer.global(from)).to_owned();
+        let old = own_name(consumer.global(to)).to_owned();
         let mut new = old.clone();
         for number in 2.. {
-            if !taken.contains(&new) && (new == old || !of_producer.contains(&new)) {
+            if !taken.contains(&new) && (new == old || !of_consumer.contains(&new)) {
                 break;
             }
             new = format!("{}_{number}", old.trim_end_matches('_'));

@@ -425,9 +425,9 @@ fn varyings_with_locations_are_matched_by_name() {
     place.write(
         "l.frag",
         "#version 440\nlayout(location = 1) in vec4 first;\nlayout(location = 0) in vec4 second;\n\
-         layout(location = 2) in Glowing { vec4 glow; } lit;\nlayout(location = 4) in vec4 fourth;\nuniform float unread;\n\
+         layout(location = 2) in Glowing { vec4 glow; } lit;\nlayout(location = 4) in vec4 tint;\nuniform float unread;\n\
          layout(location = 0) out vec4 color;\n\
-         void main() { vec4 third = fourth; color = first * 0.5 + second * 0.25 + lit.glow * 0.125 + third; }\n",
+         void main() { vec4 third = tint; color = first * 0.5 + second * 0.25 + lit.glow * 0.125 + third; }\n",
     );
     place.write(
         "l.toml",
