@@ -2,11 +2,12 @@
 
 use super::Number;
 
-/// `minNum` and `maxNum` for every IEEE type: a NaN is dropped.
+/// `min` and `max` (§8.3): the second operand if it is beyond the first, else the first, so that of 0 and -0 the first comes back. A
+/// NaN is dropped, as `minNum` and `maxNum` do.
 macro_rules! extremum {
     ($a:expr, $b:expr, $op:tt) => {{
         let (a, b) = ($a, $b);
-        if a $op b || b != b { a } else { b }
+        if b $op a || a != a { b } else { a }
     }};
 }
 pub(super) use extremum;

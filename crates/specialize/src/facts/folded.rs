@@ -142,7 +142,14 @@ fn is_certain(operation: Operation, operands: &[(Values, TypeId)], found: &[Scal
     let zero = |value: &ScalarValue| matches!(value, ScalarValue::Float(value) if *value == 0.0);
     let signed = |value: &ScalarValue| matches!(value, ScalarValue::Float(value) if value.to_bits() == 1 << 31);
     let vanishes = operation.may_vanish() && found.iter().any(zero);
-    !to_integer && !vanishes && !found.iter().any(signed) && operands.iter().all(|(values, _)| values.iter().all(plain))
+    // Of 0 and -0 a target gives either.
+    let chooses = matches!(operation, Operation::Call(F::Min | F::Max | F::Clamp));
+    let either = chooses && found.iter().any(zero) && operands.iter().any(|(values, _)| values.iter().any(signed));
+    !to_integer
+        && !vanishes
+        && !either
+        && !found.iter().any(signed)
+        && operands.iter().all(|(values, _)| values.iter().all(plain))
 }
 
 /// The value of an operation on known operands, as the reference computes it in f32. None of what is not finite, subnormal,
