@@ -1,34 +1,38 @@
 //! Tests of the lint rules: their pages' examples, their fixtures, and no warnings on ordinary programs.
 
-use crate::support::{Settings, Shader, root, shaders_under};
+use crate::support::{Settings, Shader, compiler, root, shaders_under};
 use glisten::{Compiler, Options, Source, lint};
-use glisten_front::diagnostic::{Code, Example, Severity};
+use glisten_front::diagnostic::{Code, Example, Level, Levels, Severity};
 use glisten_front::hir::Stage;
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The codes that the rules raise, with the severity of each, without rules that are off but for `rule`. A diagnostic of the front
 /// end is a failure.
-fn lints(shaders: &[Shader], rule: Option<&Code>) -> Vec<(&'static str, Severity)> {
+fn lints(shaders: &[Shader], rule: Option<&'static Code>) -> Vec<(&'static str, Severity)> {
     let settings = Settings::default();
     let options = Options { defines: settings.defines, strict: settings.strict, ..Options::default() };
     let sources: Vec<Source> = shaders
         .iter()
         .map(|shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage })
         .collect();
-    let compilation = Compiler::new(options).compile(&sources);
+    let compilation = compiler().with_options(options).compile(&sources);
     let names: Vec<&str> = shaders.iter().map(|shader| shader.name.as_str()).collect();
     let messages: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
     let program = compilation.program.unwrap_or_else(|| panic!("{names:?} give no program: {messages:?}"));
-    let found = lint::check(&program, &compilation.sources);
-    let is_on = |code: &Code| !code.is_off() || rule == Some(code);
-    found.iter().filter(|found| is_on(found.code)).map(|found| (found.code.id, found.severity)).collect()
+    let mut levels = Levels::default();
+    if let Some(rule) = rule.filter(|rule| rule.is_off()) {
+        levels.set(rule, Level::Warn);
+    }
+    let mut found = lint::check(&program, &compilation.sources);
+    found.retain_mut(|finding| levels.apply(&compilation.sources, finding));
+    found.iter().map(|found| (found.code.id, found.severity)).collect()
 }
 
 fn example(example: Example) -> Vec<Shader> {
     let shader = |text: &str, stage: Stage| Shader {
         name: format!("example.{}", stage.name()),
-        text: format!("#version 150\n{text}"),
+        text: if text.contains("#version") { text.to_owned() } else { format!("#version 150\n{text}") },
         stage,
     };
     match example {

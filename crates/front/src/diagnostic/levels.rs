@@ -7,7 +7,7 @@
 //! its group, that over `deny warnings`, and a comment over all. A rule that is off reports where a level asks for it.
 
 use super::{Code, Diagnostic, Group, Key, Severity};
-use crate::source::SourceMap;
+use crate::source::{SourceMap, Span};
 use std::collections::BTreeMap;
 
 /// The treatment of a warning.
@@ -118,6 +118,18 @@ fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
         return true;
     }
     (1..at.line).rev().map_while(|number| file.line(number).filter(|line| is_comment(line))).any(allows)
+}
+
+/// Whether a comment at a span, `// glisten: allow(KEY)`, allows a diagnostic by this key.
+pub fn allows(sources: &SourceMap, comment: Span, key: &str, diagnostic: &Diagnostic) -> bool {
+    let site = |span| sources.location(sources.call_site(span));
+    let (Some(comment), Some(at)) = (site(comment), site(diagnostic.primary.span)) else { return false };
+    if comment.file != at.file || !Key::find(key).is_some_and(|key| key.names(diagnostic.code)) {
+        return false;
+    }
+    let file = sources.file(at.file);
+    let between = || (comment.line..at.line).all(|number| file.line(number).is_some_and(is_comment));
+    comment.line == at.line || comment.line < at.line && between()
 }
 
 /// The codes in a line's `// glisten: allow(CODE, CODE)`, in any case and with any white space, in either kind of comment.

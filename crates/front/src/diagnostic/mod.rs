@@ -20,7 +20,7 @@ pub use advice::{Advice, Place};
 pub use codes::{Code, Example, Key};
 pub use fix::{Applicability, Edit, Fix};
 pub use group::{Fixable, Group, LintInfo};
-pub use levels::{Level, Levels};
+pub use levels::{Level, Levels, allows};
 pub use patch::Patch;
 pub use saved::Saved;
 pub use sink::Diagnostics;

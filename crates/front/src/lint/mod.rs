@@ -17,6 +17,7 @@ mod rate;
 mod rules;
 mod subject;
 mod texts;
+mod unused;
 mod uses;
 
 use crate::diagnostic::{Code, Diagnostic};

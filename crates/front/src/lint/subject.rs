@@ -7,9 +7,7 @@ use super::interval::Range;
 use super::texts::Texts;
 use super::uses::{self, LocalUse};
 use crate::fold;
-use crate::hir::{
-    Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, Shader, Stmt, Type, TypeId, Types, Value, VarRef,
-};
+use crate::hir::{Expr, ExprId, ExprKind, Function, GlobalId, LocalId, Shader, Stmt, Type, Types, Value, VarRef};
 use crate::link::Program;
 use crate::source::SourceMap;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -27,7 +25,6 @@ pub(super) struct Subject<'a> {
 pub(super) struct Place<'a> {
     pub(super) types: &'a Types,
     pub(super) shader: &'a Shader,
-    pub(super) id: FunctionId,
     pub(super) function: &'a Function,
     pub(super) body: &'a [Stmt],
     /// All expressions of the body: wholes before their operands, in the order of the text.
@@ -46,9 +43,9 @@ impl<'a> Subject<'a> {
     pub(super) fn new(program: &'a Program, sources: &'a SourceMap) -> Self {
         let mut places = Vec::new();
         for shader in &program.stages {
-            for (id, function) in shader.functions().filter(|(_, function)| function.reachable) {
+            for function in shader.functions.iter().filter(|function| function.reachable) {
                 let Some(body) = function.body.as_deref() else { continue };
-                places.push(Place::new(&program.types, shader, id, function, body));
+                places.push(Place::new(&program.types, shader, function, body));
             }
         }
         Self { program, texts: Texts::new(sources), places }
@@ -66,7 +63,7 @@ impl<'a> Subject<'a> {
 }
 
 impl<'a> Place<'a> {
-    fn new(types: &'a Types, shader: &'a Shader, id: FunctionId, function: &'a Function, body: &'a [Stmt]) -> Self {
+    fn new(types: &'a Types, shader: &'a Shader, function: &'a Function, body: &'a [Stmt]) -> Self {
         let (mut exprs, mut statements) = (Vec::new(), Vec::new());
         shader.visit_statements(body, &mut |statement| {
             statements.push(statement);
@@ -75,7 +72,7 @@ impl<'a> Place<'a> {
             }
         });
         let (locals, conditions) = uses::of_variables(shader, function, &statements);
-        Self { types, shader, id, function, body, exprs, statements, locals, ranges: RefCell::default(), conditions }
+        Self { types, shader, function, body, exprs, statements, locals, ranges: RefCell::default(), conditions }
     }
 
     pub(super) fn expr(&self, id: ExprId) -> &'a Expr {
@@ -99,11 +96,6 @@ impl<'a> Place<'a> {
     /// Whether the type is `vec2`, `vec3` or `vec4`.
     pub(super) fn is_vector(&self, id: ExprId) -> bool {
         matches!(self.ty(id), Type::Vector(crate::hir::Scalar::Float, _))
-    }
-
-    /// Whether the type is `bool`.
-    pub(super) fn is_bool(&self, id: ExprId) -> bool {
-        self.expr(id).ty == TypeId::BOOL
     }
 
     /// The value of a constant expression.

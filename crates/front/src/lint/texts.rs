@@ -8,7 +8,7 @@ use crate::diagnostic::{Applicability, Edit, Fix};
 use crate::hir::Shader;
 use crate::source::{FileId, SourceMap, Span};
 use crate::syntax::Lexemes;
-use crate::syntax::token::{Token, TokenKind};
+use crate::syntax::token::{Token, TokenFlags, TokenKind};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -106,12 +106,6 @@ impl<'a> Texts<'a> {
         Some((lexemes, index))
     }
 
-    /// The kind of the next token behind a span.
-    pub(super) fn next_kind(&self, span: Span) -> Option<TokenKind> {
-        let (lexemes, _) = self.token_at(span)?;
-        lexemes.tokens().get(lexemes.from(span.end)).map(|token| token.kind)
-    }
-
     /// The statement around a span: from behind the last `;`, `{` or `}` to its own `;`, if no other declarator, directive or
     /// bracket is in it.
     pub(super) fn simple_statement(&self, span: Span) -> Option<Span> {
@@ -119,7 +113,12 @@ impl<'a> Texts<'a> {
         let tokens = lexemes.tokens();
         let ends =
             |token: &Token| matches!(token.kind, TokenKind::Semicolon | TokenKind::LeftBrace | TokenKind::RightBrace);
-        let first = tokens.get(..index)?.iter().rposition(ends)? + 1;
+        let first = tokens.get(..index)?.iter().rposition(ends).map_or(0, |end| end + 1);
+        // A directive ends with its line.
+        let hash = tokens.get(first..index)?.iter().rposition(Lexemes::begins_directive).map(|hash| first + hash);
+        let next_line =
+            |from: usize| tokens.iter().skip(from + 1).position(|token| token.flags.contains(TokenFlags::LINE_START));
+        let first = hash.and_then(|hash| Some(hash + 1 + next_line(hash)?)).unwrap_or(first);
         let length = tokens.get(index..)?.iter().position(ends)?;
         let last = tokens.get(index + length).filter(|token| token.kind == TokenKind::Semicolon)?;
         let inside = tokens.get(first..index + length)?;

@@ -19,6 +19,8 @@ pub(super) struct LocalUse {
     pub(super) writes: usize,
     /// How often its value is used, other than for a new value of itself.
     pub(super) reads: usize,
+    /// How often the text names it, besides its declaration.
+    pub(super) mentions: usize,
     /// Whether a condition names it.
     pub(super) in_condition: bool,
 }
@@ -47,6 +49,11 @@ pub(super) fn of_variables(
         for root in statement.kind.exprs() {
             let is_whole = matches!(statement.kind, StmtKind::Expr(_)) || is_step(statement, root);
             visit(shader, root, is_whole, &mut locals);
+            shader.visit_expr(root, &mut |expr| {
+                if let ExprKind::Var(VarRef::Local(local)) = shader.expr(expr).kind {
+                    locals.get_mut(local.index()).into_iter().for_each(|local| local.mentions += 1);
+                }
+            });
         }
         conditions(shader, statement, &mut |condition| mark(shader, condition, &mut locals, &mut globals));
     }

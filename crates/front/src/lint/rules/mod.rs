@@ -2,6 +2,8 @@
 
 mod acos_beyond_one;
 mod assignment_in_condition;
+mod bool_literal_selection;
+mod clamp_by_min_max;
 mod comparison_chain;
 mod constant_condition;
 mod depth_written;
@@ -12,11 +14,18 @@ mod empty_body;
 mod flat_provoking_vertex;
 mod float_equality;
 mod float_loop_counter;
+mod frag_coord_row;
 mod identical_branches;
+mod identity_operation;
 mod infinite_loop;
+mod initialized_uniform;
 mod integer_division;
 mod interpolated_normal;
 mod late_discard;
+mod legacy_lookup;
+mod legacy_output;
+mod legacy_qualifier;
+mod length_of_difference;
 mod log_of_zero;
 mod loop_counts_away;
 mod loop_invariant_call;
@@ -25,25 +34,45 @@ mod matrix_inverse;
 mod maybe_uninitialized;
 mod missing_default;
 mod missing_return;
+mod mix_by_bool;
 mod non_finite_constant;
 mod normal_by_model_matrix;
 mod normalize_of_zero;
+mod point_size;
 mod position_not_written;
 mod pow_maybe_negative;
 mod pow_of_negative;
+mod pow_of_two;
+mod repeated_call;
+mod repeated_macro;
 mod self_assignment;
 mod self_comparison;
+mod shadowed_builtin;
+mod shadowed_variable;
 mod sqrt_maybe_negative;
+mod std140_padding;
 mod uniform_branch;
 mod uniform_work;
 mod uninitialized_read;
 mod unnormalized_direction;
 mod unreachable_code;
+mod unused_allow;
+mod unused_attribute;
+mod unused_function;
+mod unused_include;
+mod unused_input;
+mod unused_macro;
+mod unused_parameter;
+mod unused_struct;
+mod unused_uniform;
+mod unused_variable;
 mod unused_varying;
 mod unwritten_out_parameter;
 mod unwritten_output;
 mod unwritten_varying;
 mod vertex_work;
+mod webgpu_limits;
+mod wgsl_reserved_name;
 
 use super::Rule;
 use crate::diagnostic::codes::lints;
@@ -93,4 +122,33 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::UNIFORM_BRANCH, check: uniform_branch::check },
     Rule { code: &lints::LATE_DISCARD, check: late_discard::check },
     Rule { code: &lints::DEPTH_WRITTEN, check: depth_written::check },
+    Rule { code: &lints::FRAG_COORD_ROW, check: frag_coord_row::check },
+    Rule { code: &lints::POINT_SIZE, check: point_size::check },
+    Rule { code: &lints::WEBGPU_LIMITS, check: webgpu_limits::check },
+    Rule { code: &lints::WGSL_RESERVED_NAME, check: wgsl_reserved_name::check },
+    Rule { code: &lints::STD140_PADDING, check: std140_padding::check },
+    Rule { code: &lints::INITIALIZED_UNIFORM, check: initialized_uniform::check },
+    Rule { code: &lints::UNUSED_VARIABLE, check: unused_variable::check },
+    Rule { code: &lints::UNUSED_PARAMETER, check: unused_parameter::check },
+    Rule { code: &lints::UNUSED_FUNCTION, check: unused_function::check },
+    Rule { code: &lints::UNUSED_ATTRIBUTE, check: unused_attribute::check },
+    Rule { code: &lints::UNUSED_UNIFORM, check: unused_uniform::check },
+    Rule { code: &lints::UNUSED_INPUT, check: unused_input::check },
+    Rule { code: &lints::UNUSED_STRUCT, check: unused_struct::check },
+    Rule { code: &lints::UNUSED_MACRO, check: unused_macro::check },
+    Rule { code: &lints::UNUSED_INCLUDE, check: unused_include::check },
+    Rule { code: &lints::POW_OF_TWO, check: pow_of_two::check },
+    Rule { code: &lints::LENGTH_OF_DIFFERENCE, check: length_of_difference::check },
+    Rule { code: &lints::IDENTITY_OPERATION, check: identity_operation::check },
+    Rule { code: &lints::CLAMP_BY_MIN_MAX, check: clamp_by_min_max::check },
+    Rule { code: &lints::MIX_BY_BOOL, check: mix_by_bool::check },
+    Rule { code: &lints::BOOL_LITERAL_SELECTION, check: bool_literal_selection::check },
+    Rule { code: &lints::REPEATED_MACRO, check: repeated_macro::check },
+    Rule { code: &lints::REPEATED_CALL, check: repeated_call::check },
+    Rule { code: &lints::SHADOWED_VARIABLE, check: shadowed_variable::check },
+    Rule { code: &lints::SHADOWED_BUILTIN, check: shadowed_builtin::check },
+    Rule { code: &lints::LEGACY_LOOKUP, check: legacy_lookup::check },
+    Rule { code: &lints::LEGACY_QUALIFIER, check: legacy_qualifier::check },
+    Rule { code: &lints::LEGACY_OUTPUT, check: legacy_output::check },
+    Rule { code: &lints::UNUSED_ALLOW, check: unused_allow::check },
 ];

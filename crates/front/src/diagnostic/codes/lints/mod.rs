@@ -10,6 +10,7 @@ pub mod port;
 pub mod style;
 
 pub use correctness::*;
+pub use legacy::*;
 pub use numerics::*;
 pub use performance::*;
 pub use port::*;

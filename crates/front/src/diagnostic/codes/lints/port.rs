@@ -1,6 +1,6 @@
 //! Lint rules of the group `port`: what other machines and interfaces do differently.
 
-use super::super::Example::Program;
+use super::super::Example::{Fragment, Program, Vertex};
 
 lints! {
     FLAT_PROVOKING_VERTEX = "L0004" "flat-provoking-vertex" Note Port No "0.1.0" "OpenGL 3.2 §2.18"
@@ -14,4 +14,59 @@ lints! {
         good Program(
             "out vec4 tint; void main() { tint = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 tint; out vec4 c; void main() { c = tint; }");
+    FRAG_COORD_ROW = "L0045" "frag-coord-row" Off Port No "0.1.0" "GLSL 1.50 §7.2"
+        "The shader reads the second component of `gl_FragCoord`, which counts from the lower edge in OpenGL and \
+         from the upper one in WebGPU, Direct3D and Metal."
+        why
+        "`glisten compile` corrects it, so it is off; it matters to other translators."
+        bad Fragment(
+            "out vec4 c; void main() { c = vec4(gl_FragCoord.y); }"),
+        good Fragment(
+            "out vec4 c; void main() { c = vec4(gl_FragCoord.x); }");
+    POINT_SIZE = "L0046" "point-size" Note Port No "0.1.0" "GLSL 1.50 §7.1"
+        "The shader writes `gl_PointSize`. WebGPU and Direct3D draw points of one pixel."
+        why
+        "It matters only to programs that draw points on those, so it is a note."
+        bad Vertex(
+            "in vec4 p; void main() { gl_Position = p; gl_PointSize = 4.0; }"),
+        good Vertex(
+            "in vec4 p; void main() { gl_Position = p; }");
+    WEBGPU_LIMITS = "L0047" "webgpu-limits" Note Port No "0.1.0" ""
+        "The program needs more locations of varyings, textures, uniform blocks, bytes in a block, or colors than \
+         WebGPU promises on every machine."
+        why
+        "Many machines have more, so it is a note."
+        bad Vertex(
+            "in vec4 p; uniform Bones { vec4 bone[5000]; }; uniform int n; void main() { gl_Position = p + bone[n]; \
+             }"),
+        good Vertex(
+            "in vec4 p; uniform Bones { vec4 bone[4000]; }; uniform int n; void main() { gl_Position = p + bone[n]; \
+             }");
+    WGSL_RESERVED_NAME = "L0048" "wgsl-reserved-name" Note Port No "0.1.0" ""
+        "An attribute, a uniform or an output has a name that WGSL reserves. A translation gives it another name, so \
+         a host cannot find it by this one."
+        why
+        "Reflection tells the new name, so it is a note, one for a shader."
+        bad Fragment(
+            "uniform vec4 target; out vec4 c; void main() { c = target; }"),
+        good Fragment(
+            "uniform vec4 goal; out vec4 c; void main() { c = goal; }");
+    STD140_PADDING = "L0049" "std140-padding" Note Port No "0.1.0" "GLSL 1.50 §4.3.7"
+        "An array of scalars or short vectors is in a uniform block. With `std140`, which all interfaces but OpenGL \
+         take, each element takes 16 bytes, and an array of the host that is packed does not fit."
+        why
+        "Right if the host knows it, so it is a note."
+        bad Fragment(
+            "layout(std140) uniform B { float weight[4]; }; out vec4 c; void main() { c = vec4(weight[0]); }"),
+        good Fragment(
+            "layout(std140) uniform B { vec4 weight; }; out vec4 c; void main() { c = vec4(weight[0]); }");
+    INITIALIZED_UNIFORM = "L0050" "initialized-uniform" Note Port No "0.1.0" "GLSL 1.50 §4.3.5"
+        "A uniform has a value in its declaration. OpenGL ES, Vulkan and WebGPU have no such values: the host must \
+         set it."
+        why
+        "Reflection tells the value, so it is a note."
+        bad Fragment(
+            "uniform float strength = 0.5; out vec4 c; void main() { c = vec4(strength); }"),
+        good Fragment(
+            "uniform float strength; out vec4 c; void main() { c = vec4(strength); }");
 }

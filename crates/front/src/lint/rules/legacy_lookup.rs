@@ -1,0 +1,71 @@
+//! `legacy-lookup`: `texture2D` and its like, which 1.30 replaced by `texture`.
+
+use super::super::{Findings, Place, Subject};
+use crate::builtin::BuiltinFunction;
+use crate::diagnostic::Applicability;
+use crate::hir::{ExprId, ExprKind};
+use crate::language::Since;
+use crate::source::Span;
+use crate::syntax::token::TokenKind;
+
+/// The functions that have a new name and the same parameters and result.
+static OLD: &[&str] = &[
+    "texture1D",
+    "texture2D",
+    "texture3D",
+    "textureCube",
+    "texture2DRect",
+    "texture1DProj",
+    "texture2DProj",
+    "texture3DProj",
+    "texture2DRectProj",
+    "texture1DLod",
+    "texture2DLod",
+    "texture3DLod",
+    "textureCubeLod",
+    "texture1DProjLod",
+    "texture2DProjLod",
+    "texture3DProjLod",
+    "texture2DArray",
+    "texture1DArray",
+];
+
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    for (place, expr) in subject.exprs() {
+        let ExprKind::BuiltinCall(function, _) = place.kind(expr) else { continue };
+        let Some((name, span)) =
+            name(subject, place, expr).filter(|_| place.shader.version.reaches(Since::new(130, 300)))
+        else {
+            continue;
+        };
+        if OLD.contains(&name) && subject.texts.is_own(place.shader, span) {
+            let new = function.name();
+            let fix =
+                subject.texts.replace(Applicability::Safe, span, new).filter(|_| is_free(subject, place, *function));
+            let finding = findings.at(span, format!("`{name}` is the name of before GLSL 1.30"));
+            findings.push(finding.help(format!("call it `{new}`")).maybe_fix(fix));
+        }
+    }
+}
+
+/// The name by which a function is called.
+fn name<'t>(subject: &'t Subject<'_>, place: &Place<'_>, call: ExprId) -> Option<(&'t str, Span)> {
+    let whole = place.expr(call).span;
+    let text = subject.texts.text(whole)?;
+    let length = text.find(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_')?;
+    let span = Span::new(whole.start, whole.start + length as u32);
+    Some((text.get(..length)?, span))
+}
+
+/// Whether the new name is that of the built-in function everywhere: it is only ever called.
+fn is_free(subject: &Subject<'_>, place: &Place<'_>, function: BuiltinFunction) -> bool {
+    let name = function.name();
+    let is_own = place.shader.functions.iter().any(|own| own.name == name);
+    !is_own
+        && subject.texts.files(place.shader).into_iter().all(|file| {
+            let lexemes = subject.texts.lexemes(file);
+            lexemes.places(name).all(|span| {
+                lexemes.tokens().get(lexemes.from(span.end)).is_some_and(|next| next.kind == TokenKind::LeftParen)
+            })
+        })
+}

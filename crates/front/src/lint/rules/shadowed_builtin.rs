@@ -1,0 +1,39 @@
+//! `shadowed-builtin`: a function or a variable with the name of a built-in function, which cannot be called where the name is
+//! known.
+
+use super::super::{Findings, Subject};
+use crate::builtin::functions;
+use crate::hir::Shader;
+use crate::language::Extensions;
+
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    for shader in &subject.program.stages {
+        for function in &shader.functions {
+            if is_builtin(shader, &function.name) && subject.texts.is_own(shader, function.span) {
+                let message = format!("`{}` hides the built-in function of that name", function.name);
+                findings.push(findings.at(function.span, message).help("give it another name"));
+            }
+        }
+    }
+    for place in &subject.places {
+        let calls = |name: &str| {
+            place.exprs.iter().any(|&expr| {
+            matches!(place.kind(expr), crate::hir::ExprKind::BuiltinCall(function, _) if function.name() == name)
+        })
+        };
+        for local in &place.function.locals {
+            // A name that is used both ways is mistaken for the other.
+            if is_builtin(place.shader, &local.name)
+                && calls(&local.name)
+                && subject.texts.is_own(place.shader, local.span)
+            {
+                let message = format!("`{}` hides the built-in function of that name", local.name);
+                findings.push(findings.at(local.span, message).help("give it another name"));
+            }
+        }
+    }
+}
+
+fn is_builtin(shader: &Shader, name: &str) -> bool {
+    functions::named(name).iter().any(|row| row.availability.in_language(shader.version, Extensions::empty()))
+}

@@ -1,0 +1,25 @@
+//! `unused-attribute`: an attribute that the vertex stage does not read.
+
+use super::super::unused::is_unused;
+use super::super::{Findings, Subject};
+use crate::diagnostic::Applicability;
+use crate::hir::{Stage, Storage};
+
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    for shader in &subject.program.stages {
+        for global in &shader.globals {
+            if shader.stage != Stage::Vertex || global.storage != Storage::In || !is_unused(subject, shader, global) {
+                continue;
+            }
+            let whole = subject.texts.simple_statement(global.span);
+            let fix = whole.and_then(|whole| subject.texts.remove(Applicability::Safe, whole, "remove it"));
+            let message = format!("`{}` is an attribute that nothing reads", global.name);
+            findings.push(
+                findings
+                    .at(global.span, message)
+                    .help("remove it, with the data that the host sends for it")
+                    .maybe_fix(fix),
+            );
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! `unused-input`: an input of the fragment stage that it does not read.
+
+use super::super::unused::is_unused;
+use super::super::{Findings, Subject};
+use crate::diagnostic::Applicability;
+use crate::hir::{Stage, Storage};
+
+pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
+    for shader in &subject.program.stages {
+        for global in &shader.globals {
+            if shader.stage != Stage::Fragment || global.storage != Storage::In || !is_unused(subject, shader, global) {
+                continue;
+            }
+            let whole = subject.texts.simple_statement(global.span);
+            let fix = whole.and_then(|whole| subject.texts.remove(Applicability::Unsafe, whole, "remove it"));
+            let message = format!("`{}` is an input that nothing reads", global.name);
+            findings.push(
+                findings.at(global.span, message).help("remove it, and the output of the stage before").maybe_fix(fix),
+            );
+        }
+    }
+}
