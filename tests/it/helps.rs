@@ -3,7 +3,7 @@
 
 mod forms;
 
-use crate::support::{Shader, compile_text, compiler, shaders_under};
+use crate::support::{Shader, compile_text, library_compiler, shaders_under};
 use glisten_front::Source;
 use glisten_front::diagnostic::{Code, Diagnostic, Example, Patch, Severity, codes, write};
 use glisten_front::hir::Stage;
@@ -143,6 +143,11 @@ static DESCRIBING: &[(&str, &str)] = &[
     ("L0010", "which of the two is right depends on what the branch is for"),
     ("L0011", "the condition is the author's"),
     ("L0013", "the value is the author's"),
+    ("L0025", "the test for NaN that is meant is the author's"),
+    ("L0042", "it names a command"),
+    ("L0044", "how the depth changes is the author's"),
+    ("L0045", "it names a command"),
+    ("L0049", "the host's data is not in the text"),
 ];
 
 /// The shaders of the `bad` example of a code, linked if there are several.
@@ -170,7 +175,7 @@ struct Found {
 fn findings(shaders: &[Shader]) -> Vec<Found> {
     let source =
         |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
-    let compilation = compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
+    let compilation = library_compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
     let mut all: Vec<Diagnostic> = compilation.diagnostics.iter().cloned().collect();
     all.extend(compilation.program.iter().flat_map(|program| lint::check(program, &compilation.sources)));
     let place = |diagnostic: &Diagnostic| {
@@ -260,7 +265,7 @@ fn fixed(shaders: &[Shader], fix: &write::FindingFix) -> Option<Vec<Shader>> {
 fn resolved(shaders: &[Shader]) -> Vec<write::Finding> {
     let source =
         |shader: &Shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage };
-    let compilation = compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
+    let compilation = library_compiler().compile(&shaders.iter().map(source).collect::<Vec<Source>>());
     let mut all: Vec<Diagnostic> = compilation.diagnostics.iter().cloned().collect();
     all.extend(compilation.program.iter().flat_map(|program| lint::check(program, &compilation.sources)));
     write::findings(&compilation.sources, &all)

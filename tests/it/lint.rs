@@ -1,6 +1,6 @@
 //! Tests of the lint rules: their pages' examples, their fixtures, and no warnings on ordinary programs.
 
-use crate::support::{Settings, Shader, compiler, root, shaders_under};
+use crate::support::{Settings, Shader, library_compiler, root, shaders_under};
 use glisten::{Compiler, Options, Source, lint};
 use glisten_front::diagnostic::{Code, Example, Level, Levels, Severity};
 use glisten_front::hir::Stage;
@@ -16,7 +16,7 @@ fn lints(shaders: &[Shader], rule: Option<&'static Code>) -> Vec<(&'static str, 
         .iter()
         .map(|shader| Source { name: shader.name.clone(), text: shader.text.as_str().into(), stage: shader.stage })
         .collect();
-    let compilation = compiler().with_options(options).compile(&sources);
+    let compilation = library_compiler().with_options(options).compile(&sources);
     let names: Vec<&str> = shaders.iter().map(|shader| shader.name.as_str()).collect();
     let messages: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
     let program = compilation.program.unwrap_or_else(|| panic!("{names:?} give no program: {messages:?}"));

@@ -93,6 +93,11 @@ pub(crate) fn compiler() -> Compiler {
     Compiler::new(Options::default())
 }
 
+/// A compiler that finds the modules of the library.
+pub(crate) fn library_compiler() -> Compiler {
+    compiler().with_includes(glisten::library::Embedded)
+}
+
 /// Compiles the shaders of one program, without options.
 pub(crate) fn compile_files(files: &[PathBuf]) -> Compilation {
     let source = |path: &PathBuf| Source {

@@ -57,5 +57,5 @@ pub(super) fn examine(
         .texts
         .text(span)
         .and_then(|text| subject.texts.replace(Applicability::Unsafe, span, format!("{before}{text}{after}")));
-    findings.push(finding.help(format!("keep it inside: `{before}...{after}`")).maybe_fix(fix));
+    findings.push(finding.help(format!("write `{before}...{after}` around it")).maybe_fix(fix));
 }

@@ -4,7 +4,7 @@
 //! written, also in text that the preprocessor skips. *Holds:* a span in a macro's body has no text here, so that no fix
 //! changes it.
 
-use crate::diagnostic::{Applicability, Edit, Fix};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix};
 use crate::hir::Shader;
 use crate::source::{FileId, SourceMap, Span};
 use crate::syntax::Lexemes;
@@ -164,6 +164,19 @@ impl<'a> Texts<'a> {
         let text = text.into();
         self.text(span)?;
         Some(Fix::new(applicability, format!("write `{text}`"), span, text))
+    }
+
+    /// The finding with the advice to write a text in place of its span, if the span is written in place.
+    pub(super) fn advised(
+        &self,
+        finding: Diagnostic,
+        applicability: Applicability,
+        text: Option<String>,
+    ) -> Diagnostic {
+        match text.filter(|_| self.text(finding.primary.span).is_some()) {
+            Some(text) => finding.help(Advice::write(applicability, text)),
+            None => finding,
+        }
     }
 
     /// A fix that removes a span, and its line if nothing else is on it.

@@ -41,7 +41,7 @@ fn operator(subject: &Subject<'_>, place: &Place<'_>, (target, value): (ExprId, 
 }
 
 fn report(subject: &Subject<'_>, place: &Place<'_>, whole: ExprId, operator: Span, findings: &mut Findings<'_>) {
-    let finding = findings.at(place.expr(whole).span, "this condition assigns").here("`=` is no comparison");
-    let fix = subject.texts.replace(Applicability::Unsafe, operator, "==");
-    findings.push(finding.help("write `==` to compare, or a second pair of parentheses to assign").maybe_fix(fix));
+    let finding = findings.at(operator, "this condition assigns").label(place.expr(whole).span, "the condition");
+    let finding = finding.note("a second pair of parentheses says that it is meant");
+    findings.push(subject.texts.advised(finding, Applicability::Unsafe, Some("==".to_owned())));
 }

@@ -22,11 +22,11 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         }
         let span = place.expr(expr).span;
         let texts = [*value, low, high].map(|id| subject.texts.text(place.expr(id).span));
-        let fix = if let [Some(value), Some(low), Some(high)] = texts {
-            subject.texts.replace(Applicability::Unsafe, span, format!("clamp({value}, {low}, {high})"))
-        } else {
-            None
+        let finding = findings.at(span, "`min` and `max` together are `clamp`");
+        let text = match texts {
+            [Some(value), Some(low), Some(high)] => Some(format!("clamp({value}, {low}, {high})")),
+            _ => None,
         };
-        findings.push(findings.at(span, "`min` and `max` together are `clamp`").help("write `clamp`").maybe_fix(fix));
+        findings.push(subject.texts.advised(finding, Applicability::Unsafe, text));
     }
 }

@@ -14,7 +14,9 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         let bare = bare.is_some_and(|(whole, part)| whole.starts_with(part) && !part.starts_with('('));
         if compares(*operator) && compares(*inner) && bare {
             let finding = findings.at(whole, "this compares the result of a comparison");
-            findings.push(finding.label(part, "true or false").help("join comparisons by `&&`, or write parentheses"));
+            findings.push(
+                finding.label(part, "true or false").help("join comparisons by a logical and, or write parentheses"),
+            );
         }
     }
 }

@@ -43,7 +43,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             let fix =
                 subject.texts.replace(Applicability::Safe, span, new).filter(|_| is_free(subject, place, *function));
             let finding = findings.at(span, format!("`{name}` is the name of before GLSL 1.30"));
-            findings.push(finding.help(format!("call it `{new}`")).maybe_fix(fix));
+            findings.push(finding.help(format!("write `{new}`")).maybe_fix(fix));
         }
     }
 }

@@ -17,11 +17,8 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         }
         let span = place.expr(expr).span;
         let text = |id| subject.texts.text(place.expr(id).span);
-        let fix = text(*a)
-            .zip(text(*b))
-            .and_then(|(a, b)| subject.texts.replace(Applicability::Unsafe, span, format!("distance({a}, {b})")));
-        findings.push(
-            findings.at(span, "the length of a difference is a distance").help("write `distance`").maybe_fix(fix),
-        );
+        let finding = findings.at(span, "the length of a difference is a distance");
+        let text = text(*a).zip(text(*b)).map(|(a, b)| format!("distance({a}, {b})"));
+        findings.push(subject.texts.advised(finding, Applicability::Unsafe, text));
     }
 }

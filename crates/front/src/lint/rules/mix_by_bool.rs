@@ -15,13 +15,11 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         }
         let span = place.expr(expr).span;
         let operand = |id| subject.texts.operand(place.expr(id).span);
-        let fix =
-            if let (Some(condition), Some(yes), Some(no)) = (operand(*condition), operand(*second), operand(*first)) {
-                subject.texts.replace(Applicability::Unsafe, span, format!("({condition} ? {yes} : {no})"))
-            } else {
-                None
-            };
+        let text = match (operand(*condition), operand(*second), operand(*first)) {
+            (Some(condition), Some(yes), Some(no)) => Some(format!("({condition} ? {yes} : {no})")),
+            _ => None,
+        };
         let finding = findings.at(span, "a `mix` by a `bool` is a selection, which needs no arithmetic");
-        findings.push(finding.help("write `... ? ... : ...`").maybe_fix(fix));
+        findings.push(subject.texts.advised(finding, Applicability::Unsafe, text));
     }
 }

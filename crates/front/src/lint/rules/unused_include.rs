@@ -1,15 +1,16 @@
 //! `unused-include`: an include of which the shader names nothing.
 //!
-//! The names that an included file brings are all of its words that are not of the language. So the rule is silent where the file and
-//! the shader happen to share one.
+//! The names that an included file brings are all words outside of its functions that are not of the language, whether an `#if` skips
+//! them or not. So the rule is silent where the file and the shader happen to share one.
 
 use super::super::{Findings, Subject};
 use crate::builtin::functions;
 use crate::diagnostic::Applicability;
 use crate::hir::Shader;
 use crate::source::{FileId, Span};
+use crate::syntax::Lexemes;
 use crate::syntax::keywords;
-use crate::syntax::token::TokenKind;
+use crate::syntax::token::{TokenFlags, TokenKind};
 use rustc_hash::FxHashSet;
 
 /// Words whose effect does not depend on a name.
@@ -30,10 +31,9 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             }
             let is_used = brought.iter().any(|file| {
                 let lexemes = subject.texts.lexemes(*file);
-                lexemes.tokens().iter().filter(|token| token.kind == TokenKind::Word).any(|token| {
-                    let word = lexemes.spelling(token);
-                    WITH_EFFECT.contains(&word) || !is_of_language(word) && named.contains(word)
-                })
+                names(&lexemes)
+                    .into_iter()
+                    .any(|word| WITH_EFFECT.contains(&word) || !is_of_language(word) && named.contains(word))
             });
             if is_used || !subject.texts.are_whole(shader) {
                 continue;
@@ -63,6 +63,41 @@ fn brought(subject: &Subject<'_>, shader: &Shader, file: FileId) -> Vec<FileId> 
         }
     }
     files
+}
+
+/// The words of a file outside of functions and parentheses, and the names of its macros.
+fn names(lexemes: &Lexemes) -> Vec<&str> {
+    let tokens = lexemes.tokens();
+    let (mut names, mut parentheses, mut braces, mut in_function) = (Vec::new(), 0_i32, 0_i32, false);
+    let mut index = 0;
+    while let Some(token) = tokens.get(index) {
+        let at = |offset: usize| tokens.get(index + offset).map_or("", |token| lexemes.spelling(token));
+        if Lexemes::begins_directive(token) {
+            names.extend(WITH_EFFECT.contains(&at(1)).then(|| at(1)));
+            names.extend((at(1) == "define").then(|| at(2)));
+            let line = tokens.get(index + 1..).unwrap_or(&[]);
+            let length = line.iter().position(|token| token.flags.contains(TokenFlags::LINE_START));
+            index += 1 + length.unwrap_or(line.len());
+            continue;
+        }
+        match token.kind {
+            TokenKind::LeftParen => parentheses += 1,
+            TokenKind::RightParen => parentheses -= 1,
+            TokenKind::LeftBrace => {
+                let behind = index.checked_sub(1).and_then(|index| tokens.get(index));
+                in_function |= braces == 0 && behind.is_some_and(|token| token.kind == TokenKind::RightParen);
+                braces += 1;
+            }
+            TokenKind::RightBrace => {
+                braces -= 1;
+                in_function &= braces > 0;
+            }
+            TokenKind::Word if parentheses == 0 && !in_function => names.push(at(0)),
+            _ => {}
+        }
+        index += 1;
+    }
+    names
 }
 
 fn is_of_language(word: &str) -> bool {

@@ -8,7 +8,6 @@ use crate::source::Span;
 const VARYINGS: u32 = 16;
 const TEXTURES: usize = 16;
 const BLOCKS: usize = 12;
-const BLOCK_BYTES: u32 = 65_536;
 const COLORS: u32 = 8;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
@@ -46,10 +45,6 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         let count: usize = blocks.iter().map(|(block, _)| block.array_size.unwrap_or(1) as usize).sum();
         if let Some((_, last)) = blocks.last().filter(|_| count > BLOCKS) {
             tell(place(shader, *last), count as u64, "uniform blocks in one stage", BLOCKS as u64);
-        }
-        for (_, id) in blocks.iter().filter(|(block, _)| block.size > BLOCK_BYTES) {
-            let size = blocks.iter().find(|(_, other)| other == id).map_or(0, |(block, _)| block.size);
-            tell(place(shader, *id), size.into(), "bytes in a uniform block", BLOCK_BYTES.into());
         }
     }
 }

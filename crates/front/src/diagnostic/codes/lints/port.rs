@@ -32,16 +32,20 @@ lints! {
         good Vertex(
             "in vec4 p; void main() { gl_Position = p; }");
     WEBGPU_LIMITS = "L0047" "webgpu-limits" Note Port No "0.1.0" ""
-        "The program needs more locations of varyings, textures, uniform blocks, bytes in a block, or colors than \
-         WebGPU promises on every machine."
+        "The program needs more locations of varyings, textures, uniform blocks or colors than WebGPU promises on \
+         every machine."
         why
         "Many machines have more, so it is a note."
-        bad Vertex(
-            "in vec4 p; uniform Bones { vec4 bone[5000]; }; uniform int n; void main() { gl_Position = p + bone[n]; \
-             }"),
-        good Vertex(
-            "in vec4 p; uniform Bones { vec4 bone[4000]; }; uniform int n; void main() { gl_Position = p + bone[n]; \
-             }");
+        bad Fragment(
+            "uniform sampler2D t[17]; in vec2 p; out vec4 c; void main() { c = texture(t[0], p) + texture(t[1], p) + \
+             texture(t[2], p) + texture(t[3], p) + texture(t[4], p) + texture(t[5], p) + texture(t[6], p) + \
+             texture(t[7], p) + texture(t[8], p) + texture(t[9], p) + texture(t[10], p) + texture(t[11], p) + \
+             texture(t[12], p) + texture(t[13], p) + texture(t[14], p) + texture(t[15], p) + texture(t[16], p); }"),
+        good Fragment(
+            "uniform sampler2D t[16]; in vec2 p; out vec4 c; void main() { c = texture(t[0], p) + texture(t[1], p) + \
+             texture(t[2], p) + texture(t[3], p) + texture(t[4], p) + texture(t[5], p) + texture(t[6], p) + \
+             texture(t[7], p) + texture(t[8], p) + texture(t[9], p) + texture(t[10], p) + texture(t[11], p) + \
+             texture(t[12], p) + texture(t[13], p) + texture(t[14], p) + texture(t[15], p); }");
     WGSL_RESERVED_NAME = "L0048" "wgsl-reserved-name" Note Port No "0.1.0" ""
         "An attribute, a uniform or an output has a name that WGSL reserves. A translation gives it another name, so \
          a host cannot find it by this one."

@@ -81,12 +81,13 @@ lints! {
     UNUSED_INCLUDE = "L0059" "unused-include" Note Style Unsafe "0.1.0" ""
         "A shader includes a file and names nothing of it."
         why
-        "The rule is silent where the file and the shader share a word that is not of the language."
+        "What text names that an `#if` skips counts, and the rule is silent if an include was not read."
         bad Fragment(
-            "#extension GL_GOOGLE_include_directive : require\n#include <glisten/fresnel.glsl>\nout vec4 c; void \
+            "#extension GL_GOOGLE_include_directive : require\n#include <glisten/lambert.glsl>\nout vec4 c; void \
              main() { c = vec4(1.0); }"),
         good Fragment(
-            "out vec4 c; void main() { c = vec4(1.0); }");
+            "#extension GL_GOOGLE_include_directive : require\n#include <glisten/lambert.glsl>\nin vec3 n; out vec4 \
+             c; void main() { c = vec4(lambertFactor(normalize(n), vec3(0.0, 0.0, 1.0))); }");
     POW_OF_TWO = "L0060" "pow-of-two" Off Style Unsafe "0.1.0" "GLSL 1.50 §8.2"
         "`pow(x, 2.0)` is `x * x`, which takes one multiplication, and is defined for a negative `x`."
         why
