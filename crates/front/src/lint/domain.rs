@@ -10,6 +10,9 @@ use crate::builtin::BuiltinFunction;
 use crate::diagnostic::Applicability;
 use crate::hir::{ExprId, ExprKind};
 
+/// A bound that only rounding takes below zero.
+const BY_ROUNDING: f64 = 1e-5;
+
 /// A fault that an argument may have.
 pub(super) struct Fault {
     /// Whether a range contains it.
@@ -47,7 +50,11 @@ pub(super) fn examine(
     if !(fault.is_in)(range(place, argument)) || place.value(argument).is_some() || place.is_guarded(argument) {
         return;
     }
+    let found = range(place, argument);
     let mut finding = findings.at(span, fault.message);
+    if found.low > -BY_ROUNDING && found.low < 0.0 {
+        finding = finding.note("it is negative by rounding alone, where a product of directions passes 1");
+    }
     let meaning = place.meaning(argument);
     if meaning != argument {
         finding = finding.label(place.expr(meaning).span, "the value is from here");

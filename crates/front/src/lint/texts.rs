@@ -5,7 +5,7 @@
 //! changes it.
 
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix};
-use crate::hir::Shader;
+use crate::hir::{ExprId, Shader};
 use crate::source::{FileId, SourceMap, Span};
 use crate::syntax::Lexemes;
 use crate::syntax::token::{Token, TokenFlags, TokenKind};
@@ -47,6 +47,13 @@ impl<'a> Texts<'a> {
     pub(super) fn text(&self, span: Span) -> Option<&'a str> {
         let text = if span.is_known() && !span.expansion.is_some() { self.sources.snippet(span) } else { "" };
         Some(text).filter(|text| !text.is_empty())
+    }
+
+    /// Whether an expression and all of its operands are written in place.
+    pub(super) fn is_plain(&self, shader: &Shader, root: ExprId) -> bool {
+        let mut plain = true;
+        shader.visit_expr(root, &mut |expr| plain &= self.text(shader.expr(expr).span).is_some());
+        plain
     }
 
     /// The text of an operand, in parentheses unless it is one name, one number, one call or one selection.

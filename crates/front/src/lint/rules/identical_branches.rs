@@ -17,7 +17,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for (place, expr) in subject.exprs() {
         let ExprKind::Ternary(_, yes, no) = place.kind(expr) else { continue };
         let span = place.expr(expr).span;
-        if subject.texts.text(span).is_some() && same(place.shader, *yes, *no) {
+        if subject.texts.is_plain(place.shader, expr) && same(place.shader, *yes, *no) {
             let text = subject.texts.operand(place.expr(*yes).span);
             let fix = text.and_then(|text| subject.texts.replace(Applicability::Unsafe, span, text));
             findings.push(findings.at(span, "both values of this selection are the same").maybe_fix(fix));

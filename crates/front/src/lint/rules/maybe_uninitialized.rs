@@ -1,12 +1,13 @@
 //! `maybe-uninitialized-read`: reads a local or an `out` parameter that some path before it does not assign.
 //!
-//! Any part that is assigned counts as the whole, a loop counts as one iteration, and a read behind a condition of its own says
+//! Any part that is assigned counts as the whole, all that a loop assigns counts from its start, and a read behind a condition of its own says
 //! nothing, since the condition may be that of the assignment. A variable that no path assigns is the business of
 //! `uninitialized-read`.
 
 use super::super::uses::written_by_parts;
 use super::super::{Findings, Place, Subject};
 use crate::hir::{CaseLabel, ExprId, ExprKind, LocalId, LocalKind, ParamMode, Stmt, StmtKind, VarRef};
+use crate::link::usage::written_by;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for place in &subject.places {
@@ -102,11 +103,15 @@ impl Walk<'_> {
                 for id in condition.iter().filter_map(|condition| condition.local) {
                     state.iter_mut().skip(id.index()).take(1).for_each(|one| *one = true);
                 }
+                self.assign_all(body, &mut state);
                 let mut end = self.body(body, Some(state), &mut ways);
                 if let Some(end) = &mut end {
                     step.iter().for_each(|step| self.expr(*step, end));
                 }
-                return ways.into_iter().fold(end, |all, way| join(all, Some(way)));
+                let mut after = ways.into_iter().fold(end, |all, way| join(all, Some(way)));
+                // A later iteration may assign what the first one does not.
+                after.iter_mut().for_each(|after| self.assign_all(body, after));
+                return after;
             }
             StmtKind::Break | StmtKind::Continue => {
                 leaves.push(state);
@@ -119,6 +124,18 @@ impl Walk<'_> {
             StmtKind::Discard => return None,
         }
         Some(state)
+    }
+
+    /// Counts all that a loop's body assigns as assigned, but for the locals that it declares itself.
+    fn assign_all(&self, body: &[Stmt], state: &mut State) {
+        let place = self.place;
+        place.shader.visit_body(body, &mut |expr| {
+            written_by(place.shader, expr, &mut |target| {
+                if let Some(VarRef::Local(local)) = place.shader.root_variable(target) {
+                    state.iter_mut().skip(local.index()).take(1).for_each(|one| *one = true);
+                }
+            });
+        });
     }
 
     /// The reads of an expression in their order, then what it assigns.

@@ -14,7 +14,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             B::Normalize => Applicability::Unsafe,
             _ => continue,
         };
-        if outer != inner || arguments.len() != 1 {
+        if outer != inner || arguments.len() != 1 || !subject.texts.is_plain(place.shader, expr) {
             continue;
         }
         let span = place.expr(expr).span;

@@ -9,7 +9,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         let ExprKind::Binary(operator, a, b) = place.kind(expr) else { continue };
         let span = place.expr(expr).span;
         if !compares(*operator)
-            || subject.texts.text(span).is_none()
+            || !subject.texts.is_plain(place.shader, expr)
             || !place.same(*a, *b)
             || place.value(*a).is_some()
         {

@@ -3,13 +3,16 @@
 
 use super::super::{Findings, Subject};
 use crate::builtin::functions;
-use crate::hir::Shader;
+use crate::hir::{Shader, TypeId};
 use crate::language::Extensions;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for shader in &subject.program.stages {
         for function in &shader.functions {
-            if is_builtin(shader, &function.name) && subject.texts.is_own(shader, function.span) {
+            let types: Vec<TypeId> = function.param_types().map(|(ty, _)| ty).collect();
+            let rows = || functions::named(&function.name).iter().copied();
+            let has_types = || rows().any(|row| row.signatures(shader.stage).any(|one| one.has_types(&types)));
+            if is_builtin(shader, &function.name) && has_types() && subject.texts.is_own(shader, function.span) {
                 let message = format!("`{}` hides the built-in function of that name", function.name);
                 findings.push(findings.at(function.span, message).help("give it another name"));
             }

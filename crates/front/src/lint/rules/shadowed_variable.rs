@@ -1,7 +1,7 @@
 //! `shadowed-variable`: a local with the name of a global, a parameter, or a local of an outer block, which it hides.
 
 use super::super::{Findings, Place, Subject};
-use crate::hir::{LocalId, Stmt, StmtKind};
+use crate::hir::{ExprId, ExprKind, LocalId, Stmt, StmtKind, VarRef};
 use crate::source::Span;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
@@ -30,10 +30,13 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-/// The declaration of a global with a name.
+/// The declaration of a global with a name, if the function uses it.
 fn global(place: &Place<'_>, name: &str) -> Option<Span> {
     let mut globals = place.shader.globals.iter().filter(|global| global.builtin.is_none() && global.block.is_none());
-    globals.find(|global| global.name == name && global.span.is_known()).map(|global| global.span)
+    let global = globals.find(|global| global.name == name && global.span.is_known())?;
+    // Only a function that names both can mistake one for the other.
+    let is_named = |expr: &ExprId| matches!(place.kind(*expr), ExprKind::Var(VarRef::Global(id)) if place.shader.global(*id).span == global.span);
+    place.exprs.iter().any(is_named).then_some(global.span)
 }
 
 /// Finds each local with the local that it hides, if it is one, and the scope that is open. The parser limits the nesting.

@@ -1,14 +1,15 @@
 //! `std140-padding`: an array in a uniform block whose elements take more room than they have.
 
 use super::super::{Findings, Subject};
-use crate::hir::Scalar;
-use crate::hir::{Storage, Type};
+use crate::hir::{BlockLayout, Scalar, Storage, Type};
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let types = &subject.program.types;
     for shader in &subject.program.stages {
-        let blocks =
-            shader.globals.iter().filter(|global| global.storage == Storage::Uniform && global.block.is_some());
+        let blocks = shader.globals.iter().filter(|global| {
+            let layout = global.block.as_ref().map(|block| block.layout);
+            global.storage == Storage::Uniform && layout == Some(BlockLayout::Std140)
+        });
         for block in blocks {
             let element = types.element(block.ty).unwrap_or(block.ty);
             let Type::Struct(id) = types.get(element) else { continue };

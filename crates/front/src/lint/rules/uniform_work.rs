@@ -12,11 +12,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         inside.clear();
         for &expr in &place.exprs {
             let ExprKind::BuiltinCall(function, _) = place.kind(expr) else { continue };
-            if inside.contains(&expr)
-                || *function == B::Inverse
-                || !is_costly(*function)
-                || rate(place, expr) != Rate::Draw
-            {
+            if inside.contains(&expr) || !is_wanted(*function) || rate(place, expr) != Rate::Draw {
                 continue;
             }
             place.shader.visit_expr(expr, &mut |inner| {
@@ -27,4 +23,10 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             findings.push(findings.at(place.expr(expr).span, message).help(help));
         }
     }
+}
+
+/// Costly functions without those of angles, which shaders take of the time, and without inverses, which have a rule of their own.
+fn is_wanted(function: B) -> bool {
+    is_costly(function)
+        && !matches!(function, B::Inverse | B::Sin | B::Cos | B::Tan | B::Asin | B::Acos | B::Atan | B::Exp | B::Exp2)
 }

@@ -13,9 +13,12 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         // A cosine is clamped; other products of vectors are distances to planes, and so on.
         let ExprKind::BuiltinCall(B::Max | B::Clamp, arguments) = place.kind(expr) else { continue };
         let [first, second, ..] = arguments.as_slice() else { continue };
-        let cosine = [*first, *second].into_iter().find_map(|id| match place.kind(place.meaning(id)) {
-            ExprKind::BuiltinCall(B::Dot, sides) => <[ExprId; 2]>::try_from(sides.as_slice()).ok(),
-            _ => None,
+        let cosine = [(*first, *second), (*second, *first)].into_iter().find_map(|(id, bound)| {
+            match place.kind(place.meaning(id)) {
+                _ if place.value(bound).is_none() => None,
+                ExprKind::BuiltinCall(B::Dot, sides) => <[ExprId; 2]>::try_from(sides.as_slice()).ok(),
+                _ => None,
+            }
         });
         let Some([a, b]) = cosine else { continue };
         let unit = [a, b].map(|side| is_unit(place, side));

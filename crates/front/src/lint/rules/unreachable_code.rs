@@ -27,8 +27,13 @@ fn examine(body: &[Stmt], findings: &mut Findings<'_>) {
     };
     for pair in body.windows(2) {
         let [statement, next] = pair else { continue };
-        // Some people end every case of a switch with a `break`, even after a `return`.
-        if let Some(word) = word(statement).filter(|_| !matches!(next.kind, StmtKind::Break)) {
+        // Some people end every case of a switch with a `break`, even after a `return`, and put a `return` behind a `discard`.
+        let is_habit = match next.kind {
+            StmtKind::Break => true,
+            StmtKind::Return(_) => matches!(statement.kind, StmtKind::Discard),
+            _ => false,
+        };
+        if let Some(word) = word(statement).filter(|_| !is_habit) {
             let message = format!("nothing after this `{word}` is ever reached");
             let finding = findings.at(next.span, message);
             findings.push(finding.label(statement.span, "control leaves here"));

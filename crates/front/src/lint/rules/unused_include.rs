@@ -27,7 +27,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             let mut named: FxHashSet<String> = FxHashSet::default();
             for other in others {
                 let lexemes = subject.texts.lexemes(other);
-                named.extend(lexemes.tokens().iter().map(|token| lexemes.spelling(token).to_owned()));
+                named.extend(words(&lexemes));
             }
             let is_used = brought.iter().any(|file| {
                 let lexemes = subject.texts.lexemes(*file);
@@ -63,6 +63,21 @@ fn brought(subject: &Subject<'_>, shader: &Shader, file: FileId) -> Vec<FileId> 
         }
     }
     files
+}
+
+/// The words of a file, but for those of its includes.
+fn words(lexemes: &Lexemes) -> Vec<String> {
+    let (mut words, mut in_include) = (Vec::new(), false);
+    for (index, token) in lexemes.tokens().iter().enumerate() {
+        if token.flags.contains(TokenFlags::LINE_START) {
+            let directive = lexemes.tokens().get(index + 1).map_or("", |word| lexemes.spelling(word));
+            in_include = Lexemes::begins_directive(token) && matches!(directive, "include" | "import" | "moj_import");
+        }
+        if !in_include {
+            words.push(lexemes.spelling(token).to_owned());
+        }
+    }
+    words
 }
 
 /// The words of a file outside of functions and parentheses, and the names of its macros.

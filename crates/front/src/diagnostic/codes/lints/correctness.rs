@@ -70,8 +70,8 @@ lints! {
         "A variable or an `out` parameter is read although some path before the read assigns nothing to it. On that \
          path its value is undefined."
         why
-        "Reads behind a condition of their own are left out, since the same condition may rule the assignment; a \
-         loop counts as if it ran once."
+        "Reads behind a condition of their own are left out, since the same condition may rule the assignment; all \
+         that a loop assigns counts from its start."
         bad Fragment(
             "uniform int mode; out vec4 c; void main() { vec4 s; if (mode == 0) s = vec4(1.0); else if (mode == 1) s \
              = vec4(0.5); c = s; }"),

@@ -20,11 +20,12 @@ lints! {
         why "The base is known, so there is no doubt."
         bad Fragment("uniform float k; out vec4 c; void main() { c = vec4(pow(-2.0, k)); }"),
         good Fragment("in float k; out vec4 c; void main() { c = vec4(pow(2.0, k)); }");
-    FLOAT_EQUALITY = "L0026" "float-equality" Note Numerics No "0.1.0" "GLSL 1.50 §4.1.4"
+    FLOAT_EQUALITY = "L0026" "float-equality" Off Numerics No "0.1.0" "GLSL 1.50 §4.1.4"
         "`==` or `!=` compares floats that were computed. Rounding, which differs between machines, decides the \
          result."
         why
-        "Comparisons with constants, and of rounded or clamped values, are often exact and left out."
+        "Equal inputs, and whole numbers in floats, are compared in this way, so it is off. Comparisons with \
+         constants, and of rounded or clamped values, are left out."
         bad Fragment(
             "in float x; in float y; out vec4 c; void main() { c = vec4(x * y == x + y); }"),
         good Fragment(

@@ -23,10 +23,10 @@ lints! {
             "out vec4 c; void main() { c = vec4(gl_FragCoord.y); }"),
         good Fragment(
             "out vec4 c; void main() { c = vec4(gl_FragCoord.x); }");
-    POINT_SIZE = "L0046" "point-size" Note Port No "0.1.0" "GLSL 1.50 §7.1"
+    POINT_SIZE = "L0046" "point-size" Off Port No "0.1.0" "GLSL 1.50 §7.1"
         "The shader writes `gl_PointSize`. WebGPU and Direct3D draw points of one pixel."
         why
-        "It matters only to programs that draw points on those, so it is a note."
+        "`glisten compile` tells it for targets that have no size, so it is off."
         bad Vertex(
             "in vec4 p; void main() { gl_Position = p; gl_PointSize = 4.0; }"),
         good Vertex(
@@ -46,29 +46,29 @@ lints! {
              texture(t[2], p) + texture(t[3], p) + texture(t[4], p) + texture(t[5], p) + texture(t[6], p) + \
              texture(t[7], p) + texture(t[8], p) + texture(t[9], p) + texture(t[10], p) + texture(t[11], p) + \
              texture(t[12], p) + texture(t[13], p) + texture(t[14], p) + texture(t[15], p); }");
-    WGSL_RESERVED_NAME = "L0048" "wgsl-reserved-name" Note Port No "0.1.0" ""
+    WGSL_RESERVED_NAME = "L0048" "wgsl-reserved-name" Off Port No "0.1.0" ""
         "An attribute, a uniform or an output has a name that WGSL reserves. A translation gives it another name, so \
          a host cannot find it by this one."
         why
-        "Reflection tells the new name, so it is a note, one for a shader."
+        "Reflection tells the new name, so it is off. One finding for a shader."
         bad Fragment(
             "uniform vec4 target; out vec4 c; void main() { c = target; }"),
         good Fragment(
             "uniform vec4 goal; out vec4 c; void main() { c = goal; }");
     STD140_PADDING = "L0049" "std140-padding" Note Port No "0.1.0" "GLSL 1.50 §4.3.7"
-        "An array of scalars or short vectors is in a uniform block. With `std140`, which all interfaces but OpenGL \
-         take, each element takes 16 bytes, and an array of the host that is packed does not fit."
+        "An array of scalars or short vectors is in a uniform block. With `std140`, each element takes 16 bytes, and \
+         an array of the host that is packed does not fit."
         why
         "Right if the host knows it, so it is a note."
         bad Fragment(
             "layout(std140) uniform B { float weight[4]; }; out vec4 c; void main() { c = vec4(weight[0]); }"),
         good Fragment(
             "layout(std140) uniform B { vec4 weight; }; out vec4 c; void main() { c = vec4(weight[0]); }");
-    INITIALIZED_UNIFORM = "L0050" "initialized-uniform" Note Port No "0.1.0" "GLSL 1.50 §4.3.5"
+    INITIALIZED_UNIFORM = "L0050" "initialized-uniform" Off Port No "0.1.0" "GLSL 1.50 §4.3.5"
         "A uniform has a value in its declaration. OpenGL ES, Vulkan and WebGPU have no such values: the host must \
          set it."
         why
-        "Reflection tells the value, so it is a note."
+        "Reflection tells the value, so it is off."
         bad Fragment(
             "uniform float strength = 0.5; out vec4 c; void main() { c = vec4(strength); }"),
         good Fragment(

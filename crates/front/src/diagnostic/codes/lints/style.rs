@@ -32,7 +32,8 @@ lints! {
     UNUSED_FUNCTION = "L0053" "unused-function" Note Style No "0.1.0" "GLSL 1.50 §6.1"
         "Nothing calls a function of the shader."
         why
-        "Functions of headers, and functions that text names which an `#if` skips, are left out."
+        "Functions of headers, and functions that text names which an `#if` skips, are left out. One finding for a \
+         shader."
         bad Fragment(
             "float f() { return 1.0; } out vec4 c; void main() { c = vec4(1.0); }"),
         good Fragment(
@@ -104,10 +105,11 @@ lints! {
             "in vec3 a; in vec3 b; out vec4 c; void main() { c = vec4(length(a - b)); }"),
         good Fragment(
             "in vec3 a; in vec3 b; out vec4 c; void main() { c = vec4(distance(a, b)); }");
-    IDENTITY_OPERATION = "L0062" "identity-operation" Note Style Safe "0.1.0" "GLSL 1.50 §5.9"
+    IDENTITY_OPERATION = "L0062" "identity-operation" Off Style Safe "0.1.0" "GLSL 1.50 §5.9"
         "A value is multiplied or divided by 1, which changes nothing."
         why
-        "What converts a whole number to a float in this way, and factors that a macro writes, are left out."
+        "The factors of a filter are written so, each in its line, so it is off. What converts a whole number to a \
+         float is left out."
         bad Fragment(
             "in float x; out vec4 c; void main() { c = vec4(x * 1.0); }"),
         good Fragment(
@@ -158,7 +160,7 @@ lints! {
         "A local variable has the name of a global, a parameter, or a variable of an outer block. Which one a later \
          line means is easily mistaken."
         why
-        "It is legal and often harmless, so it is a note."
+        "It is legal and often harmless, so it is a note. A global counts only if the function uses it, too."
         bad Fragment(
             "in float x; out vec4 c; void main() { float y = x; if (x > 0.5) { float y = 1.0; c = vec4(y); } else c \
              = vec4(y); }"),
@@ -166,8 +168,8 @@ lints! {
             "in float x; out vec4 c; void main() { float y = x; if (x > 0.5) { float z = 1.0; c = vec4(z); } else c \
              = vec4(y); }");
     SHADOWED_BUILTIN = "L0069" "shadowed-builtin" Note Style No "0.1.0" "GLSL 1.50 §6.1"
-        "A function has the name of a built-in function, which it hides with all its overloads; or a variable has \
-         the name of a built-in function that the same function of the shader calls elsewhere."
+        "A function has the name and the parameters of a built-in function, which it hides with all its overloads; \
+         or a variable has the name of a built-in function that the same function of the shader calls elsewhere."
         why
         "Legal, and sometimes meant, so it is a note."
         bad Fragment(
