@@ -41,6 +41,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("library", Source::Output(&["lib", "list"])),
     ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
     ("library-stability", Source::Examined(super::numerics::equations)),
+    ("lint-rules", Source::Tables(lint_rules)),
     ("operations", Source::Tables(builtin::operations_markdown)),
     ("pipeline", Source::Tables(pipeline)),
     ("precision", Source::Tables(builtin::precision_markdown)),
@@ -155,12 +156,27 @@ impl Maker for Generator {
     }
 }
 
+fn lint_rules() -> String {
+    let mut text =
+        "| code | name | group | level | fixes | what it finds |\n| --- | --- | --- | --- | --- | --- |\n".to_owned();
+    let mut rules: Vec<_> = codes::all().filter_map(|code| Some((code, code.lint?))).collect();
+    rules.sort_by_key(|(code, lint)| (lint.group, code.id));
+    for (code, lint) in rules {
+        let end = code.page.find(". ").map_or(code.page.len(), |end| end + 1);
+        let (group, level, fixes) = (lint.group.name(), lint.level.name(), lint.fixable.name());
+        let finds = code.page.get(..end).unwrap_or(code.page).replace('|', "\\|");
+        let _ = writeln!(text, "| `{}` | {} | {group} | {level} | {fixes} | {finds} |", code.id, code.name);
+    }
+    text
+}
+
 fn diagnostics() -> String {
     let mut text = "| code | name | level | section |\n| --- | --- | --- | --- |\n".to_owned();
     for code in codes::all() {
         let level = match code.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
+            Severity::Note if code.is_off() => "allow",
             Severity::Note => "note",
         };
         let _ = writeln!(text, "| `{}` | {} | {level} | {} |", code.id, code.name, code.section);

@@ -62,9 +62,17 @@ fn page(code: &Code) -> String {
         text.push_str(&format!("\nSpecification: {}\n", code.section));
     }
     text.push_str(&versions(code));
+    text.push_str(&rule(code));
     text.push_str(&example("Bad", code.bad));
     text.push_str(&example("Good", code.good));
     text
+}
+
+/// The group, the level and the fixes of a lint rule, with the reason of its level.
+fn rule(code: &Code) -> String {
+    let Some(lint) = code.lint else { return String::new() };
+    let (group, level, fixes) = (lint.group.name(), lint.level.name(), lint.fixable.name());
+    format!("\nGroup: {group}; level: {level}; fixes: {fixes}\n{}\n", wrap(lint.rationale))
 }
 
 /// The versions in which a rule of the language is in force, and the sections of those that number them otherwise.

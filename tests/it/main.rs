@@ -64,6 +64,7 @@ mod library;
 mod lines;
 mod link;
 mod lint;
+mod lint_groups;
 #[cfg(feature = "reference")]
 mod lit_scenes;
 #[cfg(feature = "cli")]

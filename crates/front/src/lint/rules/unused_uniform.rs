@@ -12,7 +12,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                 continue;
             }
             let whole = subject.texts.simple_statement(global.span);
-            let fix = whole.and_then(|whole| subject.texts.remove(Applicability::Safe, whole, "remove it"));
+            let fix = whole.and_then(|whole| subject.texts.remove(Applicability::Unsafe, whole, "remove it"));
             let message = format!("`{}` is a uniform that nothing reads", global.name);
             findings.push(findings.at(global.span, message).help("remove it").maybe_fix(fix));
         }

@@ -112,9 +112,9 @@ lints! {
         why
         "Branches that declare variables, and conditions in macros, are left out."
         bad Fragment(
-            "in float x; out vec4 c; void main() { if (x > 0.5) c = vec4(1.0); else c = vec4(1.0); }"),
+            "in float x; out vec4 c; void main() { c = x > 0.5 ? vec4(1.0) : vec4(1.0); }"),
         good Fragment(
-            "in float x; out vec4 c; void main() { if (x > 0.5) c = vec4(1.0); else c = vec4(0.0); }");
+            "in float x; out vec4 c; void main() { c = x > 0.5 ? vec4(1.0) : vec4(0.0); }");
     EMPTY_BODY = "L0020" "empty-body" Warning Correctness No "0.1.0" "GLSL 1.50 §6.2"
         "A `;` directly behind a condition is all that it guards; or it is all that a loop repeats, and a block \
          follows. What follows runs in any case."

@@ -38,18 +38,19 @@ lints! {
             "float f() { return 1.0; } out vec4 c; void main() { c = vec4(1.0); }"),
         good Fragment(
             "float f() { return 1.0; } out vec4 c; void main() { c = vec4(f()); }");
-    UNUSED_ATTRIBUTE = "L0054" "unused-attribute" Note Style Safe "0.1.0" "GLSL 1.50 §4.3.4"
+    UNUSED_ATTRIBUTE = "L0054" "unused-attribute" Note Style Unsafe "0.1.0" "GLSL 1.50 §4.3.4"
         "The vertex stage declares an attribute and never reads it."
         why
-        "Hosts may declare the same attributes for all shaders, so it is a note."
+        "Hosts may have the same attributes for all shaders, so it is a note. The fix changes what the host sees, so \
+         it is unsafe."
         bad Vertex(
             "in vec4 p; in vec2 uv; void main() { gl_Position = p; }"),
         good Vertex(
             "in vec4 p; void main() { gl_Position = p; }");
-    UNUSED_UNIFORM = "L0055" "unused-uniform" Note Style Safe "0.1.0" "GLSL 1.50 §4.3.5"
+    UNUSED_UNIFORM = "L0055" "unused-uniform" Note Style Unsafe "0.1.0" "GLSL 1.50 §4.3.5"
         "A shader declares a uniform and never reads it. Drivers remove it, and hosts that look for it find nothing."
         why
-        "Uniforms of headers and blocks are left out."
+        "Uniforms of headers and blocks are left out. The fix changes what the host sees, so it is unsafe."
         bad Fragment(
             "uniform vec4 tint; out vec4 c; void main() { c = vec4(1.0); }"),
         good Fragment(
