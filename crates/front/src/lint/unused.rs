@@ -11,7 +11,8 @@ use crate::syntax::token::{Token, TokenKind};
 
 /// Whether a global of the shader's own file is named nowhere but in its declaration.
 pub(super) fn is_unused(subject: &Subject<'_>, shader: &Shader, global: &Global) -> bool {
-    shader.main.is_some()
+    // The host of a lone file may have one set of inputs and uniforms for all files.
+    subject.program.stages.len() > 1
         && !global.used
         && global.builtin.is_none()
         && global.block.is_none()

@@ -18,7 +18,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             let name = &place.function.local(*counter).name;
             let message = format!("rounding decides how often this loop runs: `{name}` is a float");
             let finding = findings.at(place.expr(*step).span, message).here("not exact in binary");
-            findings.push(finding.help("count with an `int`, and compute the float from it"));
+            findings.push(finding.help("count in whole numbers, and compute the float from them"));
         }
     }
 }

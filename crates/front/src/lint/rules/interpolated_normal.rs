@@ -1,10 +1,11 @@
 //! `interpolated-normal`: a normal or a direction of length 1 that was interpolated, and so is shorter, in a cosine or a reflection.
 
-use super::super::{Findings, Place, Subject, running};
+use super::super::rate::{Rate, rate};
+use super::super::{Findings, Place, Subject};
 use crate::builtin::BuiltinFunction as B;
 use crate::diagnostic::Applicability;
-use crate::hir::{ExprId, ExprKind, GlobalId, Interpolation, Shader, Stage, Storage, VarRef};
-use crate::link::Program;
+use crate::hir::{ExprId, ExprKind, GlobalId, Interpolation, Shader, Stage, Storage, Type, VarRef};
+use crate::link::usage::written_by;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let program = subject.program;
@@ -14,7 +15,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     }
     for varying in &program.interface.varyings {
         let (Some(from), Some(to)) = (varying.from, varying.to) else { continue };
-        if varying.interpolation == Interpolation::Flat || !is_unit_in(program, vertex, from.global) {
+        if varying.interpolation == Interpolation::Flat || !is_unit_in(subject, vertex, from.global) {
             continue;
         }
         // One finding for a varying: the first place.
@@ -37,27 +38,27 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-/// Whether all that the vertex stage assigns to an output are vectors of length 1.
-fn is_unit_in(program: &Program, vertex: &Shader, output: GlobalId) -> bool {
+/// Whether all that the vertex stage assigns to an output are vectors of length 1 that differ from vertex to vertex.
+fn is_unit_in(subject: &Subject<'_>, vertex: &Shader, output: GlobalId) -> bool {
     let global = vertex.global(output);
-    if global.storage != Storage::Out || !matches!(program.types.get(global.ty), crate::hir::Type::Vector(_, 3)) {
+    if global.storage != Storage::Out || !matches!(subject.program.types.get(global.ty), Type::Vector(_, 3)) {
         return false;
     }
     let (mut all, mut any) = (true, false);
-    for (_, body) in running(vertex) {
-        vertex.visit_body(body, &mut |expr| {
-            crate::link::usage::written_by(vertex, expr, &mut |target| {
-                if vertex.root_variable(target) == Some(VarRef::Global(output)) {
-                    let value = match &vertex.expr(expr).kind {
-                        ExprKind::Assign(None, whole, value) if *whole == target => Some(*value),
-                        _ => None,
-                    };
-                    let is_whole = matches!(vertex.expr(target).kind, ExprKind::Var(_));
-                    let is_unit = value
-                        .is_some_and(|value| matches!(vertex.expr(value).kind, ExprKind::BuiltinCall(B::Normalize, _)));
-                    (any, all) = (true, all && is_whole && is_unit);
-                }
-            });
+    for (place, expr) in subject.exprs().filter(|(place, _)| place.shader.stage == Stage::Vertex) {
+        written_by(vertex, expr, &mut |target| {
+            if vertex.root_variable(target) == Some(VarRef::Global(output)) {
+                let value = match place.kind(expr) {
+                    ExprKind::Assign(None, whole, value) if *whole == target => Some(*value),
+                    _ => None,
+                };
+                let is_whole = matches!(place.kind(target), ExprKind::Var(_));
+                let is_unit = value.is_some_and(|value| {
+                    matches!(place.kind(value), ExprKind::BuiltinCall(B::Normalize, _))
+                        && rate(place, value) == Rate::Invocation
+                });
+                (any, all) = (true, all && is_whole && is_unit);
+            }
         });
     }
     any && all

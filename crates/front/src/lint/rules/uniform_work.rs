@@ -19,7 +19,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                 inside.insert(inner);
             });
             let message = format!("`{}` gives the same for all fragments of a draw", function.name());
-            let help = "let the host compute it, or the vertex stage in a `flat` output";
+            let help = "let the host compute it, or the vertex stage in a flat output";
             findings.push(findings.at(place.expr(expr).span, message).help(help));
         }
     }

@@ -1,6 +1,6 @@
 //! Lint rules of the group `style`: what can be said more simply, and what nothing uses.
 
-use super::super::Example::{Fragment, Program, Vertex};
+use super::super::Example::{Fragment, Program};
 
 lints! {
     UNUSED_VARYING = "L0001" "unused-varying" Note Style No "0.1.0" "GLSL 1.50 §4.3.6"
@@ -41,27 +41,34 @@ lints! {
     UNUSED_ATTRIBUTE = "L0054" "unused-attribute" Note Style Unsafe "0.1.0" "GLSL 1.50 §4.3.4"
         "The vertex stage declares an attribute and never reads it."
         why
-        "Hosts may have the same attributes for all shaders, so it is a note. The fix changes what the host sees, so \
-         it is unsafe."
-        bad Vertex(
-            "in vec4 p; in vec2 uv; void main() { gl_Position = p; }"),
-        good Vertex(
-            "in vec4 p; void main() { gl_Position = p; }");
+        "Hosts may have the same attributes for all shaders, so it is a note, and lone files are left out. The fix \
+         changes what the host sees, so it is unsafe."
+        bad Program(
+            "in vec4 p; in vec2 uv; void main() { gl_Position = p; }",
+            "out vec4 c; void main() { c = vec4(1.0); }"),
+        good Program(
+            "in vec4 p; void main() { gl_Position = p; }",
+            "out vec4 c; void main() { c = vec4(1.0); }");
     UNUSED_UNIFORM = "L0055" "unused-uniform" Note Style Unsafe "0.1.0" "GLSL 1.50 §4.3.5"
         "A shader declares a uniform and never reads it. Drivers remove it, and hosts that look for it find nothing."
         why
-        "Uniforms of headers and blocks are left out. The fix changes what the host sees, so it is unsafe."
-        bad Fragment(
+        "Uniforms of headers, of blocks and of lone files are left out: their hosts may set the same for all. The \
+         fix changes what the host sees, so it is unsafe."
+        bad Program(
+            "in vec4 p; void main() { gl_Position = p; }",
             "uniform vec4 tint; out vec4 c; void main() { c = vec4(1.0); }"),
-        good Fragment(
+        good Program(
+            "in vec4 p; void main() { gl_Position = p; }",
             "uniform vec4 tint; out vec4 c; void main() { c = tint; }");
     UNUSED_INPUT = "L0056" "unused-input" Note Style Unsafe "0.1.0" "GLSL 1.50 §4.3.4"
         "The fragment stage declares an input and never reads it."
         why
-        "The stage before may need its counterpart for other programs, so it is a note."
-        bad Fragment(
+        "The stage before may need its counterpart for other programs, so it is a note. Lone files are left out."
+        bad Program(
+            "in vec4 p; out vec2 uv; void main() { gl_Position = p; uv = p.xy; }",
             "in vec2 uv; out vec4 c; void main() { c = vec4(1.0); }"),
-        good Fragment(
+        good Program(
+            "in vec4 p; out vec2 uv; void main() { gl_Position = p; uv = p.xy; }",
             "in vec2 uv; out vec4 c; void main() { c = vec4(uv, 0.0, 1.0); }");
     UNUSED_STRUCT = "L0057" "unused-struct" Note Style No "0.1.0" "GLSL 1.50 §4.1.8"
         "Nothing uses a struct of the shader."
