@@ -65,6 +65,7 @@ mod lines;
 mod link;
 mod lint;
 mod lint_groups;
+mod lint_numerics;
 #[cfg(feature = "reference")]
 mod lit_scenes;
 #[cfg(feature = "cli")]
