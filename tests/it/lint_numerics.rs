@@ -15,7 +15,12 @@ fn told(body: &str) -> Vec<&'static str> {
     let messages: Vec<&str> = done.diagnostics.iter().map(|found| found.message.as_str()).collect();
     let program = done.program.unwrap_or_else(|| panic!("{body}: {messages:?}"));
     let found = lint::check(&program, &done.sources);
-    found.iter().map(|found| found.code).filter(|code| code.group() == Some(Group::Numerics)).map(|code| code.name).collect()
+    found
+        .iter()
+        .map(|found| found.code)
+        .filter(|code| code.group() == Some(Group::Numerics))
+        .map(|code| code.name)
+        .collect()
 }
 
 #[test]

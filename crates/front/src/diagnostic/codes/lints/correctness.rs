@@ -34,7 +34,7 @@ lints! {
         "Derivatives, and texture lookups whose level of detail depends on them, compare neighboring fragments. If \
          a condition may send the neighbors along another path, the result is undefined. WGSL rejects such calls \
          unless a directive disables the check."
-        why "Targets that check it refuse the shader. Samplers without levels, and comparisons of depths, are left out."
+        why "Targets that check it refuse the shader. Textures that have one level, or nearly always have (lines, volumes, maps of depths and noise, by type or name), are left out."
         bad Fragment("uniform sampler2D t; in vec2 p; out vec4 c;\n\
                       void main() { c = vec4(0.0); if (p.x > 0.5) c = texture(t, p); }"),
         good Fragment("uniform sampler2D t; in vec2 p; out vec4 c;\n\
