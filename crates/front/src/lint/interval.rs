@@ -90,17 +90,14 @@ impl Range {
     }
 
     pub(super) fn at_least(self, other: Self) -> Self {
-        let low_is_other = other.low > self.low;
+        // A maximum with a constant is at its lower bound where the operand is at its own, or below the constant.
+        let (this, other) = if self.is_point() { (other, self) } else { (self, other) };
+        let fixed = other.is_point();
         Self {
-            low: self.low.max(other.low),
-            high: self.high.max(other.high),
-            // A maximum is at its lower bound where the other operand is below it.
-            reaches_low: if low_is_other {
-                other.is_point() && self.reaches_low
-            } else {
-                self.reaches_low && other.is_point()
-            },
-            reaches_high: self.reaches_high && other.is_point(),
+            low: this.low.max(other.low),
+            high: this.high.max(other.high),
+            reaches_low: fixed && this.reaches_low,
+            reaches_high: fixed && this.reaches_high,
         }
     }
 
@@ -117,5 +114,27 @@ impl Range {
         }
         let reaches = self.reaches_low && self.reaches_high;
         Self { low: 0.0, high: self.high.max(-self.low), reaches_low: reaches, reaches_high: reaches }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Range;
+
+    #[test]
+    fn bounds_are_reached_where_one_side_is_a_constant() {
+        let (cosine, zero, one) = (Range::reached(-1.0, 1.0), Range::reached(0.0, 0.0), Range::reached(1.0, 1.0));
+        let unknown = Range::within(-1.0, 1.0);
+        assert_eq!(cosine.at_least(zero), Range::reached(0.0, 1.0));
+        assert_eq!(zero.at_least(cosine), Range::reached(0.0, 1.0));
+        assert_eq!(cosine.at_most(zero), Range::reached(-1.0, 0.0));
+        assert_eq!(cosine.at_least(unknown), unknown);
+        assert_eq!(one.plus(cosine.negated()), Range::reached(0.0, 2.0));
+        assert_eq!(cosine.plus(cosine), Range::within(-2.0, 2.0));
+        assert_eq!(cosine.times(Range::reached(-0.5, -0.5)), Range::reached(-0.5, 0.5));
+        assert_eq!(cosine.times(zero), zero);
+        assert_eq!(cosine.abs(), Range::reached(0.0, 1.0));
+        assert_eq!(unknown.abs(), Range::within(0.0, 1.0));
+        assert!(!Range::UNKNOWN.times(cosine).reaches_low);
     }
 }

@@ -65,12 +65,12 @@ fn of(place: &Place<'_>, id: ExprId, depth: u32) -> Range {
 }
 
 fn literal(place: &Place<'_>, id: ExprId) -> Range {
-    use crate::hir::ScalarValue::{Bool, Float, Int, Uint};
+    use crate::hir::ScalarValue::{Float, Int, Uint};
     match place.kind(id) {
         ExprKind::Literal(Float(value)) => Range::reached(f64::from(*value), f64::from(*value)),
         ExprKind::Literal(Int(value)) => Range::reached(f64::from(*value), f64::from(*value)),
         ExprKind::Literal(Uint(value)) => Range::reached(f64::from(*value), f64::from(*value)),
-        ExprKind::Literal(Bool(_)) | _ => Range::UNKNOWN,
+        _ => Range::UNKNOWN,
     }
 }
 
