@@ -2,8 +2,9 @@
 //! §8.8). Textures that nearly always have one level are left out: lines, volumes, depths.
 
 use super::super::divergence::{self, Cause, DivergentCall};
-use super::super::{Findings, Subject};
-use crate::hir::{ExprId, ExprKind, SamplerDim, Shader, Stage, Type, Types, VarRef};
+use super::super::{Findings, Subject, running};
+use crate::fold;
+use crate::hir::{ExprId, ExprKind, SamplerDim, ScalarValue, Shader, Stage, Type, Types, VarRef};
 use rustc_hash::FxHashMap;
 
 /// How many further calls under one condition get a label.
@@ -14,9 +15,10 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let Some(fragment) = program.stage(Stage::Fragment) else { return };
     let mut groups: Vec<(Cause, Vec<ExprId>)> = Vec::new();
     let mut indices: FxHashMap<ExprId, usize> = FxHashMap::default();
+    let names = names_of_samplers(fragment);
     for DivergentCall { expr, cause } in divergence::divergent_calls(fragment) {
         let ExprKind::BuiltinCall(function, arguments) = &fragment.expr(expr).kind else { continue };
-        if !function.implicit_derivatives() || has_one_level(&program.types, fragment, arguments) {
+        if !function.implicit_derivatives() || has_one_level(&program.types, fragment, arguments, &names) {
             continue;
         }
         let index = *indices.entry(cause.condition).or_insert(groups.len());
@@ -54,16 +56,32 @@ fn report(fragment: &Shader, cause: Cause, calls: &[ExprId], findings: &mut Find
 /// Parts of the names of textures that have one level in nearly all programs: maps of depths, places and random numbers, tables.
 static OF_ONE_LEVEL: &[&str] = &["shadow", "depth", "noise", "rand", "lut", "position"];
 
+/// The names of the variables that each expression for a sampler stands for.
+fn names_of_samplers(shader: &Shader) -> FxHashMap<ExprId, String> {
+    let mut names = FxHashMap::default();
+    for (function, body) in running(shader) {
+        shader.visit_body(body, &mut |expr| {
+            let name = match shader.root_variable(expr) {
+                Some(VarRef::Global(global)) => &shader.global(global).name,
+                Some(VarRef::Local(local)) => &function.local(local).name,
+                None => return,
+            };
+            names.insert(expr, name.to_ascii_lowercase());
+        });
+    }
+    names
+}
+
 /// Whether the texture has only one level, so that no level is selected; or nearly always has, as lines, volumes, and maps of depths.
-fn has_one_level(types: &Types, shader: &Shader, arguments: &[ExprId]) -> bool {
+/// A large bias selects the first or the last level in any case.
+fn has_one_level(types: &Types, shader: &Shader, arguments: &[ExprId], names: &FxHashMap<ExprId, String>) -> bool {
+    const LARGE_BIAS: f32 = 32.0;
     let Some(&sampler) = arguments.first() else { return false };
     let Type::Sampler(kind) = types.get(shader.expr(sampler).ty) else { return false };
-    let is_named = || match shader.root_variable(sampler) {
-        Some(VarRef::Global(global)) => {
-            let name = shader.global(global).name.to_ascii_lowercase();
-            OF_ONE_LEVEL.iter().any(|part| name.contains(part))
-        }
-        _ => false,
-    };
-    !kind.has_levels() || kind.shadow || matches!(kind.dim, SamplerDim::D1 | SamplerDim::D3) || is_named()
+    let is_named = || names.get(&sampler).is_some_and(|name| OF_ONE_LEVEL.iter().any(|part| name.contains(part)));
+    let bias = arguments.get(2).and_then(|&bias| fold::evaluate(shader, types, bias, &|_| None));
+    let is_settled = bias
+        .is_some_and(|bias| matches!(bias.scalars.first(), Some(ScalarValue::Float(bias)) if bias.abs() >= LARGE_BIAS));
+    let rarely = kind.shadow || matches!(kind.dim, SamplerDim::D1 | SamplerDim::D3);
+    !kind.has_levels() || rarely || is_settled || is_named()
 }

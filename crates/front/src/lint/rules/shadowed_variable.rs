@@ -24,6 +24,11 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                     None => continue,
                 },
             };
+            // Parts that are included into a function are written without each other.
+            let file = |span| subject.texts.sources().file_of(span);
+            if file(span) != file(local.span) {
+                continue;
+            }
             let finding = findings.at(local.span, format!("`{}` hides {what} of the same name", local.name));
             findings.push(finding.label(span, "hidden"));
         }

@@ -164,11 +164,12 @@ lints! {
             "in float x; out vec4 c; void main() { c = vec4(abs(abs(x))); }"),
         good Fragment(
             "in float x; out vec4 c; void main() { c = vec4(abs(x)); }");
-    SHADOWED_VARIABLE = "L0068" "shadowed-variable" Note Style No "0.1.0" "GLSL 1.50 §4.2.2"
+    SHADOWED_VARIABLE = "L0068" "shadowed-variable" Note Style No "0.1.0" "GLSL 1.50 §4.2"
         "A local variable has the name of a global, a parameter, or a variable of an outer block. Which one a later \
          line means is easily mistaken."
         why
-        "It is legal and often harmless, so it is a note. A global counts only if the function uses it, too."
+        "It is legal and often harmless, so it is a note. A global counts only if the function uses it, too, and \
+         both declarations must be in one file."
         bad Fragment(
             "in float x; out vec4 c; void main() { float y = x; if (x > 0.5) { float y = 1.0; c = vec4(y); } else c \
              = vec4(y); }"),
