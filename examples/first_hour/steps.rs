@@ -23,21 +23,31 @@ pub(crate) struct Taken {
     pub(crate) written: bool,
     /// Whether `render` drew it.
     pub(crate) drawn: bool,
-    /// The share of covered pixels, and the largest difference of a channel between them.
-    pub(crate) shown: Option<(f64, f64)>,
+    /// What the picture shows.
+    pub(crate) shown: Option<Shown>,
     /// The verdict of `verify`.
     pub(crate) verdict: Option<String>,
     /// Why it got no further.
     pub(crate) reason: String,
 }
 
+/// The extent and the colors of a picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown {
+    /// The share of covered pixels.
+    pub(crate) covered: f64,
+    /// The largest difference of a channel between them.
+    pub(crate) contrast: f64,
+}
+
 impl Taken {
     pub(crate) fn covers(&self) -> bool {
-        self.shown.is_some_and(|(covered, _)| covered > 0.0)
+        self.shown.is_some_and(|shown| shown.covered > 0.0)
     }
 
+    /// Whether it covers pixels, and they are of one color.
     pub(crate) fn is_flat(&self) -> bool {
-        self.shown.is_none_or(|(_, contrast)| contrast < FLAT)
+        self.shown.is_some_and(|shown| shown.covered > 0.0 && shown.contrast < FLAT)
     }
 }
 
@@ -83,7 +93,7 @@ impl Steps {
         let told = self.run(&self.own, &["--show".to_owned(), scene.clone()], folder, "show")?;
         let numbers: Vec<f64> = told.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         if let [covered, contrast] = numbers[..] {
-            taken.shown = Some((covered, contrast));
+            taken.shown = Some(Shown { covered, contrast });
         }
         let verify =
             ["verify".to_owned(), scene, "--format".to_owned(), "json".to_owned(), "--allow-inconclusive".to_owned()];
