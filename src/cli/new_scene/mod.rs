@@ -117,7 +117,8 @@ fn written(
     let forms = forms(&reads, mesh, is_flat_engine);
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("scene.toml"));
     let text = |choice: &Choice| text::scene(&reads, head, choice);
-    let trials = Trials { path: &path.to_string_lossy(), compiler: session.compiler(), text: &text };
+    let has_colors = reads.dependence.color || reads.dependence.alpha;
+    let trials = Trials { path: &path.to_string_lossy(), compiler: session.compiler(), text: &text, has_colors };
     let Some(Chosen { choice, shown }) = choose(&trials, &forms, args.size) else {
         let form = forms::Form::Count("triangles", 3);
         return text(&Choice { form, taste: Taste::default(), side: args.size });
@@ -128,7 +129,14 @@ fn written(
             "no geometry that was tried covers a pixel: fill in what the program needs".to_owned()
         }
         Some(shown) => {
-            let flat = if shown.is_flat() { ", in one color" } else { "" };
+            let flat = match (shown.is_flat(), has_colors, reads.dependence.written) {
+                (false, ..) => "",
+                (true, true, _) => ", in one color",
+                (true, false, true) => {
+                    ", in one color: that of the program depends on no varying and not on `gl_FragCoord`"
+                }
+                (true, false, false) => ", in one color: the program writes none",
+            };
             format!("drew {words}: it covers {:.0} % of the window{flat}", shown.covered * 100.0)
         }
         None => {

@@ -8,8 +8,8 @@ use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program, SamplerSlot, UniformLeaf, UniformRoot};
 use glisten_front::source::SourceMap;
-use glisten_scene::is_leaf_read;
 use glisten_scene::roles::{AttributeRole, attribute_role, is_plain_transform, likely_attribute_role, matrix_role};
+use glisten_scene::{ColorDependence, is_leaf_read};
 use std::collections::BTreeMap;
 
 /// An attribute that the vertex stage reads.
@@ -53,6 +53,8 @@ pub(super) struct Reads<'p> {
     pub(super) point_size: bool,
     /// The initial values of the parameters that `#pragma parameter` declares (libretro).
     pub(super) parameters: BTreeMap<String, f64>,
+    /// The parts of the color that may differ from pixel to pixel.
+    pub(super) dependence: ColorDependence,
 }
 
 impl<'p> Reads<'p> {
@@ -79,7 +81,13 @@ impl<'p> Reads<'p> {
             point_coord: builtin(Stage::Fragment, BuiltinVariable::PointCoord),
             point_size: builtin(Stage::Vertex, BuiltinVariable::PointSize),
             parameters: sources.files().flat_map(|(id, _)| parameters(sources.file(id).text())).collect(),
+            dependence: ColorDependence::of(program),
         }
+    }
+
+    /// Whether only the alpha of its color differs, which blending shows.
+    pub(super) fn is_shown_by_alpha(&self) -> bool {
+        self.dependence.alpha && !self.dependence.color
     }
 
     /// The attribute with a role.

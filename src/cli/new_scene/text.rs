@@ -52,7 +52,7 @@ pub(super) fn scene(reads: &Reads<'_>, head: &Head, choice: &Choice) -> String {
     let (matrices, numbers) = uniforms(reads, choice);
     table(&mut text, "[draw.matrices]   # by the camera", &matrices);
     table(&mut text, "[draw.uniforms]   # matrices by columns", &numbers);
-    table(&mut text, "[draw.textures]   # or { file = \"image.png\" }", &samplers(reads));
+    table(&mut text, "[draw.textures]   # or { file = \"image.png\" }", &samplers(reads, choice.taste));
     text
 }
 
@@ -74,7 +74,8 @@ fn table(text: &mut String, header: &str, lines: &[String]) {
 }
 
 fn framebuffer(text: &mut String, reads: &Reads<'_>, side: u32) {
-    let _ = writeln!(text, "[framebuffer]\nwidth = {side}\nheight = {side}\nclear = [0.0, 0.0, 0.0, 1.0]");
+    let clear = if reads.is_shown_by_alpha() { "0.1, 0.2, 0.4" } else { "0.0, 0.0, 0.0" };
+    let _ = writeln!(text, "[framebuffer]\nwidth = {side}\nheight = {side}\nclear = [{clear}, 1.0]");
     let outputs = &reads.program.interface.outputs;
     let format = outputs.first().and_then(|output| scalar_of(&reads.program.types, output.ty));
     match format {
@@ -122,6 +123,9 @@ fn draw(text: &mut String, reads: &Reads<'_>, head: &Head, form: &Form) {
     let _ = writeln!(text, "primitive = \"{}\"", primitive(reads, form));
     if reads.point_size && primitive(reads, form) == "points" {
         text.push_str("program_point_size = true\n");
+    }
+    if reads.is_shown_by_alpha() {
+        text.push_str("blend = \"alpha\"   # only the alpha of its color differs\n");
     }
     match form {
         Form::Mesh(shape, _) => {
@@ -334,12 +338,12 @@ fn fog(reads: &Reads<'_>) -> Vec<String> {
     lines.map(|line| format!("\"gl_Fog.{line}")).to_vec()
 }
 
-fn samplers(reads: &Reads<'_>) -> Vec<String> {
+fn samplers(reads: &Reads<'_>, taste: Taste) -> Vec<String> {
     let line = |slot: &&&glisten_front::link::SamplerSlot| {
         let Type::Sampler(kind) = reads.program.types.get(slot.ty) else { return None };
         let name = slot.name.rsplit('.').next().unwrap_or(&slot.name);
         let ty = reads.program.types.name(slot.ty);
-        Some(format!("{} = {}   # {ty}", key(&slot.name), textures::table(name, kind)))
+        Some(format!("{} = {}   # {ty}", key(&slot.name), textures::table(name, kind, taste)))
     };
     reads.samplers.iter().filter_map(|slot| line(&slot)).collect()
 }

@@ -3,6 +3,7 @@
 //! *In:* a sampler. *Out:* its table of `[draw.textures]`. *Holds:* a texture that is read with coordinates from 0 to 1 has no single
 //! color, unless its name says that it is a map of normals or the like.
 
+use super::values::Taste;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use std::fmt::Write;
 
@@ -56,10 +57,22 @@ const CHECKER: &str = "{ pattern = \"checker\", from = [0.25, 0.35, 0.6], to = [
 const POSITIONS: &str = "{ width = 2, height = 2, filter = \"linear\", values = \
     [-1.0, -1.0, -2.0, 1.0, 1.0, -1.0, -2.0, 1.0, -1.0, 1.0, -2.0, 1.0, 1.0, 1.0, -2.0, 1.0] }";
 
-/// The table for a sampler.
-pub(super) fn table(name: &str, kind: SamplerType) -> String {
+/// All four channels differ, also alpha.
+const TRANSLUCENT: &str = "{ width = 4, height = 4, filter = \"linear\", values = [\
+    0.9, 0.5, 0.4, 1.0,  0.2, 0.7, 0.9, 0.4,  0.6, 0.8, 1.0, 0.8,  0.1, 0.3, 0.2, 0.1, \
+    0.4, 0.1, 0.8, 0.2,  0.9, 0.8, 0.5, 0.9,  0.3, 0.6, 0.1, 0.5,  0.7, 0.4, 0.7, 0.7, \
+    0.2, 0.9, 0.3, 0.6,  0.5, 0.2, 0.6, 0.1,  1.0, 0.7, 0.2, 1.0,  0.1, 0.1, 0.9, 0.3, \
+    0.8, 0.3, 0.1, 0.8,  0.3, 1.0, 0.7, 0.5,  0.6, 0.2, 0.9, 0.2,  0.9, 0.9, 0.8, 0.9] }";
+
+/// The table for a sampler. For tastes other than the first one, a 2D texture has structure whatever its name says.
+pub(super) fn table(name: &str, kind: SamplerType, taste: Taste) -> String {
     let is_flat = matches!(kind.dim, SamplerDim::D2) && !kind.arrayed && !kind.shadow && kind.texel == Scalar::Float;
     if is_flat {
+        match taste.0 {
+            0 => {}
+            2 => return TRANSLUCENT.to_owned(),
+            number => return [CHECKER, IMAGE][number % 2].to_owned(),
+        }
         let small = name.to_ascii_lowercase();
         let found = BY_NAME.iter().find(|(words, _)| words.iter().any(|word| small.contains(word)));
         return found.map_or(CHECKER, |(_, table)| table).to_owned();

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 /// The width and height of a trial's window.
 const SIDE: u32 = 40;
 /// The time for all trials.
-const BUDGET: Duration = Duration::from_secs(10);
+const BUDGET: Duration = Duration::from_secs(6);
 /// The stack of the thread that draws.
 const STACK_BYTES: usize = 16 << 20;
 /// The share of pixels that a picture covers, and the difference between its colors, from which on it shows something.
@@ -27,6 +27,8 @@ const COVERED: f64 = 0.04;
 const CONTRAST: f64 = 0.03;
 /// The number of tastes.
 const TASTES: usize = 4;
+/// The number of forms that are tried with other tastes than the first one.
+const SPARE: usize = 2;
 
 /// The extent and the colors of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,10 +49,6 @@ impl Shown {
     /// Whether it is one color.
     pub(super) fn is_flat(&self) -> bool {
         self.contrast < CONTRAST
-    }
-
-    fn is_good(&self) -> bool {
-        self.covered >= COVERED && !self.is_flat()
     }
 
     /// Better pictures have more.
@@ -84,6 +82,8 @@ pub(super) struct Trials<'a> {
     pub(super) compiler: &'a Compiler,
     /// The text for a choice.
     pub(super) text: &'a dyn Fn(&Choice) -> String,
+    /// Whether the program lets colors differ.
+    pub(super) has_colors: bool,
 }
 
 enum Outcome {
@@ -103,12 +103,17 @@ pub(super) fn choose(trials: &Trials<'_>, forms: &[Form], side: u32) -> Option<C
     };
     for number in 0..TASTES {
         let taste = Taste(number);
-        let tried = if number == 0 { forms.to_vec() } else { covering.clone() };
+        let tried = match number {
+            0 => forms.to_vec(),
+            // Where nothing is covered, a number may discard everything.
+            _ if covering.is_empty() => forms.iter().take(SPARE).cloned().collect(),
+            _ => covering.clone(),
+        };
         for form in tried {
             match trials.draw(Choice { form: form.clone(), taste, side: SIDE }, deadline) {
-                Outcome::Drew(shown) if shown.is_good() => return Some(chosen(&form, taste, Some(shown))),
+                Outcome::Drew(shown) if trials.is_good(shown) => return Some(chosen(&form, taste, Some(shown))),
                 Outcome::Drew(shown) => {
-                    if number == 0 && shown.covered >= COVERED && covering.len() < 2 {
+                    if number == 0 && shown.covered >= COVERED && covering.len() < SPARE {
                         covering.push(form.clone());
                     }
                     if best.as_ref().is_none_or(|(.., other)| shown.rank() > other.rank()) {
@@ -128,6 +133,11 @@ pub(super) fn choose(trials: &Trials<'_>, forms: &[Form], side: u32) -> Option<C
 }
 
 impl Trials<'_> {
+    /// Whether a picture shows something: more than one color, if the program has more.
+    fn is_good(&self, shown: Shown) -> bool {
+        shown.covered >= COVERED && !(self.has_colors && shown.is_flat())
+    }
+
     fn draw(&self, choice: Choice, deadline: Instant) -> Outcome {
         let left = deadline.saturating_duration_since(Instant::now());
         if left.is_zero() {
