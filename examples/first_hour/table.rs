@@ -58,6 +58,9 @@ fn by_itself(found: &Found) -> Option<&'static str> {
 fn reason(found: &Found, taken: &Taken) -> Option<String> {
     match taken {
         Taken { reason, .. } if !reason.is_empty() => Some(reason.clone()),
+        taken if !taken.covers() && !found.dependence.covers => {
+            Some("covers nothing by itself: no position is written, or each fragment is discarded".to_owned())
+        }
         taken if !taken.covers() => Some("it covers nothing".to_owned()),
         taken if taken.is_flat() => Some(by_itself(found).unwrap_or("one color").to_owned()),
         Taken { verdict: Some(verdict), .. } if verdict == "fails" => Some("verify fails".to_owned()),

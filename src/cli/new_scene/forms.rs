@@ -91,6 +91,7 @@ pub(super) fn forms(reads: &Reads<'_>, mesh: Option<Shape>, is_flat_engine: bool
         (false, _) => vec![square, small, unit, Form::Pixels],
     };
     if reads.geometry == Some(PrimitiveIn::Points) || reads.geometry == Some(PrimitiveIn::Lines) {
+        forms.push(Form::Square(-0.5, 0.5, Identity));
         forms.sort_by_key(|form| !matches!(form, Form::Mesh(..)));
     }
     forms

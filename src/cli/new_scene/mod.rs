@@ -31,9 +31,10 @@ use glisten_front::link::Program;
 use reads::Reads;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
+use std::time::Instant;
 use text::{Choice, Head, quoted};
-use trial::{Chosen, Trials, choose};
-use values::Taste;
+use trial::{BUDGET, Chosen, Trials, choose};
+use values::{Taste, alternatives};
 
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
@@ -118,10 +119,17 @@ fn written(
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("scene.toml"));
     let text = |choice: &Choice| text::scene(&reads, head, choice);
     let has_colors = reads.dependence.color || reads.dependence.alpha;
-    let trials = Trials { path: &path.to_string_lossy(), compiler: session.compiler(), text: &text, has_colors };
+    let trials = Trials {
+        path: &path.to_string_lossy(),
+        compiler: session.compiler(),
+        text: &text,
+        has_colors,
+        deadline: Instant::now() + BUDGET,
+        alternatives: &alternatives(&reads),
+    };
     let Some(Chosen { choice, shown }) = choose(&trials, &forms, args.size) else {
         let form = forms::Form::Count("triangles", 3);
-        return text(&Choice { form, taste: Taste::default(), side: args.size });
+        return text(&Choice { form, taste: Taste::default(), side: args.size, changed: None });
     };
     let words = choice.form.words();
     console.remark(&match shown {
