@@ -89,10 +89,9 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         Some(output) => {
             files::write(output, text.as_bytes())?;
             let path = output.display();
-            console.remark(&format!(
-                "wrote {path}; draw it: glisten render {path} -o {}",
-                output.with_extension("png").display()
-            ));
+            // A PNG holds no numbers of an integer framebuffer.
+            let picture = output.with_extension(if text.contains("\nformat = ") { "npy" } else { "png" });
+            console.remark(&format!("wrote {path}; draw it: glisten render {path} -o {}", picture.display()));
         }
         None => console.output(&text)?,
     }
