@@ -25,12 +25,13 @@ fn version_line(fragment: &Shader, has_fixed: bool) -> &'static str {
     }
 }
 
-/// Words of names, with the extent along x and y, and z, of a vector that is no coordinate of the window.
+/// Words of names, with the extent along x and y, and z, of a vector that is no coordinate of the window. Distances are in pixels.
 static BULGES: &[(&[&str], [f64; 2])] = &[
     (&["normal", "nrm"], [1.6, 0.8]),
     (&["light", "half"], [0.6, 1.0]),
     (&["eye", "view", "dir", "camera"], [-0.4, 1.0]),
     (&["pos", "world", "point", "vertex"], [2.0, 0.0]),
+    (&["dist"], [20.0, 5.0]),
 ];
 
 /// The extent and z of a vector, if its name says that it is a normal, a direction or a place.

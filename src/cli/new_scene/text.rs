@@ -7,7 +7,7 @@ use super::forms::{Form, Shape, View};
 use super::meanings::{FAR, NEAR};
 use super::reads::{Input, Reads, scalar_of};
 use super::textures::{self, Needs};
-use super::values::{CORNERS, Range, Taste, corner, identity, text_of, uniform_text};
+use super::values::{CORNERS, Changed, Range, Taste, corner, identity, text_of, uniform_text};
 use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type};
 use glisten_front::link::{SamplerSlot, UniformLeaf};
 use glisten_scene::roles::{AttributeRole, MatrixRole, is_plain_transform, matrix_role};
@@ -28,8 +28,8 @@ pub(super) struct Choice {
     pub(super) taste: Taste,
     /// The width and height of the window.
     pub(super) side: u32,
-    /// A uniform, and the number that it has in all components instead.
-    pub(super) changed: Option<(String, f64)>,
+    /// Uniforms, and the number that they have in all components instead.
+    pub(super) changed: Option<(Changed, f64)>,
 }
 
 /// The camera of [`View::Camera`].

@@ -12,7 +12,7 @@ static BY_NAME: &[(&[&str], &str)] = &[
     (&["gposition", "positionmap", "positiontex", "postex", "positionbuffer"], POSITIONS),
     (&["gnormal", "normalbuffer", "viewnormal"], "{ pattern = \"plain\", to = [0.0, 0.0, 1.0] }"),
     (&["normal", "bump", "nrm", "norm"], "{ pattern = \"plain\", to = [0.5, 0.5, 1.0] }"),
-    (&["shadow", "depth"], "{ pattern = \"checker\", cells = 2, from = [0.6, 0.6, 0.6], to = [0.9, 0.9, 0.9] }"),
+    (&["shadow", "depth"], "{ pattern = \"checker\", cells = 2, from = [0.2, 0.2, 0.2], to = [0.9, 0.9, 0.9] }"),
     (&["metal"], "{ pattern = \"plain\", to = [0.2, 0.2, 0.2] }"),
     (&["rough"], "{ pattern = \"plain\", to = [0.4, 0.4, 0.4] }"),
     (&["occlusion", "aomap", "texao", "ssao", "lightmap", "sampler2", "overlay"], "{ pattern = \"plain\" }"),

@@ -6,7 +6,7 @@
 
 use super::forms::Form;
 use super::text::Choice;
-use super::values::Taste;
+use super::values::{Changed, Taste};
 use crate::cli::guard;
 use crate::scene::{self, DiskFiles};
 use glisten_front::Compiler;
@@ -87,7 +87,7 @@ pub(super) struct Trials<'a> {
     /// The end of the time for all trials ([`BUDGET`] from now on).
     pub(super) deadline: Instant,
     /// Uniforms, each with a number that it may have instead.
-    pub(super) alternatives: &'a [(String, f64)],
+    pub(super) alternatives: &'a [(Changed, f64)],
 }
 
 enum Outcome {

@@ -20,7 +20,8 @@ pub(super) fn uniform_text(reads: &Reads<'_>, leaf: &UniformLeaf, choice: &Choic
     let types = &reads.program.types;
     let Some(shape) = LeafShape::of(types, leaf) else { return "[]".to_owned() };
     let (side, taste) = (choice.side, choice.taste);
-    let changed = choice.changed.as_ref().filter(|(name, _)| *name == leaf.name).map(|(_, value)| *value);
+    let changed = choice.changed.as_ref().filter(|(which, _)| which.has(leaf, types.get(leaf.ty)));
+    let changed = changed.map(|(_, value)| *value);
     let mut numbers = Vec::with_capacity(shape.n_values());
     for element in 0..shape.elements {
         let row = match (changed, types.get(leaf.ty)) {
@@ -37,13 +38,32 @@ pub(super) fn uniform_text(reads: &Reads<'_>, leaf: &UniformLeaf, choice: &Choic
     }
 }
 
-/// Numbers that a uniform may have instead where nothing is shown: of all uniforms the first one, then of all the second one.
-pub(super) fn alternatives(reads: &Reads<'_>) -> Vec<(String, f64)> {
+/// Numbers that uniforms may have instead where nothing is shown: all floats together, then of each uniform the first one, and so on.
+pub(super) fn alternatives(reads: &Reads<'_>) -> Vec<(Changed, f64)> {
     let types = &reads.program.types;
     let is_free = |leaf: &&&UniformLeaf| !matches!(types.get(leaf.ty), Type::Matrix(..));
     let free: Vec<&&UniformLeaf> = reads.uniforms.iter().filter(is_free).collect();
-    let of = |value: f64| free.iter().map(move |leaf| (leaf.name.clone(), value)).collect::<Vec<_>>();
-    ALTERNATIVES.into_iter().flat_map(of).collect()
+    let of = |value: f64| free.iter().map(move |leaf| (Changed::One(leaf.name.clone()), value)).collect::<Vec<_>>();
+    let has_floats = free.iter().any(|leaf| types.get(leaf.ty) == Type::Scalar(Scalar::Float));
+    let together = ALTERNATIVES.into_iter().filter(|_| has_floats).map(|value| (Changed::Floats, value));
+    together.chain(ALTERNATIVES.into_iter().flat_map(of)).collect()
+}
+
+/// The uniforms that have another number.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Changed {
+    One(String),
+    /// All scalars that are floats.
+    Floats,
+}
+
+impl Changed {
+    fn has(&self, leaf: &UniformLeaf, ty: Type) -> bool {
+        match self {
+            Self::One(name) => *name == leaf.name,
+            Self::Floats => ty == Type::Scalar(Scalar::Float),
+        }
+    }
 }
 
 /// What may be a factor that darkens, a threshold that discards, a mode, a distance.
