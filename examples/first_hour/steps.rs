@@ -23,7 +23,7 @@ pub(crate) struct Taken {
     pub(crate) written: bool,
     /// Whether `render` drew it.
     pub(crate) drawn: bool,
-    /// What the picture shows.
+    /// The extent and the colors of the picture.
     pub(crate) shown: Option<Shown>,
     /// The verdict of `verify`.
     pub(crate) verdict: Option<String>,

@@ -65,7 +65,7 @@ fn value(types: &Types, name: &str, ty: TypeId, uv: &str) -> Option<String> {
     })
 }
 
-/// What the vertex shader declares and writes for the inputs of a fragment shader.
+/// The declarations and assignments of the vertex shader for the inputs of a fragment shader.
 #[derive(Default)]
 struct Outputs {
     declared: String,

@@ -194,7 +194,7 @@ fn draws_body(body: &str) -> String {
     draws(&[("a.vert", PLACE), ("a.frag", &fragment)], &["a.vert", "a.frag"])
 }
 
-/// What `new-scene` says about a program.
+/// The remarks of `new-scene` on a program.
 fn said(files: &[(&str, &str)]) -> String {
     let bytes: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
     let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();

@@ -5,6 +5,7 @@
 //! cameras that may suit it (`forms`), what its numbers mean (`meanings`), their values (`values`, `textures`), the text
 //! (`text`), and trials on the reference, which decide (`trial`).
 
+mod choice;
 mod forms;
 mod meanings;
 mod reads;
@@ -24,6 +25,7 @@ use super::session::{Session, Unit};
 use crate::engines::{Member, STYLES};
 use crate::scene::is_model_file;
 use crate::sources::{members, stages};
+use choice::{Choice, Taste};
 use clap::Args;
 use forms::{Shape, forms, shape_of};
 use glisten_front::hir::{Global, Shader, Stage, Storage};
@@ -32,9 +34,9 @@ use reads::Reads;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
 use std::time::Instant;
-use text::{Choice, Head, quoted};
+use text::{Head, quoted};
 use trial::{BUDGET, Chosen, Trials, choose};
-use values::{Taste, alternatives};
+use values::alternatives;
 
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]

@@ -3,11 +3,12 @@
 //! *In:* what a program reads, a form, the names of its files. *Out:* TOML that loads without a diagnostic. *Holds:* only what the program
 //! reads is in it.
 
+use super::choice::{Choice, Taste};
 use super::forms::{Form, Shape, View};
 use super::meanings::{FAR, NEAR};
 use super::reads::{Input, Reads, scalar_of};
 use super::textures::{self, Needs};
-use super::values::{CORNERS, Changed, Range, Taste, corner, identity, text_of, uniform_text};
+use super::values::{CORNERS, Range, corner, identity, text_of, uniform_text};
 use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type};
 use glisten_front::link::{SamplerSlot, UniformLeaf};
 use glisten_scene::roles::{AttributeRole, MatrixRole, is_plain_transform, matrix_role};
@@ -19,17 +20,6 @@ pub(super) struct Head {
     pub(super) stages: Vec<(Stage, String)>,
     /// Lines for the draw: how its sources are completed.
     pub(super) sources: String,
-}
-
-/// The numbers of a scene that are chosen.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Choice {
-    pub(super) form: Form,
-    pub(super) taste: Taste,
-    /// The width and height of the window.
-    pub(super) side: u32,
-    /// Uniforms, and the number that they have in all components instead.
-    pub(super) changed: Option<(Changed, f64)>,
 }
 
 /// The camera of [`View::Camera`].

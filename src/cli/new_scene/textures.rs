@@ -3,7 +3,7 @@
 //! *In:* a sampler. *Out:* its table of `[draw.textures]`. *Holds:* a texture that is read with coordinates from 0 to 1 has no single
 //! color, unless its name says that it is a map of normals or the like.
 
-use super::values::Taste;
+use super::choice::Taste;
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use std::fmt::Write;
 
@@ -68,7 +68,7 @@ const TRANSLUCENT: &str = "{ width = 4, height = 4, filter = \"linear\", values 
     0.2, 0.9, 0.3, 0.6,  0.5, 0.2, 0.6, 0.1,  1.0, 0.7, 0.2, 1.0,  0.1, 0.1, 0.9, 0.3, \
     0.8, 0.3, 0.1, 0.8,  0.3, 1.0, 0.7, 0.5,  0.6, 0.2, 0.9, 0.2,  0.9, 0.9, 0.8, 0.9] }";
 
-/// What the text does not say about a sampler's texture.
+/// The reasons for a texture that a sampler's name does not give.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Needs {
     pub(super) taste: Taste,

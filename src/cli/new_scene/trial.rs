@@ -4,9 +4,8 @@
 //! tried in their order; where all pictures are flat, those that cover something are tried with other numbers and textures, then one
 //! uniform after the other has another number. A time limit holds for all of them.
 
+use super::choice::{Changed, Choice, Taste};
 use super::forms::Form;
-use super::text::Choice;
-use super::values::{Changed, Taste};
 use crate::cli::guard;
 use crate::scene::{self, DiskFiles};
 use glisten_front::Compiler;

@@ -3,17 +3,13 @@
 //! *In:* what a uniform or an attribute is called, and its type. *Out:* its numbers as TOML. *Holds:* the same program gives the same
 //! numbers. A [`Taste`] other than the first one is tried where a picture is flat.
 
+use super::choice::{Changed, Choice, Taste};
 use super::meanings::{Meaning, meaning};
 use super::reads::{Input, Reads};
-use super::text::Choice;
 use glisten_front::hir::{Scalar, Type};
 use glisten_front::link::UniformLeaf;
 use glisten_scene::roles::AttributeRole;
 use glisten_scene::values::LeafShape;
-
-/// Which of several values to take where a name says little.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Taste(pub(super) usize);
 
 /// The numbers of a uniform as TOML.
 pub(super) fn uniform_text(reads: &Reads<'_>, leaf: &UniformLeaf, choice: &Choice) -> String {
@@ -49,24 +45,7 @@ pub(super) fn alternatives(reads: &Reads<'_>) -> Vec<(Changed, f64)> {
     together.chain(ALTERNATIVES.into_iter().flat_map(of)).collect()
 }
 
-/// The uniforms that have another number.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Changed {
-    One(String),
-    /// All scalars that are floats.
-    Floats,
-}
-
-impl Changed {
-    fn has(&self, leaf: &UniformLeaf, ty: Type) -> bool {
-        match self {
-            Self::One(name) => *name == leaf.name,
-            Self::Floats => ty == Type::Scalar(Scalar::Float),
-        }
-    }
-}
-
-/// What may be a factor that darkens, a threshold that discards, a mode, a distance.
+/// Such a number may be a factor that darkens, a threshold that discards, a mode, a distance.
 const ALTERNATIVES: [f64; 4] = [0.0, 1.0, 0.1, 10.0];
 
 /// A number as TOML.

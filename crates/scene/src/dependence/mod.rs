@@ -25,7 +25,7 @@ pub struct ColorDependence {
     pub covers: bool,
 }
 
-/// What the fixed-function pipeline's fragment stage makes a color of.
+/// The variables of which the fixed-function pipeline's fragment stage makes a color.
 const FIXED_COLORS: [&str; 2] = ["gl_FrontColor", "gl_TexCoord"];
 
 impl ColorDependence {
