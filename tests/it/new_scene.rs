@@ -130,6 +130,17 @@ fn geometry_stages_get_their_primitive() {
 }
 
 #[test]
+fn a_stage_that_takes_neighbors_gets_them() {
+    let vertex = "#version 150\nin vec3 position;\nin vec3 normal;\nuniform mat4 mvp;\nout vec3 side;\n\
+        void main() { side = normal; gl_Position = mvp * vec4(position, 1.0); }\n";
+    let geometry = "#version 150\nlayout(triangles_adjacency) in;\nlayout(triangle_strip, max_vertices = 3) out;\nin vec3 side[];\nout vec3 n;\nvoid main() {\n    \
+        for (int i = 0; i < 6; i += 2) {\n        n = side[i] * 0.5 + side[i + 1] * 0.5;\n        gl_Position = gl_in[i].gl_Position;\n        EmitVertex();\n    }\n    \
+        EndPrimitive();\n}\n";
+    let text = draws(&[("a.vert", vertex), ("a.geom", geometry), ("a.frag", WHITE)], &["a.vert", "a.geom", "a.frag"]);
+    assert!(text.contains("primitive = \"triangles_adjacency\"") && text.contains("mesh ="), "{text}");
+}
+
+#[test]
 fn flags_stay_in_the_scene() {
     let toy = "#include \"level.glsl\"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, LEVEL, 1.0) * SCALE; }\n";
     let text = draws(
