@@ -4,7 +4,8 @@
 //! cargo run --all-features --example first_hour -- FOLDER [--sample N] [--only NAME] [--jobs N] [--seconds N] [--keep DIR] [--list]
 //! ```
 //!
-//! `FOLDER` contains a folder for each repository. Those of `examples/repositories/repositories.toml` have its flags. With `--sample`, at
+//! `FOLDER` contains a folder for each repository. Those of `examples/repositories/repositories.toml` and of the
+//! list next to this file have its flags. With `--sample`, at
 //! most so many programs of each repository, evenly chosen (default: 20); with `--only`, repositories whose names contain the text; with
 //! `--seconds`, each command may take so long (default: 60); with `--keep`, scenes and pictures stay in a folder for each program; with
 //! `--list`, a line for each program is printed. The table says how many programs of each kind draw, cover pixels, are not of one color,
@@ -99,6 +100,7 @@ fn measure(arguments: &Arguments) -> Result<(), String> {
     });
     let mut results = results.into_inner().map_err(|error| error.to_string())?;
     results.sort_by_key(|(index, ..)| *index);
-    println!("{}", table::tables(&results));
+    let folder = arguments.folder.to_string_lossy();
+    println!("{}", table::tables(&results, &programs::repositories()?, &folder));
     Ok(())
 }

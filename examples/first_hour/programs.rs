@@ -6,7 +6,7 @@
 use crate::list::{List, Repository};
 use glisten::cli::survey::{Survey, Surveyed};
 use glisten::{Program, Stage};
-use glisten_front::hir::{Shader, Storage};
+use glisten_scene::ColorDependence;
 use glisten_scene::fixed::has_fixed_function;
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -21,15 +21,12 @@ pub(crate) struct Found {
     /// Its files, without repetition.
     pub(crate) files: Vec<String>,
     pub(crate) flags: Vec<String>,
-    /// Whether its fragment stage reads nothing that differs from pixel to pixel.
-    pub(crate) is_flat: bool,
+    /// Whether its text lets colors differ from pixel to pixel.
+    pub(crate) dependence: ColorDependence,
 }
 
-/// Flags of repositories that the list does not have.
-static FLAGS: &[(&str, &[&str])] = &[
-    ("OGRECave+ogre", &["--include-style", "ogre", "-I", "{}/Media", "-D", "OGRE_GLSL=330"]),
-    ("cinder+Cinder", &["--assume-version", "110"]),
-];
+/// Both lists: that of the study of repositories, and what it does not have.
+const LISTS: [&str; 2] = [include_str!("../repositories/repositories.toml"), include_str!("repositories.toml")];
 /// How many programs are looked at for each of the sample.
 const SPARE: usize = 4;
 /// Flags that take a value of their own.
@@ -37,8 +34,7 @@ const WITH_VALUE: [&str; 5] = ["--engine", "--assume-version", "--include-style"
 
 /// The programs of the repositories in a folder.
 pub(crate) fn find(folder: &Path, only: Option<&str>, sample: usize) -> Result<Vec<Found>, String> {
-    let text = include_str!("../repositories/repositories.toml");
-    let list: List = toml::from_str(text).map_err(|error| error.to_string())?;
+    let list = repositories()?;
     let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut names: Vec<String> = entries
         .flatten()
@@ -49,11 +45,9 @@ pub(crate) fn find(folder: &Path, only: Option<&str>, sample: usize) -> Result<V
     names.retain(|name| only.is_none_or(|only| name.contains(only)));
     let mut found = Vec::new();
     for name in names {
-        let rows: Vec<&Repository> = list.repository.iter().filter(|row| row.folder() == name).collect();
+        let rows: Vec<&Repository> = list.iter().filter(|row| row.folder() == name).collect();
         if rows.is_empty() {
-            let own = FLAGS.iter().find(|(known, _)| *known == name).map_or(&[][..], |(_, flags)| flags);
-            let flags = own.iter().map(|flag| flag.replace("{}", &folder.join(&name).to_string_lossy())).collect();
-            found.extend(of_repository(&folder.join(&name), &name, (flags, &[], &[]), sample)?);
+            found.extend(of_repository(&folder.join(&name), &name, (Vec::new(), &[], &[]), sample)?);
         }
         for row in rows.into_iter().filter(|row| row.prelude.is_none() && row.scripts.is_empty()) {
             let placed = |flag: &String| {
@@ -64,6 +58,12 @@ pub(crate) fn find(folder: &Path, only: Option<&str>, sample: usize) -> Result<V
         }
     }
     Ok(found)
+}
+
+/// The repositories of both lists.
+pub(crate) fn repositories() -> Result<Vec<Repository>, String> {
+    let lists: Result<Vec<List>, _> = LISTS.iter().map(|text| toml::from_str::<List>(text)).collect();
+    Ok(lists.map_err(|error| error.to_string())?.into_iter().flat_map(|list| list.repository).collect())
 }
 
 /// A sample of the programs of one repository.
@@ -100,7 +100,7 @@ fn of_repository(
             kind: kind(program, &flags),
             files: files(&surveyed),
             flags: flags.clone(),
-            is_flat: is_flat(program),
+            dependence: ColorDependence::of(program),
         });
     }
     let count = all.len();
@@ -118,12 +118,6 @@ fn files(surveyed: &Surveyed) -> Vec<String> {
         }
     }
     files
-}
-
-/// Whether the fragment stage reads no varying, no place and no other variable of a fragment.
-fn is_flat(program: &Program) -> bool {
-    let reads = |shader: &Shader| shader.globals.iter().any(|global| global.used && global.storage == Storage::In);
-    program.stage(Stage::Fragment).is_some_and(|shader| !reads(shader))
 }
 
 fn kind(program: &Program, flags: &[String]) -> String {

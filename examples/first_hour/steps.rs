@@ -4,8 +4,8 @@
 //! limit; after `new-scene`, no flag is repeated.
 
 use crate::programs::{Found, of_sources};
-use glisten::scene::{DiskFiles, load};
-use glisten::{Compiler, Options, Precision, RenderOptions, render};
+use glisten::cli::survey;
+use glisten::{Precision, RenderOptions, render};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -23,21 +23,31 @@ pub(crate) struct Taken {
     pub(crate) written: bool,
     /// Whether `render` drew it.
     pub(crate) drawn: bool,
-    /// The share of covered pixels, and the largest difference of a channel between them.
-    pub(crate) shown: Option<(f64, f64)>,
+    /// The extent and the colors of the picture.
+    pub(crate) shown: Option<Shown>,
     /// The verdict of `verify`.
     pub(crate) verdict: Option<String>,
     /// Why it got no further.
     pub(crate) reason: String,
 }
 
+/// The extent and the colors of a picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown {
+    /// The share of covered pixels.
+    pub(crate) covered: f64,
+    /// The largest difference of a channel between them.
+    pub(crate) contrast: f64,
+}
+
 impl Taken {
     pub(crate) fn covers(&self) -> bool {
-        self.shown.is_some_and(|(covered, _)| covered > 0.0)
+        self.shown.is_some_and(|shown| shown.covered > 0.0)
     }
 
+    /// Whether it covers pixels, and they are of one color.
     pub(crate) fn is_flat(&self) -> bool {
-        self.shown.is_none_or(|(_, contrast)| contrast < FLAT)
+        self.shown.is_some_and(|shown| shown.covered > 0.0 && shown.contrast < FLAT)
     }
 }
 
@@ -71,19 +81,22 @@ impl Steps {
     fn all(&self, found: &Found, folder: &Path, taken: &mut Taken) -> Result<(), String> {
         std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
         let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
-        let (scene, picture) = (path("scene.toml"), path("picture.png"));
+        let scene = path("scene.toml");
         let mut new =
             vec!["new-scene".to_owned(), "-o".to_owned(), scene.clone(), "--size".to_owned(), SIDE.to_owned()];
         new.extend(of_sources(&found.flags));
         new.extend(found.files.iter().cloned());
         self.run(&self.program, &new, folder, "new-scene")?;
         taken.written = true;
+        // A PNG cannot hold the numbers of an integer framebuffer.
+        let text = std::fs::read_to_string(&scene).unwrap_or_default();
+        let picture = path(if text.contains("format = \"rgba32") { "picture.npy" } else { "picture.png" });
         self.run(&self.program, &["render".to_owned(), scene.clone(), "-o".to_owned(), picture], folder, "render")?;
         taken.drawn = true;
         let told = self.run(&self.own, &["--show".to_owned(), scene.clone()], folder, "show")?;
         let numbers: Vec<f64> = told.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         if let [covered, contrast] = numbers[..] {
-            taken.shown = Some((covered, contrast));
+            taken.shown = Some(Shown { covered, contrast });
         }
         let verify =
             ["verify".to_owned(), scene, "--format".to_owned(), "json".to_owned(), "--allow-inconclusive".to_owned()];
@@ -134,8 +147,8 @@ impl Steps {
 
 /// Prints the share of covered pixels of a scene, and the largest difference of a channel between them.
 pub(crate) fn show(scene: &str) -> ExitCode {
-    let Some(loaded) = load(scene, &DiskFiles, &Compiler::new(Options::default())).scene else {
-        eprintln!("error: the scene does not load by the library");
+    let Some(loaded) = survey::scene(scene) else {
+        eprintln!("error: the scene does not load");
         return ExitCode::FAILURE;
     };
     let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..RenderOptions::default() };

@@ -1,5 +1,6 @@
-//! The tables: how far the programs of each kind got, and each failure with its reason.
+//! The tables: how far the programs of each kind got, those of each repository, and each program without a picture with its reason.
 
+use crate::list::Repository;
 use crate::programs::Found;
 use crate::steps::Taken;
 use std::collections::BTreeMap;
@@ -12,10 +13,14 @@ struct Row {
     drawn: usize,
     covers: usize,
     colorful: usize,
+    flat_by_itself: usize,
     holds: usize,
     inconclusive: usize,
     fails: usize,
 }
+
+const HEADER: &str = "programs | scene | draws | covers | not flat | flat by itself | holds | inconclusive | fails |";
+const RULE: &str = "--: | --: | --: | --: | --: | --: | --: | --: | --: |";
 
 impl Row {
     fn add(&mut self, found: &Found, taken: &Taken) {
@@ -24,62 +29,83 @@ impl Row {
         self.written += usize::from(taken.written);
         self.drawn += usize::from(taken.drawn);
         self.covers += usize::from(taken.covers());
-        self.colorful += usize::from(taken.covers() && (!taken.is_flat() || found.is_flat));
+        self.colorful += usize::from(taken.covers() && !taken.is_flat());
+        self.flat_by_itself += usize::from(taken.is_flat() && by_itself(found).is_some());
         self.holds += verdict("holds");
         self.inconclusive += verdict("inconclusive");
         self.fails += verdict("fails");
     }
 
     fn line(&self, name: &str) -> String {
-        let Self { all, written, drawn, covers, colorful, holds, inconclusive, fails } = self;
-        format!("| {name} | {all} | {written} | {drawn} | {covers} | {colorful} | {holds} | {inconclusive} | {fails} |")
+        let Self { all, written, drawn, covers, colorful, flat_by_itself, holds, inconclusive, fails } = self;
+        let counts = [all, written, drawn, covers, colorful, flat_by_itself, holds, inconclusive, fails];
+        format!("| {name} | {} |", counts.map(usize::to_string).join(" | "))
+    }
+}
+
+/// Why the text of a program gives one color, if it does.
+fn by_itself(found: &Found) -> Option<&'static str> {
+    let dependence = found.dependence;
+    match (dependence.written, dependence.color, dependence.alpha) {
+        (false, ..) => Some("flat by itself: no color is written"),
+        (true, false, true) => Some("flat by itself: only alpha depends on a varying or `gl_FragCoord`"),
+        (true, false, false) => Some("flat by itself: the color depends on no varying and not on `gl_FragCoord`"),
+        (true, true, _) => None,
+    }
+}
+
+/// Why a program has no picture of several colors, or why it does not hold.
+fn reason(found: &Found, taken: &Taken) -> Option<String> {
+    match taken {
+        Taken { reason, .. } if !reason.is_empty() => Some(reason.clone()),
+        taken if !taken.covers() && !found.dependence.covers => {
+            Some("covers nothing by itself: no position is written, or each fragment is discarded".to_owned())
+        }
+        taken if !taken.covers() => Some("it covers nothing".to_owned()),
+        taken if taken.is_flat() => Some(by_itself(found).unwrap_or("one color").to_owned()),
+        Taken { verdict: Some(verdict), .. } if verdict == "fails" => Some("verify fails".to_owned()),
+        _ => None,
     }
 }
 
 /// A program with how far it got.
 pub(crate) fn line(found: &Found, taken: &Taken) -> String {
-    let shown = taken.shown.map_or("-".to_owned(), |(covered, contrast)| format!("{covered:.2} {contrast:.2}"));
+    let shown = taken.shown.map_or("-".to_owned(), |shown| format!("{:.2} {:.2}", shown.covered, shown.contrast));
     let verdict = taken.verdict.as_deref().unwrap_or("-");
-    let state = if !taken.reason.is_empty() {
-        taken.reason.as_str()
-    } else if taken.covers() && taken.is_flat() && !found.is_flat {
-        "flat"
-    } else {
-        ""
-    };
-    format!("{}\t{}\t{shown}\t{verdict}\t{state}", found.kind, found.files.join(" "))
+    let reason = reason(found, taken).unwrap_or_default();
+    format!("{}\t{}\t{shown}\t{verdict}\t{reason}", found.kind, found.files.join(" "))
 }
 
-/// Both tables.
-pub(crate) fn tables(results: &[(usize, Found, Taken)]) -> String {
-    let mut rows: BTreeMap<&str, Row> = BTreeMap::new();
+/// All tables; `folder` is left out of the names of files.
+pub(crate) fn tables(results: &[(usize, Found, Taken)], repositories: &[Repository], folder: &str) -> String {
+    let mut kinds: BTreeMap<&str, Row> = BTreeMap::new();
+    let mut places: BTreeMap<&str, Row> = BTreeMap::new();
     let mut all = Row::default();
-    let mut failures = Vec::new();
+    let mut reasons = Vec::new();
     for (_, found, taken) in results {
-        rows.entry(&found.kind).or_default().add(found, taken);
-        all.add(found, taken);
-        let why = match taken {
-            Taken { reason, .. } if !reason.is_empty() => reason.clone(),
-            taken if !taken.covers() => "it covers nothing".to_owned(),
-            taken if taken.is_flat() && !found.is_flat => "one color".to_owned(),
-            Taken { verdict: Some(verdict), .. } if verdict == "fails" => "verify fails".to_owned(),
-            _ => continue,
+        for row in [kinds.entry(&found.kind).or_default(), places.entry(&found.repository).or_default(), &mut all] {
+            row.add(found, taken);
+        }
+        let short = |file: &String| {
+            let inner = file.strip_prefix(folder).unwrap_or(file).trim_start_matches('/');
+            inner.strip_prefix(&found.repository).unwrap_or(inner).trim_start_matches('/').to_owned()
         };
-        failures.push(format!(
-            "| {} | {} | {} | {} |",
-            found.repository,
-            found.kind,
-            found.files.join(" "),
-            why.replace('|', "/")
-        ));
+        let files: Vec<String> = found.files.iter().map(short).collect();
+        if let Some(why) = reason(found, taken) {
+            let name = found.repository.replace('+', "/");
+            reasons.push(format!("| {name} | {} | {} | {} |", found.kind, files.join(" "), why.replace('|', "/")));
+        }
     }
-    let mut lines = vec![
-        "| kind | programs | scene | draws | covers | not flat | holds | inconclusive | fails |".to_owned(),
-        "| --- | --: | --: | --: | --: | --: | --: | --: | --: |".to_owned(),
-    ];
-    lines.extend(rows.iter().map(|(kind, row)| row.line(kind)));
+    let mut lines = vec![format!("| kind | {HEADER}"), format!("| --- | {RULE}")];
+    lines.extend(kinds.iter().map(|(kind, row)| row.line(kind)));
     lines.push(all.line("all"));
+    lines.extend([String::new(), format!("| repository | {HEADER}"), format!("| --- | {RULE}")]);
+    let shown = |name: &str| {
+        let commit = repositories.iter().find(|row| row.folder() == name).map(|row| format!(" {}", row.commit));
+        name.replace('+', "/") + &commit.unwrap_or_default()
+    };
+    lines.extend(places.iter().map(|(name, row)| row.line(&shown(name))));
     lines.push("\n| repository | kind | files | reason |\n| --- | --- | --- | --- |".to_owned());
-    lines.extend(failures);
+    lines.extend(reasons);
     lines.join("\n")
 }

@@ -2,31 +2,36 @@
 //!
 //! *In:* a fragment shader. *Out:* the text of a vertex shader that writes what it reads. *Holds:* a `vec2` goes from (0, 0) at the
 //! lower left to (1, 1) at the upper right; longer vectors are filled with 0 and 1, a `float` goes from left to right, and
-//! integers are 0. By their names, a normal is that of a bulge, and directions and places are in front of it; a square matrix is the
+//! integers are 0. The elements of an array and the members of a block are like variables. By their names, a normal is that of a bulge, and directions and places are in front of it; a square matrix is the
 //! identity.
 
 use super::exit::{Exit, Failure};
-use glisten_front::hir::{Interpolation, Scalar, Shader, Storage, Type, Types};
+use glisten_front::hir::{ArraySize, Global, Interpolation, Scalar, Shader, Storage, Type, TypeId, Types};
 use std::fmt::Write;
+
+/// The largest array that is written.
+const MAX_ELEMENTS: u32 = 32;
 
 /// The attribute for the corners of the triangle, where there is no `gl_VertexID` (ES 1.00).
 pub(super) const CORNER: &str = "corner";
 
 /// The `#version` line of the vertex shader: both stages are of OpenGL or both are of OpenGL ES.
-fn version_line(fragment: &Shader) -> &'static str {
+fn version_line(fragment: &Shader, has_fixed: bool) -> &'static str {
     match (fragment.version.is_es(), fragment.version.number) {
+        (false, _) if has_fixed => "#version 150 compatibility",
         (false, _) => "#version 150",
         (true, 300..) => "#version 300 es",
         (true, _) => "#version 100",
     }
 }
 
-/// Words of names, with the extent along x and y, and z, of a vector that is no coordinate of the window.
+/// Words of names, with the extent along x and y, and z, of a vector that is no coordinate of the window. Distances are in pixels.
 static BULGES: &[(&[&str], [f64; 2])] = &[
     (&["normal", "nrm"], [1.6, 0.8]),
     (&["light", "half"], [0.6, 1.0]),
     (&["eye", "view", "dir", "camera"], [-0.4, 1.0]),
     (&["pos", "world", "point", "vertex"], [2.0, 0.0]),
+    (&["dist"], [20.0, 5.0]),
 ];
 
 /// The extent and z of a vector, if its name says that it is a normal, a direction or a place.
@@ -37,52 +42,111 @@ fn bulge(name: &str) -> Option<[f64; 2]> {
     BULGES.iter().find(|(words, _)| is_named(words) && !is_coordinate).map(|(_, bulge)| *bulge)
 }
 
+/// The value of an input of this name and type, with the place in the window in the variable `uv`.
+fn value(types: &Types, name: &str, ty: TypeId, uv: &str) -> Option<String> {
+    Some(match types.get(ty) {
+        Type::Scalar(Scalar::Float) => format!("{uv}.x"),
+        Type::Vector(Scalar::Float, 2) => uv.to_owned(),
+        Type::Vector(Scalar::Float, size @ 3..=4) if bulge(name).is_some() => {
+            let (end, [scale, z]) = (if size == 4 { ", 1.0" } else { "" }, bulge(name).unwrap_or_default());
+            format!("vec{size}({scale:?} * {uv} - {:?}, {z:?}{end})", scale / 2.0)
+        }
+        Type::Matrix(columns, rows) if columns == rows => format!("mat{columns}(1.0)"),
+        Type::Vector(Scalar::Float, 3) => format!("vec3({uv}, 0.0)"),
+        Type::Vector(Scalar::Float, 4) => format!("vec4({uv}, 0.0, 1.0)"),
+        Type::Scalar(Scalar::Int) => "0".to_owned(),
+        Type::Scalar(Scalar::Uint) => "0u".to_owned(),
+        Type::Vector(Scalar::Int | Scalar::Uint, _) => format!("{}(0)", types.name(ty)),
+        Type::Array(element, ArraySize::Sized(size @ 1..=MAX_ELEMENTS)) => {
+            let one = value(types, name, element, uv).filter(|_| !matches!(types.get(element), Type::Array(..)))?;
+            format!("{}({})", types.name(ty), vec![one; size as usize].join(", "))
+        }
+        _ => return None,
+    })
+}
+
+/// The declarations and assignments of the vertex shader for the inputs of a fragment shader.
+#[derive(Default)]
+struct Outputs {
+    declared: String,
+    written: String,
+}
+
+impl Outputs {
+    fn add(&mut self, (types, out, uv): (&Types, &str, &str), global: &Global) -> Result<(), Failure> {
+        let name = global.match_name();
+        if let Type::Struct(id) = types.get(global.ty)
+            && let Some(block) = &global.block
+        {
+            let _ = writeln!(self.declared, "{out} {} {{", block.name);
+            for member in &types.structure(id).members {
+                let how = interpolation(member.interpolation.unwrap_or(Interpolation::Smooth), false);
+                let _ = writeln!(self.declared, "    {how}{} {};", types.name(member.ty), member.name);
+                let place = block.instance.as_ref().map_or_else(String::new, |instance| format!("{instance}."));
+                let value = value(types, &member.name, member.ty, uv).ok_or_else(|| missing(types, global))?;
+                let _ = writeln!(self.written, "    {place}{} = {value};", member.name);
+            }
+            let _ = writeln!(
+                self.declared,
+                "}}{};",
+                block.instance.as_ref().map_or_else(String::new, |name| format!(" {name}"))
+            );
+            return Ok(());
+        }
+        match types.get(global.ty) {
+            // A fixed array of the pipeline is written element by element.
+            Type::Array(element, ArraySize::Sized(size)) if global.is_fixed() => {
+                let value = value(types, name, element, uv).ok_or_else(|| missing(types, global))?;
+                for index in 0..size.min(MAX_ELEMENTS) {
+                    let _ = writeln!(self.written, "    {name}[{index}] = {value};");
+                }
+            }
+            _ => {
+                let value = value(types, name, global.ty, uv).ok_or_else(|| missing(types, global))?;
+                let _ = writeln!(self.written, "    {name} = {value};");
+            }
+        }
+        if !global.is_fixed() {
+            let how = interpolation(global.interpolation, global.interpolation_written);
+            let _ = writeln!(self.declared, "{how}{out} {} {name};", types.name(global.ty));
+        }
+        Ok(())
+    }
+}
+
+fn interpolation(interpolation: Interpolation, is_written: bool) -> &'static str {
+    match interpolation {
+        Interpolation::Flat => "flat ",
+        Interpolation::Noperspective => "noperspective ",
+        Interpolation::Smooth if is_written => "smooth ",
+        Interpolation::Smooth => "",
+    }
+}
+
+fn missing(types: &Types, global: &Global) -> Failure {
+    let message = format!("the input `{} {}` needs a vertex shader that writes it", types.name(global.ty), global.name);
+    Failure::new(Exit::Content, message).help("name the vertex shader before the fragment shader")
+}
+
 /// The text of the vertex shader.
 ///
 /// # Errors
 /// The fragment shader reads something that a full-screen triangle has no values for.
 pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, Failure> {
-    let version = version_line(fragment);
+    let is_input = |global: &&Global| global.storage == Storage::In && global.builtin.is_none();
+    let has_fixed = fragment.globals.iter().filter(is_input).any(Global::is_fixed);
+    let version = version_line(fragment, has_fixed);
     let is_oldest_es = version == "#version 100";
     let out = if is_oldest_es { "varying" } else { "out" };
-    let mut outputs = String::new();
-    let mut writes = String::new();
     // The names of the vertex shader's own variables: those of outputs would be hidden by them.
     let is_taken = |name: &str| fragment.globals.iter().any(|global| global.name == name);
     let free = |name: &str| if is_taken(name) { format!("{name}_of_window") } else { name.to_owned() };
     let (uv, corner) = (free("uv"), free(CORNER));
-    let inputs = fragment.globals.iter().filter(|global| global.storage == Storage::In && global.builtin.is_none());
-    for global in inputs {
-        let value = match types.get(global.ty) {
-            Type::Scalar(Scalar::Float) => format!("{uv}.x"),
-            Type::Vector(Scalar::Float, 2) => uv.clone(),
-            Type::Vector(Scalar::Float, size @ 3..=4) if bulge(&global.name).is_some() => {
-                let (end, [scale, z]) = (if size == 4 { ", 1.0" } else { "" }, bulge(&global.name).unwrap_or_default());
-                format!("vec{size}({scale:?} * {uv} - {:?}, {z:?}{end})", scale / 2.0)
-            }
-            Type::Matrix(columns, rows) if columns == rows => format!("mat{columns}(1.0)"),
-            Type::Vector(Scalar::Float, 3) => format!("vec3({uv}, 0.0)"),
-            Type::Vector(Scalar::Float, 4) => format!("vec4({uv}, 0.0, 1.0)"),
-            Type::Scalar(Scalar::Int) => "0".to_owned(),
-            Type::Scalar(Scalar::Uint) => "0u".to_owned(),
-            Type::Vector(Scalar::Int | Scalar::Uint, _) => format!("{}(0)", types.name(global.ty)),
-            _ => {
-                let ty = types.name(global.ty);
-                let message = format!("the input `{} {}` needs a vertex shader that writes it", ty, global.name);
-                return Err(
-                    Failure::new(Exit::Content, message).help("name the vertex shader before the fragment shader")
-                );
-            }
-        };
-        let ty = types.name(global.ty);
-        let interpolation = match global.interpolation {
-            Interpolation::Flat => "flat ",
-            Interpolation::Noperspective => "noperspective ",
-            Interpolation::Smooth => "",
-        };
-        let _ = writeln!(outputs, "{interpolation}{out} {ty} {};", global.name);
-        let _ = writeln!(writes, "    {} = {value};", global.name);
+    let mut outputs = Outputs::default();
+    for global in fragment.globals.iter().filter(is_input) {
+        outputs.add((types, out, &uv), global)?;
     }
+    let Outputs { declared: outputs, written: writes } = outputs;
     let place = match writes.contains(&uv) {
         true => format!("    vec2 {uv} = 0.5 * {corner} + 0.5;\n"),
         false => String::new(),

@@ -1,6 +1,6 @@
 //! `glisten report`: error against work and run time of the variants of a scene's shading, as JSON and as a page.
 //!
-//! *Holds:* Ctrl-C leaves what is done as a report that says that it is not complete.
+//! *Holds:* Ctrl-C leaves what is done as a report that says that it is not complete; if nothing is done, it says so.
 
 use super::args::WithContractArgs;
 use super::batch::Batch;
@@ -203,6 +203,10 @@ fn failed(session: Session<'_>, error: Error, console: &Console) -> Outcome {
         Error::Gpu { way, error } => {
             console.remark(&format!("the GPU cannot draw `{way}`"));
             told(session, SourceMap::default(), error.into())
+        }
+        Error::Stopped => {
+            console.remark("interrupted before a variant was drawn: no report was written");
+            Ok(Exit::Interrupted)
         }
     }
 }

@@ -10,6 +10,7 @@ use super::fullscreen;
 use super::guard;
 use super::inputs::{self, Group};
 use super::session;
+use crate::scene::{self, DiskFiles, Scene};
 use clap::Parser;
 use glisten_front::compiler::{Compilation, Compiler};
 use glisten_front::hir::Stage;
@@ -86,6 +87,14 @@ impl Survey {
 pub fn covering(program: &Program) -> Result<String, String> {
     let fragment = program.stage(Stage::Fragment).ok_or("there is no fragment stage")?;
     fullscreen::vertex_shader(&program.types, fragment).map_err(told)
+}
+
+/// The scene of a file, as the commands load it.
+#[must_use]
+pub fn scene(path: &str) -> Option<Scene> {
+    let args = SurveyArgs::try_parse_from(std::iter::empty::<String>()).ok()?;
+    let engines = Engines::new(&args.sources).ok()?;
+    scene::load(path, &DiskFiles, &session::compiler(&args.sources, &BindingArgs::default(), &engines)).scene
 }
 
 fn told(failure: Failure) -> String {

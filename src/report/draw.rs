@@ -143,5 +143,6 @@ fn reason(error: &Error) -> String {
             Some(found) => found.message.clone(),
             None => error.to_string(),
         },
+        Error::Stopped => "it was interrupted".to_owned(),
     }
 }

@@ -34,6 +34,8 @@ pub enum Error {
         /// The reason.
         error: glisten_gpu::Error,
     },
+    /// The user ended it before a variant was drawn.
+    Stopped,
 }
 
 /// Follows the progress of the work: the number of steps, then each step.

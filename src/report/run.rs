@@ -1,7 +1,7 @@
 //! Draws and times every variant of a plan.
 //!
 //! *In:* a scene file, or what is found for it. *Out:* a [`Report`]. *Holds:* a user who ends it gets the variants that are drawn,
-//! and the rounds that are complete, as a report that says so.
+//! and the rounds that are complete, as a report that says so; [`Error::Stopped`] if there is none yet.
 
 use super::clock::{Candidate, Limits, SEED, Times, time};
 use super::draw::{Draw, Drawing};
@@ -46,6 +46,9 @@ pub fn run(
         }
     }
     draw_ways(&files, &plan, &mut drawing, watcher)?;
+    if drawing.done.is_empty() && watcher.is_stopped() {
+        return Err(Error::Stopped);
+    }
     let limits = Limits {
         rounds: options.rounds.or(plan.rounds).unwrap_or(Limits::default().rounds),
         time: options.time.unwrap_or(Limits::default().time),

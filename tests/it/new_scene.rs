@@ -130,6 +130,17 @@ fn geometry_stages_get_their_primitive() {
 }
 
 #[test]
+fn a_stage_that_takes_neighbors_gets_them() {
+    let vertex = "#version 150\nin vec3 position;\nin vec3 normal;\nuniform mat4 mvp;\nout vec3 side;\n\
+        void main() { side = normal; gl_Position = mvp * vec4(position, 1.0); }\n";
+    let geometry = "#version 150\nlayout(triangles_adjacency) in;\nlayout(triangle_strip, max_vertices = 3) out;\nin vec3 side[];\nout vec3 n;\nvoid main() {\n    \
+        for (int i = 0; i < 6; i += 2) {\n        n = side[i] * 0.5 + side[i + 1] * 0.5;\n        gl_Position = gl_in[i].gl_Position;\n        EmitVertex();\n    }\n    \
+        EndPrimitive();\n}\n";
+    let text = draws(&[("a.vert", vertex), ("a.geom", geometry), ("a.frag", WHITE)], &["a.vert", "a.geom", "a.frag"]);
+    assert!(text.contains("primitive = \"triangles_adjacency\"") && text.contains("mesh ="), "{text}");
+}
+
+#[test]
 fn flags_stay_in_the_scene() {
     let toy = "#include \"level.glsl\"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, LEVEL, 1.0) * SCALE; }\n";
     let text = draws(
@@ -183,4 +194,121 @@ fn stages_in_any_order_and_two_of_one_stage() {
     let folder = Folder::new(&[("a.vert", vertex.as_bytes()), ("b.vert", vertex.as_bytes())]);
     let two = folder.run(&["new-scene", "a.vert", "b.vert"]);
     assert!(code(&two) == 2 && err(&two).contains("of one stage"), "{}{}", out(&two), err(&two));
+}
+
+/// A vertex shader with a place in the window from 0 to 1, for fragment shaders that say more.
+const PLACE: &str = "#version 330\nin vec3 position;\nout vec2 at;\nvoid main() { at = position.xy * 0.5 + 0.5; gl_Position = vec4(position, 1.0); }\n";
+
+/// The text of the scene of a fragment shader with [`PLACE`] before it; `body` is all after the output.
+fn draws_body(body: &str) -> String {
+    let fragment = format!("#version 330\nin vec2 at;\nout vec4 c;\n{body}\n");
+    draws(&[("a.vert", PLACE), ("a.frag", &fragment)], &["a.vert", "a.frag"])
+}
+
+/// The remarks of `new-scene` on a program.
+fn said(files: &[(&str, &str)]) -> String {
+    let bytes: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    let made = Folder::new(&bytes).run(&[&["new-scene", "-o", "a.toml", "--size", SIDE], &names[..]].concat());
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    err(&made)
+}
+
+#[test]
+fn lights_do_not_saturate_a_surface() {
+    let vertex = "#version 330\nin vec3 VertexPosition;\nin vec3 VertexNormal;\nuniform vec3 LightIntensity, Kd, Ka, Ks;\nuniform vec4 LightPosition;\n\
+        uniform mat4 ModelViewMatrix, MVP;\nuniform mat3 NormalMatrix;\nout vec3 color;\nvoid main() {\n    vec3 n = normalize(NormalMatrix * VertexNormal);\n    \
+        vec3 p = (ModelViewMatrix * vec4(VertexPosition, 1.0)).xyz;\n    vec3 l = normalize(LightPosition.xyz - p);\n    \
+        vec3 r = reflect(-l, n);\n    color = LightIntensity * (Ka + Kd * max(dot(l, n), 0.0) + Ks * pow(max(dot(r, normalize(-p)), 0.0), 32.0));\n    \
+        gl_Position = MVP * vec4(VertexPosition, 1.0);\n}\n";
+    let fragment = "#version 330\nin vec3 color;\nout vec4 c;\nvoid main() { c = vec4(color, 1.0); }\n";
+    let text = draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+    assert!(text.contains("LightIntensity = [1.0, 1.0, 1.0]") && text.contains("shape ="), "{text}");
+}
+
+#[test]
+fn colors_and_pictures_of_one_program_differ() {
+    let text = draws_body("uniform vec4 color1, color2;\nvoid main() { c = mix(color1, color2, step(0.5, at.x)); }");
+    assert!(text.contains("color1 = [0.8, 0.5, 0.3, 1.0]") && text.contains("color2 = [0.5, 0.3, 0.8, 1.0]"), "{text}");
+    draws_body("uniform sampler2D before, after;\nvoid main() { c = abs(texture(before, at) - texture(after, at)); }");
+    draws_body(
+        "uniform float innerRadius, outerRadius;\nvoid main() { c = vec4(smoothstep(innerRadius, outerRadius, length(at - 0.5))); }",
+    );
+}
+
+#[test]
+fn alpha_alone_is_shown_by_blending() {
+    let text = draws_body("uniform vec3 glyphColor;\nvoid main() { c = vec4(glyphColor, at.x); }");
+    assert!(text.contains("blend = \"alpha\""), "{text}");
+    draws_body("uniform sampler2D noiseTable;\nvoid main() { c = vec4(texture(noiseTable, at).aaa, 1.0); }");
+}
+
+#[test]
+fn textures_that_are_fetched_are_large_enough() {
+    let vertex = "#version 150\nin vec3 Position;\nin vec4 Color;\nin ivec2 UV2;\nuniform sampler2D Sampler2;\nuniform mat4 ModelViewMat, ProjMat;\nout vec4 color;\n\
+        void main() { color = Color * texelFetch(Sampler2, UV2 / 16, 0); gl_Position = ProjMat * ModelViewMat * vec4(Position, 1.0); }\n";
+    let fragment =
+        "#version 150\nin vec4 color;\nout vec4 c;\nvoid main() { if (color.a < 0.1) discard; c = color; }\n";
+    draws(&[("a.vsh", vertex), ("a.fsh", fragment)], &["a.vsh", "a.fsh", "--engine", "minecraft"]);
+}
+
+#[test]
+fn numbers_that_hide_the_picture_are_found() {
+    draws_body("uniform float darknessFactor;\nvoid main() { c = vec4(at, 0.0, 1.0) * (1.0 - darknessFactor); }");
+    draws_body("uniform float zork;\nvoid main() { if (zork < 5.0) discard; c = vec4(at, 0.0, 1.0); }");
+    draws_body(
+        "uniform float zork, zark;\nvoid main() { c = vec4(at, 0.0, 1.0) * step(9.0, zork) * step(zark, 0.6); }",
+    );
+}
+
+#[test]
+fn depths_and_shadows() {
+    let text = draws_body(
+        "uniform float near, far;\nuniform sampler2DShadow shadowMap;\nvoid main() {\n    float z = 2.0 * near * far / (far + near - (2.0 * at.x - 1.0) * (far - near));\n    \
+         c = vec4(vec3(z / far) * (0.5 + 0.5 * texture(shadowMap, vec3(at, 0.5))), 1.0);\n}",
+    );
+    assert!(text.contains("near = 0.5") && text.contains("far = 20.0"), "{text}");
+    draws_body(
+        "uniform sampler2DShadow shadowMap;\nvoid main() { if (texture(shadowMap, vec3(at, 0.5)) > 0.1) discard; c = vec4(at, 0.0, 1.0); }",
+    );
+    let depth = "void main() { gl_FragColor = vec4(vec3(gl_FragCoord.z), 1.0); }\n";
+    let vertex = "void main() { gl_Position = ftransform(); }\n";
+    draws(&[("a.vert", vertex), ("a.frag", depth)], &["a.vert", "a.frag"]);
+}
+
+#[test]
+fn a_vertex_shader_alone_shows_its_texture_coordinates() {
+    let vertex = "void main() { gl_TexCoord[0] = gl_MultiTexCoord0; gl_Position = ftransform(); }\n";
+    let text = draws(&[("a.vert", vertex)], &["a.vert"]);
+    assert!(text.contains("texture0 =") && text.contains("mode = \"replace\""), "{text}");
+}
+
+#[test]
+fn attributes_without_a_position() {
+    let vertex = "#version 150\nin vec2 texCoord;\nin vec3 weightColor;\nuniform sampler2D positions;\nout vec3 color;\n\
+        void main() { color = weightColor; gl_Position = vec4(texCoord * 1.8 - 0.9, texture(positions, texCoord).x * 0.1, 1.0); }\n";
+    let fragment = "#version 150\nin vec3 color;\nout vec4 c;\nvoid main() { c = vec4(color, 1.0); }\n";
+    draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+}
+
+#[test]
+fn a_fragment_shader_alone_gets_all_its_inputs() {
+    let fixed =
+        "varying vec3 place;\nvoid main() { gl_FragColor = gl_TexCoord[0] * gl_Color * vec4(place.xy, 1.0, 1.0); }\n";
+    draws(&[("fixed.frag", fixed)], &["fixed.frag"]);
+    let block = "#version 330\nin Data { vec2 at; flat int number; } data;\nin vec2 taps[3];\nout vec4 c;\n\
+        void main() { c = vec4(data.at, taps[2].x + float(data.number), 1.0); }\n";
+    draws(&[("block.frag", block)], &["block.frag"]);
+    let smooth = "#version 330\nsmooth in vec2 at;\nout vec4 c;\nvoid main() { c = vec4(at, 0.0, 1.0); }\n";
+    draws(&[("smooth.frag", smooth)], &["smooth.frag"]);
+}
+
+#[test]
+fn one_color_of_the_program_itself_is_said() {
+    let fill = "#version 330\nuniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n";
+    let told = said(&[("a.vert", PLACE), ("a.frag", fill)]);
+    assert!(told.contains("in one color: that of the program depends on no varying"), "{told}");
+    let none = "#version 330\nvoid main() { }\n";
+    let told = said(&[("a.vert", PLACE), ("a.frag", none)]);
+    assert!(told.contains("in one color: the program writes none"), "{told}");
 }

@@ -9,6 +9,7 @@
 //! Files come through a [`FileSource`]; only its implementation [`DiskFiles`] does I/O.
 
 pub mod compare;
+mod dependence;
 pub mod dynamic;
 mod files;
 pub mod fixed;
@@ -24,6 +25,7 @@ pub mod roles;
 pub mod tables;
 pub mod values;
 
+pub use dependence::ColorDependence;
 pub use files::{DiskFiles, FileError, FileSource, MemoryFiles};
 pub use library::{Library, NoLibrary};
 pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, write};

@@ -73,7 +73,9 @@ pub(super) fn forms(reads: &Reads<'_>, mesh: Option<Shape>, is_flat_engine: bool
         return vec![Form::Mesh(shape.clone(), Camera), Form::Mesh(shape, Identity)];
     }
     let Some(size) = reads.position_size() else {
-        return counts(reads);
+        // Attributes without a position: data for four vertices.
+        let square = |view| Form::Square(-1.0, 1.0, view);
+        return if reads.inputs.is_empty() { counts(reads) } else { vec![square(Front), square(Identity)] };
     };
     let name = if reads.has_normals() && !reads.has_texcoords() { "torus_knot" } else { "sphere" };
     let shape = |radius: f64| Shape::Named(name.to_owned(), radius);
@@ -91,6 +93,7 @@ pub(super) fn forms(reads: &Reads<'_>, mesh: Option<Shape>, is_flat_engine: bool
         (false, _) => vec![square, small, unit, Form::Pixels],
     };
     if reads.geometry == Some(PrimitiveIn::Points) || reads.geometry == Some(PrimitiveIn::Lines) {
+        forms.push(Form::Square(-0.5, 0.5, Identity));
         forms.sort_by_key(|form| !matches!(form, Form::Mesh(..)));
     }
     forms

@@ -29,6 +29,10 @@ pub(super) enum Meaning {
     Color(f64),
     BaseColor,
     FogColor,
+    /// The strength of a light, which falls off with the distance or not.
+    Power,
+    /// The least and the greatest value; of three components, also the one between.
+    Range(f64, f64),
     /// A number of elements, samples or steps.
     Count,
     /// Points of a kernel.
@@ -38,14 +42,16 @@ pub(super) enum Meaning {
     /// This in all components.
     Value(f64),
     Switch(bool),
+    /// The least and the greatest coordinates of most of the window.
+    Rectangle,
     /// The planes `[0, 1, 0, 0]`.
     Plane,
     Unknown,
 }
 
 use Meaning::{
-    BaseColor, Color, Count, Eye, FogColor, Forward, Frame, LightDirection, LightPosition, Mouse, Plane, Resolution,
-    Right, Samples, SpotDirection, Switch, Texel, Time, Up, Value, Weights,
+    BaseColor, Color, Count, Eye, FogColor, Forward, Frame, LightDirection, LightPosition, Mouse, Plane, Power, Range,
+    Rectangle, Resolution, Right, Samples, SpotDirection, Switch, Texel, Time, Up, Value, Weights,
 };
 
 /// Words, one of which a name contains.
@@ -54,13 +60,27 @@ type Words = &'static [&'static str];
 /// A row: lists of which a name contains a word each, words that it contains none of, and the meaning.
 type Row = (&'static [Words], Words, Meaning);
 
+/// The planes of the camera.
+pub(super) const NEAR: f64 = 0.5;
+pub(super) const FAR: f64 = 20.0;
+
 const LIGHTS: Words = &["light", "sun", "lamp", "spot", "lpos", "moon"];
 
 /// The meanings of floats and vectors.
 static FLOATS: &[Row] = &[
     (&[&["time", "seconds", "elapsed", "clock", "animation"]], &["step", "scale", "delta", "lifetime", "day"], Time),
+    // Weather, and what befalls a player's eyes.
+    (
+        &[&["darkness", "blindness", "nightvision", "rain", "wetness", "snow"]],
+        &["color", "colour", "train"],
+        Value(0.0),
+    ),
+    (&[&["scissor", "rect", "bounds", "region", "crop", "vignette"]], &["direct"], Rectangle),
     (&[&["deltatime", "timedelta", "frametime", "timestep", "dt"]], &["width"], Value(0.016)),
     (&[&["mouse", "cursor", "touch"]], &[], Mouse),
+    (&[&["near"], &["far"]], &["color"], Range(NEAR, FAR)),
+    (&[&["min"], &["max"]], &["lumin"], Range(0.0, 1.0)),
+    (&[&["enable"]], &[], Value(1.0)),
     (&[&["attenuation"]], &["range", "scale", "radius", "light"], Color(0.2)),
     (&[&["constant"]], &["color", "alpha"], Value(1.0)),
     (&[&["quadratic"]], &[], Value(0.02)),
@@ -68,7 +88,7 @@ static FLOATS: &[Row] = &[
     (&[&["linear"]], &["depth"], Value(0.05)),
     (&[&["outercutoff", "cosouter", "outercone", "outerangle"]], &[], Value(0.8)),
     (&[&["cutoff", "innercone", "innerangle", "coscone", "conecos"]], &["freq"], Value(0.9)),
-    (&[LIGHTS, &["power", "intensity", "brightness"]], &["exp", "ambient"], Value(20.0)),
+    (&[LIGHTS, &["power", "intensity", "brightness"]], &["exp", "ambient"], Power),
     (&[LIGHTS, &["amb"]], &["pos", "dir", "lambert"], Color(0.2)),
     (
         &[LIGHTS, &["color", "colour", "diff", "spec", "radiance", "intensity", "col", "rgb"]],
@@ -114,6 +134,7 @@ static FLOATS: &[Row] = &[
             "window_size",
             "texturesize",
             "texsize",
+            "texsz",
             "inputsize",
             "outputsize",
             "insize",
@@ -146,8 +167,8 @@ static FLOATS: &[Row] = &[
         Resolution,
     ),
     (&[&["aspect"]], &[], Value(1.0)),
-    (&[&["near", "znear"]], &["color"], Value(0.1)),
-    (&[&["far", "zfar"]], &["color", "corner"], Value(100.0)),
+    (&[&["near", "znear"]], &["color"], Value(NEAR)),
+    (&[&["far", "zfar"]], &["color", "corner"], Value(FAR)),
     (&[&["fov"]], &[], Value(0.785)),
     (&[&["camera", "eye", "view", "cam"], &["pos", "loc", "origin", "point"]], &["light"], Eye),
     (&[&["camera", "eye", "view", "cam"], &["up"]], &["light"], Up),
@@ -241,6 +262,8 @@ static FLOATS: &[Row] = &[
     ),
     (&[&["freq", "octave", "wave", "cells", "bands", "lines"]], &["length", "amp", "height"], Value(4.0)),
     (&[&["amp", "height", "thick", "width", "noise", "strength"]], &["lamp", "sampl", "example", "clamp"], Value(0.2)),
+    (&[&["inner"]], &["color"], Value(0.2)),
+    (&[&["outer"]], &["color"], Value(0.6)),
     (&[&["size", "speed", "intensity", "factor", "power", "amount", "radius", "max"]], &[], Value(1.0)),
     (&[&["min"]], &["lumin", "dimin"], Value(0.0)),
 ];
@@ -301,6 +324,16 @@ static BOOLEANS: &[Row] = &[
     (&[&[""]], &[], Switch(true)),
 ];
 
+/// The letters of the equations of light, as names of vectors.
+static SHORT: &[(&[&str], Meaning)] = &[
+    (&["ka", "la"], Color(0.2)),
+    (&["kd"], BaseColor),
+    (&["ks"], Color(0.5)),
+    (&["ke"], Color(0.0)),
+    (&["ld", "ls"], Color(1.0)),
+    (&["lp"], LightPosition),
+];
+
 /// The meaning of a uniform.
 pub(super) fn meaning(name: &str, ty: Type) -> Meaning {
     let small: String = name.chars().filter(|letter| letter.is_alphanumeric()).collect::<String>().to_ascii_lowercase();
@@ -312,7 +345,12 @@ pub(super) fn meaning(name: &str, ty: Type) -> Meaning {
     let has = |words: &Words| words.iter().any(|word| small.contains(&word.replace('_', "")));
     let fits = |(all, none, _): &&Row| all.iter().all(has) && !has(none);
     let found = rows.iter().find(fits).map(|(_, _, meaning)| *meaning);
-    let of_member = || match (name.rsplit(['.', '_']).next(), ty) {
+    let last = name.rsplit(['.', '_']).next().map(str::to_ascii_lowercase);
+    let short = SHORT.iter().find(|(names, _)| names.contains(&last.as_deref().unwrap_or_default()));
+    if let (Some((_, meaning)), Type::Vector(..)) = (short, ty) {
+        return *meaning;
+    }
+    let of_member = || match (last.as_deref(), ty) {
         (Some("position" | "pos"), Type::Vector(..)) if LIGHTS.iter().any(|word| small.contains(word)) => LightPosition,
         (Some("shi" | "exp"), Type::Scalar(_)) => Value(32.0),
         _ => Meaning::Unknown,
@@ -322,7 +360,7 @@ pub(super) fn meaning(name: &str, ty: Type) -> Meaning {
 
 #[cfg(test)]
 mod tests {
-    use super::{Meaning, meaning};
+    use super::{FAR, Meaning, NEAR, meaning};
     use glisten_front::hir::{Scalar, Type};
 
     #[test]
@@ -347,7 +385,11 @@ mod tests {
             (&["viewPos", "cameraPosition", "eye_pos"], vector, Meaning::Eye),
             (&["objectColor", "material.diffuse", "material.diff", "albedo"], vector, Meaning::BaseColor),
             (&["numLights", "sampleCount", "maxIterations"], Type::Scalar(Scalar::Int), Meaning::Count),
-            (&["zNear", "near", "near_plane"], Type::Scalar(Scalar::Float), Meaning::Value(0.1)),
+            (&["zNear", "near", "near_plane"], Type::Scalar(Scalar::Float), Meaning::Value(NEAR)),
+            (&["nearFar"], Type::Vector(Scalar::Float, 2), Meaning::Range(NEAR, FAR)),
+            (&["lightIntensity", "Light.Intensity"], Type::Scalar(Scalar::Float), Meaning::Power),
+            (&["Kd", "Material.Kd"], vector, Meaning::BaseColor),
+            (&["Ld", "light.Ls"], vector, Meaning::Color(1.0)),
             (&["alpha", "uOpacity"], Type::Scalar(Scalar::Float), Meaning::Value(1.0)),
             (&["useTexture", "lit"], Type::Scalar(Scalar::Bool), Meaning::Switch(true)),
         ] {

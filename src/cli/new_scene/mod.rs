@@ -5,6 +5,7 @@
 //! cameras that may suit it (`forms`), what its numbers mean (`meanings`), their values (`values`, `textures`), the text
 //! (`text`), and trials on the reference, which decide (`trial`).
 
+mod choice;
 mod forms;
 mod meanings;
 mod reads;
@@ -24,6 +25,7 @@ use super::session::{Session, Unit};
 use crate::engines::{Member, STYLES};
 use crate::scene::is_model_file;
 use crate::sources::{members, stages};
+use choice::{Choice, Taste};
 use clap::Args;
 use forms::{Shape, forms, shape_of};
 use glisten_front::hir::{Global, Shader, Stage, Storage};
@@ -31,9 +33,10 @@ use glisten_front::link::Program;
 use reads::Reads;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
-use text::{Choice, Head, quoted};
-use trial::{Chosen, Trials, choose};
-use values::Taste;
+use std::time::Instant;
+use text::{Head, quoted};
+use trial::{BUDGET, Chosen, Trials, choose};
+use values::alternatives;
 
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
@@ -88,10 +91,9 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         Some(output) => {
             files::write(output, text.as_bytes())?;
             let path = output.display();
-            console.remark(&format!(
-                "wrote {path}; draw it: glisten render {path} -o {}",
-                output.with_extension("png").display()
-            ));
+            // A PNG holds no numbers of an integer framebuffer.
+            let picture = output.with_extension(if text.contains("\nformat = ") { "npy" } else { "png" });
+            console.remark(&format!("wrote {path}; draw it: glisten render {path} -o {}", picture.display()));
         }
         None => console.output(&text)?,
     }
@@ -117,10 +119,18 @@ fn written(
     let forms = forms(&reads, mesh, is_flat_engine);
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("scene.toml"));
     let text = |choice: &Choice| text::scene(&reads, head, choice);
-    let trials = Trials { path: &path.to_string_lossy(), compiler: session.compiler(), text: &text };
+    let has_colors = reads.dependence.color || reads.dependence.alpha;
+    let trials = Trials {
+        path: &path.to_string_lossy(),
+        compiler: session.compiler(),
+        text: &text,
+        has_colors,
+        deadline: Instant::now() + BUDGET,
+        alternatives: &alternatives(&reads),
+    };
     let Some(Chosen { choice, shown }) = choose(&trials, &forms, args.size) else {
         let form = forms::Form::Count("triangles", 3);
-        return text(&Choice { form, taste: Taste::default(), side: args.size });
+        return text(&Choice { form, taste: Taste::default(), side: args.size, changed: None });
     };
     let words = choice.form.words();
     console.remark(&match shown {
@@ -128,7 +138,14 @@ fn written(
             "no geometry that was tried covers a pixel: fill in what the program needs".to_owned()
         }
         Some(shown) => {
-            let flat = if shown.is_flat() { ", in one color" } else { "" };
+            let flat = match (shown.is_flat(), has_colors, reads.dependence.written) {
+                (false, ..) => "",
+                (true, true, _) => ", in one color",
+                (true, false, true) => {
+                    ", in one color: that of the program depends on no varying and not on `gl_FragCoord`"
+                }
+                (true, false, false) => ", in one color: the program writes none",
+            };
             format!("drew {words}: it covers {:.0} % of the window{flat}", shown.covered * 100.0)
         }
         None => {

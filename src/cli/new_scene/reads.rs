@@ -4,12 +4,12 @@
 //! fixed-function pipeline. *Holds:* a member of a struct that no stage reads is left out; what follows from the scene (`gl_Vertex`,
 //! `gl_ModelViewMatrix`) is state, not a uniform.
 
-use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type, TypeId, Types};
+use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
+use glisten_front::hir::{Expr, ExprKind, PrimitiveIn, Scalar, Shader, Stage, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program, SamplerSlot, UniformLeaf, UniformRoot};
 use glisten_front::source::SourceMap;
-use glisten_scene::is_leaf_read;
 use glisten_scene::roles::{AttributeRole, attribute_role, is_plain_transform, likely_attribute_role, matrix_role};
+use glisten_scene::{ColorDependence, is_leaf_read};
 use std::collections::BTreeMap;
 
 /// An attribute that the vertex stage reads.
@@ -53,6 +53,10 @@ pub(super) struct Reads<'p> {
     pub(super) point_size: bool,
     /// The initial values of the parameters that `#pragma parameter` declares (libretro).
     pub(super) parameters: BTreeMap<String, f64>,
+    /// Whether texels are fetched by integers, so that a texture has to be as large as the window.
+    pub(super) fetches: bool,
+    /// The parts of the color that may differ from pixel to pixel.
+    pub(super) dependence: ColorDependence,
 }
 
 impl<'p> Reads<'p> {
@@ -79,7 +83,20 @@ impl<'p> Reads<'p> {
             point_coord: builtin(Stage::Fragment, BuiltinVariable::PointCoord),
             point_size: builtin(Stage::Vertex, BuiltinVariable::PointSize),
             parameters: sources.files().flat_map(|(id, _)| parameters(sources.file(id).text())).collect(),
+            fetches: program.stages.iter().any(fetches),
+            dependence: ColorDependence::of(program),
         }
+    }
+
+    /// Whether only the alpha of its color differs, which blending shows.
+    pub(super) fn is_shown_by_alpha(&self) -> bool {
+        self.dependence.alpha && !self.dependence.color
+    }
+
+    /// Whether a vertex stage without a fragment stage passes a variable to the fixed-function pipeline's.
+    pub(super) fn passes(&self, name: &str) -> bool {
+        let is_written = |shader: &Shader| shader.globals.iter().any(|global| global.written && global.name == name);
+        self.program.stage(Stage::Fragment).is_none() && self.program.stage(Stage::Vertex).is_some_and(is_written)
     }
 
     /// The attribute with a role.
@@ -119,6 +136,11 @@ impl<'p> Reads<'p> {
         let own = self.uniforms.iter().copied().filter(is_matrix).any(|leaf| moves(&leaf));
         own || self.program.interface.roots.iter().any(of_scene) || self.program.stage(Stage::Vertex).is_none()
     }
+}
+
+fn fetches(shader: &Shader) -> bool {
+    let is_fetch = |expr: &Expr| matches!(expr.kind, ExprKind::BuiltinCall(BuiltinFunction::TexelFetch, _));
+    shader.exprs.iter().any(is_fetch)
 }
 
 /// The attributes that the vertex stage reads, without those of the fixed-function pipeline.

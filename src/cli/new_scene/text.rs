@@ -3,12 +3,14 @@
 //! *In:* what a program reads, a form, the names of its files. *Out:* TOML that loads without a diagnostic. *Holds:* only what the program
 //! reads is in it.
 
+use super::choice::{Choice, Taste};
 use super::forms::{Form, Shape, View};
+use super::meanings::{FAR, NEAR};
 use super::reads::{Input, Reads, scalar_of};
-use super::textures;
-use super::values::{CORNERS, Range, Taste, corner, identity, text_of, uniform_text};
+use super::textures::{self, Needs};
+use super::values::{CORNERS, Range, corner, identity, text_of, uniform_text};
 use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type};
-use glisten_front::link::UniformLeaf;
+use glisten_front::link::{SamplerSlot, UniformLeaf};
 use glisten_scene::roles::{AttributeRole, MatrixRole, is_plain_transform, matrix_role};
 use std::fmt::Write;
 
@@ -18,15 +20,6 @@ pub(super) struct Head {
     pub(super) stages: Vec<(Stage, String)>,
     /// Lines for the draw: how its sources are completed.
     pub(super) sources: String,
-}
-
-/// The numbers of a scene that are chosen.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Choice {
-    pub(super) form: Form,
-    pub(super) taste: Taste,
-    /// The width and height of the window.
-    pub(super) side: u32,
 }
 
 /// The camera of [`View::Camera`].
@@ -52,7 +45,10 @@ pub(super) fn scene(reads: &Reads<'_>, head: &Head, choice: &Choice) -> String {
     let (matrices, numbers) = uniforms(reads, choice);
     table(&mut text, "[draw.matrices]   # by the camera", &matrices);
     table(&mut text, "[draw.uniforms]   # matrices by columns", &numbers);
-    table(&mut text, "[draw.textures]   # or { file = \"image.png\" }", &samplers(reads));
+    if reads.passes("gl_TexCoord") && !reads.passes("gl_FrontColor") {
+        text.push_str("\n[draw.fixed_function]\nunits = [{ mode = \"replace\" }]   # the program passes no color\n");
+    }
+    table(&mut text, "[draw.textures]   # or { file = \"image.png\" }", &samplers(reads, choice.taste));
     text
 }
 
@@ -74,7 +70,8 @@ fn table(text: &mut String, header: &str, lines: &[String]) {
 }
 
 fn framebuffer(text: &mut String, reads: &Reads<'_>, side: u32) {
-    let _ = writeln!(text, "[framebuffer]\nwidth = {side}\nheight = {side}\nclear = [0.0, 0.0, 0.0, 1.0]");
+    let clear = if reads.is_shown_by_alpha() { "0.1, 0.2, 0.4" } else { "0.0, 0.0, 0.0" };
+    let _ = writeln!(text, "[framebuffer]\nwidth = {side}\nheight = {side}\nclear = [{clear}, 1.0]");
     let outputs = &reads.program.interface.outputs;
     let format = outputs.first().and_then(|output| scalar_of(&reads.program.types, output.ty));
     match format {
@@ -95,7 +92,10 @@ fn camera(text: &mut String, reads: &Reads<'_>, form: &Form) {
         _ => return,
     };
     if reads.has_matrices() {
-        let _ = writeln!(text, "\n[camera]\neye = {eye}\ntarget = [0.0, 0.0, 0.0]\nfovy = 45");
+        let _ = writeln!(
+            text,
+            "\n[camera]\neye = {eye}\ntarget = [0.0, 0.0, 0.0]\nfovy = 45\nnear = {NEAR:?}\nfar = {FAR:?}"
+        );
     }
 }
 
@@ -122,6 +122,9 @@ fn draw(text: &mut String, reads: &Reads<'_>, head: &Head, form: &Form) {
     let _ = writeln!(text, "primitive = \"{}\"", primitive(reads, form));
     if reads.point_size && primitive(reads, form) == "points" {
         text.push_str("program_point_size = true\n");
+    }
+    if reads.is_shown_by_alpha() {
+        text.push_str("blend = \"alpha\"   # only the alpha of its color differs\n");
     }
     match form {
         Form::Mesh(shape, _) => {
@@ -183,13 +186,13 @@ fn attributes(text: &mut String, reads: &Reads<'_>, choice: &Choice) {
         Form::Mesh(..) => {
             let of_mesh = |input: &&Input<'_>| input.role.is_none_or(|role| !MESH_ROLES.contains(&role));
             let line = |input: &Input<'_>| {
-                let row = numbers(reads, input, &corner(reads, input, 3, (0.0, 0.0), choice.side));
+                let row = numbers(reads, input, &corner(reads, input, 3, (0.0, 0.0), choice));
                 line_of(reads, input, "divisor = 1, ", &row)
             };
             (reads.inputs.iter().filter(of_mesh).map(line).collect(), "[draw.attributes]   # the same for all vertices")
         }
-        Form::Square(low, high, _) => (rows(reads, (*low, *high), choice.side), ROWS),
-        Form::Pixels => (rows(reads, (0.0, f64::from(choice.side)), choice.side), ROWS),
+        Form::Square(low, high, _) => (rows(reads, (*low, *high), choice), ROWS),
+        Form::Pixels => (rows(reads, (0.0, f64::from(choice.side)), choice), ROWS),
     };
     table(text, header, &lines);
 }
@@ -197,10 +200,10 @@ fn attributes(text: &mut String, reads: &Reads<'_>, choice: &Choice) {
 const ROWS: &str = "[draw.attributes]   # one row of `size` numbers for each vertex";
 
 /// The data of all attributes at the corners of a square.
-fn rows(reads: &Reads<'_>, range: Range, side: u32) -> Vec<String> {
+fn rows(reads: &Reads<'_>, range: Range, choice: &Choice) -> Vec<String> {
     let mut lines = fixed_rows(reads, range);
     for input in &reads.inputs {
-        let row = |number: usize| numbers(reads, input, &corner(reads, input, number, range, side));
+        let row = |number: usize| numbers(reads, input, &corner(reads, input, number, range, choice));
         let all: Vec<String> = (0..CORNERS.len()).map(row).collect();
         lines.push(line_of(reads, input, "", &all.join(",  ")));
     }
@@ -259,14 +262,14 @@ fn uniforms(reads: &Reads<'_>, choice: &Choice) -> (Vec<String>, Vec<String>) {
                 }
             }
             None => {
-                let value = uniform_text(reads, leaf, choice.side, choice.taste);
+                let value = uniform_text(reads, leaf, choice);
                 numbers.push(format!("{} = {value}   # {ty}", key(&leaf.name)));
             }
         }
     }
     numbers.extend(fog(reads));
     for leaf in &reads.initialized {
-        let value = uniform_text(reads, leaf, choice.side, choice.taste);
+        let value = uniform_text(reads, leaf, choice);
         let ty = with_array(reads, leaf);
         numbers.push(format!("# {} = {value}   # {ty}, has an initializer", key(&leaf.name)));
     }
@@ -334,12 +337,20 @@ fn fog(reads: &Reads<'_>) -> Vec<String> {
     lines.map(|line| format!("\"gl_Fog.{line}")).to_vec()
 }
 
-fn samplers(reads: &Reads<'_>) -> Vec<String> {
-    let line = |slot: &&&glisten_front::link::SamplerSlot| {
+fn samplers(reads: &Reads<'_>, taste: Taste) -> Vec<String> {
+    let line = |(number, slot): (usize, &&SamplerSlot)| {
         let Type::Sampler(kind) = reads.program.types.get(slot.ty) else { return None };
         let name = slot.name.rsplit('.').next().unwrap_or(&slot.name);
         let ty = reads.program.types.name(slot.ty);
-        Some(format!("{} = {}   # {ty}", key(&slot.name), textures::table(name, kind)))
+        Some(format!(
+            "{} = {}   # {ty}",
+            key(&slot.name),
+            textures::table(name, kind, Needs { taste, number, is_fetched: reads.fetches })
+        ))
     };
-    reads.samplers.iter().filter_map(|slot| line(&slot)).collect()
+    let mut lines: Vec<String> = reads.samplers.iter().enumerate().filter_map(line).collect();
+    if reads.passes("gl_TexCoord") {
+        lines.push(format!("texture0 = {}", textures::CHECKER));
+    }
+    lines
 }

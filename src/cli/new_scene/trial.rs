@@ -1,12 +1,11 @@
 //! [`choose`]: tries scenes on the reference, and takes the first one that shows something.
 //!
 //! *In:* forms, and the text for each. *Out:* the choice, with what its picture shows. *Holds:* a scene is drawn small and in f32. Forms are
-//! tried in their order; where all pictures are flat, those that cover something are tried with other numbers. A time limit holds
-//! for all of them.
+//! tried in their order; where all pictures are flat, those that cover something are tried with other numbers and textures, then one
+//! uniform after the other has another number. A time limit holds for all of them.
 
+use super::choice::{Changed, Choice, Taste};
 use super::forms::Form;
-use super::text::Choice;
-use super::values::Taste;
 use crate::cli::guard;
 use crate::scene::{self, DiskFiles};
 use glisten_front::Compiler;
@@ -19,7 +18,7 @@ use std::time::{Duration, Instant};
 /// The width and height of a trial's window.
 const SIDE: u32 = 40;
 /// The time for all trials.
-const BUDGET: Duration = Duration::from_secs(10);
+pub(super) const BUDGET: Duration = Duration::from_secs(6);
 /// The stack of the thread that draws.
 const STACK_BYTES: usize = 16 << 20;
 /// The share of pixels that a picture covers, and the difference between its colors, from which on it shows something.
@@ -27,6 +26,8 @@ const COVERED: f64 = 0.04;
 const CONTRAST: f64 = 0.03;
 /// The number of tastes.
 const TASTES: usize = 4;
+/// The number of forms that are tried with other tastes than the first one.
+const SPARE: usize = 2;
 
 /// The extent and the colors of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,10 +48,6 @@ impl Shown {
     /// Whether it is one color.
     pub(super) fn is_flat(&self) -> bool {
         self.contrast < CONTRAST
-    }
-
-    fn is_good(&self) -> bool {
-        self.covered >= COVERED && !self.is_flat()
     }
 
     /// Better pictures have more.
@@ -84,6 +81,12 @@ pub(super) struct Trials<'a> {
     pub(super) compiler: &'a Compiler,
     /// The text for a choice.
     pub(super) text: &'a dyn Fn(&Choice) -> String,
+    /// Whether the program lets colors differ.
+    pub(super) has_colors: bool,
+    /// The end of the time for all trials ([`BUDGET`] from now on).
+    pub(super) deadline: Instant,
+    /// Uniforms, each with a number that it may have instead.
+    pub(super) alternatives: &'a [(Changed, f64)],
 }
 
 enum Outcome {
@@ -92,48 +95,92 @@ enum Outcome {
     Late,
 }
 
+/// The best one of the choices that were tried.
+type Best = Option<(Choice, Shown)>;
+
 /// The first choice that shows something, or else the best one, for a window of `side` pixels.
 pub(super) fn choose(trials: &Trials<'_>, forms: &[Form], side: u32) -> Option<Chosen> {
-    let deadline = Instant::now() + BUDGET;
-    let mut best: Option<(Form, Taste, Shown)> = None;
-    let mut covering: Vec<Form> = Vec::new();
-    let chosen = |form: &Form, taste: Taste, shown: Option<Shown>| Chosen {
-        choice: Choice { form: form.clone(), taste, side },
-        shown,
+    let mut best: Best = None;
+    let ended = try_forms(trials, forms, &mut best).or_else(|| try_numbers(trials, forms, &mut best));
+    let (choice, shown) = match (ended, best) {
+        (Some(Ended::Good(choice, shown)), _) => (choice, Some(shown)),
+        (_, Some((choice, shown))) => (choice, Some(shown)),
+        (Some(Ended::Late(choice)), None) => (choice, None),
+        (None, None) => (trial(forms.first()?, Taste::default()), None),
     };
+    Some(Chosen { choice: Choice { side, ..choice }, shown })
+}
+
+/// The end of the trials: a good picture, or the time limit with what was tried last.
+enum Ended {
+    Good(Choice, Shown),
+    Late(Choice),
+}
+
+fn trial(form: &Form, taste: Taste) -> Choice {
+    Choice { form: form.clone(), taste, side: SIDE, changed: None }
+}
+
+/// Tries all forms, then those that cover something with other tastes.
+fn try_forms(trials: &Trials<'_>, forms: &[Form], best: &mut Best) -> Option<Ended> {
+    let mut covering: Vec<Form> = Vec::new();
     for number in 0..TASTES {
-        let taste = Taste(number);
-        let tried = if number == 0 { forms.to_vec() } else { covering.clone() };
+        let tried = match number {
+            0 => forms.to_vec(),
+            // Where nothing is covered, a number may discard everything.
+            _ if covering.is_empty() => forms.iter().take(SPARE).cloned().collect(),
+            _ => covering.clone(),
+        };
         for form in tried {
-            match trials.draw(Choice { form: form.clone(), taste, side: SIDE }, deadline) {
-                Outcome::Drew(shown) if shown.is_good() => return Some(chosen(&form, taste, Some(shown))),
-                Outcome::Drew(shown) => {
-                    if number == 0 && shown.covered >= COVERED && covering.len() < 2 {
-                        covering.push(form.clone());
-                    }
-                    if best.as_ref().is_none_or(|(.., other)| shown.rank() > other.rank()) {
-                        best = Some((form, taste, shown));
-                    }
-                }
-                Outcome::Late if best.is_none() => return Some(chosen(&form, taste, None)),
-                Outcome::Late => return best.map(|(form, taste, shown)| chosen(&form, taste, Some(shown))),
-                Outcome::Failed => {}
+            let shown = match trials.tried(trial(&form, Taste(number)), best) {
+                Ok(shown) => shown,
+                Err(ended) => return Some(ended),
+            };
+            if number == 0 && covering.len() < SPARE && shown.is_some_and(|shown| shown.covered >= COVERED) {
+                covering.push(form);
             }
         }
     }
-    match best {
-        Some((form, taste, shown)) => Some(chosen(&form, taste, Some(shown))),
-        None => forms.first().map(|form| chosen(form, Taste::default(), None)),
-    }
+    None
+}
+
+/// Tries the best choice with another number for one uniform after the other.
+fn try_numbers(trials: &Trials<'_>, forms: &[Form], best: &mut Best) -> Option<Ended> {
+    let base = match best {
+        Some((choice, _)) => choice.clone(),
+        None => trial(forms.first()?, Taste::default()),
+    };
+    let changes = trials.alternatives.iter().cloned().map(|changed| Choice { changed: Some(changed), ..base.clone() });
+    changes.into_iter().find_map(|choice| trials.tried(choice, best).err())
 }
 
 impl Trials<'_> {
-    fn draw(&self, choice: Choice, deadline: Instant) -> Outcome {
-        let left = deadline.saturating_duration_since(Instant::now());
+    /// Whether a picture shows something: more than one color, if the program has more.
+    fn is_good(&self, shown: Shown) -> bool {
+        shown.covered >= COVERED && !(self.has_colors && shown.is_flat())
+    }
+
+    /// Draws a choice; better ones become the best one.
+    fn tried(&self, choice: Choice, best: &mut Best) -> Result<Option<Shown>, Ended> {
+        match self.draw(&choice) {
+            Outcome::Drew(shown) if self.is_good(shown) => Err(Ended::Good(choice, shown)),
+            Outcome::Drew(shown) => {
+                if best.as_ref().is_none_or(|(_, other)| shown.rank() > other.rank()) {
+                    *best = Some((choice, shown));
+                }
+                Ok(Some(shown))
+            }
+            Outcome::Late => Err(Ended::Late(choice)),
+            Outcome::Failed => Ok(None),
+        }
+    }
+
+    fn draw(&self, choice: &Choice) -> Outcome {
+        let left = self.deadline.saturating_duration_since(Instant::now());
         if left.is_zero() {
             return Outcome::Late;
         }
-        let files = Overlay { path: self.path.to_owned(), text: (self.text)(&choice) };
+        let files = Overlay { path: self.path.to_owned(), text: (self.text)(choice) };
         let compiler = self.compiler.clone();
         let (sender, receiver) = mpsc::channel();
         let work = move || {

@@ -3,6 +3,7 @@
 //! *In:* what a uniform or an attribute is called, and its type. *Out:* its numbers as TOML. *Holds:* the same program gives the same
 //! numbers. A [`Taste`] other than the first one is tried where a picture is flat.
 
+use super::choice::{Changed, Choice, Taste};
 use super::meanings::{Meaning, meaning};
 use super::reads::{Input, Reads};
 use glisten_front::hir::{Scalar, Type};
@@ -10,19 +11,19 @@ use glisten_front::link::UniformLeaf;
 use glisten_scene::roles::AttributeRole;
 use glisten_scene::values::LeafShape;
 
-/// Which of several values to take where a name says little.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Taste(pub(super) usize);
-
 /// The numbers of a uniform as TOML.
-pub(super) fn uniform_text(reads: &Reads<'_>, leaf: &UniformLeaf, side: u32, taste: Taste) -> String {
+pub(super) fn uniform_text(reads: &Reads<'_>, leaf: &UniformLeaf, choice: &Choice) -> String {
     let types = &reads.program.types;
     let Some(shape) = LeafShape::of(types, leaf) else { return "[]".to_owned() };
+    let (side, taste) = (choice.side, choice.taste);
+    let changed = choice.changed.as_ref().filter(|(which, _)| which.has(leaf, types.get(leaf.ty)));
+    let changed = changed.map(|(_, value)| *value);
     let mut numbers = Vec::with_capacity(shape.n_values());
     for element in 0..shape.elements {
-        let row = match types.get(leaf.ty) {
-            Type::Matrix(columns, rows) => identity(usize::from(columns), usize::from(rows)),
-            ty => vector(reads, leaf, ty, (element, shape), (side, taste)),
+        let row = match (changed, types.get(leaf.ty)) {
+            (Some(value), _) => vec![value; shape.n_each()],
+            (None, Type::Matrix(columns, rows)) => identity(usize::from(columns), usize::from(rows)),
+            (None, ty) => vector(reads, leaf, ty, (element, shape), (side, taste)),
         };
         numbers.extend(row);
     }
@@ -32,6 +33,20 @@ pub(super) fn uniform_text(reads: &Reads<'_>, leaf: &UniformLeaf, side: u32, tas
         _ => format!("[{}]", texts.join(", ")),
     }
 }
+
+/// Numbers that uniforms may have instead where nothing is shown: all floats together, then of each uniform the first one, and so on.
+pub(super) fn alternatives(reads: &Reads<'_>) -> Vec<(Changed, f64)> {
+    let types = &reads.program.types;
+    let is_free = |leaf: &&&UniformLeaf| !matches!(types.get(leaf.ty), Type::Matrix(..));
+    let free: Vec<&&UniformLeaf> = reads.uniforms.iter().filter(is_free).collect();
+    let of = |value: f64| free.iter().map(move |leaf| (Changed::One(leaf.name.clone()), value)).collect::<Vec<_>>();
+    let has_floats = free.iter().any(|leaf| types.get(leaf.ty) == Type::Scalar(Scalar::Float));
+    let together = ALTERNATIVES.into_iter().filter(|_| has_floats).map(|value| (Changed::Floats, value));
+    together.chain(ALTERNATIVES.into_iter().flat_map(of)).collect()
+}
+
+/// Such a number may be a factor that darkens, a threshold that discards, a mode, a distance.
+const ALTERNATIVES: [f64; 4] = [0.0, 1.0, 0.1, 10.0];
 
 /// A number as TOML.
 pub(super) fn text_of(number: f64, scalar: Scalar) -> String {
@@ -81,7 +96,14 @@ fn vector(
         Meaning::Right => first([1.0, 0.0, 0.0, 0.0]),
         Meaning::Forward => first([0.0, 0.0, -1.0, 0.0]),
         Meaning::Color(value) => color(value),
-        Meaning::BaseColor => first(shuffled([0.8, 0.5, 0.3], turn)),
+        Meaning::BaseColor => first(shuffled([0.8, 0.5, 0.3], turn + colors_before(reads, leaf))),
+        Meaning::Power if size > 1 => color(1.0),
+        Meaning::Power => vec![[1.0, 20.0, 5.0, 0.2][taste.0 % 4]],
+        Meaning::Range(low, high) if size > 1 => match size {
+            2 => vec![low, high],
+            _ => first([low, (low + high) / 2.0, high, high]),
+        },
+        Meaning::Range(_, high) => vec![high],
         Meaning::FogColor => first([0.5, 0.6, 0.7, 1.0]),
         Meaning::Count => vec![count(reads, taste); size],
         Meaning::Samples => kernel(turn, size),
@@ -90,9 +112,19 @@ fn vector(
         }
         Meaning::Value(value) => vec![value; size],
         Meaning::Switch(on) => vec![f64::from(u8::from(on == (taste.0 % 2 == 0))); size],
+        Meaning::Rectangle if size == 4 => vec![0.1, 0.1, 0.9, 0.9],
+        Meaning::Rectangle => unknown(shape, taste),
         Meaning::Plane => first([0.0, 1.0, 0.0, 0.0]),
         Meaning::Unknown => unknown(shape, taste),
     }
+}
+
+/// How many uniforms before this one are colors of surfaces, which are to differ.
+fn colors_before(reads: &Reads<'_>, leaf: &UniformLeaf) -> f64 {
+    let types = &reads.program.types;
+    let is_color = |other: &&&UniformLeaf| meaning(&other.name, types.get(other.ty)) == Meaning::BaseColor;
+    let before = reads.uniforms.iter().take_while(|other| other.name != leaf.name).filter(is_color);
+    before.count() as f64
 }
 
 /// The values of names that say nothing.
@@ -166,7 +198,8 @@ pub(super) const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0
 pub(super) type Range = (f64, f64);
 
 /// The numbers of an attribute at a corner.
-pub(super) fn corner(reads: &Reads<'_>, input: &Input<'_>, number: usize, range: Range, side: u32) -> Vec<f64> {
+pub(super) fn corner(reads: &Reads<'_>, input: &Input<'_>, number: usize, range: Range, choice: &Choice) -> Vec<f64> {
+    let (side, taste) = (choice.side, choice.taste.0);
     let [x, y] = CORNERS[number % 4];
     let [s, t] = [(x + 1.0) / 2.0, (y + 1.0) / 2.0];
     let place = |value: f64| range.0 + (range.1 - range.0) * value;
@@ -176,12 +209,15 @@ pub(super) fn corner(reads: &Reads<'_>, input: &Input<'_>, number: usize, range:
         (_, Type::Matrix(columns, rows)) => return identity(usize::from(columns), usize::from(rows)),
         (Some(AttributeRole::Position), _) => [place(s), place(t), 0.0, 1.0],
         (Some(AttributeRole::Normal), _) => [0.0, 0.0, 1.0, 0.0],
+        // Beyond the edge, too, where nothing else is shown.
+        (Some(AttributeRole::Texcoord), _) if taste == 3 => [2.0 * s - 0.5, 2.0 * t - 0.5, 0.0, 1.0],
         (Some(AttributeRole::Texcoord), _) => [s, t, 0.0, 1.0],
         (Some(AttributeRole::Color), _) => COLORS[number % 4],
         (Some(AttributeRole::Tangent), _) => [1.0, 0.0, 0.0, 1.0],
         (Some(AttributeRole::Bitangent), _) => [0.0, 1.0, 0.0, 0.0],
         (None, _) if input.is_integer && has(&["uv2", "light"]) => [240.0; 4],
         (None, _) if input.is_integer && has(&["vertexid", "vertexindex"]) => [number as f64; 4],
+        (None, _) if input.is_integer && taste > 0 => [number as f64; 4],
         (None, _) if input.is_integer => [0.0; 4],
         (None, _) if has(&["weight"]) => [1.0, 0.0, 0.0, 0.0],
         (None, _)

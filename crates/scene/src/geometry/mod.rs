@@ -4,6 +4,7 @@
 //! become a [`Geometry`] with complete normals and texture coordinates. *Holds:* coordinates are f64. What a file says is
 //! checked: a wrong file gives a sentence, with a line where the format has lines.
 
+mod adjacency;
 mod gltf;
 mod model;
 mod mtl;

@@ -102,10 +102,13 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
     // Whatever else is wrong was reported before a mesh or a program that cannot be drawn with ends the draw.
     possible?;
-    let mesh = match mesh {
+    let mut mesh = match mesh {
         Some(mesh) => Some(mesh?),
         None => None,
     };
+    if let Some(mesh) = mesh.as_mut().filter(|_| state.primitive == Primitive::TrianglesAdjacency) {
+        mesh.geometry.indices = mesh.geometry.with_adjacency();
+    }
     let (vertex_count, indices) = load_counts(loader, table, mesh.as_ref(), &program, &attributes, instances, place)?;
     Some(Draw { program, state, vertex_count, indices, instances, attributes, uniforms, textures, dynamic, fixed })
 }
