@@ -179,6 +179,15 @@ pub(crate) fn value(types: &Types, value: &Value) -> String {
     }
 }
 
+/// Whether a name is a parameter, whose line has the comment of its function above it.
+pub(crate) fn is_parameter(analysis: &Analysis, view: usize, denoted: Denoted) -> bool {
+    let Denoted::Local(function, id) = denoted else { return false };
+    let view = analysis.compiled.inspection.view(view);
+    let function = view.and_then(|view| view.shader.functions.get(function.index()));
+    let local = function.and_then(|function| function.locals.get(id.index()));
+    local.is_some_and(|local| matches!(local.kind, LocalKind::Param(_)))
+}
+
 /// The comment at a declaration, as text.
 pub(crate) fn comment(analysis: &Analysis, symbol: &Symbol) -> Option<String> {
     let comments = symbol.declarations.iter().filter_map(|span| {

@@ -127,11 +127,11 @@ fn severity(severity: Severity) -> DiagnosticSeverity {
     }
 }
 
-/// The message with what else is known. The labels are apart, if the editor shows them.
+/// The message, and below it what else is known. The labels are apart, if the editor shows them.
 fn message(finding: &Finding, relates: bool) -> String {
     let mut text = finding.message.clone();
     if !finding.primary.message.is_empty() {
-        text.push_str(&format!(": {}", finding.primary.message));
+        text.push_str(&format!("\n{}", finding.primary.message));
     }
     if !relates {
         for label in finding.secondary.iter().filter(|label| !label.message.is_empty()) {

@@ -63,7 +63,8 @@ fn describe(state: &State<'_>, analysis: &Rc<Analysis>, found: &Occurrence, poin
     if !facts.is_empty() {
         let _ = write!(text, "\n{}\n", facts.join(" · "));
     }
-    if let Some(comment) = describe::comment(analysis, symbol) {
+    let is_parameter = own.is_some_and(|(view, denoted)| describe::is_parameter(analysis, view, denoted));
+    if let Some(comment) = describe::comment(analysis, symbol).filter(|_| !is_parameter) {
         let _ = write!(text, "\n{comment}\n");
     }
     let elsewhere = symbol.declarations.first().and_then(|span| analysis.named_place(*span));
