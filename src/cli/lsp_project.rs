@@ -222,7 +222,8 @@ impl Project for Files<'_> {
         let compiler = self.session.compiler();
         let work = || {
             let (compilation, inspection) = compiler.inspect(&sources, None);
-            let found = compilation.program.as_ref().map(glisten_front::lint::check);
+            let linked = compilation.program.as_ref();
+            let found = linked.map(|linked| glisten_front::lint::check(linked, &compilation.sources));
             (compilation, inspection, found.into_iter().flatten().collect::<Vec<Diagnostic>>())
         };
         match guard::guarded(work) {
