@@ -38,6 +38,11 @@ impl Includes {
         }
     }
 
+    /// Notes the text of a file that is open.
+    pub(super) fn set(&mut self, file: &Path, text: &str) {
+        self.names.insert(file.to_owned(), included(text));
+    }
+
     /// All files.
     pub(super) fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.names.keys()

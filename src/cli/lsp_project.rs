@@ -51,47 +51,6 @@ pub(super) struct Files<'a> {
 struct Open(Overlay);
 
 impl Disk for Open {
-    fn text(&self, path: &Path) -> Result<Arc<str>, String> {
-        self.0.text(path).map_or_else(|| Traced.text(path), Ok)
-    }
-
-    fn looked_for(&self, path: &Path) {
-        Traced.looked_for(path);
-    }
-
-    fn searched(&self) {
-        Traced.searched();
-    }
-}
-
-impl<'a> Files<'a> {
-    /// The files of a command.
-    ///
-    /// # Errors
-    /// A prelude that cannot be read, or a code that does not exist.
-    pub(super) fn new(
-        console: &'a Console,
-        sources: &'a SourceArgs,
-        levels: &'a LevelArgs,
-        bindings: &'a BindingArgs,
-    ) -> Result<Self, Failure> {
-        let overlay = Overlay::default();
-        let session = session(console, sources, levels, bindings, &overlay)?;
-        let (groups, includes, folders) = Default::default();
-        Ok(Self { console, sources, levels, bindings, overlay, session, groups, includes, folders })
-    }
-
-    fn note_folder(&mut self, file: &Path) {
-        if let Some(folder) = file.parent() {
-            self.folders.insert(folder.to_owned());
-        }
-    }
-
-    fn text(&self, path: &Path) -> Option<Arc<str>> {
-        let read = || files::read_source(&path.to_string_lossy(), Some(path)).ok();
-        self.overlay.text(path).or_else(read)
-    }
-
     /// The stages of a file: one, unless it contains several.
     fn inputs(&self, path: &Path) -> Vec<Input> {
         let input = |stage| {
@@ -191,6 +150,12 @@ impl Project for Files<'_> {
             }
         }
         keys
+    }
+
+    fn includes_changed(&mut self, file: &Path) {
+        if let Some(text) = self.overlay.text(file) {
+            self.includes.set(file, &text);
+        }
     }
 
     fn programs_in(&mut self, folder: &Path) -> Vec<ProgramKey> {
@@ -326,14 +291,17 @@ impl Project for Files<'_> {
 
     fn embedded(&self, name: &str) -> Option<PathBuf> {
         let file = name.strip_prefix("<glisten>/")?;
-        let module = library::modules().iter().find(|module| file.strip_suffix(".glsl") == Some(module.name))?;
+        library::modules().iter().find(|module| file.strip_suffix(".glsl") == Some(module.name))?;
         let folder = std::env::temp_dir().join(concat!("glisten-", env!("CARGO_PKG_VERSION")));
         std::fs::create_dir_all(&folder).ok()?;
-        let path = folder.join(file);
-        if std::fs::read(&path).ok().as_deref() != Some(module.text.as_bytes()) {
-            files::write(&path, module.text.as_bytes()).ok()?;
+        // Modules include each other.
+        for module in library::modules() {
+            let path = folder.join(format!("{}.glsl", module.name));
+            if std::fs::read(&path).ok().as_deref() != Some(module.text.as_bytes()) {
+                files::write(&path, module.text.as_bytes()).ok()?;
+            }
         }
-        Some(path)
+        Some(folder.join(file))
     }
 
     fn include_names(&mut self, file: &Path, written: &str, angled: bool) -> Vec<String> {

@@ -95,9 +95,19 @@ impl Analysis {
     /// The occurrence of a name at an offset of a file.
     pub(crate) fn occurrence(&self, path: &Path, offset: usize) -> Option<Occurrence> {
         let bases = self.files(path).map(|id| self.sources().file(id).base());
-        let found = bases.filter_map(|base| self.index().at(base + offset as u32).copied());
-        // With several copies of a file, one of them has the name's stage.
-        found.min_by_key(|found| found.span.end - found.span.start)
+        bases.filter_map(|base| self.index().at(base + offset as u32).copied()).next()
+    }
+
+    /// The occurrences of names in a file, by the offsets at which they begin.
+    pub(crate) fn occurrences(&self, path: &Path) -> BTreeMap<usize, Occurrence> {
+        let mut found = BTreeMap::new();
+        for id in self.files(path) {
+            let file = self.sources().file(id);
+            for occurrence in self.index().within(file.base(), file.end() + 1) {
+                found.entry((occurrence.span.start - file.base()) as usize).or_insert(*occurrence);
+            }
+        }
+        found
     }
 
     /// The symbol of an occurrence.

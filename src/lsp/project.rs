@@ -29,6 +29,11 @@ impl Overlay {
             None => texts.remove(path),
         };
     }
+
+    /// Closes all documents.
+    pub(crate) fn clear(&self) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
 }
 
 /// The files of a program, by a key that tells programs apart.
@@ -64,6 +69,9 @@ pub(crate) trait Project {
 
     /// The programs in a folder and below it that may include a file, likely ones first.
     fn includers_of(&mut self, file: &Path, folders: &[PathBuf]) -> Vec<ProgramKey>;
+
+    /// Notes that the include directives of an open document changed.
+    fn includes_changed(&mut self, file: &Path);
 
     /// All programs in a folder and below it.
     fn programs_in(&mut self, folder: &Path) -> Vec<ProgramKey>;

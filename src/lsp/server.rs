@@ -120,7 +120,6 @@ fn client(parameters: &InitializeParams) -> Client {
     let document = parameters.capabilities.text_document.as_ref();
     let workspace = parameters.capabilities.workspace.as_ref();
     let published = document.and_then(|document| document.publish_diagnostics.as_ref());
-    let item = document.and_then(|document| document.completion.as_ref()?.completion_item.as_ref());
     let is = |flag: Option<bool>| flag.unwrap_or(false);
     Client {
         pulls: document.is_some_and(|document| document.diagnostic.is_some()),
@@ -128,9 +127,7 @@ fn client(parameters: &InitializeParams) -> Client {
         greys: published.is_some_and(|published| published.tag_support.is_some()),
         relates: is(published.and_then(|published| published.related_information)),
         watches: is(workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)),
-        links: is(document.and_then(|document| document.definition.as_ref()?.link_support)),
         versions: is(workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes)),
-        snippets: is(item.and_then(|item| item.snippet_support)),
         trees: is(document.and_then(|document| document.document_symbol.as_ref()?.hierarchical_document_symbol_support)),
     }
 }
@@ -400,7 +397,7 @@ impl Server<'_> {
 fn guarded<'s, 'p>(state: &'s mut State<'p>, work: impl FnOnce(&mut State<'p>) + 's) -> Result<(), String> {
     let done = super::guard(|| work(state));
     if done.is_err() {
-        state.reload();
+        state.recover();
     }
     done
 }

@@ -43,12 +43,8 @@ pub(crate) struct Client {
     pub(crate) relates: bool,
     /// It watches files for the server.
     pub(crate) watches: bool,
-    /// It has links with a range of their own.
-    pub(crate) links: bool,
     /// It has edits of documents with their versions.
     pub(crate) versions: bool,
-    /// It fills in snippets.
-    pub(crate) snippets: bool,
     /// It shows trees of symbols.
     pub(crate) trees: bool,
 }
@@ -96,7 +92,10 @@ impl<'p> State<'p> {
         self.project.overlay().set(path, document.as_ref().map(|document| Arc::clone(&document.text.text)));
         match document {
             Some(document) => {
-                if self.documents.insert(path.to_owned(), document).is_none() {
+                let lines = include_lines(&document.text.text);
+                let before = self.documents.insert(path.to_owned(), document);
+                if before.is_none_or(|before| include_lines(&before.text.text) != lines) {
+                    self.project.includes_changed(path);
                     self.contexts.clear();
                 }
             }
@@ -119,6 +118,16 @@ impl<'p> State<'p> {
         self.project.reload();
         self.contexts.clear();
         self.analyses.clear();
+    }
+
+    /// Makes everything again after a fault.
+    pub(crate) fn recover(&mut self) {
+        let overlay = self.project.overlay().clone();
+        overlay.clear();
+        for (path, document) in &self.documents {
+            overlay.set(path, Some(Arc::clone(&document.text.text)));
+        }
+        self.reload();
     }
 
     /// Forgets the programs of which no file is open.
@@ -275,4 +284,11 @@ impl<'p> State<'p> {
         let range = analysis.text(file).range(place.start..place.end, self.encoding);
         Some(Location { uri: self.uri(&path)?, range })
     }
+}
+
+/// The lines of a text that may include files.
+fn include_lines(text: &str) -> Vec<String> {
+    let is_one =
+        |line: &&str| line.trim_start().starts_with('#') && (line.contains("include") || line.contains("import"));
+    text.lines().filter(is_one).map(str::to_owned).collect()
 }

@@ -88,11 +88,6 @@ impl Text {
         Self { text, starts }
     }
 
-    /// The number of lines.
-    pub(crate) fn lines(&self) -> usize {
-        self.starts.len()
-    }
-
     /// The line of an offset, counted from 0.
     pub(crate) fn line_of(&self, offset: usize) -> usize {
         self.starts.partition_point(|&start| start <= offset).saturating_sub(1)

@@ -8,7 +8,6 @@ use crate::lsp::state::{Point, State};
 use glisten_front::analysis::Denoted;
 use glisten_front::hir::{Type, TypeId};
 use glisten_front::index::{Occurrence, Role, Symbol};
-use glisten_front::source::Span;
 use lsp_types::{
     DocumentHighlight, DocumentHighlightKind, GotoDefinitionResponse, Location, Position, Range, ReferenceParams,
     TextDocumentPositionParams,
@@ -192,9 +191,4 @@ pub(super) fn highlights(state: &mut State<'_>, at: &TextDocumentPositionParams)
         }),
     };
     Some(own.map(highlight).collect())
-}
-
-/// The span of a symbol's first declaration.
-pub(super) fn first_declaration(symbol: &Symbol) -> Option<Span> {
-    symbol.declarations.first().copied()
 }

@@ -12,13 +12,14 @@ use crate::lsp::uri;
 use glisten_front::analysis::Denoted;
 use glisten_front::builtin::functions;
 use glisten_front::hir::{LocalKind, Storage};
-use glisten_front::index::{Role, SymbolKind};
+use glisten_front::index::{Occurrence, Role, SymbolKind};
 use glisten_front::syntax::keywords;
 use glisten_front::syntax::token::TokenKind;
 use lsp_types::{
     SemanticToken, SemanticTokenModifier, SemanticTokenType, SemanticTokens, SemanticTokensLegend,
     SemanticTokensRangeParams, SemanticTokensRangeResult, SemanticTokensResult, Uri,
 };
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
@@ -125,6 +126,7 @@ fn tokens(state: &mut State<'_>, uri: &Uri) -> Option<(Text, Vec<Token>)> {
     let inactive = inactive_ranges(state, &path);
     let analyses = state.analyses_of(&path);
     let analysis = analyses.first()?;
+    let names = Names { analysis, path: &path, found: analysis.occurrences(&path) };
     let mut tokens = Vec::new();
     for lexeme in scan(&text.text) {
         let is_left_out = inactive.iter().any(|range| range.start <= lexeme.start && lexeme.end() <= range.end);
@@ -136,8 +138,8 @@ fn tokens(state: &mut State<'_>, uri: &Uri) -> Option<(Text, Vec<Token>)> {
             Kind::LineComment | Kind::BlockComment => {
                 tokens.push(Token { range: lexeme.start..lexeme.end(), color: Color::Comment, bits: 0 });
             }
-            Kind::Directive => directive(analysis, &path, &lexeme, &mut tokens),
-            Kind::Word => tokens.extend(word(analysis, &path, &text.text, &lexeme)),
+            Kind::Directive => directive(&names, &lexeme, &mut tokens),
+            Kind::Word => tokens.extend(word(&names, &text.text, &lexeme)),
             Kind::Sign | Kind::Other => {}
         }
     }
@@ -145,7 +147,7 @@ fn tokens(state: &mut State<'_>, uri: &Uri) -> Option<(Text, Vec<Token>)> {
 }
 
 /// The tokens of a directive: its name, files, macros and numbers.
-fn directive(analysis: &Analysis, path: &Path, lexeme: &Lexeme<'_>, tokens: &mut Vec<Token>) {
+fn directive(names: &Names<'_>, lexeme: &Lexeme<'_>, tokens: &mut Vec<Token>) {
     let text = lexeme.text;
     let blank = |text: &str| text.len() - text.trim_start().len();
     let sign = 1 + blank(text.get(1..).unwrap_or(""));
@@ -175,7 +177,7 @@ fn directive(analysis: &Analysis, path: &Path, lexeme: &Lexeme<'_>, tokens: &mut
         } else if is_part(first) {
             let length = rest.find(|letter: char| !is_part(letter)).unwrap_or(rest.len());
             let word = rest.get(..length).unwrap_or("");
-            (length, name_color(analysis, path, start).or_else(|| keyword(word)))
+            (length, names.color(start).or_else(|| keyword(word)))
         } else {
             (first.len_utf8(), None)
         };
@@ -192,7 +194,7 @@ fn keyword(word: &str) -> Option<(Color, u32)> {
     Some((if is_type { Color::Type } else { Color::Keyword }, 0))
 }
 
-fn word(analysis: &Analysis, path: &Path, text: &str, lexeme: &Lexeme<'_>) -> Option<Token> {
+fn word(names: &Names<'_>, text: &str, lexeme: &Lexeme<'_>) -> Option<Token> {
     let range = lexeme.start..lexeme.end();
     let starts = |test: fn(char) -> bool| lexeme.text.starts_with(test);
     if starts(|first| first.is_ascii_digit() || first == '.') {
@@ -206,32 +208,38 @@ fn word(analysis: &Analysis, path: &Path, text: &str, lexeme: &Lexeme<'_>) -> Op
         let is_function = !functions::named(lexeme.text).is_empty();
         keyword(lexeme.text).or_else(|| is_function.then_some((Color::Function, LIBRARY)))
     };
-    let (color, bits) = name_color(analysis, path, lexeme.start).or_else(other)?;
+    let (color, bits) = names.color(lexeme.start).or_else(other)?;
     Some(Token { range, color, bits })
 }
 
-/// The color of a name by what it denotes.
-fn name_color(analysis: &Analysis, path: &Path, offset: usize) -> Option<(Color, u32)> {
-    let found = analysis.occurrence(path, offset)?;
-    let place = analysis.named_place(found.span)?;
-    if place.start != offset {
-        return None;
+/// The names of a file.
+struct Names<'a> {
+    analysis: &'a Analysis,
+    path: &'a Path,
+    found: BTreeMap<usize, Occurrence>,
+}
+
+impl Names<'_> {
+    /// The color of a name by what it denotes.
+    fn color(&self, offset: usize) -> Option<(Color, u32)> {
+        let found = self.found.get(&offset)?;
+        let role = match found.role {
+            Role::Declaration => DECLARATION,
+            Role::Definition => DEFINITION,
+            Role::Write => MODIFICATION,
+            Role::Read => 0,
+        };
+        let symbol = self.analysis.symbol(found.symbol);
+        let (color, bits) = match symbol.kind {
+            SymbolKind::Macro => (Color::Macro, 0),
+            SymbolKind::MacroParameter => (Color::Parameter, 0),
+            SymbolKind::Builtin if functions::named(&symbol.name).is_empty() => (Color::Variable, LIBRARY),
+            SymbolKind::Builtin => (Color::Function, LIBRARY),
+            SymbolKind::Declared if symbol.places.len() == 1 => declared(self.analysis, *symbol.places.first()?)?,
+            SymbolKind::Declared => declared(self.analysis, own_place(self.analysis, &symbol.places, self.path)?)?,
+        };
+        Some((color, bits | role))
     }
-    let role = match found.role {
-        Role::Declaration => DECLARATION,
-        Role::Definition => DEFINITION,
-        Role::Write => MODIFICATION,
-        Role::Read => 0,
-    };
-    let symbol = analysis.symbol(found.symbol);
-    let (color, bits) = match symbol.kind {
-        SymbolKind::Macro => (Color::Macro, 0),
-        SymbolKind::MacroParameter => (Color::Parameter, 0),
-        SymbolKind::Builtin if functions::named(&symbol.name).is_empty() => (Color::Variable, LIBRARY),
-        SymbolKind::Builtin => (Color::Function, LIBRARY),
-        SymbolKind::Declared => declared(analysis, own_place(analysis, &symbol.places, path)?)?,
-    };
-    Some((color, bits | role))
 }
 
 fn declared(analysis: &Analysis, (view, denoted): (usize, Denoted)) -> Option<(Color, u32)> {
