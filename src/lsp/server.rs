@@ -238,6 +238,10 @@ impl Server<'_> {
     fn open(&mut self, params: DidOpenTextDocumentParams) {
         let document = params.text_document;
         let path = uri::path(&document.uri);
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            // Configurations and scenes are read from the disk.
+            return;
+        }
         let text = Text::new(document.text);
         self.state.set(&path, Some(Document { uri: document.uri, version: document.version, text }));
         self.touch(path);

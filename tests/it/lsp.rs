@@ -587,7 +587,7 @@ fn many_edits_leave_the_state_of_a_fresh_server() {
         text.replace_range(start..end, piece);
         if version % 3 == 0 {
             let uri = editor.uri("a.vert");
-            let at = json!({ "textDocument": { "uri": uri }, "position": position(0) });
+            let at = json!({ "textDocument": { "uri": uri }, "position": { "line": 0, "character": 0 } });
             editor.ask("textDocument/hover", at.clone());
             editor.ask("textDocument/completion", at);
         }

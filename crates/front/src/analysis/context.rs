@@ -5,9 +5,8 @@
 //! *Holds:* expressions are appended in evaluation order, children before parents; `facts` runs parallel to them.
 //! Every name that cannot be resolved becomes poison after its one message.
 
-use super::notes::{NoteTaker, Notes};
 use super::scope::{Entry, Scopes};
-use super::state::{Budget, Declared, Layouts, Precisions, Uses};
+use super::state::{Budget, Declared, Layouts, NoteTaker, Notes, Precisions, Uses};
 use super::wording::{LONGEST_QUOTE, worded};
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};

@@ -48,12 +48,12 @@ use crate::source::SourceMap;
 use crate::stack::with_stack;
 use crate::syntax::ast::Ast;
 use context::Analyzer;
-use notes::NoteTaker;
+use state::NoteTaker;
 
 pub use decisive::keep_decisive;
-pub use notes::{Denoted, Note, NoteRole, Notes, Probe};
 pub use shadertoy::point_to_engine;
 pub(crate) use shadertoy::{HELP as SHADERTOY_HELP, NOTE as SHADERTOY_NOTE, is_shadertoy};
+pub use state::{Denoted, Note, NoteRole, Notes, Probe};
 pub use understood::keep_understood;
 
 /// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share

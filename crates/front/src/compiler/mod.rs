@@ -254,14 +254,13 @@ impl Compiler {
         let ast = syntax::parse(map, file, &options, &**includes, diagnostics);
         map.set_language(file, Language { number: ast.version.number, es: ast.version.is_es() });
         facts.add(file, &ast, &self.options.watched);
+        let mut noted = None;
         let mut shader = match &mut facts.observer {
             None => analyze(&ast, source.stage, strict, types, map, diagnostics),
             Some(observer) => {
                 let probe = observer.probe;
                 let (shader, notes) = analyze_with_notes(&ast, source.stage, strict, types, map, diagnostics, probe);
-                if let Some(slot) = observer.views.last_mut() {
-                    *slot = Some(View { file, ast: ast.clone(), shader: shader.clone(), notes });
-                }
+                noted = Some((shader.clone(), notes));
                 shader
             }
         };
@@ -284,6 +283,11 @@ impl Compiler {
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_decisive(diagnostics, first_error);
         point_to_engine(&shader, diagnostics, first_error);
+        if let (Some((shader, notes)), Some(observer)) = (noted, &mut facts.observer)
+            && let Some(slot) = observer.views.last_mut()
+        {
+            *slot = Some(View { file, ast, shader, notes });
+        }
         Some(Understood { shader, is_complete })
     }
 }

@@ -4,9 +4,9 @@
 
 use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
-use super::super::notes::{Denoted, NoteRole};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
+use super::super::state::{Denoted, NoteRole};
 use super::structure::MemberList;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};

@@ -2,9 +2,9 @@
 
 use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
-use super::super::notes::{Denoted, NoteRole};
 use super::super::qualifiers::{Qualifiers, StorageWord};
 use super::super::state::ArrayKey;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::variables::{self, Redeclaration, Row};
 use crate::builtin::{BuiltinVariable, constants};
 use crate::diagnostic::Diagnostic;

@@ -1,10 +1,10 @@
 //! Declares functions (§6.1): prototypes and definitions.
 
 use super::super::context::{Analyzer, Body};
-use super::super::notes::{Denoted, NoteRole};
 use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::Signature;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};

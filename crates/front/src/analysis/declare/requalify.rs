@@ -2,10 +2,10 @@
 
 use super::super::context::Analyzer;
 use super::super::layout::LayoutSubject;
-use super::super::notes::{Denoted, NoteRole};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::BlockDefaults;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::{fixed, variables};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers};

@@ -1,9 +1,9 @@
 //! Declares structs (§4.1.8).
 
 use super::super::context::Analyzer;
-use super::super::notes::NoteRole;
 use super::super::qualifiers::DeclarationContext;
 use super::super::scope::Entry;
+use super::super::state::NoteRole;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, names, types};
 use crate::hir::{ArraySize, Member, StructType, Type, TypeId};

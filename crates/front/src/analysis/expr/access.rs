@@ -2,8 +2,8 @@
 
 use super::super::context::Analyzer;
 use super::super::features::remedy;
-use super::super::notes::{Denoted, NoteRole};
 use super::super::state::ArrayKey;
+use super::super::state::{Denoted, NoteRole};
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};

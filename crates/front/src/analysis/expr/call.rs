@@ -2,9 +2,9 @@
 //! are in `builtin`.
 
 use super::super::context::Analyzer;
-use super::super::notes::{Denoted, NoteRole};
 use super::super::scope::{Entry, OverloadSet};
 use super::super::state::Signature;
+use super::super::state::{Denoted, NoteRole};
 use super::Purpose;
 use super::convert::Conversions;
 use super::overload::{Resolution, Rules, resolve};

@@ -3,8 +3,8 @@
 
 use super::super::context::Analyzer;
 use super::super::features::remedy;
-use super::super::notes::{Denoted, NoteRole};
 use super::super::scope::Entry;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::{constants, fixed, variables};
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
