@@ -35,6 +35,8 @@ pub mod evaluate;
 mod format;
 #[cfg(feature = "cli")]
 pub mod gallery;
+#[cfg(feature = "lsp")]
+mod lsp;
 #[cfg(feature = "cli")]
 pub mod made;
 #[cfg(feature = "reference")]

@@ -32,6 +32,23 @@ pub(super) struct Engines {
     /// The rules of each folder so far.
     rules: Arc<Mutex<BTreeMap<PathBuf, Known>>>,
     programs: ProgramFiles,
+    disk: Files,
+}
+
+/// Who reads the files that sources include.
+#[derive(Clone)]
+struct Files(Arc<dyn Disk>);
+
+impl Default for Files {
+    fn default() -> Self {
+        Self(Arc::new(Traced))
+    }
+}
+
+impl std::fmt::Debug for Files {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Files")
+    }
 }
 
 /// The rules of a folder, and what was read for them.
@@ -71,9 +88,22 @@ impl Engines {
         Ok(Self { flags: Arc::new(flags), ..Self::default() })
     }
 
+    /// These engines, for which `disk` reads the files that sources include.
+    #[cfg(feature = "lsp")]
+    #[must_use]
+    pub(super) fn with_disk(self, disk: Arc<dyn Disk>) -> Self {
+        Self { disk: Files(disk), ..self }
+    }
+
+    /// The folders in which the includes of a file are searched.
+    #[cfg(feature = "lsp")]
+    pub(super) fn folders(&self, file: &Path) -> Vec<PathBuf> {
+        self.settings(Some(file)).folders
+    }
+
     /// The resolver of includes for sources that no engine completes.
     pub(super) fn includes(&self) -> DiskIncludes {
-        DiskIncludes::new(Arc::new(Traced), self.flags.folders.clone(), Style::Quote, &[])
+        DiskIncludes::new(Arc::clone(&self.disk.0), self.flags.folders.clone(), Style::Quote, &[])
     }
 
     /// The rules for a folder.
@@ -163,7 +193,7 @@ fn add(settings: &mut Settings, rule: &Rule) {
 }
 
 /// Reads files for a command, and notes what it reads.
-struct Traced;
+pub(super) struct Traced;
 
 impl Disk for Traced {
     fn text(&self, path: &Path) -> Result<Arc<str>, String> {
@@ -191,7 +221,7 @@ impl Preparation for Engines {
             return Prepared::default();
         }
         let path = (source.name != STDIN).then(|| Path::new(source.name.as_str()));
-        self.settings(path).complete(source, path, Arc::new(Traced))
+        self.settings(path).complete(source, path, Arc::clone(&self.disk.0))
     }
 
     fn with_settings(&self, settings: &SourceSettings) -> Option<Arc<dyn Preparation + Send + Sync>> {

@@ -36,6 +36,16 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "lsp",
+        &[
+            ("glisten lsp", "what an editor starts: docs/editors.md"),
+            (
+                "glisten lsp -I include --engine minecraft",
+                "with a search path and an engine, where glisten.toml has none",
+            ),
+        ],
+    ),
+    (
         "reflect",
         &[
             ("glisten reflect a.vert a.frag", "attributes, uniforms, blocks, textures and outputs as a table"),

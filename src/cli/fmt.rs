@@ -177,7 +177,7 @@ fn paths(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-fn formatted(text: &str, path: &Path, options: &Options) -> Formatted {
+pub(super) fn formatted(text: &str, path: &Path, options: &Options) -> Formatted {
     let broken = guard::guarded(|| broken(text, path)).unwrap_or_default();
     format(text, &broken, options)
 }

@@ -279,9 +279,14 @@ fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) ->
 /// The stages in a file that contains several.
 pub(super) fn parts(path: &Path) -> Vec<Input> {
     let name = path.to_string_lossy();
-    let Ok(text) = files::read_source(&name, Some(path)) else { return Vec::new() };
+    files::read_source(&name, Some(path)).map_or_else(|_| Vec::new(), |text| parts_in(path, &text))
+}
+
+/// The stages in the text of a file that contains several.
+pub(super) fn parts_in(path: &Path, text: &str) -> Vec<Input> {
+    let name = path.to_string_lossy();
     let mut inputs = Vec::new();
-    for (index, member) in members(Some(path), &text).into_iter().enumerate() {
+    for (index, member) in members(Some(path), text).into_iter().enumerate() {
         let part = PartOf { index, name: member.name };
         let input =
             |stage| Input { name: name.to_string(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
@@ -291,7 +296,7 @@ pub(super) fn parts(path: &Path) -> Vec<Input> {
 }
 
 /// Groups files by folder and stem; each stage occurs at most once in a group. What tessellation stages stand between is no pair.
-fn group(inputs: Vec<Input>) -> Vec<Group> {
+pub(super) fn group(inputs: Vec<Input>) -> Vec<Group> {
     let mut groups: Vec<((PathBuf, String, String), Group)> = Vec::new();
     for input in inputs {
         let folder = input.path.as_deref().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();

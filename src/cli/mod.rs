@@ -37,6 +37,12 @@ mod library;
 mod lint;
 mod lint_rules;
 mod lone;
+#[cfg(feature = "lsp")]
+mod lsp;
+#[cfg(feature = "lsp")]
+mod lsp_files;
+#[cfg(feature = "lsp")]
+mod lsp_project;
 mod machine;
 mod made;
 mod man;
@@ -128,6 +134,8 @@ enum Command {
     Lib(library::LibArgs),
     NewScene(new_scene::NewSceneArgs),
     Fmt(fmt::FmtArgs),
+    #[cfg(feature = "lsp")]
+    Lsp(lsp::LspArgs),
     Upgrade(upgrade::UpgradeArgs),
     FixedFunction(fixed_function::FixedFunctionArgs),
     Completions(completions::CompletionsArgs),
@@ -215,6 +223,8 @@ impl Command {
             | Self::Cache(_)
             | Self::Snapshots(_)
             | Self::Man(_) => false,
+            #[cfg(feature = "lsp")]
+            Self::Lsp(_) => false,
         }
     }
 }
@@ -236,6 +246,8 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Lib(args) => library::run(args, console),
         Command::NewScene(args) => new_scene::run(args, console),
         Command::Fmt(args) => fmt::run(args, console),
+        #[cfg(feature = "lsp")]
+        Command::Lsp(args) => lsp::run(args, console),
         Command::Upgrade(args) => upgrade::run(args, console),
         Command::FixedFunction(args) => fixed_function::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),

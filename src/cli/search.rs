@@ -78,7 +78,7 @@ pub(super) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// The files in a folder that look like shaders, but for those that are excluded.
-fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut excludes: BTreeMap<PathBuf, Option<Gitignore>> = BTreeMap::new();
     let mut walk = WalkBuilder::new(root);
     // Without a repository, `.gitignore` says as much about what is generated.
@@ -99,7 +99,7 @@ fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Whether a search takes a file: its name tells its stage, or its engine does, or it contains several stages. `None` for a file
 /// that does not look like a shader.
-fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>> {
+pub(super) fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>> {
     if stages::may_be_included(path) && engines.is_part(path) {
         return None;
     }

@@ -130,6 +130,19 @@ impl<'a> Session<'a> {
         })
     }
 
+    /// The errors in configurations so far.
+    #[cfg(feature = "lsp")]
+    pub(super) fn configuration_errors(&self) -> &[Batch] {
+        &self.configs.errors
+    }
+
+    /// This session with other engines, whose compiler is made again.
+    #[cfg(feature = "lsp")]
+    #[must_use]
+    pub(super) fn with_engines(self, engines: Engines, sources: &SourceArgs, bindings: &BindingArgs) -> Self {
+        Self { compiler: compiler(sources, bindings, &engines), engines, ..self }
+    }
+
     /// The compiler with the options of the command line.
     pub(super) fn compiler(&self) -> &Compiler {
         &self.compiler

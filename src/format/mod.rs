@@ -13,7 +13,7 @@
 
 mod chunks;
 mod layout;
-mod scan;
+pub(crate) mod scan;
 mod state;
 
 use scan::{Kind, scan};

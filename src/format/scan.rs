@@ -5,7 +5,7 @@
 
 /// The kind of a lexeme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// An identifier, a keyword, or a number.
     Word,
     /// An operator or punctuation.
@@ -22,27 +22,27 @@ pub(super) enum Kind {
 
 /// A piece of a source that is not blank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Lexeme<'t> {
-    pub(super) kind: Kind,
-    pub(super) text: &'t str,
+pub(crate) struct Lexeme<'t> {
+    pub(crate) kind: Kind,
+    pub(crate) text: &'t str,
     /// The offset of its first byte.
-    pub(super) start: usize,
+    pub(crate) start: usize,
     /// The number of line ends between the lexeme before and this one.
-    pub(super) lines: usize,
+    pub(crate) lines: usize,
     /// Whether there is anything between the lexeme before and this one.
-    pub(super) spaced: bool,
+    pub(crate) spaced: bool,
 }
 
 impl Lexeme<'_> {
-    pub(super) fn is(&self, text: &str) -> bool {
+    pub(crate) fn is(&self, text: &str) -> bool {
         matches!(self.kind, Kind::Word | Kind::Sign) && self.text == text
     }
 
-    pub(super) fn is_comment(&self) -> bool {
+    pub(crate) fn is_comment(&self) -> bool {
         matches!(self.kind, Kind::LineComment | Kind::BlockComment)
     }
 
-    pub(super) fn end(&self) -> usize {
+    pub(crate) fn end(&self) -> usize {
         self.start + self.text.len()
     }
 }
@@ -54,7 +54,7 @@ const SIGNS: &[&str] = &[
 ];
 
 /// The lexemes of a text.
-pub(super) fn scan(text: &str) -> Vec<Lexeme<'_>> {
+pub(crate) fn scan(text: &str) -> Vec<Lexeme<'_>> {
     let mut lexemes = Vec::new();
     let (mut at, mut lines, mut spaced, mut starts_line) = (0, 0, false, true);
     while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {

@@ -68,6 +68,8 @@ mod lint_groups;
 mod lint_numerics;
 #[cfg(feature = "reference")]
 mod lit_scenes;
+#[cfg(feature = "lsp")]
+mod lsp;
 #[cfg(feature = "cli")]
 mod models;
 #[cfg(feature = "gpu")]

@@ -19,6 +19,7 @@ pub mod compiler;
 pub mod diagnostic;
 pub mod fold;
 pub mod hir;
+pub mod index;
 pub mod language;
 pub mod link;
 pub mod lint;

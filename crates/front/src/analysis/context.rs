@@ -6,7 +6,7 @@
 //! Every name that cannot be resolved becomes poison after its one message.
 
 use super::scope::{Entry, Scopes};
-use super::state::{Budget, Declared, Layouts, Precisions, Uses};
+use super::state::{Budget, Declared, Layouts, NoteTaker, Notes, Precisions, Uses};
 use super::wording::{LONGEST_QUOTE, worded};
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -66,6 +66,8 @@ pub(super) struct Analyzer<'a> {
     pub(super) layouts: Layouts,
     /// How much time, and how many variables, the shader may still take.
     pub(super) budget: Budget,
+    /// The notes, if they are wanted.
+    pub(super) notes: Option<NoteTaker>,
 }
 
 impl<'a> Analyzer<'a> {
@@ -76,6 +78,7 @@ impl<'a> Analyzer<'a> {
         types: &'a mut Types,
         sources: &'a SourceMap,
         diagnostics: &'a mut Diagnostics,
+        notes: Option<NoteTaker>,
     ) -> Self {
         Self {
             ast,
@@ -95,11 +98,12 @@ impl<'a> Analyzer<'a> {
             uses: Uses::default(),
             layouts: Layouts::default(),
             budget: Budget::default(),
+            notes,
         }
     }
 
     /// Analyzes all declarations, then runs the checks that need the whole shader.
-    pub(super) fn run(mut self) -> Shader {
+    pub(super) fn run(mut self) -> (Shader, Notes) {
         let ast = self.ast;
         for declaration in &ast.declarations {
             if self.diagnostics.is_full() {
@@ -119,8 +123,9 @@ impl<'a> Analyzer<'a> {
                 DeclarationKind::Function(header, body) => self.function(header, body),
             }
         }
+        self.note_end();
         self.finish();
-        self.shader
+        (self.shader, self.notes.map(|taker| taker.notes).unwrap_or_default())
     }
 
     /// How many diagnostics there are.
@@ -238,9 +243,11 @@ impl<'a> Analyzer<'a> {
                 );
             }
             self.scopes.replace(name.symbol, Entry::Poison);
+            self.note_entry(name.span, Entry::Poison);
             return;
         }
         self.scopes.enter(name.symbol, entry, name.span);
+        self.note_entry(name.span, entry);
     }
 
     /// Enters the names of a broken declaration as poison, so that their uses raise no more messages.
@@ -248,6 +255,7 @@ impl<'a> Analyzer<'a> {
         for name in names {
             if self.scopes.find_here(name.symbol).is_none() {
                 self.scopes.enter(name.symbol, Entry::Poison, name.span);
+                self.note_entry(name.span, Entry::Poison);
             }
         }
     }

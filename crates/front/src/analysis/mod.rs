@@ -28,6 +28,7 @@ mod finish;
 mod keywords;
 mod layout;
 mod limits;
+mod notes;
 mod qualifiers;
 mod recursion;
 mod scope;
@@ -47,10 +48,12 @@ use crate::source::SourceMap;
 use crate::stack::with_stack;
 use crate::syntax::ast::Ast;
 use context::Analyzer;
+use state::NoteTaker;
 
 pub use decisive::keep_decisive;
 pub use shadertoy::point_to_engine;
 pub(crate) use shadertoy::{HELP as SHADERTOY_HELP, NOTE as SHADERTOY_NOTE, is_shadertoy};
+pub use state::{Denoted, Note, NoteRole, Notes, Probe};
 pub use understood::keep_understood;
 
 /// Analyzes a syntax tree. `strict` turns what every driver accepts into errors; all stages of a compilation share
@@ -63,7 +66,24 @@ pub fn analyze(
     sources: &SourceMap,
     diagnostics: &mut Diagnostics,
 ) -> Shader {
-    with_stack(nesting(ast), || Analyzer::new(ast, stage, strict, types, sources, diagnostics).run())
+    with_stack(nesting(ast), || Analyzer::new(ast, stage, strict, types, sources, diagnostics, None).run()).0
+}
+
+/// Analyzes like [`analyze`], and notes what each name denotes. `probe` is a name that stands where its author wants to know what
+/// could stand there.
+pub fn analyze_with_notes(
+    ast: &Ast,
+    stage: Stage,
+    strict: bool,
+    types: &mut Types,
+    sources: &SourceMap,
+    diagnostics: &mut Diagnostics,
+    probe: Option<&str>,
+) -> (Shader, Notes) {
+    let probe = probe.and_then(|probe| ast.names.get(probe));
+    let taker = NoteTaker { notes: Notes::default(), probe };
+    let depth = nesting(ast);
+    with_stack(depth, || Analyzer::new(ast, stage, strict, types, sources, diagnostics, Some(taker)).run())
 }
 
 /// How deep the traversal may recurse. It recurses into right operands, arguments and indices; a loop handles left

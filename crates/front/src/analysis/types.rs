@@ -196,7 +196,13 @@ impl Analyzer<'_> {
 
     fn named_type(&mut self, name: Ident) -> TypeId {
         let spelling = self.name(name);
+        if self.is_probe(name) {
+            return TypeId::ERROR;
+        }
         let found = self.scopes.find(name.symbol);
+        if let Some(binding) = found {
+            self.note_binding(name.span, binding);
+        }
         match found.map(|binding| binding.entry) {
             Some(Entry::Struct(ty)) => ty,
             Some(Entry::Poison) => TypeId::ERROR,

@@ -11,6 +11,7 @@ pub mod functions;
 mod ids;
 mod markdown;
 pub mod operations;
+pub mod sentences;
 pub mod variables;
 
 pub use availability::{Availability, Stages};

@@ -4,11 +4,12 @@ mod preparation;
 
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
-use crate::analysis::{analyze, keep_decisive, keep_understood, point_to_engine};
+use crate::analysis::{analyze, analyze_with_notes, keep_decisive, keep_understood, point_to_engine};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Origin, Stage, Types};
+use crate::index::{Inspection, View};
 use crate::link::{Bindings, FixedState, Program, Understood, check_understood, link};
 use crate::source::{Completion, Edits, FileId, IncludeResolver, Language, NoIncludes, SourceMap, Span, whole_text};
 use crate::syntax;
@@ -163,20 +164,33 @@ impl Compiler {
     /// Compiles like [`Self::compile`], but adds the texts to `map`. A file that names shaders can then share one map
     /// with them, so that diagnostics of both are shown from it.
     pub fn compile_into(&self, map: SourceMap, sources: &[Source]) -> Compilation {
+        self.compile_and(map, sources, Facts::default()).0
+    }
+
+    /// Compiles like [`Self::compile`], and keeps what each name denotes, for programs that show the texts to their author. `probe` is
+    /// a name in the texts that stands where the author wants to know what could stand there.
+    pub fn inspect(&self, sources: &[Source], probe: Option<&str>) -> (Compilation, Inspection) {
+        let observer = Observer { probe, views: Vec::new() };
+        let facts = Facts { observer: Some(observer), ..Facts::default() };
+        self.compile_and(SourceMap::default(), sources, facts)
+    }
+
+    fn compile_and(&self, map: SourceMap, sources: &[Source], mut facts: Facts<'_>) -> (Compilation, Inspection) {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
         let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
-        let mut facts = Facts::default();
         let shaders =
             sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics, &mut facts));
         let shaders: Vec<Option<Understood>> = shaders.collect();
-        let Facts { asked, read } = facts;
+        let Facts { asked, read, observer } = facts;
+        let inspected = observer.map(|observer| Inspection { types: types.clone(), views: observer.views });
         let texts = shaders.iter().flatten().flat_map(|understood| understood.shader.texts.iter().cloned()).collect();
         let shaders: Option<Vec<Understood>> = shaders.into_iter().collect();
         let program = shaders.and_then(|shaders| self.link(name.clone(), types, shaders, &mut diagnostics));
         if let Some(levels) = &self.levels {
             diagnostics.retain_mut(|diagnostic| levels.apply(&map, diagnostic));
         }
-        Compilation { name, sources: map, program, texts, diagnostics, read, asked }
+        let compilation = Compilation { name, sources: map, program, texts, diagnostics, read, asked };
+        (compilation, inspected.unwrap_or_default())
     }
 
     /// Links the stages. If there are errors, only compares the certain declarations. Other declarations of a shader
@@ -221,9 +235,10 @@ impl Compiler {
         types: &mut Types,
         map: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-        facts: &mut Facts,
+        facts: &mut Facts<'_>,
     ) -> Option<Understood> {
         facts.read.push(Vec::new());
+        facts.observer.iter_mut().for_each(|observer| observer.views.push(None));
         let prepared = self.prepared(source);
         let text = prepared.text.as_ref().unwrap_or(&source.text);
         let Some(file) = map.add(source.name.as_str(), Arc::clone(text)) else {
@@ -239,7 +254,16 @@ impl Compiler {
         let ast = syntax::parse(map, file, &options, &**includes, diagnostics);
         map.set_language(file, Language { number: ast.version.number, es: ast.version.is_es() });
         facts.add(file, &ast, &self.options.watched);
-        let mut shader = analyze(&ast, source.stage, strict, types, map, diagnostics);
+        let mut noted = None;
+        let mut shader = match &mut facts.observer {
+            None => analyze(&ast, source.stage, strict, types, map, diagnostics),
+            Some(observer) => {
+                let probe = observer.probe;
+                let (shader, notes) = analyze_with_notes(&ast, source.stage, strict, types, map, diagnostics, probe);
+                noted = Some((shader.clone(), notes));
+                shader
+            }
+        };
         if ast.version.span.is_known() && map.file_of(ast.version.span) != Some(file) {
             // What is said about the whole shader is said about its own text.
             let start = map.file(file).base();
@@ -259,20 +283,33 @@ impl Compiler {
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_decisive(diagnostics, first_error);
         point_to_engine(&shader, diagnostics, first_error);
+        if let (Some((shader, notes)), Some(observer)) = (noted, &mut facts.observer)
+            && let Some(slot) = observer.views.last_mut()
+        {
+            *slot = Some(View { file, ast, shader, notes });
+        }
         Some(Understood { shader, is_complete })
     }
 }
 
 /// The facts about the texts of a compilation that its result tells.
 #[derive(Default)]
-struct Facts {
+struct Facts<'p> {
     /// [`Compilation::asked`].
     asked: BTreeSet<String>,
     /// [`Compilation::read`], up to the source that is read now.
     read: Vec<Vec<FileId>>,
+    /// What is kept for [`Compiler::inspect`].
+    observer: Option<Observer<'p>>,
 }
 
-impl Facts {
+/// Keeps the phases' results.
+struct Observer<'p> {
+    probe: Option<&'p str>,
+    views: Vec<Option<View>>,
+}
+
+impl Facts<'_> {
     /// Adds those of the last source.
     fn add(&mut self, own: FileId, ast: &syntax::ast::Ast, watched: &[String]) {
         self.asked.extend(watched.iter().filter(|name| ast.asks(name)).cloned());

@@ -185,6 +185,11 @@ impl SourceMap {
         self.expansions.get(id.index()?)
     }
 
+    /// All macro uses, in the order in which they were read.
+    pub fn expansions(&self) -> impl Iterator<Item = &Expansion> {
+        self.expansions.iter()
+    }
+
     /// The file in which a span is written.
     pub fn file_of(&self, span: Span) -> Option<FileId> {
         if !span.is_known() {

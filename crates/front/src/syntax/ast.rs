@@ -5,6 +5,7 @@
 
 #![expect(missing_docs, reason = "fields of variants are named for the grammar")]
 
+use super::directives::Directives;
 use super::names::Names;
 use super::token::Symbol;
 pub use crate::language::{Behavior, Extensions, IncDec, Profile, Version};
@@ -57,6 +58,8 @@ pub struct Ast {
     pub macros: Vec<std::sync::Arc<str>>,
     /// For each name by its symbol, whether the tree depends on what macro it names.
     pub asked: Vec<bool>,
+    /// What the preprocessor met besides the tokens.
+    pub directives: Directives,
 }
 
 /// A comment `// glisten: allow(CODE)`. It silences warnings of that code on its own line or, if it stands alone, on

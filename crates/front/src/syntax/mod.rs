@@ -11,6 +11,7 @@
 //! unsupported, which is reported, the tree has no declarations.
 
 pub mod ast;
+pub mod directives;
 pub mod keywords;
 mod kind;
 mod lexemes;
@@ -27,6 +28,7 @@ use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
 use crate::source::{Completion, FileId, IncludeResolver, SourceMap, Span};
 use ast::{Ast, Profile, Version};
+use directives::Directives;
 pub use lexemes::Lexemes;
 use names::Names;
 use parser::Parser;
@@ -75,6 +77,7 @@ pub fn parse(
     ast.preludes = outcome.preludes;
     ast.macros = outcome.macros;
     ast.asked = outcome.asked;
+    ast.directives = outcome.directives;
     ast.names = session.names;
     ast
 }
@@ -93,5 +96,6 @@ fn empty_tree() -> Ast {
         preludes: Vec::new(),
         macros: Vec::new(),
         asked: Vec::new(),
+        directives: Directives::default(),
     }
 }

@@ -6,6 +6,7 @@ use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
+use super::super::state::{Denoted, NoteRole};
 use super::structure::MemberList;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
@@ -84,6 +85,10 @@ impl Analyzer<'_> {
             );
         }
         let ty = self.add_structure(name, members, true, block.name.span);
+        if let Type::Struct(id) = self.types.get(ty) {
+            self.note(block.name.span, Denoted::Block(id), NoteRole::Declares);
+        }
+        self.note_members(ty, &block.members);
         self.add_block(block, ty, storage, &layout, &record);
     }
 

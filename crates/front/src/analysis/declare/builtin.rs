@@ -4,6 +4,7 @@ use super::super::context::Analyzer;
 use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{Qualifiers, StorageWord};
 use super::super::state::ArrayKey;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::variables::{self, Redeclaration, Row};
 use crate::builtin::{BuiltinVariable, constants};
 use crate::diagnostic::Diagnostic;
@@ -51,6 +52,7 @@ impl Analyzer<'_> {
         let span = declarator.name.span;
         let Some(row) = variables::named(name, self.ast.version, self.extensions, self.stage) else {
             if self.redeclare_fixed(declarator, ty, record) {
+                self.note(span, Denoted::Builtin, NoteRole::Uses);
                 return true;
             }
             let stages: Vec<&str> = variables::stages_with(name).map(Stage::name).collect();
@@ -68,6 +70,7 @@ impl Analyzer<'_> {
             );
             return true;
         };
+        self.note(span, Denoted::Builtin, NoteRole::Uses);
         if ty.is_error() || self.is_in_per_vertex(row, span) {
             return true;
         }

@@ -4,6 +4,7 @@ use super::super::context::{Analyzer, Body};
 use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::Signature;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, statements, types};
@@ -20,6 +21,7 @@ impl Analyzer<'_> {
     /// `float f(float x);`
     pub(in crate::analysis) fn prototype(&mut self, header: &FunctionHeader) {
         let Some(id) = self.declare_function(header) else { return };
+        self.note_function(id, header, NoteRole::Declares);
         if !self.declared.prototype(id) {
             self.require_here(Feature::RepeatedPrototypes, header.name.span);
         }
@@ -32,9 +34,11 @@ impl Analyzer<'_> {
             let function = self.header(header);
             self.shader.functions.push(function);
             let id = FunctionId::new(self.shader.functions.len() - 1);
+            self.note_function(id, header, NoteRole::Defines);
             self.function_body(id, header, body);
             return;
         };
+        self.note_function(id, header, NoteRole::Defines);
         if self.shader.function(id).body.is_some() {
             let (name, earlier) = (self.name(header.name), self.shader.function(id).span);
             self.report(
@@ -50,6 +54,18 @@ impl Analyzer<'_> {
             *slot = function;
         }
         self.function_body(id, header, body);
+    }
+
+    /// Notes the names of a header: that of the function, and of a prototype those of its parameters.
+    fn note_function(&mut self, id: FunctionId, header: &FunctionHeader, role: NoteRole) {
+        self.note(header.name.span, Denoted::Function(id), role);
+        if role == NoteRole::Declares {
+            for (index, name) in
+                header.params.iter().enumerate().filter_map(|(index, param)| Some((index, param.name?)))
+            {
+                self.note(name.span, Denoted::Local(id, LocalId::new(index)), role);
+            }
+        }
     }
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {

@@ -5,6 +5,7 @@ use super::super::layout::LayoutSubject;
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::BlockDefaults;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::{fixed, variables};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers};
@@ -27,6 +28,9 @@ impl Analyzer<'_> {
                 self.global_named(name);
             }
             return;
+        }
+        for &name in idents {
+            self.is_probe(name);
         }
         if record.invariant.is_none() {
             // `uniform S;` declares nothing, which is legal if `S` is a struct (§9).
@@ -101,6 +105,10 @@ impl Analyzer<'_> {
     /// name.
     fn global_named(&mut self, name: Ident) -> Option<(GlobalId, Option<u32>)> {
         let spelling = self.name(name);
+        match self.scopes.find(name.symbol) {
+            Some(binding) => self.note_binding(name.span, binding),
+            None => self.note(name.span, Denoted::Builtin, NoteRole::Uses),
+        }
         match self.scopes.find(name.symbol).map(|binding| binding.entry) {
             Some(Entry::Variable(VarRef::Global(id))) => Some((id, None)),
             Some(Entry::Member(id, member)) => Some((id, Some(member))),

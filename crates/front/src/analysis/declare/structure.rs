@@ -3,6 +3,7 @@
 use super::super::context::Analyzer;
 use super::super::qualifiers::DeclarationContext;
 use super::super::scope::Entry;
+use super::super::state::NoteRole;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{general, names, types};
 use crate::hir::{ArraySize, Member, StructType, Type, TypeId};
@@ -61,11 +62,25 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(&types::STRUCT, declared, "a struct must have a member").here("empty"));
         }
         let ty = self.add_structure(name, members, false, declared);
+        self.note_members(ty, &spec.members);
         if let Some(name) = spec.name {
             let good_name = good_name && self.check_block_name(name);
             self.enter(name, if good_name { Entry::Struct(ty) } else { Entry::Poison });
         }
         ty
+    }
+
+    /// Notes the names of the members of a struct or a block.
+    pub(super) fn note_members(&mut self, ty: TypeId, rows: &[MemberDecl]) {
+        if self.notes.is_none() {
+            return;
+        }
+        let Type::Struct(id) = self.types.get(ty) else { return };
+        for declarator in rows.iter().flat_map(|row| &row.declarators) {
+            if let Some(index) = self.member_index(id, declarator.name) {
+                self.note_member(declarator.name.span, id, index, NoteRole::Declares);
+            }
+        }
     }
 
     fn member_base(&mut self, row: &MemberDecl) -> TypeId {

@@ -48,6 +48,9 @@ impl Analyzer<'_> {
     /// reported.
     fn lacks_type(&mut self, spec: &TypeSpec) -> bool {
         let TypeBase::Named(name) = spec.base else { return false };
+        if self.is_probe(name) {
+            return true;
+        }
         match self.scopes.find(name.symbol).map(|binding| binding.entry) {
             Some(Entry::Struct(_)) => return false,
             Some(Entry::Poison) => return true,

@@ -3,6 +3,7 @@
 use super::super::context::Analyzer;
 use super::super::features::remedy;
 use super::super::state::ArrayKey;
+use super::super::state::{Denoted, NoteRole};
 use super::swizzle::{self, Fault};
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
@@ -15,10 +16,15 @@ impl Analyzer<'_> {
     /// `a.b`: a member, or components of a vector.
     pub(super) fn field(&mut self, base: ExprId, field: Ident, span: Span) -> ExprId {
         let spelling = self.name(field);
+        let ty = self.ty(base);
+        if self.is_probe_of_member(field, ty) {
+            return self.poison(span);
+        }
         match self.types.get(self.ty(base)) {
             Type::Error => self.poison(span),
             Type::Struct(id) => {
                 if let Some(index) = self.member_index(id, field) {
+                    self.note_member(field.span, id, index, NoteRole::Uses);
                     return self.member(base, index, span);
                 }
                 let structure = self.types.structure(id);
@@ -32,7 +38,10 @@ impl Analyzer<'_> {
                 );
                 self.poison(span)
             }
-            Type::Vector(scalar, size) => self.swizzle(base, field, (scalar, size), span),
+            Type::Vector(scalar, size) => {
+                self.note(field.span, Denoted::Components(ty), NoteRole::Uses);
+                self.swizzle(base, field, (scalar, size), span)
+            }
             Type::Scalar(scalar) if self.allows(Feature::ScalarSwizzles, field.span) => {
                 self.scalar_swizzle(base, field, scalar, span)
             }
@@ -250,6 +259,10 @@ impl Analyzer<'_> {
     pub(super) fn method(&mut self, base: ExprId, name: Ident, arguments: &[ast::ExprId], span: Span) -> ExprId {
         let spelling = self.name(name);
         let ty = self.ty(base);
+        if self.is_probe_of_member(name, ty) {
+            return self.poison(span);
+        }
+        self.note(name.span, Denoted::Length(ty), NoteRole::Uses);
         if spelling != "length" {
             self.report(
                 Diagnostic::new(&types::METHOD, name.span, format!("there is no method `{spelling}`"))

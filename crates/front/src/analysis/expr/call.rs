@@ -4,6 +4,7 @@
 use super::super::context::Analyzer;
 use super::super::scope::{Entry, OverloadSet};
 use super::super::state::Signature;
+use super::super::state::{Denoted, NoteRole};
 use super::Purpose;
 use super::convert::Conversions;
 use super::overload::{Resolution, Rules, resolve};
@@ -23,12 +24,22 @@ pub(super) type Params = SmallVec<[(TypeId, ParamMode); 4]>;
 impl Analyzer<'_> {
     /// `f(a, b)`, `S(a)`
     pub(super) fn call(&mut self, name: Ident, arguments: &[ast::ExprId], span: Span) -> ExprId {
+        if self.is_probe(name) {
+            self.arguments(arguments);
+            return self.poison(span);
+        }
         let binding = self.scopes.find_called(name.symbol);
+        if let Some(binding) = binding {
+            self.note_binding(name.span, binding);
+        } else if !functions::named(self.name(name)).is_empty() {
+            self.note(name.span, Denoted::Builtin, NoteRole::Uses);
+        }
         match binding.map(|binding| binding.entry) {
             Some(Entry::Struct(ty)) => self.construct(ty, arguments, name.span, span),
             Some(Entry::Functions(set)) => {
                 let Some(arguments) = self.arguments(arguments) else { return self.poison(span) };
                 if self.is_builtin_overload(name, &arguments) {
+                    self.note(name.span, Denoted::Builtin, NoteRole::Uses);
                     return self.builtin_call(name, arguments, span);
                 }
                 self.user_call(name, set, arguments, span)
@@ -120,6 +131,7 @@ impl Analyzer<'_> {
         let exact = self.declared.function(name.symbol, given.clone());
         let found = exact.or_else(|| self.by_conversion(name, set, &given));
         let Some(function) = found else { return self.poison(span) };
+        self.note(name.span, Denoted::Function(function), NoteRole::Uses);
         let params = self.params_of(function);
         let Some(arguments) = self.pass(arguments, &params) else { return self.poison(span) };
         let ret = self.shader.function(function).ret;

@@ -4,6 +4,7 @@
 use super::super::context::Analyzer;
 use super::super::features::remedy;
 use super::super::scope::Entry;
+use super::super::state::{Denoted, NoteRole};
 use crate::builtin::{constants, fixed, variables};
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
@@ -17,7 +18,11 @@ impl Analyzer<'_> {
     /// The variable that a name denotes.
     pub(super) fn name_expr(&mut self, name: Ident) -> ExprId {
         let span = name.span;
+        if self.is_probe(name) {
+            return self.poison(span);
+        }
         let Some(binding) = self.scopes.find(name.symbol) else { return self.builtin_name(name) };
+        self.note_binding(span, binding);
         match binding.entry {
             Entry::Variable(var) => self.variable(var, span),
             Entry::Member(block, member) => {
@@ -61,6 +66,12 @@ impl Analyzer<'_> {
     fn builtin_name(&mut self, name: Ident) -> ExprId {
         let spelling = self.name(name);
         let version = self.ast.version;
+        let is_known = constants::named(spelling, version, self.extensions).is_some()
+            || variables::stages_with(spelling).next().is_some()
+            || fixed::is_fixed(spelling);
+        if is_known {
+            self.note(name.span, Denoted::Builtin, NoteRole::Uses);
+        }
         if let Some(constant) = constants::named(spelling, version, self.extensions) {
             return self.literal(ScalarValue::Int(constant.value), name.span);
         }

@@ -150,6 +150,7 @@ impl Preprocessor<'_> {
             session.report(diagnostic);
             return None;
         }
+        self.mention(name);
         let value = if self.macro_of(name.symbol()).is_some() { "1" } else { "0" };
         let mut number = Token::new(TokenKind::Number, operator.span);
         number.payload = session.names.intern(value).bits();

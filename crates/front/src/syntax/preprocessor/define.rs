@@ -7,6 +7,8 @@ use super::{
 };
 use crate::diagnostic::{Applicability, Diagnostic, Fix};
 use crate::source::SourceMap;
+use crate::syntax::directives::MacroDefinition;
+use std::sync::Arc;
 
 /// The largest number of parameters of a macro.
 const MAX_PARAMS: usize = 256;
@@ -95,6 +97,10 @@ impl Preprocessor<'_> {
             tokens.push(first);
         }
         self.rest_of_line(session, &mut tokens);
+        let whole = match (tokens.first(), tokens.last()) {
+            (Some(first), Some(last)) => session.sources.join(first.span, last.span),
+            _ => Span::default(),
+        };
         let Some(pastes) = self.check_body(session, params.as_deref(), &mut tokens) else { return };
         let definition = Macro {
             name: session.spelling(name).into(),
@@ -105,6 +111,15 @@ impl Preprocessor<'_> {
             pastes,
             disabled: false,
         };
+        self.outcome.directives.definitions.push(MacroDefinition {
+            name: Arc::clone(&definition.name),
+            span: name.span,
+            params: definition
+                .params
+                .as_ref()
+                .map(|params| params.iter().map(|&param| Arc::from(session.names.spelling(param))).collect()),
+            body: whole,
+        });
         self.check_redefinition(session, name, &definition);
         self.bind(name.symbol(), definition);
     }
@@ -112,6 +127,7 @@ impl Preprocessor<'_> {
     /// `#undef NAME`
     pub(super) fn undef(&mut self, session: &mut ParseSession<'_>) {
         let Some(name) = self.macro_name(session, "#undef") else { return };
+        self.mention(name);
         self.word(name.symbol()).definition = 0;
         self.expect_line_end(session, "#undef");
     }

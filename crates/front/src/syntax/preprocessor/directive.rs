@@ -201,6 +201,7 @@ impl Preprocessor<'_> {
             self.malformed(session, token, &format!("`{name}` needs the name of a macro"));
             return self.skip_groups(session);
         }
+        self.mention(token);
         let defined = self.macro_of(token.symbol()).is_some();
         self.expect_line_end(session, name);
         if defined != wanted {
@@ -307,6 +308,7 @@ impl Preprocessor<'_> {
     /// Skips to the next `#elif`, `#else` or `#endif` of the innermost conditional, and reads its name.
     fn skip_group(&mut self, session: &mut ParseSession<'_>) -> Option<(Span, Directive)> {
         let mut depth = 0_usize;
+        let from = self.frames.last()?.lexer.offset();
         loop {
             // Skipped text need only consist of lines: continuations and `glisten:` comments in it mean nothing.
             let frame = self.frames.last_mut()?;
@@ -314,6 +316,8 @@ impl Preprocessor<'_> {
             self.trivia.retain(|item| matches!(item, super::Trivia::Unterminated(_)));
             self.note_trivia(session);
             if !found {
+                let to = self.frames.last().map_or(from, |frame| frame.lexer.offset());
+                self.note_inactive(from, to);
                 return None;
             }
             let hash = self.line_token(session);
@@ -323,10 +327,18 @@ impl Preprocessor<'_> {
                 Some(Directive::If | Directive::Ifdef | Directive::Ifndef) => depth += 1,
                 Some(Directive::Endif) if depth > 0 => depth -= 1,
                 Some(directive @ (Directive::Elif | Directive::Else | Directive::Endif)) if depth == 0 => {
+                    self.note_inactive(from, hash.span.start);
                     return Some((session.sources.join(hash.span, token.span), directive));
                 }
                 _ => {}
             }
+        }
+    }
+
+    fn note_inactive(&mut self, from: u32, to: u32) {
+        // The copies of an unrolled loop are no text of their own.
+        if from < to && self.frames.last().is_some_and(|frame| frame.copy.is_none()) {
+            self.outcome.directives.inactive.push(Span::new(from, to));
         }
     }
 

@@ -5,6 +5,7 @@ use super::{
 };
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place, codes::general};
 use crate::source::{IncludeForm, Included, Inclusion};
+use crate::syntax::directives::IncludeName;
 
 /// The largest depth of nested includes.
 const MAX_DEPTH: usize = 64;
@@ -68,7 +69,9 @@ impl Preprocessor<'_> {
         } else if let Some(warning) = extension::warning_of_use(self.extensions, Extensions::INCLUDE, whole) {
             session.report(warning);
         }
-        let Some(file) = self.find_include(session, header) else { return };
+        let file = self.find_include(session, header);
+        self.outcome.directives.includes.push(IncludeName { span: header.span, file });
+        let Some(file) = file else { return };
         let entered = !self.once.contains(&file);
         self.outcome.inclusions.push(Inclusion { directive, file: entered.then_some(file) });
         if !entered {

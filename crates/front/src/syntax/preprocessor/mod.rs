@@ -27,6 +27,7 @@ mod unroll;
 mod version;
 
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
+use super::directives::{Directives, MacroMention};
 use super::keywords;
 use super::kind;
 use super::lexer::{Lexer, Mode, Trivia};
@@ -61,6 +62,7 @@ pub(super) struct PreprocessorOutcome {
     pub(super) macros: Vec<Arc<str>>,
     /// For each word by its symbol, whether the result depends on what macro it names.
     pub(super) asked: Vec<bool>,
+    pub(super) directives: Directives,
 }
 
 /// A file that is being read.
@@ -175,6 +177,7 @@ impl<'a> Preprocessor<'a> {
                 preludes: Vec::new(),
                 macros: Vec::new(),
                 asked: Vec::new(),
+                directives: Directives::default(),
             },
         };
         this.define_predefined(session);
@@ -197,6 +200,9 @@ impl<'a> Preprocessor<'a> {
             .take(condition::MAX_COMPARED)
             .map(|definition| Arc::clone(&definition.name));
         self.outcome.macros = names.collect();
+        let defined = self.words.iter().filter_map(|word| (word.definition as usize).checked_sub(1));
+        let spans = defined.filter_map(|index| self.macros.get(index)).map(|definition| definition.span);
+        self.outcome.directives.defined = spans.filter(|span| span.is_known()).collect();
         self.outcome.asked = self.words.iter().map(|word| word.asked).collect();
         self.outcome
     }
@@ -286,6 +292,13 @@ impl<'a> Preprocessor<'a> {
         let word = self.word(symbol);
         word.asked = true;
         (word.definition as usize).checked_sub(1)
+    }
+
+    /// Notes that a directive names a macro.
+    fn mention(&mut self, name: Token) {
+        let definition = self.macro_of(name.symbol()).and_then(|index| self.macros.get(index));
+        let definition = definition.map(|definition| definition.span);
+        self.outcome.directives.mentions.push(MacroMention { span: name.span, definition });
     }
 
     /// The next token of the topmost file, after directives. With `collecting`, it does not go past the end of an

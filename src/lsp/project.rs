@@ -1,0 +1,114 @@
+//! [`Project`]: what the server asks the program about files: which form a program, how they are completed, what is configured.
+//!
+//! *Holds:* the answers are those of `glisten lint`. The server reads no file and no configuration by itself.
+
+use crate::format::{Formatted, Options};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::index::Inspection;
+use glisten_front::link::Program;
+use glisten_front::source::{FileId, SourceMap};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The texts of open documents, which count instead of the files.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Overlay(Arc<Mutex<BTreeMap<PathBuf, Arc<str>>>>);
+
+impl Overlay {
+    /// The text of an open document.
+    pub(crate) fn text(&self, path: &Path) -> Option<Arc<str>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).get(path).cloned()
+    }
+
+    /// Opens, changes or closes a document.
+    pub(crate) fn set(&self, path: &Path, text: Option<Arc<str>>) {
+        let mut texts = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        match text {
+            Some(text) => texts.insert(path.to_owned(), text),
+            None => texts.remove(path),
+        };
+    }
+
+    /// Closes all documents.
+    pub(crate) fn clear(&self) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+}
+
+/// The files of a program, by a key that tells programs apart.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct ProgramKey {
+    /// The name of the program.
+    pub(crate) name: String,
+    /// The files, in the order of the pipeline.
+    pub(crate) files: Vec<PathBuf>,
+}
+
+/// A compiled program, with or without errors.
+pub(crate) struct Compiled {
+    /// The texts.
+    pub(crate) sources: SourceMap,
+    /// The findings, with the levels that the configuration gives them.
+    pub(crate) findings: Vec<Diagnostic>,
+    /// What the names denote.
+    pub(crate) inspection: Inspection,
+    /// The linked program, if there are no errors.
+    pub(crate) program: Option<Program>,
+    /// The files of each source: its own, then those that it includes.
+    pub(crate) read: Vec<Vec<FileId>>,
+}
+
+/// What the program knows of files.
+pub(crate) trait Project {
+    /// The texts of open documents, which all other answers take into account.
+    fn overlay(&self) -> &Overlay;
+
+    /// The programs of which a file is a source of its own.
+    fn programs_of(&mut self, file: &Path) -> Vec<ProgramKey>;
+
+    /// The programs in a folder and below it that may include a file, likely ones first.
+    fn includers_of(&mut self, file: &Path, folders: &[PathBuf]) -> Vec<ProgramKey>;
+
+    /// Notes that the include directives of an open document changed.
+    fn includes_changed(&mut self, file: &Path);
+
+    /// All programs in a folder and below it.
+    fn programs_in(&mut self, folder: &Path) -> Vec<ProgramKey>;
+
+    /// A file alone, for one that belongs to no program.
+    fn alone(&mut self, file: &Path) -> ProgramKey;
+
+    /// Compiles a program, and lints it.
+    fn compile(&mut self, program: &ProgramKey) -> Compiled;
+
+    /// Compiles one file up to where `text` ends, with a name in it about which more is wanted.
+    fn probe(&mut self, program: &ProgramKey, file: &Path, text: Arc<str>, probe: Option<&str>) -> Option<Compiled>;
+
+    /// The style of a file, or `None` if the configuration is wrong.
+    fn style(&mut self, file: &Path) -> Option<Options>;
+
+    /// Formats the text of a file.
+    fn format(&mut self, file: &Path, text: &str, style: &Options) -> Formatted;
+
+    /// The findings in configurations themselves, by the texts that they are in.
+    fn configuration_findings(&mut self) -> Vec<(SourceMap, Vec<Diagnostic>)>;
+
+    /// The configuration files that the answers so far depend on, whether they exist or not.
+    fn configurations(&self) -> Vec<PathBuf>;
+
+    /// Forgets what was read of configurations and folders.
+    fn reload(&mut self);
+
+    /// A file on disk with the text of an embedded module.
+    fn embedded(&self, name: &str) -> Option<PathBuf>;
+
+    /// The names of files that an include in a file could name, with or without angle brackets.
+    fn include_names(&mut self, file: &Path, written: &str, angled: bool) -> Vec<String>;
+
+    /// The scene files in these folders, with their texts.
+    fn scenes(&mut self, folders: &[PathBuf]) -> Vec<(PathBuf, Arc<str>)>;
+
+    /// Whether a finding says that a file lacks what the files that include it have.
+    fn is_about_a_part(&self, finding: &Diagnostic) -> bool;
+}

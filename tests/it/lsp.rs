@@ -1,0 +1,652 @@
+//! `glisten lsp`: the program itself, through messages over pipes.
+
+use crate::cli::Folder;
+use crate::support::root;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Stdio};
+
+const COMMON: &str = "// The color of a light.\nvec3 light(float amount) {\n    return vec3(amount); // é𝄞\n}\n";
+const VERTEX: &str = "#version 150\n#extension GL_ARB_shading_language_include : require\n#include \"common.glsl\"\n\
+    in vec3 position;\nout vec3 shade;\nuniform mat4 matrix;\nuniform Lights { vec4 direction; float amount[2]; } lights;\n\
+    #define SCALE(x) ((x) * factor)\nconst float factor = 2;\n#if 0\nvec3 dead = shade;\n#endif\nvoid main() {\n\
+    \x20   /* é𝄞 */ shade = light(SCALE(lights.amount[0]));\n    gl_Position = matrix * vec4(position, 1.0);\n}\n";
+const FRAGMENT: &str = "#version 150\nin vec3 shade;\nout vec4 color;\nvoid main() { color = vec4(shade.xyz, 1.0); }\n";
+const SCENE: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+    [draw.uniforms]\nmatrix = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n\"Lights.amount\" = [1.0, 2.0]\n";
+
+fn program() -> Folder {
+    Folder::new(&[
+        ("common.glsl", COMMON.as_bytes()),
+        ("a.vert", VERTEX.as_bytes()),
+        ("a.frag", FRAGMENT.as_bytes()),
+        ("a.toml", SCENE.as_bytes()),
+    ])
+}
+
+/// An editor.
+struct Editor {
+    child: Child,
+    input: Option<ChildStdin>,
+    output: BufReader<ChildStdout>,
+    folder: String,
+    id: i64,
+    told: Vec<Value>,
+    utf8: bool,
+}
+
+impl Drop for Editor {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+    }
+}
+
+impl Editor {
+    fn new(folder: &Folder, capabilities: Value) -> Self {
+        let mut child = folder
+            .command(&["lsp"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program runs");
+        let output = BufReader::new(child.stdout.take().expect("it is piped"));
+        let input = child.stdin.take();
+        let folder = folder.path("").canonicalize().expect("it is there").to_string_lossy().into_owned();
+        let utf8 = capabilities["general"]["positionEncodings"][0] == "utf-8";
+        let mut editor = Self { child, input, output, folder, id: 0, told: Vec::new(), utf8 };
+        let root = editor.uri("");
+        let answer =
+            editor.ask("initialize", json!({ "processId": null, "rootUri": root, "capabilities": capabilities }));
+        let encoding = if utf8 { "utf-8" } else { "utf-16" };
+        assert_eq!(answer["capabilities"]["positionEncoding"], encoding, "{answer}");
+        editor.tell("initialized", json!({}));
+        editor
+    }
+
+    fn uri(&self, name: &str) -> String {
+        format!("file://{}/{name}", self.folder.trim_end_matches('/')).trim_end_matches('/').to_owned()
+    }
+
+    fn send(&mut self, message: &Value) {
+        let text = message.to_string();
+        let input = self.input.as_mut().expect("it is open");
+        write!(input, "Content-Length: {}\r\n\r\n{text}", text.len()).and_then(|()| input.flush()).expect("it reads");
+    }
+
+    fn read(&mut self) -> Value {
+        let mut length = 0;
+        loop {
+            let mut line = String::new();
+            assert!(self.output.read_line(&mut line).expect("it writes") > 0, "the server is gone");
+            if line.trim().is_empty() {
+                break;
+            }
+            if let Some(value) = line.to_ascii_lowercase().strip_prefix("content-length:") {
+                length = value.trim().parse().expect("a number");
+            }
+        }
+        let mut bytes = vec![0; length];
+        self.output.read_exact(&mut bytes).expect("it writes");
+        serde_json::from_slice(&bytes).expect("JSON")
+    }
+
+    fn tell(&mut self, method: &str, params: Value) {
+        self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }));
+    }
+
+    /// The answer to a request, with `error` if it is refused.
+    fn answer(&mut self, method: &str, params: Value) -> Value {
+        self.id += 1;
+        let id = self.id;
+        self.send(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params }));
+        loop {
+            let message = self.read();
+            if message["id"] == id && message.get("method").is_none() {
+                return message;
+            }
+            self.told.push(message);
+        }
+    }
+
+    fn ask(&mut self, method: &str, params: Value) -> Value {
+        let answer = self.answer(method, params);
+        assert!(answer.get("error").is_none(), "{method}: {answer}");
+        answer["result"].clone()
+    }
+
+    fn open(&mut self, name: &str, text: &str) {
+        let uri = self.uri(name);
+        let document = json!({ "uri": uri, "languageId": "glsl", "version": 1, "text": text });
+        self.tell("textDocument/didOpen", json!({ "textDocument": document }));
+    }
+
+    fn change(&mut self, name: &str, version: i64, changes: Value) {
+        let uri = self.uri(name);
+        let document = json!({ "uri": uri, "version": version });
+        self.tell("textDocument/didChange", json!({ "textDocument": document, "contentChanges": changes }));
+    }
+
+    /// The next diagnostics of a document.
+    fn diagnostics(&mut self, name: &str) -> Vec<Value> {
+        let uri = self.uri(name);
+        let is_it = |message: &Value| {
+            message["method"] == "textDocument/publishDiagnostics" && message["params"]["uri"] == uri.as_str()
+        };
+        let message = match self.told.iter().position(is_it) {
+            Some(place) => self.told.remove(place),
+            None => loop {
+                let message = self.read();
+                if is_it(&message) {
+                    break message;
+                }
+                self.told.push(message);
+            },
+        };
+        message["params"]["diagnostics"].as_array().expect("a list").clone()
+    }
+
+    /// The position of a word in a text, in the encoding of this editor.
+    fn at(&self, text: &str, word: &str) -> Value {
+        let offset = text.find(word).unwrap_or_else(|| panic!("`{word}` is there"));
+        let start = text[..offset].rfind('\n').map_or(0, |end| end + 1);
+        let before = &text[start..offset];
+        let character = if self.utf8 { before.len() } else { before.encode_utf16().count() };
+        json!({ "line": text[..offset].matches('\n').count(), "character": character })
+    }
+
+    fn on(&self, name: &str, text: &str, word: &str) -> Value {
+        json!({ "textDocument": { "uri": self.uri(name) }, "position": self.at(text, word) })
+    }
+
+    fn close(mut self) {
+        assert_eq!(self.ask("shutdown", Value::Null), Value::Null);
+        self.tell("exit", Value::Null);
+        self.input = None;
+        assert_eq!(self.child.wait().expect("it ends").code(), Some(0));
+    }
+}
+
+/// Names of an answer's files with lines and columns, shortened.
+fn places(answer: &Value) -> Vec<String> {
+    let list = answer.as_array().cloned().unwrap_or_else(|| vec![answer.clone()]);
+    let mut places: Vec<String> = list
+        .iter()
+        .map(|place| {
+            let name = place["uri"].as_str().unwrap_or("").rsplit('/').next().unwrap_or("").to_owned();
+            let start = &place["range"]["start"];
+            format!("{name}:{}:{}", start["line"], start["character"])
+        })
+        .collect();
+    places.sort();
+    places
+}
+
+fn labels(answer: &Value) -> Vec<String> {
+    let items = answer["items"].as_array().expect("a list");
+    items.iter().map(|item| item["label"].as_str().expect("a text").to_owned()).collect()
+}
+
+/// The texts after the edits of an answer.
+fn edited(folder: &Folder, answer: &Value) -> BTreeMap<String, String> {
+    let mut texts = BTreeMap::new();
+    for (uri, edits) in answer["changes"].as_object().expect("changes") {
+        let name = uri.rsplit('/').next().expect("a name").to_owned();
+        let text = fs::read_to_string(folder.path(&name)).expect("a file");
+        texts.insert(name, applied(&text, edits.as_array().expect("a list"), false));
+    }
+    texts
+}
+
+fn applied(text: &str, edits: &[Value], utf8: bool) -> String {
+    let offset = |position: &Value| {
+        let line = position["line"].as_u64().expect("a line") as usize;
+        let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
+        let wanted = position["character"].as_u64().expect("a column") as usize;
+        let mut units = 0;
+        for (at, letter) in text[start..].char_indices() {
+            if units >= wanted {
+                return start + at;
+            }
+            units += if utf8 { letter.len_utf8() } else { letter.len_utf16() };
+        }
+        text.len()
+    };
+    let mut ranges: Vec<(usize, usize, &str)> = edits
+        .iter()
+        .map(|edit| {
+            let range = &edit["range"];
+            (offset(&range["start"]), offset(&range["end"]), edit["newText"].as_str().expect("a text"))
+        })
+        .collect();
+    ranges.sort();
+    let mut text = text.to_owned();
+    for (start, end, new) in ranges.into_iter().rev() {
+        text.replace_range(start..end, new);
+    }
+    text
+}
+
+#[test]
+fn navigation_crosses_includes_macros_and_stages() {
+    for encoding in ["utf-16", "utf-8"] {
+        let folder = program();
+        let mut editor = Editor::new(&folder, json!({ "general": { "positionEncodings": [encoding] } }));
+        editor.open("a.vert", VERTEX);
+        assert!(editor.diagnostics("a.vert").is_empty());
+        let on = |editor: &Editor, word: &str| editor.on("a.vert", VERTEX, word);
+        let there = on(&editor, "light(SCALE");
+        assert_eq!(places(&editor.ask("textDocument/definition", there)), ["common.glsl:1:5"]);
+        let there = on(&editor, "common.glsl");
+        assert_eq!(places(&editor.ask("textDocument/definition", there)), ["common.glsl:0:0"]);
+        let there = on(&editor, "shade;");
+        assert_eq!(places(&editor.ask("textDocument/definition", there)), ["a.frag:1:8"], "the other side");
+        let mut there = on(&editor, "shade = light");
+        there["context"] = json!({ "includeDeclaration": true });
+        let column = if encoding == "utf-8" { 17 } else { 14 };
+        let expected = ["a.frag:1:8".into(), "a.frag:3:27".into(), format!("a.vert:13:{column}"), "a.vert:4:9".into()];
+        assert_eq!(places(&editor.ask("textDocument/references", there)), expected);
+        let mut there = on(&editor, "factor)");
+        there["context"] = json!({ "includeDeclaration": false });
+        assert_eq!(places(&editor.ask("textDocument/references", there)), ["a.vert:7:24"], "in the macro's body");
+        let there = on(&editor, "SCALE(lights");
+        let hover = editor.ask("textDocument/hover", there)["contents"]["value"].to_string();
+        assert!(hover.contains("#define SCALE(x) ((x) * factor)"), "{hover}");
+        for (word, parts) in [
+            ("light(SCALE", &["vec3 light(float amount)", "The color of a light."][..]),
+            ("amount[0]", &["Lights.amount", "offset 16"]),
+            ("factor = 2", &["const float factor = 2.0"]),
+            ("shade = light", &["out vec3 shade", "in vec3 shade", "varying location 0", "smooth"]),
+            ("position, 1.0", &["attribute location 0"]),
+            ("gl_Position", &["clip space"]),
+        ] {
+            let there = on(&editor, word);
+            let hover = editor.ask("textDocument/hover", there)["contents"]["value"].to_string();
+            for part in parts {
+                assert!(hover.contains(part), "{word}: {part}: {hover}");
+            }
+        }
+        let there = on(&editor, "light(SCALE");
+        let item = editor.ask("textDocument/prepareCallHierarchy", there)[0].clone();
+        let calls = editor.ask("callHierarchy/incomingCalls", json!({ "item": item }));
+        assert_eq!(calls[0]["from"]["name"], "main", "{calls}");
+        let calls = editor.ask("callHierarchy/outgoingCalls", json!({ "item": calls[0]["from"] }));
+        assert_eq!(calls[0]["to"]["name"], "light", "{calls}");
+        let uri = editor.uri("a.vert");
+        let links = editor.ask("textDocument/documentLink", json!({ "textDocument": { "uri": uri } }));
+        assert!(links[0]["target"].as_str().is_some_and(|target| target.ends_with("/common.glsl")), "{links}");
+        editor.close();
+    }
+}
+
+#[test]
+fn renames_reach_all_files_or_are_refused() {
+    let folder = program();
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.vert", VERTEX);
+    let mut rename = |word: &str, new: &str| {
+        let mut there = editor.on("a.vert", VERTEX, word);
+        there["newName"] = json!(new);
+        editor.answer("textDocument/rename", there)
+    };
+    let done = edited(&folder, &rename("shade;", "tint")["result"]);
+    assert_eq!(done["a.frag"], FRAGMENT.replace("shade", "tint"));
+    assert_eq!(done["a.vert"], VERTEX.replace("shade", "tint"), "text that is left out, too");
+    let done = edited(&folder, &rename("amount[2]", "strength")["result"]);
+    assert_eq!(done["a.toml"], SCENE.replace("amount", "strength"));
+    assert!(!done.contains_key("common.glsl"), "another `amount`");
+    let done = edited(&folder, &rename("light(SCALE", "lamp")["result"]);
+    assert_eq!(done["common.glsl"], COMMON.replace("light(", "lamp("));
+    let done = edited(&folder, &rename("SCALE(x)", "TIMES")["result"]);
+    assert_eq!(done["a.vert"], VERTEX.replace("SCALE", "TIMES"));
+    for (word, new, reason) in [
+        ("matrix;", "position", "would change what a name denotes"),
+        ("matrix;", "float", "a word of the language"),
+        ("matrix;", "gl_M", "reserved"),
+        ("matrix;", "mix", "built in"),
+        ("matrix;", "a b", "not an identifier"),
+        ("gl_Position", "p", "a name of the language"),
+        ("main", "start", "where a shader begins"),
+    ] {
+        let answer = rename(word, new);
+        assert!(answer["error"]["message"].as_str().is_some_and(|text| text.contains(reason)), "{word}: {answer}");
+    }
+    editor.close();
+}
+
+#[test]
+fn findings_are_those_of_lint_while_typing() {
+    let folder = program();
+    let broken = FRAGMENT.replace("in vec3 shade", "in vec4 shade").replace("shade.xyz, 1.0", "shade.xyz, undeclared");
+    fs::write(folder.path("a.frag"), &broken).expect("written");
+    let (lint, _) = folder.lint(&["."]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.vert", VERTEX);
+    editor.open("a.frag", &broken);
+    let found = editor.diagnostics("a.frag");
+    let of = |list: &[Value], line: &str, code: &str| {
+        let mut rows: Vec<(u64, String)> = list
+            .iter()
+            .map(|one| {
+                let number = one.pointer(line).and_then(Value::as_u64).expect("a line");
+                (number, one[code].as_str().expect("a code").to_owned())
+            })
+            .collect();
+        rows.sort();
+        rows
+    };
+    let lint: Vec<Value> = lint.into_iter().filter(|one| one["file"] == "a.frag").collect();
+    let told: Vec<(u64, String)> =
+        of(&found, "/range/start/line", "code").into_iter().map(|(a, b)| (a + 1, b)).collect();
+    assert_eq!(told, of(&lint, "/line", "code"));
+    assert!(found[0]["message"].as_str().expect("a text").starts_with(lint[0]["message"].as_str().expect("a text")));
+    // A change of one stage changes the findings of the other.
+    editor.change("a.frag", 2, json!([{ "text": FRAGMENT }]));
+    assert!(editor.diagnostics("a.frag").is_empty());
+    let end = editor.at(VERTEX, "vec3 shade;");
+    editor.change("a.vert", 2, json!([{ "range": { "start": end, "end": end }, "text": "flat " }]));
+    let start = editor.at(VERTEX, "shade;");
+    editor.change("a.vert", 3, json!([{ "range": { "start": start, "end": start }, "text": "un" }]));
+    let uri = editor.uri("a.vert");
+    let pulled = editor.ask("textDocument/diagnostic", json!({ "textDocument": { "uri": uri } }));
+    assert_eq!(pulled["kind"], "full");
+    let id = pulled["resultId"].clone();
+    let again =
+        editor.ask("textDocument/diagnostic", json!({ "textDocument": { "uri": uri }, "previousResultId": id }));
+    assert_eq!(again["kind"], "unchanged");
+    editor.close();
+}
+
+#[test]
+fn configurations_count_and_are_watched() {
+    let folder = program();
+    let warns = FRAGMENT.replace("void main() {", "void main() { if (shade.x > 2.0) { return; color.x = 1.0; }");
+    fs::write(folder.path("a.frag"), &warns).expect("written");
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", &warns);
+    let found = editor.diagnostics("a.frag");
+    assert!(!found.is_empty());
+    let codes: Vec<&str> = found.iter().filter_map(|one| one["code"].as_str()).collect();
+    fs::write(folder.path("glisten.toml"), format!("[lint]\nallow = {codes:?}\n")).expect("written");
+    let uri = editor.uri("glisten.toml");
+    editor.tell("workspace/didChangeWatchedFiles", json!({ "changes": [{ "uri": uri, "type": 1 }] }));
+    assert!(editor.diagnostics("a.frag").is_empty());
+    // Without a word of the editor.
+    std::thread::sleep(std::time::Duration::from_millis(2000));
+    fs::write(folder.path("glisten.toml"), "[lint]\nallow = [\"nothing\"]\n").expect("written");
+    assert!(!editor.diagnostics("a.frag").is_empty());
+    assert_eq!(editor.diagnostics("glisten.toml").len(), 1, "a mistake in the configuration is told there");
+    editor.close();
+}
+
+#[test]
+fn completion_and_signatures_work_in_half_typed_text() {
+    let folder = program();
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.vert", VERTEX);
+    editor.open("a.frag", FRAGMENT);
+    let mut version = 1;
+    let mut typed = |editor: &mut Editor, text: &str, method: &str| {
+        version += 1;
+        let place = editor.at(text, "|");
+        editor.change("a.vert", version, json!([{ "text": text.replacen('|', "", 1) }]));
+        let uri = editor.uri("a.vert");
+        editor.ask(method, json!({ "textDocument": { "uri": uri }, "position": place }))
+    };
+    let before = |line: &str| VERTEX.replace("    gl_Position", &format!("{line}\n    gl_Position"));
+    let completion = "textDocument/completion";
+    for (line, has, has_not) in [
+        ("lights.|", &["direction", "amount"][..], &["light"][..]),
+        ("vec3 a = position.|", &["x", "xyz", "rgb"], &["w", "mix"]),
+        (
+            "vec3 a = vec3(1.0, lights.amount[0] + pos|",
+            &["position", "light", "factor", "SCALE", "mix", "gl_Position"],
+            &["gl_FragCoord", "shade2"],
+        ),
+        ("for (int index = 0; index < 3; index++) { float inner = 1.0; in|", &["index", "inner", "int"], &[]),
+        ("if (true) { float gone = 1.0; } go|", &["position"], &["gone"]),
+        ("float a = 1.0\n lights.|", &["direction"], &[]),
+        ("// lights.|", &[], &["direction"]),
+    ] {
+        let answer = typed(&mut editor, &before(line), completion);
+        let found = if answer.is_null() { Vec::new() } else { labels(&answer) };
+        for name in has {
+            assert!(found.iter().any(|label| label == name), "{line}: {name}: {found:?}");
+        }
+        for name in has_not {
+            assert!(!found.iter().any(|label| label == name), "{line}: {name}");
+        }
+    }
+    for (text, name) in [
+        (VERTEX.replace("common.glsl\"", "co|"), "common.glsl"),
+        (VERTEX.replace("common.glsl\"", "|").replace('"', "<glisten/"), "phong.glsl"),
+        (VERTEX.replace("#if 0", "#ifdef |"), "SCALE"),
+        (VERTEX.replace("#if 0", "#|"), "ifndef"),
+        (VERTEX.replace("in vec3 position;", "layout(|) in vec3 position;"), "location"),
+    ] {
+        assert!(labels(&typed(&mut editor, &text, completion)).iter().any(|label| label == name), "{name}");
+    }
+    let help = "textDocument/signatureHelp";
+    let answer = typed(&mut editor, &before("vec3 a = mix(position, vec3(1.0, 2.0, 3.0), |"), help);
+    assert_eq!((&answer["activeParameter"], answer["signatures"].as_array().map(Vec::len)), (&json!(2), Some(3)));
+    let answer = typed(&mut editor, &before("vec3 a = light(|"), help);
+    assert_eq!(answer["signatures"][0]["label"], "vec3 light(float amount)");
+    // What passes from the other stage.
+    editor.change("a.vert", 99, json!([{ "text": VERTEX }]));
+    editor.change("a.frag", 2, json!([{ "text": FRAGMENT.replace("in vec3 shade;", "in ") }]));
+    let uri = editor.uri("a.frag");
+    let answer =
+        editor.ask(completion, json!({ "textDocument": { "uri": uri }, "position": { "line": 1, "character": 3 } }));
+    assert!(labels(&answer).iter().any(|label| label == "vec3 shade"), "{:?}", labels(&answer));
+    editor.close();
+}
+
+#[test]
+fn documents_are_outlined_colored_folded_and_formatted() {
+    let folder = program();
+    let nested = json!({ "textDocument": { "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } } });
+    let mut editor = Editor::new(&folder, nested);
+    editor.open("a.vert", VERTEX);
+    let uri = editor.uri("a.vert");
+    let document = json!({ "textDocument": { "uri": uri } });
+    let names = |list: &Value| -> Vec<String> {
+        list.as_array().expect("a list").iter().map(|one| one["name"].as_str().expect("a text").to_owned()).collect()
+    };
+    let symbols = editor.ask("textDocument/documentSymbol", document.clone());
+    assert_eq!(names(&symbols), ["position", "shade", "matrix", "Lights", "SCALE", "factor", "main"]);
+    assert_eq!(names(&symbols[3]["children"]), ["direction", "amount"]);
+    let found = editor.ask("workspace/symbol", json!({ "query": "lgt" }));
+    assert!(names(&found).iter().any(|name| name == "light"), "{found}");
+    let folds = editor.ask("textDocument/foldingRange", document.clone());
+    assert_eq!(folds.as_array().map(Vec::len), Some(2), "{folds}");
+    let tokens = editor.ask("textDocument/semanticTokens/full", document.clone());
+    let n_tokens = tokens["data"].as_array().expect("numbers").len() / 5;
+    let range = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 3, "character": 0 } });
+    let part =
+        editor.ask("textDocument/semanticTokens/range", json!({ "textDocument": { "uri": uri }, "range": range }));
+    let n_part = part["data"].as_array().expect("numbers").len() / 5;
+    assert!(n_part > 4 && n_part < n_tokens, "{n_part} of {n_tokens}");
+    let whole = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 99, "character": 0 } });
+    let hints = editor.ask("textDocument/inlayHint", json!({ "textDocument": { "uri": uri }, "range": whole }));
+    let hints: Vec<&str> = hints.as_array().expect("a list").iter().filter_map(|hint| hint["label"].as_str()).collect();
+    for label in ["location 0", "@16", "→ float"] {
+        assert!(hints.contains(&label), "{label}: {hints:?}");
+    }
+    let position = editor.at(VERTEX, "position, 1.0");
+    let grown =
+        editor.ask("textDocument/selectionRange", json!({ "textDocument": { "uri": uri }, "positions": [position] }));
+    let (mut at, mut depth) = (&grown[0], 0);
+    while at.is_object() {
+        (at, depth) = (&at["parent"], depth + 1);
+    }
+    assert!(depth > 6, "{grown}");
+    // Formatting gives the text of `fmt`, by lines.
+    let options = json!({ "tabSize": 8, "insertSpaces": false });
+    let edits = editor.ask("textDocument/formatting", json!({ "textDocument": { "uri": uri }, "options": options }));
+    let formatted = folder.run_with_input(&["fmt", "--stdin-filename", "a.vert", "-"], VERTEX);
+    let edits = edits.as_array().expect("a list").clone();
+    assert_eq!(applied(VERTEX, &edits, false), String::from_utf8_lossy(&formatted.stdout));
+    let untouched = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 4, "character": 0 } });
+    let ask = json!({ "textDocument": { "uri": uri }, "range": untouched, "options": options });
+    assert_eq!(editor.ask("textDocument/rangeFormatting", ask), json!([]));
+    editor.close();
+}
+
+#[test]
+fn a_header_is_seen_in_its_includer() {
+    let folder = program();
+    let mut editor = Editor::new(&folder, json!({}));
+    let wrong = COMMON.replace("vec3(amount)", "vec3(factr)");
+    editor.open("common.glsl", &wrong);
+    let found = editor.diagnostics("common.glsl");
+    assert_eq!(found.len(), 1, "{found:?}");
+    let there = editor.on("common.glsl", &wrong, "amount)");
+    let hover = editor.ask("textDocument/hover", there);
+    assert!(hover["contents"]["value"].to_string().contains("float amount"), "{hover}");
+    let mut there = editor.on("common.glsl", &wrong, "light(");
+    there["context"] = json!({ "includeDeclaration": true });
+    assert_eq!(places(&editor.ask("textDocument/references", there)), ["a.vert:13:22", "common.glsl:1:5"]);
+    editor.close();
+}
+
+/// A generator that is the same in every run (Steele, Lea, Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) % n.max(1) as u64) as usize
+    }
+}
+
+/// What an editor sees of a document.
+fn state(editor: &mut Editor, name: &str) -> Vec<Value> {
+    let uri = editor.uri(name);
+    let document = json!({ "textDocument": { "uri": uri } });
+    ["textDocument/diagnostic", "textDocument/documentSymbol", "textDocument/semanticTokens/full"]
+        .map(|method| editor.ask(method, document.clone()))
+        .to_vec()
+}
+
+#[test]
+fn many_edits_leave_the_state_of_a_fresh_server() {
+    const PIECES: &[&str] = &[
+        "",
+        "x",
+        ";",
+        "{",
+        "}",
+        "(",
+        ")",
+        "\n",
+        "/*",
+        "*/",
+        "//",
+        "#if 0\n",
+        "#endif\n",
+        "float a = 1.0;",
+        ".",
+        "é𝄞",
+        "\\\n",
+        "#define M(x) x\n",
+        "M(",
+        "in vec3 extra;\n",
+        "shade",
+        "struct S { float m; } s;",
+        "\"",
+    ];
+    let folder = program();
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.vert", VERTEX);
+    editor.open("a.frag", FRAGMENT);
+    let mut random = Random(20_261_123);
+    let mut text = VERTEX.to_owned();
+    for version in 2..400 {
+        if version % 40 == 0 {
+            text = VERTEX.to_owned();
+            editor.change("a.vert", version, json!([{ "text": text }]));
+            continue;
+        }
+        let boundary = |text: &str, at: usize| (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+        let start = boundary(&text, random.below(text.len() + 1));
+        let end = boundary(&text, (start + random.below(12)).min(text.len())).max(start);
+        let piece = PIECES[random.below(PIECES.len())];
+        let position = |offset: usize| {
+            let line = text[..offset].matches('\n').count();
+            let from = text[..offset].rfind('\n').map_or(0, |end| end + 1);
+            json!({ "line": line, "character": text[from..offset].encode_utf16().count() })
+        };
+        let range = json!({ "start": position(start), "end": position(end) });
+        editor.change("a.vert", version, json!([{ "range": range, "text": piece }]));
+        text.replace_range(start..end, piece);
+        if version % 3 == 0 {
+            let uri = editor.uri("a.vert");
+            let at = json!({ "textDocument": { "uri": uri }, "position": { "line": 0, "character": 0 } });
+            editor.ask("textDocument/hover", at.clone());
+            editor.ask("textDocument/completion", at);
+        }
+        if version % 50 == 49 {
+            let mut fresh = Editor::new(&folder, json!({}));
+            fresh.open("a.vert", &text);
+            fresh.open("a.frag", FRAGMENT);
+            for name in ["a.vert", "a.frag"] {
+                assert_eq!(state(&mut editor, name), state(&mut fresh, name), "{version}: {text}");
+            }
+            fresh.close();
+        }
+    }
+    editor.close();
+}
+
+#[test]
+fn hostile_text_and_messages_end_nothing() {
+    let folder = program();
+    let mut editor = Editor::new(&folder, json!({}));
+    let deep = format!("#version 150\nvoid main() {{ float a = {}1.0{}; }}\n", "(".repeat(20_000), ")".repeat(20_000));
+    let wide = format!("#version 150\nvoid main() {{ float a = 1.0{}; }}\n", " + 1.0".repeat(20_000));
+    let bomb: String = (0..40).map(|n| format!("#define A{} A{n} A{n}\n", n + 1)).collect();
+    let bomb = format!("#version 150\n#define A0 x\n{bomb}void main() {{ A40; }}\n");
+    let texts = [deep, wide, bomb, "\0\u{1}\u{2}".repeat(500), "#include \"x.frag\"\n".to_owned(), String::new()];
+    for text in &texts {
+        editor.open("x.frag", text);
+        let uri = editor.uri("x.frag");
+        let document = json!({ "uri": uri });
+        let position = json!({ "line": 1, "character": 30 });
+        let whole =
+            json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 4_000_000_000_u32, "character": 9 } });
+        for method in ["hover", "completion", "definition", "signatureHelp", "documentHighlight", "prepareRename"] {
+            let at = json!({ "textDocument": document, "position": position });
+            editor.answer(&format!("textDocument/{method}"), at);
+        }
+        for method in ["documentSymbol", "foldingRange", "semanticTokens/full", "documentLink", "diagnostic"] {
+            editor.answer(&format!("textDocument/{method}"), json!({ "textDocument": document }));
+        }
+        editor.answer("textDocument/inlayHint", json!({ "textDocument": document, "range": whole }));
+        editor.answer("textDocument/selectionRange", json!({ "textDocument": document, "positions": [position] }));
+        editor.tell("textDocument/didClose", json!({ "textDocument": document }));
+    }
+    assert_eq!(editor.answer("no/such", json!({}))["error"]["code"], -32601);
+    assert_eq!(editor.answer("textDocument/hover", json!({ "x": 1 }))["error"]["code"], -32602);
+    editor.tell("textDocument/didChange", json!({ "nonsense": true }));
+    let untitled = json!({ "uri": "untitled:Untitled-1.frag", "languageId": "glsl", "version": 1, "text": FRAGMENT });
+    editor.tell("textDocument/didOpen", json!({ "textDocument": untitled }));
+    let at =
+        json!({ "textDocument": { "uri": "untitled:Untitled-1.frag" }, "position": { "line": 1, "character": 9 } });
+    assert!(editor.ask("textDocument/hover", at)["contents"]["value"].to_string().contains("in vec3 shade"));
+    editor.close();
+}
+
+#[test]
+fn the_editors_of_the_page_are_those_of_the_integrations() {
+    let page = fs::read_to_string(root().join("docs/editors.md")).expect("a page");
+    for name in ["neovim.lua", "helix.toml", "emacs.el", "zed.json"] {
+        let snippet = root().join("integrations/editors").join(name);
+        assert!(Path::new(&snippet).is_file() && page.contains(name), "{name}");
+    }
+}
