@@ -51,6 +51,42 @@ pub(super) struct Files<'a> {
 struct Open(Overlay);
 
 impl Disk for Open {
+    fn text(&self, path: &Path) -> Result<Arc<str>, String> {
+        self.0.text(path).map_or_else(|| Traced.text(path), Ok)
+    }
+
+    fn looked_for(&self, path: &Path) {
+        Traced.looked_for(path);
+    }
+
+    fn searched(&self) {
+        Traced.searched();
+    }
+}
+
+impl<'a> Files<'a> {
+    /// The files of a command.
+    ///
+    /// # Errors
+    /// A prelude that cannot be read, or a code that does not exist.
+    pub(super) fn new(
+        console: &'a Console,
+        sources: &'a SourceArgs,
+        levels: &'a LevelArgs,
+        bindings: &'a BindingArgs,
+    ) -> Result<Self, Failure> {
+        let overlay = Overlay::default();
+        let session = session(console, sources, levels, bindings, &overlay)?;
+        let (groups, includes, folders) = Default::default();
+        Ok(Self { console, sources, levels, bindings, overlay, session, groups, includes, folders })
+    }
+
+    fn note_folder(&mut self, file: &Path) {
+        if let Some(folder) = file.parent() {
+            self.folders.insert(folder.to_owned());
+        }
+    }
+
     /// The stages of a file: one, unless it contains several.
     fn inputs(&self, path: &Path) -> Vec<Input> {
         let input = |stage| {
