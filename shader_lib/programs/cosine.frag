@@ -26,8 +26,8 @@ float ink(float height, float slope, float breadth)
 
 void main()
 {
-    // The logarithm of the cosine, which the powers share.
-    float l = log(cos(place.x));
+    // The logarithm of the cosine, which the powers share; the picture ends where the cosine is 0.
+    float l = log(cos(place.x)); // glisten: allow(log-of-zero)
     vec3 seen = paper;
     for (int i = 0; i < 4; ++i) {
         float n = exponents[i];

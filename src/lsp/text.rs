@@ -72,6 +72,8 @@ pub(crate) struct Text {
     /// The text.
     pub(crate) text: Arc<str>,
     starts: Vec<usize>,
+    /// Whether every character is a byte, so that the units of all encodings are the same.
+    is_ascii: bool,
 }
 
 impl Text {
@@ -85,7 +87,8 @@ impl Text {
                 starts.push(at + 1);
             }
         }
-        Self { text, starts }
+        let is_ascii = text.is_ascii();
+        Self { text, starts, is_ascii }
     }
 
     /// The line of an offset, counted from 0.
@@ -110,7 +113,8 @@ impl Text {
         if line >= self.starts.len() {
             return self.text.len();
         }
-        self.start_of(line) + encoding.bytes(self.line(line), position.character as usize)
+        let (text, units) = (self.line(line), position.character as usize);
+        self.start_of(line) + if self.is_ascii { units.min(text.len()) } else { encoding.bytes(text, units) }
     }
 
     /// The position of an offset.
@@ -121,7 +125,8 @@ impl Text {
         }
         let line = self.line_of(offset);
         let before = self.text.get(self.start_of(line)..offset).unwrap_or("");
-        Position { line: line as u32, character: encoding.units(before) as u32 }
+        let units = if self.is_ascii { before.len() } else { encoding.units(before) };
+        Position { line: line as u32, character: units as u32 }
     }
 
     /// The range of two offsets.

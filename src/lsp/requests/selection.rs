@@ -12,6 +12,9 @@ use lsp_types::{SelectionRange, SelectionRangeParams};
 use std::ops::Range;
 use std::path::Path;
 
+/// The most ranges of an answer: the innermost ones, and the whole text.
+const DEEPEST: usize = 128;
+
 /// Answers the request.
 pub(super) fn ranges(state: &mut State<'_>, params: &SelectionRangeParams) -> Option<Vec<SelectionRange>> {
     let path = uri::path(&params.text_document.uri);
@@ -36,6 +39,10 @@ pub(super) fn ranges(state: &mut State<'_>, params: &SelectionRangeParams) -> Op
             if chain.last().is_none_or(|inner| range.start <= inner.start && inner.end <= range.end) {
                 chain.push(range);
             }
+        }
+        // The answer nests; nobody grows a selection so often.
+        if chain.len() > DEEPEST {
+            chain.drain(DEEPEST - 1..chain.len() - 1);
         }
         let mut answer: Option<SelectionRange> = None;
         for range in chain.into_iter().rev() {
