@@ -238,7 +238,7 @@ fn n_errors(units: &[Unit]) -> usize {
     batches.flat_map(|batch| &batch.diagnostics).filter(|one| one.is_error()).count()
 }
 
-/// What a fix is known by when lines above it have come or gone.
+/// The name of a fix, which stays the same when lines above it come or go.
 fn key(finding: &Finding, fix: &FindingFix) -> String {
     format!(
         "{} {} {:x} {} {}",

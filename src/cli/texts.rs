@@ -27,7 +27,7 @@ impl Text {
     }
 }
 
-/// What changes in a file, as a unified diff.
+/// The changes of a file, as a unified diff.
 pub(super) fn diff(name: &str, before: &str, after: &str) -> String {
     TextDiff::from_lines(before, after).unified_diff().header(name, name).to_string()
 }

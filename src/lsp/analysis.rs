@@ -29,7 +29,7 @@ pub(crate) struct Place {
 pub(crate) struct Analysis {
     /// Its key.
     pub(crate) key: ProgramKey,
-    /// What the compiler says.
+    /// The compiler's findings.
     pub(crate) compiled: Compiled,
     /// The last program without errors.
     pub(crate) good: Option<Rc<Program>>,

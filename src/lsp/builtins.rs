@@ -13,7 +13,7 @@ use glisten_front::syntax::token::TokenKind;
 pub(crate) struct Builtin {
     /// Its declarations.
     pub(crate) declarations: Vec<String>,
-    /// What it is.
+    /// Its kind.
     pub(crate) sentence: Option<&'static str>,
     /// Where the specification has it.
     pub(crate) section: &'static str,
@@ -25,11 +25,11 @@ pub(crate) struct Listed {
     pub(crate) name: &'static str,
     /// Its declaration.
     pub(crate) detail: String,
-    /// What it is.
+    /// Its kind.
     pub(crate) kind: ListedKind,
 }
 
-/// What a name of a list is.
+/// The kinds of names in the lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ListedKind {
     /// A function.
@@ -70,7 +70,7 @@ pub(crate) fn prototypes(
     if here.is_empty() { rows.to_vec() } else { here }
 }
 
-/// What a built-in name is.
+/// The kind of a built-in name.
 pub(crate) fn describe(name: &str, version: Version, stage: Stage) -> Option<Builtin> {
     let all = Extensions::all();
     let sentence = sentences::sentence(name);
@@ -95,7 +95,7 @@ pub(crate) fn describe(name: &str, version: Version, stage: Stage) -> Option<Bui
     Some(Builtin { declarations: vec![declaration], sentence, section: "§7" })
 }
 
-/// What a keyword is.
+/// The meaning of a keyword.
 pub(crate) fn keyword(word: &str) -> Option<String> {
     let row = keywords::TABLE.iter().find(|row| row.spelling == word)?;
     let kind = if row.kind == TokenKind::Type { "a type" } else { "a keyword" };

@@ -1,4 +1,4 @@
-//! What a name is, in words and in GLSL: declarations, values, and the places that the link assigns.
+//! A name in words and in GLSL: declarations, values, and the places that the link assigns.
 //!
 //! *In:* a symbol of a program. *Out:* its declaration as GLSL, its comment, and facts: location, offset, interpolation, value.
 
@@ -214,7 +214,7 @@ pub(crate) fn stage(view: &View) -> Stage {
     view.shader.stage
 }
 
-/// What the link says of a symbol: locations, offsets, bindings.
+/// The link's facts about a symbol: locations, offsets, bindings.
 pub(crate) fn facts(analysis: &Analysis, symbol: &Symbol) -> Vec<String> {
     let (Some(program), Some(&(view, denoted))) = (&analysis.good, symbol.places.first()) else { return Vec::new() };
     let Some(view) = analysis.compiled.inspection.view(view) else { return Vec::new() };
@@ -231,7 +231,7 @@ pub(crate) fn facts(analysis: &Analysis, symbol: &Symbol) -> Vec<String> {
     }
 }
 
-/// What the link says of a global.
+/// The link's facts about a global.
 pub(crate) fn of_global(program: &Program, view: &View, global: &Global) -> Vec<String> {
     let interface = &program.interface;
     let is_part = |name: &str| {
@@ -289,7 +289,7 @@ fn locations(what: &str, first: u32, count: u32) -> String {
     if count > 1 { format!("{what} {first} to {}", first + count - 1) } else { format!("{what} {first}") }
 }
 
-/// What the link says of a member of a block.
+/// The link's facts about a member of a block.
 pub(crate) fn of_member(program: &Program, block: &str, member: &str) -> Vec<String> {
     let Some(offset) = member_offset(program, block, member) else { return Vec::new() };
     let (leaf, n_bytes) = offset;

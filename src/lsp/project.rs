@@ -51,7 +51,7 @@ pub(crate) struct Compiled {
     pub(crate) sources: SourceMap,
     /// The findings, with the levels that the configuration gives them.
     pub(crate) findings: Vec<Diagnostic>,
-    /// What the names denote.
+    /// The things that names denote.
     pub(crate) inspection: Inspection,
     /// The linked program, if there are no errors.
     pub(crate) program: Option<Program>,
@@ -59,7 +59,7 @@ pub(crate) struct Compiled {
     pub(crate) read: Vec<Vec<FileId>>,
 }
 
-/// What the program knows of files.
+/// The files, as the program knows them.
 pub(crate) trait Project {
     /// The texts of open documents, which all other answers take into account.
     fn overlay(&self) -> &Overlay;

@@ -38,7 +38,7 @@ struct Server<'a> {
     changed: BTreeSet<PathBuf>,
     /// Whether anything changed since.
     is_stale: bool,
-    /// What has been told, by file.
+    /// The findings that were told, by file.
     told: BTreeMap<PathBuf, Value>,
     /// Whether the editor has asked for diagnostics, and gets no others.
     has_pulled: bool,
@@ -48,7 +48,7 @@ struct Server<'a> {
     seen: BTreeMap<PathBuf, Option<SystemTime>>,
 }
 
-/// What follows a message.
+/// The next step after a message.
 enum Next {
     Go,
     Exit,
@@ -124,7 +124,7 @@ fn client(parameters: &InitializeParams) -> Client {
     Client {
         pulls: document.is_some_and(|document| document.diagnostic.is_some()),
         refreshes: is(workspace.and_then(|workspace| workspace.diagnostic.as_ref()?.refresh_support)),
-        greys: published.is_some_and(|published| published.tag_support.is_some()),
+        grays: published.is_some_and(|published| published.tag_support.is_some()),
         relates: is(published.and_then(|published| published.related_information)),
         watches: is(workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)),
         versions: is(workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes)),

@@ -1,6 +1,6 @@
 //! [`State`]: the open documents, the programs that they belong to, and what is known of them.
 //!
-//! *In:* documents as they change. *Out:* analyses of the programs of a document, made when they are asked for and kept until one
+//! *In:* documents as they change. *Out:* results of the analysis of a document's programs, made when they are asked for and kept until one
 //! of their files changes. *Holds:* a header is seen in the programs that include it.
 
 use super::analysis::{Analysis, Place};
@@ -30,15 +30,15 @@ pub(crate) struct Document {
     pub(crate) text: Text,
 }
 
-/// What the editor can do.
+/// The abilities of the editor.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Client {
     /// It asks for diagnostics.
     pub(crate) pulls: bool,
     /// It can be told to ask again.
     pub(crate) refreshes: bool,
-    /// It greys text that is marked as unnecessary.
-    pub(crate) greys: bool,
+    /// It grays out text that is marked as unnecessary.
+    pub(crate) grays: bool,
     /// It shows places that belong to a diagnostic.
     pub(crate) relates: bool,
     /// It watches files for the server.
@@ -53,7 +53,7 @@ pub(crate) struct Client {
 pub(crate) struct State<'p> {
     /// The files.
     pub(crate) project: &'p mut dyn Project,
-    /// What positions count.
+    /// The units of positions.
     pub(crate) encoding: Encoding,
     /// The editor.
     pub(crate) client: Client,

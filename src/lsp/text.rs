@@ -6,7 +6,7 @@
 use lsp_types::{Position, PositionEncodingKind, Range, TextDocumentContentChangeEvent};
 use std::sync::Arc;
 
-/// What the characters of a position count.
+/// The units of a position's characters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Encoding {
     /// Bytes.

@@ -7,7 +7,7 @@ use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_enco
 use std::path::{Component, Path, PathBuf};
 use std::str::FromStr;
 
-/// What a path of a URI writes with a percent sign (RFC 3986 §3.3).
+/// The characters that a path of a URI writes with a percent sign (RFC 3986 §3.3).
 const ENCODED: &AsciiSet = &CONTROLS
     .add(b' ')
     .add(b'"')

@@ -525,7 +525,7 @@ impl Random {
     }
 }
 
-/// What an editor sees of a document.
+/// A document as an editor sees it.
 fn state(editor: &mut Editor, name: &str) -> Vec<Value> {
     let uri = editor.uri(name);
     let document = json!({ "textDocument": { "uri": uri } });

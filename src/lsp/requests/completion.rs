@@ -1,4 +1,4 @@
-//! What could stand at a place (LSP 3.17, `textDocument/completion`): members and components after a dot, names in sight, macros,
+//! Names that fit at a place (LSP 3.17, `textDocument/completion`): members and components after a dot, names in sight, macros,
 //! built-in names of this version and stage, keywords, what the other stage passes, and in directives their words and files.
 //!
 //! *In:* a place in a text that is being typed. *Out:* a list; the editor chooses by what is typed. *Holds:* the text is cut at the
@@ -21,7 +21,7 @@ use lsp_types::{
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// The name that stands at the place.
+/// The name that is at the place.
 const PROBE: &str = "glisten_probe";
 /// The names of components, in sets (GLSL 1.50 §5.5).
 const COMPONENTS: [&str; 3] = ["xyzw", "rgba", "stpq"];

@@ -1,7 +1,7 @@
 //! Diagnostics, pushed and pulled (LSP 3.17, `textDocument/publishDiagnostics` and `textDocument/diagnostic`).
 //!
 //! *Holds:* they are the findings of `glisten lint` over the programs of the open documents, each at the file that it is in. Text
-//! that conditions leave out is marked as unnecessary, for editors that grey it.
+//! that conditions leave out is marked as unnecessary, for editors that gray it.
 
 use crate::lsp::analysis::Analysis;
 use crate::lsp::state::State;
@@ -43,10 +43,10 @@ pub(in crate::lsp) fn all(state: &mut State<'_>) -> BTreeMap<PathBuf, Vec<Diagno
         add_analysis(state, analysis, &mut found);
     }
     add_configurations(state, &mut found);
-    if state.client.greys {
+    if state.client.grays {
         for path in &open {
-            let grey = inactive(state, path);
-            found.entry(path.clone()).or_default().extend(grey);
+            let gray = inactive(state, path);
+            found.entry(path.clone()).or_default().extend(gray);
         }
     }
     for diagnostics in found.values_mut() {
@@ -110,7 +110,7 @@ pub(super) fn diagnostic(state: &State<'_>, analysis: &Analysis, finding: &Findi
         source: Some(SOURCE.to_owned()),
         message: message(finding, state.client.relates),
         related_information: (state.client.relates && !related.is_empty()).then_some(related),
-        tags: (is_unnecessary && state.client.greys).then(|| vec![DiagnosticTag::UNNECESSARY]),
+        tags: (is_unnecessary && state.client.grays).then(|| vec![DiagnosticTag::UNNECESSARY]),
         data: None,
     }
 }
@@ -177,7 +177,7 @@ fn of_configuration(state: &State<'_>, sources: &SourceMap, finding: &Finding) -
 fn inactive(state: &mut State<'_>, path: &Path) -> Vec<Diagnostic> {
     let ranges = inactive_ranges(state, path);
     let Some(document) = state.documents.get(path) else { return Vec::new() };
-    let grey = |range: std::ops::Range<usize>| Diagnostic {
+    let gray = |range: std::ops::Range<usize>| Diagnostic {
         range: document.text.range(range, state.encoding),
         severity: Some(DiagnosticSeverity::HINT),
         source: Some(SOURCE.to_owned()),
@@ -185,7 +185,7 @@ fn inactive(state: &mut State<'_>, path: &Path) -> Vec<Diagnostic> {
         tags: Some(vec![DiagnosticTag::UNNECESSARY]),
         ..Diagnostic::default()
     };
-    ranges.into_iter().map(grey).collect()
+    ranges.into_iter().map(gray).collect()
 }
 
 /// The ranges of a file that conditions leave out, in the first program of the file: in all stages that read it.

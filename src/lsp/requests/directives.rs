@@ -1,4 +1,4 @@
-//! What could stand in a directive (GLSL 1.50 §3.3): its name, files, extensions, versions, macros.
+//! Words that fit in a directive (GLSL 1.50 §3.3): its name, files, extensions, versions, macros.
 
 use crate::lsp::state::{Point, State};
 use glisten_front::language::Extensions;
@@ -43,7 +43,7 @@ const VERSIONS: &[&str] = &[
     "310 es",
     "320 es",
 ];
-/// What an `#extension` line says after the colon.
+/// The words of an `#extension` line after the colon.
 const BEHAVIORS: &[&str] = &["require", "enable", "warn", "disable"];
 /// Pragmas.
 const PRAGMAS: &[&str] = &["STDGL invariant(all)", "optimize(on)", "optimize(off)", "debug(on)", "debug(off)", "once"];

@@ -1,4 +1,4 @@
-//! What can be folded (LSP 3.17, `textDocument/foldingRange`): brackets, comments, runs of includes, and the groups of `#if`.
+//! The parts that can be folded (LSP 3.17, `textDocument/foldingRange`): brackets, comments, runs of includes, and the groups of `#if`.
 
 use crate::format::scan::{Kind, Lexeme, scan};
 use crate::lsp::state::State;

@@ -1,4 +1,4 @@
-//! What the text does not say and the compiler knows (LSP 3.17, `textDocument/inlayHint`): locations, std140 offsets, bindings, and
+//! Facts that the compiler knows and the text does not say (LSP 3.17, `textDocument/inlayHint`): locations, std140 offsets, bindings, and
 //! implicit conversions (GLSL 1.50 §4.1.10).
 
 use crate::lsp::analysis::Analysis;

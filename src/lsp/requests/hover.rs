@@ -1,4 +1,4 @@
-//! What a name is (LSP 3.17, `textDocument/hover`): its declaration with type and value, its comment, the places that the link
+//! The meaning of a name (LSP 3.17, `textDocument/hover`): its declaration with type and value, its comment, the places that the link
 //! assigns, the other stage's declaration, the expansion of a macro; for a built-in name its prototypes and what it does.
 
 use crate::lsp::analysis::Analysis;
@@ -84,7 +84,7 @@ fn describe(state: &State<'_>, analysis: &Rc<Analysis>, found: &Occurrence, poin
     Some(text)
 }
 
-/// What a symbol is in the view that reads a file; the first if none does.
+/// A symbol as it is in the view that reads a file; the first if none does.
 pub(super) fn own_place(analysis: &Analysis, places: &[(usize, Denoted)], path: &Path) -> Option<(usize, Denoted)> {
     let views: Vec<_> = analysis.views_of(path).iter().map(|view| view.file).collect();
     let is_own = |(view, _): &&(usize, Denoted)| {
@@ -149,7 +149,7 @@ fn include(point: &Point) -> Option<(String, std::ops::Range<usize>)> {
     None
 }
 
-/// What is no name of the program: components, `length`, keywords, and what stands in text that is left out.
+/// Words that are no names of the program: components, `length`, keywords, and those in text that is left out.
 fn other(point: &Point) -> Option<(String, std::ops::Range<usize>)> {
     let range = point.text.word_at(point.offset)?;
     let word = point.text.text.get(range.clone())?;

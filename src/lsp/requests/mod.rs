@@ -125,7 +125,7 @@ pub(super) fn handler(method: &str) -> Option<Handler> {
     HANDLERS.iter().find(|(name, _)| *name == method).map(|(_, handler)| *handler)
 }
 
-/// What the server can do (LSP 3.17, `ServerCapabilities`).
+/// The abilities of the server (LSP 3.17, `ServerCapabilities`).
 pub(super) fn capabilities(encoding: Encoding) -> Value {
     json!({
         "positionEncoding": encoding.kind(),

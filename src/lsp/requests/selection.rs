@@ -1,4 +1,4 @@
-//! What a selection grows to (LSP 3.17, `textDocument/selectionRange`): the word, then expressions, statements and declarations of
+//! The ranges that a selection grows to (LSP 3.17, `textDocument/selectionRange`): the word, then expressions, statements and declarations of
 //! the tree, then the text.
 
 use crate::lsp::analysis::Analysis;
@@ -54,7 +54,7 @@ pub(super) fn ranges(state: &mut State<'_>, params: &SelectionRangeParams) -> Op
     Some(answers)
 }
 
-/// What is between the brackets around a place.
+/// The text between the brackets around a place.
 fn brackets(text: &str, offset: usize) -> Vec<Range<usize>> {
     let Some(before) = text.get(..offset) else { return Vec::new() };
     let mut ranges = Vec::new();

@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-/// What a token is, as an index into the legend.
+/// The kind of a token, as an index into the legend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Color {
     Comment,

@@ -42,7 +42,7 @@ impl Analyzer<'_> {
         self.note(span, Denoted::Member(structure, member), role);
     }
 
-    /// What a binding denotes.
+    /// The thing that a binding denotes.
     fn denoted(&self, binding: Binding) -> Option<Denoted> {
         Some(match binding.entry {
             Entry::Variable(VarRef::Global(id)) => {

@@ -1,4 +1,4 @@
-//! What each built-in function and variable is, in one sentence with its equation (GLSL 1.50 §7, §8; later ones from 4.60).
+//! Each built-in function and variable in one sentence, with its equation (GLSL 1.50 §7, §8; later ones from 4.60).
 //!
 //! *In:* a name. *Out:* a sentence for people. *Holds:* names of texture lookups that differ in the sampler alone share a row, which
 //! is found by the end of the name.
@@ -183,7 +183,7 @@ static LOOKUPS: &[(&str, &str)] = &[
     ),
 ];
 
-/// What a built-in function or variable is.
+/// The sentence of a built-in function or variable.
 pub fn sentence(name: &str) -> Option<&'static str> {
     let own = SENTENCES.iter().find(|row| row.0 == name);
     let lookup = || {

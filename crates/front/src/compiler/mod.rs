@@ -299,7 +299,7 @@ struct Facts<'p> {
     asked: BTreeSet<String>,
     /// [`Compilation::read`], up to the source that is read now.
     read: Vec<Vec<FileId>>,
-    /// What is kept for [`Compiler::inspect`].
+    /// The facts that are kept for [`Compiler::inspect`].
     observer: Option<Observer<'p>>,
 }
 

@@ -15,11 +15,11 @@ pub enum Place {
     Before,
     /// Behind it.
     After,
-    /// Around it: `...` in the text is what stands there.
+    /// Around it: `...` in the text is what is there.
     Around,
 }
 
-/// What to do about a diagnostic.
+/// The advice of a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Advice {
     /// The sentence.

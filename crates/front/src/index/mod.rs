@@ -1,4 +1,4 @@
-//! What each name of a program's texts denotes, over all of its stages and files, for editors and other readers of texts.
+//! The thing that each name of a program's texts denotes, over all of its stages and files, for editors and other readers of texts.
 //!
 //! *In:* an [`Inspection`]: trees, typed shaders and notes of all stages, with errors or without. *Out:* an [`Index`]: symbols, and
 //! where each occurs. *Holds:* declarations of one text that several stages include are one symbol, and so are the two sides of
@@ -25,7 +25,7 @@ pub struct View {
     pub ast: Ast,
     /// The typed shader, before the link.
     pub shader: Shader,
-    /// What its names denote.
+    /// The things that its names denote.
     pub notes: Notes,
 }
 
@@ -61,7 +61,7 @@ impl SymbolId {
     }
 }
 
-/// What a symbol is.
+/// The kind of a symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SymbolKind {
     /// Something of the shaders.
@@ -79,9 +79,9 @@ pub enum SymbolKind {
 pub struct Symbol {
     /// The name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: SymbolKind,
-    /// What it is in each view, by the view's number; empty for a macro.
+    /// The thing in each view, by the view's number; empty for a macro.
     pub places: Vec<(usize, Denoted)>,
     /// Where it is declared, the definition of a function first; written outside of macros or in a macro's body.
     pub declarations: Vec<Span>,

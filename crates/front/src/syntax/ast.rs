@@ -58,7 +58,7 @@ pub struct Ast {
     pub macros: Vec<std::sync::Arc<str>>,
     /// For each name by its symbol, whether the tree depends on what macro it names.
     pub asked: Vec<bool>,
-    /// What the preprocessor met besides the tokens.
+    /// The directives and comments that the preprocessor met.
     pub directives: Directives,
 }
 

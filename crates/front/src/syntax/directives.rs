@@ -37,7 +37,7 @@ pub struct IncludeName {
     pub file: Option<FileId>,
 }
 
-/// What the preprocessor met besides the tokens, in the order of reading.
+/// The directives and comments that the preprocessor met, in the order of reading.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Directives {
     /// The definitions of macros, those from outside included.

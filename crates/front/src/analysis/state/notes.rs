@@ -7,7 +7,7 @@ use crate::hir::{FunctionId, GlobalId, LocalId, StructId, TypeId};
 use crate::source::Span;
 use crate::syntax::token::Symbol;
 
-/// What a name denotes.
+/// The thing that a name denotes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Denoted {
     /// A global variable, or the instance of a block.
@@ -32,7 +32,7 @@ pub enum Denoted {
     Broken(Span),
 }
 
-/// What happens to the thing at the place of the name.
+/// The use of the thing at the place of the name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum NoteRole {
     /// It is declared.
@@ -48,9 +48,9 @@ pub enum NoteRole {
 pub struct Note {
     /// The name.
     pub span: Span,
-    /// What it denotes.
+    /// The thing that it denotes.
     pub denoted: Denoted,
-    /// What happens to it.
+    /// The use of it.
     pub role: NoteRole,
 }
 
@@ -70,7 +70,7 @@ pub struct Probe {
 pub struct Notes {
     /// The names, in the order of the analysis.
     pub names: Vec<Note>,
-    /// What the probe has found.
+    /// The names in scope that the probe has found.
     pub probe: Option<Probe>,
     /// The names at global scope at the end, in order of declaration.
     pub at_end: Vec<(Symbol, Denoted)>,

@@ -140,7 +140,7 @@ fn resolved(sources: &SourceMap, fix: &Fix) -> Option<FindingFix> {
     Some(FindingFix { title: fix.title.clone(), applicability: fix.applicability, edits })
 }
 
-/// What goes with a text that is removed: the whole line if nothing else is on it, otherwise the blanks behind it.
+/// The span of a text that is removed, and of what goes with it: the whole line if nothing else is on it, otherwise the blanks behind it.
 fn removed(sources: &SourceMap, span: Span) -> Span {
     let Some(line) = sources.line_of(span) else { return span };
     let before = sources.snippet(Span { end: span.start, ..line });
