@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The most ranges of an answer: the innermost ones, and the whole text.
-const DEEPEST: usize = 128;
+const DEEPEST: usize = 64;
 
 /// Answers the request.
 pub(super) fn ranges(state: &mut State<'_>, params: &SelectionRangeParams) -> Option<Vec<SelectionRange>> {
