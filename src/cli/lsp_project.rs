@@ -17,12 +17,13 @@ use crate::format::{Formatted, Options};
 use crate::library;
 use crate::lsp::{Compiled, Overlay, ProgramKey, Project};
 use crate::sources::{Disk, stages};
-use glisten_front::compiler::Source;
-use glisten_front::diagnostic::Diagnostic;
+use glisten_front::compiler::{Compilation, Source};
 use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
+use glisten_front::diagnostic::{Code, Diagnostic, Levels};
 use glisten_front::hir::Stage;
 use glisten_front::index::Inspection;
 use glisten_front::link::Program;
+use glisten_front::lint::check_some;
 use glisten_front::source::{SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -111,6 +112,21 @@ impl<'a> Files<'a> {
         let key = ProgramKey { name: group.name.clone(), files };
         self.groups.insert(key.clone(), group);
         key
+    }
+
+    /// The findings of those rules that can report anything in a program's files.
+    fn lints(&mut self, compilation: &Compilation) -> Vec<Diagnostic> {
+        let Some(program) = &compilation.program else { return Vec::new() };
+        let files = compilation.sources.files();
+        let levels: Vec<Levels> = files.map(|(_, file)| self.session.levels_of(file.name())).collect();
+        let wanted = |code: &Code| levels.iter().any(|levels| levels.may_report(code));
+        match guard::guarded(|| check_some(program, &compilation.sources, wanted)) {
+            Ok(found) => found,
+            Err(panic) => {
+                let base = compilation.sources.files().next().map_or(0, |(_, file)| file.base());
+                vec![guard::diagnostic(&panic, Span::new(base, base))]
+            }
+        }
     }
 
     /// The sources of a program, and what cannot be read.
@@ -221,14 +237,9 @@ impl Project for Files<'_> {
             return Compiled { findings: unread, sources: map, ..nothing() };
         }
         let compiler = self.session.compiler();
-        let work = || {
-            let (compilation, inspection) = compiler.inspect(&sources, None);
-            let linked = compilation.program.as_ref();
-            let found = linked.map(|linked| glisten_front::lint::check(linked, &compilation.sources));
-            (compilation, inspection, found.into_iter().flatten().collect::<Vec<Diagnostic>>())
-        };
-        match guard::guarded(work) {
-            Ok((compilation, inspection, lints)) => {
+        match guard::guarded(|| compiler.inspect(&sources, None)) {
+            Ok((compilation, inspection)) => {
+                let lints = self.lints(&compilation);
                 let mut batch = Batch { sources: compilation.sources, diagnostics: Vec::new() };
                 let found: Vec<Diagnostic> = compilation.diagnostics.into_iter().collect();
                 self.session.add(&mut batch, found);

@@ -130,6 +130,12 @@ impl<'a> Session<'a> {
         })
     }
 
+    /// The levels of a file.
+    #[cfg(feature = "lsp")]
+    pub(super) fn levels_of(&mut self, name: &str) -> glisten_front::diagnostic::Levels {
+        self.configs.levels(name).clone()
+    }
+
     /// The errors in configurations so far.
     #[cfg(feature = "lsp")]
     pub(super) fn configuration_errors(&self) -> &[Batch] {

@@ -130,6 +130,15 @@ impl<'p> State<'p> {
         self.reload();
     }
 
+    /// Forgets a program of which no file is open.
+    pub(crate) fn release(&mut self, key: &ProgramKey) {
+        let is_open = |analysis: &Rc<Analysis>| self.documents.keys().any(|path| analysis.has(path));
+        if !self.analyses.get(key).is_some_and(is_open) {
+            self.analyses.remove(key);
+            self.good.remove(key);
+        }
+    }
+
     /// Forgets the programs of which no file is open.
     fn keep_what_is_open(&mut self) {
         let documents = &self.documents;

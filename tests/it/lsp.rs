@@ -496,6 +496,25 @@ fn documents_are_outlined_colored_folded_and_formatted() {
 }
 
 #[test]
+fn fixes_are_actions() {
+    let folder = program();
+    let wrong = FRAGMENT.replace("shade.xyz", "shde.xyz");
+    fs::write(folder.path("a.frag"), &wrong).expect("written");
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", &wrong);
+    assert_eq!(editor.diagnostics("a.frag")[0]["code"], "E0301");
+    let uri = editor.uri("a.frag");
+    let range = json!({ "start": editor.at(&wrong, "shde"), "end": editor.at(&wrong, "shde") });
+    let ask = json!({ "textDocument": { "uri": uri }, "range": range, "context": { "diagnostics": [] } });
+    let actions = editor.ask("textDocument/codeAction", ask);
+    let fix = actions.as_array().expect("a list").iter().find(|action| action["title"] == "write `shade`");
+    let fix = fix.unwrap_or_else(|| panic!("{actions}"));
+    assert_eq!((&fix["kind"], &fix["diagnostics"][0]["code"]), (&json!("quickfix"), &json!("E0301")));
+    assert_eq!(edited(&folder, &fix["edit"])["a.frag"], FRAGMENT);
+    editor.close();
+}
+
+#[test]
 fn a_header_is_seen_in_its_includer() {
     let folder = program();
     let mut editor = Editor::new(&folder, json!({}));

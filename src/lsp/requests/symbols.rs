@@ -2,6 +2,7 @@
 
 use crate::lsp::analysis::Analysis;
 use crate::lsp::describe;
+use crate::lsp::project::ProgramKey;
 use crate::lsp::state::State;
 use crate::lsp::uri;
 use glisten_front::analysis::Denoted;
@@ -13,7 +14,6 @@ use lsp_types::{
     DocumentSymbol, DocumentSymbolResponse, Location, SymbolInformation, SymbolKind, Uri, WorkspaceSymbolResponse,
 };
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 /// A workspace has at most this many symbols in an answer.
 const MAX_SYMBOLS: usize = 400;
@@ -202,34 +202,52 @@ impl Maker<'_, '_> {
 /// The names of the workspace that contain the letters of a query, in their order.
 pub(super) fn workspace(state: &mut State<'_>, query: &str) -> Option<WorkspaceSymbolResponse> {
     let mut found: Vec<SymbolInformation> = Vec::new();
-    for analysis in all(state) {
-        let index = analysis.index();
-        for (id, symbol) in index.symbols() {
-            let is_global = !matches!(symbol.places.first(), Some((_, Denoted::Local(..) | Denoted::Broken(_))));
-            let is_own = matches!(symbol.kind, Named::Declared | Named::Macro) && is_global;
-            if !is_own || !fits(&symbol.name, query) {
-                continue;
-            }
-            let declared = |found: &&Occurrence| matches!(found.role, Role::Declaration | Role::Definition);
-            for occurrence in index.of(id).filter(declared) {
-                let is_file = analysis.named_place(occurrence.span).is_some_and(|place| !place.file.starts_with('<'));
-                let Some(location) = state.location(&analysis, occurrence.span).filter(|_| is_file) else { continue };
-                if found.len() < MAX_SYMBOLS && !found.iter().any(|other| other.location == location) {
-                    #[expect(deprecated, reason = "the type has the field")]
-                    found.push(SymbolInformation {
-                        name: symbol.name.clone(),
-                        kind: kind_of(symbol.kind, symbol.places.first().map(|(_, denoted)| *denoted)),
-                        tags: None,
-                        deprecated: None,
-                        location,
-                        container_name: Some(analysis.key.name.clone()),
-                    });
-                }
-            }
-        }
+    let open: Vec<PathBuf> = state.documents.keys().cloned().collect();
+    let mut keys: Vec<ProgramKey> = Vec::new();
+    for path in open {
+        keys.extend(state.analyses_of(&path).iter().map(|analysis| analysis.key.clone()));
+    }
+    for folder in state.folders.clone() {
+        keys.extend(state.project.programs_in(&folder).into_iter().take(MAX_PROGRAMS));
+    }
+    keys.sort();
+    keys.dedup();
+    for key in keys {
+        let analysis = state.analysis(&key);
+        of_program(state, &analysis, query, &mut found);
+        // A workspace may have more programs than should be kept.
+        state.release(&key);
     }
     found.sort_by(|a, b| (a.name.len(), &a.name).cmp(&(b.name.len(), &b.name)));
     Some(WorkspaceSymbolResponse::Flat(found))
+}
+
+/// Adds the names of a program.
+fn of_program(state: &State<'_>, analysis: &Analysis, query: &str, found: &mut Vec<SymbolInformation>) {
+    let index = analysis.index();
+    for (id, symbol) in index.symbols() {
+        let is_global = !matches!(symbol.places.first(), Some((_, Denoted::Local(..) | Denoted::Broken(_))));
+        let is_own = matches!(symbol.kind, Named::Declared | Named::Macro) && is_global;
+        if !is_own || !fits(&symbol.name, query) {
+            continue;
+        }
+        let declared = |found: &&Occurrence| matches!(found.role, Role::Declaration | Role::Definition);
+        for occurrence in index.of(id).filter(declared) {
+            let is_file = analysis.named_place(occurrence.span).is_some_and(|place| !place.file.starts_with('<'));
+            let Some(location) = state.location(analysis, occurrence.span).filter(|_| is_file) else { continue };
+            if found.len() < MAX_SYMBOLS && !found.iter().any(|other| other.location == location) {
+                #[expect(deprecated, reason = "the type has the field")]
+                found.push(SymbolInformation {
+                    name: symbol.name.clone(),
+                    kind: kind_of(symbol.kind, symbol.places.first().map(|(_, denoted)| *denoted)),
+                    tags: None,
+                    deprecated: None,
+                    location,
+                    container_name: Some(analysis.key.name.clone()),
+                });
+            }
+        }
+    }
 }
 
 fn kind_of(kind: Named, denoted: Option<Denoted>) -> SymbolKind {
@@ -247,25 +265,4 @@ fn kind_of(kind: Named, denoted: Option<Denoted>) -> SymbolKind {
 fn fits(name: &str, query: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     query.chars().flat_map(char::to_lowercase).all(|wanted| letters.any(|letter| letter == wanted))
-}
-
-/// All programs of the workspace, and those of open documents.
-fn all(state: &mut State<'_>) -> Vec<Rc<Analysis>> {
-    let (folders, open): (Vec<PathBuf>, Vec<PathBuf>) =
-        (state.folders.clone(), state.documents.keys().cloned().collect());
-    let mut analyses: Vec<Rc<Analysis>> = Vec::new();
-    let mut add = |analysis: Rc<Analysis>| {
-        if !analyses.iter().any(|known| known.key == analysis.key) {
-            analyses.push(analysis);
-        }
-    };
-    for path in open {
-        state.analyses_of(&path).into_iter().for_each(&mut add);
-    }
-    for folder in folders {
-        for key in state.project.programs_in(&folder).into_iter().take(MAX_PROGRAMS) {
-            add(state.analysis(&key));
-        }
-    }
-    analyses
 }
