@@ -57,25 +57,31 @@ pub(super) fn ranges(state: &mut State<'_>, params: &SelectionRangeParams) -> Op
 /// The text between the brackets around a place.
 fn brackets(text: &str, offset: usize) -> Vec<Range<usize>> {
     let Some(before) = text.get(..offset) else { return Vec::new() };
+    let mut open = open_brackets(before);
+    // The brackets that open after the place.
+    let mut inner: Vec<char> = Vec::new();
     let mut ranges = Vec::new();
-    for (start, sign) in open_brackets(before) {
-        let close = match sign {
-            '(' => ')',
-            '[' => ']',
-            _ => '}',
-        };
-        let mut depth = open_brackets(before).iter().filter(|(at, other)| *at > start && *other == sign).count();
-        for (at, letter) in text.get(offset..).unwrap_or("").char_indices() {
-            if letter == sign {
-                depth += 1;
-            } else if letter == close {
-                if depth == 0 {
-                    ranges.push(start + 1..offset + at);
-                    ranges.push(start..offset + at + 1);
-                    break;
-                }
-                depth -= 1;
+    for (at, letter) in text.get(offset..).unwrap_or("").char_indices() {
+        let sign = match letter {
+            '(' | '[' | '{' => {
+                inner.push(letter);
+                continue;
             }
+            ')' => '(',
+            ']' => '[',
+            '}' => '{',
+            _ => continue,
+        };
+        if inner.last() == Some(&sign) {
+            inner.pop();
+        } else if let Some(place) = open.iter().rposition(|(_, other)| *other == sign) {
+            let start = open.get(place).map_or(0, |(start, _)| *start);
+            open.truncate(place);
+            ranges.push(start + 1..offset + at);
+            ranges.push(start..offset + at + 1);
+        }
+        if open.is_empty() || ranges.len() > DEEPEST * 2 {
+            break;
         }
     }
     ranges
