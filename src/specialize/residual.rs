@@ -108,7 +108,6 @@ fn specialize_to(
         sources: Some(sources),
         fast_math: contract.fast_math,
         move_to_vertex: contract.move_to_vertex,
-        ..Options::default()
     };
     let mut draws = Vec::with_capacity(scene.draws.len());
     let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::includes::Includes;
-use glisten::diagnostic::{Key, Level, Levels, Severity, codes, did_you_mean};
+use glisten::diagnostic::{Key, Level, Levels, Severity, did_you_mean};
 use glisten::emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, WindowOrigin};
 use glisten::{Compiler, Options};
 

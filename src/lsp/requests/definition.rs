@@ -149,12 +149,11 @@ pub(super) fn references(state: &mut State<'_>, params: &ReferenceParams) -> Opt
     Some(locations)
 }
 
+/// A program, and the places of a symbol in it.
+pub(super) type InProgram = (Rc<Analysis>, Vec<(Place, Occurrence)>);
+
 /// The places of a symbol in its program, and in all other programs that share one of its declarations.
-pub(super) fn everywhere(
-    state: &mut State<'_>,
-    analysis: &Rc<Analysis>,
-    found: &Occurrence,
-) -> Vec<(Rc<Analysis>, Vec<(Place, Occurrence)>)> {
+pub(super) fn everywhere(state: &mut State<'_>, analysis: &Rc<Analysis>, found: &Occurrence) -> Vec<InProgram> {
     let mut result = vec![(Rc::clone(analysis), analysis.places_of(found.symbol))];
     let symbol = analysis.symbol(found.symbol);
     let declared: Vec<Place> = declarations(analysis, symbol);

@@ -213,14 +213,12 @@ pub(super) fn pull(state: &mut State<'_>, params: &DocumentDiagnosticParams) -> 
     let own = found.remove(&path).unwrap_or_default();
     let id = identity(&own);
     found.retain(|other, _| !state.documents.contains_key(other));
-    let related: std::collections::HashMap<Uri, DocumentDiagnosticReportKind> = found
-        .into_iter()
-        .filter_map(|(path, items)| {
-            let report = FullDocumentDiagnosticReport { result_id: Some(identity(&items)), items };
-            Some((state.uri(&path)?, DocumentDiagnosticReportKind::Full(report)))
-        })
-        .collect();
-    let related_documents = (!related.is_empty()).then_some(related);
+    let report = |(path, items): (PathBuf, Vec<Diagnostic>)| {
+        let report = FullDocumentDiagnosticReport { result_id: Some(identity(&items)), items };
+        Some((state.uri(&path)?, DocumentDiagnosticReportKind::Full(report)))
+    };
+    let is_any = !found.is_empty();
+    let related_documents = is_any.then(|| found.into_iter().filter_map(report).collect());
     let report = if params.previous_result_id.as_ref() == Some(&id) {
         DocumentDiagnosticReport::Unchanged(RelatedUnchangedDocumentDiagnosticReport {
             related_documents,

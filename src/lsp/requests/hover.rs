@@ -124,7 +124,7 @@ fn of_macro(analysis: &Analysis, name: &str, point: &Point) -> String {
         }
     }
     if text.is_empty() {
-        let _ = write!(text, "`{name}`: a macro that nothing defines here\n");
+        let _ = writeln!(text, "`{name}`: a macro that nothing defines here");
     }
     text
 }

@@ -5,7 +5,7 @@
 //! denotes is compared. Names of the language, and words that it reserves, are refused (GLSL 1.50 §3.6, §3.7).
 
 use super::Failure;
-use super::definition::everywhere;
+use super::definition::{InProgram, everywhere};
 use super::scene;
 use crate::lsp::analysis::{Analysis, Place};
 use crate::lsp::builtins;
@@ -19,10 +19,9 @@ use lsp_types::{
     DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, PrepareRenameResponse, RenameParams,
     TextDocumentEdit, TextDocumentPositionParams, TextEdit, WorkspaceEdit,
 };
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 use std::sync::Arc;
 
 /// The places to change, by file.
@@ -141,8 +140,7 @@ pub(super) fn workspace_edit(state: &State<'_>, changes: Vec<(PathBuf, Vec<TextE
         edit.document_changes = Some(DocumentChanges::Edits(changes.into_iter().filter_map(document).collect()));
     } else {
         let change = |(path, edits): (PathBuf, Vec<TextEdit>)| Some((state.uri(&path)?, edits));
-        let changes: HashMap<_, _> = changes.into_iter().filter_map(change).collect();
-        edit.changes = Some(changes);
+        edit.changes = Some(changes.into_iter().filter_map(change).collect());
     }
     edit
 }
@@ -200,11 +198,7 @@ fn unread(analysis: &Analysis, file: FileId, range: Range<usize>, word: &str, is
 }
 
 /// The texts of the files to change.
-fn texts(
-    state: &State<'_>,
-    all: &[(Rc<Analysis>, Vec<(Place, Occurrence)>)],
-    edits: &Edits,
-) -> BTreeMap<PathBuf, Text> {
+fn texts(state: &State<'_>, all: &[InProgram], edits: &Edits) -> BTreeMap<PathBuf, Text> {
     let mut texts = BTreeMap::new();
     for path in edits.keys() {
         let open = state.documents.get(path).map(|document| document.text.clone());
@@ -222,7 +216,7 @@ fn texts(
 /// Compiles the edited texts, and refuses if any name then denotes something else.
 fn check(
     state: &mut State<'_>,
-    all: &[(Rc<Analysis>, Vec<(Place, Occurrence)>)],
+    all: &[InProgram],
     edits: &Edits,
     texts: &BTreeMap<PathBuf, Text>,
     new: &str,

@@ -3,16 +3,16 @@
 //! *In:* the places of a symbol, and the scenes of the workspace. *Out:* edits. *Holds:* only draws with the program's own files count;
 //! a key is a path through members (`lights[0].position`), and the part that is the symbol is changed.
 
-use crate::lsp::analysis::{Analysis, Place};
+use super::definition::InProgram;
+use crate::lsp::analysis::Analysis;
 use crate::lsp::state::State;
 use crate::lsp::text::Text;
 use glisten_front::analysis::Denoted;
 use glisten_front::hir::{Storage, Type, TypeId};
-use glisten_front::index::{Occurrence, SymbolId};
+use glisten_front::index::SymbolId;
 use lsp_types::TextEdit;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
-use std::rc::Rc;
 use toml::de::{DeTable, DeValue};
 
 /// The tables of a draw whose keys are names of variables.
@@ -21,11 +21,7 @@ const TABLES: &[&str] = &["uniforms", "textures", "attributes", "attribute_locat
 const FILES: &[&str] = &["vertex", "geometry", "fragment"];
 
 /// The edits of scenes for a symbol's new name.
-pub(super) fn edits(
-    state: &mut State<'_>,
-    all: &[(Rc<Analysis>, Vec<(Place, Occurrence)>)],
-    new: &str,
-) -> Vec<(PathBuf, Vec<TextEdit>)> {
+pub(super) fn edits(state: &mut State<'_>, all: &[InProgram], new: &str) -> Vec<(PathBuf, Vec<TextEdit>)> {
     let can_be_named = all.iter().any(|(analysis, places)| {
         let symbol = places.first().map(|(_, occurrence)| analysis.symbol(occurrence.symbol));
         let denoted = symbol.and_then(|symbol| symbol.places.first());

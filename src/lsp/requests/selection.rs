@@ -23,8 +23,8 @@ pub(super) fn ranges(state: &mut State<'_>, params: &SelectionRangeParams) -> Op
     let mut answers = Vec::new();
     for position in &params.positions {
         let offset = text.offset(*position, state.encoding);
-        let mut ranges: Vec<Range<usize>> = vec![0..text.text.len()];
-        ranges.extend(text.word_at(offset));
+        let mut ranges: Vec<Range<usize>> = text.word_at(offset).into_iter().collect();
+        ranges.push(0..text.text.len());
         ranges.extend(brackets(&text.text, offset));
         if let Some(analysis) = analyses.first() {
             for view in analysis.views_of(&path) {
