@@ -443,7 +443,8 @@ fn varyings_with_locations_are_matched_by_name() {
         assert_eq!(located, if name.ends_with("vert") { 2 } else { 1 }, "attributes and colors alone: {text}");
     }
     let render = |scene: &str, out: &str| place.expect(0, &["render", scene, "--backend", "cpu", "-o", out]);
-    (render("l.toml", "a.npy"), render("out/l.toml", "b.npy"));
+    render("l.toml", "a.npy");
+    render("out/l.toml", "b.npy");
     assert_eq!(fs::read(place.path("a.npy")).expect("drawn"), fs::read(place.path("b.npy")).expect("drawn"));
     let account = place.json("out/l.account.json");
     let gone = account["draws"][0]["left_out"].as_array().expect("entries");
