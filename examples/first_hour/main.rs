@@ -101,6 +101,6 @@ fn measure(arguments: &Arguments) -> Result<(), String> {
     let mut results = results.into_inner().map_err(|error| error.to_string())?;
     results.sort_by_key(|(index, ..)| *index);
     let folder = arguments.folder.to_string_lossy();
-    println!("{}", table::tables(&results, &programs::repositories()?, &folder));
+    println!("{}", table::tables(&results, &programs::known()?, &folder));
     Ok(())
 }

@@ -34,7 +34,7 @@ const WITH_VALUE: [&str; 5] = ["--engine", "--assume-version", "--include-style"
 
 /// The programs of the repositories in a folder.
 pub(crate) fn find(folder: &Path, only: Option<&str>, sample: usize) -> Result<Vec<Found>, String> {
-    let list = repositories()?;
+    let list = known()?.repository;
     let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut names: Vec<String> = entries
         .flatten()
@@ -60,10 +60,16 @@ pub(crate) fn find(folder: &Path, only: Option<&str>, sample: usize) -> Result<V
     Ok(found)
 }
 
-/// The repositories of both lists.
-pub(crate) fn repositories() -> Result<Vec<Repository>, String> {
-    let lists: Result<Vec<List>, _> = LISTS.iter().map(|text| toml::from_str::<List>(text)).collect();
-    Ok(lists.map_err(|error| error.to_string())?.into_iter().flat_map(|list| list.repository).collect())
+/// The repositories of both lists, and the notes of the second one.
+pub(crate) fn known() -> Result<List, String> {
+    let [mut list, own] = [parsed(LISTS[0])?, parsed(LISTS[1])?];
+    list.repository.extend(own.repository);
+    list.note = own.note;
+    Ok(list)
+}
+
+fn parsed(text: &str) -> Result<List, String> {
+    toml::from_str(text).map_err(|error| error.to_string())
 }
 
 /// A sample of the programs of one repository.

@@ -1,6 +1,6 @@
 //! The tables: how far the programs of each kind got, those of each repository, and each program without a picture with its reason.
 
-use crate::list::Repository;
+use crate::list::List;
 use crate::programs::Found;
 use crate::steps::Taken;
 use std::collections::BTreeMap;
@@ -76,8 +76,8 @@ pub(crate) fn line(found: &Found, taken: &Taken) -> String {
     format!("{}\t{}\t{shown}\t{verdict}\t{reason}", found.kind, found.files.join(" "))
 }
 
-/// All tables; `folder` is left out of the names of files.
-pub(crate) fn tables(results: &[(usize, Found, Taken)], repositories: &[Repository], folder: &str) -> String {
+/// All tables; `folder` is left out of the names of files. What is known about a program follows its reason.
+pub(crate) fn tables(results: &[(usize, Found, Taken)], known: &List, folder: &str) -> String {
     let mut kinds: BTreeMap<&str, Row> = BTreeMap::new();
     let mut places: BTreeMap<&str, Row> = BTreeMap::new();
     let mut all = Row::default();
@@ -93,7 +93,10 @@ pub(crate) fn tables(results: &[(usize, Found, Taken)], repositories: &[Reposito
         let files: Vec<String> = found.files.iter().map(short).collect();
         if let Some(why) = reason(found, taken) {
             let name = found.repository.replace('+', "/");
-            reasons.push(format!("| {name} | {} | {} | {} |", found.kind, files.join(" "), why.replace('|', "/")));
+            let files = files.join(" ");
+            let because = known.because(&name, &found.kind, &files, &why).map(|text| format!(": {text}"));
+            let why = why.replace('|', "/") + &because.unwrap_or_default();
+            reasons.push(format!("| {name} | {} | {files} | {why} |", found.kind));
         }
     }
     let mut lines = vec![format!("| kind | {HEADER}"), format!("| --- | {RULE}")];
@@ -101,7 +104,7 @@ pub(crate) fn tables(results: &[(usize, Found, Taken)], repositories: &[Reposito
     lines.push(all.line("all"));
     lines.extend([String::new(), format!("| repository | {HEADER}"), format!("| --- | {RULE}")]);
     let shown = |name: &str| {
-        let commit = repositories.iter().find(|row| row.folder() == name).map(|row| format!(" {}", row.commit));
+        let commit = known.repository.iter().find(|row| row.folder() == name).map(|row| format!(" {}", row.commit));
         name.replace('+', "/") + &commit.unwrap_or_default()
     };
     lines.extend(places.iter().map(|(name, row)| row.line(&shown(name))));

@@ -237,6 +237,22 @@ fn colors_and_pictures_of_one_program_differ() {
 }
 
 #[test]
+fn elements_and_corners_differ() {
+    // The two corners of a box, and the colors of a palette.
+    draws_body(
+        "uniform vec3 boxCorners[2];\nvoid main() { c = vec4(vec3(length(at) / length(boxCorners[1] - boxCorners[0])), 1.0); }",
+    );
+    draws_body("uniform ivec3 palette[4];\nvoid main() { c = vec4(palette[int(at.x * 3.99)], 255) / 255.0; }");
+    draws_body(
+        "uniform ivec4 tint;\nuniform ivec4 tintColor;\nvoid main() { c = vec4(at, 0.5, 1.0) * vec4(tintColor) / 255.0 * float(tint.x); }",
+    );
+    let vertex = "#version 330\nin vec3 position, extra;\nout vec3 side;\nvoid main() { side = extra; gl_Position = vec4(position, 1.0); }\n";
+    let fragment = "#version 330\nin vec3 side;\nout vec4 c;\n\
+        void main() { float d = min(side.x, min(side.y, side.z)); if (d > fwidth(d)) discard; c = vec4(side, 1.0); }\n";
+    draws(&[("a.vert", vertex), ("a.frag", fragment)], &["a.vert", "a.frag"]);
+}
+
+#[test]
 fn alpha_alone_is_shown_by_blending() {
     let text = draws_body("uniform vec3 glyphColor;\nvoid main() { c = vec4(glyphColor, at.x); }");
     assert!(text.contains("blend = \"alpha\""), "{text}");

@@ -73,9 +73,14 @@ pub(super) fn forms(reads: &Reads<'_>, mesh: Option<Shape>, is_flat_engine: bool
         return vec![Form::Mesh(shape.clone(), Camera), Form::Mesh(shape, Identity)];
     }
     let Some(size) = reads.position_size() else {
-        // Attributes without a position: data for four vertices.
-        let square = |view| Form::Square(-1.0, 1.0, view);
-        return if reads.inputs.is_empty() { counts(reads) } else { vec![square(Front), square(Identity)] };
+        // Attributes without a position: the other data of a mesh, or data for four vertices.
+        let sphere = Form::Mesh(Shape::Named("sphere".to_owned(), 1.0), Camera);
+        let others = [Form::Square(-1.0, 1.0, Front), Form::Square(-1.0, 1.0, Identity)];
+        let has_mesh = reads.has_texcoords() || reads.has_normals();
+        return match reads.inputs.is_empty() {
+            true => counts(reads),
+            false => has_mesh.then_some(sphere).into_iter().chain(others).collect(),
+        };
     };
     let name = if reads.has_normals() && !reads.has_texcoords() { "torus_knot" } else { "sphere" };
     let shape = |radius: f64| Shape::Named(name.to_owned(), radius);

@@ -286,6 +286,7 @@ static INTEGERS: &[Row] = &[
         &["scale"],
         Resolution,
     ),
+    (&[&["color", "colour"]], &["mode", "index", "count", "num", "id", "type"], Value(200.0)),
     (&[&["shin", "exponent"]], &[], Value(32.0)),
     (&[&["time", "seed"]], &[], Value(1.0)),
     (
@@ -293,7 +294,7 @@ static INTEGERS: &[Row] = &[
             "num", "count", "samples", "iter", "steps", "octave", "passes", "max", "total", "lights", "size", "kernel",
             "levels", "radius", "taps", "layers", "slices", "cascades",
         ]],
-        &["lightmode"],
+        &["mode", "type", "kind"],
         Count,
     ),
     (
@@ -345,6 +346,14 @@ pub(super) fn meaning(name: &str, ty: Type) -> Meaning {
     let has = |words: &Words| words.iter().any(|word| small.contains(&word.replace('_', "")));
     let fits = |(all, none, _): &&Row| all.iter().all(has) && !has(none);
     let found = rows.iter().find(fits).map(|(_, _, meaning)| *meaning);
+    let is_size = match ty {
+        Type::Scalar(_) => ["width", "height"].contains(&small.as_str()),
+        Type::Vector(_, 2) => ["screen", "uscreen", "viewport", "window"].contains(&small.as_str()),
+        _ => false,
+    };
+    if is_size {
+        return Resolution;
+    }
     let last = name.rsplit(['.', '_']).next().map(str::to_ascii_lowercase);
     let short = SHORT.iter().find(|(names, _)| names.contains(&last.as_deref().unwrap_or_default()));
     if let (Some((_, meaning)), Type::Vector(..)) = (short, ty) {

@@ -99,6 +99,17 @@ impl<'p> Reads<'p> {
         self.program.stage(Stage::Fragment).is_none() && self.program.stage(Stage::Vertex).is_some_and(is_written)
     }
 
+    /// Whether the fixed-function pipeline's vertex stage passes an attribute to a fragment shader alone.
+    pub(super) fn is_passed_by_pipeline(&self, attribute: &str) -> bool {
+        let varying = match attribute {
+            "gl_MultiTexCoord0" => "gl_TexCoord",
+            "gl_Color" if !self.fixed.lights => "gl_Color",
+            _ => return false,
+        };
+        let is_read = |shader: &Shader| shader.globals.iter().any(|global| global.used && global.name == varying);
+        self.program.stage(Stage::Vertex).is_none() && self.program.stage(Stage::Fragment).is_some_and(is_read)
+    }
+
     /// The attribute with a role.
     pub(super) fn input(&self, role: AttributeRole) -> Option<&Input<'p>> {
         self.inputs.iter().find(|input| input.role == Some(role))

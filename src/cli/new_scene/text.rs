@@ -213,7 +213,9 @@ fn rows(reads: &Reads<'_>, range: Range, choice: &Choice) -> Vec<String> {
 /// The data of the attributes of the fixed-function pipeline.
 fn fixed_rows(reads: &Reads<'_>, (low, high): Range) -> Vec<String> {
     let attributes = &reads.program.interface.attributes;
-    let is_read = |name: &str| attributes.iter().any(|known| known.active && known.name == name);
+    let is_read = |name: &str| {
+        attributes.iter().any(|known| known.active && known.name == name) || reads.is_passed_by_pipeline(name)
+    };
     let place = |value: f64| low + (high - low) * (value + 1.0) / 2.0;
     let rows = |row: &dyn Fn(f64, f64) -> String| CORNERS.map(|[x, y]| row(x, y)).join(",  ");
     let mut lines = Vec::new();

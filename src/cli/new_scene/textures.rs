@@ -9,10 +9,13 @@ use std::fmt::Write;
 
 /// Words in names, with the texture for a 2D sampler of floats.
 static BY_NAME: &[(&[&str], &str)] = &[
-    (&["gposition", "positionmap", "positiontex", "postex", "positionbuffer"], POSITIONS),
+    (&["p_tex", "ptex", "gposition", "positionmap", "positiontex", "postex", "positionbuffer"], POSITIONS),
     (&["gnormal", "normalbuffer", "viewnormal"], "{ pattern = \"plain\", to = [0.0, 0.0, 1.0] }"),
-    (&["normal", "bump", "nrm", "norm"], "{ pattern = \"plain\", to = [0.5, 0.5, 1.0] }"),
-    (&["shadow", "depth"], "{ pattern = \"checker\", cells = 2, from = [0.2, 0.2, 0.2], to = [0.9, 0.9, 0.9] }"),
+    (&["n_tex", "ntex", "normal", "bump", "nrm", "norm"], "{ pattern = \"plain\", to = [0.5, 0.5, 1.0] }"),
+    (
+        &["shadow", "depth", "d_tex", "dtex"],
+        "{ pattern = \"checker\", cells = 2, from = [0.2, 0.2, 0.2], to = [0.9, 0.9, 0.9] }",
+    ),
     (&["metal"], "{ pattern = \"plain\", to = [0.2, 0.2, 0.2] }"),
     (&["rough"], "{ pattern = \"plain\", to = [0.4, 0.4, 0.4] }"),
     (&["occlusion", "aomap", "texao", "ssao", "lightmap", "sampler2", "overlay"], "{ pattern = \"plain\" }"),
@@ -118,7 +121,7 @@ fn values(kind: SamplerType) -> String {
         SamplerDim::Buffer => ("width = 16", 16),
         SamplerDim::D3 => ("width = 2, height = 2, depth = 2", 8),
         SamplerDim::Cube => ("width = 1", 6),
-        SamplerDim::Multisample => ("width = 1, height = 1, samples = 4", 4),
+        SamplerDim::Multisample => ("width = 2, height = 2, samples = 4", 16),
         _ => ("width = 4, height = 4", 16),
     };
     let (layers, texels) = if kind.arrayed { (", layers = 2", texels * 2) } else { ("", texels) };

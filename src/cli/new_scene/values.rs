@@ -113,9 +113,9 @@ fn vector(
         Meaning::Value(value) => vec![value; size],
         Meaning::Switch(on) => vec![f64::from(u8::from(on == (taste.0 % 2 == 0))); size],
         Meaning::Rectangle if size == 4 => vec![0.1, 0.1, 0.9, 0.9],
-        Meaning::Rectangle => unknown(shape, taste),
+        Meaning::Rectangle => unknown(shape, taste, element),
         Meaning::Plane => first([0.0, 1.0, 0.0, 0.0]),
-        Meaning::Unknown => unknown(shape, taste),
+        Meaning::Unknown => unknown(shape, taste, element),
     }
 }
 
@@ -127,14 +127,19 @@ fn colors_before(reads: &Reads<'_>, leaf: &UniformLeaf) -> f64 {
     before.count() as f64
 }
 
-/// The values of names that say nothing.
-fn unknown(shape: LeafShape, taste: Taste) -> Vec<f64> {
+/// The values of names that say nothing. The vectors of an array differ, as two corners of a box do.
+fn unknown(shape: LeafShape, taste: Taste, element: u32) -> Vec<f64> {
     let size = shape.n_each();
+    let number = element as usize;
     match shape.scalar {
         Scalar::Float if size == 1 => vec![[0.5, 1.0, 0.1, 4.0][taste.0 % 4]],
         Scalar::Float => {
             let rows = [[0.8, 0.6, 0.4, 1.0], [1.0, 1.0, 1.0, 1.0], [0.1, 0.2, 0.3, 0.0], [4.0, 2.0, 3.0, 1.0]];
-            rows[taste.0 % 4].into_iter().take(size).collect()
+            let row = rows[taste.0 % 4];
+            (0..size).map(|index| row[(index + number) % 4] + 0.5 * f64::from(element)).collect()
+        }
+        Scalar::Int | Scalar::Uint if size > 1 && shape.elements > 1 => {
+            (0..size).map(|index| f64::from((index as u32 + 1) * 67 * (element + 1) % 256)).collect()
         }
         Scalar::Int | Scalar::Uint | Scalar::Bool => vec![[1.0, 0.0, 2.0, 4.0][taste.0 % 4]; size],
     }
@@ -228,9 +233,12 @@ pub(super) fn corner(reads: &Reads<'_>, input: &Input<'_>, number: usize, range:
         (None, _) if has(&["resolution", "screen", "viewport"]) => [f64::from(side); 4],
         (None, _) if has(&["size", "scale"]) => [1.0; 4],
         (None, _) if has(&["uv", "tex", "coord"]) => [s, t, 0.0, 1.0],
+        // The corners of triangles, from which the distances to edges follow.
+        (None, _) if taste == 2 || has(&["bary"]) => BARYCENTRIC[number % 3],
         (None, _) => [0.2 + 0.6 * s, 0.2 + 0.6 * t, 0.5, 1.0],
     };
     row.into_iter().chain(std::iter::repeat(0.0)).take(input.size).collect()
 }
 
+static BARYCENTRIC: [[f64; 4]; 3] = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]];
 static COLORS: [[f64; 4]; 4] = [[1.0, 0.2, 0.2, 1.0], [0.2, 0.9, 0.2, 1.0], [0.2, 0.3, 1.0, 1.0], [1.0, 0.9, 0.2, 1.0]];
