@@ -76,7 +76,10 @@ fn vector(
         return vec![*value; size];
     }
     let side = f64::from(side);
-    let turn = f64::from(element_of(&leaf.name).unwrap_or(element));
+    let turn = match element_of(&leaf.name) {
+        Some(outer) => f64::from(outer) + 0.3 * f64::from(element),
+        None => f64::from(element),
+    };
     let first = |row: [f64; 4]| row.into_iter().chain([0.0; 12]).take(size).collect::<Vec<f64>>();
     let color = |value: f64| first([value, value, value, if size == 4 { 1.0 } else { value }]);
     match meaning(&leaf.name, ty) {
