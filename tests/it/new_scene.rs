@@ -81,6 +81,10 @@ fn matrices_come_from_the_camera() {
     {
         assert!(text.contains(line), "{line}: {text}");
     }
+    let block = "#version 330 core\nin vec3 position;\nuniform Transform { mat4 MVP; } transform;\nout vec3 n;\n\
+        void main() { n = position; gl_Position = transform.MVP * vec4(position - vec3(0.0, 0.0, 2.0), 1.0); }\n";
+    let text = draws(&[("a.vs", block), ("a.fs", WHITE)], &["a.vs", "a.fs"]);
+    assert!(text.contains("[camera]"), "a matrix in a block needs a camera, too: {text}");
     let names = "#version 330 core\nlayout(location = 0) in vec3 aPos;\nlayout(location = 1) in vec3 aNormal;\nuniform mat4 model, view, projection;\n\
         out vec3 n;\nvoid main() { n = mat3(model) * aNormal; gl_Position = projection * view * model * vec4(aPos, 1.0); }\n";
     draws(&[("a.vs", names), ("a.fs", WHITE)], &["a.vs", "a.fs"]);

@@ -8,7 +8,9 @@ use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
 use glisten_front::hir::{Expr, ExprKind, PrimitiveIn, Scalar, Shader, Stage, Type, TypeId, Types};
 use glisten_front::link::{Attribute, Program, SamplerSlot, UniformLeaf, UniformRoot};
 use glisten_front::source::SourceMap;
-use glisten_scene::roles::{AttributeRole, attribute_role, is_plain_transform, likely_attribute_role, matrix_role};
+use glisten_scene::roles::{
+    AttributeRole, MatrixRole, attribute_role, is_plain_transform, likely_attribute_role, matrix_role,
+};
 use glisten_scene::{ColorDependence, is_leaf_read};
 use std::collections::BTreeMap;
 
@@ -140,9 +142,8 @@ impl<'p> Reads<'p> {
     pub(super) fn has_matrices(&self) -> bool {
         let types = &self.program.types;
         let is_matrix = |leaf: &&UniformLeaf| matches!(types.get(leaf.ty), Type::Matrix(4, 4));
-        let moves = |leaf: &&UniformLeaf| {
-            matrix_role(&leaf.name, types.get(leaf.ty)).is_some() || is_plain_transform(&leaf.name)
-        };
+        let moves =
+            |leaf: &&UniformLeaf| named_role(leaf, types.get(leaf.ty)).is_some() || is_plain_transform(own_name(leaf));
         let of_scene = |root: &UniformRoot| root.active && root.name.starts_with("gl_ModelView");
         let own = self.uniforms.iter().copied().filter(is_matrix).any(|leaf| moves(&leaf));
         own || self.program.interface.roots.iter().any(of_scene) || self.program.stage(Stage::Vertex).is_none()
@@ -152,6 +153,16 @@ impl<'p> Reads<'p> {
 fn fetches(shader: &Shader) -> bool {
     let is_fetch = |expr: &Expr| matches!(expr.kind, ExprKind::BuiltinCall(BuiltinFunction::TexelFetch, _));
     shader.exprs.iter().any(is_fetch)
+}
+
+/// The name of a uniform without that of its block or struct.
+pub(super) fn own_name(leaf: &UniformLeaf) -> &str {
+    leaf.name.rsplit('.').next().unwrap_or(&leaf.name)
+}
+
+/// The role of a matrix by its name, with or without that of its block.
+pub(super) fn named_role(leaf: &UniformLeaf, ty: Type) -> Option<MatrixRole> {
+    matrix_role(&leaf.name, ty).or_else(|| matrix_role(own_name(leaf), ty))
 }
 
 /// The attributes that the vertex stage reads, without those of the fixed-function pipeline.

@@ -6,12 +6,12 @@
 use super::choice::{Choice, Taste};
 use super::forms::{Form, Shape, View};
 use super::meanings::{FAR, NEAR};
-use super::reads::{Input, Reads, scalar_of};
+use super::reads::{Input, Reads, named_role, own_name, scalar_of};
 use super::textures::{self, Needs};
 use super::values::{CORNERS, Range, corner, identity, text_of, uniform_text};
 use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type};
 use glisten_front::link::{SamplerSlot, UniformLeaf};
-use glisten_scene::roles::{AttributeRole, MatrixRole, is_plain_transform, matrix_role};
+use glisten_scene::roles::{AttributeRole, MatrixRole, is_plain_transform};
 use std::fmt::Write;
 
 /// The parts of a scene that do not follow from what the program reads.
@@ -289,10 +289,8 @@ fn role(reads: &Reads<'_>, leaf: &UniformLeaf, form: &Form) -> Option<MatrixRole
         return None;
     }
     let ty = reads.program.types.get(leaf.ty);
-    let name = leaf.name.rsplit('.').next().unwrap_or(&leaf.name);
-    let named = matrix_role(&leaf.name, ty).or_else(|| matrix_role(name, ty));
-    let is_transform = matches!(ty, Type::Matrix(4, 4)) && is_plain_transform(name);
-    let role = named.or_else(|| is_transform.then(|| of_transform(reads)))?;
+    let is_transform = matches!(ty, Type::Matrix(4, 4)) && is_plain_transform(own_name(leaf));
+    let role = named_role(leaf, ty).or_else(|| is_transform.then(|| of_transform(reads)))?;
     // Without a camera, it would be in the middle of what is drawn.
     let has_camera =
         matches!(form, Form::Mesh(_, View::Camera | View::Front) | Form::Square(_, _, View::Camera | View::Front));
@@ -303,7 +301,7 @@ fn role(reads: &Reads<'_>, leaf: &UniformLeaf, form: &Form) -> Option<MatrixRole
 fn of_transform(reads: &Reads<'_>) -> MatrixRole {
     let types = &reads.program.types;
     let has = |wanted: &[MatrixRole]| {
-        let roles = reads.uniforms.iter().filter_map(|leaf| matrix_role(&leaf.name, types.get(leaf.ty)));
+        let roles = reads.uniforms.iter().filter_map(|leaf| named_role(leaf, types.get(leaf.ty)));
         roles.into_iter().any(|role| wanted.contains(&role))
     };
     if has(&[MatrixRole::Projection, MatrixRole::ViewProjection, MatrixRole::ModelViewProjection]) {
