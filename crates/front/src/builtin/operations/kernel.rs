@@ -48,16 +48,16 @@ pub fn pow(x: f64, y: f64) -> f64 {
     if x < 0.0 { f64::NAN } else { x.powf(y) }
 }
 
-/// `minNum`: a NaN is dropped.
+/// §8.3: the first of two that are equal, 0.0 and -0.0 among them. A NaN is dropped (`minNum`).
 #[inline(always)]
 pub fn min(a: f64, b: f64) -> f64 {
-    if a < b || b.is_nan() { a } else { b }
+    if b < a || a.is_nan() { b } else { a }
 }
 
-/// `maxNum`: a NaN is dropped.
+/// §8.3: the first of two that are equal, 0.0 and -0.0 among them. A NaN is dropped (`maxNum`).
 #[inline(always)]
 pub fn max(a: f64, b: f64) -> f64 {
-    if a > b || b.is_nan() { a } else { b }
+    if b > a || a.is_nan() { b } else { a }
 }
 
 /// `x - y * floor(x / y)` (§8.3)

@@ -208,10 +208,10 @@ impl Number for Big {
         if self.is_special() { self } else { Self::rounded(&div(&mul(&self.wide(), &constant(180.0)), &pi())) }
     }
     fn min(self, other: Self) -> Self {
-        if self.order(other) == Some(Ordering::Less) || other.class == Class::Nan { self } else { other }
+        if other.order(self) == Some(Ordering::Less) || self.class == Class::Nan { other } else { self }
     }
     fn max(self, other: Self) -> Self {
-        if self.order(other) == Some(Ordering::Greater) || other.class == Class::Nan { self } else { other }
+        if other.order(self) == Some(Ordering::Greater) || self.class == Class::Nan { other } else { self }
     }
     fn sqrt(self) -> Self {
         if self.is_special() || self.negative {
