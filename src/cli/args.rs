@@ -37,6 +37,10 @@ pub(super) enum DiagnosticFormat {
     Sarif,
     /// Workflow commands of GitHub Actions.
     Github,
+    /// A code quality report of GitLab.
+    Gitlab,
+    /// JUnit's XML: a test for each finding.
+    Junit,
 }
 
 /// How to read sources.

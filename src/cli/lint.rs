@@ -1,13 +1,19 @@
 //! `glisten lint`: validates each file, then links the programs, and reports everything that is wrong.
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
+use super::baseline::{Baseline, BaselineArgs};
 use super::console::Console;
-use super::exit::{Failure, Outcome};
+use super::exit::{Exit, Failure, Outcome};
 use super::fix::{FixArgs, Fixer};
+use super::guard;
 use super::inputs::{self, Group, Inputs};
 use super::not_checked;
 use super::session::{Session, Unit};
 use clap::Args;
+use glisten_front::diagnostic::{Code, Diagnostic, Levels};
+use glisten_front::lint::check_some;
+use glisten_front::source::Span;
+use rayon::prelude::*;
 use std::path::PathBuf;
 
 /// Check shaders and the programs that they form
@@ -29,6 +35,8 @@ pub(super) struct LintArgs {
     #[command(flatten)]
     fixes: FixArgs,
     #[command(flatten)]
+    baseline: BaselineArgs,
+    #[command(flatten)]
     bindings: BindingArgs,
     /// The number of threads (0: one per core)
     #[arg(short, long, default_value_t = 0, value_name = "N")]
@@ -42,8 +50,16 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     inputs.tell_empty_folders(console);
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     session.set_format(args.format.unwrap_or(args.levels.diagnostics));
+    let baseline = Baseline::new(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
     let mut units = checked(&mut session, groups.clone(), &inputs);
+    if let Some(baseline) = baseline.as_ref().filter(|_| args.baseline.updates()) {
+        baseline.update(&units, console)?;
+        return Ok(Exit::Ok);
+    }
+    if let Some(baseline) = &baseline {
+        baseline.apply(&mut units, Some(console).filter(|_| session.is_human()));
+    }
     if !args.fixes.any() {
         return session.tell_units(&units, true);
     }
@@ -54,6 +70,9 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let mut fixer = Fixer::new(args.fixes);
     while fixer.advance(&units) {
         units = checked(&mut session, groups.clone(), &inputs);
+        if let Some(baseline) = &baseline {
+            baseline.apply(&mut units, None);
+        }
     }
     fixer.finish(console)?;
     session.tell_units(&units, !args.fixes.prints())
@@ -62,12 +81,28 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
 /// Compiles the groups, and adds the findings of the rules.
 fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> Vec<Unit> {
     let mut units = session.compile(groups);
-    for unit in &mut units {
-        if let Some(program) = &unit.program {
-            let found = glisten_front::lint::check(program, &unit.batch.sources);
-            session.add(&mut unit.batch, found);
-        }
+    let found = lints(session, &units);
+    for (unit, found) in units.iter_mut().zip(found) {
+        session.add(&mut unit.batch, found);
     }
     not_checked::settle(session, &mut units, inputs);
     units
+}
+
+/// What the rules find in each unit, in parallel. Rules that the levels of all its files turn off are not run.
+fn lints(session: &mut Session<'_>, units: &[Unit]) -> Vec<Vec<Diagnostic>> {
+    let mut levels_of = |unit: &Unit| -> Vec<Levels> {
+        let files = unit.batch.sources.files().map(|(_, file)| file.name());
+        files.map(|name| session.levels_of(name)).collect()
+    };
+    let levels: Vec<Vec<Levels>> = units.iter().map(&mut levels_of).collect();
+    let found = |(unit, levels): (&Unit, Vec<Levels>)| {
+        let wanted = |code: &Code| levels.iter().any(|levels| levels.may_report(code));
+        let check = |program| guard::guarded(|| check_some(program, &unit.batch.sources, wanted));
+        unit.program.as_ref().map_or_else(Vec::new, |program| {
+            let first = unit.batch.sources.files().next().map_or(0, |(_, file)| file.base());
+            check(program).unwrap_or_else(|panic| vec![guard::diagnostic(&panic, Span::new(first, first))])
+        })
+    };
+    session.pool().install(|| units.par_iter().zip(levels).map(found).collect())
 }

@@ -8,6 +8,7 @@
 //! *Holds:* no panics, no half-written files, and the same bytes for the same input with any `-j`.
 
 mod args;
+mod baseline;
 mod batch;
 mod buffers;
 mod cache;

@@ -22,7 +22,7 @@ use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::preprocess::INCLUDE_WITHOUT_EXTENSION;
 use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding, Scope};
-use glisten_front::diagnostic::{Applicability, Code, Diagnostic, Level, Severity};
+use glisten_front::diagnostic::{Applicability, Code, Diagnostic, Level, Levels, Severity};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
@@ -131,8 +131,7 @@ impl<'a> Session<'a> {
     }
 
     /// The levels of a file.
-    #[cfg(feature = "lsp")]
-    pub(super) fn levels_of(&mut self, name: &str) -> glisten_front::diagnostic::Levels {
+    pub(super) fn levels_of(&mut self, name: &str) -> Levels {
         self.configs.levels(name).clone()
     }
 
@@ -280,6 +279,8 @@ impl<'a> Session<'a> {
             DiagnosticFormat::Json => write::json(&told.findings, scope),
             DiagnosticFormat::Sarif => write::sarif(&told.findings, scope),
             DiagnosticFormat::Github => write::github(&told.findings, scope),
+            DiagnosticFormat::Gitlab => write::gitlab(&told.findings, scope),
+            DiagnosticFormat::Junit => write::junit(&told.findings, scope),
         };
         if to_output {
             self.console.output(&text)?;

@@ -132,6 +132,11 @@ fn what_the_language_leaves_undefined_has_a_class_and_a_place() {
         ("    if (q.x > 0.5) c.x = never;\n", "never written", 2048),
         ("    if (q.x > 0.5) c += texelFetch(t, ivec2(q * 64.0), 0);\n", "texelFetch", 2048),
         ("    if (q.x > 0.5) if (inversesqrt(q.x - 1.0) > 3.0) discard;\n", "inversesqrt", 2048),
+        (
+            "    if (q.x > 0.5) c += textureLod(t, vec2(e * 0.0 * (1.0 / (e - 0.25)), q.y), 0.0);\n",
+            "no finite number",
+            2048,
+        ),
         // What is undefined here reaches no pixel.
         ("    float d = smoothstep(e, e, q.y) * 0.0; if (q.x > 0.5) c.x = q.y;\n", "", 0),
         // An infinity of a division by zero is one on every GPU.

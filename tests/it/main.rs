@@ -3,6 +3,8 @@
 mod api;
 mod architecture;
 #[cfg(feature = "cli")]
+mod baseline;
+#[cfg(feature = "cli")]
 mod bazel;
 #[cfg(feature = "cli")]
 mod bindings;

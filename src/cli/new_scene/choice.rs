@@ -25,7 +25,7 @@ pub(super) struct Taste(pub(super) usize);
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Changed {
     One(String),
-    /// All scalars that are floats.
+    /// All scalars that are floats, but the ends of ranges: equal ends divide by zero.
     Floats,
 }
 
@@ -34,7 +34,13 @@ impl Changed {
     pub(super) fn has(&self, leaf: &UniformLeaf, ty: Type) -> bool {
         match self {
             Self::One(name) => *name == leaf.name,
-            Self::Floats => ty == Type::Scalar(Scalar::Float),
+            Self::Floats => ty == Type::Scalar(Scalar::Float) && !is_an_end(&leaf.name),
         }
     }
+}
+
+/// Whether a name says that it is one of the two ends of a range.
+fn is_an_end(name: &str) -> bool {
+    let name = name.rsplit('.').next().unwrap_or(name).to_lowercase();
+    ["min", "max", "near", "far", "start", "end"].iter().any(|end| name.starts_with(end) || name.ends_with(end))
 }

@@ -8,6 +8,7 @@ use super::super::exit::{Exit, Failure, Outcome};
 use super::headline::Headline;
 use super::{Judged, Run, VerifyArgs, VerifyFormat, examine, worst_of};
 use crate::verify::{Conclusion, mark};
+use glisten_front::diagnostic::write::escaped_xml;
 use serde_json::Value;
 use std::time::Instant;
 
@@ -158,33 +159,17 @@ fn junit(cases: &[Case]) -> String {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {totals}>\n<testsuite name=\"glisten verify\" {totals}>\n"
     );
     for case in cases {
-        let name = escaped(&case.scene);
+        let name = escaped_xml(&case.scene);
         text.push_str(&format!("<testcase classname=\"verify\" name=\"{name}\" time=\"{:.3}\"", case.seconds));
         if case.is_wrong() {
             let tag = if case.conclusion.is_some() { "failure" } else { "error" };
-            let (kind, why) = (escaped(case.mark()), escaped(case.why()));
+            let (kind, why) = (escaped_xml(case.mark()), escaped_xml(case.why()));
             text.push_str(&format!("><{tag} type=\"{kind}\" message=\"{why}\">{why}</{tag}></testcase>\n"));
         } else {
             text.push_str("/>\n");
         }
     }
     text + "</testsuite>\n</testsuites>\n"
-}
-
-/// Text for XML; characters that XML cannot hold are left out.
-fn escaped(text: &str) -> String {
-    let is_allowed = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
-    let mut out = String::new();
-    for c in text.chars().filter(is_allowed) {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]

@@ -18,10 +18,20 @@ use std::sync::Mutex;
 /// The numbers of a guess.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numbers {
-    /// Of floats.
+    /// Of floats, if `step` is 0.
     pub float: f64,
+    /// How far a float may be from `float`: results and lanes get numbers between them. 0: all get the same.
+    pub step: f64,
     /// Of integers, as bits.
     pub int: u32,
+}
+
+impl Numbers {
+    /// The float of a result in a lane. Neighbors differ by the golden ratio, so that no two texels are alike.
+    fn float(&self, lane: usize, result: usize) -> f64 {
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        self.float + self.step * ((lane * 7 + result * 3) as f64 * GOLDEN).fract()
+    }
 }
 
 /// A place where something undefined was computed.
@@ -45,6 +55,7 @@ pub struct Guess {
 
 /// The name that a variable without a value has in reports.
 pub(super) const UNWRITTEN: &str = "a variable that was never written";
+const NO_PLACE: &str = "a lookup at a coordinate that is no finite number";
 const SPLIT_LOOKUP: &str = "a lookup by derivatives that only a part of the quad runs";
 const SPLIT_DERIVATIVE: &str = "a derivative that only a part of the quad runs";
 
@@ -175,9 +186,14 @@ impl<D: Domain> Machine<D> {
                     Lookup::Fetch => {
                         ("`texelFetch` outside of the texture", lanes_where(mask, |lane| self.is_beyond(call, lane)))
                     }
-                    Lookup::Implicit | Lookup::QueryLod if inner.stage == Stage::Fragment => {
+                    Lookup::Implicit | Lookup::QueryLod
+                        if inner.stage == Stage::Fragment && self.without_a_place(call, mask) == 0 =>
+                    {
                         let split = self.split(mask);
                         (SPLIT_LOOKUP, lanes_where(split, |lane| self.needs_level(call, lane)))
+                    }
+                    Lookup::Lod | Lookup::Grad | Lookup::Gather | Lookup::Implicit | Lookup::QueryLod => {
+                        (NO_PLACE, self.without_a_place(call, mask))
                     }
                     _ => return None,
                 }
@@ -194,6 +210,13 @@ impl<D: Domain> Machine<D> {
         let elsewhere = self.whole & !mask & !self.discarded;
         let split = (0..LANES).step_by(4).map(|first| 0xf << first).filter(|quad| elsewhere & quad != 0);
         mask & split.fold(0, |lanes, quad: u64| lanes | quad)
+    }
+
+    /// The lanes in which a coordinate of a lookup is no finite number: no texel is there (GLSL 1.50 §8.7).
+    fn without_a_place(&self, call: &TextureCall, mask: u64) -> u64 {
+        let is_finite =
+            |lane, operand: &super::inst::Operand| self.registers.float(*operand).at(lane).value().is_finite();
+        lanes_where(mask, |lane| !call.coordinate.iter().all(|operand| is_finite(lane, operand)))
     }
 
     /// Whether a lookup depends on the level of detail.
@@ -235,17 +258,18 @@ impl<D: Domain> Machine<D> {
         let Some(guess) = self.guess.clone() else { return };
         let place = Place { span: section.spans.get(place).copied().unwrap_or_default(), what };
         guess.note(place);
-        let Some(Numbers { float, int }) = guess.numbers.filter(|_| guess.applies(place)) else { return };
+        let Some(numbers) = guess.numbers.filter(|_| guess.applies(place)) else { return };
         let is_replaced = |lane: usize| lanes >> lane & 1 == 1;
-        for (class, operand) in self.written(inst, section) {
+        for (result, (class, operand)) in self.written(inst, section).into_iter().enumerate() {
             match class {
                 super::inst::Class::Float => {
                     let lanes = self.registers.floats.register(operand).spread();
-                    lanes.update(|lane, old| if is_replaced(lane) { D::Float::from_f64(float) } else { old });
+                    let float = |lane| D::Float::from_f64(numbers.float(lane, result));
+                    lanes.update(|lane, old| if is_replaced(lane) { float(lane) } else { old });
                 }
                 super::inst::Class::Int => {
                     let lanes = self.registers.ints.register(operand).spread();
-                    lanes.update(|lane, old| if is_replaced(lane) { D::Int::from_bits(int) } else { old });
+                    lanes.update(|lane, old| if is_replaced(lane) { D::Int::from_bits(numbers.int) } else { old });
                 }
             }
         }

@@ -1,21 +1,25 @@
 //! The writers of diagnostics, one file for each format. They know nothing about rules.
 //!
 //! *In:* a [`SourceMap`] and [`Diagnostic`]s. *Out:* text for people ([`human()`]), or [`Finding`]s, which
-//! [`json()`], [`sarif()`] and [`github()`] convert. A [`Finding`] no longer needs its source map, so the findings of
+//! [`json()`], [`sarif()`], [`github()`], [`gitlab()`] and [`junit()`] convert. A [`Finding`] no longer needs its source map, so the findings of
 //! many programs can be joined, sorted and deduplicated.
 //!
 //! *Holds:* regions are those of the text on disk, whatever `#line` says. The region of text from a macro is the use of
 //! the macro; the text in the macro's body becomes a label.
 
 mod github;
+mod gitlab;
 mod human;
 mod json;
+mod junit;
 mod sarif;
 mod scope;
 
 pub use github::github;
+pub use gitlab::gitlab;
 pub use human::human;
 pub use json::json;
+pub use junit::{escaped_xml, junit};
 pub use sarif::sarif;
 pub use scope::{NotChecked, Scope};
 
@@ -23,6 +27,7 @@ use super::{Applicability, Diagnostic, Fix, Label, Severity};
 use crate::language::{Edition, cite};
 use crate::source::{Language, SourceMap, Span};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// A range of text for people. Lines and columns count from 1, columns in Unicode scalar values (a tab is one); the
 /// end is exclusive.
@@ -162,6 +167,17 @@ fn fingerprint(sources: &SourceMap, diagnostic: &Diagnostic, span: Span) -> u64 
     let parts = [diagnostic.code.id, diagnostic.message.as_str(), line.trim()];
     let bytes = parts.iter().flat_map(|part| part.bytes().chain([0]));
     bytes.fold(START, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
+}
+
+/// The fingerprints of findings as text. Equal ones of a file, as of equal lines, are told apart by their order.
+pub fn fingerprints(findings: &[Finding]) -> Vec<String> {
+    let mut repeated: BTreeMap<(&str, u64), usize> = BTreeMap::new();
+    let numbered = findings.iter().map(|finding| {
+        let count = repeated.entry((finding.region.file.as_str(), finding.fingerprint)).or_default();
+        *count += 1;
+        format!("{:016x}:{count}", finding.fingerprint)
+    });
+    numbered.collect()
 }
 
 /// The section that a diagnostic cites, in the version of the source.

@@ -4,7 +4,7 @@
 //! count Unicode code points (`columnKind`); the end is exclusive. Files that were not checked are notifications of the
 //! invocation (§3.20.21), not results.
 
-use super::{Finding, FindingFix, NotChecked, Region, Scope};
+use super::{Finding, FindingFix, NotChecked, Region, Scope, fingerprints};
 use crate::diagnostic::codes::general::NOT_CHECKED;
 use crate::diagnostic::{Code, Severity};
 use serde_json::{Value, json};
@@ -22,15 +22,9 @@ pub fn sarif(findings: &[Finding], scope: Option<&Scope>) -> String {
     let codes: BTreeMap<&str, &Code> = findings.iter().map(|finding| (finding.code.id, finding.code)).collect();
     let indices: BTreeMap<&str, usize> = codes.keys().enumerate().map(|(index, id)| (*id, index)).collect();
     let rules: Vec<Value> = codes.values().map(|code| rule(code)).collect();
-    let mut repeated: BTreeMap<(&str, u64), usize> = BTreeMap::new();
-    let mut results = Vec::new();
-    for finding in findings {
-        // Equal lines of a file are told apart by their order.
-        let count = repeated.entry((finding.region.file.as_str(), finding.fingerprint)).or_default();
-        *count += 1;
-        let fingerprint = format!("{:016x}:{count}", finding.fingerprint);
-        results.push(result(finding, indices.get(finding.code.id).copied(), &fingerprint));
-    }
+    let index = |finding: &Finding| indices.get(finding.code.id).copied();
+    let results = findings.iter().zip(fingerprints(findings));
+    let results: Vec<Value> = results.map(|(finding, print)| result(finding, index(finding), &print)).collect();
     let mut log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",

@@ -1,0 +1,191 @@
+//! `glisten lint --baseline`: findings that an old tree may keep.
+//!
+//! *In:* checked units and a file of findings. *Out:* the units without those findings; or the file, written anew. *Holds:* a
+//! finding is known by its file, code, message and line of text, so it stays known when lines above it come and go. Of several
+//! equal ones in a file, as many are left out as the file counts.
+
+use super::console::Console;
+use super::exit::Failure;
+use super::files;
+use super::session::Unit;
+use clap::Args;
+use glisten_front::diagnostic::write::{Finding, Region, fingerprints};
+use glisten_front::source::SourceMap;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// The version of the file's form.
+const VERSION: u32 = 1;
+
+/// Where the known findings are.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Baseline")]
+pub(super) struct BaselineArgs {
+    /// Leave out the findings that this file lists
+    #[arg(long, value_name = "FILE")]
+    baseline: Option<PathBuf>,
+    /// Write all findings of this run into the baseline instead of telling them
+    #[arg(long, requires = "baseline", conflicts_with_all = ["fix", "unsafe_fixes", "diff"])]
+    update_baseline: bool,
+}
+
+impl BaselineArgs {
+    /// Whether the file is written.
+    pub(super) fn updates(&self) -> bool {
+        self.update_baseline
+    }
+}
+
+/// A known finding. Code and message are for readers; the file and the fingerprint decide.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    /// Relative to the folder of the baseline, with `/`.
+    file: String,
+    code: String,
+    message: String,
+    fingerprint: String,
+}
+
+/// The file.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    version: u32,
+    findings: Vec<Entry>,
+}
+
+/// What makes a diagnostic one and the same in several programs.
+type Told = (Region, &'static str, String);
+
+/// The known findings.
+pub(super) struct Baseline {
+    path: PathBuf,
+    known: Vec<Entry>,
+}
+
+impl Baseline {
+    /// Reads the baseline, if there is one. One that is going to be written need not exist.
+    ///
+    /// # Errors
+    /// The file cannot be read or is none.
+    pub(super) fn new(args: &BaselineArgs) -> Result<Option<Self>, Failure> {
+        let Some(path) = args.baseline.clone() else { return Ok(None) };
+        if args.update_baseline && !path.exists() {
+            return Ok(Some(Self { path, known: Vec::new() }));
+        }
+        let name = path.to_string_lossy().into_owned();
+        let bytes = files::read(&name, &path).map_err(|error| {
+            Failure::usage(error.message).help("`--update-baseline` writes it from the findings of the run")
+        })?;
+        let refused = |why: String| {
+            Failure::usage(format!("`{name}` is no baseline: {why}")).help("`--update-baseline` writes one")
+        };
+        let document: Document = serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
+        if document.version != VERSION {
+            return Err(refused(format!("its version is {}, not {VERSION}", document.version)));
+        }
+        Ok(Some(Self { path, known: document.findings }))
+    }
+
+    /// Removes the known findings from the units. Tells how many there were, and how many are gone from the files of the run.
+    pub(super) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
+        let found = self.entries(units);
+        let known: BTreeSet<(&str, &str)> = self.known.iter().map(Entry::key).collect();
+        let mut left_out = 0;
+        for unit in units.iter_mut() {
+            let sources = &unit.batch.sources;
+            unit.batch.diagnostics.retain(|diagnostic| {
+                let told = told(&Finding::new(sources, diagnostic));
+                !found.get(&told).is_some_and(|entry| known.contains(&entry.key()))
+            });
+        }
+        let present: BTreeSet<(&str, &str)> = found.values().map(Entry::key).collect();
+        left_out += known.intersection(&present).count();
+        let checked = self.checked(units);
+        let gone = self.known.iter().filter(|entry| checked.contains(&entry.file) && !present.contains(&entry.key()));
+        let Some(console) = console else { return };
+        if left_out > 0 {
+            console.remark(&format!("{} of the baseline left out", counted(left_out)));
+        }
+        match gone.count() {
+            0 => {}
+            count => {
+                console.remark(&format!("{} of the baseline gone: --update-baseline removes them", counted(count)))
+            }
+        }
+    }
+
+    /// Writes the findings of the units. What is known of other files stays, if they are still there.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn update(&self, units: &[Unit], console: &Console) -> Result<(), Failure> {
+        let checked = self.checked(units);
+        let folder = self.folder();
+        let elsewhere = |entry: &&Entry| !checked.contains(&entry.file) && folder.join(&entry.file).exists();
+        let mut findings: Vec<Entry> = self.known.iter().filter(elsewhere).cloned().collect();
+        findings.extend(self.entries(units).into_values());
+        findings.sort();
+        let count = findings.len();
+        let document = Document { version: VERSION, findings };
+        let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
+        text.push('\n');
+        files::write(&self.path, text.as_bytes())?;
+        console.remark(&format!("wrote {} to {}", counted(count), self.path.display()));
+        Ok(())
+    }
+
+    /// The finding of each diagnostic, each once though programs share files.
+    fn entries(&self, units: &[Unit]) -> BTreeMap<Told, Entry> {
+        let mut seen = BTreeSet::new();
+        let mut findings = Vec::new();
+        for unit in units {
+            let found = unit.batch.diagnostics.iter().map(|diagnostic| Finding::new(&unit.batch.sources, diagnostic));
+            findings.extend(found.filter(|finding| seen.insert(told(finding))));
+        }
+        findings.sort_by(|a, b| a.region.cmp(&b.region));
+        let prints = fingerprints(&findings);
+        let entry = |(finding, fingerprint): (&Finding, String)| {
+            let file = self.relative(&finding.region.file);
+            let (code, message) = (finding.code.id.to_owned(), finding.message.clone());
+            (told(finding), Entry { file, code, message, fingerprint })
+        };
+        findings.iter().zip(prints).map(entry).collect()
+    }
+
+    /// The files of the units.
+    fn checked(&self, units: &[Unit]) -> BTreeSet<String> {
+        let names = |sources: &SourceMap| -> Vec<String> {
+            sources.files().map(|(_, file)| self.relative(file.name())).collect()
+        };
+        units.iter().flat_map(|unit| names(&unit.batch.sources)).collect()
+    }
+
+    fn folder(&self) -> PathBuf {
+        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new("."));
+        std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
+    }
+
+    /// A file's name relative to the folder of the baseline, so that the current folder does not matter.
+    fn relative(&self, file: &str) -> String {
+        let absolute = std::fs::canonicalize(file).unwrap_or_else(|_| PathBuf::from(file));
+        absolute.strip_prefix(self.folder()).unwrap_or(Path::new(file)).to_string_lossy().replace('\\', "/")
+    }
+}
+
+impl Entry {
+    fn key(&self) -> (&str, &str) {
+        (&self.file, &self.fingerprint)
+    }
+}
+
+fn told(finding: &Finding) -> Told {
+    (finding.region.clone(), finding.code.id, finding.message.clone())
+}
+
+fn counted(count: usize) -> String {
+    format!("{count} finding{}", if count == 1 { "" } else { "s" })
+}

@@ -1,0 +1,132 @@
+//! `glisten lint --baseline`: what an old tree may keep; and the reports of GitLab and JUnit.
+
+use crate::cli::{Folder, code, err, out};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+
+const OLD: &str = "#version 150\nuniform float t;\nout vec4 c;\nvoid main() {\n    float unused;\n    if (t * 0.1 == t + t) discard;\n    \
+                   if (t * 0.1 == t + t) discard;\n    c = vec4(t);\n}\n";
+const BROKEN: &str = "#version 150\nout vec4 c;\nvoid main() {\n    c = vec4(missing);\n}\n";
+const RULES: [&str; 4] = ["--warn", "correctness", "--warn", "numerics"];
+
+fn folder() -> Folder {
+    Folder::new(&[("old.frag", OLD.as_bytes()), ("sub/broken.frag", BROKEN.as_bytes())])
+}
+
+fn lint(folder: &Folder, more: &[&str]) -> (i32, Vec<Value>) {
+    let arguments = [&["lint", ".", "--format", "json"], &RULES[..], more].concat();
+    let output = folder.run(&arguments);
+    let mut found: Vec<Value> =
+        serde_json::from_str(&out(&output)).unwrap_or_else(|error| panic!("{error}: {}", err(&output)));
+    found.pop();
+    (code(&output), found)
+}
+
+fn update(folder: &Folder, more: &[&str]) -> String {
+    let output = folder.run(&[&["lint", "--baseline", "known.json", "--update-baseline"], &RULES[..], more].concat());
+    assert_eq!((code(&output), out(&output).as_str()), (0, ""), "{}", err(&output));
+    err(&output)
+}
+
+#[test]
+fn known_findings_are_left_out_and_new_ones_are_told() {
+    let folder = folder();
+    let (exit, all) = lint(&folder, &[]);
+    assert!(exit == 1 && all.len() >= 4, "{all:#?}");
+    let told = update(&folder, &["."]);
+    assert!(told.contains(&format!("wrote {} findings to known.json", all.len())), "{told}");
+    assert_eq!(lint(&folder, &["--baseline", "known.json"]), (0, Vec::new()));
+    // From another folder, by other names.
+    let mut inner = folder.command(&["lint", "broken.frag", "--baseline", "../known.json"]);
+    let inner = inner.current_dir(folder.path("sub")).output().expect("it runs");
+    assert_eq!(code(&inner), 0, "{}", out(&inner));
+
+    // Lines above come; a third equal line and an error are new.
+    let more = OLD.replace("uniform", "// one\n\nuniform").replace("    c =", "    if (t * 0.1 == t + t) discard;\n    c =");
+    fs::write(folder.path("old.frag"), more).expect("written");
+    let (exit, fresh) = lint(&folder, &["--baseline", "known.json"]);
+    assert_eq!((exit, fresh.len()), (0, 1), "{fresh:#?}");
+    assert_eq!(fresh[0]["line"], 10, "{fresh:#?}");
+    fs::write(folder.path("sub/broken.frag"), BROKEN.replace("missing", "other")).expect("written");
+    let (exit, fresh) = lint(&folder, &["--baseline", "known.json"]);
+    assert_eq!((exit, fresh.len()), (1, 2), "{fresh:#?}");
+    let told = folder.run(&[&["lint", ".", "--baseline", "known.json"], &RULES[..]].concat());
+    assert!(err(&told).contains("of the baseline left out"), "{}", err(&told));
+    assert!(err(&told).contains("1 finding of the baseline gone: --update-baseline removes them"), "{}", err(&told));
+}
+
+#[test]
+fn an_update_keeps_what_it_did_not_check() {
+    let folder = folder();
+    update(&folder, &["."]);
+    fs::write(folder.path("old.frag"), OLD.replace("    float unused;\n", "")).expect("written");
+    update(&folder, &["old.frag"]);
+    let text = fs::read_to_string(folder.path("known.json")).expect("it is there");
+    assert!(text.contains("sub/broken.frag") && !text.contains("unused"), "{text}");
+    fs::remove_file(folder.path("sub/broken.frag")).expect("it was there");
+    update(&folder, &["old.frag"]);
+    let text = fs::read_to_string(folder.path("known.json")).expect("it is there");
+    assert!(!text.contains("broken"), "{text}");
+}
+
+#[test]
+fn a_baseline_that_is_none_is_refused() {
+    let folder = folder();
+    let output = folder.run(&["lint", ".", "--baseline", "no.json"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("--update-baseline"), "{}", err(&output));
+    for text in ["", "[]", "{\"version\": 1}", "{\"version\": 7, \"findings\": []}", "\u{0}"] {
+        fs::write(folder.path("no.json"), text).expect("written");
+        let output = folder.run(&["lint", ".", "--baseline", "no.json"]);
+        assert_eq!(code(&output), 2, "{text}");
+        assert!(err(&output).contains("is no baseline"), "{}", err(&output));
+    }
+    let output = folder.run(&["lint", ".", "--update-baseline"]);
+    assert_eq!(code(&output), 2);
+}
+
+/// A fix is for what is told.
+#[test]
+fn known_findings_are_not_fixed() {
+    let folder = folder();
+    update(&folder, &["."]);
+    let output = folder.run(&[&["lint", "old.frag", "--unsafe-fixes", "--baseline", "known.json"], &RULES[..]].concat());
+    assert_eq!(code(&output), 0, "{}", out(&output));
+    assert_eq!(fs::read_to_string(folder.path("old.frag")).expect("it is there"), OLD);
+}
+
+/// GitLab requires these keys, and fingerprints that differ.
+#[test]
+fn gitlab_gets_its_keys() {
+    let folder = folder();
+    let (_, all) = lint(&folder, &[]);
+    let output = folder.run(&[&["lint", ".", "--format", "gitlab"], &RULES[..]].concat());
+    let report: Vec<Value> = serde_json::from_str(&out(&output)).expect("JSON");
+    assert_eq!(report.len(), all.len());
+    let prints: BTreeSet<&str> = report.iter().filter_map(|entry| entry["fingerprint"].as_str()).collect();
+    assert_eq!(prints.len(), report.len(), "{report:#?}");
+    for entry in &report {
+        assert!(entry["description"].is_string() && entry["check_name"].is_string(), "{entry}");
+        assert!(["info", "minor", "major"].contains(&entry["severity"].as_str().unwrap_or_default()), "{entry}");
+        assert!(entry["location"]["path"].is_string(), "{entry}");
+        assert!(entry["location"]["positions"]["begin"]["line"].is_u64(), "{entry}");
+    }
+}
+
+#[test]
+fn junit_counts_its_cases() {
+    let folder = folder();
+    fs::write(folder.path("a&b.frag"), BROKEN.replace("missing", "a < b")).expect("written");
+    let (_, all) = lint(&folder, &[]);
+    let output = folder.run(&[&["lint", ".", "--format", "junit"], &RULES[..]].concat());
+    let xml = out(&output);
+    assert_eq!(xml.matches("<testcase ").count(), all.len(), "{xml}");
+    let wrong = all.iter().filter(|finding| finding["severity"] != "note").count();
+    assert_eq!(xml.matches("<failure ").count(), wrong, "{xml}");
+    assert!(xml.contains(&format!("tests=\"{}\" failures=\"{wrong}\"", all.len())), "{xml}");
+    assert!(xml.contains("a&amp;b.frag") && !xml.contains("a&b.frag"), "{xml}");
+    fs::write(folder.path("clean.frag"), "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n").expect("written");
+    let xml = out(&folder.run(&["lint", "clean.frag", "--format", "junit"]));
+    assert!(xml.contains("tests=\"1\" failures=\"0\"") && xml.contains("nothing found"), "{xml}");
+}
