@@ -145,12 +145,13 @@ fn summary(all: &[Done], is_trial: bool) -> String {
     let verb = if is_trial { "would change" } else { "changed" };
     let mut text = format!("{} of {} {verb}", changed, count(all.len(), "file"));
     let kept: usize = all.iter().map(|done| done.formatted.kept).sum();
+    let lines: usize = all.iter().map(|done| done.formatted.lines).sum();
+    if lines > 0 {
+        let share = 100.0 * (lines - kept) as f64 / lines as f64;
+        text.push_str(&format!("; {} of {} formatted ({share:.1} %)", lines - kept, count(lines, "line")));
+    }
     if kept > 0 {
-        let lines: usize = all.iter().map(|done| done.formatted.lines).sum();
-        text.push_str(&format!(
-            "; {kept} of {} kept, where brackets do not match or the text does not parse",
-            count(lines, "line")
-        ));
+        text.push_str(&format!(", {kept} kept: brackets do not match there, or the text does not parse"));
     }
     text
 }

@@ -43,7 +43,8 @@ fn known_findings_are_left_out_and_new_ones_are_told() {
     assert_eq!(code(&inner), 0, "{}", out(&inner));
 
     // Lines above come; a third equal line and an error are new.
-    let more = OLD.replace("uniform", "// one\n\nuniform").replace("    c =", "    if (t * 0.1 == t + t) discard;\n    c =");
+    let more =
+        OLD.replace("uniform", "// one\n\nuniform").replace("    c =", "    if (t * 0.1 == t + t) discard;\n    c =");
     fs::write(folder.path("old.frag"), more).expect("written");
     let (exit, fresh) = lint(&folder, &["--baseline", "known.json"]);
     assert_eq!((exit, fresh.len()), (0, 1), "{fresh:#?}");
@@ -91,7 +92,8 @@ fn a_baseline_that_is_none_is_refused() {
 fn known_findings_are_not_fixed() {
     let folder = folder();
     update(&folder, &["."]);
-    let output = folder.run(&[&["lint", "old.frag", "--unsafe-fixes", "--baseline", "known.json"], &RULES[..]].concat());
+    let output =
+        folder.run(&[&["lint", "old.frag", "--unsafe-fixes", "--baseline", "known.json"], &RULES[..]].concat());
     assert_eq!(code(&output), 0, "{}", out(&output));
     assert_eq!(fs::read_to_string(folder.path("old.frag")).expect("it is there"), OLD);
 }
@@ -126,7 +128,8 @@ fn junit_counts_its_cases() {
     assert_eq!(xml.matches("<failure ").count(), wrong, "{xml}");
     assert!(xml.contains(&format!("tests=\"{}\" failures=\"{wrong}\"", all.len())), "{xml}");
     assert!(xml.contains("a&amp;b.frag") && !xml.contains("a&b.frag"), "{xml}");
-    fs::write(folder.path("clean.frag"), "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n").expect("written");
+    fs::write(folder.path("clean.frag"), "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n")
+        .expect("written");
     let xml = out(&folder.run(&["lint", "clean.frag", "--format", "junit"]));
     assert!(xml.contains("tests=\"1\" failures=\"0\"") && xml.contains("nothing found"), "{xml}");
 }

@@ -425,7 +425,13 @@ fn a_missing_include_is_2() {
 fn every_format_of_diagnostics_is_written() {
     let folder = Folder::triangle();
     fs::write(folder.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
-    for (format, word) in [("human", "tri.frag:6:10"), ("sarif", "2.1.0"), ("github", "::error file=tri.frag,line=6"), ("gitlab", "\"check_name\": \"E03"), ("junit", "<failure type=\"error\"")] {
+    for (format, word) in [
+        ("human", "tri.frag:6:10"),
+        ("sarif", "2.1.0"),
+        ("github", "::error file=tri.frag,line=6"),
+        ("gitlab", "\"check_name\": \"E03"),
+        ("junit", "<failure type=\"error\""),
+    ] {
         let output = folder.run(&["lint", "tri.vert", "tri.frag", "--format", format]);
         assert_eq!(code(&output), 1);
         assert!(out(&output).contains(word), "{format}: {}", out(&output));

@@ -142,7 +142,10 @@ impl Gpu {
             complaint = pollster::block_on(scope.pop()).map(|error| refusal(&error)).or(complaint);
         }
         let stray = self.stray.lock().unwrap_or_else(PoisonError::into_inner).take();
-        match complaint.or(stray) {
+        // What follows the loss of a device is no fault of its own.
+        let (first, second) =
+            if matches!(stray, Some(Error::Lost(_))) { (stray, complaint) } else { (complaint, stray) };
+        match first.or(second) {
             Some(error) => Err(error),
             None => result,
         }

@@ -18,7 +18,6 @@ use glisten_front::hir::{SamplerDim, SamplerType, Stage, Type};
 use glisten_front::link::{Program, SlotBinding};
 use glisten_scene::{Draw, Format, Framebuffer, Scene, State};
 use std::sync::Arc;
-use wgpu::util::DeviceExt;
 
 /// A scene on the device.
 pub struct Prepared {
@@ -269,9 +268,17 @@ impl Gpu {
         })
     }
 
+    /// A buffer with these bytes, padded to whole words. One that wgpu refuses is an error of the scope around it; a buffer
+    /// that is mapped at its creation would panic then.
     fn buffer(&self, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        let some = if bytes.is_empty() { &[0; 16] } else { bytes };
-        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: some, usage })
+        let mut bytes = if bytes.is_empty() { vec![0; 16] } else { bytes.to_vec() };
+        bytes.resize(bytes.len().next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT as usize), 0);
+        let usage = usage | wgpu::BufferUsages::COPY_DST;
+        let size = bytes.len() as u64;
+        let descriptor = wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false };
+        let buffer = self.device.create_buffer(&descriptor);
+        self.queue.write_buffer(&buffer, 0, &bytes);
+        buffer
     }
 
     /// Creates the module of a stage's code.

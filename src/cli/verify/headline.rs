@@ -89,16 +89,19 @@ fn inconclusive(verification: &Verification, verdict: &Verdict) -> Headline {
 /// The sentence for a picture that is wrong.
 fn fails(verdict: &Verdict) -> Headline {
     let counts = [
-        (verdict.outside, "outside of what a GPU may draw"),
-        (verdict.coverage_mismatch, "covered by one side alone"),
-        (verdict.finiteness_mismatch, "finite on one side alone"),
-        (verdict.outside_likely, "outside of what GPUs are likely to draw"),
-        (verdict.suspect.unwrap_or(0), "far from what simulated GPUs draw"),
+        (verdict.outside, "pixel", "outside of what a GPU may draw"),
+        (verdict.coverage_mismatch, "pixel", "covered by one side alone"),
+        (verdict.finiteness_mismatch, "channel", "finite on one side alone"),
+        (verdict.outside_likely, "pixel", "outside of what GPUs are likely to draw"),
+        (verdict.suspect.unwrap_or(0), "pixel", "far from what simulated GPUs draw"),
     ];
     let parts: Vec<String> = counts
         .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, what)| format!("{count} {} {what}", if *count == 1 { "pixel is" } else { "pixels are" }))
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, thing, what)| match count {
+            1 => format!("1 {thing} is {what}"),
+            count => format!("{count} {thing}s are {what}"),
+        })
         .collect();
     let mut text = format!("does not hold: {}", parts.join(", "));
     let mut place = None;

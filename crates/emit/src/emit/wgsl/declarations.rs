@@ -94,7 +94,7 @@ fn placed<'m>(body: &mut Body<'m>, local: Local<'m>) -> Option<(Place, StmtKind<
     let Some(value) = local.value else {
         return Some(((block, first), StmtKind::Var { name: local.name, ty: local.ty, value: None }));
     };
-    if written == 0 && !value.is_integer_literal() {
+    if written == 0 && value.may_be_let() {
         let first = source_place(body, block, first, local.span);
         return Some(((block, first), StmtKind::Let { name: local.name, value }));
     }
@@ -202,7 +202,7 @@ fn become_declaration(body: &mut Body<'_>, id: BlockId, at: usize, local: &Local
     let value = std::mem::replace(value, Expr::Leaf("".into()));
     let name = local.name;
     stmt.declared = local.span;
-    if once && !value.is_integer_literal() {
+    if once && value.may_be_let() {
         stmt.kind = StmtKind::Let { name, value };
         return;
     }

@@ -261,7 +261,13 @@ impl<'m> Builder<'m> {
             }
         };
         self.named.insert(handle, name);
-        self.push(StmtKind::Let { name, value }, span);
+        let kind = if self.is_full() && matches!(value, Expr::Constant(_)) {
+            let ty = self.names.inner(self.module, self.info[handle].ty.inner_with(&self.module.types));
+            StmtKind::Var { name, ty, value: Some(value) }
+        } else {
+            StmtKind::Let { name, value }
+        };
+        self.push(kind, span);
         Ok(())
     }
 

@@ -75,7 +75,7 @@ pub(super) fn compared(arguments: &[Expr<'_>]) -> bool {
 /// Whether an operator that begins with `<` or `>` is in an expression.
 fn has_operator(expr: &Expr<'_>, start: char) -> bool {
     match expr {
-        Expr::Number(_) | Expr::Leaf(_) | Expr::Local(_) => false,
+        Expr::Number(_) | Expr::Leaf(_) | Expr::Constant(_) | Expr::Local(_) => false,
         Expr::Call(_, arguments) => arguments.iter().any(|argument| has_operator(argument, start)),
         Expr::Index(left, right) => has_operator(left, start) || has_operator(right, start),
         Expr::Member(base, _) | Expr::Unary(_, base) => has_operator(base, start),

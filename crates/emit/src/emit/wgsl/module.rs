@@ -170,7 +170,7 @@ impl<'m> Writer<'m, '_> {
             Expression::Literal(literal) => number(*literal),
             Expression::ZeroValue(ty) => Expr::Call(names.ty(module, *ty).into(), Vec::new()),
             Expression::Constant(constant) => match names.constant_name(*constant) {
-                Some(name) => Expr::Leaf(name.into()),
+                Some(name) => Expr::Constant(name.into()),
                 None => self.constant(module.constants[*constant].init, expressions)?,
             },
             Expression::Compose { ty, components } => {

@@ -162,7 +162,7 @@ impl<'m> Words<'m> {
     }
 
     pub(super) fn constant(self, handle: Handle<Constant>) -> Expr<'m> {
-        Expr::Leaf(self.0.constant_name(handle).unwrap_or("").into())
+        Expr::Constant(self.0.constant_name(handle).unwrap_or("").into())
     }
 
     pub(super) fn member(self, ty: Handle<Type>, index: u32) -> Cow<'m, str> {

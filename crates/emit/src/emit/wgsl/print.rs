@@ -330,7 +330,7 @@ impl Printer<'_, '_> {
                     self.text.push_str(number.suffix);
                 }
             }
-            Expr::Leaf(leaf) => self.text.push_str(leaf),
+            Expr::Leaf(leaf) | Expr::Constant(leaf) => self.text.push_str(leaf),
             Expr::Local(name) => self.name(name.0),
             Expr::Call(name, arguments) => {
                 self.text.push_str(name);

@@ -58,7 +58,7 @@ impl Scopes {
 
     fn words_of_expr(&mut self, expr: &Expr<'_>) {
         match expr {
-            Expr::Leaf(name) => self.words_of(name),
+            Expr::Leaf(name) | Expr::Constant(name) => self.words_of(name),
             Expr::Call(name, arguments) => {
                 self.words_of(name);
                 arguments.iter().for_each(|argument| self.words_of_expr(argument));

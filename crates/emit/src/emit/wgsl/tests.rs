@@ -342,3 +342,12 @@ fn parentheses_stay_where_they_mean_something() {
         assert!(text.contains(expected), "{expected} in\n{text}");
     }
 }
+
+/// naga's SPIR-V writer composes a constant of too few constituents of a `let` whose value is the name of a constant.
+#[test]
+fn a_local_that_is_a_constant_is_a_var() {
+    let text =
+        "const vec3 K = vec3(1.0, 2.0, 3.0);\nvoid main() { vec3 k = K; c = i + vec4(k, 0.0) + vec4(K, 1.0) + u; }";
+    let body = body_of(text);
+    assert!(body.contains("var k: vec3<f32> = K;\n"), "{body}");
+}

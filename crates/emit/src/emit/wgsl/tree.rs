@@ -126,6 +126,8 @@ pub(super) enum Expr<'m> {
     Number(Number),
     /// A name of the module, or a word.
     Leaf(Cow<'m, str>),
+    /// The name of a constant of the module.
+    Constant(Cow<'m, str>),
     Local(NameId),
     Call(Cow<'m, str>, Vec<Expr<'m>>),
     Index(Box<Expr<'m>>, Box<Expr<'m>>),
@@ -138,11 +140,12 @@ impl Expr<'_> {
     /// Whether it is a name, a member, or an element with a constant number: what can be evaluated twice for nothing.
     pub(super) fn is_plain_place(&self) -> bool {
         match self {
-            Self::Leaf(_) | Self::Local(_) => true,
+            Self::Leaf(_) | Self::Constant(_) | Self::Local(_) => true,
             Self::Member(base, _) => base.is_plain_place(),
             Self::Unary("*", base) => matches!(**base, Self::Leaf(_) | Self::Local(_)),
             Self::Index(base, index) => {
-                base.is_plain_place() && matches!(**index, Self::Number(_) | Self::Local(_) | Self::Leaf(_))
+                base.is_plain_place()
+                    && matches!(**index, Self::Number(_) | Self::Local(_) | Self::Leaf(_) | Self::Constant(_))
             }
             _ => false,
         }
@@ -160,9 +163,15 @@ impl Expr<'_> {
         }
     }
 
-    /// Whether it is composed of integer literals. In a `let`, a reader of WGSL may take them for constants, and reject what
-    /// overflows or divides by 0.
-    pub(super) fn is_integer_literal(&self) -> bool {
+    /// Whether a `let` may have it as its value. Composed of integer literals, a reader of WGSL may take it for a constant, and
+    /// reject what overflows or divides by 0. Where it is the name of a constant vector, naga's SPIR-V writer composes a
+    /// constant of too few constituents of it.
+    pub(super) fn may_be_let(&self) -> bool {
+        !self.is_integer_literal() && !matches!(self, Self::Constant(_))
+    }
+
+    /// Whether it is composed of integer literals.
+    fn is_integer_literal(&self) -> bool {
         match self {
             Self::Number(number) => matches!(number.suffix, "i" | "u"),
             Self::Unary(_, operand) => operand.is_integer_literal(),

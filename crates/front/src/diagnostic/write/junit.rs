@@ -90,7 +90,11 @@ pub fn junit(findings: &[Finding], scope: Option<&Scope>) -> String {
 
 /// Text for XML 1.0, in an element or in quotes; characters that XML cannot hold are left out.
 pub fn escaped_xml(text: &str) -> String {
-    let is_allowed = |c: &char| !(c.is_control() && !matches!(c, '\n' | '\t')) && !matches!(c, '\u{fffe}' | '\u{ffff}');
+    let is_allowed = |c: &char| match c {
+        '\n' | '\t' => true,
+        '\u{fffe}' | '\u{ffff}' => false,
+        c => !c.is_control(),
+    };
     let mut out = String::new();
     for c in text.chars().filter(is_allowed) {
         match c {
