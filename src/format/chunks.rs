@@ -3,6 +3,7 @@
 //!
 //! *In:* lexemes, and places of errors. *Out:* lexemes, with one of [`Kind::Other`] for each place.
 
+use super::BYTE_ORDER_MARK;
 use super::scan::{Kind, Lexeme};
 use std::ops::Range;
 
@@ -18,6 +19,8 @@ struct Chunk {
 /// The lexemes, with those of what cannot be laid out as one.
 pub(super) fn keep<'t>(text: &'t str, lexemes: Vec<Lexeme<'t>>, broken: &[Range<usize>]) -> Vec<Lexeme<'t>> {
     let chunks = chunks(text, &lexemes);
+    // Where the first line begins.
+    let begin = if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len_utf8() } else { 0 };
     let mut out: Vec<Lexeme<'t>> = Vec::with_capacity(lexemes.len());
     for chunk in chunks {
         let Some(inside) = lexemes.get(chunk.range) else { continue };
@@ -28,10 +31,9 @@ pub(super) fn keep<'t>(text: &'t str, lexemes: Vec<Lexeme<'t>>, broken: &[Range<
             out.extend_from_slice(inside);
             continue;
         }
-        let line = text.get(..place.start).and_then(|before| before.rfind('\n')).map_or(0, |at| at + 1);
-        let is_blank =
-            text.get(line..place.start).is_some_and(|blank| blank.trim_start_matches('\u{feff}').trim().is_empty());
-        let start = if is_blank && first.lines > 0 { line } else { place.start };
+        let line = text.get(..place.start).and_then(|before| before.rfind('\n')).map_or(begin, |at| at + 1);
+        let is_blank = text.get(line..place.start).is_some_and(|blank| blank.trim().is_empty());
+        let start = if is_blank && (first.lines > 0 || line == begin) { line } else { place.start };
         let kept = text.get(start..place.end).unwrap_or("");
         match out.last_mut() {
             Some(before) if before.kind == Kind::Other => {

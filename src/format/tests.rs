@@ -69,6 +69,16 @@ fn what_does_not_match_is_kept() {
 }
 
 #[test]
+fn what_is_kept_at_the_beginning_keeps_its_blanks() {
+    for mark in ["", "\u{feff}"] {
+        for head in ["", "\n", "\n\n\t", "  ", " \n "] {
+            let once = formatted(&format!("{mark}{head}*  a (\n  b ]\n*/\n"));
+            assert_eq!(once.matches('\u{feff}').count(), mark.len().min(1), "{once:?}");
+        }
+    }
+}
+
+#[test]
 fn comments_and_line_ends_stay() {
     let text = "/* a\n     b */\r\nfloat   a;   // x \\\n y  \r\n#define A   \\\r\n   b\r\n";
     let once = formatted(text);
