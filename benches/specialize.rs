@@ -2,7 +2,8 @@
 //! the time in which residuals are made.
 //!
 //! `cargo bench --bench specialize` prints both as Markdown, for `docs/specialize.md`; with `draw` or `make` one of them, with
-//! `draw edge spot` only these scenes.
+//! `draw edge spot` only these scenes. `once LINES` makes a residual of that many lines once, and `compile LINES` does all but that:
+//! for a tool that counts instructions.
 //! A ratio is the median over rounds of the residual's time to the original's of the same round, which are drawn in turns;
 //! the last column tells how far that of the original to itself reaches, which is the noise. Operations are counted on the reference.
 
@@ -22,6 +23,13 @@ const LIMITS: Limits = Limits { rounds: 60, time: Duration::from_secs(6) };
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    if let [what @ ("once" | "compile"), lines] = asked.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        let program = program(&long(lines.parse().expect("a number of lines")));
+        if what == "once" {
+            std::hint::black_box(specialize(&program, &known()));
+        }
+        return;
+    }
     let wants = |what: &str| asked.is_empty() || asked.iter().any(|asked| asked == what);
     if wants("draw") {
         drawn(&asked);
