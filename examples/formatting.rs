@@ -47,7 +47,7 @@ impl Row {
     }
 }
 
-/// What a run of `glisten fmt` says: the files that change, and the numbers of its last line.
+/// The output of a run of `glisten fmt`: the files that change, and the numbers of its last line.
 struct Said {
     changes: Vec<PathBuf>,
     numbers: Vec<usize>,

@@ -1,6 +1,6 @@
 //! `glisten lint --baseline`: findings that an old tree may keep.
 //!
-//! *In:* checked units and a file of findings. *Out:* the units without those findings; or the file, written anew. *Holds:* a
+//! *In:* checked units and a file of findings. *Out:* the units without those findings; or the file, written again. *Holds:* a
 //! finding is known by its file, code, message and line of text, so it stays known when lines above it come and go. Of several
 //! equal ones in a file, as many are left out as the file counts.
 
@@ -56,7 +56,7 @@ struct Document {
     findings: Vec<Entry>,
 }
 
-/// What makes a diagnostic one and the same in several programs.
+/// The identity of a diagnostic that several programs may have.
 type Told = (Region, &'static str, String);
 
 /// The known findings.

@@ -89,7 +89,7 @@ fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> Ve
     units
 }
 
-/// What the rules find in each unit, in parallel. Rules that the levels of all its files turn off are not run.
+/// The findings of the rules in each unit, in parallel. Rules that the levels of all its files turn off are not run.
 fn lints(session: &mut Session<'_>, units: &[Unit]) -> Vec<Vec<Diagnostic>> {
     let mut levels_of = |unit: &Unit| -> Vec<Levels> {
         let files = unit.batch.sources.files().map(|(_, file)| file.name());
