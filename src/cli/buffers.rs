@@ -19,6 +19,13 @@ pub(super) fn put(path: &Path, bytes: impl Into<Arc<[u8]>>) {
     ANY.store(true, Ordering::Release);
 }
 
+/// Takes all texts away: files count again.
+#[cfg(feature = "play")]
+pub(super) fn clear() {
+    BUFFERS.write().unwrap_or_else(PoisonError::into_inner).clear();
+    ANY.store(false, Ordering::Release);
+}
+
 /// The text in place of a file, if there is one.
 pub(super) fn get(path: &Path) -> Option<Arc<[u8]>> {
     if !ANY.load(Ordering::Acquire) {

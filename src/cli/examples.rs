@@ -46,6 +46,14 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "play",
+        &[
+            ("glisten play shaders", "the scenes of a folder, in a browser; the address is printed"),
+            ("glisten play scene.toml --open", "one scene, and a browser that shows it"),
+            ("glisten play --export page.html scene.toml", "a page to hand on"),
+        ],
+    ),
+    (
         "reflect",
         &[
             ("glisten reflect a.vert a.frag", "attributes, uniforms, blocks, textures and outputs as a table"),

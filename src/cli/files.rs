@@ -62,12 +62,15 @@ pub(super) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     bytes
 }
 
-/// The files of the disk for scenes, which notes what is read.
+/// The files of the disk for scenes, or the texts in their place; it notes what is read.
 pub(super) struct SceneFiles;
 
 impl FileSource for SceneFiles {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        let bytes = DiskFiles.read(path);
+        let bytes = match buffers::get(Path::new(path)) {
+            Some(bytes) => Ok(bytes.to_vec()),
+            None => DiskFiles.read(path),
+        };
         trace::read(Path::new(path), bytes.as_deref().ok());
         bytes
     }

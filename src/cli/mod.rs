@@ -55,6 +55,8 @@ mod optimize;
 mod outputs;
 mod permutations;
 mod pictures;
+#[cfg(feature = "play")]
+mod play;
 mod profile;
 mod progress;
 mod recall;
@@ -137,6 +139,8 @@ enum Command {
     Fmt(fmt::FmtArgs),
     #[cfg(feature = "lsp")]
     Lsp(lsp::LspArgs),
+    #[cfg(feature = "play")]
+    Play(play::PlayArgs),
     Upgrade(upgrade::UpgradeArgs),
     FixedFunction(fixed_function::FixedFunctionArgs),
     Completions(completions::CompletionsArgs),
@@ -226,6 +230,9 @@ impl Command {
             | Self::Man(_) => false,
             #[cfg(feature = "lsp")]
             Self::Lsp(_) => false,
+            // Its workers draw, and it outlives them.
+            #[cfg(feature = "play")]
+            Self::Play(_) => false,
         }
     }
 }
@@ -249,6 +256,8 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Fmt(args) => fmt::run(args, console),
         #[cfg(feature = "lsp")]
         Command::Lsp(args) => lsp::run(args, console),
+        #[cfg(feature = "play")]
+        Command::Play(args) => play::run(args, console),
         Command::Upgrade(args) => upgrade::run(args, console),
         Command::FixedFunction(args) => fixed_function::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),

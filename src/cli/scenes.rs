@@ -313,6 +313,12 @@ impl MachineArgs {
         Ok(gpu.with_timeout(Duration::from_secs_f64(self.timeout)))
     }
 
+    /// The name of the GPU that the arguments name.
+    #[cfg(feature = "play")]
+    pub(super) fn adapter(&self) -> Option<&str> {
+        self.adapter.as_deref()
+    }
+
     /// The time limit for a scene.
     pub(super) fn time_limit(&self) -> Duration {
         Duration::from_secs_f64(self.timeout)

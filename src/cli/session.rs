@@ -260,6 +260,16 @@ impl<'a> Session<'a> {
             .sort_by_key(|diagnostic| (is_told_last(diagnostic), sources.call_site(diagnostic.primary.span).start));
     }
 
+    /// The diagnostics of the configurations and of a batch as values, each once.
+    #[cfg(feature = "play")]
+    pub(super) fn findings(&self, batch: &Batch) -> Vec<Finding> {
+        let mut told = Told::default();
+        for batch in self.configs.errors.iter().chain([batch]) {
+            told.add(batch);
+        }
+        told.findings
+    }
+
     /// Reports all diagnostics, to standard output if `to_output` (as `lint` does), otherwise to standard error. Each
     /// is reported once, though several programs may share a file. Returns the exit code.
     pub(super) fn tell(&self, batches: &[&Batch], to_output: bool) -> Result<Exit, Failure> {

@@ -4,6 +4,9 @@ mod folder;
 mod headline;
 mod told;
 
+#[cfg(feature = "play")]
+pub(super) use headline::Headline;
+
 use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};

@@ -93,6 +93,8 @@ mod optimize;
 mod own_snapshots;
 #[cfg(feature = "cli")]
 mod permutations;
+#[cfg(feature = "play")]
+mod play;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

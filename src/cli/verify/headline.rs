@@ -6,16 +6,16 @@ use crate::verify::{Conclusion, UndefinedAt, Verification};
 use glisten_scene::compare::{Contributed, Verdict};
 
 /// The next step, and the reason.
-pub(super) struct Headline {
+pub(in crate::cli) struct Headline {
     /// The sentence.
-    pub(super) text: String,
+    pub(in crate::cli) text: String,
     /// The file, line and column that it is about.
-    pub(super) place: Option<(String, u32, u32)>,
+    pub(in crate::cli) place: Option<(String, u32, u32)>,
 }
 
 impl Headline {
     /// The sentence for the worst verdict of a verification; `None` if it holds.
-    pub(super) fn of(verification: &Verification, worst: &Verdict) -> Option<Self> {
+    pub(in crate::cli) fn of(verification: &Verification, worst: &Verdict) -> Option<Self> {
         match verification.conclusion() {
             Conclusion::Holds => None,
             Conclusion::Inconclusive => Some(inconclusive(verification, worst)),

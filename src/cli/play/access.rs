@@ -1,0 +1,152 @@
+//! Who may ask the server, and for which files.
+//!
+//! *In:* the headers of a request, the names of files. *Out:* whether it is allowed. *Holds:* a request needs the token, which
+//! the page's address has and no other page knows; the host and the origin must be this server's, so that a name that is made
+//! to point to this machine (DNS rebinding) opens nothing; a file must lie in one of the folders after all links are followed.
+
+use std::collections::BTreeSet;
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::path::{Component, Path, PathBuf};
+
+/// The secret of a server.
+#[derive(Clone, Debug)]
+pub(super) struct Token(String);
+
+impl Token {
+    /// A new secret. The keys of [`RandomState`] are the system's random bits, and a keyed hash tells nothing of its key.
+    pub(super) fn new() -> Self {
+        let keys = RandomState::new();
+        let part = |number: u64| {
+            let mut hasher = keys.build_hasher();
+            hasher.write_u64(number);
+            format!("{:016x}", hasher.finish())
+        };
+        Self(part(0) + &part(1))
+    }
+
+    /// The text of the secret.
+    pub(super) fn text(&self) -> &str {
+        &self.0
+    }
+
+    /// Whether a text is the secret. The time that it takes does not depend on where they differ.
+    fn is(&self, text: &str) -> bool {
+        let differ = self.0.bytes().zip(text.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
+        text.len() == self.0.len() && differ == 0
+    }
+}
+
+/// The facts of a request that decide whether it is answered.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Asking<'a> {
+    /// The header `Host`.
+    pub(super) host: Option<&'a str>,
+    /// The header `Origin`.
+    pub(super) origin: Option<&'a str>,
+    /// The token, from the address or a header.
+    pub(super) token: Option<&'a str>,
+}
+
+/// Whether a request is of this server's own page; otherwise the reason.
+pub(super) fn check(asking: Asking<'_>, token: &Token, port: u16) -> Result<(), &'static str> {
+    let own = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
+    if !asking.host.is_some_and(|host| own.iter().any(|own| own == host)) {
+        return Err("the host is another one");
+    }
+    let is_own = |origin: &str| origin.strip_prefix("http://").is_some_and(|host| own.iter().any(|own| own == host));
+    if asking.origin.is_some_and(|origin| !is_own(origin)) {
+        return Err("the request is from another origin");
+    }
+    match asking.token {
+        Some(text) if token.is(text) => Ok(()),
+        _ => Err("the token is missing or wrong: open the address that `glisten play` printed"),
+    }
+}
+
+/// The folders whose files the page may read and write.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Folders(BTreeSet<PathBuf>);
+
+impl Folders {
+    /// Adds a folder, if it exists.
+    pub(super) fn add(&mut self, folder: &Path) {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        self.0.extend(std::fs::canonicalize(folder));
+    }
+
+    /// The folders.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Path> {
+        self.0.iter().map(PathBuf::as_path)
+    }
+
+    /// Where a name leads, if that is in a folder. The file need not exist; its folder must.
+    pub(super) fn path(&self, name: &str) -> Option<PathBuf> {
+        let path = Path::new(name);
+        let (folder, file) = (path.parent()?, path.file_name()?);
+        if path.components().next_back() == Some(Component::ParentDir) || name.contains('\0') {
+            return None;
+        }
+        let whole = std::fs::canonicalize(path).or_else(|_| {
+            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            // A link to a file that does not exist would be followed when it is written.
+            match std::fs::symlink_metadata(path) {
+                Ok(_) => Err(std::io::ErrorKind::NotFound.into()),
+                Err(_) => std::fs::canonicalize(folder).map(|folder| folder.join(file)),
+            }
+        });
+        whole.ok().filter(|whole| self.0.iter().any(|folder| whole.starts_with(folder)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Asking, Folders, Token, check};
+
+    #[test]
+    fn strangers_are_refused() {
+        let token = Token::new();
+        assert_eq!(token.text().len(), 32);
+        assert_ne!(token.text(), Token::new().text());
+        let own = Asking { host: Some("127.0.0.1:80"), origin: None, token: Some(token.text()) };
+        assert_eq!(check(own, &token, 80), Ok(()));
+        assert_eq!(check(Asking { host: Some("localhost:80"), ..own }, &token, 80), Ok(()));
+        assert_eq!(check(Asking { origin: Some("http://127.0.0.1:80"), ..own }, &token, 80), Ok(()));
+        let changed = token.text().replace(&token.text()[..1], "x");
+        for bad in [
+            Asking { token: None, ..own },
+            Asking { token: Some(""), ..own },
+            Asking { token: Some(&token.text()[1..]), ..own },
+            Asking { token: Some(&changed), ..own },
+            Asking { host: None, ..own },
+            Asking { host: Some("example.org"), ..own },
+            Asking { host: Some("example.org:80"), ..own },
+            Asking { host: Some("127.0.0.1:81"), ..own },
+            Asking { origin: Some("http://example.org"), ..own },
+            Asking { origin: Some("https://127.0.0.1:80"), ..own },
+            Asking { origin: Some("null"), ..own },
+        ] {
+            assert!(check(bad, &token, 80).is_err(), "{bad:?}");
+        }
+    }
+
+    #[test]
+    fn files_lie_in_the_folders() {
+        let outside = tempfile::tempdir().expect("a folder");
+        let inside = outside.path().join("inside");
+        std::fs::create_dir(&inside).expect("it can be made");
+        std::fs::write(outside.path().join("secret"), "").expect("it can be written");
+        std::fs::write(inside.join("a.frag"), "").expect("it can be written");
+        let mut folders = Folders::default();
+        folders.add(&inside);
+        let path = |name: &str| folders.path(&inside.join(name).to_string_lossy());
+        assert!(path("a.frag").is_some() && path("new.frag").is_some());
+        for name in ["../secret", "../new", "..", "no/../../secret", "none/new.frag", "/etc/passwd", ""] {
+            assert_eq!(path(name), None, "{name}");
+        }
+        #[cfg(unix)]
+        for (link, to) in [("link", "../secret"), ("dangling", "../none")] {
+            std::os::unix::fs::symlink(to, inside.join(link)).expect("it can be made");
+            assert_eq!(path(link), None, "{link}");
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! The messages between page, server and worker: one JSON object each.
+
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A job: what is asked of a scene with these texts.
+#[derive(Debug, Deserialize)]
+pub(super) struct Job {
+    /// The scene file.
+    pub(super) scene: String,
+    /// The texts that count instead of files.
+    #[serde(default)]
+    pub(super) texts: BTreeMap<String, String>,
+    /// The question.
+    #[serde(flatten)]
+    pub(super) wish: Wish,
+}
+
+/// What is asked.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "ask", rename_all = "kebab-case")]
+pub(super) enum Wish {
+    /// Findings, controls, reflection, and the programs in a language.
+    Look {
+        /// The word of the language: `wgsl`.
+        #[serde(default = "wgsl")]
+        target: String,
+        /// Whether the programs are without what the picture does not need.
+        #[serde(default)]
+        leaves_out: bool,
+    },
+    /// The picture.
+    Draw {
+        /// Whether a driver draws it; otherwise the reference does.
+        #[serde(default)]
+        gpu: bool,
+    },
+    /// The pictures of reference and driver, and the verdict on the latter.
+    Judge,
+    /// The values of a pixel of the last pictures.
+    Pixel {
+        /// From the left.
+        x: u32,
+        /// From the top.
+        y: u32,
+    },
+}
+
+fn wgsl() -> String {
+    "wgsl".into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Job, Wish};
+
+    #[test]
+    fn jobs_are_read() {
+        let job: Job = serde_json::from_str(r#"{"ask":"look","scene":"a.toml","texts":{"a.frag":""}}"#).expect("a job");
+        assert!(matches!(job.wish, Wish::Look { ref target, leaves_out: false } if target == "wgsl"));
+        assert_eq!(job.texts.len(), 1);
+        let job: Job = serde_json::from_str(r#"{"ask":"pixel","scene":"","x":1,"y":2}"#).expect("a job");
+        assert!(matches!(job.wish, Wish::Pixel { x: 1, y: 2 }));
+        assert!(serde_json::from_str::<Job>(r#"{"ask":"run","scene":""}"#).is_err());
+    }
+}

@@ -1,0 +1,450 @@
+
+// ---- The page of `glisten play`: it holds the texts, asks for everything else, and shows the answers.
+const start = JSON.parse(byId("start").textContent);
+const isLive = start.mode === "server";
+const KINDS = { toml: "toml" };
+const kindOf = (name) => KINDS[name.split(".").at(-1)] ?? "glsl";
+const docs = new Map(); // name -> { text, saved, isWritable }
+let scene = null;       // the name of the scene file
+let shown = null;       // the name of the text in the editor
+let findings = [];
+let controls = [];
+let programs = [];
+let stage = null;
+let isJudged = false;
+
+const say = (text, isBad = false) => {
+  byId("state").textContent = text;
+  byId("state").classList.toggle("bad", isBad);
+};
+
+// ---- Questions.
+const request = async (method, path, body) => {
+  const response = await fetch(path, { method, headers: { "X-Glisten-Token": start.token }, body: body === undefined ? undefined : JSON.stringify(body) });
+  const answer = await response.json();
+  return { status: response.status, ...answer };
+};
+const changedTexts = () => Object.fromEntries([...docs].filter(([, doc]) => doc.text !== doc.saved).map(([name, doc]) => [name, doc.text]));
+const ask = (job) => request("POST", "/api/ask", { scene, texts: changedTexts(), ...job });
+
+// Runs a question so that at most one is under way and the newest always runs; `patience` is how long (ms) a running one may take
+// when a newer one waits. The server ends the older one.
+const latest = (work, patience) => {
+  let running = 0, waiting = false, begun = 0;
+  const run = async () => {
+    running += 1; begun = performance.now(); waiting = false;
+    try { await work(); } catch (error) { say(`no answer: ${error.message}`, true); }
+    running -= 1;
+    if (waiting && running === 0) run();
+  };
+  return () => {
+    if (running === 0) run();
+    else if (performance.now() - begun > patience) run();
+    else {
+      waiting = true;
+      setTimeout(() => { if (waiting && running > 0) run(); }, patience);
+    }
+  };
+};
+
+// ---- The editor and the files.
+const editor = Editor.create({
+  parent: byId("editor"), label: "Source", words: start.words, readOnly: !isLive,
+  changed: (name, text) => {
+    const doc = docs.get(name);
+    if (!doc) return;
+    doc.text = text;
+    isJudged = false;
+    showFiles(); look(); draw();
+  },
+});
+const translation = Editor.create({ parent: byId("translation"), label: "Translation", words: start.words, readOnly: true });
+
+const open = (name, line, column) => {
+  const doc = docs.get(name);
+  if (!doc) return;
+  shown = name;
+  editor.show(name, doc.text, kindOf(name), !isLive || !doc.isWritable);
+  showFiles(); mark();
+  if (line) editor.go(line, column);
+};
+const ofFile = (name) => findings.filter((finding) => finding.file === name);
+const mark = () => { if (shown) editor.mark(ofFile(shown), apply); };
+
+const showFiles = () => {
+  const base = (name) => name.split(/[\\/]/).at(-1);
+  const bases = [...docs.keys()].map(base);
+  byId("files").replaceChildren(...[...docs].map(([name, doc]) => {
+    const found = ofFile(name);
+    const worst = found.some((one) => one.severity === "error") ? "is-bad" : found.length ? "is-fair" : "";
+    const label = bases.filter((other) => other === base(name)).length > 1 ? name : base(name);
+    return html("button", { "aria-pressed": String(name === shown), title: doc.isWritable || !isLive ? name : `${name} (cannot be changed here)`, class: `${worst}${doc.isWritable || !isLive ? "" : " is-fixed"}`, click: () => open(name) },
+      label + (doc.text !== doc.saved ? " •" : ""), found.length ? html("span", { class: "count" }, String(found.length)) : null);
+  }));
+  const changed = [...docs.values()].filter((doc) => doc.text !== doc.saved && doc.isWritable);
+  byId("save").disabled = changed.length === 0;
+  byId("save").textContent = changed.length > 1 ? `Save ${changed.length} files` : "Save";
+};
+
+// Applies the edits of a fix, which are in characters from 1, to all its files.
+const apply = (fix) => {
+  const offset = (text, { line, column }) => {
+    const lines = text.split("\n");
+    const before = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);
+    return before + Array.from(lines[line - 1] ?? "").slice(0, column - 1).join("").length;
+  };
+  for (const name of new Set(fix.edits.map((edit) => edit.file))) {
+    const doc = docs.get(name);
+    if (!doc?.isWritable) continue;
+    const changes = fix.edits.filter((edit) => edit.file === name)
+      .map((edit) => ({ from: offset(doc.text, edit.start), to: offset(doc.text, edit.end), text: edit.text }))
+      .sort((a, b) => a.from - b.from);
+    rewrite(name, changes);
+  }
+};
+
+// Rewrites places of a text, in ascending order, whether the editor shows it or not.
+const rewrite = (name, changes) => {
+  const doc = docs.get(name);
+  if (name === shown) { editor.rewrite(changes); return; }
+  let text = "", at = 0;
+  for (const { from, to, text: by } of changes) { text += doc.text.slice(at, from) + by; at = to; }
+  doc.text = text + doc.text.slice(at);
+  isJudged = false;
+  showFiles(); look(); draw();
+};
+
+const showFindings = () => {
+  const item = (finding) => html("li", { class: finding.severity },
+    html("button", { class: "link", click: () => open(finding.file, finding.line, finding.column) }, `${finding.file.split(/[\\/]/).at(-1)}:${finding.line}:${finding.column}`),
+    ` ${finding.severity} ${finding.code}: ${finding.message}`,
+    finding.help ? html("div", { class: "help" }, `help: ${finding.help}`) : null,
+    isLive && finding.fixes.length ? html("div", {}, finding.fixes.map((fix) => html("button", { click: () => apply(fix), title: fix.applicability === "safe" ? "The picture stays the same" : "The picture may change" }, fix.title))) : null);
+  byId("findings").replaceChildren(...findings.map(item));
+  byId("findings-title").textContent = findings.length ? `Findings (${findings.length})` : "No findings";
+};
+
+// ---- Looking: findings, controls, translations.
+const target = () => byId("target").value;
+const take = (answer) => {
+  for (const file of answer.files) {
+    const doc = docs.get(file.name);
+    if (!doc) docs.set(file.name, { text: file.text, saved: file.text, isWritable: file.is_writable ?? false });
+    else {
+      doc.isWritable = file.is_writable ?? false;
+      // A text that nobody changed here follows the file.
+      if (doc.text === doc.saved && doc.text !== file.text) {
+        doc.text = doc.saved = file.text;
+        if (file.name === shown) editor.set(file.text);
+      }
+    }
+  }
+  const read = new Set(answer.files.map((file) => file.name));
+  for (const [name, doc] of docs) if (!read.has(name) && name !== scene && doc.text === doc.saved) docs.delete(name);
+  findings = answer.findings;
+  if (!shown || !docs.has(shown)) open(answer.files.find((file) => kindOf(file.name) === "glsl" && file.name.includes("frag"))?.name ?? answer.files.at(-1)?.name ?? scene);
+  if (answer.programs.length || !findings.some((finding) => finding.severity === "error")) programs = answer.programs;
+  showFiles(); mark(); showFindings(); showTranslation(); showReflection();
+  takeControls(answer.controls);
+};
+const look = isLive ? latest(async () => {
+  const answer = await ask({ ask: "look", target: target(), leaves_out: byId("leaves-out").checked });
+  if (answer.ok) { take(answer.ok); const errors = findings.filter((one) => one.severity === "error").length; say(errors ? `${errors} error${errors > 1 ? "s" : ""}: the picture is the last one that could be drawn` : ""); }
+  else if (answer.status !== 409) say(answer.error, true);
+}, 400) : () => {};
+
+const showTranslation = () => {
+  const stages = programs.flatMap((program, index) => program.stages.map((one) => ({ ...one, key: `${index} ${one.stage}`, label: programs.length > 1 ? `${program.name} ${one.stage}` : one.stage })));
+  if (!stages.some((one) => one.key === stage)) stage = stages.find((one) => one.stage === "fragment")?.key ?? stages[0]?.key ?? null;
+  byId("stages").replaceChildren(...stages.map((one) => html("label", {}, html("input", { type: "radio", name: "stage", value: one.key, checked: one.key === stage, change: () => { stage = one.key; showTranslation(); } }), one.label)));
+  const now = stages.find((one) => one.key === stage);
+  const text = now ? now.text ?? now.error ?? "" : "";
+  translation.show(`translation.${target()}`, text, target() === "wgsl" ? "wgsl" : "glsl");
+};
+const showReflection = () => {
+  const row = (cells, tag = "td") => html("tr", {}, cells.map((cell) => html(tag, {}, cell)));
+  const typed = (one) => (one.array_size ? `${one.type}[${one.array_size}]` : one.type);
+  const block = (one, name) => ["block", name, `${one.size} bytes`, `group ${one.group}, binding ${one.binding}`];
+  const uniform = (one) => ["uniform", one.name, typed(one), `offset ${one.offset}${one.block ? ` in ${one.block}` : ""}`];
+  const member = (of) => (one) => (one.members?.length ? one.members.map(member(`${of}.${one.name}`)).flat(1) : [["uniform", `${of}.${one.name}`, typed(one), `offset ${one.offset} in the element`]]);
+  const rows = programs.flatMap(({ reflection: told = {} }) => [
+    ...(told.attributes ?? []).map((one) => ["attribute", one.name, one.type, `location ${one.location}`]),
+    ...(told.loose_block ? [block(told.loose_block, "(uniforms without a block)")] : []),
+    ...(told.blocks ?? []).map((one) => block(one, one.name)),
+    ...(told.uniforms ?? []).map(uniform),
+    ...(told.struct_arrays ?? []).flatMap((one) => [["uniform", `${one.name}[${one.array_size}]`, "structs", `offset ${one.offset ?? 0}, stride ${one.array_stride}`], ...one.members.flatMap(member(`${one.name}[i]`))]),
+    ...(told.samplers ?? []).map((one) => ["texture", one.name, one.type, `group ${one.group}, binding ${one.texture_binding ?? one.binding}${one.sampler_binding === undefined || one.sampler_binding === null ? "" : `, sampler ${one.sampler_binding}`}`]),
+    ...(told.outputs ?? []).map((one) => ["output", one.name, one.type, `location ${one.location}`]),
+  ]);
+  byId("reflection").replaceChildren(html("table", {}, html("thead", {}, row(["kind", "name", "type", "place"], "th")), html("tbody", {}, rows.map((cells) => row(cells)))));
+};
+
+// ---- Controls: they rewrite numbers of the scene's text.
+const written = (value, kind) => {
+  if (kind === "bool") return value ? "true" : "false";
+  if (kind === "integer") return String(Math.round(value));
+  const text = value.toFixed(4).replace(/0+$/, "").replace(/\.$/, ".0");
+  return text === "-0.0" ? "0.0" : text;
+};
+const setControl = (control, values) => {
+  const changes = [];
+  values.forEach((value, index) => {
+    if (value !== control.values[index]) changes.push({ from: control.places[index][0], to: control.places[index][1], text: written(value, control.kind) });
+  });
+  if (!changes.length) return;
+  changes.sort((a, b) => a.from - b.from);
+  control.values = values;
+  // The places after a change move with it.
+  const moved = (place) => changes.reduce((sum, one) => sum + (one.to <= place ? one.text.length - (one.to - one.from) : 0), place);
+  const grown = new Map(changes.map((one) => [one.from, one.text.length]));
+  for (const other of controls) {
+    other.places = other.places.map(([from, to]) => { const begin = moved(from); return [begin, grown.has(from) ? begin + grown.get(from) : begin + (to - from)]; });
+  }
+  rewrite(scene, changes);
+};
+const hex = (values) => `#${values.slice(0, 3).map((value) => Math.round(255 * value).toString(16).padStart(2, "0")).join("")}`;
+const takeControls = (fresh) => {
+  const key = (list) => list.map((control) => `${control.path.join(".")} ${control.kind} ${control.values.length}`).join("\n");
+  if (key(fresh) === key(controls)) {
+    fresh.forEach((control, index) => {
+      const old = controls[index];
+      old.places = control.places;
+      if (old.values.some((value, at) => value !== control.values[at])) { old.values = control.values; old.refresh?.(); }
+    });
+    return;
+  }
+  controls = fresh;
+  byId("controls-panel").hidden = !isLive || controls.length === 0;
+  byId("controls").replaceChildren(...controls.map(controlElement));
+};
+// The name of a control, without what all of them share in a scene of one draw.
+const nameOf = ({ path }) => {
+  const draws = new Set(controls.filter((one) => one.path[0] === "draw").map((one) => one.path[1]));
+  return (path[0] === "draw" && path[2] === "uniforms" && draws.size === 1 ? path.slice(3) : path).join(" ");
+};
+const controlElement = (control) => {
+  const parts = [];
+  const title = nameOf(control);
+  const refreshers = [];
+  if (control.kind === "bool") {
+    const box = html("input", { type: "checkbox", "aria-label": title, change: () => setControl(control, [box.checked ? 1 : 0]) });
+    refreshers.push(() => { box.checked = control.values[0] === 1; });
+    parts.push(html("div", { class: "one" }, box));
+  } else {
+    if (control.kind === "color") {
+      const color = html("input", { type: "color", "aria-label": `${title}, color`, input: () => {
+        const rgb = [1, 3, 5].map((at) => Math.round(parseInt(color.value.slice(at, at + 2), 16) / 255 * 1e4) / 1e4);
+        setControl(control, [...rgb, ...control.values.slice(3)]); refresh();
+      } });
+      refreshers.push(() => { color.value = hex(control.values); });
+      parts.push(html("div", { class: "one" }, color));
+    }
+    const names = control.kind === "color" ? "rgba" : "xyzw";
+    control.values.forEach((_, index) => {
+      const whole = control.kind === "integer";
+      const [low, high] = control.kind === "color" ? [0, 1] : control.range;
+      const label = control.values.length > 1 ? `${title} ${names[index]}` : title;
+      const set = (text) => {
+        const value = Number(text);
+        if (!Number.isFinite(value)) return;
+        setControl(control, control.values.map((old, at) => (at === index ? value : old)));
+        refresh();
+      };
+      const slider = html("input", { type: "range", min: low, max: high, step: whole ? 1 : (high - low) / 400, "aria-label": label, input: () => set(slider.value) });
+      const box = html("input", { type: "number", step: whole ? 1 : "any", "aria-label": `${label}, number`, change: () => set(box.value) });
+      refreshers.push(() => { slider.value = control.values[index]; if (document.activeElement !== box) box.value = control.values[index]; });
+      parts.push(html("div", { class: "one" }, slider, box));
+    });
+  }
+  const refresh = () => refreshers.forEach((one) => one());
+  control.refresh = refresh;
+  refresh();
+  return html("fieldset", {}, html("legend", {}, title), parts);
+};
+
+// ---- Pictures.
+const figure = (name, source, width, height, caption) => {
+  const image = html("img", { src: source, width, height, alt: name, draggable: "false", style: `--ratio: ${width / height}` });
+  image.addEventListener("pointermove", (event) => { if (!turning) point(image, event, width, height); });
+  image.addEventListener("pointerdown", (event) => turn(image, event));
+  image.addEventListener("wheel", (event) => { if (eye()) { event.preventDefault(); move(Math.exp(event.deltaY / 600)); } }, { passive: false });
+  return html("figure", {}, image, html("figcaption", {}, html("strong", {}, name), caption ? `: ${caption}` : ""));
+};
+const showDrawn = (drawn) => {
+  const old = byId("pictures").querySelector("img");
+  if (old && byId("pictures").children.length === 1 && old.width === drawn.width && old.dataset.kind === "drawn") old.src = drawn.picture;
+  else {
+    byId("pictures").replaceChildren(figure("picture", drawn.picture, drawn.width, drawn.height, ""));
+    byId("pictures").querySelector("img").dataset.kind = "drawn";
+  }
+  byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}, in ${drawn.milliseconds.toFixed(0)} ms${drawn.is_empty ? "; nothing is covered: no fragment reached a pixel" : ""}`;
+};
+const showJudged = (judged) => {
+  const { width, height } = judged;
+  byId("pictures").replaceChildren(
+    figure("reference", judged.reference, width, height, "in f64"),
+    ...(judged.driver ? [figure("GPU", judged.driver, width, height, judged.by)] : []),
+    figure("difference", judged.difference, width, height, judged.difference_legend),
+    figure("evidence", judged.evidence, width, height, judged.evidence_legend));
+  const kinds = { holds: "good", inconclusive: "fair", fails: "bad" };
+  byId("verdict").hidden = false;
+  byId("verdict").className = `pill ${kinds[judged.verdict] ?? ""}`;
+  byId("verdict").textContent = judged.verdict;
+  byId("says").hidden = false;
+  byId("says").textContent = judged.says;
+  byId("drawn").textContent = "";
+};
+const draw = isLive ? latest(async () => {
+  const by = document.querySelector("input[name=by]:checked").value;
+  const answer = await ask({ ask: "draw", gpu: by === "gpu" });
+  if (answer.ok) {
+    byId("verdict").hidden = byId("says").hidden = true;
+    showDrawn(answer.ok);
+  } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn: ${answer.error}`;
+}, 600) : () => {};
+const judge = async () => {
+  byId("judge").disabled = true;
+  byId("drawn").textContent = "judging …";
+  const answer = await ask({ ask: "judge" });
+  byId("judge").disabled = false;
+  if (answer.ok) { isJudged = true; showJudged(answer.ok); }
+  else if (answer.status !== 409) byId("drawn").textContent = `Not judged: ${answer.error}`;
+};
+
+// The numbers of the pixel under the pointer.
+let wanted = null, isAsking = false;
+const point = (image, event, width, height) => {
+  const box = image.getBoundingClientRect();
+  const at = (place, size) => Math.max(0, Math.min(size - 1, Math.floor(place * size)));
+  wanted = [at((event.clientX - box.left) / box.width, width), at((event.clientY - box.top) / box.height, height)];
+  if (isLive) askPixel();
+};
+const askPixel = async () => {
+  if (isAsking || !wanted) return;
+  isAsking = true;
+  const [x, y] = wanted;
+  wanted = null;
+  try {
+    const { ok } = await ask({ ask: "pixel", x, y, texts: {} });
+    const row = (name, pixel) => (pixel ? `\n${name}: ${pixel.values.join("  ")}${pixel.is_covered ? "" : " (not covered)"}` : "");
+    if (ok) byId("pixel").textContent = `pixel ${x}, ${y}${row("reference", ok.reference)}${row("GPU", ok.driver)}${ok.share === null ? "" : `\ndifference: ${ok.share.toFixed(3)} of its bound`}`;
+  } catch { /* The next movement asks again. */ }
+  isAsking = false;
+  if (wanted) askPixel();
+};
+
+// The camera turns around its target.
+let turning = null;
+const named = (...path) => controls.find((control) => control.path.join("/") === path.join("/"));
+const eye = () => (isLive ? [named("camera", "eye")].find((control) => control?.values.length === 3) : undefined);
+const centre = () => { const found = named("camera", "target"); return found?.values.length === 3 ? found.values : [0, 0, 0]; };
+const place = (control, offset) => {
+  const to = centre();
+  setControl(control, offset.map((value, index) => Math.round((value + to[index]) * 1e4) / 1e4));
+  control.refresh?.();
+};
+const offset = () => { const to = centre(); return eye().values.map((value, index) => value - to[index]); };
+const move = (factor) => place(eye(), offset().map((value) => value * factor));
+const turn = (image, event) => {
+  const control = eye();
+  if (!control || event.button !== 0) return;
+  event.preventDefault();
+  const from = offset();
+  const length = Math.hypot(...from) || 1;
+  turning = { x: event.clientX, y: event.clientY, length, around: Math.atan2(from[0], from[2]), up: Math.asin(Math.max(-1, Math.min(1, from[1] / length))) };
+  const moved = (now) => {
+    const around = turning.around - (now.clientX - turning.x) / 120;
+    const up = Math.max(-1.55, Math.min(1.55, turning.up + (now.clientY - turning.y) / 120));
+    place(control, [Math.sin(around) * Math.cos(up), Math.sin(up), Math.cos(around) * Math.cos(up)].map((value) => value * turning.length));
+  };
+  const ended = () => {
+    turning = null;
+    byId("pictures").classList.remove("is-turning");
+    removeEventListener("pointermove", moved); removeEventListener("pointerup", ended);
+  };
+  byId("pictures").classList.add("is-turning");
+  addEventListener("pointermove", moved); addEventListener("pointerup", ended);
+};
+
+// ---- Scenes, saving, changes on disk.
+const choose = (name, text) => {
+  const changed = [...docs.values()].some((doc) => doc.text !== doc.saved);
+  if (changed && !confirm("Changes that are not saved will be gone. Go on?")) return false;
+  docs.clear(); findings = []; controls = []; programs = []; stage = null;
+  scene = name;
+  shown = null;
+  if (text !== undefined) docs.set(name, { text, saved: null, isWritable: true });
+  look(); draw();
+  return true;
+};
+const showScenes = ({ scenes, programs: lists }) => {
+  const option = (value, label) => html("option", { value }, label);
+  const alone = lists.filter((files) => files.some((name) => /frag|fs|ps/i.test(name.split(/[\\/]/).at(-1))));
+  byId("scenes").replaceChildren(
+    ...(scenes.length ? [html("optgroup", { label: "Scenes" }, scenes.map((name) => option(name, name)))] : []),
+    ...(alone.length ? [html("optgroup", { label: "New scene for" }, alone.map((files) => option(JSON.stringify(files), files.join(", "))))] : []));
+  if (scene) byId("scenes").value = scene;
+};
+const chosen = async (value) => {
+  if (!value.startsWith("[")) return choose(value);
+  say("writing a scene …");
+  const made = await request("POST", "/api/new-scene", JSON.parse(value));
+  if (made.text) { if (choose(made.name, made.text)) say("this scene is new: Save writes it"); } else say(made.error, true);
+  return undefined;
+};
+const save = async () => {
+  for (const [name, doc] of docs) {
+    if (doc.text === doc.saved || !doc.isWritable) continue;
+    const text = doc.text;
+    const answer = await request("POST", "/api/save", { name, text, was: doc.saved });
+    if (answer.ok) doc.saved = text;
+    else { say(`${name}: ${answer.error}`, true); return; }
+  }
+  say("saved");
+  showFiles();
+};
+const watch = async () => {
+  let number = 0;
+  for (;;) {
+    try {
+      const answer = await request("GET", `/api/changes?since=${number}`);
+      if (answer.number !== number) { number = answer.number; look(); if (!isJudged) draw(); }
+    } catch {
+      say("`glisten play` has ended; start it again and open its new address", true);
+      return;
+    }
+  }
+};
+
+byId("target").replaceChildren(...start.targets.map(({ word, name }) => html("option", { value: word }, name)));
+if (isLive) {
+  byId("save").hidden = false;
+  byId("save").addEventListener("click", save);
+  byId("scenes").addEventListener("change", () => chosen(byId("scenes").value));
+  byId("target").addEventListener("change", look);
+  byId("leaves-out").addEventListener("change", look);
+  byId("judge").addEventListener("click", judge);
+  all("input[name=by]").forEach((radio) => radio.addEventListener("change", draw));
+  addEventListener("keydown", (event) => { if ((event.ctrlKey || event.metaKey) && event.key === "s") { event.preventDefault(); save(); } });
+  addEventListener("beforeunload", (event) => { if ([...docs.values()].some((doc) => doc.saved !== null && doc.text !== doc.saved)) event.preventDefault(); });
+  scene = start.scene;
+  showScenes(start.list);
+  if (!scene) scene = start.list.scenes[0] ?? null;
+  if (scene) { byId("scenes").value = scene; choose(scene); }
+  else if (byId("scenes").options.length) chosen(byId("scenes").value);
+  else say("this folder has neither a scene nor a shader", true);
+  watch();
+} else {
+  scene = start.scene;
+  byId("choose-scene").hidden = byId("judge").hidden = byId("by").hidden = true;
+  byId("pixel").textContent = `This page shows one state of the scene. \`glisten play ${scene}\` draws it again while it changes.`;
+  const show = () => {
+    const key = target() + (byId("leaves-out").checked ? "-left-out" : "");
+    take({ ...start.look, programs: start.look.by_target[key] ?? [] });
+  };
+  byId("target").addEventListener("change", show);
+  byId("leaves-out").addEventListener("change", show);
+  show();
+  if (start.judged.verdict) showJudged(start.judged);
+  else { showDrawn(start.drawn); byId("drawn").textContent += `. Not judged: ${start.judged.error}`; }
+}

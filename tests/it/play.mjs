@@ -1,0 +1,78 @@
+// Drives the page of `glisten play` in Chromium: an error and its fix, a slider, the camera, a pixel, the verdict, saving, a narrow
+// window, the page as a file. The arguments: the server's address, an exported page, the browser, the module playwright-core.
+// Prints one JSON object of what it saw.
+
+const [address, exported, executablePath, module] = process.argv.slice(2);
+const { chromium } = await import(module);
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+const seen = { errors: [] };
+const listen = (page) => page.on("pageerror", (error) => seen.errors.push(error.message));
+const limit = { timeout: 60000 };
+const until = (work, argument) => page.waitForFunction(work, argument, limit);
+const picture = () => page.locator("#pictures img").first().getAttribute("src");
+const changes = (from) => until((from) => document.querySelector("#pictures img")?.getAttribute("src") !== from, from);
+listen(page);
+try {
+  await page.goto(address);
+  await page.waitForSelector("#pictures img", limit);
+  seen.files = await page.locator("#files button").allTextContents();
+  seen.wgsl = (await page.locator("#translation .cm-content").textContent()).includes("@fragment");
+  seen.reflection = (await page.textContent("#reflection")).includes("shade");
+
+  await page.locator("#files button", { hasText: "a.frag" }).click();
+  await page.locator("#editor .cm-content").click();
+  await page.keyboard.press("Control+End");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("End");
+  await page.keyboard.type("\ncolor.r = mixx(color.r, 1.0, 0.5);");
+  await until(() => document.querySelector("#findings li.error")?.textContent.includes("mixx"));
+  seen.finding = await page.textContent("#findings li.error");
+  seen.mark = (await page.locator("#editor .cm-lintRange-error").count()) > 0;
+  let before = await picture();
+  await page.locator("#findings li.error button:not(.link)").first().click();
+  await until(() => !document.querySelector("#findings li.error"));
+  await changes(before);
+  seen.fixed = true;
+
+  before = await picture();
+  await page.getByRole("slider", { name: "shade", exact: true }).focus();
+  await page.keyboard.press("End");
+  await changes(before);
+  await page.locator("#files button", { hasText: "a.toml" }).click();
+  seen.slider = (await page.locator("#editor .cm-content").textContent()).includes("shade = 1.0");
+
+  before = await picture();
+  const box = await page.locator("#pictures img").first().boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await until(() => /reference: \d/.test(document.querySelector("#pixel").textContent));
+  await page.mouse.down();
+  await page.mouse.move(x + 60, y + 20, { steps: 4 });
+  await page.mouse.up();
+  await changes(before);
+  seen.turned = true;
+
+  await page.click("#judge");
+  await page.waitForSelector("#verdict:not([hidden])", limit);
+  seen.verdict = await page.textContent("#verdict");
+  seen.pictures = await page.locator("#pictures img").count();
+  await page.click("#save");
+  await until(() => document.querySelector("#state").textContent === "saved");
+  await page.setViewportSize({ width: 360, height: 740 });
+  seen.width = await page.evaluate(() => document.documentElement.scrollWidth);
+
+  const file = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+  listen(file);
+  const asked = [];
+  file.on("request", (request) => asked.push(request.url()));
+  await file.goto(`file://${exported}`);
+  await file.waitForSelector("#pictures img", limit);
+  await file.selectOption("#target", "msl");
+  seen.exported = { msl: (await file.locator("#translation .cm-content").textContent()).includes("metal_stdlib"), asked: asked.filter((url) => !url.startsWith("data:") && !url.startsWith("file:")) };
+} catch (error) {
+  seen.errors.push(String(error));
+}
+await browser.close();
+console.log(JSON.stringify(seen));
