@@ -292,10 +292,16 @@ fn browser() -> Option<(String, String)> {
     module.is_file().then(|| (browser, module.to_string_lossy().into_owned()))
 }
 
+/// Says that there is no browser. The test harness does not capture this: what was not tried must be visible.
+fn untried() {
+    let message = "\nthe page is not tried: install `chromium`, and playwright-core in target/browser";
+    writeln!(std::io::stderr(), "{message}").expect("standard error can be written to");
+}
+
 #[test]
 fn the_page_works_in_a_browser() {
     let Some((browser, module)) = browser() else {
-        eprintln!("the page is not tried: install `chromium`, and playwright-core in target/browser");
+        untried();
         return;
     };
     let folder = folder();

@@ -140,9 +140,10 @@ mod tests {
         folders.add(&inside);
         let path = |name: &str| folders.path(&inside.join(name).to_string_lossy());
         assert!(path("a.frag").is_some() && path("new.frag").is_some());
-        for name in ["../secret", "../new", "..", "no/../../secret", "none/new.frag", "/etc/passwd", ""] {
+        for name in ["../secret", "../new", "..", "no/../../secret", "none/new.frag", "/etc/passwd"] {
             assert_eq!(path(name), None, "{name}");
         }
+        assert_eq!(folders.path(""), None);
         #[cfg(unix)]
         for (link, to) in [("link", "../secret"), ("dangling", "../none")] {
             std::os::unix::fs::symlink(to, inside.join(link)).expect("it can be made");

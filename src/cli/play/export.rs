@@ -45,7 +45,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
     progress.say("judging");
     let machine = args.machine.clone();
     // A machine without a GPU has the reference's picture alone, and the page says why.
-    let judged = of.within_time(move || Ok(pictures.judge(&scene, &sources, &machine)));
+    let judged = of.within_time(move || Ok(pictures.compare(&scene, &sources, &machine)));
     let judged = match judged {
         Ok(judged) => judged.unwrap_or_else(|error| json!({ "error": error })),
         Err(error) => return Err(failure(error)),
@@ -66,7 +66,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
     read.finish(Vec::new())
 }
 
-/// What the page shows besides pictures, with the programs in every language, whole and without what the picture does not need.
+/// The texts of the page, with the programs in every language, whole and without what the picture does not need.
 fn looks(args: &PlayArgs, of: &SceneArgs, console: &Console) -> Result<Value, Failure> {
     let (mut first, mut programs) = (Value::Null, Map::new());
     for target in Target::ALL.iter().copied().filter(|target| *target != Target::Spirv) {

@@ -16,7 +16,7 @@ pub(super) struct Job {
     pub(super) wish: Wish,
 }
 
-/// What is asked.
+/// The question of a job.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
 pub(super) enum Wish {

@@ -1,4 +1,4 @@
-//! What the page shows of a scene besides pictures: findings, texts, controls, reflection, the programs in another language.
+//! The texts that the page shows of a scene: findings, texts, controls, reflection, the programs in another language.
 //!
 //! *In:* a scene that was read. *Out:* one JSON object. *Holds:* the findings are those of `glisten lint` for the same programs, in
 //! the form of its `--format json`; each program of the scene is told once.

@@ -15,7 +15,7 @@ use glisten_scene::picture::{Picture, Transfer};
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// What was drawn last.
+/// The pictures that were drawn last.
 #[derive(Default)]
 pub(super) struct Pictures {
     gpu: Option<Gpu>,
@@ -62,7 +62,12 @@ impl Pictures {
     ///
     /// # Errors
     /// The reason why it cannot be drawn.
-    pub(super) fn judge(&mut self, scene: &Scene, sources: &SourceMap, machine: &MachineArgs) -> Result<Value, String> {
+    pub(super) fn compare(
+        &mut self,
+        scene: &Scene,
+        sources: &SourceMap,
+        machine: &MachineArgs,
+    ) -> Result<Value, String> {
         let gpu = self.gpu(machine)?;
         let name = gpu.adapter().to_string();
         let runners = OnGpu::both(gpu);

@@ -85,10 +85,10 @@ pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     let address = format!("http://127.0.0.1:{port}/?token={}", server.token.text());
     console.output(&format!("{address}\n"))?;
     console.remark(&format!("serving `{}` (Ctrl-C to stop)", server.root));
-    if args.open {
-        if let Err(error) = open::that_detached(&address) {
-            console.remark(&format!("no browser opens ({error}); open the address above"));
-        }
+    if args.open
+        && let Err(error) = open::that_detached(&address)
+    {
+        console.remark(&format!("no browser opens ({error}); open the address above"));
     }
     let answering = Arc::clone(&server);
     let spawned = std::thread::Builder::new().spawn(move || accept(&http, &answering));

@@ -82,7 +82,7 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, pictures: &mut Picture
         }
         Wish::Judge => {
             let (scene, sources) = drawable(loaded)?;
-            pictures.judge(&scene, &sources, &args.machine)
+            pictures.compare(&scene, &sources, &args.machine)
         }
         Wish::Pixel { .. } => Ok(Value::Null),
     }

@@ -1,0 +1,24 @@
+// Makes the page's editor: one script, with the licences of all that is in it.
+
+import { build } from "esbuild";
+import { existsSync, readFileSync } from "node:fs";
+
+const out = "../../../src/cli/play/page/editor.js";
+const options = { entryPoints: ["editor.mjs"], bundle: true, minify: true, format: "iife", globalName: "Editor", target: "es2022", metafile: true };
+const tried = await build({ ...options, write: false });
+const packages = new Set();
+for (const file of Object.keys(tried.metafile.inputs)) {
+  const found = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(file);
+  if (found) packages.add(found[1]);
+}
+// Packages with the same licence share its text.
+const texts = new Map();
+for (const name of [...packages].sort()) {
+  const file = `node_modules/${name}/LICENSE`;
+  if (!existsSync(file)) throw new Error(`${name} has no licence`);
+  const text = readFileSync(file, "utf8").trim();
+  texts.set(text, [...(texts.get(text) ?? []), name]);
+}
+const banner = [...texts].map(([text, names]) => `/*!\n${names.join(", ")}\n\n${text}\n*/`).join("\n");
+await build({ ...options, banner: { js: banner }, outfile: out });
+console.log(`${packages.size} packages, ${texts.size} licences`);
