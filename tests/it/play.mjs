@@ -7,8 +7,12 @@ const { chromium } = await import(module);
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
 const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
 const seen = { errors: [] };
-const listen = (page) => page.on("pageerror", (error) => seen.errors.push(error.message));
-const limit = { timeout: 60000 };
+const listen = (page) => {
+  page.setDefaultTimeout(limit.timeout);
+  page.on("pageerror", (error) => seen.errors.push(error.message));
+};
+// A machine that runs other tests beside this one is slow.
+const limit = { timeout: 240000 };
 const until = (work, argument) => page.waitForFunction(work, argument, limit);
 const picture = () => page.locator("#pictures img").first().getAttribute("src");
 const changes = (from) => until((from) => document.querySelector("#pictures img")?.getAttribute("src") !== from, from);
@@ -73,6 +77,7 @@ try {
   seen.exported = { msl: (await file.locator("#translation .cm-content").textContent()).includes("metal_stdlib"), asked: asked.filter((url) => !url.startsWith("data:") && !url.startsWith("file:")) };
 } catch (error) {
   seen.errors.push(String(error));
+  seen.state = await page.evaluate(() => ["state", "drawn", "pixel"].map((id) => document.getElementById(id)?.textContent)).catch(String);
 }
 await browser.close();
 console.log(JSON.stringify(seen));

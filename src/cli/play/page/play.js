@@ -12,6 +12,8 @@ let controls = [];
 let programs = [];
 let stage = null;
 let isJudged = false;
+let isJudging = false;
+let edition = 0;        // counts the changes of texts: an answer to an older one has places that are no longer true
 
 const say = (text, isBad = false) => {
   byId("state").textContent = text;
@@ -37,7 +39,7 @@ const latest = (work, patience) => {
     running -= 1;
     if (waiting && running === 0) run();
   };
-  return () => {
+  const ask = () => {
     if (running === 0) run();
     else if (performance.now() - begun > patience) run();
     else {
@@ -45,6 +47,8 @@ const latest = (work, patience) => {
       setTimeout(() => { if (waiting && running > 0) run(); }, patience);
     }
   };
+  ask.forget = () => { waiting = false; };
+  return ask;
 };
 
 // ---- The editor and the files.
@@ -54,10 +58,14 @@ const editor = Editor.create({
     const doc = docs.get(name);
     if (!doc) return;
     doc.text = text;
-    isJudged = false;
-    showFiles(); look(); draw();
+    textChanged();
   },
 });
+const textChanged = () => {
+  edition += 1;
+  isJudged = isJudging = false;
+  showFiles(); look(); draw();
+};
 const translation = Editor.create({ parent: byId("translation"), label: "Translation", words: start.words, readOnly: true });
 
 const open = (name, line, column) => {
@@ -110,8 +118,7 @@ const rewrite = (name, changes) => {
   let text = "", at = 0;
   for (const { from, to, text: by } of changes) { text += doc.text.slice(at, from) + by; at = to; }
   doc.text = text + doc.text.slice(at);
-  isJudged = false;
-  showFiles(); look(); draw();
+  textChanged();
 };
 
 const showFindings = () => {
@@ -126,14 +133,14 @@ const showFindings = () => {
 
 // ---- Looking: findings, controls, translations.
 const target = () => byId("target").value;
-const take = (answer) => {
+const take = (answer, isOutdated = false) => {
   for (const file of answer.files) {
     const doc = docs.get(file.name);
     if (!doc) docs.set(file.name, { text: file.text, saved: file.text, isWritable: file.is_writable ?? false });
     else {
       doc.isWritable = file.is_writable ?? false;
       // A text that nobody changed here follows the file.
-      if (doc.text === doc.saved && doc.text !== file.text) {
+      if (!isOutdated && doc.text === doc.saved && doc.text !== file.text) {
         doc.text = doc.saved = file.text;
         if (file.name === shown) editor.set(file.text);
       }
@@ -141,15 +148,16 @@ const take = (answer) => {
   }
   const read = new Set(answer.files.map((file) => file.name));
   for (const [name, doc] of docs) if (!read.has(name) && name !== scene && doc.text === doc.saved) docs.delete(name);
-  findings = answer.findings;
+  findings = isOutdated ? answer.findings.map((finding) => ({ ...finding, fixes: [] })) : answer.findings;
   if (!shown || !docs.has(shown)) open(answer.files.find((file) => kindOf(file.name) === "glsl" && file.name.includes("frag"))?.name ?? answer.files.at(-1)?.name ?? scene);
   if (answer.programs.length || !findings.some((finding) => finding.severity === "error")) programs = answer.programs;
   showFiles(); mark(); showFindings(); showTranslation(); showReflection();
-  takeControls(answer.controls);
+  if (!isOutdated) takeControls(answer.controls);
 };
 const look = isLive ? latest(async () => {
+  const asked = edition;
   const answer = await ask({ ask: "look", target: target(), leaves_out: byId("leaves-out").checked });
-  if (answer.ok) { take(answer.ok); const errors = findings.filter((one) => one.severity === "error").length; say(errors ? `${errors} error${errors > 1 ? "s" : ""}: the picture is the last one that could be drawn` : ""); }
+  if (answer.ok) { take(answer.ok, asked !== edition); const errors = findings.filter((one) => one.severity === "error").length; say(errors ? `${errors} error${errors > 1 ? "s" : ""}: the picture is the last one that could be drawn` : ""); }
   else if (answer.status !== 409) say(answer.error, true);
 }, 400) : () => {};
 
@@ -302,11 +310,17 @@ const draw = isLive ? latest(async () => {
     showDrawn(answer.ok);
   } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn: ${answer.error}`;
 }, 600) : () => {};
+// The judgement draws too: a picture that waits for its turn would only end it. A change of a text ends it and draws.
 const judge = async () => {
+  draw.forget();
+  isJudging = true;
   byId("judge").disabled = true;
   byId("drawn").textContent = "judging …";
+  const asked = edition;
   const answer = await ask({ ask: "judge" });
   byId("judge").disabled = false;
+  isJudging = false;
+  if (asked !== edition) return;
   if (answer.ok) { isJudged = true; showJudged(answer.ok); }
   else if (answer.status !== 409) byId("drawn").textContent = `Not judged: ${answer.error}`;
 };
@@ -371,6 +385,8 @@ const choose = (name, text) => {
   const changed = [...docs.values()].some((doc) => doc.text !== doc.saved);
   if (changed && !confirm("Changes that are not saved will be gone. Go on?")) return false;
   docs.clear(); findings = []; controls = []; programs = []; stage = null;
+  edition += 1;
+  isJudged = isJudging = false;
   scene = name;
   shown = null;
   if (text !== undefined) docs.set(name, { text, saved: null, isWritable: true });
@@ -408,7 +424,7 @@ const watch = async () => {
   for (;;) {
     try {
       const answer = await request("GET", `/api/changes?since=${number}`);
-      if (answer.number !== number) { number = answer.number; look(); if (!isJudged) draw(); }
+      if (answer.number !== number) { number = answer.number; look(); if (!isJudged && !isJudging) draw(); }
     } catch {
       say("`glisten play` has ended; start it again and open its new address", true);
       return;
