@@ -2,6 +2,7 @@
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use super::baseline::{Baseline, BaselineArgs};
+use super::configurations::{Extent, explored};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::fix::{FixArgs, Fixer};
@@ -32,6 +33,9 @@ pub(super) struct LintArgs {
     /// The format of findings (`--diagnostics` of other commands)
     #[arg(long, value_enum, conflicts_with = "diagnostics")]
     format: Option<DiagnosticFormat>,
+    /// Check each program as each of the macros that its conditions ask for would have it
+    #[arg(long, conflicts_with_all = ["fix", "unsafe_fixes"])]
+    configurations: bool,
     #[command(flatten)]
     fixes: FixArgs,
     #[command(flatten)]
@@ -53,6 +57,13 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let baseline = Baseline::new(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
     let mut units = checked(&mut session, groups.clone(), &inputs);
+    if args.configurations {
+        let (all, extent) = explored(&mut session, units, lints);
+        units = all;
+        if session.is_human() {
+            console.remark(&told(&extent));
+        }
+    }
     if let Some(baseline) = baseline.as_ref().filter(|_| args.baseline.updates()) {
         baseline.update(&units, console)?;
         return Ok(Exit::Ok);
@@ -76,6 +87,18 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     }
     fixer.finish(console)?;
     session.tell_units(&units, !args.fixes.prints())
+}
+
+/// How many configurations were looked at, for people.
+fn told(extent: &Extent) -> String {
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let Extent { programs, configurations, compiled, branches, unreached } = *extent;
+    let branches = match unreached {
+        0 => format!("all of {} reached", count(branches, "branch").replace("branchs", "branches")),
+        _ => format!("{} of {branches} branches reached", branches - unreached),
+    };
+    let programs = count(programs, "program");
+    format!("{} of {programs}, {compiled} of them different; {branches}", count(configurations, "configuration"))
 }
 
 /// Compiles the groups, and adds the findings of the rules.

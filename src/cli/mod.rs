@@ -17,6 +17,7 @@ mod child;
 mod compile;
 mod completions;
 mod config;
+mod configurations;
 mod console;
 mod depfile;
 mod digest;

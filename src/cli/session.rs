@@ -17,7 +17,7 @@ use super::not_checked;
 use super::progress::Progress;
 use super::trace::Trace;
 use crate::engines;
-use glisten_front::compiler::{Compiler, Source};
+use glisten_front::compiler::{Compilation, Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::preprocess::INCLUDE_WITHOUT_EXTENSION;
 use glisten_front::diagnostic::codes::scenes;
@@ -436,6 +436,15 @@ fn summary(findings: &[Finding], dropped: usize) -> Option<String> {
 
 /// Reads and compiles a group. The second value counts diagnostics past the compiler's limit.
 pub(super) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
+    let (unit, dropped, ()) = compile_group_by(group, |sources| (compiler.compile(sources), ()));
+    (unit, dropped)
+}
+
+/// The same by `work`, which tells something besides.
+pub(super) fn compile_group_by<T: Default>(
+    group: Group,
+    work: impl FnOnce(&[Source]) -> (Compilation, T),
+) -> (Unit, usize, T) {
     let mut unit = Unit::new(group);
     let mut sources = Vec::new();
     let mut is_read = Vec::new();
@@ -448,11 +457,11 @@ pub(super) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) 
         }
     }
     if sources.is_empty() {
-        return (unit, 0);
+        return (unit, 0, T::default());
     }
-    let compiled = guard::guarded(|| compiler.compile(&sources));
+    let compiled = guard::guarded(|| work(&sources));
     match compiled {
-        Ok(compilation) => {
+        Ok((compilation, told)) => {
             let dropped = compilation.diagnostics.dropped();
             let diagnostics = compilation.diagnostics.into_iter().collect();
             let program = compilation.program.map(|program| Program { name: unit.group.name.clone(), ..program });
@@ -462,11 +471,11 @@ pub(super) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) 
             let mut read = compilation.read.into_iter();
             let files_of = |is_read: bool| if is_read { read.next().unwrap_or_default() } else { Vec::new() };
             unit.read = is_read.into_iter().map(files_of).collect();
-            (unit, dropped)
+            (unit, dropped, told)
         }
         Err(panic) => {
             unit.batch = internal(&sources, &panic);
-            (unit, 0)
+            (unit, 0, T::default())
         }
     }
 }

@@ -23,6 +23,7 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("W0701", "needs a binding by name; a fixture has it"),
     ("W0708", "needs a binding by name; a fixture has it"),
     ("W0108", "needs a second file; the fixtures have it"),
+    ("W0115", "`lint --configurations` reports it; tests/it/configurations.rs makes it"),
 ];
 
 /// Codes that no fixture raises, and the reason.
@@ -35,6 +36,7 @@ static WITHOUT_FIXTURE: &[(&str, &str)] = &[
     ("E0129", "tests/it/hostile.rs makes them"),
     ("E0130", "tests/it/hostile.rs makes them"),
     ("E0513", "crates/front/src/analysis/tests.rs makes them"),
+    ("W0115", "tests/it/configurations.rs makes it"),
 ];
 
 /// Phases whose codes each have a fixture.

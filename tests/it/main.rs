@@ -22,6 +22,8 @@ mod cache_faults;
 #[cfg(feature = "cli")]
 mod cli;
 mod codes;
+#[cfg(feature = "cli")]
+mod configurations;
 #[cfg(all(feature = "cli", target_os = "linux"))]
 mod crash;
 mod cycles;

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) const MAX_VARIANTS: usize = 1_000_000;
 
 /// The macros of a variant.
-pub(super) type Variant = BTreeMap<String, String>;
+pub(in crate::cli) type Variant = BTreeMap<String, String>;
 
 /// A choice: for each way to decide it, the macros that are then defined.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -28,7 +28,7 @@ use super::outputs::{Output, OutputArgs, OutputPlan};
 use super::progress::Progress;
 use super::recall::Recall;
 use super::session::{Session, Unit};
-use axes::Variant;
+pub(super) use axes::Variant;
 use file::PermutedProgram;
 use glisten_front::compiler::Options;
 use glisten_front::diagnostic::Diagnostic;

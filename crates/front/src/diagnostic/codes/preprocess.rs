@@ -138,6 +138,11 @@ codes! {
          GL_GOOGLE_include_directive provide it."
         bad None,
         good Fragment("#extension GL_GOOGLE_include_directive : enable\nvoid main() {}");
+    BRANCH_IN_NO_CONFIGURATION = "W0115" "branch-in-no-configuration" Warning "GLSL 1.50 §3.3"
+        "`lint --configurations` compiles a program with all values that its conditions name, in all pairs, of the macros that \
+         are defined nowhere. Lines that are in none of these texts are dead, or wait for a value that no condition names."
+        bad None,
+        good Fragment("#if defined(LEVEL) && LEVEL > 2\n#endif\nvoid main() {}");
     UNKNOWN_STDGL_PRAGMA = "W0109" "unknown-stdgl-pragma" Warning "GLSL 1.50 §3.3"
         "Pragmas whose first word is STDGL are reserved for the language, which has only `invariant(all)`. Of the \
          others, `optimize` and `debug` take `(on)` or `(off)`. Unknown pragmas are ignored."

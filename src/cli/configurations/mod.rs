@@ -1,0 +1,328 @@
+//! `glisten lint --configurations`: programs as each of their macros from outside would have them.
+//!
+//! ```text
+//!  texts ──► choices   macros that decide conditions and are defined nowhere, with the values that matter
+//!        ──► cover     a few configurations with every pair of values
+//!        ──► search    more of them, for branches that are still left out
+//!        ──► merge     each finding once, with the macros under which it comes
+//! ```
+//!
+//! *In:* compiled programs. *Out:* the programs with the findings of all configurations. *Holds:* macros that the command line
+//! defines stay as they are. A configuration is compiled only if it can differ from those before it: the compiler tells which
+//! macros a result depends on. One that reaches an `#error` is none: the author excludes it.
+
+mod choices;
+mod cover;
+mod merge;
+
+use super::inputs::Group;
+use super::permutations::Variant;
+use super::session::{self, Session, Unit};
+use choices::{Choice, Conditions, choices_of, conditions};
+use glisten_front::compiler::{Compiler, Options};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::preprocess::{BRANCH_IN_NO_CONFIGURATION, ERROR_DIRECTIVE};
+use glisten_front::source::{SourceFile, Span};
+use merge::merged;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The most configurations of a program.
+const MAX_CONFIGURATIONS: usize = 64;
+/// The most macros of a program that are varied.
+const MAX_CHOICES: usize = 40;
+/// How many configurations are compiled at a time.
+const AT_ONCE: usize = 8;
+/// The most configurations that are tried for one branch.
+const MAX_TRIES: usize = 16;
+/// How often texts that a configuration includes may bring new macros.
+const MAX_ROUNDS: usize = 3;
+
+/// How much was looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Extent {
+    /// The programs that have configurations.
+    pub(super) programs: usize,
+    /// Their configurations, and how many of them were compiled.
+    pub(super) configurations: usize,
+    pub(super) compiled: usize,
+    /// The branches in their texts that macros from outside decide, and how many of them no configuration reaches.
+    pub(super) branches: usize,
+    pub(super) unreached: usize,
+}
+
+/// A configuration and its result.
+struct Tried {
+    variant: Variant,
+    /// The place of its result among those of the program; another configuration may have the same.
+    result: usize,
+}
+
+/// The result of a configuration.
+struct Found {
+    variant: Variant,
+    unit: Unit,
+    /// For each file the branches that it reaches, by the lines of their directives.
+    reached: BTreeMap<String, BTreeSet<usize>>,
+}
+
+/// The units with the findings of all configurations. `lints` gives the findings of the rules.
+pub(super) fn explored(
+    session: &mut Session<'_>,
+    units: Vec<Unit>,
+    lints: fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>,
+) -> (Vec<Unit>, Extent) {
+    let mut extent = Extent::default();
+    let mut all = Vec::new();
+    for unit in units {
+        let mut search = Search::new(session.compiler(), &unit);
+        if search.choices.is_empty() {
+            all.push(unit);
+            continue;
+        }
+        search.run(session, &unit.group);
+        all.extend(search.finish(session, unit, lints, &mut extent));
+    }
+    (all, extent)
+}
+
+/// The configurations of a program.
+struct Search {
+    /// The macros that the command line defines.
+    given: BTreeSet<String>,
+    /// The conditions of each file.
+    texts: BTreeMap<String, Conditions>,
+    choices: Vec<Choice>,
+    tried: Vec<Tried>,
+    found: Vec<Found>,
+}
+
+impl Search {
+    fn new(compiler: &Compiler, unit: &Unit) -> Self {
+        let given = compiler.options().defines.iter().map(|(name, _)| name.clone()).collect();
+        let mut search =
+            Self { given, texts: BTreeMap::new(), choices: Vec::new(), tried: Vec::new(), found: Vec::new() };
+        search.read([unit]);
+        search
+    }
+
+    /// Looks for conditions in the files of results.
+    fn read<'u>(&mut self, units: impl IntoIterator<Item = &'u Unit>) {
+        for unit in units {
+            // A name in angle brackets is no file: the command line, an engine's texts, the library.
+            for (_, file) in unit.batch.sources.files().filter(|(_, file)| !file.name().starts_with('<')) {
+                self.texts.entry(file.name().to_owned()).or_insert_with(|| conditions(file.text()));
+            }
+        }
+        let texts: Vec<Conditions> = self.texts.values().cloned().collect();
+        self.choices = choices_of(&texts, &self.given, MAX_CHOICES);
+    }
+
+    fn run(&mut self, session: &Session<'_>, group: &Group) {
+        for _ in 0..MAX_ROUNDS {
+            // What was compiled before tells nothing of new macros.
+            self.tried.clear();
+            self.found.clear();
+            let before = self.choices.clone();
+            let sizes: Vec<usize> = self.choices.iter().map(|choice| choice.values.len()).collect();
+            let covering = cover::pairs(&sizes, MAX_CONFIGURATIONS);
+            let variants: Vec<Variant> = covering.iter().map(|one| self.variant(one)).collect();
+            // Those at a time that can work in parallel; the later ones may share a result.
+            for variants in variants.chunks(AT_ONCE) {
+                self.try_all(session, group, variants.to_vec());
+            }
+            let found = std::mem::take(&mut self.found);
+            self.read(found.iter().map(|found| &found.unit));
+            self.found = found;
+            if self.choices == before {
+                break;
+            }
+        }
+        for branch in self.unreached() {
+            let variants = self.variants_of(&branch.names);
+            for variant in variants {
+                if self.found.len() >= MAX_CONFIGURATIONS || self.is_reached(&branch.file, branch.directive) {
+                    break;
+                }
+                self.try_all(session, group, vec![variant]);
+            }
+        }
+    }
+
+    fn variant(&self, numbers: &[usize]) -> Variant {
+        let value = |(choice, number): (&Choice, &usize)| {
+            let value = choice.values.get(*number).cloned().flatten()?;
+            Some((choice.name.clone(), value))
+        };
+        self.choices.iter().zip(numbers).filter_map(value).collect()
+    }
+
+    /// The combinations of the values of some macros, the others not being defined.
+    fn variants_of(&self, names: &BTreeSet<String>) -> Vec<Variant> {
+        let mut all = vec![Variant::new()];
+        for choice in self.choices.iter().filter(|choice| names.contains(&choice.name)) {
+            let with = |one: &Variant, value: &Option<String>| {
+                let mut one = one.clone();
+                one.extend(value.clone().map(|value| (choice.name.clone(), value)));
+                one
+            };
+            all = all.iter().flat_map(|one| choice.values.iter().map(move |value| with(one, value))).collect();
+            all.truncate(MAX_TRIES * MAX_TRIES);
+        }
+        // Those with more macros come first: a branch that is left is seldom one that wants none.
+        all.sort_by_key(|one| std::cmp::Reverse(one.len()));
+        all.truncate(MAX_TRIES);
+        all
+    }
+
+    /// Compiles configurations in parallel, but for those that have the result of another one.
+    fn try_all(&mut self, session: &Session<'_>, group: &Group, variants: Vec<Variant>) {
+        let mut fresh: Vec<Variant> = Vec::new();
+        for variant in variants {
+            match self.found.iter().position(|found| has_result(&variant, found)) {
+                Some(result) => self.tried.push(Tried { variant, result }),
+                None if self.found.len() + fresh.len() < MAX_CONFIGURATIONS => fresh.push(variant),
+                None => {}
+            }
+        }
+        let names: Vec<String> = self.choices.iter().map(|choice| choice.name.clone()).collect();
+        let texts = &self.texts;
+        let work = |variant: Variant| compiled(session.compiler(), group, variant, &names, texts);
+        let found: Vec<Found> = session.pool().install(|| fresh.into_par_iter().map(work).collect());
+        for found in found {
+            self.tried.push(Tried { variant: found.variant.clone(), result: self.found.len() });
+            self.found.push(found);
+        }
+    }
+
+    fn is_reached(&self, file: &str, directive: usize) -> bool {
+        self.found.iter().any(|found| found.reached.get(file).is_some_and(|lines| lines.contains(&directive)))
+    }
+
+    /// The branches that choices alone decide.
+    fn branches(&self) -> impl Iterator<Item = Named> + '_ {
+        let is_choice = |name: &String| self.choices.iter().any(|choice| choice.name == *name);
+        self.texts.iter().flat_map(move |(file, text)| {
+            let branches = text.branches.iter().filter(move |one| one.end > one.directive + 1);
+            let decided = branches.filter(move |one| !one.names.is_empty() && one.names.iter().all(is_choice));
+            decided.map(|one| Named { file: file.clone(), directive: one.directive, names: one.names.clone() })
+        })
+    }
+
+    fn unreached(&self) -> Vec<Named> {
+        self.branches().filter(|one| !self.is_reached(&one.file, one.directive)).collect()
+    }
+
+    /// The units of all configurations, without what others told already, and with what no configuration reaches.
+    fn finish(
+        mut self,
+        session: &mut Session<'_>,
+        unit: Unit,
+        lints: fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>,
+        extent: &mut Extent,
+    ) -> Vec<Unit> {
+        let (branches, unreached) = (self.branches().count(), self.unreached());
+        extent.programs += 1;
+        extent.branches += branches;
+        extent.unreached += unreached.len();
+        extent.configurations += self.tried.len();
+        extent.compiled += self.found.len();
+        let found = std::mem::take(&mut self.found);
+        let (variants, units): (Vec<Variant>, Vec<(Unit, usize)>) =
+            found.into_iter().map(|found| (found.variant, (found.unit, 0))).unzip();
+        let mut units = session.adopt(units);
+        let findings = lints(session, &units);
+        for (unit, findings) in units.iter_mut().zip(findings) {
+            session.add(&mut unit.batch, findings);
+        }
+        let is_excluded =
+            |unit: &Unit| unit.batch.diagnostics.iter().any(|one| *one.code == ERROR_DIRECTIVE && one.is_error());
+        let excluded: Vec<bool> = units.iter().map(is_excluded).collect();
+        let tried = self
+            .tried
+            .iter()
+            .filter(|tried| tried.result == 0 || !excluded.get(tried.result).copied().unwrap_or_default());
+        let tried: Vec<(&Variant, usize)> = tried.map(|tried| (&tried.variant, tried.result)).collect();
+        let mut units = merged(units, &variants, &tried, &self.texts);
+        match units.first_mut() {
+            Some(first) => {
+                let found = unreached.iter().filter_map(|branch| told(first, branch)).collect::<Vec<_>>();
+                session.add(&mut first.batch, found);
+            }
+            None => units.push(unit),
+        }
+        units
+    }
+}
+
+/// A branch with its file.
+struct Named {
+    file: String,
+    directive: usize,
+    names: BTreeSet<String>,
+}
+
+/// The finding that no configuration reaches a branch.
+fn told(unit: &Unit, branch: &Named) -> Option<Diagnostic> {
+    let (_, file) = unit.batch.sources.files().find(|(_, file)| file.name() == branch.file)?;
+    let range = line(file, branch.directive)?;
+    let text = file.text().get(range.clone())?;
+    let indent = text.len() - text.trim_start().len();
+    let start = file.base() + (range.start + indent) as u32;
+    let span = Span::new(start, start + text.trim().len() as u32);
+    let names: Vec<String> = branch.names.iter().map(|name| format!("`{name}`")).collect();
+    let message = format!("no value of {} that the conditions name reaches these lines", names.join(", "));
+    let diagnostic = Diagnostic::new(&BRANCH_IN_NO_CONFIGURATION, span, message);
+    Some(diagnostic.help("remove them, or correct the condition; `-D` gives a macro another value"))
+}
+
+/// The bytes of a line, counted from 0.
+fn line(file: &SourceFile, number: usize) -> Option<std::ops::Range<usize>> {
+    let text = file.text();
+    let mut start = 0;
+    for (at, line) in text.split('\n').enumerate() {
+        if at == number {
+            return Some(start..start + line.len());
+        }
+        start += line.len() + 1;
+    }
+    None
+}
+
+/// Whether a configuration has the result of another one: they agree on all that the result depends on.
+fn has_result(variant: &Variant, found: &Found) -> bool {
+    found.unit.asked.iter().all(|name| variant.get(name) == found.variant.get(name))
+}
+
+fn compiled(
+    compiler: &Compiler,
+    group: &Group,
+    variant: Variant,
+    names: &[String],
+    texts: &BTreeMap<String, Conditions>,
+) -> Found {
+    let given = compiler.options().defines.iter().cloned();
+    let own = variant.iter().map(|(name, value)| (name.clone(), value.clone()));
+    let options =
+        Options { defines: given.chain(own).collect(), watched: names.to_vec(), ..compiler.options().clone() };
+    let compiler = compiler.clone().with_options(options);
+    let (unit, _, inactive) = session::compile_group_by(group.clone(), |sources| {
+        let (compilation, inspection) = compiler.inspect(sources, None);
+        let spans = inspection.views().flat_map(|(_, view)| view.ast.directives.inactive.iter().copied());
+        let inactive: Vec<Span> = spans.collect();
+        (compilation, inactive)
+    });
+    let reached = unit.batch.sources.files().map(|(_, file)| {
+        let Some(text) = texts.get(file.name()) else { return (file.name().to_owned(), BTreeSet::new()) };
+        let starts: Vec<usize> =
+            std::iter::once(0).chain(file.text().match_indices('\n').map(|(at, _)| at + 1)).collect();
+        let is_in = |line: usize| {
+            let at = starts.get(line).map(|at| file.base() + *at as u32);
+            at.is_some_and(|at| !inactive.iter().any(|span| span.start <= at && at < span.end))
+        };
+        let lines = text.branches.iter().filter(|one| is_in(one.directive + 1)).map(|one| one.directive);
+        (file.name().to_owned(), lines.collect())
+    });
+    let reached = reached.collect();
+    Found { variant, reached, unit }
+}
