@@ -8,6 +8,10 @@
 //! exclude = ["third_party", "*.generated.frag"]
 //! assume_version = "330"
 //!
+//! [lint.configurations]        # for `lint --configurations`
+//! values = { LIGHTS = [0, 1, 4], LEGACY = [false] }
+//! skip = ["PCF !SHADOWS"]
+//!
 //! [fmt]
 //! indent = 4                   # or "tab"
 //! width = 100
@@ -31,6 +35,7 @@ use super::args::set_level;
 use super::batch::Batch;
 use super::files;
 use super::rules::{KEYS as SOURCE_KEYS, Rule, RuleReader};
+use super::variants::stated::Stated;
 use crate::format;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
@@ -46,7 +51,7 @@ const NAME: &str = "glisten.toml";
 
 /// The keys of the file and of its tables.
 const KEYS: &[&str] = &["exclude", "lint", "stability", "source", "fmt"];
-const LINT_KEYS: &[&str] = &["allow", "warn", "deny", "exclude", "assume_version", "assume-version"];
+const LINT_KEYS: &[&str] = &["allow", "warn", "deny", "exclude", "assume_version", "assume-version", "configurations"];
 const LEVELS: &[(&str, Level)] = &[("allow", Level::Allow), ("warn", Level::Warn), ("deny", Level::Deny)];
 
 const FMT_KEYS: &[&str] = &["indent", "width", "braces"];
@@ -61,6 +66,8 @@ struct Configuration {
     /// Patterns of scenes and the error that they may have, in the order of the file.
     bounds: Vec<(String, f64)>,
     style: format::Options,
+    /// The values of macros for `lint --configurations`.
+    stated: Stated,
 }
 
 impl Configuration {
@@ -74,6 +81,9 @@ impl Configuration {
             reader.check_keys(lint, "`[lint]`", LINT_KEYS);
             read.exclude.extend(patterns(reader, lint));
             read.levels = levels(reader, lint);
+            if let Some(table) = reader.table_at(lint, "configurations") {
+                read.stated = Stated::read(reader, table);
+            }
         }
         if let Some(stability) = reader.table_at(&document, "stability") {
             reader.check_keys(stability, "`[stability]`", &["bounds"]);
@@ -189,6 +199,11 @@ pub(super) fn rules(folder: &Path) -> Vec<Rule> {
 /// The style of the nearest configuration for the sources of a folder.
 pub(super) fn style_of(folder: &Path) -> format::Options {
     Configuration::nearest(folder).map_or_else(format::Options::default, |(configuration, _)| configuration.style)
+}
+
+/// The values of macros that the nearest configuration states for the programs of a folder.
+pub(super) fn stated(folder: &Path) -> Stated {
+    Configuration::nearest(folder).map_or_else(Stated::default, |(configuration, _)| configuration.stated)
 }
 
 /// The accepted error of a scene by the nearest configuration.

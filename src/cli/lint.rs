@@ -2,13 +2,14 @@
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use super::baseline::{Baseline, BaselineArgs};
-use super::configurations::{Extent, explored};
+use super::configurations::{Extent, Listed, explored};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::fix::{FixArgs, Fixer};
 use super::guard;
 use super::inputs::{self, Group, Inputs};
 use super::not_checked;
+use super::permutations;
 use super::session::{Session, Unit};
 use clap::Args;
 use glisten_front::diagnostic::{Code, Diagnostic, Levels};
@@ -36,6 +37,9 @@ pub(super) struct LintArgs {
     /// Check each program as each of the macros that its conditions ask for would have it
     #[arg(long, conflicts_with_all = ["fix", "unsafe_fixes"])]
     configurations: bool,
+    /// Check the variants of the programs in this file, in the format of `compile --permutations`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["fix", "unsafe_fixes", "files", "configurations"])]
+    permutations: Option<PathBuf>,
     #[command(flatten)]
     fixes: FixArgs,
     #[command(flatten)]
@@ -49,16 +53,33 @@ pub(super) struct LintArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
-    let files = inputs::named_or_here(&args.files, &args.programs);
-    let mut inputs = inputs::collect(&files, &args.programs, &args.sources, true)?;
-    inputs.tell_empty_folders(console);
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     session.set_format(args.format.unwrap_or(args.levels.diagnostics));
+    let mut listed = Listed::new();
+    let mut inputs = match &args.permutations {
+        None => {
+            inputs::collect(&inputs::named_or_here(&args.files, &args.programs), &args.programs, &args.sources, true)?
+        }
+        Some(file) => {
+            let programs = match permutations::programs(file) {
+                Ok(programs) => programs,
+                Err(batch) => return session.tell(&[&batch], true),
+            };
+            let mut inputs = Inputs::default();
+            for program in programs {
+                let group = inputs::program(&program.files, &args.programs, &args.sources)?;
+                inputs.groups.push(Group { name: program.name.clone(), ..group });
+                listed.insert(program.name, program.variants);
+            }
+            inputs
+        }
+    };
+    inputs.tell_empty_folders(console);
     let baseline = Baseline::new(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
     let mut units = checked(&mut session, groups.clone(), &inputs);
-    if args.configurations {
-        let (all, extent) = explored(&mut session, units, lints);
+    if args.configurations || args.permutations.is_some() {
+        let (all, extent) = explored(&mut session, units, &listed, lints);
         units = all;
         if session.is_human() {
             console.remark(&told(&extent));

@@ -84,6 +84,7 @@ mod timed;
 mod trace;
 mod unfinished;
 mod upgrade;
+mod variants;
 mod verify;
 mod watch;
 mod with;

@@ -117,3 +117,72 @@ fn macros_of_included_texts_and_defaults_count() {
     assert!(told.contains(&"header.glsl:7 E0301 only with `GLOSS=1` and `LIT=1`".to_owned()), "{told:?}");
     assert!(told.contains(&"a.frag:12 E0301 only with `LIGHTS=3` and `LIT=1`".to_owned()), "{told:?}");
 }
+
+#[test]
+fn a_header_of_one_branch_is_looked_at_too() {
+    let header = "#ifdef LIT\nconst float lit = 1.0;\n#else\nconst float lit = 0.0;\n#endif\n";
+    let text = "#version 150\n#extension GL_GOOGLE_include_directive : enable\n#ifdef GLOSS\n#include \"header.glsl\"\n#else\nconst float lit = 2.0;\n\
+        #endif\nout vec4 color;\nvoid main()\n{\n    color = vec4(lit);\n#ifdef LIT\n    color *= 2.0;\n#endif\n}\n";
+    let folder = folder(&[("a.frag", text), ("header.glsl", header)]);
+    assert_eq!(found(folder.path(), &["a.frag"]), [""; 0], "all branches of the header are reached");
+}
+
+#[test]
+fn the_project_states_values_and_conditions() {
+    let text = "#version 150\nout vec4 color;\nvoid main()\n{\n    color = vec4(1.0);\n#if LIGHTS == 7\n    color *= seven;\n#endif\n\
+        #if LIGHTS > 7\n    color *= many;\n#endif\n#if defined(PCF) && !defined(SHADOWS)\n    color *= pcf;\n#endif\n#ifdef LEGACY\n    color *= legacy;\n\
+        #endif\n}\n";
+    let folder = folder(&[("a.frag", text)]);
+    let codes = |state: &str| {
+        fs::write(folder.path().join("glisten.toml"), state).expect("it can be written");
+        let told = found(folder.path(), &["a.frag"]);
+        let told = told.iter().filter(|one| !one.contains("W0102"));
+        told.map(|one| one.split(" with").next().unwrap_or_default().to_owned()).collect::<Vec<_>>()
+    };
+    let all = ["a.frag:10 E0301 only", "a.frag:13 E0301 only", "a.frag:16 E0301 only", "a.frag:7 E0301 only"];
+    assert_eq!(codes(""), all);
+    let stated = "[lint.configurations]\nvalues = { LIGHTS = [0, 9], LEGACY = [false] }\nskip = [\"PCF !SHADOWS\"]\n";
+    let expected = ["a.frag:10 E0301 only", "a.frag:12 W0115", "a.frag:15 W0115", "a.frag:6 W0115"];
+    assert_eq!(codes(stated), expected);
+    let expected = ["a.frag:13 E0301 only", "a.frag:16 E0301", "a.frag:7 E0301", "a.frag:9 W0115"];
+    assert_eq!(codes("[lint.configurations]\nonly = [\"LEGACY LIGHTS=7\"]\n"), expected);
+    let output = {
+        codes("[lint.configurations]\nvalue = {}\nskip = [\"\"]\nvalues = { LIGHTS = 1 }\n");
+        lint(folder.path(), &["a.frag"])
+    };
+    let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    for mistake in ["did you mean `values`", "a condition is empty", "is not a list of values"] {
+        assert!(said.contains(mistake), "{mistake}: {said}");
+    }
+}
+
+#[test]
+fn a_file_of_permutations_lists_the_configurations() {
+    let list = "[[program]]\nfiles = [\"a.frag\"]\ndefines = { GRAY = 1 }\nskip = [\"PCF !SHADOWS\"]\n\
+        [program.values]\nSHADOWS = [false, true]\nPCF = [false, true]\n";
+    let text = "#version 150\nout vec4 color;\nvoid main()\n{\n    color = vec4(1.0);\n#if defined(PCF) && !defined(SHADOWS)\n    color *= never;\n\
+        #elif defined(PCF)\n    color *= pcf;\n#endif\n#ifdef OTHER\n    color *= other;\n#endif\n#ifndef GRAY\n    color *= gray;\n#endif\n}\n";
+    let folder = folder(&[("a.frag", text), ("list.toml", list)]);
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+        let arguments = ["lint", "--permutations", "list.toml"].iter().chain(arguments);
+        command.current_dir(folder.path()).args(arguments).output().expect("the program runs")
+    };
+    let output = run(&["--format", "json"]);
+    let rows: Vec<Value> = serde_json::from_slice(&output.stdout).expect("it is JSON");
+    let mut told: Vec<String> = rows
+        .iter()
+        .filter(|row| row.get("code").is_some())
+        .map(|row| format!("{} {} {}", row["line"], row["code"], row["notes"]).replace('"', ""))
+        .collect();
+    told.sort();
+    assert_eq!(told.len(), 4, "{told:#?}");
+    assert!(told.iter().any(|one| one.starts_with("9 E0301 [only with `PCF=1`")), "{told:#?}");
+    assert_eq!(told.iter().filter(|one| one.contains("W0115")).count(), 3, "{told:#?}");
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&run(&[]).stderr).into_owned();
+    assert!(said.contains("3 configurations of 1 program, 3 of them different; 1 of 4 branches reached"), "{said}");
+    assert_eq!(run(&["a.frag"]).status.code(), Some(2), "the file names the programs");
+    fs::write(folder.path().join("list.toml"), "[[program]]\n").expect("it can be written");
+    assert_eq!(run(&[]).status.code(), Some(1));
+}

@@ -3,21 +3,26 @@
 //! ```text
 //!  texts ──► choices   macros that decide conditions and are defined nowhere, with the values that matter
 //!        ──► cover     a few configurations with every pair of values
+//!        ──► allowed   those that `[lint.configurations]` allows
 //!        ──► search    more of them, for branches that are still left out
 //!        ──► merge     each finding once, with the macros under which it comes
 //! ```
 //!
-//! *In:* compiled programs. *Out:* the programs with the findings of all configurations. *Holds:* macros that the command line
+//! *In:* compiled programs; for some of them the variants of a file of permutations, which then are the configurations. *Out:* the programs with the findings of all configurations. *Holds:* macros that the command line
 //! defines stay as they are. A configuration is compiled only if it can differ from those before it: the compiler tells which
 //! macros a result depends on. One that reaches an `#error` is none: the author excludes it.
 
+mod allowed;
 mod choices;
 mod cover;
 mod merge;
 
+use super::config;
 use super::inputs::Group;
-use super::permutations::Variant;
 use super::session::{self, Session, Unit};
+use super::variants::Variant;
+use super::variants::stated::{Stated, Values};
+use allowed::allowed;
 use choices::{Choice, Conditions, choices_of, conditions};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::Diagnostic;
@@ -26,6 +31,7 @@ use glisten_front::source::{SourceFile, Span};
 use merge::merged;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 /// The most configurations of a program.
 const MAX_CONFIGURATIONS: usize = 64;
@@ -35,6 +41,8 @@ const MAX_CHOICES: usize = 40;
 const AT_ONCE: usize = 8;
 /// The most configurations that are tried for one branch.
 const MAX_TRIES: usize = 16;
+/// The most different variants of a program that are compiled.
+const MAX_VARIANTS: usize = 4096;
 /// How often texts that a configuration includes may bring new macros.
 const MAX_ROUNDS: usize = 3;
 
@@ -66,17 +74,22 @@ struct Found {
     reached: BTreeMap<String, BTreeSet<usize>>,
 }
 
-/// The units with the findings of all configurations. `lints` gives the findings of the rules.
+/// The variants of programs by the names of these.
+pub(super) type Listed = BTreeMap<String, Vec<Variant>>;
+
+/// The units with the findings of all configurations, which for programs in `listed` are these. `lints` gives the findings of the
+/// rules.
 pub(super) fn explored(
     session: &mut Session<'_>,
     units: Vec<Unit>,
+    listed: &Listed,
     lints: fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>,
 ) -> (Vec<Unit>, Extent) {
     let mut extent = Extent::default();
     let mut all = Vec::new();
     for unit in units {
-        let mut search = Search::new(session.compiler(), &unit);
-        if search.choices.is_empty() {
+        let mut search = Search::new(session.compiler(), &unit, listed.get(&unit.group.name));
+        if search.choices.is_empty() && search.listed.is_none() {
             all.push(unit);
             continue;
         }
@@ -87,7 +100,11 @@ pub(super) fn explored(
 }
 
 /// The configurations of a program.
-struct Search {
+struct Search<'l> {
+    /// The variants that somebody listed: there are no others.
+    listed: Option<&'l Vec<Variant>>,
+    /// The statements of the project.
+    stated: Stated,
     /// The macros that the command line defines.
     given: BTreeSet<String>,
     /// The conditions of each file.
@@ -97,11 +114,15 @@ struct Search {
     found: Vec<Found>,
 }
 
-impl Search {
-    fn new(compiler: &Compiler, unit: &Unit) -> Self {
+impl<'l> Search<'l> {
+    fn new(compiler: &Compiler, unit: &Unit, listed: Option<&'l Vec<Variant>>) -> Self {
         let given = compiler.options().defines.iter().map(|(name, _)| name.clone()).collect();
-        let mut search =
-            Self { given, texts: BTreeMap::new(), choices: Vec::new(), tried: Vec::new(), found: Vec::new() };
+        let first = unit.group.inputs.first().and_then(|input| input.path.as_deref());
+        let folder = first.and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
+        let stated =
+            if listed.is_some() { Stated::default() } else { config::stated(folder.unwrap_or(Path::new("."))) };
+        let (texts, choices, tried, found) = (BTreeMap::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut search = Self { listed, stated, given, texts, choices, tried, found };
         search.read([unit]);
         search
     }
@@ -116,6 +137,27 @@ impl Search {
         }
         let texts: Vec<Conditions> = self.texts.values().cloned().collect();
         self.choices = choices_of(&texts, &self.given, MAX_CHOICES);
+        for choice in &mut self.choices {
+            if let Some(variants) = self.listed {
+                choice.values = values_in(variants, &choice.name);
+            } else if let Some(values) = self.stated.values.get(&choice.name) {
+                choice.values.clone_from(values);
+            }
+        }
+    }
+
+    /// The configurations that are tried first.
+    fn first(&self) -> Vec<Variant> {
+        if let Some(variants) = self.listed {
+            return variants.clone();
+        }
+        let sizes: Vec<usize> = self.choices.iter().map(|choice| choice.values.len()).collect();
+        let covering = cover::pairs(&sizes, MAX_CONFIGURATIONS);
+        covering.iter().filter_map(|one| allowed(self.variant(one), &self.stated, &self.choices)).collect()
+    }
+
+    fn most(&self) -> usize {
+        if self.listed.is_some() { MAX_VARIANTS } else { MAX_CONFIGURATIONS }
     }
 
     fn run(&mut self, session: &Session<'_>, group: &Group) {
@@ -123,20 +165,20 @@ impl Search {
             // What was compiled before tells nothing of new macros.
             self.tried.clear();
             self.found.clear();
-            let before = self.choices.clone();
-            let sizes: Vec<usize> = self.choices.iter().map(|choice| choice.values.len()).collect();
-            let covering = cover::pairs(&sizes, MAX_CONFIGURATIONS);
-            let variants: Vec<Variant> = covering.iter().map(|one| self.variant(one)).collect();
+            let before = (self.choices.clone(), self.texts.len());
             // Those at a time that can work in parallel; the later ones may share a result.
-            for variants in variants.chunks(AT_ONCE) {
+            for variants in self.first().chunks(AT_ONCE) {
                 self.try_all(session, group, variants.to_vec());
             }
             let found = std::mem::take(&mut self.found);
             self.read(found.iter().map(|found| &found.unit));
             self.found = found;
-            if self.choices == before {
+            if (&self.choices, self.texts.len()) == (&before.0, before.1) {
                 break;
             }
+        }
+        if self.listed.is_some() {
+            return;
         }
         for branch in self.unreached() {
             let variants = self.variants_of(&branch.names);
@@ -171,6 +213,7 @@ impl Search {
         }
         // Those with more macros come first: a branch that is left is seldom one that wants none.
         all.sort_by_key(|one| std::cmp::Reverse(one.len()));
+        all.retain(|one| self.stated.allows(one));
         all.truncate(MAX_TRIES);
         all
     }
@@ -181,11 +224,13 @@ impl Search {
         for variant in variants {
             match self.found.iter().position(|found| has_result(&variant, found)) {
                 Some(result) => self.tried.push(Tried { variant, result }),
-                None if self.found.len() + fresh.len() < MAX_CONFIGURATIONS => fresh.push(variant),
+                None if self.found.len() + fresh.len() < self.most() => fresh.push(variant),
                 None => {}
             }
         }
-        let names: Vec<String> = self.choices.iter().map(|choice| choice.name.clone()).collect();
+        let listed = self.listed.into_iter().flatten().flat_map(|variant| variant.keys());
+        let names: BTreeSet<&String> = self.choices.iter().map(|choice| &choice.name).chain(listed).collect();
+        let names: Vec<String> = names.into_iter().cloned().collect();
         let texts = &self.texts;
         let work = |variant: Variant| compiled(session.compiler(), group, variant, &names, texts);
         let found: Vec<Found> = session.pool().install(|| fresh.into_par_iter().map(work).collect());
@@ -246,7 +291,8 @@ impl Search {
         let mut units = merged(units, &variants, &tried, &self.texts);
         match units.first_mut() {
             Some(first) => {
-                let found = unreached.iter().filter_map(|branch| told(first, branch)).collect::<Vec<_>>();
+                let found = unreached.iter().filter_map(|branch| told(first, branch, self.listed.is_some()));
+                let found = found.collect::<Vec<_>>();
                 session.add(&mut first.batch, found);
             }
             None => units.push(unit),
@@ -263,7 +309,7 @@ struct Named {
 }
 
 /// The finding that no configuration reaches a branch.
-fn told(unit: &Unit, branch: &Named) -> Option<Diagnostic> {
+fn told(unit: &Unit, branch: &Named, is_listed: bool) -> Option<Diagnostic> {
     let (_, file) = unit.batch.sources.files().find(|(_, file)| file.name() == branch.file)?;
     let range = line(file, branch.directive)?;
     let text = file.text().get(range.clone())?;
@@ -271,9 +317,27 @@ fn told(unit: &Unit, branch: &Named) -> Option<Diagnostic> {
     let start = file.base() + (range.start + indent) as u32;
     let span = Span::new(start, start + text.trim().len() as u32);
     let names: Vec<String> = branch.names.iter().map(|name| format!("`{name}`")).collect();
-    let message = format!("no value of {} that the conditions name reaches these lines", names.join(", "));
-    let diagnostic = Diagnostic::new(&BRANCH_IN_NO_CONFIGURATION, span, message);
-    Some(diagnostic.help("remove them, or correct the condition; `-D` gives a macro another value"))
+    let names = names.join(", ");
+    let (message, help) = if is_listed {
+        let message = format!("no variant reaches these lines, which depend on {names}");
+        (message, "remove them, correct the condition, or add a variant")
+    } else {
+        let message = format!("no value of {names} that the conditions name reaches these lines");
+        (message, "remove them, or correct the condition; `-D` and `[lint.configurations]` give a macro other values")
+    };
+    Some(Diagnostic::new(&BRANCH_IN_NO_CONFIGURATION, span, message).help(help))
+}
+
+/// The values that a macro has in these.
+fn values_in(variants: &[Variant], name: &str) -> Values {
+    let mut values = Values::new();
+    for variant in variants {
+        let value = variant.get(name).cloned();
+        if !values.contains(&value) {
+            values.push(value);
+        }
+    }
+    values
 }
 
 /// The bytes of a line, counted from 0.

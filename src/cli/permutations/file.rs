@@ -22,17 +22,17 @@
 //! *In:* the text. *Out:* [`Permutations`], or all that is wrong, at its place. *Holds:* unknown keys are errors; a condition with
 //! a name that no variant has, too.
 
-use super::axes::{Axis, Condition, Variant, define, variants};
 use crate::cli::batch::Batch;
 use crate::cli::files;
-use glisten_front::diagnostic::codes::general::BAD_CONFIG;
-use glisten_front::diagnostic::{Diagnostic, did_you_mean};
+use crate::cli::variants::axes::{Axis, variants};
+use crate::cli::variants::{Variant, stated};
+use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::{SourceMap, Span};
-use glisten_scene::tables::{CONFIGURATION, Node, Reader};
+use glisten_scene::tables::{CONFIGURATION, Reader};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 /// The keys of the tables.
 const KEYS: &[&str] = &["program", "scene"];
@@ -51,13 +51,13 @@ pub(super) struct SceneTable {
 
 /// A program with its variants.
 #[derive(Debug)]
-pub(super) struct PermutedProgram {
+pub(in crate::cli) struct PermutedProgram {
     /// The name, unique in the file.
-    pub(super) name: String,
+    pub(in crate::cli) name: String,
     /// The files of its stages.
-    pub(super) files: Vec<String>,
+    pub(in crate::cli) files: Vec<String>,
     /// Its variants, at least one.
-    pub(super) variants: Vec<Variant>,
+    pub(in crate::cli) variants: Vec<Variant>,
     /// The macros that differ between variants.
     pub(super) names: BTreeSet<String>,
 }
@@ -104,7 +104,7 @@ struct File<'p> {
 
 impl File<'_> {
     fn wrong(&mut self, span: Span, message: impl Into<String>, help: Option<String>) {
-        self.reader.report(Diagnostic::new(&BAD_CONFIG, span, message.into()).maybe_help(help));
+        stated::wrong(&mut self.reader, span, message, help);
     }
 
     /// The value, or an error at `span`.
@@ -175,8 +175,8 @@ impl File<'_> {
         let names: BTreeSet<String> =
             axes.iter().flat_map(|axis| &axis.choices).flat_map(|choice| choice.keys().cloned()).collect();
         let known = |name: &str| names.contains(name) || fixed.contains(name);
-        let skip = self.conditions(table, "skip", &names, &known);
-        let only = self.conditions(table, "only", &names, &known);
+        let skip = stated::conditions(&mut self.reader, table, "skip", &names, &known);
+        let only = stated::conditions(&mut self.reader, table, "only", &names, &known);
         let variants = self.checked(span, variants(&axes, &skip?, &only?))?;
         if variants.is_empty() {
             self.wrong(span, format!("the conditions of `{name}` leave no variant"), None);
@@ -186,41 +186,19 @@ impl File<'_> {
         Some(PermutedProgram { name, files, variants, names })
     }
 
-    /// The conditions under a key.
-    fn conditions(
-        &mut self,
-        table: &DeTable<'_>,
-        key: &str,
-        names: &BTreeSet<String>,
-        known: &impl Fn(&str) -> bool,
-    ) -> Option<Vec<Condition>> {
-        let mut conditions = Vec::new();
-        let before = self.reader.diagnostics.len();
-        for (text, span) in self.reader.texts_at(table, key) {
-            let Some(condition) = self.checked(span, Condition::new(text)) else { continue };
-            for other in condition.names().filter(|name| !known(name)) {
-                let near = did_you_mean(other, names.iter().map(String::as_str));
-                let help = near.map(|near| format!("did you mean `{near}`?"));
-                self.wrong(span, format!("no variant has `{other}`"), help);
-            }
-            conditions.push(condition);
-        }
-        (self.reader.diagnostics.len() == before).then_some(conditions)
-    }
-
     /// The choices of a program, those of all variants first; `None` (reported) if one is wrong.
     fn axes(&mut self, table: &DeTable<'_>, span: Span, paths: &[PathBuf]) -> Option<Vec<Axis>> {
         let before = self.reader.diagnostics.len();
         let mut axes = Vec::new();
         for (key, node) in self.reader.table_at(table, "defines").into_iter().flatten() {
             let Some(name) = self.reader.macro_name(key) else { continue };
-            let value = self.value(node, &name);
+            let value = stated::value(&mut self.reader, node, &name);
             axes.extend(value.map(|value| Axis::of_values(&name, [value])));
         }
         axes.extend(self.keywords(table, span, paths));
         for (key, node) in self.reader.table_at(table, "values").into_iter().flatten() {
             let Some(name) = self.reader.macro_name(key) else { continue };
-            axes.extend(self.values(node, &name).map(|values| Axis::of_values(&name, values)));
+            axes.extend(stated::values(&mut self.reader, node, &name).map(|values| Axis::of_values(&name, values)));
         }
         let lists = self.reader.texts_at(table, "variants");
         if let (Some((_, first)), texts) = (lists.first(), lists.iter().map(|(text, _)| (*text).to_owned())) {
@@ -251,35 +229,6 @@ impl File<'_> {
             }
         }
         lines.into_iter().filter_map(|(line, span)| self.checked(span, Axis::of_keywords(&line))).collect()
-    }
-
-    /// The values of a macro, one for each variant.
-    fn values(&mut self, node: &Node<'_>, name: &str) -> Option<Vec<Option<String>>> {
-        let span = self.reader.span_of(node);
-        let Some(list) = node.get_ref().as_array() else {
-            let help = format!("write `{name} = [0, 1]` or `{name} = [false, true]`");
-            self.wrong(span, format!("`values.{name}` is not a list of values"), Some(help));
-            return None;
-        };
-        if list.is_empty() {
-            self.wrong(span, format!("`values.{name}` has no value"), None);
-        }
-        list.iter().map(|node| self.value(node, name)).collect()
-    }
-
-    /// The value of a macro: `None` in it for `false`, which does not define it.
-    fn value(&mut self, node: &Node<'_>, name: &str) -> Option<Option<String>> {
-        let span = self.reader.span_of(node);
-        if let DeValue::Array(_) = node.get_ref() {
-            let help = "a list of values, one for each variant, goes under `[program.values]`".to_owned();
-            self.wrong(span, format!("`{name}` has more than one value here"), Some(help));
-            return None;
-        }
-        if let DeValue::Boolean(false) = node.get_ref() {
-            return Some(None);
-        }
-        let text = self.reader.macro_text(node, name, ["0", "1"])?;
-        self.checked(span, define(&format!("{name}={text}"))).map(|(_, value)| Some(value))
     }
 }
 

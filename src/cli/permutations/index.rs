@@ -3,7 +3,7 @@
 //! *In:* programs, their variants, the outputs of each. *Out:* JSON, and the files to write. *Holds:* a file is named after its
 //! bytes, so equal outputs are one file, and a variant's files do not depend on what other variants there are.
 
-use super::axes::Variant;
+use super::super::variants::Variant;
 use crate::cli::digest::Digest;
 use crate::cli::inputs::Group;
 use crate::cli::outputs::{Output, OutputPlan};

@@ -9,7 +9,6 @@
 //! *Holds:* the outputs do not depend on the order of the work, nor on the number of threads. With an error in any variant,
 //! nothing is written.
 
-mod axes;
 mod file;
 mod index;
 mod prune;
@@ -17,6 +16,7 @@ mod scenes;
 mod shared;
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
+use super::batch::Batch;
 use super::cache::{CacheArgs, Kept};
 use super::console::Console;
 use super::depfile::{self, Made};
@@ -28,8 +28,8 @@ use super::outputs::{Output, OutputArgs, OutputPlan};
 use super::progress::Progress;
 use super::recall::Recall;
 use super::session::{Session, Unit};
-pub(super) use axes::Variant;
-use file::PermutedProgram;
+use super::variants::Variant;
+pub(super) use file::PermutedProgram;
 use glisten_front::compiler::Options;
 use glisten_front::diagnostic::Diagnostic;
 use index::{Entry, INDEX, Index};
@@ -115,6 +115,14 @@ pub(super) fn run(job: &Job<'_>, console: &Console) -> Outcome {
         console.remark(&format!("{} variant{end}, {} distinct", run.variants, run.shaders));
     }
     Ok(exit)
+}
+
+/// The programs of a file, with their variants.
+///
+/// # Errors
+/// Everything that is wrong in it.
+pub(super) fn programs(file: &Path) -> Result<Vec<PermutedProgram>, Batch> {
+    file::read(file).map(|permutations| permutations.programs)
 }
 
 impl Run<'_> {

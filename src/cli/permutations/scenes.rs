@@ -4,8 +4,8 @@
 //! residuals as `glisten specialize` writes ([`crate::specialize`]); a cache keeps the outputs of all draws of a scene as one
 //! result, which depends on every file that the scene reads: shaders, meshes and pictures.
 
+use super::super::variants::Variant;
 use super::Run;
-use super::axes::Variant;
 use super::file::SceneTable;
 use super::index::Entry;
 use crate::cli::cache::Kept;

@@ -4,7 +4,7 @@
 //! macros alike. *Holds:* what a macro does is decided where its name is read in text that is not skipped; a macro that no
 //! text asks for cannot change anything. A macro whose definition is odd in itself counts as asked for.
 
-use super::axes::Variant;
+use super::super::variants::Variant;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, PoisonError, RwLock};
 

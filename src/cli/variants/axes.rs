@@ -14,13 +14,13 @@ pub(in crate::cli) type Variant = BTreeMap<String, String>;
 
 /// A choice: for each way to decide it, the macros that are then defined.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Axis {
-    pub(super) choices: Vec<Variant>,
+pub(in crate::cli) struct Axis {
+    pub(in crate::cli) choices: Vec<Variant>,
 }
 
 impl Axis {
     /// The axis of a macro: each of its values, `None` for a variant without it.
-    pub(super) fn of_values(name: &str, values: impl IntoIterator<Item = Option<String>>) -> Self {
+    pub(in crate::cli) fn of_values(name: &str, values: impl IntoIterator<Item = Option<String>>) -> Self {
         let choice = |value: Option<String>| value.map(|value| (name.to_owned(), value)).into_iter().collect();
         Self { choices: values.into_iter().map(choice).collect() }
     }
@@ -29,7 +29,7 @@ impl Axis {
     ///
     /// # Errors
     /// The directive is none of Unity's, or a keyword is no name.
-    pub(super) fn of_keywords(line: &str) -> Result<Self, String> {
+    pub(in crate::cli) fn of_keywords(line: &str) -> Result<Self, String> {
         let line = line.trim().strip_prefix('#').map_or(line, str::trim_start);
         let mut words = line.split_whitespace().skip_while(|word| *word == "pragma");
         let directive = words.next().unwrap_or_default();
@@ -63,7 +63,7 @@ impl Axis {
     ///
     /// # Errors
     /// A define without a name.
-    pub(super) fn of_lists(lists: &[String]) -> Result<Self, String> {
+    pub(in crate::cli) fn of_lists(lists: &[String]) -> Result<Self, String> {
         let list = |text: &String| {
             let words = text.split([',', ';']).map(str::trim).filter(|word| !word.is_empty());
             words.map(define).collect::<Result<Variant, String>>()
@@ -73,20 +73,20 @@ impl Axis {
 }
 
 /// A macro: `NAME` or `NAME=VALUE`.
-pub(super) fn define(text: &str) -> Result<(String, String), String> {
+pub(in crate::cli) fn define(text: &str) -> Result<(String, String), String> {
     crate::cli::args::parse_define(text)
 }
 
 /// A condition on variants: all of `A` (defined), `A=1` (with this value), `!A` (not defined).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Condition(Vec<(bool, String, Option<String>)>);
+pub(in crate::cli) struct Condition(Vec<(bool, String, Option<String>)>);
 
 impl Condition {
     /// Reads a condition.
     ///
     /// # Errors
     /// It is empty, or has something that is no name.
-    pub(super) fn new(text: &str) -> Result<Self, String> {
+    pub(in crate::cli) fn new(text: &str) -> Result<Self, String> {
         let term = |word: &str| {
             let (wanted, word) = word.strip_prefix('!').map_or((true, word), |word| (false, word));
             let (name, _) = define(word)?;
@@ -96,15 +96,21 @@ impl Condition {
         if terms.is_empty() { Err("a condition is empty".to_owned()) } else { Ok(Self(terms)) }
     }
 
-    fn holds(&self, variant: &Variant) -> bool {
+    /// Whether it holds for a variant.
+    pub(in crate::cli) fn holds(&self, variant: &Variant) -> bool {
         self.0.iter().all(|(wanted, name, value)| {
             let found = variant.get(name).is_some_and(|found| value.as_ref().is_none_or(|value| value == found));
             found == *wanted
         })
     }
 
+    /// Its parts: whether the macro is to be defined, its name, its value if that matters.
+    pub(in crate::cli) fn terms(&self) -> impl Iterator<Item = (bool, &str, Option<&str>)> {
+        self.0.iter().map(|(wanted, name, value)| (*wanted, name.as_str(), value.as_deref()))
+    }
+
     /// The names in it.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+    pub(in crate::cli) fn names(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|(_, name, _)| name.as_str())
     }
 }
@@ -113,7 +119,7 @@ impl Condition {
 ///
 /// # Errors
 /// There are too many.
-pub(super) fn variants(axes: &[Axis], skip: &[Condition], only: &[Condition]) -> Result<Vec<Variant>, String> {
+pub(in crate::cli) fn variants(axes: &[Axis], skip: &[Condition], only: &[Condition]) -> Result<Vec<Variant>, String> {
     let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.choices.len()));
     let count = count.filter(|count| *count <= MAX_VARIANTS).ok_or_else(|| {
         format!("there are more than {MAX_VARIANTS} variants; fewer values, or `variants` that list them, are needed")

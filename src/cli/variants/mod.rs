@@ -1,0 +1,9 @@
+//! Variants of programs: sets of macros, as files state them.
+//!
+//! *In:* tables of TOML. *Out:* the values of macros and the conditions on them ([`stated`]), and all variants that these
+//! allow ([`axes`]).
+
+pub(super) mod axes;
+pub(super) mod stated;
+
+pub(super) use axes::{Condition, Variant};
