@@ -10,7 +10,7 @@ use glisten_reference::domain::faults::Faults;
 use glisten_reference::{Undefined, faults_of, hides_undefined};
 use glisten_scene::compare::evidence::Ruler;
 use glisten_scene::compare::population::{MIN_MEMBERS, MIN_PIXELS, MIN_SHARE};
-use glisten_scene::compare::{Compared, Comparison, Criterion, Gauge, Population, Verdict, Written};
+use glisten_scene::compare::{Class, Compared, Comparison, Criterion, Gauge, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 use std::time::Instant;
 
@@ -22,8 +22,13 @@ const NARROW: f64 = 1.0 / 16.0;
 /// The numbers of simulated GPUs that a picture is compared with if its envelopes leave room: each only if it is suspect by
 /// fewer. More of them never make a picture suspect, because they widen what is likely.
 const MEMBERS: [u32; 5] = [2, 4, 8, 16, 32];
-/// The numbers of simulated GPUs where envelopes are too wide to judge by, so that the population is the evidence.
-const WITNESSES: [u32; 2] = [MIN_MEMBERS, 2 * MIN_MEMBERS];
+/// The numbers of simulated GPUs where envelopes are too wide to judge by, so that the population is the evidence. At first
+/// most of them draw the pixels alone that they have to judge; if the picture is suspect then, they draw everything.
+const WITNESSES: [u32; 3] = [MIN_MEMBERS, MIN_MEMBERS, 2 * MIN_MEMBERS];
+/// How many of them draw everything in any case.
+const FIRST: u32 = 2;
+/// The share of the picture up to which drawing a part of it pays.
+const PART: f64 = 0.5;
 
 /// The picture of the reference, with which others are compared. For pictures that no [`Runner`](super::Runner) drew.
 pub struct Expected<'a> {
@@ -111,10 +116,11 @@ impl<'a> Expected<'a> {
         }
         if is_by_envelope && self.options.demands.likely {
             if !compared.verdict.needs_excuse() && self.leaves_room() {
-                let numbers: &[u32] = if lacks_evidence(&compared.verdict) { &WITNESSES } else { &MEMBERS };
+                let is_evidence = lacks_evidence(&compared.verdict);
+                let numbers: &[u32] = if is_evidence { &WITNESSES } else { &MEMBERS };
                 for members in numbers.iter().copied() {
                     if compared.verdict.suspect.is_none() || compared.verdict.is_suspect() {
-                        self.populate(members)?;
+                        self.populate(members, is_evidence)?;
                         compared = self.comparison(&excused).compare(picture, &self.picture);
                     }
                 }
@@ -158,16 +164,50 @@ impl<'a> Expected<'a> {
         (wide + open) as f64 > MIN_SHARE * count as f64
     }
 
-    /// Draws with more simulated GPUs, so that there are `members`.
-    fn populate(&mut self, members: u32) -> Result<(), Failure> {
-        let population = match self.population.take() {
-            Some(population) => population,
-            None => self.blank(),
-        };
+    /// Draws with more simulated GPUs, so that there are `members`. If they are the evidence, the first time most of them
+    /// draw what the envelopes do not judge.
+    fn populate(&mut self, members: u32, is_evidence: bool) -> Result<(), Failure> {
+        self.population = Some(match self.population.take() {
+            None if is_evidence => {
+                let few = self.grown(self.blank(), FIRST)?;
+                match self.to_judge() {
+                    Some(places) => self.grown(few.restricted_to(places), members)?,
+                    None => self.grown(few, members)?,
+                }
+            }
+            None => self.grown(self.blank(), members)?,
+            Some(part) if part.places().is_some() => self.grown(self.blank(), members.max(part.members))?,
+            Some(population) => self.grown(population, members)?,
+        });
+        Ok(())
+    }
+
+    fn grown(&self, population: Population, members: u32) -> Result<Population, Failure> {
         let missing = population.members..members.max(population.members);
         let options = self.options.reference_options(Faults::NONE);
-        self.population = Some(self.options.reference.populate(population, self.scene, &options, missing)?);
-        Ok(())
+        self.options.reference.populate(population, self.scene, &options, missing)
+    }
+
+    /// The pixels that the envelopes do not judge, and those around them; `None` if they are most of the picture.
+    fn to_judge(&self) -> Option<Vec<bool>> {
+        let ruler = Ruler::new(&self.picture, &self.written, self.options.width);
+        let (width, height) = (self.picture.width as usize, self.picture.height as usize);
+        let mut places = vec![false; width * height];
+        for pixel in 0..places.len() {
+            let is_open = self.picture.undecided.get(pixel) == Some(&true);
+            let is_covered = self.picture.covered.get(pixel) == Some(&true);
+            let is_judged = matches!(ruler.class(pixel), Class::Judged | Class::Edge);
+            if !is_open && (!is_covered || is_judged) {
+                continue;
+            }
+            let (x, y) = (pixel % width, pixel / width);
+            for row in y.saturating_sub(1)..(y + 2).min(height) {
+                let columns = row * width + x.saturating_sub(1)..row * width + (x + 2).min(width);
+                places.get_mut(columns).into_iter().for_each(|places| places.fill(true));
+            }
+        }
+        let count = places.iter().filter(|place| **place).count();
+        (count as f64 <= PART * places.len() as f64).then_some(places)
     }
 
     /// A population without members.

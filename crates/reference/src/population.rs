@@ -9,7 +9,7 @@
 //! machine and with any number of threads.
 
 use crate::domain::{Gpu, Simulated};
-use crate::pipeline::{self, Study};
+use crate::pipeline::{self, PixelSet, Study};
 use crate::{Precision, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_scene::Scene;
@@ -17,7 +17,7 @@ use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::ops::Range;
 
-/// Adds the pictures of the GPUs with these numbers to a population.
+/// Adds the pictures of the GPUs with these numbers to a population: of the places that it names, if it is restricted.
 ///
 /// # Errors
 /// As [`render`](crate::render).
@@ -28,7 +28,8 @@ pub fn populate(
     members: Range<u32>,
 ) -> Result<(), Vec<Diagnostic>> {
     for number in members {
-        population.add(&simulate(scene, options, (population.seed, number))?);
+        let places = population.places().map(|places| PixelSet::of(places, population.width));
+        population.add(&drawn(scene, options, (population.seed, number), places.as_ref())?);
     }
     Ok(())
 }
@@ -37,15 +38,21 @@ pub fn populate(
 ///
 /// # Errors
 /// As [`render`](crate::render).
-pub fn simulate(
+pub fn simulate(scene: &Scene, options: &RenderOptions, member: (u64, u32)) -> Result<Picture, Vec<Diagnostic>> {
+    drawn(scene, options, member, None)
+}
+
+/// The picture of a GPU, or some of its pixels.
+fn drawn(
     scene: &Scene,
     options: &RenderOptions,
     (seed, number): (u64, u32),
+    pixels: Option<&PixelSet>,
 ) -> Result<Picture, Vec<Diagnostic>> {
     let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..*options };
     let gpu = Gpu::of(seed, number).on(&options.profile);
     gpu.enter();
-    let drawn = pipeline::render_studied::<Simulated>(scene, &options, Study { gpu: Some(gpu), ..Study::NONE });
+    let drawn = pipeline::render_studied::<Simulated>(scene, &options, Study { gpu: Some(gpu), pixels, ..Study::NONE });
     Gpu::STRICT.enter();
     drawn
 }

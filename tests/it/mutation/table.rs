@@ -116,12 +116,18 @@ impl Study {
         self.rows(f, &Scenery::ALL.map(|class| (class, class.name())), |trial| trial.scenery)?;
         writeln!(f, "{:<12} {HEAD}", "form")?;
         self.rows(f, &Form::ALL.map(|form| (form, form.name())), |trial| trial.form)?;
+        writeln!(f, "{:<12} {HEAD}", "no fault")?;
+        line(f, "inconclusive", self.count(Trial::is_open), &self.worst(Trial::is_open))?;
+        let has_verdict = |trial: &Trial| !trial.is_open();
+        line(f, "all others", self.count(has_verdict), &self.worst(has_verdict))?;
         line(f, "all", self.count(|_| true), &self.worst(|_| true))
     }
 
-    /// The kinds, the classes of scenes and their combinations in which `verify` catches less than 1/255, or too little.
+    /// The kinds, the classes of scenes and their combinations in which `verify` catches less than 1/255, or too little. Scenes that
+    /// are inconclusive without a fault do not count: nobody takes their verdict for a proof.
     pub(crate) fn weak_parts(&self) -> Vec<String> {
         let mut found = Vec::new();
+        let count_of = |holds: &dyn Fn(&Trial) -> bool| self.count(|trial| !trial.is_open() && holds(trial));
         let mut add = |name: String, count: Count, is_goal: bool| {
             let Count { against, by_hand, caught, seen, .. } = count;
             if count.is_worse_than_by_hand() {
@@ -131,12 +137,12 @@ impl Study {
             }
         };
         for kind in Kind::ALL {
-            add(kind.name().to_owned(), self.count(|trial| trial.kind == kind), false);
+            add(kind.name().to_owned(), count_of(&|trial| trial.kind == kind), false);
         }
         for class in Scenery::ALL {
-            add(class.name().to_owned(), self.count(|trial| trial.scenery == class), true);
+            add(class.name().to_owned(), count_of(&|trial| trial.scenery == class), true);
             for kind in Kind::ALL {
-                let count = self.count(|trial| trial.kind == kind && trial.scenery == class);
+                let count = count_of(&|trial| trial.kind == kind && trial.scenery == class);
                 add(format!("{} in {class}", kind.name()), count, false);
             }
         }

@@ -88,6 +88,11 @@ impl Trial {
             Outcome::Invalid | Outcome::Refused(_) | Outcome::Unseen => None,
         }
     }
+
+    /// Whether the picture without the fault is inconclusive already.
+    pub(crate) fn is_open(&self) -> bool {
+        self.seen().is_some_and(|seen| seen.was_open)
+    }
 }
 
 impl fmt::Display for Trial {

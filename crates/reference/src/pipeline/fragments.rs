@@ -18,7 +18,7 @@ use super::source::Source;
 use super::surface::BIN;
 use super::target::{Bin, local};
 use super::vertices::Vertices;
-use super::watch::{Probe, jittered, wanted_in_quad, wanted_in_row};
+use super::watch::{PixelSet, Probe, jittered};
 use crate::domain::{Domain, ErrorPart, Integer, Number, Profile};
 use crate::exec::{LANES, Machine, Mask};
 use crate::raster::band::band;
@@ -38,7 +38,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) mark_edges: bool,
     pub(super) profile: Profile,
     pub(super) probe: Option<&'a Probe>,
-    pub(super) pixels: Option<&'a [[u32; 2]]>,
+    pub(super) pixels: Option<&'a PixelSet>,
     pub(super) jitter: Option<u64>,
     pub(super) exact_inputs: &'a [GlobalId],
     /// The surface of the instance, if another draw has the same; else 0.
@@ -124,7 +124,7 @@ impl<D: Domain> Shading<'_, D> {
         let area = bin.area;
         prim.shape.rows(area, |y, x, pixels| {
             let certain = pixels & !near.row(y - area.y0, x - area.x0);
-            let mut rest = self.pixels.map_or(certain, |wanted| wanted_in_row(wanted, x, y, certain));
+            let mut rest = self.pixels.map_or(certain, |wanted| wanted.in_row(x, y, certain));
             while rest != 0 {
                 rest = batch.add_row(local(area, x, y), rest);
                 if batch.is_full() {
@@ -154,7 +154,7 @@ impl<D: Domain> Shading<'_, D> {
         let area = bin.area;
         let mut done = [0_u32; BIN as usize];
         prim.shape.quads(area, |x, y, covered| {
-            if self.pixels.is_some_and(|pixels| !wanted_in_quad(pixels, x, y)) {
+            if self.pixels.is_some_and(|wanted| !wanted.in_quad(x, y)) {
                 return;
             }
             let (row, column) = (y - area.y0, x - area.x0);

@@ -81,7 +81,7 @@ use vertices::{Invocation, ShadeOptions};
 pub(super) use watch::Chosen;
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Probe;
-pub(super) use watch::{MakeObserver, Study};
+pub(super) use watch::{MakeObserver, PixelSet, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]

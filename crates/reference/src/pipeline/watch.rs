@@ -29,8 +29,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) exactly: Option<Chosen<'a>>,
     /// Whether to draw a bin, by its index; all if there is none.
     pub(crate) bins: Option<&'a [bool]>,
-    /// The pixels to draw, column and row, sorted; all if there are none.
-    pub(crate) pixels: Option<&'a [[u32; 2]]>,
+    /// The pixels to draw; all if there are none.
+    pub(crate) pixels: Option<&'a PixelSet>,
     /// Moves the inputs of both stages by an ULP of f32, each up or down by chance with this seed.
     pub(crate) jitter: Option<u64>,
     /// The varyings that the fragment stage gets exact.
@@ -61,18 +61,59 @@ impl<D: Domain> Study<'_, D> {
     };
 }
 
-/// The bits of the pixels to draw among those of a row, of which bit `i` is the `i`th pixel from `x` on.
-pub(super) fn wanted_in_row(pixels: &[[u32; 2]], x: i64, y: i64, set: u64) -> u64 {
-    let is_wanted = |bit: &u32| {
-        let place = [x + i64::from(*bit), y].map(|at| u32::try_from(at).unwrap_or(u32::MAX));
-        set >> bit & 1 == 1 && pixels.binary_search(&place).is_ok()
-    };
-    (0..u64::BITS).filter(is_wanted).fold(0, |wanted, bit| wanted | 1 << bit)
+/// A set of pixels.
+#[derive(Clone, Debug)]
+pub(crate) struct PixelSet {
+    /// The number of words of a row.
+    stride: usize,
+    /// A bit for each pixel, row after row, the first pixel lowest. A row ends with a word of no pixels.
+    words: Vec<u64>,
 }
 
-/// Whether a pixel to draw is in the quad with this upper left corner.
-pub(super) fn wanted_in_quad(pixels: &[[u32; 2]], x: i64, y: i64) -> bool {
-    (y..y + 2).any(|y| wanted_in_row(pixels, x, y, 0b11) != 0)
+impl PixelSet {
+    /// The marked pixels of a picture of this width, row after row.
+    pub(crate) fn of(marks: &[bool], width: u32) -> Self {
+        let width = (width as usize).max(1);
+        let stride = width.div_ceil(64) + 1;
+        let row = |marks: &[bool]| {
+            let word = |marks: &[bool]| marks.iter().rev().fold(0, |word, mark| word << 1 | u64::from(*mark));
+            let mut words: Vec<u64> = marks.chunks(64).map(word).collect();
+            words.resize(stride, 0);
+            words
+        };
+        Self { stride, words: marks.chunks(width).flat_map(row).collect() }
+    }
+
+    /// PixelSet by column and row.
+    #[cfg(any(test, feature = "stability"))]
+    pub(crate) fn at(pixels: &[[u32; 2]]) -> Self {
+        let most = |axis: usize| pixels.iter().map(|pixel| pixel[axis] as usize + 1).max().unwrap_or(0);
+        let stride = most(0).div_ceil(64) + 1;
+        let mut words = vec![0; stride * most(1)];
+        for [x, y] in pixels.iter().map(|pixel| pixel.map(|at| at as usize)) {
+            if let Some(word) = words.get_mut(y * stride + x / 64) {
+                *word |= 1 << (x % 64);
+            }
+        }
+        Self { stride, words }
+    }
+
+    /// The bits of the set among those of a row, of which bit `i` is the `i`th pixel from `x` on.
+    pub(super) fn in_row(&self, x: i64, y: i64, set: u64) -> u64 {
+        let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { return 0 };
+        if x / 64 + 1 >= self.stride {
+            return 0;
+        }
+        let word = |index: usize| self.words.get(y * self.stride + index).copied().unwrap_or(0);
+        let (low, high, shift) = (word(x / 64), word(x / 64 + 1), x % 64);
+        let found = if shift == 0 { low } else { low >> shift | high << (64 - shift) };
+        set & found
+    }
+
+    /// Whether a pixel of the set is in the quad with this upper left corner.
+    pub(super) fn in_quad(&self, x: i64, y: i64) -> bool {
+        (y..y + 2).any(|y| self.in_row(x, y, 0b11) != 0)
+    }
 }
 
 /// Collects the float varyings of the last fragment that reached a pixel.

@@ -11,7 +11,7 @@ use super::bench::drawing_options;
 use super::errors::{shown, unrounded};
 use crate::domain::Exact;
 use crate::exec::Form;
-use crate::pipeline::{self, BIN_SIDE, Study};
+use crate::pipeline::{self, BIN_SIDE, PixelSet, Study};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
@@ -63,7 +63,7 @@ pub fn recompute(scene: &Scene, examined: &Examination) -> Result<Vec<ExactPixel
             *bin = true;
         }
     }
-    let study = Study { bins: Some(&bins), pixels: Some(&pixels), form: Form::Unfused, ..Study::NONE };
+    let study = Study { bins: Some(&bins), pixels: Some(&PixelSet::at(&pixels)), form: Form::Unfused, ..Study::NONE };
     let drawing = crate::RenderOptions { mark_edges: false, ..drawing_options() };
     let picture = pipeline::render_studied::<Exact>(scene, &drawing, study)?;
     let width = examined.errors.width as usize;
@@ -184,7 +184,7 @@ mod tests {
             let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
             let whole = pipeline::render::<F64>(&scene, &options).expect("it can be drawn");
             let pixels = [[0, 0], [3, 5], [3, 6], [15, 15]];
-            let study = Study { pixels: Some(&pixels), ..Study::NONE };
+            let study = Study { pixels: Some(&PixelSet::at(&pixels)), ..Study::NONE };
             let some = pipeline::render_studied::<F64>(&scene, &options, study).expect("it can be drawn");
             for (index, (a, b)) in whole.attachments[0].iter().zip(&some.attachments[0]).enumerate() {
                 let place = [index as u32 % 16, index as u32 / 16];

@@ -19,6 +19,9 @@
 //! drivers are. Further members err as far as the rules allow. They make no pixel less likely, but what they draw is no
 //! fault: a number up to [`BEYOND_RULES`] widths outside of the range of all members is right as well. At a jump, and near
 //! an edge, where another primitive may own the pixel, the eight pixels around count as above.
+//!
+//! *Restricted:* members may draw a part of the picture. Elsewhere only the others count. Fewer members make more pixels
+//! suspect, never fewer, so a picture that is not suspect would not be with members that draw everything.
 
 use super::evidence::Ruler;
 use super::whole::{Figures, Gauge};
@@ -66,8 +69,18 @@ pub struct Population {
     typical: Option<Vec<Vec<[Interval; 4]>>>,
     /// The number of members that cover each pixel.
     pub covered: Vec<u32>,
-    /// The measure of pictures as a whole, with the figures of each member.
+    /// The measure of pictures as a whole, with the figures of each member that draws everything.
     whole: Option<(Gauge, Vec<Figures>)>,
+    restricted: Option<Restricted>,
+}
+
+/// Members that draw a part of the picture.
+#[derive(Clone, Debug, PartialEq)]
+struct Restricted {
+    /// The pixels that they draw.
+    places: Vec<bool>,
+    /// How many they are.
+    members: u32,
 }
 
 /// Where a pixel lies in relation to what the members drew there.
@@ -89,13 +102,32 @@ impl Population {
     pub fn new(seed: u64, [width, height]: [u32; 2], attachments: u32) -> Self {
         let count = width as usize * height as usize;
         let ranges = vec![vec![[NOTHING; 4]; count]; attachments as usize];
-        Self { members: 0, seed, width, ranges, typical: None, covered: vec![0; count], whole: None }
+        Self { members: 0, seed, width, ranges, typical: None, covered: vec![0; count], whole: None, restricted: None }
     }
 
     /// The same population without members, whose pictures are also compared as a whole.
     #[must_use]
     pub fn with_gauge(self, gauge: Gauge) -> Self {
         Self { whole: Some((gauge, Vec::new())), ..self }
+    }
+
+    /// The same population, whose further members draw these pixels alone.
+    #[must_use]
+    pub fn restricted_to(self, places: Vec<bool>) -> Self {
+        Self { restricted: Some(Restricted { places, members: 0 }), ..self }
+    }
+
+    /// The pixels that further members draw, if that is not the whole picture.
+    pub fn places(&self) -> Option<&[bool]> {
+        self.restricted.as_ref().map(|restricted| restricted.places.as_slice())
+    }
+
+    /// The number of members that draw a pixel.
+    fn members_at(&self, pixel: usize) -> u32 {
+        match &self.restricted {
+            Some(Restricted { places, members }) if places.get(pixel) != Some(&true) => self.members - members,
+            _ => self.members,
+        }
     }
 
     /// Whether a picture as a whole is far from those of the members.
@@ -109,22 +141,30 @@ impl Population {
             self.typical = Some(self.ranges.clone());
         }
         self.members += 1;
+        let places = self.restricted.as_mut().map(|restricted| {
+            restricted.members += 1;
+            restricted.places.as_slice()
+        });
+        let is_drawn = |pixel: usize| places.is_none_or(|places| places.get(pixel) == Some(&true));
         for (ranges, colors) in self.ranges.iter_mut().zip(&picture.attachments) {
-            for (ranges, color) in ranges.iter_mut().zip(colors) {
+            for (pixel, (ranges, color)) in ranges.iter_mut().zip(colors).enumerate() {
+                if !is_drawn(pixel) {
+                    continue;
+                }
                 ranges.iter_mut().zip(color).for_each(|(range, value)| *range = with(*range, *value));
             }
         }
-        for (count, covered) in self.covered.iter_mut().zip(&picture.covered) {
-            *count += u32::from(*covered);
+        for (pixel, (count, covered)) in self.covered.iter_mut().zip(&picture.covered).enumerate() {
+            *count += u32::from(*covered && is_drawn(pixel));
         }
-        if let Some((gauge, members)) = &mut self.whole {
+        if let (Some((gauge, members)), None) = (&mut self.whole, places) {
             members.push(gauge.figures(picture));
         }
     }
 
     /// Where a pixel that the GPU covers lies: see the rule above. `reference` has the envelopes.
     pub(super) fn place(&self, gpu: &Picture, reference: &Picture, ruler: &Ruler<'_>, pixel: usize) -> Place {
-        if self.covered.get(pixel) != Some(&self.members) {
+        if self.covered.get(pixel) != Some(&self.members_at(pixel)) {
             return if self.is_covered_by_chance(true, pixel) { Place::Far } else { Place::Near };
         }
         let places = (0..gpu.attachments.len()).flat_map(|attachment| {
@@ -156,7 +196,8 @@ impl Population {
 
     /// Where a pixel that both sides cover lies, if it is likely: see the rule above. `None` if the members do not agree.
     pub(super) fn likely(&self, gpu: &Picture, ruler: &Ruler<'_>, pixel: usize, margin: f64) -> Option<Place> {
-        if self.members < MIN_MEMBERS || self.covered.get(pixel) != Some(&self.members) {
+        let members = self.members_at(pixel);
+        if members < MIN_MEMBERS || self.covered.get(pixel) != Some(&members) {
             return None;
         }
         let mut place = Place::Near;
@@ -181,8 +222,8 @@ impl Population {
 
     /// Whether a pixel that only one side covers is suspect.
     pub(super) fn is_covered_by_chance(&self, gpu_covers: bool, pixel: usize) -> bool {
-        let expected = if gpu_covers { 0 } else { self.members };
-        self.members > 0 && self.around(pixel).all(|place| self.covered.get(place) == Some(&expected))
+        let expected = |place: usize| if gpu_covers { 0 } else { self.members_at(place) };
+        self.members > 0 && self.around(pixel).all(|place| self.covered.get(place) == Some(&expected(place)))
     }
 
     fn range(&self, attachment: usize, pixel: usize, channel: usize) -> Interval {
@@ -329,6 +370,25 @@ mod tests {
         assert!(population.is_covered_by_chance(false, 0) && population.is_covered_by_chance(true, 5));
         assert!(!population.is_covered_by_chance(false, 2) && !population.is_covered_by_chance(true, 4));
         assert!(!Population::new(1, [2, 2], 1).is_covered_by_chance(true, 0), "nobody says anything");
+    }
+
+    #[test]
+    fn members_of_a_part_count_there_alone() {
+        let picture = |red: f64| Picture::of_colors(4, 1, vec![[red, 0.0, 0.0, 1.0]; 4]);
+        let places = vec![false, false, true, true];
+        let mut population = Population::new(1, [4, 1], 1);
+        population.add(&picture(0.5));
+        let mut population = population.restricted_to(places.clone());
+        for red in [0.25, 0.75] {
+            let mut part = picture(red);
+            part.covered.clone_from(&places);
+            population.add(&part);
+        }
+        assert_eq!((population.members, &population.covered), (3, &vec![1, 1, 3, 3]));
+        assert_eq!([0, 3].map(|pixel| population.members_at(pixel)), [1, 3]);
+        let width = |pixel: usize| population.range(0, pixel, 0).width();
+        assert_eq!([0, 1, 2, 3].map(width), [0.0, 0.0, 0.5, 0.5]);
+        assert!((0..4).all(|pixel| population.is_covered_by_chance(false, pixel)), "all members cover all pixels");
     }
 
     #[test]
