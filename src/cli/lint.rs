@@ -79,7 +79,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let groups = std::mem::take(&mut inputs.groups);
     let mut units = checked(&mut session, groups.clone(), &inputs);
     if args.configurations || args.permutations.is_some() {
-        let (all, extent) = explored(&mut session, units, &listed, lints);
+        let (all, extent) = explored(&mut session, units, &listed, &inputs.found, lints);
         units = all;
         if session.is_human() {
             console.remark(&told(&extent));

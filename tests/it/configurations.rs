@@ -186,3 +186,20 @@ fn a_file_of_permutations_lists_the_configurations() {
     fs::write(folder.path().join("list.toml"), "[[program]]\n").expect("it can be written");
     assert_eq!(run(&[]).status.code(), Some(1));
 }
+
+#[test]
+fn what_an_engine_adds_or_replaces_is_left_alone() {
+    let text = "#if @normalMap\nuniform sampler2D normals;\n#endif\n#ifdef NEW\nin vec3 at;\nout vec4 color;\n#endif\nvoid main()\n{\n\
+        #ifdef NEW\n    color = vec4(at, 1.0);\n#else\n    gl_FragColor = vec4(1.0);\n#endif\n#ifdef FADE\n    gl_FragColor *= fade;\n#endif\n}\n";
+    let folder = folder(&[("a.frag", text)]);
+    let codes = |arguments: &[&str]| {
+        let told = found(folder.path(), arguments)
+            .into_iter()
+            .map(|one| one.split(" without").next().unwrap_or("").to_owned());
+        told.filter(|one| one.contains(" E") || one.contains("W0115")).collect::<Vec<_>>()
+    };
+    let of_search = codes(&["."]);
+    assert!(of_search.iter().any(|one| one.contains(":16 E0301")), "{of_search:?}");
+    assert!(!of_search.iter().any(|one| one.contains("E0120") || one.contains("W0115")), "{of_search:?}");
+    assert!(codes(&["a.frag"]).iter().any(|one| one.contains("E0120")), "whoever names the file wants to know");
+}

@@ -9,6 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The most values of a macro that are tried.
 const MAX_VALUES: usize = 8;
 
+/// In a condition, they belong to what an engine replaces before any compiler reads it (`@normalMap`, `${lights}`, `{{shadows}}`).
+const FOREIGN: [char; 4] = ['@', '$', '{', '`'];
+
 /// A macro from outside, and what it may be: `None` is for a macro that is not defined. The first value is that.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Choice {
@@ -165,6 +168,10 @@ impl Conditions {
 
     /// Notes what a condition asks. Its macros.
     fn ask(&mut self, word: &str, rest: &str) -> BTreeSet<String> {
+        if rest.contains(FOREIGN) {
+            // No choice has such a name, so nothing is said of what it decides.
+            return BTreeSet::from([rest.trim().to_owned()]);
+        }
         let mut names = BTreeSet::new();
         let tokens = tokens(rest);
         let mut at = 0;
@@ -330,6 +337,7 @@ mod tests {
             ("#ifndef A\n#define A 4\n#endif\n#if A == 2\n#endif", "A: - 1 2 3"),
             ("#ifndef HEADER_H\n#define HEADER_H\n#endif", ""),
             ("/*\n#ifdef A\n#endif\n*/", ""),
+            ("#if @normalMap && A\n#endif\n#ifdef ${B}\n#endif", ""),
             ("#ifdef A\n#ifndef A\n1\n#endif\n#elif defined(B)\n2\n#endif", "A: - 1|B: - 1"),
         ] {
             assert_eq!(told(text).join("|"), expected, "{text}");

@@ -10,7 +10,8 @@
 //!
 //! *In:* compiled programs; for some of them the variants of a file of permutations, which then are the configurations. *Out:* the programs with the findings of all configurations. *Holds:* macros that the command line
 //! defines stay as they are. A configuration is compiled only if it can differ from those before it: the compiler tells which
-//! macros a result depends on. One that reaches an `#error` is none: the author excludes it.
+//! macros a result depends on. One that reaches an `#error` is none: the author excludes it. Nor is one for which a file that a search
+//! found would need a `#version` line: its host adds that.
 
 mod allowed;
 mod choices;
@@ -26,12 +27,12 @@ use allowed::allowed;
 use choices::{Choice, Conditions, choices_of, conditions};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::diagnostic::codes::preprocess::{BRANCH_IN_NO_CONFIGURATION, ERROR_DIRECTIVE};
+use glisten_front::diagnostic::codes::preprocess::{BRANCH_IN_NO_CONFIGURATION, ERROR_DIRECTIVE, MISSING_VERSION};
 use glisten_front::source::{SourceFile, Span};
 use merge::merged;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The most configurations of a program.
 const MAX_CONFIGURATIONS: usize = 64;
@@ -83,6 +84,7 @@ pub(super) fn explored(
     session: &mut Session<'_>,
     units: Vec<Unit>,
     listed: &Listed,
+    found: &BTreeSet<PathBuf>,
     lints: fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>,
 ) -> (Vec<Unit>, Extent) {
     let mut extent = Extent::default();
@@ -94,7 +96,7 @@ pub(super) fn explored(
             continue;
         }
         search.run(session, &unit.group);
-        all.extend(search.finish(session, unit, lints, &mut extent));
+        all.extend(search.finish(session, unit, (lints, found), &mut extent));
     }
     (all, extent)
 }
@@ -263,7 +265,7 @@ impl<'l> Search<'l> {
         mut self,
         session: &mut Session<'_>,
         unit: Unit,
-        lints: fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>,
+        (lints, from_search): (fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>, &BTreeSet<PathBuf>),
         extent: &mut Extent,
     ) -> Vec<Unit> {
         let (branches, unreached) = (self.branches().count(), self.unreached());
@@ -280,8 +282,13 @@ impl<'l> Search<'l> {
         for (unit, findings) in units.iter_mut().zip(findings) {
             session.add(&mut unit.batch, findings);
         }
-        let is_excluded =
-            |unit: &Unit| unit.batch.diagnostics.iter().any(|one| *one.code == ERROR_DIRECTIVE && one.is_error());
+        let is_found = |unit: &Unit| {
+            unit.group.inputs.iter().any(|input| input.path.as_ref().is_some_and(|path| from_search.contains(path)))
+        };
+        let is_excluded = |unit: &Unit| {
+            let mut errors = unit.batch.diagnostics.iter().filter(|one| one.is_error());
+            errors.any(|one| *one.code == ERROR_DIRECTIVE || *one.code == MISSING_VERSION && is_found(unit))
+        };
         let excluded: Vec<bool> = units.iter().map(is_excluded).collect();
         let tried = self
             .tried

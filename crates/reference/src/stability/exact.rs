@@ -124,7 +124,7 @@ mod tests {
     use super::{ExactPixel, recompute};
     use crate::RenderOptions;
     use crate::domain::F64;
-    use crate::pipeline::{self, Study};
+    use crate::pipeline::{self, PixelSet, Study};
     use crate::stability::{BOUND, ExamineOptions, examine};
 
     fn recomputed(body: &str) -> Vec<ExactPixel> {
