@@ -124,7 +124,10 @@ fn lines(scene: &Scene, gpu: &Gpu, arguments: &Arguments) -> Result<Vec<Line>, S
     let envelope = RenderOptions { precision: Precision::Envelope, ..options };
     let reference = glisten_reference::render(scene, &envelope).map_err(told)?;
     let written = Written::of(scene);
-    let gauge = Gauge::new(&Ruler::new(&reference, &written, None));
+    // As `verify` does: where the language defines nothing, no picture is wrong.
+    let undefined = glisten_reference::undefined(scene, &envelope).map_err(told)?;
+    let undefined = undefined.map_or_else(Vec::new, |undefined| undefined.pixels);
+    let gauge = Gauge::new(&Ruler::new(&reference, &written, None).without(&undefined));
     let mut population = Population::new(arguments.seed, size, scene.framebuffer.attachments).with_gauge(gauge);
     let started = Instant::now();
     populate(&mut population, scene, &options, 0..arguments.members).map_err(told)?;
@@ -133,8 +136,12 @@ fn lines(scene: &Scene, gpu: &Gpu, arguments: &Arguments) -> Result<Vec<Line>, S
         .into_iter()
         .map(|via| {
             let picture = gpu.render(scene, via).map_err(|error| error.to_string())?.picture;
-            let comparison =
-                Comparison { written: Some(&written), population: Some(&population), ..Comparison::default() };
+            let comparison = Comparison {
+                written: Some(&written),
+                population: Some(&population),
+                undefined: &undefined,
+                ..Comparison::default()
+            };
             let verdict = comparison.compare(&picture, &reference).verdict;
             let (covered, suspect) = (verdict.covered, verdict.suspect.unwrap_or(0));
             Ok(Line { via, covered, suspect, is_alarm: verdict.is_suspect(), milliseconds })

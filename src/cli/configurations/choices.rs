@@ -155,7 +155,8 @@ pub(super) fn conditions(text: &str) -> Conditions {
 impl Conditions {
     fn begin(&mut self, line: usize, names: &BTreeSet<String>, around: &[Open]) -> usize {
         let around = around.iter().flat_map(|open| &open.names);
-        let names = names.iter().chain(around).cloned().collect();
+        // No macro decides `#if 0`.
+        let names = if names.is_empty() { BTreeSet::new() } else { names.iter().chain(around).cloned().collect() };
         self.branches.push(Branch { directive: line, end: line, names });
         self.branches.len() - 1
     }
@@ -348,6 +349,8 @@ mod tests {
     fn branches_know_their_lines_and_macros() {
         let found = conditions("#ifdef A\n#elif defined(B)\n1\n#endif\n");
         assert_eq!(found.branches.iter().map(|one| one.end).collect::<Vec<_>>(), [1, 3]);
+        let found = conditions("#ifdef A\n#if 0\n1\n#endif\n#endif\n");
+        assert_eq!(found.branches.iter().map(|one| one.names.len()).collect::<Vec<_>>(), [1, 0]);
         let found = conditions("#ifdef A\n1\n#if B\n2\n#endif\n#else\n3\n#endif\n#ifdef C\n");
         let told: Vec<_> = found
             .branches

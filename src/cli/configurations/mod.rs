@@ -41,7 +41,7 @@ const MAX_CHOICES: usize = 40;
 /// How many configurations are compiled at a time.
 const AT_ONCE: usize = 8;
 /// The most configurations that are tried for one branch.
-const MAX_TRIES: usize = 16;
+const MAX_TRIES: usize = 32;
 /// The most different variants of a program that are compiled.
 const MAX_VARIANTS: usize = 4096;
 /// How often texts that a configuration includes may bring new macros.
@@ -260,6 +260,13 @@ impl<'l> Search<'l> {
         self.branches().filter(|one| !self.is_reached(&one.file, one.directive)).collect()
     }
 
+    /// Whether all values of the macros that decide a branch were tried.
+    fn is_dead(&self, branch: &Named) -> bool {
+        let deciding = self.choices.iter().filter(|choice| branch.names.contains(&choice.name));
+        let count = deciding.map(|choice| choice.values.len()).fold(1, usize::saturating_mul);
+        self.found.len() < self.most() && (self.listed.is_some() || count <= MAX_TRIES)
+    }
+
     /// The units of all configurations, without what others told already, and with what no configuration reaches.
     fn finish(
         mut self,
@@ -269,6 +276,7 @@ impl<'l> Search<'l> {
         extent: &mut Extent,
     ) -> Vec<Unit> {
         let (branches, unreached) = (self.branches().count(), self.unreached());
+        let dead: Vec<&Named> = unreached.iter().filter(|branch| self.is_dead(branch)).collect();
         extent.programs += 1;
         extent.branches += branches;
         extent.unreached += unreached.len();
@@ -298,7 +306,7 @@ impl<'l> Search<'l> {
         let mut units = merged(units, &variants, &tried, &self.texts);
         match units.first_mut() {
             Some(first) => {
-                let found = unreached.iter().filter_map(|branch| told(first, branch, self.listed.is_some()));
+                let found = dead.iter().filter_map(|branch| told(first, branch, self.listed.is_some()));
                 let found = found.collect::<Vec<_>>();
                 session.add(&mut first.batch, found);
             }
