@@ -47,6 +47,9 @@ const MAX_VARIANTS: usize = 4096;
 /// How often texts that a configuration includes may bring new macros.
 const MAX_ROUNDS: usize = 3;
 
+/// The checks of units by themselves.
+type Lints = fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>;
+
 /// How much was looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Extent {
@@ -85,7 +88,7 @@ pub(super) fn explored(
     units: Vec<Unit>,
     listed: &Listed,
     found: &BTreeSet<PathBuf>,
-    lints: fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>,
+    lints: Lints,
 ) -> (Vec<Unit>, Extent) {
     let mut extent = Extent::default();
     let mut all = Vec::new();
@@ -272,7 +275,7 @@ impl<'l> Search<'l> {
         mut self,
         session: &mut Session<'_>,
         unit: Unit,
-        (lints, from_search): (fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>, &BTreeSet<PathBuf>),
+        (lints, from_search): (Lints, &BTreeSet<PathBuf>),
         extent: &mut Extent,
     ) -> Vec<Unit> {
         let (branches, unreached) = (self.branches().count(), self.unreached());
