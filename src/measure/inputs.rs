@@ -66,6 +66,24 @@ pub enum InputKind {
     Depths,
     /// An end point of a segment: x within 2, z from 0.1 to 100.
     SegmentEnd,
+    /// The width of a microfacet model: 1e-6 to 1, uniform in the logarithm.
+    Alpha,
+    /// A quotient of refractive indices: 0.3 to 3, mostly near 1.
+    Index,
+    /// The refractive indices of a metal by channel: 0.05 to 10.
+    Metal,
+    /// A unit normal and a unit tangent at right angles to it.
+    Tangent,
+    /// A color of a scene: three numbers from 1e-6 to 1e4, uniform in the logarithm, or 0.
+    Bright,
+    /// The channel that becomes white: 0.25 to 64.
+    White,
+    /// An exposure value: -16 to 24.
+    Stops,
+    /// A temperature: 1000 to 15000 K.
+    Kelvin,
+    /// A place in a window of 4096 by 4096 pixels.
+    Pixel,
 }
 
 /// Random numbers from a fixed seed (splitmix64).
@@ -237,6 +255,30 @@ impl Random {
             }
             InputKind::Depths => (0..3).for_each(|_| to.push(self.spread(1e-3, 1e3))),
             InputKind::SegmentEnd => to.extend([self.range(-2.0, 2.0), self.spread(0.1, 100.0)]),
+            InputKind::Alpha => to.push(self.spread(1e-6, 1.0)),
+            InputKind::Index => to.push((self.spread(1e-6, 1.0) * self.pick(&[1.0, -1.0])).exp()),
+            InputKind::Metal => (0..3).for_each(|_| to.push(self.spread(0.05, 10.0))),
+            InputKind::Tangent => {
+                let n = self.direction();
+                let across = super::vector::cross(n, self.direction());
+                // Of the axes, one is at right angles to the normal.
+                let fallback = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+                let least = fallback
+                    .into_iter()
+                    .min_by(|a, b| super::vector::dot(n, *a).abs().total_cmp(&super::vector::dot(n, *b).abs()));
+                let usable = super::vector::norm(across) > 0.1;
+                let t = if usable { across } else { super::vector::cross(n, least.unwrap_or_default()) };
+                to.extend(n);
+                to.extend(unit(t));
+            }
+            InputKind::Bright => (0..3).for_each(|_| {
+                let number = if self.once_in(8) { 0.0 } else { self.spread(1e-6, 1e4) };
+                to.push(number);
+            }),
+            InputKind::White => to.push(self.spread(0.25, 64.0)),
+            InputKind::Stops => to.push(self.range(-16.0, 24.0)),
+            InputKind::Kelvin => to.push(self.spread(1000.0, 15000.0)),
+            InputKind::Pixel => to.extend([self.range(0.0, 4096.0), self.range(0.0, 4096.0)]),
         }
     }
 }
@@ -247,7 +289,7 @@ impl InputKind {
     pub(crate) fn params(self) -> (usize, bool) {
         match self {
             Self::Direction => (1, true),
-            Self::Near | Self::Opposed => (2, true),
+            Self::Near | Self::Opposed | Self::Tangent => (2, true),
             Self::Lighting => (3, true),
             _ => (1, false),
         }

@@ -90,7 +90,12 @@ struct Args<'a> {
     at: Cell<usize>,
 }
 
-impl Args<'_> {
+impl<'a> Args<'a> {
+    /// The numbers of a row.
+    fn of(numbers: &'a [f64]) -> Self {
+        Self { numbers, at: Cell::new(0) }
+    }
+
     fn f(&self) -> f64 {
         let at = self.at.replace(self.at.get() + 1);
         self.numbers.get(at).copied().unwrap_or(f64::NAN)
@@ -259,7 +264,7 @@ impl Trial {
             figures.non_finite += usize::from(result.iter().any(|number| !number.is_finite()));
             let numbers: Vec<f64> =
                 self.numbers.iter().skip(row * width).take(width).map(|number| f64::from(*number)).collect();
-            match (self.form.answer)(&Args { numbers: &numbers, at: Cell::new(0) }) {
+            match (self.form.answer)(&Args::of(&numbers)) {
                 Some(answer) if answer.jump > rounding.jump => figures.add(&answer, result, rounding),
                 _ => figures.undecided += 1,
             }

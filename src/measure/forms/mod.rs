@@ -1,18 +1,30 @@
 //! The closed forms, with one file for each group of modules.
 
 mod color;
+mod diffuse;
 mod equations;
 mod geometry;
 mod helpers;
+mod microfacet;
 mod models;
 mod naive;
+mod tone;
 
 use super::vector::{V, cross, dot, norm};
 use super::{Answer, Form, InputKind};
 
 /// All tables.
-pub(super) static ALL: [&[Form]; 6] =
-    [helpers::FORMS, models::FORMS, equations::FORMS, geometry::FORMS, color::FORMS, naive::FORMS];
+pub(super) static ALL: &[&[Form]] = &[
+    helpers::FORMS,
+    models::FORMS,
+    equations::FORMS,
+    geometry::FORMS,
+    color::FORMS,
+    microfacet::FORMS,
+    diffuse::FORMS,
+    tone::FORMS,
+    naive::FORMS,
+];
 
 /// A table of rows: module, signature, kinds of the inputs, closed form.
 macro_rules! forms {

@@ -13,6 +13,8 @@ pub enum BoundUnit {
     Abs,
     /// The largest number of the result.
     Rel,
+    /// The largest number of the result, or 1 if that is larger.
+    Size,
     /// The largest number of the arguments that are colors, or 1: an error of the factor that multiplies them.
     Color,
 }
@@ -37,6 +39,7 @@ impl BoundUnit {
         match self {
             Self::Abs => "abs",
             Self::Rel => "rel",
+            Self::Size => "size",
             Self::Color => "color",
         }
     }
@@ -50,13 +53,14 @@ impl Bound {
     pub fn parse(text: &str) -> Result<Self, String> {
         let (figures, reason) = text.split_once(',').unwrap_or((text, ""));
         let (number, unit) =
-            figures.trim().split_once(' ').ok_or_else(|| format!("`{text}` has no unit: abs, rel or color"))?;
+            figures.trim().split_once(' ').ok_or_else(|| format!("`{text}` has no unit: abs, rel, size or color"))?;
         let error = number.parse::<f64>().ok().filter(|error| *error >= 0.0 && error.is_finite());
         let unit = match unit.trim() {
             "abs" => BoundUnit::Abs,
             "rel" => BoundUnit::Rel,
+            "size" => BoundUnit::Size,
             "color" => BoundUnit::Color,
-            other => return Err(format!("`{other}` is not a unit: abs, rel or color")),
+            other => return Err(format!("`{other}` is not a unit: abs, rel, size or color")),
         };
         let error = error.ok_or_else(|| format!("`{number}` is not a number from 0 on"))?;
         Ok(Self { error, unit, reason: reason.trim().to_owned() })

@@ -187,6 +187,7 @@ pub(super) fn compare(
         let judged = match unit {
             BoundUnit::Abs => left,
             BoundUnit::Color => left / color,
+            BoundUnit::Size => left / size.max(1.0),
             // A result that f32 flushes to 0 has no relative error.
             BoundUnit::Rel => left / size.max(f64::from(f32::MIN_POSITIVE) / f64::from(f32::EPSILON)),
         };

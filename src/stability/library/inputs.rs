@@ -87,6 +87,30 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
             let z = random.pick(&[1e-6, 1e-3, 1.0, 1e3, 1e6]);
             to.extend([random.range(-2.0, 2.0) * z, z]);
         }
+        InputKind::Alpha => to.push(random.pick(&[1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.25, 0.999_999, 1.0])),
+        InputKind::Index => {
+            to.push(random.pick(&[1e-3, 0.5, 1.0 - 1e-4, 1.0 - 1e-6, 1.0, 1.0 + 1e-6, 1.0 + 1e-4, 1.5, 2.4, 1e3]))
+        }
+        InputKind::Metal => {
+            const INDICES: &[f64] = &[1e-3, 0.05, 0.2, 1.0, 4.0, 10.0, 1e3];
+            to.extend([random.pick(INDICES), random.pick(INDICES), random.pick(INDICES)]);
+        }
+        InputKind::Tangent => {
+            let n = any_direction(random);
+            to.extend(n);
+            to.extend(across(random, n));
+        }
+        InputKind::Bright => {
+            const BRIGHT: &[f64] = &[0.0, 1e-30, 1e-6, 1e-3, 0.08, 0.18, 0.76, 1.0, 16.0, 1e4, 1e10];
+            to.extend([random.pick(BRIGHT), random.pick(BRIGHT), random.pick(BRIGHT)]);
+        }
+        InputKind::White => to.push(random.pick(&[0.25, 1.0, 4.0, 11.2, 1e4])),
+        InputKind::Stops => to.push(random.pick(&[-64.0, -16.0, 0.0, 15.0, 64.0])),
+        InputKind::Kelvin => to.push(random.pick(&[1000.0, 1900.0, 2856.0, 6504.0, 15000.0])),
+        InputKind::Pixel => {
+            const PLACES: &[f64] = &[0.0, 0.5, 7.5, 8.0, 4095.5, 65535.5];
+            to.extend([random.pick(PLACES), random.pick(PLACES)]);
+        }
     }
 }
 

@@ -91,6 +91,55 @@ static LITERAL: &[(&str, &str)] = &[
     ),
     ("srgbEncode(float)", "linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055"),
     ("srgbDecode(float)", "encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4)"),
+    ("fresnelSchlick(float,vec3,vec3)", "F0 + (F90 - F0) * pow(1.0 - cosine, 5.0)"),
+    ("fresnelNormal(float)", "pow((n - 1.0) / (n + 1.0), 2.0)"),
+    (
+        "fresnelDielectric(float,float)",
+        "0.5 * (pow((cosine - sqrt(n * n - 1.0 + cosine * cosine)) / (cosine + sqrt(n * n - 1.0 + cosine * cosine)), 2.0) + \
+         pow((n * n * cosine - sqrt(n * n - 1.0 + cosine * cosine)) / (n * n * cosine + sqrt(n * n - 1.0 + cosine * cosine)), 2.0))",
+    ),
+    (
+        "ggxDistribution(vec3,vec3,float)",
+        "pow(alpha / (dot(N, H) * dot(N, H) * (alpha * alpha - 1.0) + 1.0), 2.0) / 3.14159265",
+    ),
+    (
+        "ggxVisibility(float,float,float)",
+        "0.5 / (NL * sqrt(NV * NV * (1.0 - alpha * alpha) + alpha * alpha) + NV * sqrt(NL * NL * (1.0 - alpha * alpha) + alpha * alpha))",
+    ),
+    (
+        "ggxFactor(vec3,vec3,vec3,float)",
+        "pow(alpha / (dot(N, naiveHalf(L, V)) * dot(N, naiveHalf(L, V)) * (alpha * alpha - 1.0) + 1.0), 2.0) * max(dot(N, L), 0.0) * \
+         ggxVisibility(max(dot(N, L), 0.0), max(dot(N, V), 0.0), alpha)",
+    ),
+    (
+        "beckmannDistribution(vec3,vec3,float)",
+        "exp((dot(N, H) * dot(N, H) - 1.0) / (alpha * alpha * dot(N, H) * dot(N, H))) / (3.14159265 * alpha * alpha * pow(dot(N, H), 4.0))",
+    ),
+    (
+        "sheenDistribution(vec3,vec3,float)",
+        "(2.0 + 1.0 / alpha) * pow(sqrt(1.0 - dot(N, H) * dot(N, H)), 1.0 / alpha) / 6.2831853",
+    ),
+    (
+        "orenNayarFactor(vec3,vec3,vec3,float)",
+        "dot(N, L) * (1.0 - 0.5 * sigma * sigma / (sigma * sigma + 0.33) + 0.45 * sigma * sigma / (sigma * sigma + 0.09) * \
+         max(dot(normalize(L - N * dot(N, L)), normalize(V - N * dot(N, V))), 0.0) * \
+         sin(max(acos(dot(N, L)), acos(dot(N, V)))) * tan(min(acos(dot(N, L)), acos(dot(N, V)))))",
+    ),
+    (
+        "burleyFactor(vec3,vec3,vec3,float)",
+        "max(dot(N, L), 0.0) * (1.0 + (2.0 * roughness * pow(dot(L, naiveHalf(L, V)), 2.0) - 0.5) * pow(1.0 - max(dot(N, L), 0.0), 5.0)) * \
+         (1.0 + (2.0 * roughness * pow(dot(L, naiveHalf(L, V)), 2.0) - 0.5) * pow(1.0 - max(dot(N, V), 0.0), 5.0))",
+    ),
+    ("tonemapReinhard(vec3,float)", "color * (1.0 + color / (white * white)) / (1.0 + color)"),
+    (
+        "tonemapHableCurve(vec3)",
+        "(color * (0.15 * color + 0.05) + 0.004) / (color * (0.15 * color + 0.5) + 0.06) - 0.02 / 0.3",
+    ),
+    (
+        "tonemapNarkowicz(vec3)",
+        "clamp((color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14), vec3(0.0), vec3(1.0))",
+    ),
+    ("colorCubeRoot(float)", "pow(x, 1.0 / 3.0)"),
     (
         "outlinePosition(vec4,vec3,float,float,float)",
         "vec4(position.xy + width * normalize(vec2(aspect * direction.x, direction.y)) / vec2(aspect, 1.0) * position.w, \
