@@ -229,7 +229,7 @@ pub(super) struct ConventionArgs {
     /// Draw points as quads in WGSL and HLSL, whose points are one pixel wide (the reflection says how)
     #[arg(long)]
     point_sprites: bool,
-    /// The version of emitted GLSL: OpenGL 3.3, OpenGL 4.5, WebGL 2
+    /// The version of emitted GLSL: OpenGL 3.3, OpenGL 4.5, WebGL 2, Vulkan
     #[arg(long, value_enum, value_name = "VERSION", default_value_t)]
     glsl_version: GlslVersionArg,
     /// Enable gl_PointSize; without it, points are one pixel wide
@@ -263,6 +263,7 @@ impl ConventionArgs {
                 GlslVersionArg::Desktop330 => GlslVersion::Desktop330,
                 GlslVersionArg::Desktop450 => GlslVersion::Desktop450,
                 GlslVersionArg::Es300 => GlslVersion::Es300,
+                GlslVersionArg::Vulkan => GlslVersion::Vulkan,
             },
             debug_lines,
             floats: match self.floats {
@@ -324,6 +325,9 @@ enum GlslVersionArg {
     /// OpenGL ES 3.0 and WebGL 2
     #[value(name = "300es", alias = "300-es")]
     Es300,
+    /// Vulkan: 4.50 with sets, bindings, locations, and a block for the loose uniforms
+    #[value(name = "vulkan")]
+    Vulkan,
 }
 
 pub(super) fn parse_define(text: &str) -> Result<(String, String), String> {

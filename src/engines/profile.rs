@@ -75,6 +75,8 @@ struct Settings {
     parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     redefines: Option<bool>,
+    /// Whether the engine makes outputs of `gl_FragColor` and `gl_FragData`, besides declared ones.
+    mixes_outputs: Option<bool>,
     /// Whether the engine unrolls the loops between two pragmas.
     unrolls: Option<bool>,
     /// The kind of files next to the sources that describe programs.
@@ -113,6 +115,8 @@ pub struct Profile {
     pub parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     pub redefines: Option<bool>,
+    /// Whether the engine makes outputs of `gl_FragColor` and `gl_FragData`, besides declared ones.
+    pub mixes_outputs: Option<bool>,
     /// Whether the engine unrolls the loops between two pragmas.
     pub unrolls: Option<bool>,
     /// Whether files of JSON next to the sources describe programs, with macros.
@@ -189,6 +193,7 @@ fn load((name, text, preludes): &Embedded) -> Profile {
         least_version: settings.least_version,
         parts: settings.parts,
         redefines: settings.redefines,
+        mixes_outputs: settings.mixes_outputs,
         unrolls: settings.unrolls,
         has_program_files: settings.programs.as_deref() == Some("json"),
         has_isf_header: settings.header.as_deref() == Some("isf"),
@@ -227,6 +232,7 @@ impl Profile {
             least_version: self.least_version.or(base.least_version),
             parts: self.parts.or(base.parts),
             redefines: self.redefines.or(base.redefines),
+            mixes_outputs: self.mixes_outputs.or(base.mixes_outputs),
             unrolls: self.unrolls.or(base.unrolls),
             define_pragma: self.define_pragma.or(base.define_pragma),
             defines,

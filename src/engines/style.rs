@@ -35,6 +35,9 @@ pub struct Lookup {
     pub from_here: &'static [&'static str],
     /// The names of folders above a source that are search folders, too.
     pub ancestors: &'static [&'static str],
+    /// Whether the folders above a source, and paths from its own, come before the search folders that were given: what a pack
+    /// has replaces what the game has.
+    pub own_first: bool,
     /// The namespace of a name that has none.
     pub namespace: Option<&'static str>,
     /// Whether a file is also found by its name in the folders below a search folder.
@@ -50,6 +53,7 @@ const PLAIN: Lookup = Lookup {
     patterns: &["{path}"],
     from_here: &[],
     ancestors: &[],
+    own_first: false,
     namespace: None,
     deep: false,
     drops_version: false,
@@ -61,7 +65,7 @@ pub static STYLES: &[Lookup] = &[
     Lookup {
         style: Style::Moj,
         name: "moj",
-        directive: Some(ImportDirective { name: "moj_import", once: true }),
+        directive: Some(ImportDirective { name: "moj_import", once: true, extension: Some("GL_MC_moj_import") }),
         patterns: &[
             "assets/{namespace}/shaders/include/{path}",
             "{namespace}/shaders/include/{path}",
@@ -71,6 +75,7 @@ pub static STYLES: &[Lookup] = &[
         ],
         from_here: &["../include/{path}"],
         ancestors: &["assets", "shaders"],
+        own_first: true,
         namespace: Some("minecraft"),
         drops_version: true,
         ..PLAIN
@@ -79,7 +84,7 @@ pub static STYLES: &[Lookup] = &[
     Lookup {
         style: Style::Stk,
         name: "stk",
-        directive: Some(ImportDirective { name: "stk_include", once: false }),
+        directive: Some(ImportDirective { name: "stk_include", once: false, extension: None }),
         ancestors: &["shaders"],
         ..PLAIN
     },

@@ -41,39 +41,46 @@ impl DiskIncludes {
         Self { disk, folders, lookup: style.lookup(), roots: roots.to_vec(), below: Arc::default() }
     }
 
-    /// The search folders for the includes of a file: those that were given, and those above it.
-    fn search(&self, from: &str) -> Vec<PathBuf> {
+    /// The folders above a file in which its includes are searched.
+    fn above(&self, from: &str) -> Vec<PathBuf> {
         let names: Vec<&str> =
             self.roots.iter().map(String::as_str).chain(self.lookup.ancestors.iter().copied()).collect();
         let is_root = |folder: &&Path| {
             folder.file_name().and_then(|name| name.to_str()).is_some_and(|name| names.contains(&name))
         };
-        let above = Path::new(from).ancestors().skip(1).filter(is_root).map(Path::to_owned);
-        let mut folders: Vec<PathBuf> = self.folders.iter().cloned().chain(above).collect();
-        if folders.len() == self.folders.len() && !names.is_empty() {
+        let mut above: Vec<PathBuf> = Path::new(from).ancestors().skip(1).filter(is_root).map(Path::to_owned).collect();
+        if above.is_empty() && !names.is_empty() {
             // The command may run inside of the folder.
             let absolute = std::path::absolute(from).unwrap_or_default();
-            folders.extend(absolute.ancestors().skip(1).filter(is_root).map(Path::to_owned));
+            above.extend(absolute.ancestors().skip(1).filter(is_root).map(Path::to_owned));
         }
-        folders
+        above
     }
 
     fn candidates(&self, path: &str, form: IncludeForm, from: &str) -> Vec<PathBuf> {
-        let folders = self.search(from);
+        let above = self.above(from);
+        let folder = Path::new(from).parent().unwrap_or(Path::new(""));
+        let from_here = |path: &str| {
+            let paths = self.lookup.paths_from_here(path);
+            paths.iter().map(|path| normal(&folder.join(path))).collect::<Vec<_>>()
+        };
         let along = |path: &str| {
             let paths = self.lookup.paths(path);
             let below = |folder: &PathBuf| paths.iter().map(|path| normal(&folder.join(path))).collect::<Vec<_>>();
-            folders.iter().flat_map(below).collect::<Vec<_>>()
+            let given = self.folders.iter().flat_map(below);
+            if self.lookup.own_first {
+                // A path that names the namespace comes before one that does not, wherever it is.
+                let own = paths.iter().flat_map(|path| above.iter().map(move |folder| normal(&folder.join(path))));
+                return own.chain(from_here(path)).chain(given).collect::<Vec<_>>();
+            }
+            given.chain(above.iter().flat_map(below)).collect()
         };
         let inner = path.trim_start_matches('/');
         if inner != path {
             return along(inner).into_iter().chain([normal(Path::new(path))]).collect();
         }
-        let folder = Path::new(from).parent().unwrap_or(Path::new(""));
         let own = (form == IncludeForm::Quoted).then(|| normal(&folder.join(path)));
-        let last = self.lookup.paths_from_here(path);
-        let last = last.iter().map(|path| normal(&folder.join(path)));
-        own.into_iter().chain(along(path)).chain(last).collect()
+        own.into_iter().chain(along(path)).chain(from_here(path)).collect()
     }
 
     /// The file with this name anywhere below the search folders, if the style looks there.

@@ -113,6 +113,7 @@ impl Settings {
             directive: style.and_then(|style| style.lookup().directive),
             resolves_includes: style.is_some(),
             redefines: self.profile.and_then(|profile| profile.redefines).unwrap_or(false),
+            mixes_outputs: self.profile.and_then(|profile| profile.mixes_outputs).unwrap_or(false),
             unrolls: self.profile.and_then(|profile| profile.unrolls).unwrap_or(false),
         };
         prepared.problems = added.problems;

@@ -84,34 +84,9 @@ pub(super) static BUILT_IN: &[&str] = &[
     "GL_OES_texture_3D",
 ];
 
-/// Words that are names in 1.10 and 1.20, and mean something in 1.50 and ES 3.00.
-pub(super) static TAKEN: &[&str] = &[
-    "flat",
-    "smooth",
-    "noperspective",
-    "uint",
-    "uvec2",
-    "uvec3",
-    "uvec4",
-    "layout",
-    "switch",
-    "case",
-    "default",
-    "isampler2D",
-    "usampler2D",
-    "sampler2DArray",
-    "common",
-    "partition",
-    "active",
-    "filter",
-    "sample",
-    "texture",
-    "textureProj",
-    "textureLod",
-    "textureGrad",
-    "textureSize",
-    "texelFetch",
-];
+/// Functions of later versions that the rewritten texts call, so that no name of a program may hide them.
+pub(super) static FUNCTIONS: &[&str] =
+    &["texture", "textureProj", "textureLod", "textureGrad", "textureSize", "texelFetch"];
 
 #[cfg(test)]
 mod tests {

@@ -3,11 +3,13 @@
 //! *In:* all texts of a program, with those that they include. *Out:* the new name of each output, attribute, varying and
 //! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
 
-use super::names::TAKEN;
+use super::names::FUNCTIONS;
 use super::tokens::tokens;
 use glisten_front::Stage;
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
-use glisten_front::language::{Storage, Types};
+use glisten_front::language::{Profile, Storage, Types, Version};
+use glisten_front::source::Span;
+use glisten_front::syntax::keywords;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The language to write.
@@ -31,10 +33,25 @@ impl Target {
         }
     }
 
+    /// The language.
+    fn language(self) -> Version {
+        match self {
+            Self::Core150 => version(150),
+            Self::Core330 => version(330),
+            Self::Es300 => version(300),
+        }
+    }
+
     /// The number of the newest desktop version that is rewritten.
     pub(super) fn newest(self) -> u16 {
         if self == Self::Core330 { 330 } else { 150 }
     }
+}
+
+/// The language with a number: 100 and those from 300 to 320 are of ES, but for 330.
+fn version(number: u16) -> Version {
+    let profile = if matches!(number, 100 | 300 | 310 | 320) { Profile::Es } else { Profile::Core };
+    Version { number, profile, span: Span::default() }
 }
 
 /// A text of a program.
@@ -101,6 +118,11 @@ impl Plan {
         planner.plan
     }
 
+    /// Whether a word of the texts is a keyword of the target, so that no member has it as its name.
+    pub(super) fn is_keyword(&self, word: &str) -> bool {
+        keywords::is_taken(word, self.target.language())
+    }
+
     /// The new text of a word.
     pub(super) fn word(&self, stage: Stage, word: &str) -> Option<&str> {
         self.words.get(&(stage, word.to_owned())).map(String::as_str)
@@ -134,7 +156,10 @@ impl Planner<'_> {
     /// A name that occurs nowhere.
     fn free(&self, name: &str) -> String {
         let taken = |name: &str| {
-            self.used.contains(name) || self.plan.words.values().any(|other| other == name) || TAKEN.contains(&name)
+            self.used.contains(name)
+                || self.plan.words.values().any(|other| other == name)
+                || FUNCTIONS.contains(&name)
+                || keywords::is_taken(name, self.plan.target.language())
         };
         let mut free = name.to_owned();
         while taken(&free) {
@@ -154,9 +179,15 @@ impl Planner<'_> {
 
     /// Names of the program that mean something else in the target.
     fn taken(&mut self, texts: &[Text<'_>]) {
-        let is_old = |text: &Text<'_>| text.version < 130;
-        let names = TAKEN.iter().filter(|name| self.used.contains(*name)).copied();
-        for name in names.filter(|_| texts.iter().all(is_old)).collect::<Vec<_>>() {
+        let target = self.plan.target.language();
+        let is_function = |name: &str| FUNCTIONS.contains(&name) && texts.iter().all(|text| text.version < 130);
+        let is_new_word = |name: &str| {
+            keywords::is_taken(name, target)
+                && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
+        };
+        let names: Vec<&str> =
+            self.used.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
+        for name in names {
             let new = self.free(name);
             Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
             self.plan
@@ -318,6 +349,17 @@ mod tests {
         let lines: Vec<&str> = plan.declarations(Stage::Fragment).collect();
         assert_eq!(lines, ["in vec4 frontColor;", "in vec4 texCoord[2];", "out vec4 fragColor;"]);
         assert_eq!(plain_name("gl_ModelViewMatrix"), "modelViewMatrix");
+    }
+
+    #[test]
+    fn words_that_later_versions_reserve_get_other_names() {
+        let old = Text { version: 100, ..text("float patch, resource, centroid; s.patch", Stage::Fragment) };
+        let plan = Plan::new(&[old], Target::Es300);
+        assert_eq!(plan.word(Stage::Fragment, "patch"), Some("patch_"));
+        assert_eq!(plan.word(Stage::Vertex, "resource"), Some("resource_"));
+        let plan = Plan::new(&[text("float centroid, row_major, sample, x;", Stage::Vertex)], Target::Core150);
+        assert_eq!(plan.word(Stage::Vertex, "centroid"), Some("centroid_"));
+        assert_eq!(plan.word(Stage::Vertex, "x"), None);
     }
 
     #[test]

@@ -115,8 +115,8 @@ fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str
     let Some(token) = all.get(index) else { return };
     let at = |index: Option<usize>| index.and_then(|index| all.get(index)).map(|token| token.text);
     let (before, after) = (at(index.checked_sub(1)), at(Some(index + 1)));
-    // A member has any name that it wants.
-    if before == Some(".") {
+    // A member has any name that is no keyword.
+    if before == Some(".") && !plan.is_keyword(token.text) {
         return;
     }
     let range = token.range.clone();

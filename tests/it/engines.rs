@@ -172,6 +172,64 @@ fn an_import_of_another_engine_says_who_reads_it() {
 }
 
 #[test]
+fn a_pack_comes_before_the_game() {
+    let [x, y] = ["#moj_import <who.glsl>", "#include <minecraft:who.glsl>"].map(|line| {
+        format!(
+            "#version 150\n#extension GL_MC_moj_import : enable\n{line}\nout vec4 c;\nvoid main() {{ c = own(); }}\n"
+        )
+    });
+    let folder = Folder::new(&[
+        ("game/assets/minecraft/shaders/include/who.glsl", b"vec4 game() { return vec4(0.0); }\n" as &[u8]),
+        ("game/assets/minecraft/shaders/include/more.glsl", b"vec4 more() { return vec4(0.0); }\n"),
+        ("pack/assets/minecraft/shaders/include/who.glsl", b"#moj_import <more.glsl>\nvec4 own() { return more(); }\n"),
+        // Another namespace of the pack has a file of this name, too.
+        ("pack/assets/other/shaders/include/who.glsl", b"vec4 other() { return vec4(0.0); }\n"),
+        ("pack/assets/minecraft/shaders/core/x.fsh", x.as_bytes()),
+        ("pack/assets/minecraft/shaders/core/y.fsh", y.as_bytes()),
+        ("pack/assets/other/shaders/core/z.fsh", x.as_bytes()),
+    ]);
+    for (name, place) in [("x", "minecraft"), ("y", "minecraft"), ("z", "other")] {
+        let path = format!("pack/assets/{place}/shaders/core/{name}.fsh");
+        let (found, exit) = folder.lint(&["--engine", "minecraft", "-I", "game", &path]);
+        assert_eq!((codes(&found), exit), (vec![], 0), "{path}: {found:?}");
+    }
+}
+
+#[test]
+fn a_version_by_name_is_assumed() {
+    let text =
+        |version: &str| format!("#version {version}\nin float x;\nout vec4 c;\nvoid main() {{ c = vec4(x); }}\n");
+    for version in ["ogre_glsl_ver_330", "__CONTEXT__", "%(version)s", "${version}", "@version@"] {
+        let folder = Folder::new(&[("s/a.frag", text(version).as_bytes())]);
+        assert_eq!(folder.lint(&["s/a.frag", "--assume-version", "330"]).1, 0, "{version}");
+        let (found, exit) = folder.lint(&["s/a.frag"]);
+        assert_eq!((codes(&found), exit), (vec!["E0120"], 1), "{version}");
+        assert_eq!(found[0]["line"], 1);
+        assert!(found[0]["help"].as_str().is_some_and(|help| help.contains("--assume-version")), "{found:?}");
+        // A search counts it as not checked.
+        let (found, exit) = folder.lint(&["s"]);
+        assert_eq!((codes(&found), exit), (vec![], 0), "{version}");
+    }
+    let folder = Folder::new(&[("a.frag", text("3.30").as_bytes())]);
+    assert_eq!(codes(&folder.lint(&["a.frag", "--assume-version", "330"]).0).first(), Some(&"E0106"));
+}
+
+#[test]
+fn iris_lets_the_color_stand_beside_outputs() {
+    let text = "#version 330 compatibility\nlayout(location = 1) out vec4 o;\nvoid main() { gl_FragColor = vec4(1.0); o = vec4(0.5); }\n";
+    let folder = Folder::new(&[("a.fsh", text.as_bytes())]);
+    assert_eq!(codes(&folder.lint(&["a.fsh"]).0), ["E0615"]);
+    assert_eq!(folder.lint(&["a.fsh", "--engine", "iris"]).1, 0);
+    let compiled = folder.run(&["compile", "a.fsh", "--engine", "iris", "-o", "out"]);
+    assert_eq!(code(&compiled), 0, "{}", err(&compiled));
+    let wgsl = std::fs::read_to_string(folder.path("out/a.fsh.wgsl")).expect("it was written");
+    assert!(wgsl.contains("@location(0)") && wgsl.contains("@location(1)"), "{wgsl}");
+    let clash = text.replace("location = 1", "location = 0");
+    let folder = Folder::new(&[("a.fsh", clash.as_bytes())]);
+    assert_eq!(folder.lint(&["a.fsh", "--engine", "iris"]).1, 1, "two outputs have one location");
+}
+
+#[test]
 fn styles_find_includes() {
     let base = "fixtures/engines/ogre";
     let plain = here(&["lint", &format!("{base}/Tone_fp.glsl"), "-I", &format!("{base}/media")]);

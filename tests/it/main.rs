@@ -148,6 +148,7 @@ mod tutorial;
 mod upgrade;
 mod versions;
 #[cfg(feature = "cli")]
+mod vulkan;
 #[cfg(feature = "cli")]
 mod watch;
 mod wgsl;

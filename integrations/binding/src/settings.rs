@@ -43,8 +43,8 @@ pub static OPTIONS: &[(&str, &str, Setter)] = &[
         let words = [("f16", FloatWidth::Half), ("f32", FloatWidth::Single), ("f64", FloatWidth::Double)];
         word(&words, value).map(|width| settings.conventions.floats = width)
     }),
-    ("glsl-version", "330, 450 or 300es", |settings, value| {
-        let versions = [GlslVersion::Desktop330, GlslVersion::Desktop450, GlslVersion::Es300];
+    ("glsl-version", "330, 450, 300es or vulkan", |settings, value| {
+        let versions = GlslVersion::ALL;
         let words = versions.map(|version| (version.word(), version));
         word(&words, value).map(|version| settings.conventions.glsl_version = version)
     }),

@@ -7,8 +7,8 @@
 use super::names::Names;
 use crate::specialize::known;
 use glisten_front::hir::{
-    BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, GlobalId, ScalarValue, Shader, Stage, Storage, Type, TypeId,
-    Types, UnaryOp, VarRef,
+    BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, GlobalId, Scalar, ScalarValue, Shader, Stage, Storage, Type,
+    TypeId, Types, UnaryOp, VarRef,
 };
 use glisten_scene::{Draw, Framebuffer};
 
@@ -86,7 +86,7 @@ impl Fixed {
                 let values = of(*base)?;
                 swizzle.as_slice().iter().map(|part| values.get(usize::from(*part)).copied()).collect::<Option<_>>()?
             }
-            ExprKind::Convert(base) => of(*base)?,
+            ExprKind::Convert(base) => held(at.types.scalar_of(expr.ty)?, of(*base)?)?,
             ExprKind::Construct(ConstructKind::Splat, list) => {
                 vec![*of(*list.first()?)?.first()?; at.types.flat_len(expr.ty) as usize]
             }
@@ -98,8 +98,10 @@ impl Fixed {
                 values.truncate(at.types.flat_len(expr.ty) as usize);
                 values
             }
-            ExprKind::Unary(UnaryOp::Negate, base) => of(*base)?.into_iter().map(|value| -value).collect(),
-            ExprKind::Binary(op, a, b) => combined(*op, &of(*a)?, &of(*b)?)?,
+            ExprKind::Unary(UnaryOp::Negate, base) => {
+                held(at.types.scalar_of(expr.ty)?, of(*base)?.into_iter().map(|value| -value).collect())?
+            }
+            ExprKind::Binary(op, a, b) => held(at.types.scalar_of(expr.ty)?, combined(*op, &of(*a)?, &of(*b)?)?)?,
             _ => return None,
         })
     }
@@ -176,5 +178,36 @@ fn combined(op: BinaryOp, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
     let len = a.len().max(b.len());
     let get =
         |list: &[f64], index: usize| if list.len() == 1 { list.first().copied() } else { list.get(index).copied() };
-    (0..len).map(|index| Some(f64::from(apply(get(a, index)?, get(b, index)?) as f32))).collect()
+    (0..len).map(|index| Some(apply(get(a, index)?, get(b, index)?))).collect()
+}
+
+/// Numbers as a type holds them: floats rounded to f32, integers truncated (GLSL 1.50 §5.4.1, §5.9). `None` for an integer that
+/// does not fit, such as that of a division by zero.
+fn held(scalar: Scalar, values: Vec<f64>) -> Option<Vec<f64>> {
+    let fits = |value: f64, low: f64, high: f64| (low..=high).contains(&value).then_some(value);
+    let hold = |value: f64| match scalar {
+        Scalar::Bool => Some(f64::from(u8::from(value != 0.0))),
+        Scalar::Int => fits(value.trunc(), f64::from(i32::MIN), f64::from(i32::MAX)),
+        Scalar::Uint => fits(value.trunc(), 0.0, f64::from(u32::MAX)),
+        Scalar::Float => Some(f64::from(value as f32)),
+    };
+    values.into_iter().map(hold).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{combined, held};
+    use glisten_front::hir::{BinaryOp, Scalar};
+
+    #[test]
+    fn integers_divide_as_integers() {
+        let quotient = |scalar, a, b| held(scalar, combined(BinaryOp::Div, &[a], &[b]).unwrap_or_default());
+        assert_eq!(quotient(Scalar::Int, 7.0, 2.0), Some(vec![3.0]));
+        assert_eq!(quotient(Scalar::Int, -7.0, 2.0), Some(vec![-3.0]));
+        assert_eq!(quotient(Scalar::Float, 7.0, 2.0), Some(vec![3.5]));
+        assert_eq!(quotient(Scalar::Int, 7.0, 0.0), None);
+        assert_eq!(held(Scalar::Int, vec![2.7, -2.7]), Some(vec![2.0, -2.0]));
+        assert_eq!(held(Scalar::Uint, vec![-1.0]), None);
+        assert_eq!(held(Scalar::Int, vec![16_777_217.0]), Some(vec![16_777_217.0]));
+    }
 }

@@ -20,7 +20,7 @@ pub enum WindowOrigin {
     LowerLeft,
 }
 
-/// The direction of y in the normalized device coordinates of emitted SPIR-V.
+/// The direction of y in the normalized device coordinates of emitted SPIR-V, and of GLSL for Vulkan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SpirvEnv {
     /// Up, which wgpu provides with a negative viewport.
@@ -40,15 +40,22 @@ pub enum GlslVersion {
     Desktop450,
     /// `#version 300 es`: OpenGL ES 3.0 and WebGL 2.
     Es300,
+    /// `#version 450` by the rules of GL_KHR_vulkan_glsl: sets, bindings and locations, and a block for the loose
+    /// uniforms. [`ClipZ`], [`WindowOrigin`] and [`SpirvEnv`] apply.
+    Vulkan,
 }
 
 impl GlslVersion {
+    /// All versions.
+    pub const ALL: [Self; 4] = [Self::Desktop330, Self::Desktop450, Self::Es300, Self::Vulkan];
+
     /// Its word in options and in the reflection.
     pub fn word(self) -> &'static str {
         match self {
             Self::Desktop330 => "330",
             Self::Desktop450 => "450",
             Self::Es300 => "300es",
+            Self::Vulkan => "vulkan",
         }
     }
 }

@@ -87,7 +87,7 @@ impl<'a> Analyzer<'a> {
             types,
             sources,
             diagnostics,
-            shader: Shader::new(stage, ast.version),
+            shader: Shader { mixes_outputs: ast.mixes_outputs, ..Shader::new(stage, ast.version) },
             facts: Vec::with_capacity(ast.exprs.len()),
             scopes: Scopes::new(!ast.version.has(Feature::SharedNames)),
             extensions: Extensions::empty(),

@@ -5,8 +5,9 @@ use super::context::Analyzer;
 use super::state::ArrayKey;
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::qualifiers;
-use crate::hir::{ArraySize, ExprKind, GlobalId, LocalId, Stage, Storage, Type, TypeId, VarRef};
+use crate::hir::{ArraySize, ExprKind, Global, GlobalId, LocalId, Stage, StmtKind, Storage, Type, TypeId, VarRef};
 use crate::language::Feature;
 
 impl Analyzer<'_> {
@@ -17,7 +18,23 @@ impl Analyzer<'_> {
         self.check_recursion();
         self.shader.mark_static_use();
         self.check_fragment_outputs();
+        self.check_early_tests();
         self.check_pragma();
+    }
+
+    /// `early_fragment_tests` (4.20 §4.4.1.3) makes no difference to a shader that neither discards nor writes a depth. For
+    /// others, the depth buffer would be written before the shader runs, which is not supported.
+    fn check_early_tests(&mut self) {
+        let Some(span) = self.layouts.early_tests else { return };
+        let is_depth = |global: &Global| global.builtin == Some(BuiltinVariable::FragDepth) && global.written;
+        let mut differs = self.shader.globals.iter().any(is_depth);
+        for body in self.shader.functions.iter().filter(|one| one.reachable).filter_map(|one| one.body.as_deref()) {
+            self.shader.visit_statements(body, &mut |statement| differs |= matches!(statement.kind, StmtKind::Discard));
+        }
+        if differs {
+            let message = "`early_fragment_tests` of a shader that discards or writes a depth is not supported yet";
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, span, message));
+        }
     }
 
     /// Gives each array without a size the size that its uses require.
@@ -136,7 +153,7 @@ impl Analyzer<'_> {
 
     /// Checks that a shader writes only one of `gl_FragColor`, `gl_FragData` and its own outputs.
     fn check_fragment_outputs(&mut self) {
-        if self.stage != Stage::Fragment {
+        if self.stage != Stage::Fragment || self.shader.mixes_outputs {
             return;
         }
         let written = |builtin: Option<BuiltinVariable>| {

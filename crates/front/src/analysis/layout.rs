@@ -34,6 +34,8 @@ pub(super) enum LayoutSubject {
     GeometryIn,
     /// `layout(..) out;` of a geometry shader.
     GeometryOut,
+    /// `layout(..) in;` of a fragment shader.
+    FragmentIn,
     /// An input of a stage after the first, or an output of a stage before the last.
     Varying,
     /// A block of such inputs or outputs.
@@ -60,6 +62,7 @@ impl LayoutSubject {
             Self::UniformDefault => "`uniform` alone",
             Self::GeometryIn => "`in` alone, in a geometry shader",
             Self::GeometryOut => "`out` alone, in a geometry shader",
+            Self::FragmentIn => "`in` alone, in a fragment shader",
             Self::Varying => "an input or output between stages",
             Self::VaryingBlock => "an input or output block",
             Self::VaryingMember => "a member of an input or output block",
@@ -89,6 +92,7 @@ enum Effect {
     Points,
     MaxVertices,
     Invocations,
+    EarlyTests,
     /// The location of a uniform, and what is known of a depth: they change no value.
     Nothing,
 }
@@ -103,8 +107,8 @@ struct Row {
 }
 
 use LayoutSubject::{
-    FragCoord, FragDepth, FragmentOutput, GeometryIn, GeometryOut, Sampler, Uniform, UniformBlock, UniformDefault,
-    UniformMember, Varying, VaryingBlock, VaryingMember, VertexInput,
+    FragCoord, FragDepth, FragmentIn, FragmentOutput, GeometryIn, GeometryOut, Sampler, Uniform, UniformBlock,
+    UniformDefault, UniformMember, Varying, VaryingBlock, VaryingMember, VertexInput,
 };
 
 const fn row(name: &'static str, effect: Effect, subjects: &'static [LayoutSubject]) -> Row {
@@ -156,6 +160,7 @@ static ROWS: &[Row] = &[
     since(140, 300, BLOCKS, row("std140", Effect::Block(BlockLayout::Std140), BLOCK_PLACES)),
     since(140, 300, BLOCKS, row("row_major", Effect::Matrix(MatrixLayout::RowMajor), MATRIX_PLACES)),
     since(140, 300, BLOCKS, row("column_major", Effect::Matrix(MatrixLayout::ColumnMajor), MATRIX_PLACES)),
+    since(420, 310, Extensions::empty(), row("early_fragment_tests", Effect::EarlyTests, &[FragmentIn])),
     row("points", Effect::Points, &[GeometryIn, GeometryOut]),
     row("lines", Effect::In(PrimitiveIn::Lines), &[GeometryIn]),
     row("lines_adjacency", Effect::In(PrimitiveIn::LinesAdjacency), &[GeometryIn]),
@@ -174,7 +179,6 @@ static LATER: &[(&str, u16)] = &[
     ("xfb_offset", 440),
     ("xfb_stride", 440),
     ("std430", 430),
-    ("early_fragment_tests", 420),
     ("bindless_sampler", NEVER),
     ("set", NEVER),
     ("push_constant", NEVER),
@@ -198,6 +202,8 @@ pub(super) struct Layout {
     pub(super) outputs: Vec<(PrimitiveOut, Span)>,
     pub(super) max_vertices: Option<(u32, Span)>,
     pub(super) invocations: Option<(u32, Span)>,
+    /// `early_fragment_tests`
+    pub(super) early_tests: Option<Span>,
 }
 
 impl Analyzer<'_> {
@@ -329,6 +335,7 @@ impl Layout {
             Effect::Points => self.outputs.push((PrimitiveOut::Points, span)),
             Effect::MaxVertices => self.max_vertices = Some((value, span)),
             Effect::Invocations => self.invocations = Some((value, span)),
+            Effect::EarlyTests => self.early_tests = Some(span),
             Effect::Nothing => {}
         }
     }

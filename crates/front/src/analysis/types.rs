@@ -28,8 +28,19 @@ impl Analyzer<'_> {
         self.with_array(base, &spec.array)
     }
 
+    /// The type of a constructor, whose arguments tell every size that the brackets leave out (4.30 §5.4.4).
+    pub(super) fn constructor_type(&mut self, spec: &TypeSpec) -> TypeId {
+        let base = self.type_spec(&TypeSpec { array: Vec::new(), ..spec.clone() });
+        self.arrays(base, &spec.array, true)
+    }
+
     /// An array of `base` for each pair of brackets; before 4.30 there are only one-dimensional arrays.
     pub(super) fn with_array(&mut self, base: TypeId, dims: &[ArrayDim]) -> TypeId {
+        self.arrays(base, dims, false)
+    }
+
+    /// The arrays of [`with_array`](Self::with_array). If `infers`, inner ones may lack sizes, too: a value tells them.
+    pub(super) fn arrays(&mut self, base: TypeId, dims: &[ArrayDim], infers: bool) -> TypeId {
         let mut ty = base;
         for dim in dims.iter().rev() {
             let size = self.array_size(dim);
@@ -38,7 +49,7 @@ impl Analyzer<'_> {
                 return TypeId::ERROR;
             }
             if let Type::Array(_, inner) = self.types.get(ty)
-                && (inner == ArraySize::Unsized || !self.allows(Feature::ArraysOfArrays, dim.span))
+                && (!infers && inner == ArraySize::Unsized || !self.allows(Feature::ArraysOfArrays, dim.span))
             {
                 let name = self.type_name(ty);
                 self.report(
@@ -58,6 +69,16 @@ impl Analyzer<'_> {
             };
         }
         ty
+    }
+
+    /// Whether a type is `given`, but for sizes of arrays that it leaves to the value.
+    pub(super) fn leaves_sizes_to(&self, ty: TypeId, given: TypeId) -> bool {
+        match (self.types.get(ty), self.types.get(given)) {
+            (Type::Array(element, size), Type::Array(other, known)) => {
+                (size == known || size == ArraySize::Unsized) && self.leaves_sizes_to(element, other)
+            }
+            _ => ty == given,
+        }
     }
 
     /// The size in brackets; `None` if it is in error.

@@ -300,6 +300,8 @@ pub struct Shader {
     pub tex_coords: Option<u32>,
     /// How the result of a comparison becomes four components.
     pub depth_mode: DepthMode,
+    /// Whether an engine makes outputs of `gl_FragColor` and `gl_FragData`, so that declared ones may stand next to them.
+    pub mixes_outputs: bool,
     /// The depth of the deepest expression, counted along left operands too. More than a few hundred levels need a
     /// large stack (see [`Shader::on_stack`]).
     pub expr_depth: u32,
@@ -346,6 +348,7 @@ impl Shader {
             precise: false,
             tex_coords: None,
             depth_mode: DepthMode::default(),
+            mixes_outputs: false,
             expr_depth: 0,
             texts: Vec::new(),
             origin: Origin::default(),
@@ -363,6 +366,11 @@ impl Shader {
     pub fn expr_at(&self, span: Span) -> Option<ExprId> {
         let index = self.exprs.iter().rposition(|expr| expr.span == span)?;
         Some(ExprId(index as u32))
+    }
+
+    /// The handles of all expressions that there are now, operands before the expressions that have them.
+    pub fn expr_ids(&self) -> impl Iterator<Item = ExprId> + use<> {
+        (0..self.exprs.len() as u32).map(ExprId)
     }
 
     /// The expression of a handle of this shader.

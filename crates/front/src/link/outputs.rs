@@ -69,7 +69,7 @@ fn is_color(global: &Global) -> bool {
 /// Reports two outputs with one number. [`check_exclusive`] reports the deprecated ones.
 fn overlap(ctx: &mut Linker<'_>, fragment: &Shader, clash: &Clash) {
     let (other, global) = (fragment.global(clash.variables.0), fragment.global(clash.variables.1));
-    if other.builtin.is_some() || global.builtin.is_some() {
+    if !fragment.mixes_outputs && (other.builtin.is_some() || global.builtin.is_some()) {
         return;
     }
     let message = format!("`{}` and `{}` are both color {}", other.name, global.name, clash.shared);
@@ -81,7 +81,7 @@ fn overlap(ctx: &mut Linker<'_>, fragment: &Shader, clash: &Clash) {
 /// Checks that `gl_FragColor`, `gl_FragData` and declared outputs exclude each other (§7.2) across the shaders of the
 /// stage. The analysis checks each shader.
 pub(super) fn check_exclusive(ctx: &mut Linker<'_>, fragment: &Shader) {
-    if fragment.stage != Stage::Fragment {
+    if fragment.stage != Stage::Fragment || fragment.mixes_outputs {
         return;
     }
     let written = |builtin: Option<BuiltinVariable>| {

@@ -23,6 +23,8 @@ pub struct ImportDirective {
     pub name: &'static str,
     /// Whether a file is read at its first import only.
     pub once: bool,
+    /// The extension by which sources say that they use the directive. No driver has it.
+    pub extension: Option<&'static str>,
 }
 
 /// The additions of an engine to a source.
@@ -39,6 +41,8 @@ pub struct Completion {
     pub resolves_includes: bool,
     /// Whether the engine runs a preprocessor in which a macro may be defined again.
     pub redefines: bool,
+    /// Whether the engine makes outputs of `gl_FragColor` and `gl_FragData`, so that they may stand next to declared ones.
+    pub mixes_outputs: bool,
     /// Whether the engine unrolls loops between `#pragma unroll_loop_start` and `#pragma unroll_loop_end`.
     pub unrolls: bool,
 }
@@ -83,7 +87,8 @@ pub fn blanked(text: &str, ranges: &[Range<usize>]) -> Arc<str> {
     String::from_utf8_lossy(&bytes).into()
 }
 
-/// The first `#version` directive of a text, outside of comments, up to the end of its line.
+/// The first `#version` directive of a text, outside of comments, up to the end of its line. A line with a name instead of a
+/// number, which some build replaces, is none.
 pub fn version_line(text: &str) -> Option<Range<usize>> {
     let bytes = text.as_bytes();
     let (mut at, mut first_on_line) = (0, true);
@@ -109,7 +114,14 @@ pub fn version_line(text: &str) -> Option<Range<usize>> {
 /// Whether the text begins with a `#version` directive.
 fn is_version(text: &str) -> bool {
     let words = text.trim_start_matches('#').trim_start_matches([' ', '\t']);
-    words.strip_prefix("version").is_some_and(|rest| rest.starts_with([' ', '\t', '\n', '\r']) || rest.is_empty())
+    let rest =
+        words.strip_prefix("version").filter(|rest| rest.starts_with([' ', '\t', '\n', '\r']) || rest.is_empty());
+    rest.is_some_and(|rest| !is_replaced(rest.trim_start_matches([' ', '\t'])))
+}
+
+/// Whether what follows `#version` is a name or a template: `ogre_glsl_ver_330`, `__CONTEXT__`, `%(version)s`, `${V}`.
+pub(crate) fn is_replaced(rest: &str) -> bool {
+    rest.starts_with(|first: char| first.is_ascii_alphabetic() || ['_', '%', '$', '@', '{'].contains(&first))
 }
 
 #[cfg(test)]
@@ -124,6 +136,8 @@ mod tests {
             ("// #version 110\n/* #version 120\n */ # version 330 core // é", Some("# version 330 core // é")),
             ("\u{feff}void main() {} // #version 150", None),
             ("#versions 3", None),
+            ("#version ogre_glsl_ver_330", None),
+            ("#version %(version)s", None),
             ("x #version 150", None),
             ("#ifdef A\n  #version 150\r\n#endif", Some("#version 150")),
         ] {

@@ -13,6 +13,7 @@ mod map;
 mod span;
 mod whole;
 
+pub(crate) use completion::is_replaced;
 pub use completion::{Completion, ImportDirective, Prelude, blanked, version_line};
 pub use map::{
     Expansion, FileId, IncludeForm, IncludeResolver, Included, Language, Location, NoIncludes, SourceFile, SourceMap,

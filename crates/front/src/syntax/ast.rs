@@ -58,6 +58,8 @@ pub struct Ast {
     pub macros: Vec<std::sync::Arc<str>>,
     /// For each name by its symbol, whether the tree depends on what macro it names.
     pub asked: Vec<bool>,
+    /// Whether an engine makes outputs of `gl_FragColor` and `gl_FragData`.
+    pub mixes_outputs: bool,
     /// The directives and comments that the preprocessor met.
     pub directives: Directives,
 }

@@ -91,6 +91,12 @@ impl WordClass {
     }
 }
 
+/// Whether a word is a keyword of a language or reserved in it, so that no name of a program can be that word.
+pub fn is_taken(word: &str, version: Version) -> bool {
+    let row = TABLE.iter().find(|row| row.spelling == word);
+    row.is_some_and(|row| row.kind_in(version, Extensions::empty()) != Ident)
+}
+
 /// The token kind of each word of the table in a language, by symbol.
 pub(super) fn kinds_in(version: Version, extensions: Extensions) -> Vec<TokenKind> {
     let kinds = || TABLE.iter().map(|row| row.kind_in(version, extensions)).collect();

@@ -77,6 +77,7 @@ pub fn parse(
     ast.preludes = outcome.preludes;
     ast.macros = outcome.macros;
     ast.asked = outcome.asked;
+    ast.mixes_outputs = options.completion.mixes_outputs;
     ast.directives = outcome.directives;
     ast.names = session.names;
     ast
@@ -96,6 +97,7 @@ fn empty_tree() -> Ast {
         preludes: Vec::new(),
         macros: Vec::new(),
         asked: Vec::new(),
+        mixes_outputs: false,
         directives: Directives::default(),
     }
 }

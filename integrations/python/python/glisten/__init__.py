@@ -50,7 +50,7 @@ class Options(TypedDict, total=False):
     """Codes or names of findings that are errors, or ``warnings``."""
     floats: Literal["f16", "f32", "f64"]
     """The width of ``float`` in the code."""
-    glsl_version: Literal["330", "450", "300es"]
+    glsl_version: Literal["330", "450", "300es", "vulkan"]
     """The version of emitted GLSL."""
     optimize: bool
     """Whether what reaches no output is left out."""

@@ -1,7 +1,9 @@
 //! Which names a shader may declare (§3.7).
 
 use super::super::context::Analyzer;
+use super::super::expr::foreign;
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
 use crate::syntax::ast::Ident;
 
@@ -10,6 +12,11 @@ impl Analyzer<'_> {
     /// consecutive underscores.)
     pub(in crate::analysis) fn check_name(&mut self, name: Ident) -> bool {
         let spelling = self.name(name);
+        if foreign::is_unsupported_variable(spelling, self.ast.version, self.extensions) {
+            let message = format!("the variable `{spelling}` is not supported yet");
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
+            return false;
+        }
         if spelling.starts_with("gl_") {
             self.report(
                 Diagnostic::new(&names::RESERVED_NAME, name.span, format!("`{spelling}` cannot be declared"))

@@ -153,6 +153,10 @@ impl Analyzer<'_> {
                 let layout = self.layout(record, LayoutSubject::GeometryOut);
                 self.geometry_output_layout(&layout);
             }
+            Some((StorageWord::In, _)) if self.stage == Stage::Fragment && !record.layout.is_empty() => {
+                let layout = self.layout(record, LayoutSubject::FragmentIn);
+                self.layouts.early_tests = layout.early_tests.or(self.layouts.early_tests);
+            }
             Some((word @ (StorageWord::In | StorageWord::Out), at)) => {
                 let (word, stage) = (word.spelling(), self.stage.name());
                 self.report(

@@ -36,7 +36,7 @@ impl Analyzer<'_> {
             self.layout(&record, self.layout_subject(storage, base));
         }
         for declarator in &declaration.declarators {
-            let ty = self.with_array(base, &declarator.array);
+            let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());
             if self.name(declarator.name).starts_with("gl_") && self.redeclare_builtin(declarator, ty, &record) {
                 continue;
             }
@@ -324,10 +324,7 @@ impl Analyzer<'_> {
             let span = self.span(expr);
             return (ty, self.poison(span));
         }
-        if let (Type::Array(element, ArraySize::Unsized), Type::Array(given, ArraySize::Sized(_))) =
-            (self.types.get(ty), self.types.get(from))
-            && element == given
-        {
+        if self.leaves_sizes_to(ty, from) {
             return (from, expr);
         }
         let what = format!("`{}`", self.name(declarator.name));

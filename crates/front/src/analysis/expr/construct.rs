@@ -11,7 +11,7 @@ use crate::syntax::ast::{self, TypeSpec};
 impl Analyzer<'_> {
     /// `vec4(a)`, `float[2](a, b)`, `S[](a, b)`
     pub(super) fn construct_spec(&mut self, spec: &TypeSpec, arguments: &[ast::ExprId], span: Span) -> ExprId {
-        let ty = self.type_spec(spec);
+        let ty = self.constructor_type(spec);
         self.construct(ty, arguments, spec.span, span)
     }
 
@@ -205,6 +205,9 @@ impl Analyzer<'_> {
             );
             return self.poison(span);
         }
+        // The first argument tells the sizes that the element's brackets leave out.
+        let first = arguments.first().map_or(element, |&first| self.ty(first));
+        let element = if self.leaves_sizes_to(element, first) { first } else { element };
         let ty = self.types.array(element, ArraySize::Sized(given));
         let arguments: Vec<_> =
             arguments.into_iter().map(|argument| self.convert_or_report(argument, element, "the element")).collect();

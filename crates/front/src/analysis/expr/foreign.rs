@@ -63,29 +63,35 @@ static SHADERTOY: &[(&str, &str)] = &[
     ("iChannel3", "uniform sampler2D iChannel3;"),
 ];
 
-/// Functions of later versions.
+/// Functions of later versions, with the first ones that have them.
 #[rustfmt::skip]
-static LATER: &[(&str, u16)] = &[
-    ("interpolateAtCentroid", 400), ("interpolateAtSample", 400), ("interpolateAtOffset", 400),
-    ("EmitStreamVertex", 400), ("EndStreamPrimitive", 400), ("packDouble2x32", 400), ("unpackDouble2x32", 400),
-    ("anyInvocation", 460), ("allInvocations", 460), ("allInvocationsEqual", 460),
-    ("atomicCounter", 420), ("imageLoad", 420), ("imageStore", 420), ("atomicAdd", 430), ("imageSize", 430),
-    ("barrier", 400), ("memoryBarrier", 420),
+static LATER: &[(&str, Since)] = &[
+    ("interpolateAtCentroid", Since::new(400, 320)), ("interpolateAtSample", Since::new(400, 320)),
+    ("interpolateAtOffset", Since::new(400, 320)),
+    ("EmitStreamVertex", Since::new(400, NEVER)), ("EndStreamPrimitive", Since::new(400, NEVER)),
+    ("packDouble2x32", Since::new(400, NEVER)), ("unpackDouble2x32", Since::new(400, NEVER)),
+    ("anyInvocation", Since::new(460, NEVER)), ("allInvocations", Since::new(460, NEVER)),
+    ("allInvocationsEqual", Since::new(460, NEVER)),
+    ("atomicCounter", Since::new(420, 310)), ("imageLoad", Since::new(420, 310)), ("imageStore", Since::new(420, 310)),
+    ("atomicAdd", Since::new(430, 310)), ("imageSize", Since::new(430, 310)), ("textureSamples", Since::new(450, NEVER)),
+    ("barrier", Since::new(400, 310)), ("memoryBarrier", Since::new(420, 310)),
 ];
 
-/// Built-in variables of later versions.
+/// Built-in variables of later versions, with the first ones that have them.
 #[rustfmt::skip]
-static LATER_VARIABLES: &[(&str, u16)] = &[
-    ("gl_SamplePosition", 400), ("gl_SampleMask", 400),
-    ("gl_NumSamples", 420), ("gl_ViewportIndex", 410), ("gl_CullDistance", 450), ("gl_HelperInvocation", 450),
-    ("gl_DrawID", 460), ("gl_BaseVertex", 460), ("gl_BaseInstance", 460),
+static LATER_VARIABLES: &[(&str, Since)] = &[
+    ("gl_SamplePosition", Since::new(400, 320)), ("gl_SampleMask", Since::new(400, 320)),
+    ("gl_NumSamples", Since::new(420, 320)), ("gl_ViewportIndex", Since::new(410, NEVER)),
+    ("gl_CullDistance", Since::new(450, NEVER)), ("gl_HelperInvocation", Since::new(450, 310)),
+    ("gl_DrawID", Since::new(460, NEVER)), ("gl_BaseVertex", Since::new(460, NEVER)),
+    ("gl_BaseInstance", Since::new(460, NEVER)),
 ];
 
 /// Whether a version has a variable that glisten does not support.
-pub(super) fn is_unsupported_variable(name: &str, version: Version, extensions: Extensions) -> bool {
+pub(in crate::analysis) fn is_unsupported_variable(name: &str, version: Version, extensions: Extensions) -> bool {
     let of_samples =
         (name.starts_with("gl_Sample") || name == "gl_NumSamples") && extensions.contains(Extensions::SAMPLE_SHADING);
-    LATER_VARIABLES.iter().any(|row| row.0 == name && (version.reaches(Since::new(row.1, NEVER)) || of_samples))
+    LATER_VARIABLES.iter().any(|row| row.0 == name && (version.reaches(row.1) || of_samples))
 }
 
 /// Why a function of later versions is not supported, and the way out.
@@ -112,15 +118,15 @@ pub(super) fn function(name: &str) -> Option<Advice> {
         Some(Advice::new(Applicability::Unsafe, format!("write `{ty}(..)`"), Place::Over, ty))
     };
     foreign.or_else(ty).or_else(|| {
-        let since = LATER.iter().find(|row| row.0 == name)?.1;
+        let since = LATER.iter().find(|row| row.0 == name)?.1.desktop;
         Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100).into())
     })
 }
 
 /// Whether a version has a function that glisten does not support.
 pub(super) fn is_unsupported(name: &str, version: Version, extensions: Extensions) -> bool {
-    let of_shader5 = |since: u16| since == 400 && extensions.contains(Extensions::GPU_SHADER5);
-    LATER.iter().any(|row| row.0 == name && (version.reaches(Since::new(row.1, NEVER)) || of_shader5(row.1)))
+    let of_shader5 = |since: Since| since.desktop == 400 && extensions.contains(Extensions::GPU_SHADER5);
+    LATER.iter().any(|row| row.0 == name && (version.reaches(row.1) || of_shader5(row.1)))
 }
 
 /// The replacement for a method that does not exist.

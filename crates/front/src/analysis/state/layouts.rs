@@ -39,4 +39,6 @@ pub(in crate::analysis) struct Layouts {
     pub(in crate::analysis) per_vertex_out: Option<PerVertex>,
     /// The first redeclaration of `gl_FragCoord`.
     pub(in crate::analysis) frag_coord: Option<Span>,
+    /// `layout(early_fragment_tests) in;`
+    pub(in crate::analysis) early_tests: Option<Span>,
 }

@@ -45,7 +45,7 @@ impl Analyzer<'_> {
     ) -> Declared {
         let name = declarator.name;
         let good_name = self.check_name(name);
-        let ty = self.with_array(base, &declarator.array);
+        let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());
         let ty = self.check_local_type(ty, declaration, declarator);
         let ty = if self.check_local_size(ty, name.span) { ty } else { TypeId::ERROR };
         let constant = record.constant.is_some();

@@ -15,12 +15,13 @@ const fn from(section: &'static str, desktop: u16, es: u16, extensions: Extensio
 
 const B330: Row = from("GLSL 3.30 §8.3", 330, 300, CAST);
 const F400: Row = from("GLSL 4.00 §8.3", 400, 320, Extensions::GPU_SHADER5);
+const F310: Row = from("GLSL 4.00 §8.3", 400, 310, Extensions::GPU_SHADER5);
 const I400: Row = from("GLSL 4.00 §8.8", 400, 310, Extensions::GPU_SHADER5);
 const P400: Row = from("GLSL 4.00 §8.4", 400, 310, PACKS4);
 const U400: Row = from("GLSL 4.10 §8.4", 400, 300, PACKS4);
 const S420: Row = from("GLSL 4.20 §8.4", 420, 300, PACKS);
 const M450: Row = from("GLSL 4.50 §8.3", 450, 310, Extensions::SHADER_INTEGER_MIX);
-const W400: Row = Row { effect: Effect::WritesArgument, constant: false, ..F400 };
+const W310: Row = Row { effect: Effect::WritesArgument, constant: false, ..F310 };
 const WI400: Row = Row { effect: Effect::WritesArgument, constant: false, ..I400 };
 
 pub(super) static ROWS: &[Row] = rows! {
@@ -29,8 +30,8 @@ pub(super) static ROWS: &[Row] = rows! {
     B330 IntBitsToFloat: genType intBitsToFloat(genIType value);
     B330 UintBitsToFloat: genType uintBitsToFloat(genUType value);
     F400 Fma: genType fma(genType a, genType b, genType c);
-    W400 Frexp: genType frexp(genType x, out_genIType exp);
-    F400 Ldexp: genType ldexp(genType x, genIType exp);
+    W310 Frexp: genType frexp(genType x, out_genIType exp);
+    F310 Ldexp: genType ldexp(genType x, genIType exp);
     M450 Mix: genIType mix(genIType x, genIType y, genBType a);
     M450 Mix: genUType mix(genUType x, genUType y, genBType a);
     M450 Mix: genBType mix(genBType x, genBType y, genBType a);

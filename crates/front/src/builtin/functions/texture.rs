@@ -3,11 +3,15 @@
 //! Two errors of the 1.50 text are corrected as in later versions: the offsets of some `textureProjGradOffset` rows
 //! are integers, and there is no `textureGradOffset` of a cube, since texel offsets do not apply to cube maps.
 
-use super::{BuiltinFunction, Effect, Parameter, Row, matcher, rows};
+use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
+use crate::language::Since;
 
 const T130: Row = Row::base("§8.7", 130).with(Effect::Texture, false);
 const T140: Row = Row::base("§8.7", 140).with(Effect::Texture, false);
-const T150: Row = Row::base("§8.7", 150).with(Effect::Texture, false);
+const MS: Row = Row::base("§8.7", 150).available(Availability::from(Since::new(150, 310))).with(Effect::Texture, false);
+const MS_ARRAY: Row =
+    Row::base("§8.7", 150).available(Availability::from(Since::new(150, 320))).with(Effect::Texture, false);
+const T430: Row = Row::base("GLSL 4.30 §8.9.2", 430).with(Effect::Texture, false);
 
 pub(super) static ROWS: &[Row] = rows! {
     T130 TextureSize: int textureSize(gsampler1D sampler, int lod);
@@ -24,10 +28,10 @@ pub(super) static ROWS: &[Row] = rows! {
     T130 TextureSize: ivec2 textureSize(sampler1DArrayShadow sampler, int lod);
     T130 TextureSize: ivec3 textureSize(sampler2DArrayShadow sampler, int lod);
     T140 TextureSize: int textureSize(gsamplerBuffer sampler);
-    T150 TextureSize: ivec2 textureSize(gsampler2DMS sampler);
+    MS TextureSize: ivec2 textureSize(gsampler2DMS sampler);
     // 1.50 prints `ivec2` here, which contradicts its rule for arrays before the table. Later versions and all
     // drivers have `ivec3`.
-    T150 TextureSize: ivec3 textureSize(gsampler2DMSArray sampler);
+    MS_ARRAY TextureSize: ivec3 textureSize(gsampler2DMSArray sampler);
 
     T130 Texture: gvec4 texture(gsampler1D sampler, float P, optional bias);
     T130 Texture: gvec4 texture(gsampler2D sampler, vec2 P, optional bias);
@@ -74,6 +78,7 @@ pub(super) static ROWS: &[Row] = rows! {
     T130 TextureOffset: gvec4 textureOffset(gsampler1DArray sampler, vec2 P, int offset, optional bias);
     T130 TextureOffset: gvec4 textureOffset(gsampler2DArray sampler, vec3 P, ivec2 offset, optional bias);
     T130 TextureOffset: float textureOffset(sampler1DArrayShadow sampler, vec3 P, int offset, optional bias);
+    T430 TextureOffset: float textureOffset(sampler2DArrayShadow sampler, vec4 P, ivec2 offset);
 
     T130 TexelFetch: gvec4 texelFetch(gsampler1D sampler, int P, int lod);
     T130 TexelFetch: gvec4 texelFetch(gsampler2D sampler, ivec2 P, int lod);
@@ -82,8 +87,8 @@ pub(super) static ROWS: &[Row] = rows! {
     T130 TexelFetch: gvec4 texelFetch(gsampler1DArray sampler, ivec2 P, int lod);
     T130 TexelFetch: gvec4 texelFetch(gsampler2DArray sampler, ivec3 P, int lod);
     T140 TexelFetch: gvec4 texelFetch(gsamplerBuffer sampler, int P);
-    T150 TexelFetch: gvec4 texelFetch(gsampler2DMS sampler, ivec2 P, int sample);
-    T150 TexelFetch: gvec4 texelFetch(gsampler2DMSArray sampler, ivec3 P, int sample);
+    MS TexelFetch: gvec4 texelFetch(gsampler2DMS sampler, ivec2 P, int sample);
+    MS_ARRAY TexelFetch: gvec4 texelFetch(gsampler2DMSArray sampler, ivec3 P, int sample);
 
     T130 TexelFetchOffset: gvec4 texelFetchOffset(gsampler1D sampler, int P, int lod, int offset);
     T130 TexelFetchOffset: gvec4 texelFetchOffset(gsampler2D sampler, ivec2 P, int lod, ivec2 offset);

@@ -285,8 +285,8 @@ impl Printer<'_> {
             ("index", global.index),
             ("binding", global.binding),
         ];
-        let layout: Vec<String> =
-            layout.into_iter().filter_map(|(word, value)| Some(format!("{word} = {}", value?))).collect();
+        let own = layout.into_iter().filter_map(|(word, value)| Some(format!("{word} = {}", value?)));
+        let layout: Vec<String> = self.layout_words(id).into_iter().chain(own).collect();
         let layout = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
         let invariant = if global.invariant { "invariant " } else { "" };
         let interpolation = if global.interpolation_written { global.interpolation.name() } else { "" };
@@ -317,6 +317,7 @@ impl Printer<'_> {
             BlockLayout::Packed => layout.push("packed".into()),
             BlockLayout::Std140 => layout.push("std140".into()),
         }
+        layout.extend(self.layout_words(id));
         layout.extend(block.binding.map(|binding| format!("binding = {binding}")));
         let layout = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
         let storage = storage(global.storage);

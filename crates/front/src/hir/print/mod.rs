@@ -12,7 +12,8 @@ mod names;
 mod scoped;
 mod statements;
 
-use super::{Function, FunctionId, Global, Shader, Type, TypeId, Types};
+use super::{Function, FunctionId, Global, GlobalId, Shader, Type, TypeId, Types};
+use crate::builtin::BuiltinVariable;
 use crate::source::Span;
 use names::{NameTable, ScopedNames};
 
@@ -25,6 +26,14 @@ pub trait Notes {
     /// Whether a function is printed.
     fn keeps_function(&self, _function: &Function) -> bool {
         true
+    }
+    /// More words of the layout of a global: `set = 1`.
+    fn layout(&self, _global: GlobalId) -> Vec<String> {
+        Vec::new()
+    }
+    /// The name of a built-in variable.
+    fn builtin_name(&self, builtin: BuiltinVariable) -> &'static str {
+        builtin.name()
     }
     /// The lines of comment above it, as they are written.
     fn above(&self, span: Span) -> Vec<String>;
@@ -41,7 +50,8 @@ pub fn print(types: &Types, shader: &Shader) -> String {
 pub fn print_with(types: &Types, shader: &Shader, notes: Option<&dyn Notes>) -> String {
     shader.on_stack(|| {
         let scoped: ScopedNames<'_> = &|table, function| scoped::local_names(table, types, shader, function);
-        let names = NameTable::new(types, shader, notes.is_some().then_some(scoped));
+        let builtin_name = |builtin: BuiltinVariable| notes.map_or(builtin.name(), |notes| notes.builtin_name(builtin));
+        let names = NameTable::new(types, shader, &builtin_name, notes.is_some().then_some(scoped));
         let mut printer = Printer { types, shader, names, notes, function: None, text: String::new(), indent: 0 };
         printer.shader();
         printer.text
@@ -96,6 +106,11 @@ impl Printer<'_> {
             self.text.push_str(&comment);
             self.text.push('\n');
         }
+    }
+
+    /// The words that the caller adds to the layout of a global.
+    fn layout_words(&self, id: GlobalId) -> Vec<String> {
+        self.notes.map_or_else(Vec::new, |notes| notes.layout(id))
     }
 
     fn blank(&mut self) {

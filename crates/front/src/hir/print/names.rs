@@ -2,7 +2,7 @@
 //!
 //! Locals get names that are unique within their function and among all globals, so that scopes do not matter.
 
-use crate::builtin::functions;
+use crate::builtin::{BuiltinVariable, functions};
 use crate::hir::{Function, FunctionId, GlobalId, LocalId, Shader, StructId, Type, TypeId, Types};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -37,9 +37,15 @@ impl Taken {
 
 impl NameTable {
     /// The names of a shader. If `scoped` names the locals of a function, it takes the place of unique names.
-    pub(super) fn new(types: &Types, shader: &Shader, scoped: Option<ScopedNames<'_>>) -> Self {
+    pub(super) fn new(
+        types: &Types,
+        shader: &Shader,
+        builtin_name: &dyn Fn(BuiltinVariable) -> &'static str,
+        scoped: Option<ScopedNames<'_>>,
+    ) -> Self {
         let mut taken = Taken::default();
-        let globals: Vec<String> = shader.globals.iter().map(|global| global_name(types, &mut taken, global)).collect();
+        let name = |global| global_name(types, &mut taken, builtin_name, global);
+        let globals: Vec<String> = shader.globals.iter().map(name).collect();
         let functions = function_names(shader, &mut taken);
         let mut structs = FxHashMap::default();
         let struct_order = used_structs(types, shader);
@@ -100,9 +106,14 @@ impl NameTable {
 }
 
 /// The name of a global: for a block its instance name. Without one, the members are global names.
-fn global_name(types: &Types, taken: &mut Taken, global: &crate::hir::Global) -> String {
-    if global.builtin.is_some() {
-        let name = global.builtin.map_or("", crate::builtin::BuiltinVariable::name);
+fn global_name(
+    types: &Types,
+    taken: &mut Taken,
+    builtin_name: &dyn Fn(BuiltinVariable) -> &'static str,
+    global: &crate::hir::Global,
+) -> String {
+    if let Some(builtin) = global.builtin {
+        let name = builtin_name(builtin);
         taken.0.insert(name.to_owned());
         return name.to_owned();
     }

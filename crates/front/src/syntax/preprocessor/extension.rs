@@ -139,6 +139,9 @@ impl Preprocessor<'_> {
         if !matches!(rest.kind, TokenKind::Newline | TokenKind::Eof) {
             return self.malformed(session, rest, "`#extension` ends after its behavior");
         }
+        if self.is_import_extension(session.spelling(name)) {
+            return;
+        }
         let span = session.sources.join(directive, behavior.span);
         if let Some(first) = self.first_token {
             let diagnostic = kind::LATE_EXTENSION

@@ -56,6 +56,11 @@ impl Preprocessor<'_> {
         }
     }
 
+    /// Whether a source says by this extension that it uses the engine's own directive for includes.
+    pub(super) fn is_import_extension(&self, name: &str) -> bool {
+        self.engine.directive.is_some_and(|directive| directive.extension == Some(name))
+    }
+
     /// Whether `name` is the engine's own directive for includes.
     pub(super) fn is_import(&self, name: &str) -> bool {
         self.engine.directive.is_some_and(|directive| directive.name == name)

@@ -3,6 +3,7 @@
 use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
 use crate::diagnostic::{Diagnostic, codes::general};
 use crate::language::EDITIONS;
+use crate::source::is_replaced;
 use std::collections::BTreeSet;
 
 /// The language of a text without a `#version` line (§3.3).
@@ -20,10 +21,7 @@ impl Preprocessor<'_> {
         let number = self.line_token(session);
         let parsed: Option<u16> =
             if number.kind == TokenKind::Number { session.spelling(number).parse().ok() } else { None };
-        let Some(parsed) = parsed else {
-            self.version_seen = true;
-            return self.malformed(session, number, "`#version` needs a number such as 150");
-        };
+        let Some(parsed) = parsed else { return self.version_by_name(session, number) };
         let mut span = session.sources.join(directive, number.span);
         let profile = self.line_token(session);
         let named = if profile.kind == TokenKind::Word {
@@ -46,6 +44,29 @@ impl Preprocessor<'_> {
             number.span,
             profile_span,
         );
+    }
+
+    /// A line without a number. If a build fills one in, what the command line or an engine assumes stands for it.
+    fn version_by_name(&mut self, session: &mut ParseSession<'_>, found: Token) {
+        let file = |span| session.sources.file_of(span);
+        let is_assumed = self.version_seen && file(self.version.span) != file(found.span);
+        if is_assumed {
+            return self.skip_line(session);
+        }
+        let replaced = !self.version_seen && is_replaced(session.sources.snippet(found.span));
+        self.version_seen = true;
+        if !replaced {
+            return self.malformed(session, found, "`#version` needs a number such as 150");
+        }
+        let name = session.sources.snippet(found.span).to_owned();
+        session.report(
+            Diagnostic::new(&codes::MISSING_VERSION, found.span, "`#version` needs a number such as 150")
+                .here(format!("`{name}` is not a number, so a build must replace it"))
+                .help("say what stands for it, such as `--assume-version 330`"),
+        );
+        // All that follows would be judged by the wrong language.
+        self.outcome.supported = false;
+        self.stop();
     }
 
     fn end_line_with_extra(&mut self, session: &mut ParseSession<'_>, token: Token) {

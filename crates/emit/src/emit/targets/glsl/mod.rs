@@ -1,10 +1,11 @@
-//! GLSL for OpenGL 3.3, OpenGL 4.5 and WebGL 2, from the typed program and not from naga's module: the language is the
+//! GLSL for OpenGL 3.3, OpenGL 4.5, WebGL 2 and Vulkan, from the typed program and not from naga's module: the language is the
 //! same, so everything keeps its name, its place and its comments.
 //!
 //! *In:* a linked program, a stage, a version. *Out:* the text, or what the version lacks.
 //!
-//! *Holds:* the conventions are OpenGL's own, whatever [`Conventions`] say: nothing is flipped, and clip-space z is
-//! unchanged. Locations of attributes and outputs are in the text; varyings, uniforms and blocks match by name.
+//! *Holds:* but for Vulkan, the conventions are OpenGL's own, whatever [`Conventions`] say: nothing is flipped, and
+//! clip-space z is unchanged. Locations of attributes and outputs are in the text; varyings, uniforms and blocks match
+//! by name.
 //!
 //! | file | contents |
 //! | --- | --- |
@@ -12,19 +13,22 @@
 //! | `blocks` | blocks between stages as varyings, for WebGL 2 |
 //! | `rewrite` | what later versions have dropped, in terms of what they have |
 //! | `names` | names that are words of the version |
+//! | `vulkan` | what Vulkan's rules want: locations, sets, bindings, its coordinates |
 
 mod blocks;
 mod limits;
 mod names;
 mod rewrite;
+mod vulkan;
 
 pub(in crate::emit) use names::renamed;
 
 use super::super::emitted::Emitted;
 use crate::target::{Conventions, GlslVersion};
+use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general;
-use glisten_front::hir::{Function, Global, Notes, Shader, Stage, Storage, Type, TypeId, Types, print_with};
+use glisten_front::hir::{Function, Global, GlobalId, Notes, Shader, Stage, Storage, Type, TypeId, Types, print_with};
 use glisten_front::language::{Profile, Version};
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span, comments};
@@ -50,7 +54,7 @@ pub(in crate::emit) fn write(
     }
     let mut types = program.types.clone();
     let mut shader = match version {
-        GlslVersion::Desktop450 => shader.clone(),
+        GlslVersion::Desktop450 | GlslVersion::Vulkan => shader.clone(),
         // Before 4.00, samplers and blocks take constant indices (3.30 §4.1.7, §4.3.7).
         GlslVersion::Desktop330 | GlslVersion::Es300 => {
             crate::select::select(&types, shader).map_err(|diagnostic| vec![*diagnostic])?.into_owned()
@@ -58,8 +62,13 @@ pub(in crate::emit) fn write(
     };
     shader.version = language(version, shader.version.span);
     rewrite::rewrite(&mut types, &mut shader, program, version);
+    let layouts = match version {
+        GlslVersion::Vulkan => vulkan::rewrite(&mut types, &mut shader, program, conventions)?,
+        GlslVersion::Desktop330 | GlslVersion::Desktop450 | GlslVersion::Es300 => vulkan::Layouts::default(),
+    };
     names::apply(&mut types, &mut shader, program, version);
-    let notes = Comments { sources, keeps_all: version != GlslVersion::Es300 };
+    let keeps_all = matches!(version, GlslVersion::Desktop330 | GlslVersion::Desktop450);
+    let notes = Comments { sources, keeps_all, layouts };
     let text = print_with(&types, &shader, Some(&notes));
     Ok(Emitted::Text(with_precisions(text, &types, &shader, &notes)))
 }
@@ -67,16 +76,17 @@ pub(in crate::emit) fn write(
 fn language(version: GlslVersion, span: Span) -> Version {
     let (number, profile) = match version {
         GlslVersion::Desktop330 => (330, Profile::Core),
-        GlslVersion::Desktop450 => (450, Profile::Core),
+        GlslVersion::Desktop450 | GlslVersion::Vulkan => (450, Profile::Core),
         GlslVersion::Es300 => (300, Profile::Es),
     };
     Version { number, profile, span }
 }
 
-/// The comments of the source. ES gets only what is in use, since the rest may use what ES lacks.
+/// The comments of the source. ES and Vulkan get only what is in use, since the rest may use what they lack.
 struct Comments<'a> {
     sources: Option<&'a SourceMap>,
     keeps_all: bool,
+    layouts: vulkan::Layouts,
 }
 
 impl Notes for Comments<'_> {
@@ -87,6 +97,14 @@ impl Notes for Comments<'_> {
 
     fn keeps_function(&self, function: &Function) -> bool {
         self.keeps_all || function.reachable
+    }
+
+    fn layout(&self, global: GlobalId) -> Vec<String> {
+        self.layouts.of(global)
+    }
+
+    fn builtin_name(&self, builtin: BuiltinVariable) -> &'static str {
+        self.layouts.builtin_name(builtin)
     }
 
     fn above(&self, span: Span) -> Vec<String> {

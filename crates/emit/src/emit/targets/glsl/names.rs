@@ -8,62 +8,63 @@ use glisten_front::builtin::functions;
 use glisten_front::builtin::operations::Class;
 use glisten_front::hir::{ExprKind, Shader, StructId, Type, TypeId, Types};
 use glisten_front::link::Program;
+use glisten_front::source::Span;
+use glisten_front::syntax::keywords;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The words of a version that 1.50 leaves to its users.
-fn words(version: GlslVersion) -> &'static [&'static str] {
-    match version {
-        GlslVersion::Desktop330 => &[],
-        GlslVersion::Desktop450 => DESKTOP_450,
-        GlslVersion::Es300 => ES_300,
-    }
+/// Whether a name of a program is a word of a version.
+fn is_word(name: &str, version: GlslVersion) -> bool {
+    keywords::is_taken(name, super::language(version, Span::default()))
+        || version == GlslVersion::Vulkan && VULKAN.binary_search(&name).is_ok()
 }
 
-static DESKTOP_450: &[&str] = &[
-    "atomic_uint",
-    "buffer",
-    "coherent",
-    "dmat2",
-    "dmat2x2",
-    "dmat2x3",
-    "dmat2x4",
-    "dmat3",
-    "dmat3x2",
-    "dmat3x3",
-    "dmat3x4",
-    "dmat4",
-    "dmat4x2",
-    "dmat4x3",
-    "dmat4x4",
-    "iimage2DMS",
-    "iimage2DMSArray",
-    "iimage2DRect",
-    "iimageCubeArray",
-    "image2DMS",
-    "image2DMSArray",
-    "image2DRect",
-    "imageCubeArray",
-    "isamplerCubeArray",
-    "patch",
-    "precise",
-    "readonly",
-    "resource",
-    "restrict",
-    "sample",
-    "samplerCubeArray",
-    "samplerCubeArrayShadow",
-    "shared",
-    "subroutine",
-    "uimage2DMS",
-    "uimage2DMSArray",
-    "uimage2DRect",
-    "uimageCubeArray",
-    "usamplerCubeArray",
-    "writeonly",
-];
+/// Functions of extensions that glslang has built in, in order.
+static EXTENDED: &[&str] = &["max3", "mid3", "min3"];
 
-static ES_300: &[&str] =
-    &["atomic_uint", "coherent", "patch", "readonly", "resource", "restrict", "sample", "subroutine", "writeonly"];
+/// The types that GL_KHR_vulkan_glsl adds, in order: textures and samplers apart, and attachments that are read.
+static VULKAN: &[&str] = &[
+    "isubpassInput",
+    "isubpassInputMS",
+    "itexture1D",
+    "itexture1DArray",
+    "itexture2D",
+    "itexture2DArray",
+    "itexture2DMS",
+    "itexture2DMSArray",
+    "itexture2DRect",
+    "itexture3D",
+    "itextureBuffer",
+    "itextureCube",
+    "itextureCubeArray",
+    "sampler",
+    "samplerShadow",
+    "subpassInput",
+    "subpassInputMS",
+    "texture1D",
+    "texture1DArray",
+    "texture2D",
+    "texture2DArray",
+    "texture2DMS",
+    "texture2DMSArray",
+    "texture2DRect",
+    "texture3D",
+    "textureBuffer",
+    "textureCube",
+    "textureCubeArray",
+    "usubpassInput",
+    "usubpassInputMS",
+    "utexture1D",
+    "utexture1DArray",
+    "utexture2D",
+    "utexture2DArray",
+    "utexture2DMS",
+    "utexture2DMSArray",
+    "utexture2DRect",
+    "utexture3D",
+    "utextureBuffer",
+    "utextureCube",
+    "utextureCubeArray",
+];
 
 /// The new names of a program, by the old ones.
 pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTreeMap<String, String> {
@@ -75,9 +76,13 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
     let called: BTreeSet<&str> = program.stages.iter().flat_map(texture_functions).collect();
     let mut names = BTreeMap::new();
     for &name in &all {
-        let reserved = words(version).contains(&name);
-        // GLSL ES 3.00 §6.1: built-in functions cannot be redefined. Global names share their scope.
-        let redefines = version == GlslVersion::Es300 && global.contains(name) && !functions::named(name).is_empty();
+        let reserved = is_word(name, version);
+        // GLSL ES 3.00 §6.1: built-in functions cannot be redefined. Global names share their scope. For Vulkan, glslang
+        // wants the precisions of the built-in function, which a desktop text cannot state.
+        let is_function = !functions::named(name).is_empty()
+            || version == GlslVersion::Vulkan && EXTENDED.binary_search(&name).is_ok();
+        let keeps_functions = matches!(version, GlslVersion::Es300 | GlslVersion::Vulkan);
+        let redefines = keeps_functions && global.contains(name) && is_function;
         let underscores = version == GlslVersion::Es300 && is_kept_by_webgl(name);
         // The older names of texture functions are written as the newer ones, which nothing may hide.
         let hides = called.contains(name);

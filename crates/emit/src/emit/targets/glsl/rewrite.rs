@@ -26,8 +26,10 @@ pub(super) fn rewrite(types: &mut Types, shader: &mut Shader, program: &Program,
     shadow_lookups(types, shader);
     variable_constants(shader);
     plain_inputs(shader);
-    if version == GlslVersion::Es300 {
+    if matches!(version, GlslVersion::Es300 | GlslVersion::Vulkan) {
         silence(types, shader);
+    }
+    if version == GlslVersion::Es300 {
         late_initializers(shader);
         plain_qualifiers(shader);
     }
@@ -218,7 +220,7 @@ fn plain_inputs(shader: &mut Shader) {
     }
 }
 
-/// Noise is 0, as §8.9 allows; ES has none.
+/// Noise is 0, as §8.9 allows; ES and Vulkan have none.
 fn silence(types: &Types, shader: &mut Shader) {
     for index in 0..shader.exprs.len() {
         let Some(expr) = shader.exprs.get(index).cloned() else { continue };
