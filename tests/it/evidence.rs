@@ -167,6 +167,27 @@ fn what_the_language_leaves_undefined_has_a_class_and_a_place() {
     }
 }
 
+/// A function that ends without `return` has an undefined result (GLSL 1.50 §6.1).
+#[test]
+fn a_result_that_no_return_gives_is_undefined() {
+    let texts = [
+        ("float f(float x) {\n    if (x > 0.5) return 0.25;\n}\n", 2048),
+        ("float f(float x) {\n    if (x > 0.5) return 0.25; else { return 0.5; }\n}\n", 0),
+        ("float f(float x) {\n    for (;;) { if (x > 0.5) return 0.25; x += 0.75; }\n}\n", 0),
+    ];
+    for (function, pixels) in texts {
+        let main = "void main() { c = vec4(f(q.x), q, 1.0); }\n";
+        let folder = quad(1, &format!("#version 150\nin vec2 q;\nout vec4 c;\n{function}{main}"));
+        let (exit, json) = verify(&folder, &[]);
+        let expected = if pixels == 0 { (0, "holds") } else { (1, "inconclusive") };
+        assert_eq!((exit, json["verdict"].as_str().unwrap_or_default()), expected, "{function}{json}");
+        assert!((pixels..=pixels + 40).contains(&count(&json, "undefined")), "{function}{json}");
+        if pixels > 0 {
+            assert_eq!(json["undefined"][0]["line"], 4, "{json}");
+        }
+    }
+}
+
 /// Envelopes of derivatives are wide; simulated GPUs agree on what they draw.
 #[test]
 fn what_simulated_gpus_agree_on_is_likely() {
@@ -322,6 +343,7 @@ const INCONCLUSIVE: &[(&str, &str)] = &[
     ("lower_chosen", "an index is outside of its array"),
     ("lower_constants", "it divides by numbers beyond those for which Vulkan has a rule"),
     ("lower_parameters", "it reads a global that was never written"),
+    ("lower_statements", "a function ends without `return`"),
     ("lower_varyings", "an index is outside of its array"),
     ("root_of_negative", "GLSL leaves the root and the power of a negative number undefined"),
 ];

@@ -4,7 +4,7 @@
 //! `MUTATED_CASES=20000 cargo test -p glisten-emit --test mutated` runs more than the bounded number of cases, and with
 //! `MUTATED_FIXTURES=chosen` only those of fixtures whose paths contain the word.
 
-use glisten_emit::{Conventions, Target, emit};
+use glisten_emit::{Conventions, GlslVersion, Target, emit};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::source::Completion;
 use glisten_front::{Compiler, Options, Source, Stage, lint};
@@ -274,10 +274,14 @@ fn take(shaders: &[(Stage, String)]) -> Result<(), String> {
         codes.extend(
             lint::check(program, &compilation.sources).iter().map(|finding| (finding.code.id, finding.message.clone())),
         );
-        let targets = [Target::Wgsl, Target::Spirv, Target::Glsl];
-        for (stage, target) in shaders.iter().flat_map(|(stage, _)| targets.map(|target| (*stage, target))) {
-            let errors = emit(program, stage, target, &Conventions::default()).err().unwrap_or_default();
-            codes.extend(errors.iter().map(|finding| (finding.code.id, finding.message.clone())));
+        let vulkan = Conventions { glsl_version: GlslVersion::Vulkan, ..Conventions::default() };
+        let plain = [Target::Wgsl, Target::Spirv, Target::Glsl].map(|target| (target, Conventions::default()));
+        let targets = plain.into_iter().chain([(Target::Glsl, vulkan)]);
+        for (target, conventions) in targets {
+            for (stage, _) in shaders {
+                let errors = emit(program, *stage, target, &conventions).err().unwrap_or_default();
+                codes.extend(errors.iter().map(|finding| (finding.code.id, finding.message.clone())));
+            }
         }
     }
     match codes.iter().find(|(id, _)| *id == general::INTERNAL.id) {

@@ -54,7 +54,7 @@ pub struct Guess {
 }
 
 /// The name that a variable without a value has in reports.
-pub(super) const UNWRITTEN: &str = "a variable that was never written";
+pub(super) const UNWRITTEN: &str = "a variable or a result that was never written";
 const NO_PLACE: &str = "a lookup at a coordinate that is no finite number";
 const SPLIT_LOOKUP: &str = "a lookup by derivatives that only a part of the quad runs";
 const SPLIT_DERIVATIVE: &str = "a derivative that only a part of the quad runs";

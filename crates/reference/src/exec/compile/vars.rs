@@ -190,6 +190,11 @@ impl Compiler<'_> {
         if let Some(index) = self.globals.iter().position(|global| *global == Some(var)) {
             return self.shader.globals.get(index).filter(|global| global.builtin.is_none()).map(|global| global.span);
         }
+        if let Some(frame) = self.frames.iter().rev().find(|frame| frame.result == Some(var)) {
+            // A function that may end without `return` has an undefined result (§6.1).
+            let function = self.shader.function(frame.function);
+            return function.body.as_deref().filter(|body| !super::stmt::always_leaves(body)).map(|_| function.span);
+        }
         let frame = self.frames.iter().rev().find_map(|frame| {
             let local = frame.locals.iter().position(|local| *local == Some(var))?;
             Some((frame.function, local))
