@@ -23,6 +23,8 @@ impl FileId {
 pub struct SourceFile {
     name: String,
     text: Arc<str>,
+    /// The text that people see, if it is another one of the same length.
+    shown: Option<Arc<str>>,
     base: u32,
     line_starts: Vec<u32>,
 }
@@ -38,9 +40,14 @@ impl SourceFile {
         &self.text
     }
 
+    /// The text that people see: that of [`SourceMap::show`], or else [`Self::text`]. Lines and columns are those of it.
+    pub fn shown(&self) -> &Arc<str> {
+        self.shown.as_ref().unwrap_or(&self.text)
+    }
+
     /// The text of line `line`, counted from 1, without its line ending.
     pub fn line(&self, line: u32) -> Option<&str> {
-        self.text.get(self.line_range(line)?).map(|line| line.trim_end_matches(['\n', '\r']))
+        self.shown().get(self.line_range(line)?).map(|line| line.trim_end_matches(['\n', '\r']))
     }
 
     /// The number of lines; an empty text has one.
@@ -76,10 +83,10 @@ impl SourceFile {
         let line = self.line_starts.partition_point(|&start| start as usize <= offset).max(1);
         let start = self.line_starts.get(line - 1).map_or(0, |&start| start as usize);
         let mut end = offset;
-        while !self.text.is_char_boundary(end) {
+        while !self.shown().is_char_boundary(end) {
             end -= 1;
         }
-        let column = self.text.get(start..end).map_or(0, |text| text.chars().count());
+        let column = self.shown().get(start..end).map_or(0, |text| text.chars().count());
         (line as u32, column as u32 + 1)
     }
 }
@@ -159,8 +166,17 @@ impl SourceMap {
         }
         let line_starts = line_starts(&text);
         let id = FileId(self.files.len() as u32);
-        self.files.push(SourceFile { name: name.into(), text, base, line_starts });
+        self.files.push(SourceFile { name: name.into(), text, shown: None, base, line_starts });
         Some(id)
+    }
+
+    /// Shows `text` instead of the texts called `name` that are as long: they are a part of it, at its place, with everything else
+    /// blank. Lines and columns then are those of `text`.
+    pub fn show(&mut self, name: &str, text: &Arc<str>) {
+        for file in self.files.iter_mut().filter(|file| file.name == name && file.text.len() == text.len()) {
+            file.line_starts = line_starts(text);
+            file.shown = Some(Arc::clone(text));
+        }
     }
 
     /// The text of a handle that [`Self::add`] returned.

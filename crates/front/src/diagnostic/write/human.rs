@@ -138,12 +138,12 @@ impl Excerpts<'_> {
     fn label(&mut self, span: Span, message: &str, primary: bool) -> Option<codespan::Label<Excerpt>> {
         let at = self.sources.location(span)?;
         let file = self.sources.file(at.file);
-        if file.text().is_empty() {
+        if file.shown().is_empty() {
             return None;
         }
         let line = file.line(at.line)?;
         let line_start = file.line_range(at.line)?.start;
-        let offset = |global: u32| (global.saturating_sub(file.base()) as usize).min(file.text().len());
+        let offset = |global: u32| (global.saturating_sub(file.base()) as usize).min(file.shown().len());
         let (start, mut end) = (offset(span.start), offset(span.end));
         let mut message = clean(message);
         if at.end_line > at.line {
@@ -213,7 +213,7 @@ impl<'a> Files<'a> for Excerpts<'_> {
 
     fn source(&'a self, id: Excerpt) -> Result<&'a str, Error> {
         match id {
-            Excerpt::Whole(file) => Ok(self.sources.file(file).text()),
+            Excerpt::Whole(file) => Ok(self.sources.file(file).shown()),
             Excerpt::Cut(index) => Ok(&self.cut_at(index)?.text),
         }
     }
