@@ -4,6 +4,7 @@
 //! *In:* lexemes, and places of errors. *Out:* lexemes, with one of [`Kind::Other`] for each place.
 
 use super::BYTE_ORDER_MARK;
+use super::branches::Branches;
 use super::scan::{Kind, Lexeme};
 use std::ops::Range;
 
@@ -48,7 +49,7 @@ pub(super) fn keep<'t>(text: &'t str, lexemes: Vec<Lexeme<'t>>, broken: &[Range<
 fn chunks(text: &str, lexemes: &[Lexeme<'_>]) -> Vec<Chunk> {
     let mut chunks = Vec::new();
     let mut stack: Vec<&str> = Vec::new();
-    let mut branches: Vec<(Vec<&str>, Option<Vec<&str>>)> = Vec::new();
+    let mut branches: Branches<Vec<&str>> = Branches::default();
     let (mut start, mut sound) = (0, true);
     for (at, lexeme) in lexemes.iter().enumerate() {
         let at_margin = lexeme.lines > 0
@@ -62,20 +63,9 @@ fn chunks(text: &str, lexemes: &[Lexeme<'_>]) -> Vec<Chunk> {
         match lexeme.kind {
             Kind::Other => sound = false,
             Kind::Directive => {
-                let name = lexeme.text.get(1..).unwrap_or("").trim_start();
-                if name.starts_with("if") {
-                    sound &= branches.len() < MAX_DEPTH;
-                    branches.push((if sound { stack.clone() } else { Vec::new() }, None));
-                } else if name.starts_with("el") {
-                    if let Some((first, end)) = branches.last_mut() {
-                        let here = std::mem::replace(&mut stack, first.clone());
-                        end.get_or_insert(here);
-                    }
-                } else if name.starts_with("endif")
-                    && let Some((_, Some(end))) = branches.pop()
-                {
-                    stack = end;
-                }
+                let is_deeper = lexeme.text.get(1..).is_some_and(|name| name.trim_start().starts_with("if"));
+                sound &= !is_deeper || branches.depth() < MAX_DEPTH;
+                branches.pass(lexeme.text, &mut stack, sound);
             }
             Kind::Sign => {
                 match lexeme.text {
@@ -91,7 +81,7 @@ fn chunks(text: &str, lexemes: &[Lexeme<'_>]) -> Vec<Chunk> {
                 }
                 let ends = stack.is_empty() && (lexeme.text == ";" || lexeme.text == "}");
                 let follows = lexemes.get(at + 1).is_none_or(|next| !next.is(";") && !next.is_comment());
-                if sound && ends && follows && branches.is_empty() {
+                if sound && ends && follows && branches.depth() == 0 {
                     chunks.push(Chunk { range: start..at + 1, sound: true });
                     start = at + 1;
                 }

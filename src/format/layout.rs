@@ -4,6 +4,7 @@
 //! of a statement stays broken.
 
 use super::Options;
+use super::branches::Branches;
 use super::scan::{Kind, Lexeme};
 use super::state::{Frame, State, brace_frame};
 use std::collections::BTreeSet;
@@ -60,7 +61,7 @@ fn lines<'p, 't>(pieces: &'p mut [Piece<'t>]) -> impl Iterator<Item = &'p mut [P
 
 fn places<'t>(lexemes: &[Lexeme<'t>], options: &Options, expanded: &BTreeSet<usize>) -> Vec<Piece<'t>> {
     let mut state = State::default();
-    let mut branches: Vec<(State, Option<State>)> = Vec::new();
+    let mut branches: Branches<State> = Branches::default();
     let mut pieces: Vec<Piece<'t>> = Vec::with_capacity(lexemes.len());
     let mut code: Option<Lexeme<'t>> = None;
     let mut prefix = false;
@@ -100,7 +101,7 @@ fn places<'t>(lexemes: &[Lexeme<'t>], options: &Options, expanded: &BTreeSet<usi
             is_one_line: frame == Frame::OneLine && opens,
         });
         if lexeme.kind == Kind::Directive {
-            branch(lexeme.text, &mut state, &mut branches);
+            branches.pass(lexeme.text, &mut state, true);
         }
         let hangs = following.is_some_and(|following| following.lines > 0 || following.kind == Kind::LineComment);
         state.step(lexeme, frame, hangs);
@@ -136,23 +137,6 @@ fn fits_on_one_line(lexemes: &[Lexeme<'_>], open: usize) -> bool {
         }
     }
     false
-}
-
-/// The state at a directive: each branch of an `#if` begins with that at the `#if` (GLSL 1.50 §3.3).
-fn branch(text: &str, state: &mut State, branches: &mut Vec<(State, Option<State>)>) {
-    let name = text.get(1..).unwrap_or("").trim_start();
-    if name.starts_with("if") {
-        branches.push((state.clone(), None));
-    } else if name.starts_with("el") {
-        if let Some((first, end)) = branches.last_mut() {
-            let here = std::mem::replace(state, first.clone());
-            end.get_or_insert(here);
-        }
-    } else if name.starts_with("endif")
-        && let Some((_, Some(end))) = branches.pop()
-    {
-        *state = end;
-    }
 }
 
 /// Whether a sign is a prefix operator (§5.1).

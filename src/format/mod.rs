@@ -11,6 +11,7 @@
 //! difference, the text stays as it was. Formatting twice gives the same text. Each branch of an `#if` is laid out from the state
 //! at the `#if`, so that it may open or close brackets. Nothing is expanded, so that a source needs no includes.
 
+mod branches;
 mod chunks;
 mod layout;
 pub(crate) mod scan;
