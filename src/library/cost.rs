@@ -37,18 +37,19 @@ impl Cost {
 
     fn and(self, other: Self) -> Self {
         Self {
-            arithmetic: self.arithmetic + other.arithmetic,
-            special: self.special + other.special,
-            texture: self.texture + other.texture,
-            branches: self.branches + other.branches,
-            loops: self.loops + other.loops,
+            arithmetic: self.arithmetic.saturating_add(other.arithmetic),
+            special: self.special.saturating_add(other.special),
+            texture: self.texture.saturating_add(other.texture),
+            branches: self.branches.saturating_add(other.branches),
+            loops: self.loops.saturating_add(other.loops),
         }
     }
 
     /// The weight by which paths are compared: on a GPU a division or a root takes about as long as four products, a
     /// lookup longer.
     pub fn weight(self) -> u32 {
-        self.arithmetic + 4 * self.special + 16 * self.texture + self.branches
+        let (special, texture) = (self.special.saturating_mul(4), self.texture.saturating_mul(16));
+        [special, texture, self.branches].into_iter().fold(self.arithmetic, u32::saturating_add)
     }
 
     fn dearest(self, other: Self) -> Self {
@@ -89,6 +90,10 @@ impl Counter<'_> {
     fn function(&mut self, id: FunctionId) -> Cost {
         if let Some(Some(cost)) = self.known.get(id.index()) {
             return *cost;
+        }
+        if let Some(known) = self.known.get_mut(id.index()) {
+            // A function that calls itself, which is an error, costs nothing more there.
+            *known = Some(Cost::default());
         }
         let shader = self.shader;
         let cost = self.stmts(shader.function(id).body.as_deref().unwrap_or(&[]), Cost::default());
