@@ -29,6 +29,8 @@ pub mod account;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[cfg(feature = "cli")]
+mod embedded;
 #[cfg(feature = "reference")]
 pub mod evaluate;
 #[cfg(feature = "cli")]

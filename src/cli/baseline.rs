@@ -4,6 +4,7 @@
 //! finding is known by its file, code, message and line of text, so it stays known when lines above it come and go. Of several
 //! equal ones in a file, as many are left out as the file counts.
 
+use super::batch::Batch;
 use super::console::Console;
 use super::exit::Failure;
 use super::files;
@@ -31,6 +32,12 @@ pub(super) struct BaselineArgs {
 }
 
 impl BaselineArgs {
+    /// The arguments that name a baseline, and do not write it.
+    #[cfg(feature = "lsp")]
+    pub(super) fn of(baseline: Option<PathBuf>) -> Self {
+        Self { baseline, update_baseline: false }
+    }
+
     /// Whether the file is written.
     pub(super) fn updates(&self) -> bool {
         self.update_baseline
@@ -91,15 +98,11 @@ impl Baseline {
 
     /// Removes the known findings from the units. Tells how many there were, and how many are gone from the files of the run.
     pub(super) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
-        let found = self.entries(units);
+        let found = self.entries(&units.iter().map(|unit| &unit.batch).collect::<Vec<_>>());
         let known: BTreeSet<(&str, &str)> = self.known.iter().map(Entry::key).collect();
         let mut left_out = 0;
         for unit in units.iter_mut() {
-            let sources = &unit.batch.sources;
-            unit.batch.diagnostics.retain(|diagnostic| {
-                let told = told(&Finding::new(sources, diagnostic));
-                !found.get(&told).is_some_and(|entry| known.contains(&entry.key()))
-            });
+            keep_new(&mut unit.batch, &found, &known);
         }
         let present: BTreeSet<(&str, &str)> = found.values().map(Entry::key).collect();
         left_out += known.intersection(&present).count();
@@ -117,6 +120,14 @@ impl Baseline {
         }
     }
 
+    /// Removes the known findings of one program.
+    #[cfg(feature = "lsp")]
+    pub(super) fn keep_new(&self, batch: &mut Batch) {
+        let found = self.entries(&[&*batch]);
+        let known: BTreeSet<(&str, &str)> = self.known.iter().map(Entry::key).collect();
+        keep_new(batch, &found, &known);
+    }
+
     /// Writes the findings of the units. What is known of other files stays, if they are still there.
     ///
     /// # Errors
@@ -126,7 +137,8 @@ impl Baseline {
         let folder = self.folder();
         let elsewhere = |entry: &&Entry| !checked.contains(&entry.file) && folder.join(&entry.file).exists();
         let mut findings: Vec<Entry> = self.known.iter().filter(elsewhere).cloned().collect();
-        findings.extend(self.entries(units).into_values());
+        let batches: Vec<&Batch> = units.iter().map(|unit| &unit.batch).collect();
+        findings.extend(self.entries(&batches).into_values());
         findings.sort();
         let count = findings.len();
         let document = Document { version: VERSION, findings };
@@ -138,11 +150,11 @@ impl Baseline {
     }
 
     /// The finding of each diagnostic, each once though programs share files.
-    fn entries(&self, units: &[Unit]) -> BTreeMap<Told, Entry> {
+    fn entries(&self, batches: &[&Batch]) -> BTreeMap<Told, Entry> {
         let mut seen = BTreeSet::new();
         let mut findings = Vec::new();
-        for unit in units {
-            let found = unit.batch.diagnostics.iter().map(|diagnostic| Finding::new(&unit.batch.sources, diagnostic));
+        for batch in batches {
+            let found = batch.diagnostics.iter().map(|diagnostic| Finding::new(&batch.sources, diagnostic));
             findings.extend(found.filter(|finding| seen.insert(told(finding))));
         }
         findings.sort_by(|a, b| a.region.cmp(&b.region));
@@ -180,6 +192,15 @@ impl Entry {
     fn key(&self) -> (&str, &str) {
         (&self.file, &self.fingerprint)
     }
+}
+
+/// Removes the findings of a batch that are known.
+fn keep_new(batch: &mut Batch, found: &BTreeMap<Told, Entry>, known: &BTreeSet<(&str, &str)>) {
+    let sources = &batch.sources;
+    batch.diagnostics.retain(|diagnostic| {
+        let told = told(&Finding::new(sources, diagnostic));
+        !found.get(&told).is_some_and(|entry| known.contains(&entry.key()))
+    });
 }
 
 fn told(finding: &Finding) -> Told {

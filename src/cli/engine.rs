@@ -29,6 +29,8 @@ pub(super) struct Engines {
     flags: Arc<Flags>,
     /// The settings of a draw.
     draw: Arc<Settings>,
+    /// The settings of sources about whose engine and version nothing else is said.
+    fallback: Arc<Settings>,
     /// The rules of each folder so far.
     rules: Arc<Mutex<BTreeMap<PathBuf, Known>>>,
     programs: ProgramFiles,
@@ -95,6 +97,12 @@ impl Engines {
         Self { disk: Files(disk), ..self }
     }
 
+    /// These engines, with settings for sources about whose engine and version nothing else is said.
+    #[must_use]
+    pub(super) fn with_fallback(&self, fallback: Settings) -> Self {
+        Self { fallback: Arc::new(fallback), ..self.clone() }
+    }
+
     /// The folders in which the includes of a file are searched.
     #[cfg(feature = "lsp")]
     pub(super) fn folders(&self, file: &Path) -> Vec<PathBuf> {
@@ -153,7 +161,9 @@ impl Engines {
             folders: flags.folders.clone(),
             ..Settings::default()
         };
-        given.over((*self.draw).clone().over(tables))
+        let said = given.over((*self.draw).clone().over(tables));
+        let is_silent = said.profile.is_none() && said.version.is_none();
+        if is_silent { said.over((*self.fallback).clone()) } else { said }
     }
 
     /// The stage that the flags and the tables give to a file whose name tells none.

@@ -11,6 +11,7 @@ use super::engine::{Engines, STDIN as SHOWN_STDIN};
 use super::exit::Failure;
 use super::files;
 use super::search::{self, Left};
+use crate::embedded::{self, Filling, Host};
 use crate::engines::combined;
 use crate::sources::{members, stages};
 use glisten_front::hir::Stage;
@@ -43,11 +44,31 @@ pub(super) struct PartOf {
     index: usize,
     /// Its name, if the file has several programs.
     name: Option<String>,
+    /// The language of the file, if the program is in its strings, and what stands for interpolations.
+    string: Option<(Host, Filling)>,
 }
 
 impl PartOf {
+    /// A program in the strings of a file.
+    pub(super) fn in_string(index: usize, name: String, host: Host) -> Self {
+        Self { index, name: Some(name), string: Some((host, Filling::default())) }
+    }
+
+    /// The language of the file, and the index of the program among those in its strings.
+    pub(super) fn host(&self) -> Option<(usize, Host)> {
+        self.string.map(|(host, _)| (self.index, host))
+    }
+
+    /// Changes what stands for interpolations.
+    pub(super) fn fill(&mut self, filling: Filling) {
+        self.string = self.string.map(|(host, _)| (host, filling));
+    }
+
     /// The macros that select a stage in a file.
     pub(super) fn defines(&self, file: &str, stage: Stage) -> Vec<(String, String)> {
+        if self.string.is_some() {
+            return Vec::new();
+        }
         let members = combined::members(file);
         let part = members.get(self.index).and_then(|member| member.part(stage));
         part.map(|part| part.defines.clone()).unwrap_or_default()
@@ -55,6 +76,11 @@ impl PartOf {
 
     /// The text of a stage, where the file has several programs; otherwise the whole text, which is taken apart later.
     pub(super) fn text(&self, text: &Arc<str>, stage: Stage) -> Arc<str> {
+        if let Some((host, filling)) = self.string {
+            let program = embedded::programs(host, text).into_iter().nth(self.index);
+            let own = program.and_then(|program| Some(program.shader(stage)?.text(text, filling)));
+            return own.unwrap_or_else(|| Arc::clone(text));
+        }
         let members = self.name.as_ref().map(|_| combined::members(text)).unwrap_or_default();
         let part = members.get(self.index).and_then(|member| member.part(stage));
         part.map_or_else(|| Arc::clone(text), |part| part.text(text))
@@ -271,8 +297,10 @@ fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) ->
     let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
     match stage {
         Some(stage) => Ok(vec![Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: None }]),
-        None => Err(Failure::usage(format!("cannot tell the shader stage of `{name}`"))
-            .help(format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()))),
+        None => Err(Failure::usage(format!("cannot tell the shader stage of `{name}`")).help(match Host::of(path) {
+            Some(_) => "`glisten lint --embedded` reads the shaders in its strings".to_owned(),
+            None => format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()),
+        })),
     }
 }
 
@@ -287,7 +315,7 @@ pub(super) fn parts_in(path: &Path, text: &str) -> Vec<Input> {
     let name = path.to_string_lossy();
     let mut inputs = Vec::new();
     for (index, member) in members(Some(path), text).into_iter().enumerate() {
-        let part = PartOf { index, name: member.name };
+        let part = PartOf { index, name: member.name, string: None };
         let input =
             |stage| Input { name: name.to_string(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
         inputs.extend(member.parts.iter().map(|part| input(part.stage)));

@@ -5,12 +5,14 @@ use super::baseline::{Baseline, BaselineArgs};
 use super::configurations::{Extent, Listed, explored};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
+use super::files;
 use super::fix::{FixArgs, Fixer};
 use super::guard;
 use super::inputs::{self, Group, Inputs};
 use super::not_checked;
 use super::permutations;
-use super::session::{Session, Unit};
+use super::session::{Session, Unit, compile_anywhere};
+use super::strings;
 use clap::Args;
 use glisten_front::diagnostic::{Code, Diagnostic, Levels};
 use glisten_front::lint::check_some;
@@ -40,6 +42,9 @@ pub(super) struct LintArgs {
     /// Check the variants of the programs in this file, in the format of `compile --permutations`
     #[arg(long, value_name = "FILE", conflicts_with_all = ["fix", "unsafe_fixes", "files", "configurations"])]
     permutations: Option<PathBuf>,
+    /// Check the shaders in the strings of JavaScript, TypeScript, Rust, Python, C and C++, too
+    #[arg(long)]
+    embedded: bool,
     #[command(flatten)]
     fixes: FixArgs,
     #[command(flatten)]
@@ -58,7 +63,13 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let mut listed = Listed::new();
     let mut inputs = match &args.permutations {
         None => {
-            inputs::collect(&inputs::named_or_here(&args.files, &args.programs), &args.programs, &args.sources, true)?
+            let named = inputs::named_or_here(&args.files, &args.programs);
+            let (hosts, named) = if args.embedded { strings::split(named) } else { (Vec::new(), named) };
+            let mut inputs = inputs::collect(&named, &args.programs, &args.sources, true)?;
+            if args.embedded {
+                strings::add(&mut inputs, &hosts, &named)?;
+            }
+            inputs
         }
         Some(file) => {
             let programs = match permutations::programs(file) {
@@ -129,8 +140,19 @@ fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> Ve
     for (unit, found) in units.iter_mut().zip(found) {
         session.add(&mut unit.batch, found);
     }
+    certain(session, &mut units);
     not_checked::settle(session, &mut units, inputs);
     units
+}
+
+/// Drops the findings of units that depend on what their strings leave open.
+fn certain(session: &Session<'_>, units: &mut [Unit]) {
+    for unit in units {
+        let Some(input) = unit.group.inputs.first().filter(|input| strings::is_in_string(input)) else { continue };
+        let Ok(text) = files::read_source(&input.name, input.path.as_deref()) else { continue };
+        let again = |group| Some(compile_anywhere(session.compiler(), session.engines(), group).0.batch);
+        strings::keep_certain(&unit.group, &text, &mut unit.batch, again);
+    }
 }
 
 /// The findings of the rules in each unit, in parallel. Rules that the levels of all its files turn off are not run.

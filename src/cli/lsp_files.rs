@@ -51,6 +51,7 @@ impl Includes {
     /// The files that may include a file, directly or not; those that name it themselves first.
     pub(super) fn of(&self, file: &Path) -> Vec<PathBuf> {
         let mut found: Vec<PathBuf> = Vec::new();
+        let mut known: BTreeSet<PathBuf> = BTreeSet::new();
         let mut wanted: BTreeSet<String> = [stem(file)].into();
         let mut seen = wanted.clone();
         while !wanted.is_empty() {
@@ -58,7 +59,7 @@ impl Includes {
             let next: Vec<PathBuf> = self.names.iter().filter(fits).map(|(path, _)| path.clone()).collect();
             wanted = next.iter().map(|path| stem(path)).filter(|stem| seen.insert(stem.clone())).collect();
             for path in next {
-                if !found.contains(&path) {
+                if known.insert(path.clone()) {
                     found.push(path);
                 }
             }

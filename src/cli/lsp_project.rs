@@ -4,20 +4,24 @@
 //! configurations, styles. *Holds:* a text in the editor counts instead of the file. A panic of the compiler is a finding.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
+use super::baseline::Baseline;
 use super::batch::Batch;
 use super::console::Console;
 use super::engine::{Engines, Traced};
 use super::exit::Failure;
 use super::files;
 use super::inputs::{self, Group, Input};
+use super::lsp_drawing::Drawing;
 use super::lsp_files::{self, Includes};
 use super::session::Session;
+use super::strings;
 use super::{config, fmt, guard, search};
+use crate::embedded::{Filling, Host, styled};
 use crate::format::{Formatted, Options};
 use crate::library;
-use crate::lsp::{Compiled, Overlay, ProgramKey, Project};
+use crate::lsp::{Compiled, Overlay, Piece, ProgramKey, Project};
 use crate::sources::{Disk, stages};
-use glisten_front::compiler::{Compilation, Source};
+use glisten_front::compiler::{Compilation, Compiler, Source};
 use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
 use glisten_front::diagnostic::{Code, Diagnostic, Levels};
 use glisten_front::hir::Stage;
@@ -28,14 +32,25 @@ use glisten_front::source::{SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// The name of a configuration.
 const CONFIGURATION: &str = "glisten.toml";
+/// How long the scenes of a workspace are known.
+const FRESH: Duration = Duration::from_secs(2);
+/// The largest number of programs in which a name of a header is followed.
+const MAX_USERS: usize = 1000;
 /// The largest number of programs that are tried for a header.
 const MAX_INCLUDERS: usize = 12;
 
 /// Files, configurations and the compiler.
 pub(super) struct Files<'a> {
+    /// The macros that the editor has chosen.
+    pub(super) chosen: BTreeMap<String, String>,
+    /// The processes that draw.
+    pub(super) drawing: Drawing,
+    baseline: Option<Baseline>,
+    scenes: Option<Scenes>,
     console: &'a Console,
     sources: &'a SourceArgs,
     levels: &'a LevelArgs,
@@ -46,6 +61,13 @@ pub(super) struct Files<'a> {
     includes: Includes,
     /// The folders whose configurations count.
     folders: BTreeSet<PathBuf>,
+}
+
+/// The scenes of folders, and when they were read.
+struct Scenes {
+    read: Instant,
+    folders: Vec<PathBuf>,
+    found: Vec<(PathBuf, Arc<str>)>,
 }
 
 /// Reads included files, the open documents first.
@@ -75,11 +97,40 @@ impl<'a> Files<'a> {
         sources: &'a SourceArgs,
         levels: &'a LevelArgs,
         bindings: &'a BindingArgs,
+        baseline: Option<Baseline>,
     ) -> Result<Self, Failure> {
         let overlay = Overlay::default();
         let session = session(console, sources, levels, bindings, &overlay)?;
         let (groups, includes, folders) = Default::default();
-        Ok(Self { console, sources, levels, bindings, overlay, session, groups, includes, folders })
+        let (chosen, drawing, scenes) = Default::default();
+        Ok(Self {
+            chosen,
+            drawing,
+            baseline,
+            scenes,
+            console,
+            sources,
+            levels,
+            bindings,
+            overlay,
+            session,
+            groups,
+            includes,
+            folders,
+        })
+    }
+
+    /// Whether a file has one of these words.
+    fn has_word(&self, path: &Path, words: &[&str]) -> bool {
+        let read = || files::read_source(&path.to_string_lossy(), Some(path)).ok();
+        let Some(text) = self.overlay.text(path).or_else(read) else { return false };
+        let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        text.split(|letter: char| !is_part(letter)).any(|word| words.contains(&word))
+    }
+
+    /// The macros of the command line.
+    pub(super) fn given(&self) -> BTreeSet<String> {
+        self.sources.defines.iter().map(|(name, _)| name.clone()).collect()
     }
 
     fn note_folder(&mut self, file: &Path) {
@@ -93,6 +144,10 @@ impl<'a> Files<'a> {
         let input = |stage| {
             vec![Input { name: path.to_string_lossy().into_owned(), path: Some(path.to_owned()), stage, part: None }]
         };
+        if Host::of(path).is_some() {
+            let text = self.overlay.text(path);
+            return text.map_or_else(Vec::new, |text| strings::inputs_in(path, &text));
+        }
         if let Some(stage) = stages::by_name(path) {
             return input(stage);
         }
@@ -129,6 +184,34 @@ impl<'a> Files<'a> {
         }
     }
 
+    /// The compiler for a program.
+    fn compiler(&self, group: &Group) -> Compiler {
+        let compiler = self.session.compiler();
+        let open = |input: &Input| self.overlay.text(input.path.as_deref()?);
+        let text = group.inputs.first().and_then(open);
+        let own = text.and_then(|text| strings::compiler(compiler, self.session.engines(), group, &text));
+        own.unwrap_or_else(|| compiler.clone())
+    }
+
+    /// Lets findings in a part of a file show the lines of the file.
+    fn show_files(&self, group: &Group, sources: &mut SourceMap) {
+        strings::show_files(group, sources, |input| {
+            let open = input.path.as_deref().and_then(|path| self.overlay.text(path));
+            open.or_else(|| files::read_source(&input.name, input.path.as_deref()).ok())
+        });
+    }
+
+    /// Drops findings that depend on what strings leave open.
+    fn keep_certain(&self, group: &Group, batch: &mut Batch) {
+        let Some(path) = group.inputs.first().and_then(|input| input.path.as_deref()) else { return };
+        let Some(text) = self.overlay.text(path).filter(|_| Host::of(path).is_some()) else { return };
+        strings::keep_certain(group, &text, batch, |group| {
+            let (sources, ..) = self.read(&group);
+            let compilation = guard::guarded(|| self.compiler(&group).compile(&sources)).ok()?;
+            Some(Batch { sources: compilation.sources, diagnostics: compilation.diagnostics.into_iter().collect() })
+        });
+    }
+
     /// The sources of a program, and what cannot be read.
     fn read(&self, group: &Group) -> (Vec<Source>, Vec<Diagnostic>, SourceMap) {
         let (mut sources, mut unread, mut map) = (Vec::new(), Vec::new(), SourceMap::default());
@@ -148,6 +231,17 @@ impl<'a> Files<'a> {
         }
         (sources, unread, map)
     }
+}
+
+/// The source of a file in which a text that was cut stands, and the text as it is read: that stage which the end of the text is in.
+fn read_at<'g>(group: &'g Group, file: &Path, text: &Arc<str>) -> Option<(&'g Input, Arc<str>)> {
+    let own = group.inputs.iter().filter(|input| input.path.as_deref() == Some(file));
+    let read = own.map(|input| match &input.part {
+        // The text is that of a shader in a string already, if it is one.
+        Some(part) if part.host().is_none() => (input, part.text(text, input.stage)),
+        _ => (input, Arc::clone(text)),
+    });
+    read.max_by_key(|(_, text)| text.trim_end().len())
 }
 
 fn session<'a>(
@@ -171,6 +265,9 @@ impl Project for Files<'_> {
         let own = self.inputs(file);
         if own.is_empty() || stages::is_part(file) && self.overlay.text(file).is_none() {
             return Vec::new();
+        }
+        if Host::of(file).is_some() {
+            return inputs::group(own).into_iter().map(|group| self.keep(group)).collect();
         }
         let stem = stages::stem(file);
         let folder = file.parent().unwrap_or(Path::new("."));
@@ -202,6 +299,26 @@ impl Project for Files<'_> {
             }
         }
         keys
+    }
+
+    fn users_of(&mut self, file: &Path, folders: &[PathBuf], words: &[&str]) -> (Vec<ProgramKey>, bool) {
+        for folder in folders {
+            self.includes.add(folder);
+        }
+        let mut keys: BTreeSet<ProgramKey> = BTreeSet::new();
+        for includer in self.includes.of(file) {
+            if !self.has_word(&includer, words) {
+                continue;
+            }
+            let own = self.programs_of(&includer);
+            // What is included itself is used by its includers, of which some are enough.
+            let used = if own.is_empty() { self.includers_of(&includer, folders) } else { own };
+            keys.extend(used);
+            if keys.len() >= MAX_USERS {
+                return (keys.into_iter().collect(), true);
+            }
+        }
+        (keys.into_iter().collect(), false)
     }
 
     fn includes_changed(&mut self, file: &Path) {
@@ -236,14 +353,19 @@ impl Project for Files<'_> {
         if sources.is_empty() {
             return Compiled { findings: unread, sources: map, ..nothing() };
         }
-        let compiler = self.session.compiler();
+        let compiler = self.compiler(&group);
         match guard::guarded(|| compiler.inspect(&sources, None)) {
-            Ok((compilation, inspection)) => {
+            Ok((mut compilation, inspection)) => {
+                self.show_files(&group, &mut compilation.sources);
                 let lints = self.lints(&compilation);
                 let mut batch = Batch { sources: compilation.sources, diagnostics: Vec::new() };
                 let found: Vec<Diagnostic> = compilation.diagnostics.into_iter().collect();
                 self.session.add(&mut batch, found);
                 self.session.add(&mut batch, lints);
+                self.keep_certain(&group, &mut batch);
+                if let Some(baseline) = &self.baseline {
+                    baseline.keep_new(&mut batch);
+                }
                 let program = compilation.program.map(|linked| Program { name: group.name.clone(), ..linked });
                 Compiled {
                     sources: batch.sources,
@@ -268,26 +390,26 @@ impl Project for Files<'_> {
 
     fn probe(&mut self, program: &ProgramKey, file: &Path, text: Arc<str>, probe: Option<&str>) -> Option<Compiled> {
         let group = self.groups.get(program)?;
-        let input = group.inputs.iter().find(|input| input.path.as_deref() == Some(file));
+        let input = read_at(group, file, &text);
         // A header stands for itself: what is read before it is unknown, so its includer is compiled with the text in its place.
         let before = self.overlay.text(file);
         let sources = match input {
-            Some(input) => {
-                let text = input.part.as_ref().map_or(text.clone(), |part| part.text(&text, input.stage));
-                vec![Source { name: input.name.clone(), text, stage: input.stage }]
-            }
+            Some((input, text)) => vec![Source { name: input.name.clone(), text, stage: input.stage }],
             None => {
                 self.overlay.set(file, Some(text));
                 let group = group.clone();
                 self.read(&group).0
             }
         };
-        let compiler = self.session.compiler();
+        let (is_include, group) =
+            (!group.inputs.iter().any(|input| input.path.as_deref() == Some(file)), group.clone());
+        let compiler = self.compiler(&group);
         let done = guard::guarded(|| compiler.inspect(&sources, probe));
-        if input.is_none() {
+        if is_include {
             self.overlay.set(file, before);
         }
-        let (compilation, inspection) = done.ok()?;
+        let (mut compilation, inspection) = done.ok()?;
+        self.show_files(&group, &mut compilation.sources);
         Some(Compiled {
             sources: compilation.sources,
             findings: Vec::new(),
@@ -310,6 +432,22 @@ impl Project for Files<'_> {
         fmt::formatted(text, file, style)
     }
 
+    fn pieces(&self, file: &Path, text: &str) -> Option<Vec<Piece>> {
+        let programs = strings::programs(file, text)?;
+        let inputs = strings::inputs_in(file, text);
+        let mut pieces = Vec::new();
+        for (input, shader) in inputs.iter().zip(programs.iter().flat_map(|program| &program.shaders)) {
+            let text = shader.text(text, Filling::Name);
+            pieces.push(Piece { inside: shader.inside.clone(), text, program: input.stem() });
+        }
+        Some(pieces)
+    }
+
+    fn format_pieces(&mut self, file: &Path, text: &str, style: &Options) -> String {
+        let programs = strings::programs(file, text).unwrap_or_default();
+        styled(text, &programs, &mut |text| fmt::formatted(text, Path::new("string.glsl"), style).text)
+    }
+
     fn configuration_findings(&mut self) -> Vec<(SourceMap, Vec<Diagnostic>)> {
         let files: Vec<PathBuf> = self.folders.iter().map(|folder| folder.join("source")).collect();
         for file in files {
@@ -329,7 +467,10 @@ impl Project for Files<'_> {
 
     fn reload(&mut self) {
         // The arguments were good before; if a prelude is gone meanwhile, the old one stays.
-        if let Ok(session) = session(self.console, self.sources, self.levels, self.bindings, &self.overlay) {
+        self.scenes = None;
+        let mut sources = self.sources.clone();
+        sources.defines.extend(self.chosen.clone());
+        if let Ok(session) = session(self.console, &sources, self.levels, self.bindings, &self.overlay) {
             self.session = session;
         }
         self.groups.clear();
@@ -374,8 +515,16 @@ impl Project for Files<'_> {
         names
     }
 
-    fn scenes(&mut self, folders: &[PathBuf]) -> Vec<(PathBuf, Arc<str>)> {
-        let mut scenes = lsp_files::scenes(folders);
+    fn scenes(&mut self, folders: &[PathBuf], fresh: bool) -> Vec<(PathBuf, Arc<str>)> {
+        let known = self.scenes.take();
+        let known = known.filter(|known| !fresh && known.folders == folders && known.read.elapsed() < FRESH);
+        let known = known.unwrap_or_else(|| Scenes {
+            read: Instant::now(),
+            folders: folders.to_vec(),
+            found: lsp_files::scenes(folders),
+        });
+        let mut scenes = known.found.clone();
+        self.scenes = Some(known);
         for (path, text) in &mut scenes {
             if let Some(open) = self.overlay.text(path) {
                 *text = open;

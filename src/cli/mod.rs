@@ -42,9 +42,15 @@ mod lone;
 #[cfg(feature = "lsp")]
 mod lsp;
 #[cfg(feature = "lsp")]
+mod lsp_channel;
+#[cfg(feature = "lsp")]
+mod lsp_drawing;
+#[cfg(feature = "lsp")]
 mod lsp_files;
 #[cfg(feature = "lsp")]
 mod lsp_project;
+#[cfg(feature = "lsp")]
+mod lsp_shown;
 mod machine;
 mod made;
 mod man;
@@ -75,6 +81,7 @@ mod specialize;
 mod stability;
 mod stability_library;
 mod stages;
+mod strings;
 mod suggest;
 mod supervisor;
 pub mod survey;

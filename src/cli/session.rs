@@ -15,6 +15,7 @@ use super::guard;
 use super::inputs::{Group, Input};
 use super::not_checked;
 use super::progress::Progress;
+use super::strings;
 use super::trace::Trace;
 use crate::engines;
 use glisten_front::compiler::{Compilation, Compiler, Source};
@@ -28,6 +29,7 @@ use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// The stack size of the threads that compile. The phases limit their recursion themselves, relying on this size.
 const STACK_BYTES: usize = 16 << 20;
@@ -192,7 +194,8 @@ impl<'a> Session<'a> {
     /// Compiles every group and applies the levels.
     pub(super) fn compile(&mut self, groups: Vec<Group>) -> Vec<Unit> {
         self.dropped = 0;
-        self.compile_by(groups, compile_group)
+        let engines = self.engines.clone();
+        self.compile_by(groups, |compiler, group| compile_anywhere(compiler, &engines, group))
     }
 
     /// Compiles every group by `by`, which also counts the diagnostics past the compiler's limit, and applies the levels.
@@ -461,7 +464,8 @@ pub(super) fn compile_group_by<T: Default>(
     }
     let compiled = guard::guarded(|| work(&sources));
     match compiled {
-        Ok((compilation, told)) => {
+        Ok((mut compilation, told)) => {
+            strings::show_files(&unit.group, &mut compilation.sources, text_of);
             let dropped = compilation.diagnostics.dropped();
             let diagnostics = compilation.diagnostics.into_iter().collect();
             let program = compilation.program.map(|program| Program { name: unit.group.name.clone(), ..program });
@@ -478,6 +482,18 @@ pub(super) fn compile_group_by<T: Default>(
             (unit, 0, T::default())
         }
     }
+}
+
+/// The text of an input's file.
+fn text_of(input: &Input) -> Option<Arc<str>> {
+    files::read_source(&input.name, input.path.as_deref()).ok()
+}
+
+/// Reads and compiles a group, whether its shaders are files or in the strings of one.
+pub(super) fn compile_anywhere(by: &Compiler, engines: &Engines, group: Group) -> (Unit, usize) {
+    let text = group.inputs.first().filter(|input| strings::is_in_string(input)).and_then(text_of);
+    let compiler = text.and_then(|text| strings::compiler(by, engines, &group, &text));
+    compile_group(compiler.as_ref().unwrap_or(by), group)
 }
 
 /// A batch that reports an internal error in the compilation of these sources.

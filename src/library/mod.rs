@@ -25,7 +25,7 @@ use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 /// The folder of the modules in an include: `<glisten/...>`.
 const FOLDER: &str = "glisten/";
 /// The prefix of a module's file name where a file name is shown.
-const SHOWN: &str = "<glisten>/";
+pub(crate) const SHOWN: &str = "<glisten>/";
 
 /// A module of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -75,7 +75,10 @@ impl Analysis {
 
     /// The text of a file with its lines.
     pub(crate) fn text(&self, file: FileId) -> Rc<Text> {
-        let new = || Rc::new(Text::new(self.sources().file(file).text().clone()));
+        let new = || {
+            let source = self.sources().file(file);
+            Rc::new(Text::new(source.shown().clone()).with_part(source.text().clone()))
+        };
         Rc::clone(self.texts.borrow_mut().entry(file).or_insert_with(new))
     }
 

@@ -3,6 +3,8 @@
 //! *In:* a text and a place in it. *Out:* the text up to there, with all open brackets closed. *Holds:* GLSL looks back and never
 //! ahead (GLSL 1.50 §4.2), so what follows has no effect on what a name before it denotes.
 
+use glisten_front::source::blanked;
+
 /// The open brackets of a text, outside of comments and directives, with their places.
 pub(crate) fn open_brackets(text: &str) -> Vec<(usize, char)> {
     let bytes = text.as_bytes();
@@ -108,9 +110,33 @@ pub(crate) fn cut(text: &str, offset: usize, ending: &str) -> String {
     cut
 }
 
+/// The text with the break before a place taken out, in the ways that it may be: from the line of a bracket that is open at the
+/// beginning of the place's line, or the line before it. Offsets stay.
+pub(crate) fn mended(text: &str, offset: usize) -> Vec<String> {
+    let start = text.get(..offset).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+    let before = text.get(..start).unwrap_or("");
+    let line_of = |at: usize| before.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+    let open = open_brackets(before);
+    let inner = open.iter().rposition(|(_, sign)| *sign == '{').map_or(0, |at| at + 1);
+    let bracket = open.get(inner).map(|(at, _)| line_of(*at));
+    let last = line_of(before.trim_end().len());
+    let mut starts: Vec<usize> = bracket.into_iter().chain([last]).filter(|from| *from < start).collect();
+    starts.dedup();
+    let blank = |from: usize| blanked(text, std::slice::from_ref(&(from..start))).to_string();
+    starts.into_iter().map(blank).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{cut, is_in_comment, open_brackets};
+    use super::{cut, is_in_comment, mended, open_brackets};
+
+    #[test]
+    fn breaks_are_taken_out() {
+        let text = "void f() {\n  a(\n  b\n  c\n";
+        let offset = text.find('c').expect("it is there");
+        assert_eq!(mended(text, offset), ["void f() {\n    \n   \n  c\n", "void f() {\n  a(\n   \n  c\n"]);
+        assert!(mended("c", 0).is_empty());
+    }
 
     #[test]
     fn brackets_are_closed_outside_of_comments_and_directives() {

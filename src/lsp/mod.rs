@@ -22,27 +22,17 @@ mod state;
 mod text;
 mod uri;
 
-pub(crate) use project::{Compiled, Overlay, ProgramKey, Project};
+pub(crate) use project::{Choice, Compiled, Drawn, Overlay, Piece, ProgramKey, Project, Shown};
 
 use lsp_server::Connection;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Serves an editor on standard input and output. Returns whether it asked for the shutdown.
-///
-/// # Errors
-/// Messages that are none of the protocol.
-pub(crate) fn serve(project: &mut dyn Project) -> Result<bool, String> {
-    let (connection, threads) = Connection::stdio();
-    let served = server::serve(project, &connection);
-    // The threads end when the channels are gone.
+/// Serves an editor until the connection or the editor ends it. Returns whether it asked for the shutdown.
+pub(crate) fn serve(project: &mut dyn Project, connection: Connection) -> bool {
+    let is_shut_down = server::serve(project, &connection);
+    project.end();
     drop(connection);
-    let joined = threads.join();
-    let is_shut_down = served?;
-    // An editor that goes away closes its ends in any order.
-    if is_shut_down {
-        joined.map_err(|error| error.to_string())?
-    }
-    Ok(is_shut_down)
+    is_shut_down
 }
 
 /// Runs work; a panic in it is an error.

@@ -8,6 +8,7 @@ use glisten_front::index::Inspection;
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -59,16 +60,75 @@ pub(crate) struct Compiled {
     pub(crate) read: Vec<Vec<FileId>>,
 }
 
+/// A shader in a string of a document of another language.
+pub(crate) struct Piece {
+    /// The inside of the string.
+    pub(crate) inside: Range<usize>,
+    /// The text of the shader, as long as the document, with everything else blank.
+    pub(crate) text: Arc<str>,
+    /// The name of its program.
+    pub(crate) program: String,
+}
+
+/// A macro that conditions ask for and no text defines.
+pub(crate) struct Choice {
+    /// Its name.
+    pub(crate) name: String,
+    /// The values that make a difference; nothing for a macro that is not defined.
+    pub(crate) values: Vec<Option<String>>,
+    /// The value that is shown.
+    pub(crate) chosen: Option<String>,
+}
+
+/// The next step with a picture, or with the reason why there is none.
+pub(crate) type Drawn = Box<dyn FnOnce(Result<PathBuf, String>) + Send>;
+
+/// The answers besides findings.
+pub(crate) trait Shown {
+    /// The macros that the conditions of these texts ask for.
+    fn asked(&mut self, texts: &[(String, Arc<str>)]) -> Vec<Choice>;
+
+    /// Defines a macro from outside, or takes the definition back. It counts after [`Project::reload`].
+    ///
+    /// # Errors
+    /// What is no name of a macro, or no value of one.
+    fn choose(&mut self, name: &str, value: Option<String>) -> Result<(), String>;
+
+    /// The macros that were defined so.
+    fn chosen(&self) -> Vec<(String, String)>;
+
+    /// A program in a language, by its stages.
+    ///
+    /// # Errors
+    /// A language that does not exist, or cannot have the program.
+    fn translation(&self, program: &Program, target: &str) -> Result<Vec<(String, String)>, String>;
+
+    /// Draws a scene, and does something with the picture's file. It does not wait.
+    fn picture(&self, scene: &Path, done: Drawn);
+
+    /// Ends what is being drawn.
+    fn end(&mut self);
+}
+
 /// The files, as the program knows them.
-pub(crate) trait Project {
+pub(crate) trait Project: Shown {
     /// The texts of open documents, which all other answers take into account.
     fn overlay(&self) -> &Overlay;
+
+    /// The shaders in the strings of a document; nothing for one that is a shader itself.
+    fn pieces(&self, file: &Path, text: &str) -> Option<Vec<Piece>>;
+
+    /// Formats the shaders in the strings of a document.
+    fn format_pieces(&mut self, file: &Path, text: &str, style: &Options) -> String;
 
     /// The programs of which a file is a source of its own.
     fn programs_of(&mut self, file: &Path) -> Vec<ProgramKey>;
 
     /// The programs in a folder and below it that may include a file, likely ones first.
     fn includers_of(&mut self, file: &Path, folders: &[PathBuf]) -> Vec<ProgramKey>;
+
+    /// The programs in a folder and below it that may include a file and use one of these words, and whether there are more.
+    fn users_of(&mut self, file: &Path, folders: &[PathBuf], words: &[&str]) -> (Vec<ProgramKey>, bool);
 
     /// Notes that the include directives of an open document changed.
     fn includes_changed(&mut self, file: &Path);
@@ -106,8 +166,8 @@ pub(crate) trait Project {
     /// The names of files that an include in a file could name, with or without angle brackets.
     fn include_names(&mut self, file: &Path, written: &str, angled: bool) -> Vec<String>;
 
-    /// The scene files in these folders, with their texts.
-    fn scenes(&mut self, folders: &[PathBuf]) -> Vec<(PathBuf, Arc<str>)>;
+    /// The scene files in these folders, with their texts; unless `fresh`, those of a moment ago will do.
+    fn scenes(&mut self, folders: &[PathBuf], fresh: bool) -> Vec<(PathBuf, Arc<str>)>;
 
     /// Whether a finding says that a file lacks what the files that include it have.
     fn is_about_a_part(&self, finding: &Diagnostic) -> bool;

@@ -14,7 +14,7 @@ use lsp_types::notification::{
     DidChangeConfiguration, DidChangeTextDocument, DidChangeWatchedFiles, DidChangeWorkspaceFolders,
     DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Notification as _, PublishDiagnostics,
 };
-use lsp_types::request::{RegisterCapability, Request as _, WorkspaceDiagnosticRefresh};
+use lsp_types::request::{RegisterCapability, Request as _, ShowDocument, WorkspaceDiagnosticRefresh};
 use lsp_types::{
     DidChangeTextDocumentParams, DidChangeWatchedFilesParams, DidChangeWatchedFilesRegistrationOptions,
     DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, FileSystemWatcher,
@@ -55,8 +55,8 @@ enum Next {
 }
 
 /// Serves a connection until its end. Returns whether a shutdown was asked for.
-pub(super) fn serve(project: &mut dyn Project, connection: &Connection) -> Result<bool, String> {
-    let Some((id, parameters)) = initialization(connection)? else { return Ok(false) };
+pub(super) fn serve(project: &mut dyn Project, connection: &Connection) -> bool {
+    let Some((id, parameters)) = initialization(connection) else { return false };
     let parameters: InitializeParams = serde_json::from_value(parameters).unwrap_or_default();
     let mut state = State::new(project);
     initialize(&mut state, &parameters);
@@ -82,26 +82,26 @@ pub(super) fn serve(project: &mut dyn Project, connection: &Connection) -> Resul
         server.register_watchers();
     }
     server.run();
-    Ok(server.is_shut_down)
+    server.is_shut_down
 }
 
 /// Waits for the first request. What comes before it is answered as the protocol says.
-fn initialization(connection: &Connection) -> Result<Option<(RequestId, Value)>, String> {
+fn initialization(connection: &Connection) -> Option<(RequestId, Value)> {
     for message in &connection.receiver {
         match message {
             Message::Request(request) if request.method == lsp_types::request::Initialize::METHOD => {
-                return Ok(Some((request.id, request.params)));
+                return Some((request.id, request.params));
             }
             Message::Request(request) => {
                 let message = "the first request is `initialize`".to_owned();
                 let answer = Response::new_err(request.id, ErrorCode::ServerNotInitialized as i32, message);
                 let _ = connection.sender.send(answer.into());
             }
-            Message::Notification(told) if told.method == lsp_types::notification::Exit::METHOD => return Ok(None),
+            Message::Notification(told) if told.method == lsp_types::notification::Exit::METHOD => return None,
             _ => {}
         }
     }
-    Ok(None)
+    None
 }
 
 fn initialize(state: &mut State<'_>, parameters: &InitializeParams) {
@@ -128,6 +128,15 @@ fn client(parameters: &InitializeParams) -> Client {
         relates: is(published.and_then(|published| published.related_information)),
         watches: is(workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)),
         versions: is(workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes)),
+        refreshes_lenses: is(workspace.and_then(|workspace| workspace.code_lens.as_ref()?.refresh_support)),
+        refreshes_hints: is(workspace.and_then(|workspace| workspace.inlay_hint.as_ref()?.refresh_support)),
+        refreshes_tokens: is(workspace.and_then(|workspace| workspace.semantic_tokens.as_ref()?.refresh_support)),
+        shows: is(parameters
+            .capabilities
+            .window
+            .as_ref()
+            .and_then(|window| Some(window.show_document.as_ref()?.support))),
+        is_code: parameters.client_info.as_ref().is_some_and(|client| client.name.starts_with("Visual Studio Code")),
         trees: is(document.and_then(|document| document.document_symbol.as_ref()?.hierarchical_document_symbol_support)),
     }
 }
@@ -197,12 +206,21 @@ impl Server<'_> {
             let message = "the server is shut down".to_owned();
             return self.send(Response::new_err(id, ErrorCode::InvalidRequest as i32, message));
         }
+        if method == lsp_types::request::Initialize::METHOD {
+            let message = "`initialize` is sent once".to_owned();
+            return self.send(Response::new_err(id, ErrorCode::InvalidRequest as i32, message));
+        }
         if method == lsp_types::request::Shutdown::METHOD {
             self.is_shut_down = true;
             return self.send(Response::new_ok(id, Value::Null));
         }
         if method == lsp_types::request::DocumentDiagnosticRequest::METHOD && self.state.client.pulls {
             self.end_pushing();
+        }
+        match requests::commands::scene_of(&method, &params) {
+            Some(Ok((scene, is_shown))) => return self.draw(id, &scene, is_shown),
+            Some(Err(failure)) => return self.send(Response::new_err(id, failure.code, failure.message)),
+            None => {}
         }
         let Some(handler) = requests::handler(&method) else {
             let message = format!("there is no request `{method}`");
@@ -217,6 +235,32 @@ impl Server<'_> {
             Ok(value) => Response::new_ok(id, value),
             Err(failure) => Response::new_err(id, failure.code, failure.message),
         });
+        for (method, params) in std::mem::take(&mut self.state.outbox) {
+            self.ask(method, params);
+        }
+        self.is_stale |= std::mem::take(&mut self.state.is_changed);
+        self.state.trim();
+    }
+
+    /// Draws a scene, answers with the picture's URI, and lets the editor show it if it can.
+    fn draw(&mut self, id: RequestId, scene: &Path, is_shown: bool) {
+        self.n_sent += 1;
+        let (own, client) = (RequestId::from(format!("glisten-{}", self.n_sent)), self.state.client);
+        let sender = self.connection.sender.clone();
+        // An editor that is gone needs no answer.
+        let done = move |drawn: Result<PathBuf, String>| {
+            let uri = drawn.and_then(|path| uri::of(&path).ok_or_else(|| "the picture has no name".to_owned()));
+            let answer = match &uri {
+                Ok(uri) => Response::new_ok(id, json!({ "uri": uri })),
+                Err(why) => Response::new_err(id, ErrorCode::RequestFailed as i32, why.clone()),
+            };
+            if let (Ok(uri), true) = (uri, client.shows && is_shown) {
+                let params = json!({ "uri": uri, "external": !client.is_code, "takeFocus": false });
+                let _ = sender.send(Request { id: own, method: ShowDocument::METHOD.to_owned(), params }.into());
+            }
+            let _ = sender.send(answer.into());
+        };
+        self.state.project.picture(scene, Box::new(done));
     }
 
     fn notification(&mut self, told: Notification) {

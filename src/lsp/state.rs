@@ -4,19 +4,22 @@
 //! of their files changes. *Holds:* a header is seen in the programs that include it.
 
 use super::analysis::{Analysis, Place};
-use super::cut::cut;
-use super::project::{ProgramKey, Project};
+use super::cut::{cut, mended};
+use super::project::{Piece, ProgramKey, Project};
 use super::text::{Encoding, Text};
 use super::uri;
 use glisten_front::index::Occurrence;
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 use lsp_types::{Location, TextDocumentPositionParams, Uri};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The number of programs that are kept in any case.
+const MAX_KEPT: usize = 64;
 /// The largest number of programs in which a header is seen.
 const MAX_CONTEXTS: usize = 6;
 
@@ -45,6 +48,16 @@ pub(crate) struct Client {
     pub(crate) watches: bool,
     /// It has edits of documents with their versions.
     pub(crate) versions: bool,
+    /// It can be told to ask for lenses again.
+    pub(crate) refreshes_lenses: bool,
+    /// It can be told to ask for hints again.
+    pub(crate) refreshes_hints: bool,
+    /// It can be told to ask for colors again.
+    pub(crate) refreshes_tokens: bool,
+    /// It shows documents for the server.
+    pub(crate) shows: bool,
+    /// It is Visual Studio Code, which shows pictures itself.
+    pub(crate) is_code: bool,
     /// It shows trees of symbols.
     pub(crate) trees: bool,
 }
@@ -61,6 +74,12 @@ pub(crate) struct State<'p> {
     pub(crate) folders: Vec<PathBuf>,
     /// The open documents.
     pub(crate) documents: BTreeMap<PathBuf, Document>,
+    /// Requests to send to the editor.
+    pub(crate) outbox: Vec<(&'static str, Value)>,
+    /// Whether diagnostics are to be told again.
+    pub(crate) is_changed: bool,
+    /// The includers that were chosen for headers.
+    shown: BTreeMap<PathBuf, PathBuf>,
     contexts: BTreeMap<PathBuf, Vec<ProgramKey>>,
     analyses: BTreeMap<ProgramKey, Rc<Analysis>>,
     good: BTreeMap<ProgramKey, Rc<Program>>,
@@ -83,8 +102,9 @@ impl<'p> State<'p> {
     pub(crate) fn new(project: &'p mut dyn Project) -> Self {
         let (encoding, client) = (Encoding::default(), Client::default());
         let (folders, documents, contexts) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
-        let (analyses, good) = (BTreeMap::new(), BTreeMap::new());
-        Self { project, encoding, client, folders, documents, contexts, analyses, good }
+        let (analyses, good, shown) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let (outbox, is_changed) = (Vec::new(), false);
+        Self { project, encoding, client, folders, documents, outbox, is_changed, shown, contexts, analyses, good }
     }
 
     /// Opens or changes a document; `None` closes it.
@@ -93,6 +113,10 @@ impl<'p> State<'p> {
         match document {
             Some(document) => {
                 let lines = include_lines(&document.text.text);
+                if self.project.pieces(path, "").is_some() {
+                    // An edit may bring shaders, or take them away.
+                    self.contexts.remove(path);
+                }
                 let before = self.documents.insert(path.to_owned(), document);
                 if before.is_none_or(|before| include_lines(&before.text.text) != lines) {
                     self.project.includes_changed(path);
@@ -170,6 +194,10 @@ impl<'p> State<'p> {
         }
         let own = self.project.programs_of(path);
         let own: Vec<Rc<Analysis>> = own.iter().map(|key| self.analysis(key)).collect();
+        if self.project.pieces(path, "").is_some() {
+            self.contexts.insert(path.to_owned(), own.iter().map(|analysis| analysis.key.clone()).collect());
+            return own;
+        }
         // What others include is checked there, if it is wrong alone.
         let is_whole = |analysis: &Rc<Analysis>| {
             let has_main = analysis.compiled.inspection.views().any(|(_, view)| view.shader.main.is_some());
@@ -178,7 +206,13 @@ impl<'p> State<'p> {
         let found = if !own.is_empty() && own.iter().any(is_whole) {
             own
         } else {
-            let including = self.including(path);
+            let mut including = self.including(path);
+            if let Some(shown) = self.shown.get(path) {
+                let is_it = |analysis: &Rc<Analysis>| analysis.has(shown);
+                if including.iter().any(is_it) {
+                    including.retain(is_it);
+                }
+            }
             match (including.is_empty(), own.is_empty()) {
                 (false, _) => including,
                 (true, false) => own,
@@ -193,10 +227,7 @@ impl<'p> State<'p> {
     }
 
     fn including(&mut self, path: &Path) -> Vec<Rc<Analysis>> {
-        let mut folders = self.folders.clone();
-        if !folders.iter().any(|folder| path.starts_with(folder)) {
-            folders.extend(path.parent().map(Path::to_owned));
-        }
+        let folders = self.folders_of(path);
         // Open programs are known to be of interest.
         let open: Vec<PathBuf> = self.documents.keys().filter(|other| *other != path).cloned().collect();
         let mut keys: Vec<ProgramKey> = Vec::new();
@@ -218,12 +249,69 @@ impl<'p> State<'p> {
         found
     }
 
-    /// All programs that read a file: its own, and those that include it.
-    pub(crate) fn programs_with(&mut self, path: &Path) -> Vec<Rc<Analysis>> {
+    /// The files of the programs that include a file.
+    pub(crate) fn includers(&mut self, path: &Path) -> Vec<PathBuf> {
+        let mut files = Vec::new();
+        for analysis in self.including(path) {
+            // Of a program's files only some include it.
+            for (number, _) in analysis.compiled.inspection.views() {
+                let Some(read) = analysis.compiled.read.get(number) else { continue };
+                let mut names = read.iter().map(|file| PathBuf::from(analysis.sources().file(*file).name()));
+                if let Some(own) = names.next().filter(|_| names.any(|name| name == path)) {
+                    files.push(own);
+                }
+            }
+        }
+        files
+    }
+
+    /// The includer that a header is seen in, if one was chosen.
+    pub(crate) fn shown_in(&self, path: &Path) -> Option<PathBuf> {
+        self.shown.get(path).cloned()
+    }
+
+    /// Chooses the includer that a header is seen in.
+    pub(crate) fn show_in(&mut self, path: &Path, includer: Option<PathBuf>) {
+        match includer {
+            Some(includer) => self.shown.insert(path.to_owned(), includer),
+            None => self.shown.remove(path),
+        };
+        self.contexts.remove(path);
+    }
+
+    /// All programs that read a file and use one of these words: its own, and those that include it. The second value is whether
+    /// there are too many.
+    pub(crate) fn programs_with(&mut self, path: &Path, words: &[&str]) -> (Vec<Rc<Analysis>>, bool) {
         let own = self.project.programs_of(path);
         let mut found: Vec<Rc<Analysis>> = own.iter().map(|key| self.analysis(key)).collect();
         found.extend(self.including(path));
-        found
+        let (users, is_cut) = self.project.users_of(path, &self.folders_of(path), words);
+        for key in users {
+            let analysis = self.analysis(&key);
+            if analysis.has(path) {
+                found.push(analysis);
+            }
+        }
+        (found, is_cut)
+    }
+
+    /// The folders of the workspace, and that of a file outside of it.
+    fn folders_of(&self, path: &Path) -> Vec<PathBuf> {
+        let mut folders = self.folders.clone();
+        if !folders.iter().any(|folder| path.starts_with(folder)) {
+            folders.extend(path.parent().map(Path::to_owned));
+        }
+        folders
+    }
+
+    /// Forgets programs that no document is seen in, if there are many.
+    pub(crate) fn trim(&mut self) {
+        if self.analyses.len() > MAX_KEPT {
+            let contexts = &self.contexts;
+            self.analyses.retain(|key, _| contexts.values().any(|keys| keys.contains(key)));
+            let analyses = &self.analyses;
+            self.good.retain(|key, _| analyses.contains_key(key));
+        }
     }
 
     /// The files of the programs of a document.
@@ -243,10 +331,21 @@ impl<'p> State<'p> {
     /// The place that a request is about.
     pub(crate) fn point(&mut self, at: &TextDocumentPositionParams) -> Option<Point> {
         let path = uri::path(&at.text_document.uri);
-        let text = self.documents.get(&path)?.text.clone();
+        let mut text = self.documents.get(&path)?.text.clone();
         let offset = text.offset(at.position, self.encoding);
-        let analyses = self.analyses_of(&path);
+        let mut analyses = self.analyses_of(&path);
+        if let Some(pieces) = self.pieces(&path) {
+            let is_here = |piece: &Piece| piece.inside.start <= offset && offset <= piece.inside.end;
+            let piece = pieces.into_iter().find(is_here)?;
+            text = text.with_part(piece.text);
+            analyses.retain(|analysis| analysis.key.name == piece.program);
+        }
         Some(Point { path, offset, text, analyses })
+    }
+
+    /// The shaders in the strings of an open document of another language.
+    pub(crate) fn pieces(&self, path: &Path) -> Option<Vec<Piece>> {
+        self.project.pieces(path, &self.documents.get(path)?.text.text)
     }
 
     /// The name at a place. Where the text is broken, it is cut after the name and read again.
@@ -258,12 +357,19 @@ impl<'p> State<'p> {
             return Some(found);
         }
         let word = point.text.word_at(point.offset)?;
-        let text = cut(&point.text.text, word.end, "");
         let first = point.analyses.first()?;
-        let compiled = self.project.probe(&first.key, &point.path, text.into(), None)?;
-        let analysis = Rc::new(Analysis::new(first.key.clone(), compiled, first.good.clone()));
-        let found = analysis.occurrence(&point.path, point.offset)?;
-        Some((analysis, found))
+        let is_sound = first.compiled.findings.iter().all(|finding| !finding.is_error());
+        let own = point.text.text.to_string();
+        let texts = if is_sound { Vec::new() } else { mended(&own, word.end) };
+        for text in std::iter::once(own).chain(texts) {
+            let text = cut(&text, word.end, "");
+            let Some(compiled) = self.project.probe(&first.key, &point.path, text.into(), None) else { continue };
+            let analysis = Rc::new(Analysis::new(first.key.clone(), compiled, first.good.clone()));
+            if let Some(found) = analysis.occurrence(&point.path, point.offset) {
+                return Some((analysis, found));
+            }
+        }
+        None
     }
 
     /// The URI of a file, as the editor spells it.

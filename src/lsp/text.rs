@@ -71,6 +71,8 @@ impl Encoding {
 pub(crate) struct Text {
     /// The text.
     pub(crate) text: Arc<str>,
+    /// The text of the document, if that above is a part of it at its place.
+    document: Option<Arc<str>>,
     starts: Vec<usize>,
     /// Whether every character is a byte, so that the units of all encodings are the same.
     is_ascii: bool,
@@ -88,7 +90,20 @@ impl Text {
             }
         }
         let is_ascii = text.is_ascii();
-        Self { text, starts, is_ascii }
+        Self { text, document: None, starts, is_ascii }
+    }
+
+    /// A part of this text, as long as it, with everything else blank. Positions are those of this text.
+    pub(crate) fn with_part(self, part: Arc<str>) -> Self {
+        if part.len() != self.text.len() {
+            return self;
+        }
+        Self { document: Some(self.text), text: part, ..self }
+    }
+
+    /// The text that positions are in.
+    fn document(&self) -> &str {
+        self.document.as_ref().unwrap_or(&self.text)
     }
 
     /// The line of an offset, counted from 0.
@@ -104,7 +119,7 @@ impl Text {
     /// A line without its end.
     pub(crate) fn line(&self, line: usize) -> &str {
         let range = self.start_of(line)..self.start_of(line + 1);
-        self.text.get(range).unwrap_or("").trim_end_matches(['\n', '\r'])
+        self.document().get(range).unwrap_or("").trim_end_matches(['\n', '\r'])
     }
 
     /// The offset of a position.
@@ -120,11 +135,11 @@ impl Text {
     /// The position of an offset.
     pub(crate) fn position(&self, offset: usize, encoding: Encoding) -> Position {
         let mut offset = offset.min(self.text.len());
-        while !self.text.is_char_boundary(offset) {
+        while !self.document().is_char_boundary(offset) {
             offset -= 1;
         }
         let line = self.line_of(offset);
-        let before = self.text.get(self.start_of(line)..offset).unwrap_or("");
+        let before = self.document().get(self.start_of(line)..offset).unwrap_or("");
         let units = if self.is_ascii { before.len() } else { encoding.units(before) };
         Position { line: line as u32, character: units as u32 }
     }

@@ -71,6 +71,7 @@ static ORDER: &[(&str, &[&str])] = &[
         &[
             "library",
             "engines",
+            "embedded",
             "sources",
             "scene",
             "verify",

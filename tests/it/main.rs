@@ -30,6 +30,8 @@ mod cycles;
 mod diagnostics;
 #[cfg(feature = "reference")]
 mod drawing;
+#[cfg(feature = "lsp")]
+mod editor;
 mod emit;
 #[cfg(feature = "cli")]
 mod engines;
@@ -74,6 +76,11 @@ mod lint_numerics;
 mod lit_scenes;
 #[cfg(feature = "lsp")]
 mod lsp;
+#[cfg(feature = "lsp")]
+mod lsp_day;
+#[cfg(feature = "lsp")]
+mod lsp_shown;
+mod lsp_strings;
 #[cfg(feature = "cli")]
 mod models;
 #[cfg(feature = "gpu")]

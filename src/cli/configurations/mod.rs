@@ -78,6 +78,15 @@ struct Found {
     reached: BTreeMap<String, BTreeSet<usize>>,
 }
 
+/// The macros that the conditions of these texts ask for and that come from outside, with the values that make a difference; not
+/// those of `given`.
+#[cfg(feature = "lsp")]
+pub(super) fn asked(texts: &[&str], given: &BTreeSet<String>) -> Vec<(String, Vec<Option<String>>)> {
+    let texts: Vec<Conditions> = texts.iter().map(|text| conditions(text)).collect();
+    let choices = choices_of(&texts, given, MAX_CHOICES).into_iter();
+    choices.map(|choice| (choice.name, choice.values)).collect()
+}
+
 /// The variants of programs by the names of these.
 pub(super) type Listed = BTreeMap<String, Vec<Variant>>;
 

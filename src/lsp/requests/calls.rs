@@ -78,7 +78,7 @@ fn again(state: &mut State<'_>, item: &CallHierarchyItem) -> Option<(Rc<Analysis
 pub(super) fn incoming(state: &mut State<'_>, of: &CallHierarchyItem) -> Option<Vec<CallHierarchyIncomingCall>> {
     let (analysis, found) = again(state, of)?;
     let mut calls: Vec<CallHierarchyIncomingCall> = Vec::new();
-    for (analysis, places) in everywhere(state, &analysis, &found) {
+    for (analysis, places) in everywhere(state, &analysis, &found, None).0 {
         for (_, occurrence) in places.iter().filter(|(_, occurrence)| occurrence.role == Role::Read) {
             let Some((name, _)) = function_around(&analysis, occurrence.span) else { continue };
             let Some(caller) = analysis.index().at(name.start) else { continue };

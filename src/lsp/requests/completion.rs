@@ -4,14 +4,15 @@
 //! *In:* a place in a text that is being typed. *Out:* a list; the editor chooses by what is typed. *Holds:* the text is cut at the
 //! place and read up to there, with a name in it about which the analysis tells what is in sight.
 
-use super::directives;
+use super::{directives, scene};
 use crate::lsp::analysis::Analysis;
 use crate::lsp::builtins::{self, ListedKind};
-use crate::lsp::cut::{cut, is_in_comment, open_brackets};
+use crate::lsp::cut::{cut, is_in_comment, mended, open_brackets};
 use crate::lsp::describe;
 use crate::lsp::project::Compiled;
 use crate::lsp::state::{Point, State};
 use glisten_front::analysis::Denoted;
+use glisten_front::diagnostic::{Severity, codes};
 use glisten_front::hir::{Stage, Storage, Type, TypeId, Types};
 use glisten_front::index::View;
 use lsp_types::{
@@ -20,6 +21,7 @@ use lsp_types::{
 };
 use std::collections::BTreeSet;
 use std::ops::Range;
+use std::path::PathBuf;
 
 /// The name that is at the place.
 const PROBE: &str = "glisten_probe";
@@ -94,7 +96,7 @@ pub(super) fn completion(state: &mut State<'_>, params: &CompletionParams) -> Op
     let point = state.point(&params.text_document_position)?;
     let text = &*point.text.text;
     if is_in_comment(text, point.offset) {
-        return None;
+        return allowed(state, &point);
     }
     let before = text.get(..point.offset)?;
     let start = before.trim_end_matches(|letter: char| letter.is_ascii_alphanumeric() || letter == '_').len();
@@ -146,8 +148,18 @@ fn probed(state: &mut State<'_>, point: &Point, start: usize) -> Option<Compiled
     let (before, own) = (point.text.text.get(..line)?, point.text.text.get(line..start)?);
     let patched = format!("{};\n{own}", before.trim_end());
     let text = cut(&patched, patched.len(), PROBE);
-    let again = state.project.probe(key, &point.path, text.into(), Some(PROBE));
-    again.filter(|again| again.inspection.views().any(|(_, view)| view.notes.probe.is_some())).or(Some(compiled))
+    let mut texts = vec![text];
+    for text in mended(&point.text.text, start) {
+        texts.push(cut(text.get(..start).unwrap_or(""), start, PROBE));
+    }
+    for text in texts {
+        let again = state.project.probe(key, &point.path, text.into(), Some(PROBE));
+        let is_hit = |again: &Compiled| again.inspection.views().any(|(_, view)| view.notes.probe.is_some());
+        if let Some(again) = again.filter(is_hit) {
+            return Some(again);
+        }
+    }
+    Some(compiled)
 }
 
 fn members(state: &mut State<'_>, point: &Point, start: usize, items: &mut Items<'_>) {
@@ -257,7 +269,7 @@ fn of_language(view: &View, items: &mut Items<'_>) {
 
 /// Declarations of what other stages declare and this one does not: what passes between them, and uniforms.
 fn of_other_stages(state: &mut State<'_>, point: &Point, line: &str, items: &mut Items<'_>) {
-    let _ = &state;
+    of_scenes(state, point, line, items);
     for analysis in &point.analyses {
         let inspection = &analysis.compiled.inspection;
         let own: Vec<&View> = analysis.views_of(&point.path);
@@ -283,6 +295,55 @@ fn of_other_stages(state: &mut State<'_>, point: &Point, line: &str, items: &mut
             }
         }
     }
+}
+
+/// Declarations of what the scenes that draw the program give to it and it does not declare.
+fn of_scenes(state: &mut State<'_>, point: &Point, line: &str, items: &mut Items<'_>) {
+    let files: Vec<PathBuf> = point.analyses.iter().flat_map(|analysis| analysis.key.files.clone()).collect();
+    let folders = scene::folders(state, &files);
+    let is_declared = |name: &str| {
+        let views = point.analyses.iter().flat_map(|analysis| analysis.compiled.inspection.views());
+        views.flat_map(|(_, view)| &view.shader.globals).any(|global| global.name == name)
+    };
+    let is_vertex = point
+        .analyses
+        .iter()
+        .any(|analysis| analysis.views_of(&point.path).iter().any(|view| view.shader.stage == Stage::Vertex));
+    for (path, text) in state.project.scenes(&folders, false) {
+        let detail = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        scene::each_draw(&path, &text, &files, |draw| {
+            for (word, ty, name) in scene::declarations(draw) {
+                if is_declared(&name) || word == "in" && !is_vertex {
+                    continue;
+                }
+                let (typed, declaration) = (line.trim(), format!("{ty} {name}"));
+                if typed.is_empty() {
+                    let text = format!("{word} {declaration};");
+                    items.add_text(&text, &text, CompletionItemKind::SNIPPET, &detail, 1);
+                } else if typed.split_whitespace().next_back() == Some(word) {
+                    items.add_text(&declaration, &format!("{declaration};"), CompletionItemKind::SNIPPET, &detail, 1);
+                }
+            }
+        });
+    }
+}
+
+/// The codes and groups in a comment that allows findings.
+fn allowed(state: &State<'_>, point: &Point) -> Option<CompletionResponse> {
+    let before = point.text.text.get(..point.offset)?;
+    let line = before.rsplit('\n').next()?;
+    let list = line.get(line.rfind("glisten: allow(")? + "glisten: allow(".len()..)?;
+    if list.contains(')') {
+        return None;
+    }
+    let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '-';
+    let start = before.trim_end_matches(is_part).len();
+    let mut items = Items::new(state, point, start..point.offset);
+    for code in codes::all().filter(|code| code.severity != Severity::Error) {
+        items.add(code.name, CompletionItemKind::ENUM_MEMBER, code.id, 0);
+        items.add(code.id, CompletionItemKind::ENUM_MEMBER, code.name, 1);
+    }
+    Some(CompletionResponse::List(CompletionList { is_incomplete: false, items: items.list }))
 }
 
 /// The word with which a stage declares what another one has.

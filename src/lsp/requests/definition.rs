@@ -4,6 +4,7 @@
 //! include, the definition is the file.
 
 use crate::lsp::analysis::{Analysis, Place};
+use crate::lsp::project::ProgramKey;
 use crate::lsp::state::{Point, State};
 use glisten_front::analysis::Denoted;
 use glisten_front::hir::{Type, TypeId};
@@ -12,6 +13,7 @@ use lsp_types::{
     DocumentHighlight, DocumentHighlightKind, GotoDefinitionResponse, Location, Position, Range, ReferenceParams,
     TextDocumentPositionParams,
 };
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// Where the name is defined. On the definition itself of something that passes between stages, the other side.
@@ -135,12 +137,13 @@ pub(super) fn references(state: &mut State<'_>, params: &ReferenceParams) -> Opt
     let point = state.point(&params.text_document_position)?;
     let (analysis, found) = state.occurrence(&point)?;
     let mut locations = Vec::new();
-    for (analysis, places) in everywhere(state, &analysis, &found) {
+    let mut known = BTreeSet::new();
+    for (analysis, places) in everywhere(state, &analysis, &found, None).0 {
         for (place, occurrence) in places {
             let is_declaration = matches!(occurrence.role, Role::Declaration | Role::Definition);
             if (params.context.include_declaration || !is_declaration)
+                && known.insert(place.clone())
                 && let Some(location) = state.location_of(&analysis, &place)
-                && !locations.contains(&location)
             {
                 locations.push(location);
             }
@@ -152,19 +155,29 @@ pub(super) fn references(state: &mut State<'_>, params: &ReferenceParams) -> Opt
 /// A program, and the places of a symbol in it.
 pub(super) type InProgram = (Rc<Analysis>, Vec<(Place, Occurrence)>);
 
-/// The places of a symbol in its program, and in all other programs that share one of its declarations.
-pub(super) fn everywhere(state: &mut State<'_>, analysis: &Rc<Analysis>, found: &Occurrence) -> Vec<InProgram> {
+/// The places of a symbol in its program, and in all other programs that share one of its declarations and use its name, or the
+/// new one. The second value is whether there are too many of them.
+pub(super) fn everywhere(
+    state: &mut State<'_>,
+    analysis: &Rc<Analysis>,
+    found: &Occurrence,
+    new: Option<&str>,
+) -> (Vec<InProgram>, bool) {
     let mut result = vec![(Rc::clone(analysis), analysis.places_of(found.symbol))];
     let symbol = analysis.symbol(found.symbol);
     let declared: Vec<Place> = declarations(analysis, symbol);
-    let mut others: Vec<Rc<Analysis>> = Vec::new();
+    let words: Vec<&str> = std::iter::once(symbol.name.as_str()).chain(new).collect();
+    let (mut others, mut is_cut): (Vec<Rc<Analysis>>, bool) = (Vec::new(), false);
     for place in &declared {
         if !place.file.starts_with('<') {
-            others.extend(state.programs_with(place.file.as_ref()));
+            let (found, is_more) = state.programs_with(place.file.as_ref(), &words);
+            others.extend(found);
+            is_cut |= is_more;
         }
     }
+    let mut known: BTreeSet<ProgramKey> = BTreeSet::from([analysis.key.clone()]);
     for other in others {
-        if result.iter().any(|(known, _)| known.key == other.key) {
+        if !known.insert(other.key.clone()) {
             continue;
         }
         let same = declared.iter().find_map(|place| other.occurrence(place.file.as_ref(), place.start));
@@ -173,7 +186,7 @@ pub(super) fn everywhere(state: &mut State<'_>, analysis: &Rc<Analysis>, found: 
             result.push((other, places));
         }
     }
-    result
+    (result, is_cut)
 }
 
 /// The places of the name in the document.

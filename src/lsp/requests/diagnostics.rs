@@ -190,7 +190,16 @@ fn inactive(state: &mut State<'_>, path: &Path) -> Vec<Diagnostic> {
 
 /// The ranges of a file that conditions leave out, in the first program of the file: in all stages that read it.
 pub(super) fn inactive_ranges(state: &mut State<'_>, path: &Path) -> Vec<std::ops::Range<usize>> {
-    let Some(first) = state.analyses_of(path).into_iter().next() else { return Vec::new() };
+    let analyses = state.analyses_of(path);
+    let n_shown = if state.pieces(path).is_some() { analyses.len() } else { 1 };
+    let mut ranges: Vec<_> = analyses.iter().take(n_shown).flat_map(|one| inactive_in(one, path)).collect();
+    ranges.sort_by_key(|range| (range.start, range.end));
+    ranges.dedup();
+    ranges
+}
+
+/// The ranges of a file that conditions leave out in all stages of a program that read it.
+fn inactive_in(first: &Analysis, path: &Path) -> Vec<std::ops::Range<usize>> {
     let files: Vec<_> = first.files(path).collect();
     let mut lists = first.views_of(path).into_iter().map(|view| {
         let spans = view.ast.directives.inactive.iter();
@@ -201,8 +210,6 @@ pub(super) fn inactive_ranges(state: &mut State<'_>, path: &Path) -> Vec<std::op
     for other in lists {
         ranges.retain(|range| other.contains(range));
     }
-    ranges.sort_by_key(|range| range.start);
-    ranges.dedup();
     ranges
 }
 

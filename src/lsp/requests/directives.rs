@@ -46,7 +46,16 @@ const VERSIONS: &[&str] = &[
 /// The words of an `#extension` line after the colon.
 const BEHAVIORS: &[&str] = &["require", "enable", "warn", "disable"];
 /// Pragmas.
-const PRAGMAS: &[&str] = &["STDGL invariant(all)", "optimize(on)", "optimize(off)", "debug(on)", "debug(off)", "once"];
+const PRAGMAS: &[&str] = &[
+    "STDGL invariant(all)",
+    "optimize(on)",
+    "optimize(off)",
+    "debug(on)",
+    "debug(off)",
+    "once",
+    "unroll_loop_start",
+    "unroll_loop_end",
+];
 
 /// The items for a line that begins with `#`, up to the place.
 pub(super) fn complete(state: &mut State<'_>, point: &Point, line: &str) -> Option<Vec<CompletionItem>> {

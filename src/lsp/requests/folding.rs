@@ -14,7 +14,12 @@ struct Fold {
 
 /// Answers the request.
 pub(super) fn ranges(state: &mut State<'_>, uri: &Uri) -> Option<Vec<FoldingRange>> {
-    let text = &state.documents.get(&uri::path(uri))?.text;
+    let path = uri::path(uri);
+    if state.pieces(&path).is_some() {
+        // The host language has its own.
+        return None;
+    }
+    let text = &state.documents.get(&path)?.text;
     let lexemes = scan(&text.text);
     let line = |offset: usize| text.line_of(offset);
     let mut folds = Vec::new();

@@ -31,7 +31,11 @@ fn edits(state: &mut State<'_>, uri: &Uri) -> Option<Vec<(std::ops::Range<usize>
     let path = uri::path(uri);
     let text = state.documents.get(&path)?.text.clone();
     let style = state.project.style(&path)?;
-    let formatted = state.project.format(&path, &text.text, &style).text;
+    let formatted = if state.pieces(&path).is_some() {
+        state.project.format_pieces(&path, &text.text, &style)
+    } else {
+        state.project.format(&path, &text.text, &style).text
+    };
     Some(line_edits(&text, &formatted, state.encoding))
 }
 

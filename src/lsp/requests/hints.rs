@@ -1,9 +1,12 @@
 //! Facts that the compiler knows and the text does not say (LSP 3.17, `textDocument/inlayHint`): locations, std140 offsets, bindings, and
-//! implicit conversions (GLSL 1.50 §4.1.10).
+//! implicit conversions (GLSL 1.50 §4.1.10), the operations of each function, and the configuration that is shown.
 
+use super::shown;
+use crate::library;
 use crate::lsp::analysis::Analysis;
 use crate::lsp::describe;
 use crate::lsp::state::State;
+use crate::lsp::text::Text;
 use crate::lsp::uri;
 use glisten_front::analysis::{Denoted, NoteRole};
 use glisten_front::hir::{ExprKind, Stage, Storage};
@@ -13,6 +16,9 @@ use glisten_front::source::Span;
 use lsp_types::{InlayHint, InlayHintKind, InlayHintLabel, InlayHintParams, InlayHintTooltip};
 use std::ops::Range;
 use std::path::Path;
+
+/// The largest length of a function's head.
+const MAX_HEAD: usize = 4096;
 
 /// A hint at an offset.
 struct Hint {
@@ -27,15 +33,19 @@ pub(super) fn hints(state: &mut State<'_>, params: &InlayHintParams) -> Option<V
     let text = state.documents.get(&path)?.text.clone();
     let within = text.offset(params.range.start, state.encoding)..text.offset(params.range.end, state.encoding);
     let analyses = state.analyses_of(&path);
-    let analysis = analyses.first()?;
+    let n_shown = if state.pieces(&path).is_some() { analyses.len() } else { 1 };
     let mut hints: Vec<Hint> = Vec::new();
-    for view in analysis.views_of(&path) {
-        let maker = Maker { analysis, view, path: &path, within: &within };
-        if let Some(program) = &analysis.good {
-            maker.places(program, &mut hints);
+    for analysis in analyses.iter().take(n_shown) {
+        for view in analysis.views_of(&path) {
+            let maker = Maker { analysis, view, path: &path, within: &within };
+            if let Some(program) = &analysis.good {
+                maker.places(program, &mut hints);
+            }
+            maker.conversions(&mut hints);
+            maker.operations(&mut hints);
         }
-        maker.conversions(&mut hints);
     }
+    hints.extend(configuration(state, &path, &text, &within));
     hints.sort_by(|a, b| (a.offset, &a.label).cmp(&(b.offset, &b.label)));
     hints.dedup_by(|a, b| a.offset == b.offset && a.label == b.label);
     let hint = |hint: Hint| InlayHint {
@@ -49,6 +59,28 @@ pub(super) fn hints(state: &mut State<'_>, params: &InlayHintParams) -> Option<V
         data: None,
     };
     Some(hints.into_iter().map(hint).collect())
+}
+
+/// The configuration of the document, at the end of its first line.
+fn configuration(state: &mut State<'_>, path: &Path, text: &Text, within: &Range<usize>) -> Option<Hint> {
+    let offset = text.line(0).len();
+    if within.start > offset || state.pieces(path).is_some() {
+        return None;
+    }
+    let mut told: Vec<String> = Vec::new();
+    let asked = shown::asked(state, path).into_iter();
+    let chosen = asked.filter_map(|choice| Some(format!("{} = {}", choice.name, choice.chosen?)));
+    let chosen: Vec<String> = chosen.collect();
+    if !chosen.is_empty() {
+        told.push(format!("with {}", chosen.join(", ")));
+    }
+    if let Some(shown) = state.shown_in(path) {
+        let name = shown.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        told.push(format!("as {name} includes it"));
+    }
+    let label = told.join("; ");
+    let tooltip = "the configuration that is shown".to_owned();
+    (!label.is_empty()).then_some(Hint { offset, label, tooltip })
 }
 
 struct Maker<'a> {
@@ -92,6 +124,39 @@ impl Maker<'_> {
             if let Some((label, tooltip)) = label {
                 hints.push(Hint { offset, label, tooltip });
             }
+        }
+    }
+
+    /// The end of a function's head, whose name ends at an offset.
+    fn end_of_head(&self, name: usize) -> Option<usize> {
+        let file = self.analysis.files(self.path).next()?;
+        let rest = self.analysis.sources().file(file).text().get(name..)?;
+        let mut depth = 0usize;
+        for (at, letter) in rest.char_indices().take(MAX_HEAD) {
+            match letter {
+                '(' => depth += 1,
+                ')' if depth == 1 => return Some(name + at + 1),
+                ')' => depth = depth.checked_sub(1)?,
+                '{' | ';' => return None,
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// The operations of each function.
+    fn operations(&self, hints: &mut Vec<Hint>) {
+        let types = &self.analysis.compiled.inspection.types;
+        for (id, function) in self.view.shader.functions() {
+            let Some(name) = self.end_of(function.span).filter(|_| function.body.is_some()) else { continue };
+            let cost = library::cost(types, &self.view.shader, id);
+            let operations = cost.arithmetic.saturating_add(cost.special);
+            let Some(offset) = self.end_of_head(name).filter(|_| cost.weight() > 0) else { continue };
+            let mut label = format!("{operations} operation{}", if operations == 1 { "" } else { "s" });
+            if cost.texture > 0 {
+                label.push_str(&format!(", {} lookup{}", cost.texture, if cost.texture == 1 { "" } else { "s" }));
+            }
+            hints.push(Hint { offset, label, tooltip: format!("{cost}, on the path that takes most") });
         }
     }
 

@@ -1,13 +1,14 @@
 //! The meaning of a name (LSP 3.17, `textDocument/hover`): its declaration with type and value, its comment, the places that the link
 //! assigns, the other stage's declaration, the expansion of a macro; for a built-in name its prototypes and what it does.
 
+use crate::library::{self, Header};
 use crate::lsp::analysis::Analysis;
 use crate::lsp::builtins;
 use crate::lsp::describe;
 use crate::lsp::state::{Point, State};
 use glisten_front::analysis::Denoted;
 use glisten_front::hir::TypeId;
-use glisten_front::index::{Occurrence, SymbolKind};
+use glisten_front::index::{Occurrence, Symbol, SymbolKind};
 use lsp_types::{Hover, HoverContents, HoverParams, MarkupContent, MarkupKind};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -67,6 +68,9 @@ fn describe(state: &State<'_>, analysis: &Rc<Analysis>, found: &Occurrence, poin
     if let Some(comment) = describe::comment(analysis, symbol).filter(|_| !is_parameter) {
         let _ = write!(text, "\n{comment}\n");
     }
+    if let Some(model) = model(analysis, symbol) {
+        let _ = write!(text, "\n{model}\n");
+    }
     let elsewhere = symbol.declarations.first().and_then(|span| analysis.named_place(*span));
     if let Some(place) = elsewhere.filter(|place| point.path.as_os_str() != place.file.as_str()) {
         let line = analysis.sources().line(symbol.declarations.first().copied()?).unwrap_or(1);
@@ -82,6 +86,21 @@ fn describe(state: &State<'_>, analysis: &Rc<Analysis>, found: &Occurrence, poin
         }
     }
     Some(text)
+}
+
+/// The equation of a function of the library, and its source.
+fn model(analysis: &Analysis, symbol: &Symbol) -> Option<String> {
+    let place = analysis.named_place(*symbol.declarations.first()?)?;
+    let name = place.file.strip_prefix(library::SHOWN)?.strip_suffix(".glsl")?;
+    let module = library::modules().iter().find(|module| module.name == name)?;
+    let header = Header::of(module.text);
+    let parts = [("equation", header.equation), ("source", header.source), ("rounding", header.stability)];
+    let parts: Vec<String> = parts
+        .into_iter()
+        .filter(|(_, value)| !value.is_empty())
+        .map(|(key, value)| format!("*{key}*: {value}"))
+        .collect();
+    Some(parts.join("  \n")).filter(|text| !text.is_empty())
 }
 
 /// A symbol as it is in the view that reads a file; the first if none does.
@@ -178,6 +197,9 @@ fn other(point: &Point) -> Option<(String, std::ops::Range<usize>)> {
             }
         }
     }
-    let told = builtins::keyword(word)?;
+    // Where the text is broken, nothing says what a name denotes; one of the language almost always does.
+    let of_language = || point.analyses.iter().find_map(|analysis| builtin(analysis, word, &point.path));
+    let is_after_dot = point.text.text.get(..range.start)?.trim_end().ends_with('.');
+    let told = builtins::keyword(word).or_else(|| of_language().filter(|_| !is_after_dot))?;
     Some((told, range))
 }

@@ -5,6 +5,7 @@
 
 pub(super) mod actions;
 mod calls;
+pub(super) mod commands;
 mod completion;
 mod definition;
 pub(super) mod diagnostics;
@@ -13,10 +14,12 @@ mod folding;
 mod formatting;
 mod hints;
 mod hover;
+mod lenses;
 mod links;
 mod rename;
 mod scene;
 mod selection;
+mod shown;
 mod signature;
 mod symbols;
 mod tokens;
@@ -102,6 +105,10 @@ static HANDLERS: &[(&str, Handler)] = &[
     (r::SemanticTokensRangeRequest::METHOD, |s, p| {
         answer::<r::SemanticTokensRangeRequest>(p, |p| Ok(tokens::range(s, &p)))
     }),
+    (r::CodeLensRequest::METHOD, |s, p| {
+        answer::<r::CodeLensRequest>(p, |p| Ok(lenses::lenses(s, &p.text_document.uri)))
+    }),
+    (r::ExecuteCommand::METHOD, |s, p| answer::<r::ExecuteCommand>(p, |p| commands::execute(s, &p))),
     (r::InlayHintRequest::METHOD, |s, p| answer::<r::InlayHintRequest>(p, |p| Ok(hints::hints(s, &p)))),
     (r::CodeActionRequest::METHOD, |s, p| answer::<r::CodeActionRequest>(p, |p| Ok(actions::actions(s, &p)))),
     (r::Formatting::METHOD, |s, p| answer::<r::Formatting>(p, |p| Ok(formatting::whole(s, &p.text_document.uri)))),
@@ -150,6 +157,8 @@ pub(super) fn capabilities(encoding: Encoding) -> Value {
         "selectionRangeProvider": true,
         "semanticTokensProvider": { "legend": tokens::legend(), "full": true, "range": true },
         "inlayHintProvider": true,
+        "codeLensProvider": { "resolveProvider": false },
+        "executeCommandProvider": { "commands": commands::names() },
         "codeActionProvider": { "codeActionKinds": ["quickfix", "source.fixAll"] },
         "documentFormattingProvider": true,
         "documentRangeFormattingProvider": true,

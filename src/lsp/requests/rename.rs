@@ -96,7 +96,10 @@ pub(super) fn rename(state: &mut State<'_>, params: &RenameParams) -> Result<Opt
         return Ok(None);
     }
     refuse_name(&analysis, new)?;
-    let all = everywhere(state, &analysis, &found);
+    let (all, is_cut) = everywhere(state, &analysis, &found, Some(new));
+    if is_cut {
+        return Err(Failure::refused(format!("too many programs use `{old}` or `{new}`")));
+    }
     let mut edits = Edits::new();
     for (analysis, places) in &all {
         for (place, occurrence) in places {

@@ -30,15 +30,10 @@ pub(super) fn edits(state: &mut State<'_>, all: &[InProgram], new: &str) -> Vec<
     if !can_be_named {
         return Vec::new();
     }
-    let mut folders = state.folders.clone();
-    for file in all.iter().flat_map(|(analysis, _)| &analysis.key.files) {
-        let folder = file.parent().unwrap_or(Path::new("")).to_owned();
-        if !folders.iter().any(|known| folder.starts_with(known)) {
-            folders.push(folder);
-        }
-    }
+    let files: Vec<PathBuf> = all.iter().flat_map(|(analysis, _)| analysis.key.files.clone()).collect();
+    let folders = folders(state, &files);
     let mut changes = Vec::new();
-    for (path, text) in state.project.scenes(&folders) {
+    for (path, text) in state.project.scenes(&folders, true) {
         let mut ranges: Vec<Range<usize>> = Vec::new();
         for (analysis, places) in all {
             if let Some((_, occurrence)) = places.first() {
@@ -56,18 +51,91 @@ pub(super) fn edits(state: &mut State<'_>, all: &[InProgram], new: &str) -> Vec<
     changes
 }
 
+/// The folders in which scenes are looked for: those of the workspace, and those of files outside of it.
+pub(super) fn folders(state: &State<'_>, files: &[PathBuf]) -> Vec<PathBuf> {
+    let mut folders = state.folders.clone();
+    for file in files {
+        let folder = file.parent().unwrap_or(Path::new("")).to_owned();
+        if !folders.iter().any(|known| folder.starts_with(known)) {
+            folders.push(folder);
+        }
+    }
+    folders
+}
+
+/// Whether a draw of a scene has one of these files.
+pub(super) fn draws_one_of(path: &Path, text: &str, files: &[PathBuf]) -> bool {
+    let mut found = false;
+    each_draw(path, text, files, |_| found = true);
+    found
+}
+
+/// Visits the draws of a scene that have one of these files.
+pub(super) fn each_draw(path: &Path, text: &str, files: &[PathBuf], mut visit: impl FnMut(&DeTable<'_>)) {
+    let Ok(document) = DeTable::parse(text) else { return };
+    let draws = document.get_ref().get("draw").and_then(|node| node.get_ref().as_array());
+    let folder = path.parent().unwrap_or(Path::new(""));
+    for draw in draws.into_iter().flatten().filter_map(|draw| draw.get_ref().as_table()) {
+        let named = FILES.iter().filter_map(|key| draw.get(*key)?.get_ref().as_str());
+        if named.into_iter().any(|name| files.contains(&plain(&folder.join(name)))) {
+            visit(draw);
+        }
+    }
+}
+
+/// The declarations for what a draw gives to its program: the first word, the type that the values have, the name.
+pub(super) fn declarations(draw: &DeTable<'_>) -> Vec<(&'static str, String, String)> {
+    let mut found = Vec::new();
+    for (table, word) in [("uniforms", "uniform"), ("textures", "uniform"), ("attributes", "in")] {
+        let Some(values) = draw.get(table).and_then(|node| node.get_ref().as_table()) else { continue };
+        for (key, value) in values {
+            let name = key.get_ref();
+            let is_name = name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+            let ty = if table == "textures" { sampler(value.get_ref()) } else { type_of(value.get_ref()) };
+            if let Some(ty) = ty.filter(|_| is_name) {
+                found.push((word, ty, name.to_string()));
+            }
+        }
+    }
+    found
+}
+
+/// The type of a value: by its `size` if it has one, or by the count of its numbers.
+fn type_of(value: &DeValue<'_>) -> Option<String> {
+    let count = match value {
+        DeValue::Float(_) | DeValue::Integer(_) => 1,
+        DeValue::Boolean(_) => return Some("bool".to_owned()),
+        DeValue::Array(numbers) => numbers.len(),
+        DeValue::Table(table) => match table.get("size").map(|size| size.get_ref()) {
+            Some(DeValue::Integer(size)) => size.as_str().parse().ok()?,
+            _ => return None,
+        },
+        _ => return None,
+    };
+    Some(match count {
+        1 => "float".to_owned(),
+        2..=4 => format!("vec{count}"),
+        9 => "mat3".to_owned(),
+        16 => "mat4".to_owned(),
+        _ => return None,
+    })
+}
+
+fn sampler(texture: &DeValue<'_>) -> Option<String> {
+    let kind = texture.as_table()?.get("kind").and_then(|kind| kind.get_ref().as_str()).unwrap_or("2d");
+    Some(match kind.strip_prefix("shadow_") {
+        Some(_) => "sampler2DShadow".to_owned(),
+        None if kind == "cube" => "samplerCube".to_owned(),
+        None if kind == "3d" => "sampler3D".to_owned(),
+        None if kind == "2d" => "sampler2D".to_owned(),
+        None => return None,
+    })
+}
+
 /// Where a scene names a symbol.
 fn in_scene(analysis: &Analysis, symbol: SymbolId, path: &Path, text: &str) -> Vec<Range<usize>> {
-    let Ok(document) = DeTable::parse(text) else { return Vec::new() };
-    let draws = document.get_ref().get("draw").and_then(|node| node.get_ref().as_array());
     let mut ranges = Vec::new();
-    for draw in draws.into_iter().flatten().filter_map(|draw| draw.get_ref().as_table()) {
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let named = FILES.iter().filter_map(|key| draw.get(*key)?.get_ref().as_str());
-        let is_own = |name: &str| analysis.key.files.contains(&plain(&folder.join(name)));
-        if !named.into_iter().any(is_own) {
-            continue;
-        }
+    each_draw(path, text, &analysis.key.files, |draw| {
         for table in TABLES.iter().filter_map(|key| draw.get(*key)?.get_ref().as_table()) {
             for (key, _) in table {
                 ranges.extend(in_key(analysis, symbol, text, key.span()));
@@ -78,7 +146,7 @@ fn in_scene(analysis: &Analysis, symbol: SymbolId, path: &Path, text: &str) -> V
                 ranges.extend(in_key(analysis, symbol, text, name.span()));
             }
         }
-    }
+    });
     ranges
 }
 

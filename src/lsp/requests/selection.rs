@@ -18,6 +18,10 @@ const DEEPEST: usize = 64;
 /// Answers the request.
 pub(super) fn ranges(state: &mut State<'_>, params: &SelectionRangeParams) -> Option<Vec<SelectionRange>> {
     let path = uri::path(&params.text_document.uri);
+    if state.pieces(&path).is_some() {
+        // The host language has its own.
+        return None;
+    }
     let text = state.documents.get(&path)?.text.clone();
     let analyses = state.analyses_of(&path);
     let mut answers = Vec::new();

@@ -23,6 +23,10 @@ const MAX_PROGRAMS: usize = 400;
 /// The outline of a document.
 pub(super) fn document(state: &mut State<'_>, uri: &Uri) -> Option<DocumentSymbolResponse> {
     let path = uri::path(uri);
+    if state.pieces(&path).is_some() {
+        // The host language has its own.
+        return None;
+    }
     let mut symbols = outline(state, &path);
     symbols.sort_by_key(|symbol| (symbol.range.start, std::cmp::Reverse(symbol.range.end)));
     if state.client.trees {

@@ -125,10 +125,26 @@ fn tokens(state: &mut State<'_>, uri: &Uri) -> Option<(Text, Vec<Token>)> {
     let text = state.documents.get(&path)?.text.clone();
     let inactive = inactive_ranges(state, &path);
     let analyses = state.analyses_of(&path);
-    let analysis = analyses.first()?;
-    let names = Names { analysis, path: &path, found: analysis.occurrences(&path) };
     let mut tokens = Vec::new();
-    for lexeme in scan(&text.text) {
+    match state.pieces(&path) {
+        // It has one source of tokens for a document, which has to be that of the host language; the extension colors the strings.
+        Some(_) if state.client.is_code => return None,
+        Some(mut pieces) => {
+            pieces.sort_by_key(|piece| piece.inside.start);
+            for piece in pieces {
+                if let Some(analysis) = analyses.iter().find(|analysis| analysis.key.name == piece.program) {
+                    add_tokens(analysis, &path, &piece.text, &inactive, &mut tokens);
+                }
+            }
+        }
+        None => add_tokens(analyses.first()?, &path, &text.text, &inactive, &mut tokens),
+    }
+    Some((text, tokens))
+}
+
+fn add_tokens(analysis: &Analysis, path: &Path, text: &str, inactive: &[Range<usize>], tokens: &mut Vec<Token>) {
+    let names = Names { analysis, path, found: analysis.occurrences(path) };
+    for lexeme in scan(text) {
         let is_left_out = inactive.iter().any(|range| range.start <= lexeme.start && lexeme.end() <= range.end);
         if is_left_out {
             tokens.push(Token { range: lexeme.start..lexeme.end(), color: Color::Comment, bits: 0 });
@@ -138,12 +154,11 @@ fn tokens(state: &mut State<'_>, uri: &Uri) -> Option<(Text, Vec<Token>)> {
             Kind::LineComment | Kind::BlockComment => {
                 tokens.push(Token { range: lexeme.start..lexeme.end(), color: Color::Comment, bits: 0 });
             }
-            Kind::Directive => directive(&names, &lexeme, &mut tokens),
-            Kind::Word => tokens.extend(word(&names, &text.text, &lexeme)),
+            Kind::Directive => directive(&names, &lexeme, tokens),
+            Kind::Word => tokens.extend(word(&names, text, &lexeme)),
             Kind::Sign | Kind::Other => {}
         }
     }
-    Some((text, tokens))
 }
 
 /// The tokens of a directive: its name, files, macros and numbers.

@@ -1,0 +1,110 @@
+//! Strings of all hosts: which are shaders, what their texts are, what is said about them.
+
+use super::{Filling, Host, programs, styled};
+use glisten_front::Stage;
+
+/// The stages of the programs of a text, with the words of each shader.
+fn found(host: Host, text: &str) -> Vec<Vec<(Stage, String)>> {
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let of = |program: super::Program| {
+        let shaders = program.shaders.iter();
+        shaders.map(|shader| (shader.stage, words(&shader.text(text, Filling::Name)))).collect()
+    };
+    programs(host, text).into_iter().map(of).collect()
+}
+
+const V: &str = "attribute vec4 p; void main() { gl_Position = p; }";
+const F: &str = "void main() { gl_FragColor = vec4(1.0); }";
+
+#[test]
+fn pairs_are_found_in_every_host() {
+    let pair = vec![vec![(Stage::Vertex, V.to_owned()), (Stage::Fragment, F.to_owned())]];
+    for (host, text) in [
+        (Host::Script, format!("const m = new M({{ vertexShader: `{V}`, fragmentShader: /* glsl */ `{F}` }});")),
+        (Host::Script, format!("const waterVert = glsl`{V}`;\nexport const waterFrag = glsl`{F}`;")),
+        (
+            Host::Script,
+            format!("let a = /`/; let b = x / y; // `\nlet s = \"`\"; const vs: string = `{V}`, fs = `{F}`;"),
+        ),
+        (
+            Host::Rust,
+            format!(
+                "const VERT: &str = r#\"{V}\"#; fn f<'a>(c: char) {{ c == '\"' }} /* /* */ \" */\nconst FRAG: &str = r##\"{F}\"##;"
+            ),
+        ),
+        (
+            Host::Python,
+            format!("prog = ctx.program(\n vertex_shader='''{V}''', # '''\n fragment_shader=\"\"\"{F}\"\"\")"),
+        ),
+        (
+            Host::C,
+            format!(
+                "int n = 1'000; static const char* vertexSource = R\"glsl({V})glsl\";\nauto fragmentSource = R\"({F})\";"
+            ),
+        ),
+    ] {
+        assert_eq!(found(host, &text), pair, "{text}");
+    }
+}
+
+#[test]
+fn other_strings_are_left_alone() {
+    for (host, text) in [
+        (Host::Script, "const a = html`<p>void main() { vec4 }</p>`; const b = `#version of the file`;".to_owned()),
+        (
+            Host::Script,
+            "const a = `@fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }`; void 0;".to_owned(),
+        ),
+        (Host::Script, format!("const a = `{F}")),
+        (Host::Rust, "let a = r#\"void main() { printf(\"glsl\"); }\"#;".to_owned()),
+        (Host::C, "const char* a = R\"(#version 430\nlayout(local_size_x = 1) in; void main() {})\";".to_owned()),
+        (Host::Python, "a = '''void main''' # glsl".to_owned()),
+        (Host::Python, format!("def f():\n    '''{F}'''\n")),
+        (Host::Script, format!("const a = `{F}`.replace(/A/g, b);")),
+    ] {
+        assert_eq!(found(host, &text), Vec::<Vec<(Stage, String)>>::new(), "{text}");
+    }
+}
+
+#[test]
+fn bytes_stay_at_their_places() {
+    let text = "// é𝄞\nconst f = `#version 300 es\\n// \\`é\\` \\u{41}\r\nout vec4 c; void main() { c = vec4(${ `}` + \"}\" }, 1., 1., 1.); }\n${\nrest\n}\n`; // void";
+    let programs = programs(Host::Script, text);
+    let shader = &programs[0].shaders[0];
+    let masked = shader.text(text, Filling::Name);
+    assert_eq!(masked.len(), text.len());
+    for word in ["#version", "vec4(", "main", "é\\` "] {
+        let place = text[shader.inside.start..].find(word).map(|at| at + shader.inside.start);
+        let word = word.trim_end_matches("\\` ");
+        assert!(place.is_some_and(|at| masked[at..].starts_with(word)), "{word}: {masked:?}");
+    }
+    assert!(masked.contains("300 es \n//  `é `      A\r\n") && masked.contains("vec4(hoo"), "{masked:?}");
+    assert!(!masked.contains("rest") && !masked.contains('$'), "{masked:?}");
+    let whole = shader.text(text, Filling::Whole);
+    assert!(whole.contains("vec4(1 "), "{whole:?}");
+}
+
+#[test]
+fn styles_keep_what_is_not_theirs() {
+    let text = "const f = /* glsl */ `\n    #define N ${n}\n    // \\`x\\`\n    void main(){float a=${b};\n    gl_FragColor=vec4(a); }\n    ${rest}\n  `;\nconst g = `${f}void main(){gl_FragColor=vec4(1);}`;\n";
+    let mut upper = |text: &str| text.replace("float a=", "float a = ").replace("{float", "{\n    float");
+    let programs = programs(Host::Script, text);
+    let once = styled(text, &programs, &mut upper);
+    let expected = text.replace("float a=${b}", "float a = ${b}").replace("{float", "{\n        float");
+    assert_eq!(once, expected);
+}
+
+#[test]
+fn hostile_texts_end() {
+    for piece in ["`", "${", "r#\"", "R\"(", "'''", "/*", "\\", "{", "é", "`${`", "f'''{", "format!(\""] {
+        for host in [Host::Script, Host::Rust, Host::Python, Host::C] {
+            let text = format!("glsl void #version {}", piece.repeat(3000));
+            for program in programs(host, &text) {
+                for shader in &program.shaders {
+                    assert_eq!(shader.text(&text, Filling::Type).len(), text.len(), "{piece}");
+                }
+                styled(&text, &[program], &mut str::to_owned);
+            }
+        }
+    }
+}
