@@ -98,6 +98,17 @@ float ggxFactor(vec3 N, vec3 T, vec3 L, vec3 V, vec2 alpha)
     return d > 0.0 ? safeFinite(D * (0.5 * NL / d)) : 0.0;
 }
 
+// The specular reflection of white light from everywhere, by the fit that Karis published for mobile GPUs. It was made for dielectrics:
+// for F_0 = 1 it is up to 0.2 away from the integral of this module's f.
+//   cosine  N.V, limited to [0, 1]    roughness  the root of alpha, limited to [0, 1]    Kspec  reflectance at normal incidence, 0 to 1
+// bound: 2e-6 color, e to a power, and coefficients that cancel
+vec3 ggxAlbedo(float cosine, float roughness, vec3 Kspec)
+{
+    vec4 r = safeUnit(roughness) * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * safeUnit(cosine))) * r.x + r.y;
+    return safeLimit(max(Kspec * (r.z - 1.04 * a) + (1.04 * a + r.w), vec3(0.0)));
+}
+
 // Specular reflection with Schlick's Fresnel term, linear RGB.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    alpha  limited to [2^-20, 1]
 //   Kspec  reflectance at normal incidence, 0 to 1    Lspec  intensity of the light, >= 0

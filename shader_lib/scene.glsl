@@ -20,6 +20,11 @@ const int DIFFUSE_LAMBERT = 1;
 const int DIFFUSE_HALF_LAMBERT = 2;
 const int DIFFUSE_TOON_SOFT = 3;
 const int DIFFUSE_TOON_HARD = 4;
+const int DIFFUSE_OREN_NAYAR = 5;
+const int DIFFUSE_EON = 6;
+const int DIFFUSE_BURLEY = 7;
+const int DIFFUSE_WRAP = 8;
+const int DIFFUSE_MINNAERT = 9;
 
 // Finish.specular_model
 const int SPECULAR_NONE = 0;
@@ -31,6 +36,10 @@ const int SPECULAR_THRESHOLD = 5;
 const int SPECULAR_QUARTIC = 6;
 const int SPECULAR_TABLE_HALF = 7;
 const int SPECULAR_TABLE_LIGHT = 8;
+const int SPECULAR_GGX = 9;
+const int SPECULAR_BECKMANN = 10;
+const int SPECULAR_SHEEN = 11;
+const int SPECULAR_NORMALIZED = 12;
 
 // The models of a material, and their parameters besides its reflectances.
 struct Finish {
@@ -40,6 +49,11 @@ struct Finish {
     float threshold;
     // The dark color of hard toon shading.
     vec3 shade;
+    // The roughness of microfacets and of rough diffuse surfaces, 0 to 1: the root of alpha.
+    float roughness;
+    // The strength of a coat of lacquer, and its roughness.
+    float clearcoat;
+    float clearcoat_roughness;
 };
 
 uniform Light light[GLISTEN_LIGHTS];

@@ -8,12 +8,19 @@
 // it.
 #ifndef GLISTEN_STANDARD
 #define GLISTEN_STANDARD
+#include "artistic.glsl"
+#include "beckmann.glsl"
+#include "burley.glsl"
+#include "clearcoat.glsl"
 #include "half_lambert.glsl"
 #include "lambert.glsl"
+#include "normalized.glsl"
+#include "oren_nayar.glsl"
 #include "phong.glsl"
 #include "quartic.glsl"
 #include "scene.glsl"
 #include "schlick.glsl"
+#include "sheen.glsl"
 #include "specular_lut.glsl"
 #include "threshold.glsl"
 #include "toon.glsl"
@@ -31,46 +38,112 @@ struct Reflection {
     vec3 gloss;
 };
 
-// The factor of the diffuse model, per channel.
-//   N  unit normal    L  unit vector towards the light
-vec3 standardDiffuse(vec3 N, vec3 L)
+// The diffuse reflection of a light of intensity 1, per channel.
+//   N  unit normal    L, V  unit vectors towards the light and the eye
+vec3 standardDiffuse(vec3 N, vec3 L, vec3 V)
 {
     switch (finish.diffuse_model) {
     case DIFFUSE_LAMBERT:
-        return vec3(lambertFactor(N, L));
+        return vec3(lambertFactor(N, L)) * material.diffuse;
     case DIFFUSE_HALF_LAMBERT:
-        return vec3(halfLambertFactor(N, L));
+        return vec3(halfLambertFactor(N, L)) * material.diffuse;
     case DIFFUSE_TOON_SOFT:
-        return toonSoft(ramp, N, L);
+        return toonSoft(ramp, N, L) * material.diffuse;
     case DIFFUSE_TOON_HARD:
-        return toonHard(N, L, finish.threshold, vec3(1.0), finish.shade);
+        return toonHard(N, L, finish.threshold, vec3(1.0), finish.shade) * material.diffuse;
+    case DIFFUSE_OREN_NAYAR:
+        return vec3(orenNayarFactor(N, L, V, finish.roughness)) * material.diffuse;
+    case DIFFUSE_EON:
+        return eonFactor(N, L, V, material.diffuse, finish.roughness);
+    case DIFFUSE_BURLEY:
+        return vec3(burleyFactor(N, L, V, finish.roughness)) * material.diffuse;
+    case DIFFUSE_WRAP:
+        return vec3(wrapFactor(N, L, finish.threshold)) * material.diffuse;
+    case DIFFUSE_MINNAERT:
+        return vec3(minnaertFactor(N, L, V, 1.0 + finish.roughness)) * material.diffuse;
     }
     return vec3(0.0);
 }
 
-// The factor of the specular model, per channel.
-//   N  unit normal    L, V  unit vectors towards the light and the eye
-vec3 standardSpecular(vec3 N, vec3 L, vec3 V)
+// Whether the specular model is one of microfacets, with a Fresnel term.
+bool standardHasFresnel()
 {
+    return finish.specular_model == SPECULAR_GGX || finish.specular_model == SPECULAR_BECKMANN;
+}
+
+// The part of the light that microfacets mirror; 0 for other models, which mirror nothing away from the body. A reflectance
+// below 0.02 is none at all, also at grazing angles.
+//   L, V  unit vectors towards the light and the eye
+vec3 standardFresnel(vec3 L, vec3 V)
+{
+    if (!standardHasFresnel())
+        return vec3(0.0);
+    vec3 F90 = vec3(safeUnit(50.0 * safeExtent(material.specular)));
+    return fresnelSchlick(dot(V, halfVector(L, V)), material.specular, F90);
+}
+
+// The specular reflection of a light of intensity 1, per channel.
+//   N  unit normal    L, V  unit vectors towards the light and the eye    fresnel  standardFresnel()
+vec3 standardSpecular(vec3 N, vec3 L, vec3 V, vec3 fresnel)
+{
+    float alpha = finish.roughness * finish.roughness;
     switch (finish.specular_model) {
     case SPECULAR_PHONG:
-        return vec3(phongFactor(N, L, V, material.shininess));
+        return vec3(phongFactor(N, L, V, material.shininess)) * material.specular;
     case SPECULAR_BLINN_PHONG:
-        return vec3(blinnPhongFactor(N, L, V, material.shininess));
+        return vec3(blinnPhongFactor(N, L, V, material.shininess)) * material.specular;
     case SPECULAR_SCHLICK_PHONG:
-        return vec3(schlickPhongFactor(N, L, V, material.shininess));
+        return vec3(schlickPhongFactor(N, L, V, material.shininess)) * material.specular;
     case SPECULAR_SCHLICK_BLINN:
-        return vec3(schlickBlinnFactor(N, L, V, material.shininess));
+        return vec3(schlickBlinnFactor(N, L, V, material.shininess)) * material.specular;
     case SPECULAR_THRESHOLD:
-        return vec3(thresholdFactor(N, L, V, finish.threshold));
+        return vec3(thresholdFactor(N, L, V, finish.threshold)) * material.specular;
     case SPECULAR_QUARTIC:
-        return vec3(quarticFactor(N, L, V));
+        return vec3(quarticFactor(N, L, V)) * material.specular;
     case SPECULAR_TABLE_HALF:
-        return specularLutHalf(highlight, N, L, V);
+        return specularLutHalf(highlight, N, L, V) * material.specular;
     case SPECULAR_TABLE_LIGHT:
-        return specularLutLight(highlight, N, L);
+        return specularLutLight(highlight, N, L) * material.specular;
+    case SPECULAR_GGX:
+        return ggxFactor(N, L, V, alpha) * fresnel;
+    case SPECULAR_BECKMANN:
+        return beckmannFactor(N, L, V, alpha) * fresnel;
+    case SPECULAR_SHEEN:
+        return vec3(sheenFactor(N, L, V, alpha)) * material.specular;
+    case SPECULAR_NORMALIZED:
+        return vec3(normalizedBlinnFactor(N, L, V, material.shininess)) * material.specular;
     }
     return vec3(0.0);
+}
+
+// The light of a hemisphere that a mirror of a roughness shows: its horizon is as wide as the roughness, and that of the whole half
+// spheres for 1.
+//   one  the light    R  unit vector, the eye's mirror direction    roughness  0 to 1
+vec3 standardMirrored(Light one, vec3 R, float roughness)
+{
+    float t = clamp(dot(R, safeNormalize(one.direction)) / clamp(roughness, 1.0 / 64.0, 1.0), -1.0, 1.0);
+    return safeLimit(mix(one.ambient, one.diffuse, 0.5 + 0.5 * t));
+}
+
+// The hemisphere's part of (101), and what microfacets and the coat mirror of it.
+//   one  the light    N  unit normal    V  unit vector towards the eye
+Reflection standardDome(Light one, vec3 N, vec3 V)
+{
+    Reflection sum = Reflection(ambient(material.ambient, lightDome(one, N)), vec3(0.0));
+    vec3 R = mirrorDirection(N, V);
+    float NV = safeUnit(dot(N, V));
+    if (standardHasFresnel()) {
+        vec3 seen = material.specular * 50.0;
+        vec3 albedo = min(ggxAlbedo(NV, finish.roughness, material.specular), seen);
+        sum.body = sum.body * (1.0 - min(albedo, vec3(1.0)));
+        sum.gloss = safeLimit(albedo * standardMirrored(one, R, finish.roughness));
+    }
+    if (finish.clearcoat > 0.0) {
+        float w = clearcoatWeight(N, V, finish.clearcoat);
+        sum.body = sum.body * (1.0 - w);
+        sum.gloss = safeLimit((1.0 - w) * sum.gloss + w * standardMirrored(one, R, finish.clearcoat_roughness));
+    }
+    return sum;
 }
 
 // One light's part of (101).
@@ -78,13 +151,20 @@ vec3 standardSpecular(vec3 N, vec3 L, vec3 V)
 Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
 {
     if (one.kind == LIGHT_HEMISPHERE)
-        return Reflection(ambient(material.ambient, lightDome(one, N)), vec3(0.0));
+        return standardDome(one, N, V);
     vec3 L = lightVector(one, P);
     float d = lightAttenuation(one, P);
     float cspot = lightBeam(one, L);
+    vec3 fresnel = standardFresnel(L, V);
     vec3 Iamb = ambient(material.ambient, one.ambient);
-    vec3 Idiff = safeLimit(standardDiffuse(N, L) * material.diffuse * one.diffuse);
-    vec3 Ispec = safeLimit(standardSpecular(N, L, V) * material.specular * one.specular);
+    vec3 Idiff = safeLimit(standardDiffuse(N, L, V) * one.diffuse * (1.0 - fresnel));
+    vec3 Ispec = safeLimit(standardSpecular(N, L, V, fresnel) * one.specular);
+    if (finish.clearcoat > 0.0) {
+        float w = clearcoatWeight(N, V, finish.clearcoat);
+        float alpha = finish.clearcoat_roughness * finish.clearcoat_roughness;
+        Idiff = (1.0 - w) * Idiff;
+        Ispec = clearcoat(Ispec, N, L, V, finish.clearcoat, alpha, one.specular);
+    }
     vec3 none = vec3(0.0);
     return Reflection(illumination(Iamb, Idiff, none, d, cspot), illumination(none, none, Ispec, d, cspot));
 }

@@ -7,7 +7,7 @@ use crate::page::{Page, Place, View, viewer};
 use crate::specialize::{Account, DrawAccount, Figures, PictureError, Pictures, SpecializedDraw, SpecializedScene};
 use glisten_front::hir::Stage;
 use glisten_front::source::SourceMap;
-use glisten_scene::picture::{Picture, Transfer};
+use glisten_scene::picture::{Encoding, Picture};
 use glisten_scene::{Draw, Scene};
 use minijinja::{Value, context};
 
@@ -56,7 +56,7 @@ fn scene(one: &SceneOnPage<'_>) -> Value {
 }
 
 /// The pictures: both and their difference, or one if they are the same.
-fn views(Pictures { original, residual }: &Pictures, encode: Transfer) -> Vec<View> {
+fn views(Pictures { original, residual }: &Pictures, encode: Encoding) -> Vec<View> {
     let size = [original.width, original.height];
     let differing = original.bit_unequal(residual);
     let color = |picture: &Picture| Some((color_uri(picture, encode), size));

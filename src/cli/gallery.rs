@@ -110,7 +110,7 @@ impl GalleryBackend {
             Some(other) => Difference::new(&picture, &self.draw(args, other)?),
             None => None,
         };
-        Ok(Drawing { tile: Tile::new(&picture), difference })
+        Ok(Drawing { tile: Tile::new(&picture, entry.scene().framebuffer.encode), difference })
     }
 
     fn draw(&self, args: &GalleryArgs, entry: &Entry) -> Result<Picture, Failure> {

@@ -4,7 +4,7 @@
 
 use super::exit::Failure;
 use crate::scene::Format;
-use glisten_scene::picture::{ImageFormat, Picture, Transfer};
+use glisten_scene::picture::{Encoding, ImageFormat, Picture};
 use std::path::{Path, PathBuf};
 
 /// Where to write pictures: one file for the first attachment or, with `%d` in the name, one for each.
@@ -36,7 +36,8 @@ impl Target {
     }
 
     /// The files with their contents, and how many numbers were not representable (NaN in a PNG).
-    pub(super) fn encode(&self, picture: &Picture, by: Transfer) -> Result<(Vec<File>, usize), Failure> {
+    pub(super) fn encode(&self, picture: &Picture, by: impl Into<Encoding>) -> Result<(Vec<File>, usize), Failure> {
+        let by = by.into();
         let mut files = Vec::new();
         let mut nans = 0;
         let count = if self.name.contains("%d") { picture.attachments.len() } else { 1 };

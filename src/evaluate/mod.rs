@@ -158,7 +158,7 @@ impl Evaluator {
             clear: [0.0; 4],
             format: Format::Rgba32Float,
             attachments: 1,
-            encode: Transfer::Linear,
+            encode: Transfer::Linear.into(),
         };
         let draw = Draw {
             program: Arc::clone(&self.program),

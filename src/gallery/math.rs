@@ -13,6 +13,10 @@ const SYMBOLS: &[(&str, &str, &str)] = &[
     ("{", "mo", "{"),
     ("}", "mo", "}"),
     ("theta", "mi", "\u{3b8}"),
+    ("alpha", "mi", "\u{3b1}"),
+    ("sigma", "mi", "\u{3c3}"),
+    ("rho", "mi", "\u{3c1}"),
+    ("pi", "mi", "\u{3c0}"),
     ("infty", "mi", "\u{221e}"),
 ];
 

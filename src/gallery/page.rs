@@ -83,6 +83,14 @@ const CHAPTERS: &[Chapter] = &[
         about: "Eight programs, of which the article prints two in the assembly language of vs.1.0, each drawing the same ball \
                 over a tiled floor. The arrow shows the direction of the light.",
     },
+    Chapter {
+        id: "today",
+        title: "Since then",
+        of: "Papers of 1941 to 2025",
+        about: "What engines draw with today, by the same rules: each function with its published equation, an error that is \
+                measured, and a finite result for every finite input. Lights are brighter than 1 here, and a tone curve brings \
+                them to the screen.",
+    },
 ];
 
 /// The page for pictures that `by` drew, one per entry.
@@ -183,7 +191,10 @@ mod tests {
         let picture = Picture::of_colors(4, 4, vec![[0.5; 4]; 16]);
         let difference =
             |entry: &Entry| Difference::new(&picture, &picture).filter(|_| entry.compared_with().is_some());
-        let drawing = |entry| Drawing { tile: Tile::new(&picture), difference: difference(entry) };
+        let drawing = |entry| Drawing {
+            tile: Tile::new(&picture, glisten_scene::picture::Encoding::default()),
+            difference: difference(entry),
+        };
         entries.iter().map(drawing).collect()
     }
 

@@ -4,7 +4,7 @@
 //! rounded to 8 bits, as in `glisten render` of a scene with `encode = "srgb"`. Non-finite colors are magenta.
 
 use super::entry::supersampling;
-use glisten_scene::picture::{Effort, NOT_FINITE, Picture, Transfer, png_rgb};
+use glisten_scene::picture::{Effort, Encoding, NOT_FINITE, Picture, Transfer, png_rgb};
 
 /// The background of the sheet.
 const GROUND: [u8; 3] = [24, 25, 30];
@@ -24,14 +24,18 @@ impl Tile {
         Self { width, height, pixels }
     }
 
-    /// The first attachment of a supersampled picture, averaged.
-    pub fn new(picture: &Picture) -> Self {
+    /// The first attachment of a supersampled picture, averaged. `by` gives the exposure and the tone curve; the page always shows sRGB.
+    pub fn new(picture: &Picture, by: Encoding) -> Self {
         let samples = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
         let color = |x: u32, y: u32| {
             let sample = samples.get(y as usize * picture.width as usize + x as usize);
-            sample
-                .filter(|rgba| rgba.iter().all(|channel| channel.is_finite()))
-                .map_or(shown(NOT_FINITE), |[r, g, b, _]| [*r, *g, *b].map(|channel| channel.clamp(0.0, 1.0)))
+            sample.filter(|rgba| rgba.iter().all(|channel| channel.is_finite())).map_or(
+                shown(NOT_FINITE),
+                |[r, g, b, _]| {
+                    let [r, g, b, _] = by.expose([*r, *g, *b, 1.0]);
+                    [r, g, b].map(|channel| channel.clamp(0.0, 1.0))
+                },
+            )
         };
         let n = supersampling();
         box_filter(picture.width / n, picture.height / n, picture.width, picture.height, color)
@@ -137,13 +141,13 @@ mod tests {
     #[test]
     fn samples_are_clamped_and_averaged() {
         let row = [[9.0, 0.0, 0.5, 1.0], [0.0, -1.0, 0.5, 1.0]];
-        let tile = Tile::new(&Picture::of_colors(2, 2, [row, row].concat()));
+        let tile = Tile::new(&Picture::of_colors(2, 2, [row, row].concat()), Encoding::default());
         assert_eq!((tile.size(), tile.pixels.as_slice()), ((1, 1), &[[188, 0, 188]][..]));
     }
 
     #[test]
     fn what_is_not_finite_is_seen() {
-        let tile = Tile::new(&Picture::of_colors(2, 2, vec![[f64::NAN, 0.0, 0.0, 1.0]; 4]));
+        let tile = Tile::new(&Picture::of_colors(2, 2, vec![[f64::NAN, 0.0, 0.0, 1.0]; 4]), Encoding::default());
         assert_eq!(tile.pixels, [[255, 0, 255]]);
     }
 

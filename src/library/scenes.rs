@@ -63,6 +63,16 @@ static SCENES: &[LibraryScene] = &[
     scene!("edge"),
     scene!("edge_knot"),
     scene!("hemi_knot"),
+    scene!("metals"),
+    scene!("moon"),
+    scene!("velvet"),
+    scene!("lacquer"),
+    scene!("lamps"),
+    scene!("probe"),
+    scene!("noises"),
+    scene!("dial"),
+    scene!("mist"),
+    scene!("tones"),
 ];
 
 /// All scenes, in the order in which the two documents discuss what they show.

@@ -84,6 +84,18 @@ pub enum InputKind {
     Kelvin,
     /// A place in a window of 4096 by 4096 pixels.
     Pixel,
+    /// A whole number below 2^24.
+    Cell,
+    /// Three whole numbers, -1000 to 1000.
+    Cell3,
+    /// A place within 64 of the origin.
+    Place,
+    /// A place in the plane within 64 of the origin.
+    Place2,
+    /// 1 to 6 octaves.
+    Octaves,
+    /// Nine coefficients of spherical harmonics for each channel, -2 to 2.
+    Harmonics,
 }
 
 /// Random numbers from a fixed seed (splitmix64).
@@ -279,6 +291,12 @@ impl Random {
             InputKind::Stops => to.push(self.range(-16.0, 24.0)),
             InputKind::Kelvin => to.push(self.spread(1000.0, 15000.0)),
             InputKind::Pixel => to.extend([self.range(0.0, 4096.0), self.range(0.0, 4096.0)]),
+            InputKind::Cell => to.push(self.range(0.0, 16_777_216.0).floor()),
+            InputKind::Cell3 => (0..3).for_each(|_| to.push(self.range(-1000.0, 1000.0).floor())),
+            InputKind::Place => to.extend(self.range3(64.0)),
+            InputKind::Place2 => to.extend([self.range(-64.0, 64.0), self.range(-64.0, 64.0)]),
+            InputKind::Octaves => to.push(self.range(1.0, 7.0).floor()),
+            InputKind::Harmonics => (0..27).for_each(|_| to.push(self.range(-2.0, 2.0))),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! non-finite colors are magenta. Differences have a logarithmic scale of some [`Decades`]; pixels that only one picture covers
 //! are cyan.
 
-use glisten_scene::picture::{Effort, Picture, Transfer, png_rgb, visible_rgb};
+use glisten_scene::picture::{Effort, Encoding, Picture, png_rgb, visible_rgb};
 
 /// The differences between which the colors lie, in powers of ten: at the low one and below, a pixel is black.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,12 +43,13 @@ pub(crate) const SCALE: [[u8; 3]; 8] = [
 ];
 
 /// The first attachment as a PNG data URI.
-pub(crate) fn color_uri(picture: &Picture, by: Transfer) -> String {
+pub(crate) fn color_uri(picture: &Picture, by: impl Into<Encoding>) -> String {
     data_uri(&colors(picture, by), picture.width, picture.height, Effort::Fast)
 }
 
 /// The first attachment in 8 bits.
-pub(crate) fn colors(picture: &Picture, by: Transfer) -> Vec<[u8; 3]> {
+pub(crate) fn colors(picture: &Picture, by: impl Into<Encoding>) -> Vec<[u8; 3]> {
+    let by = by.into();
     let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
     pixels.iter().map(|&pixel| visible_rgb(by.encode_pixel(pixel))).collect()
 }

@@ -8,7 +8,7 @@
 use crate::scene::Scene;
 use glisten_emit::FloatWidth;
 use glisten_front::hir::Stage;
-use glisten_scene::picture::{Picture, Transfer};
+use glisten_scene::picture::{Encoding, Picture};
 use serde::{Serialize, Serializer};
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub struct Report {
     pub size: [u32; 2],
     /// How pictures on the page are encoded.
     #[serde(skip)]
-    pub encode: Transfer,
+    pub encode: Encoding,
     /// Whether all variants were drawn, and timed as long as was asked for.
     pub complete: bool,
     /// The version of glisten.

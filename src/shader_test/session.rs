@@ -80,7 +80,7 @@ impl TestSession {
             clear: [0.0; 4],
             format: Format::Rgba8Unorm,
             attachments: 1,
-            encode: Transfer::Linear,
+            encode: Transfer::Linear.into(),
         };
         Self {
             uniforms: Uniforms::new(&program),

@@ -348,3 +348,40 @@ fn image_files_are_decoded_on_demand() {
     let loaded = changed("[[draw]]", "[[draw]]\ntextures = { decal = { pattern = \"checker\", decode = \"srgb\" } }");
     assert!(told(&loaded)[0].contains("`decode` is for an image file"), "{:?}", told(&loaded));
 }
+
+/// A material of glTF's: its color, metal and roughness say what is diffuse and what is mirrored, and that GGX mirrors it.
+#[test]
+fn metal_and_roughness_are_a_material() {
+    let physical = "base_color = [0.5, 0.25, 1]\nmetallic = 0.5\nroughness = 0.25\nclearcoat = 0.75";
+    let from = "diffuse = [0.5, 0.25, 0.125]\nspecular = [1, 1, 1]\nshininess = 20\nspecular_model = \"schlick_blinn\"";
+    let loaded = changed(from, physical);
+    let draw = good(&loaded);
+    assert_eq!(value(draw, "material.diffuse"), [0.25, 0.125, 0.5]);
+    assert_eq!(value(draw, "material.specular"), [0.27, 0.145, 0.52]);
+    assert_eq!((value(draw, "finish.specular_model"), value(draw, "finish.roughness")), (vec![9.0], vec![0.25]));
+    assert_eq!((value(draw, "finish.clearcoat"), value(draw, "finish.clearcoat_roughness")), (vec![0.75], vec![0.1]));
+    // What is given takes precedence.
+    let loaded = changed(from, &format!("{physical}\nspecular_model = \"beckmann\"\nspecular = [0.5, 0.5, 0.5]"));
+    assert_eq!(value(good(&loaded), "finish.specular_model"), [10.0]);
+    assert_eq!(value(good(&loaded), "material.specular"), [0.5; 3]);
+    // A program without microfacets says so.
+    let loaded = load_text(&GOOD.replace(from, "roughness = 0.5").replace("\"standard\"", "\"phong\""));
+    assert!(told(&loaded).iter().any(|told| told.contains("`roughness`")), "{:?}", told(&loaded));
+}
+
+#[test]
+fn a_framebuffer_has_a_tone_curve_and_an_exposure() {
+    use glisten_scene::picture::Tone;
+    let with = |keys: &str| {
+        load_text(&format!("[framebuffer]\n{keys}\n{}", GOOD.trim_start_matches("\nglobal_ambient = [0.1, 0.2, 0.3]")))
+    };
+    let loaded = with("tonemap = \"agx\"\nexposure = -1.5\nencode = \"srgb\"");
+    good(&loaded);
+    let encode = loaded.scene.as_ref().expect("it loads").framebuffer.encode;
+    assert_eq!((encode.tone, encode.exposure), (Tone::Agx, -1.5));
+    let (_, place, message) = the_error(&with("tonemap = \"agy\""));
+    assert!(place == "\"agy\"" && message.contains("agx"), "{place}: {message}");
+    for keys in ["exposure = 65", "format = \"rgba32sint\"\ntonemap = \"aces\""] {
+        assert!(with(keys).scene.is_none(), "{keys}");
+    }
+}

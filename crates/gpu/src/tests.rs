@@ -98,7 +98,7 @@ fn scene(types: Types, interface: Interface) -> Scene {
         clear: [0.0, 0.0, 0.0, 0.5],
         format: Format::Rgba32Float,
         attachments: 1,
-        encode: Transfer::Linear,
+        encode: Transfer::Linear.into(),
     };
     Scene { name: "test".into(), framebuffer, draws: vec![draw] }
 }

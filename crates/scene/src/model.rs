@@ -4,7 +4,7 @@
 //! a runner can draw a scene without further checks of sizes.
 
 use crate::fixed::{FixedFunction, Pipeline};
-use crate::picture::Transfer;
+use crate::picture::Encoding;
 use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue, Stage};
 use glisten_front::link::{FixedState, Program};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ pub struct Framebuffer {
     /// The number of color attachments.
     pub attachments: u32,
     /// How the colors of an 8-bit picture file are encoded. It changes nothing of the framebuffer.
-    pub encode: Transfer,
+    pub encode: Encoding,
 }
 
 /// The format of a color attachment.

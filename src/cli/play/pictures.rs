@@ -11,7 +11,7 @@ use crate::verify::{self, Conclusion, OnGpu, Options, Runner, Verification};
 use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::picture::{Picture, Transfer};
+use glisten_scene::picture::{Encoding, Picture};
 use serde_json::{Value, json};
 use std::time::Instant;
 
@@ -126,7 +126,7 @@ fn drawn(picture: &Picture, scene: &Scene, start: Instant, by: &str) -> Value {
 
 fn judged(verification: &Verification, scene: &Scene, by: &str) -> Value {
     let encode = scene.framebuffer.encode;
-    let uri = |picture: &Picture, by: Transfer| raster::color_uri(picture, by);
+    let uri = |picture: &Picture, by: Encoding| raster::color_uri(picture, by);
     let word = match verification.conclusion() {
         Conclusion::Holds => "holds",
         Conclusion::Inconclusive => "inconclusive",
@@ -140,9 +140,9 @@ fn judged(verification: &Verification, scene: &Scene, by: &str) -> Value {
         "height": verification.reference.height,
         "reference": uri(&verification.reference, encode),
         "driver": verification.runs.first().map(|run| uri(&run.picture, encode)),
-        "difference": uri(&verification.difference(), Transfer::Linear),
+        "difference": uri(&verification.difference(), Encoding::default()),
         "difference_legend": verify::DIFFERENCE_LEGEND,
-        "evidence": uri(&verification.evidence(), Transfer::Linear),
+        "evidence": uri(&verification.evidence(), Encoding::default()),
         "evidence_legend": verify::EVIDENCE_LEGEND,
     })
 }

@@ -272,6 +272,16 @@ pub(super) static FORMS: &[Form] = forms! {
     };
     "ggx" "ggxFactor(vec3,vec3,vec3,float)" [Lighting, Alpha] factor;
     "ggx" "ggxFactor(vec3,vec3,vec3,vec3,vec2)" [Tangent, Direction, Direction, Alpha, Alpha] brushed;
+    "ggx" "ggxAlbedo(float,float,vec3)" [Unit, Unit, Color] |a| {
+        let (cos, r, f0) = (a.f(), a.f(), a.v());
+        // Karis 2014, listing of EnvBRDFApprox.
+        let [c0, c1, c2, c3] = [0.0275_f32, 0.572, 0.022, 9.28].map(f64::from);
+        let [d1, d2, d3] = [0.0425_f32, 1.04, 0.04].map(f64::from);
+        let first = 1.0 - r;
+        let a004 = (first * first).min((-c3 * cos).exp2()) * first + d1 - c0 * r;
+        let (scale, bias) = (d2 - c1 * r - d2 * a004, d2 * a004 + c2 * r - d3);
+        Some(Answer::new(f0.map(|f0| (f0 * scale + bias).max(0.0)), 1.0).conditioned(16.0))
+    };
     "ggx" "ggx(vec3,vec3,vec3,float,vec3,vec3)" [Lighting, Alpha, Color, Intensity] reflected;
     "beckmann" "beckmannDistribution(vec3,vec3,float)" [Near, Alpha] |a| {
         let (n, h) = (a.d(), a.d());

@@ -5,9 +5,12 @@ mod diffuse;
 mod equations;
 mod geometry;
 mod helpers;
+mod looks;
 mod microfacet;
 mod models;
 mod naive;
+mod shapes;
+mod sources;
 mod tone;
 
 use super::vector::{V, cross, dot, norm};
@@ -23,6 +26,9 @@ pub(super) static ALL: &[&[Form]] = &[
     microfacet::FORMS,
     diffuse::FORMS,
     tone::FORMS,
+    looks::FORMS,
+    sources::FORMS,
+    shapes::FORMS,
     naive::FORMS,
 ];
 

@@ -2,8 +2,9 @@
 //! them, since a GPU has no others.
 
 use super::{Form, InputKind, dot, forms};
-use crate::measure::vector::{V, add, scale};
+use crate::measure::vector::{V, add};
 use crate::measure::{Answer, Args};
+use glisten_scene::picture::Tone;
 
 /// Digits as f32 has them.
 fn f(digits: f32) -> f64 {
@@ -33,69 +34,10 @@ fn reinhard(a: &Args<'_>) -> Option<Answer> {
     color(c.map(|c| c * (1.0 + c / (white * white)) / (1.0 + c)), 6.0)
 }
 
-/// Hable's curve: its two quotients.
+/// Hable's curve before its white: its two quotients.
 fn hable(x: f64) -> f64 {
     let [a, b, c, d, e, g] = [0.15, 0.5, 0.1, 0.2, 0.02, 0.3];
     (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * g) - e / g
-}
-
-fn narkowicz(x: f64) -> f64 {
-    let [a, b, c, d, e] = [2.51_f32, 0.03, 2.43, 0.59, 0.14].map(f64::from);
-    ((x * (a * x + b)) / (x * (c * x + d) + e)).clamp(0.0, 1.0)
-}
-
-/// Hill's: into the space of the reference display transform, the fit, and out.
-fn aces(c: V) -> V {
-    let v = rows([[0.597_19, 0.354_58, 0.048_23], [0.076, 0.908_34, 0.015_66], [0.028_4, 0.133_83, 0.837_77]], c);
-    let fit = |v: f64| {
-        let above = v * v + v * f(0.024_578_6) - f(0.000_090_537);
-        above / (f(0.983_729) * v * v + f(0.432_951) * v + f(0.238_081))
-    };
-    let out = [[1.604_75, -0.531_08, -0.073_67], [-0.102_08, 1.108_13, -0.006_05], [-0.003_27, -0.072_76, 1.076_02]];
-    rows(out, v.map(fit)).map(|x| x.clamp(0.0, 1.0))
-}
-
-/// Wrensch's fit of AgX: inset, logarithm, contrast, outset, and the decoding of the screen's power.
-fn agx(c: V) -> V {
-    let inset = [
-        [0.842_479_05, 0.078_433_6, 0.079_223_745],
-        [0.042_328_242, 0.878_468_63, 0.079_166_13],
-        [0.042_375_654, 0.078_433_6, 0.879_143],
-    ];
-    let outset = [
-        [1.196_879, -0.098_020_88, -0.099_029_74],
-        [-0.052_896_854, 1.151_903_2, -0.098_961_174],
-        [-0.052_971_635, -0.098_043_45, 1.151_073_7],
-    ];
-    let (low, high) = (-f(12.473_93), f(4.026_069));
-    let contrast = |x: f64| {
-        f(15.5) * x.powi(6) - f(40.14) * x.powi(5) + f(31.96) * x.powi(4) - f(6.868) * x.powi(3)
-            + f(0.429_8) * x * x
-            + f(0.119_1) * x
-            - f(0.002_32)
-    };
-    let stops = rows(inset, c).map(|x| contrast((x.log2().clamp(low, high) - low) / (high - low)));
-    rows(outset, stops).map(|x| x.clamp(0.0, 1.0).powf(f(2.2)))
-}
-
-/// The Khronos PBR Neutral tone mapper, as its specification prints it.
-fn neutral(c: V) -> V {
-    let (start, desaturation) = (f(0.8) - f(0.04), f(0.15));
-    let low = c.iter().fold(f64::INFINITY, |least: f64, x| least.min(*x));
-    let offset = if low < f(0.08) { low - 6.25 * low * low } else { f(0.04) };
-    let c = c.map(|x| x - offset);
-    let peak = c.iter().fold(0.0, |most: f64, x| most.max(*x));
-    if peak < start {
-        return c;
-    }
-    let d = 1.0 - start;
-    let top = 1.0 - d * d / (peak + d - start);
-    let g = 1.0 - 1.0 / (desaturation * (peak - top) + 1.0);
-    add(scale((1.0 - g) * top / peak, c), [g * top; 3])
-}
-
-fn each(curve: fn(f64) -> f64, c: V, condition: f64) -> Option<Answer> {
-    color(c.map(curve), condition)
 }
 
 const FROM_OKLAB: [[f32; 3]; 3] = [
@@ -161,12 +103,12 @@ pub(super) static FORMS: &[Form] = forms! {
     "tonemap" "tonemapLimit(vec3)" [Bright] |a| color(a.v(), 1.0);
     "tonemap" "tonemapExposure(float)" [Stops] |a| Some(Answer::relative([1.0 / (f(1.2) * a.f().exp2())]).conditioned(16.0));
     "tonemap" "tonemapReinhard(vec3,float)" [Bright, White] reinhard;
-    "tonemap" "tonemapHableCurve(vec3)" [Bright] |a| each(hable, a.v(), 6.0);
-    "tonemap" "tonemapHable(vec3)" [Bright] |a| color(a.v().map(|c| (hable(2.0 * c) / hable(11.2)).min(1.0)), 8.0);
-    "tonemap" "tonemapNarkowicz(vec3)" [Bright] |a| each(narkowicz, a.v(), 6.0);
-    "tonemap" "tonemapAces(vec3)" [Bright] |a| color(aces(a.v()), 24.0);
-    "tonemap" "tonemapAgx(vec3)" [Bright] |a| color(agx(a.v()), 128.0);
-    "tonemap" "tonemapNeutral(vec3)" [Bright] |a| color(neutral(a.v()), 8.0);
+    "tonemap" "tonemapHableCurve(vec3)" [Bright] |a| color(a.v().map(hable), 6.0);
+    "tonemap" "tonemapHable(vec3)" [Bright] |a| color(Tone::Hable.apply(a.v()), 8.0);
+    "tonemap" "tonemapNarkowicz(vec3)" [Bright] |a| color(Tone::Narkowicz.apply(a.v()), 6.0);
+    "tonemap" "tonemapAces(vec3)" [Bright] |a| color(Tone::Aces.apply(a.v()), 24.0);
+    "tonemap" "tonemapAgx(vec3)" [Bright] |a| color(Tone::Agx.apply(a.v()), 128.0);
+    "tonemap" "tonemapNeutral(vec3)" [Bright] |a| color(Tone::Neutral.apply(a.v()), 8.0);
     "color" "colorLuminance(vec3)" [Intensity] |a| {
         let c = a.v();
         let value = rows([[0.212_6, 0.715_2, 0.072_2]; 3], c)[0];

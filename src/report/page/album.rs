@@ -9,7 +9,7 @@ use super::super::model::{Report, Way};
 use super::bands::{self, Luminance};
 use super::differences::Scale;
 use crate::page::raster::{colors, data_uri};
-use glisten_scene::picture::{Effort, Picture, Transfer};
+use glisten_scene::picture::{Effort, Encoding, Picture};
 use std::collections::BTreeMap;
 
 /// The bytes that all pictures of a page may have together.
@@ -112,7 +112,7 @@ impl Album {
         index
     }
 
-    fn picture(&mut self, picture: &Picture, by: Transfer) -> usize {
+    fn picture(&mut self, picture: &Picture, by: impl Into<Encoding>) -> usize {
         let picture = smaller(picture, self.factor);
         self.add(data_uri(&colors(&picture, by), picture.width, picture.height, Effort::Best))
     }

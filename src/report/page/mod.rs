@@ -215,7 +215,7 @@ pub(in crate::report) mod tests {
             clear: [0.0; 4],
             format: Format::Rgba32Float,
             attachments: 1,
-            encode: Transfer::Linear,
+            encode: Transfer::Linear.into(),
         };
         Arc::new(Scene { name: "none".into(), framebuffer, draws: Vec::new() })
     }
@@ -285,7 +285,7 @@ pub(in crate::report) mod tests {
             scene: "sphere <&>".into(),
             title: None,
             size: [64, 64],
-            encode: Transfer::Linear,
+            encode: Transfer::Linear.into(),
             complete: true,
             version: env!("CARGO_PKG_VERSION"),
             machine: Machine { cpu: Some("a CPU".into()), threads: 2, load: Some(0.5) },

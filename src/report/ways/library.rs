@@ -47,6 +47,11 @@ static MODELS: &[Model] = &[
         "specular_model = \"table_light\", highlight = { pattern = \"metal\", exponent = 40, filter = \"linear\" }",
         None,
     ),
+    model("GGX", "specular_model = \"ggx\", roughness = 0.45", None),
+    model("Beckmann", "specular_model = \"beckmann\", roughness = 0.45", None),
+    model("normalized Blinn-Phong", "specular_model = \"normalized\"", None),
+    model("Oren and Nayar", "diffuse_model = \"oren_nayar\", specular_model = \"none\"", None),
+    model("EON", "diffuse_model = \"eon\", specular_model = \"none\"", None),
 ];
 
 /// The scene without its variants: a knot under a warm and a dim blue light.

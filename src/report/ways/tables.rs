@@ -127,7 +127,7 @@ fn values(draw: &Draw, candidate: &Candidate, texels: u32) -> Option<Vec<[f32; 4
         clear: [0.0; 4],
         format: Format::Rgba32Float,
         attachments: 1,
-        encode: glisten_scene::picture::Transfer::Linear,
+        encode: glisten_scene::picture::Encoding::default(),
     };
     let scene = Scene { name: "table".into(), framebuffer, draws: vec![filler] };
     let options = RenderOptions { precision: Precision::F64, mark_edges: false, ..RenderOptions::default() };

@@ -251,11 +251,12 @@ impl Figures {
             let Some((ty, name)) = parameter.rsplit_once(' ') else { continue };
             let count = match ty {
                 "vec2" => 2,
-                "vec3" => 3,
+                "vec3" | "ivec3" => 3,
                 "vec4" => 4,
                 "mat3" => 9,
                 "mat4" => 16,
                 "Light" => 20,
+                "vec3[9]" => 27,
                 "Material" => 13,
                 "sampler2D" => 0,
                 _ => 1,

@@ -26,11 +26,15 @@ pub(super) fn fill(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
     } else {
         stiff(kind, random, to);
     }
-    if kind == InputKind::Light
-        && let Some(number) = to.get_mut(start)
-    {
-        // The kind of light is whole: it stays the same if it is moved by an ULP.
-        *number = number.floor() + 0.5;
+    let is_whole = matches!(kind, InputKind::Cell | InputKind::Cell3 | InputKind::Octaves);
+    let whole = match kind {
+        InputKind::Light => 1,
+        _ if is_whole => usize::MAX,
+        _ => 0,
+    };
+    for number in to.iter_mut().skip(start).take(whole) {
+        // Whole numbers stay the same if they are moved by an ULP.
+        *number = number.trunc() + if *number < 0.0 { -0.25 } else { 0.25 };
     }
 }
 
@@ -111,12 +115,27 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
             const PLACES: &[f64] = &[0.0, 0.5, 7.5, 8.0, 4095.5, 65535.5];
             to.extend([random.pick(PLACES), random.pick(PLACES)]);
         }
+        InputKind::Cell => to.push(random.pick(&[0.0, 1.0, 2.0, 65535.0, 16_777_215.0])),
+        InputKind::Cell3 => {
+            const CELLS: &[f64] = &[-1_048_576.0, -1.0, 0.0, 1.0, 1_048_575.0];
+            to.extend([random.pick(CELLS), random.pick(CELLS), random.pick(CELLS)]);
+        }
+        InputKind::Place => to.extend([cell_place(random), cell_place(random), cell_place(random)]),
+        InputKind::Place2 => to.extend([cell_place(random), cell_place(random)]),
+        InputKind::Octaves => to.push(random.pick(&[1.0, 4.0, 6.0])),
+        InputKind::Harmonics => (0..27).for_each(|_| to.push(signed(random, COLORS))),
     }
 }
 
 fn signed(random: &mut Random, sizes: &[f64]) -> f64 {
     let size = random.pick(sizes);
     if random.once_in(2) { -size } else { size }
+}
+
+/// A place at or next to the border of a cell, near the origin or far from it.
+fn cell_place(random: &mut Random) -> f64 {
+    let border = random.pick(&[-1000.0, -1.0, 0.0, 1.0, 7.0, 1000.0]);
+    border + signed(random, &[0.0, 1e-6, 1e-3, 0.5])
 }
 
 fn sized(random: &mut Random) -> f64 {

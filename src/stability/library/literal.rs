@@ -139,6 +139,38 @@ static LITERAL: &[(&str, &str)] = &[
         "tonemapNarkowicz(vec3)",
         "clamp((color * (2.51 * color + 0.03)) / (color * (2.43 * color + 0.59) + 0.14), vec3(0.0), vec3(1.0))",
     ),
+    (
+        "normalizedBlinnFactor(vec3,vec3,vec3,float)",
+        "(shininess + 8.0) / 8.0 * max(dot(N, L), 0.0) * naiveBlinnPhong(N, L, V, shininess)",
+    ),
+    (
+        "normalizedPhongFactor(vec3,vec3,vec3,float)",
+        "(shininess + 2.0) / 2.0 * max(dot(N, L), 0.0) * naivePhong(N, L, V, shininess)",
+    ),
+    ("wrapFactor(vec3,vec3,float)", "max((dot(N, L) + wrap) / (1.0 + wrap), 0.0)"),
+    ("minnaertFactor(vec3,vec3,vec3,float)", "pow(max(dot(N, L), 0.0), k) * pow(max(dot(N, V), 0.0), k - 1.0)"),
+    ("rimFactor(vec3,vec3,float)", "pow(1.0 - dot(N, V), k)"),
+    ("fogMean(float)", "(1.0 - exp(-x)) / x"),
+    ("fogFactor(float,float)", "exp(-r * density)"),
+    (
+        "fogFactor(float,vec3,float,float,float)",
+        "exp(-density * exp(-falloff * height) * (1.0 - exp(-falloff * r * direction.y)) / (falloff * direction.y))",
+    ),
+    (
+        "sdfSegment(vec2,vec2,vec2,float)",
+        "length(p - a - clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0) * (b - a)) - radius",
+    ),
+    ("sdfBlend(float,float,float)", "min(a, b) - pow(max(k - abs(a - b), 0.0) / k, 2.0) * k * 0.25"),
+    ("punctualFalloff(float,float)", "pow(clamp(1.0 - pow(r / range, 4.0), 0.0, 1.0), 2.0) / (r * r)"),
+    (
+        "punctualCone(vec3,vec3,float,float)",
+        "pow(clamp((dot(-L, Ldir) - (1.0 - outer)) / ((1.0 - inner) - (1.0 - outer)), 0.0, 1.0), 2.0)",
+    ),
+    (
+        "areaSphere(vec3,float,vec3)",
+        "normalize(center + (dot(center, R) * R - center) * clamp(radius / length(dot(center, R) * R - center), 0.0, 1.0))",
+    ),
+    ("triplanarWeights(vec3,float)", "pow(abs(N), vec3(sharpness)) / dot(pow(abs(N), vec3(sharpness)), vec3(1.0))"),
     ("colorCubeRoot(float)", "pow(x, 1.0 / 3.0)"),
     (
         "outlinePosition(vec4,vec3,float,float,float)",

@@ -29,6 +29,10 @@ enum Shown {
     Outline(usize),
     /// The curves of figure 127.
     Curves,
+    /// As `Points`, without the scene's hemisphere: the equations are about the direct lights.
+    Direct(&'static [usize]),
+    /// A program of its own, whose equations are those of these functions, which `library::values` compares with closed forms.
+    ByValue(&'static [&'static str]),
 }
 
 /// Every scene of the library, and what of it its equations say.
@@ -76,6 +80,16 @@ const SHOWN: &[(&str, Shown)] = &[
     ("edge", Shown::Outline(2)),
     ("edge_knot", Shown::Points(&[3])),
     ("hemi_knot", Shown::Points(&[2])),
+    ("metals", Shown::Direct(&[0, 4, 8])),
+    ("moon", Shown::Points(&[1])),
+    ("velvet", Shown::Points(&[0])),
+    ("lacquer", Shown::ByValue(&["clearcoatWeight(vec3,vec3,float)"])),
+    ("lamps", Shown::ByValue(&["areaSphereFactor(vec3,vec3,float)"])),
+    ("probe", Shown::ByValue(&["irradiance(vec3,vec3[9])"])),
+    ("noises", Shown::ByValue(&["noiseValue(vec3)", "noiseGradient(vec3)"])),
+    ("dial", Shown::ByValue(&["sdfBlend(float,float,float)"])),
+    ("mist", Shown::ByValue(&["fogMean(float)", "fogFactor(float,vec3,float,float,float)"])),
+    ("tones", Shown::ByValue(&["tonemapReinhard(vec3,float)"])),
 ];
 
 /// The equations that a scene prints.
@@ -99,11 +113,18 @@ type Used = RefCell<BTreeSet<String>>;
 
 /// Compares a scene with equations. Says what differs.
 fn compare(name: &str, text: &str, shown: Shown, equations: &[String]) -> Result<(), String> {
+    if let Shown::ByValue(functions) = shown {
+        let has_form = |function: &&&str| glisten::measure::forms().any(|form| form.signature == **function);
+        let lost = functions.iter().find(|function| !has_form(function));
+        return lost.map_or(Ok(()), |lost| Err(format!("`{lost}` has no closed form")));
+    }
     let lines: Vec<&str> = equations.iter().map(String::as_str).collect();
     let definitions = tex::definitions(&lines)?;
     let used = Used::default();
     let samples = match shown {
-        Shown::Points(draws) => {
+        Shown::Points(draws) | Shown::Direct(draws) => {
+            let direct = without_hemisphere(text);
+            let text = if matches!(shown, Shown::Direct(_)) { direct.as_str() } else { text };
             // More vertices where a large plane has few.
             let scene =
                 scene(name, &text.replace("shape = \"plane\",", "shape = \"plane\", segments = 90, rings = 90,"));
@@ -122,6 +143,7 @@ fn compare(name: &str, text: &str, shown: Shown, equations: &[String]) -> Result
         }
         Shown::Outline(draw) => geometry::compare_outline(&scene(name, text), draw, &definitions, &used)?,
         Shown::Curves => geometry::compare_curves(&scene(name, text), &definitions, &used)?,
+        Shown::ByValue(_) => 0,
     };
     if samples < 50 {
         return Err(format!("only {samples} samples"));
@@ -131,6 +153,16 @@ fn compare(name: &str, text: &str, shown: Shown, equations: &[String]) -> Result
         Some(unused) => Err(format!("`{}` has no part in the picture", unused.name)),
         None => Ok(()),
     }
+}
+
+/// A scene's text without its hemisphere light.
+fn without_hemisphere(text: &str) -> String {
+    let mut parts: Vec<&str> = text.split("\n[[light]]\n").collect();
+    parts.retain(|part| !part.starts_with("kind = \"hemisphere\""));
+    let tail = text.split("\n[[light]]\n").last().filter(|last| last.starts_with("kind = \"hemisphere\""));
+    // What follows the last light belongs to it by its place in the text.
+    let rest = tail.and_then(|tail| tail.find("\n[[draw]]").map(|at| &tail[at..])).unwrap_or_default();
+    parts.join("\n[[light]]\n") + rest
 }
 
 fn shown(name: &str) -> Shown {
@@ -176,6 +208,8 @@ fn a_wrong_equation_is_found() {
         ("attenuation_linear", vec![r"s_l = 2"]),
         ("edge", vec![r"p_{rim} = p + b \, p_w \frac{n}{|n|}"]),
         ("cosine", vec![r"y_1 = \cos^{n}\theta", r"y_2 = e^{-n \theta^2}"]),
+        ("metals", vec![r"I_{spec} = \max(\mathbf{N} \cdot \mathbf{H}, 0)^{2} F_0 \otimes L_{spec}"]),
+        ("moon", vec![r"I_{diff} = \max(\mathbf{N} \cdot \mathbf{L}, 0) K_{diff} \otimes L_{diff}"]),
         // Right, and not about this picture.
         ("lambert", vec![r"\mathbf{H} = \frac{\mathbf{L} + \mathbf{V}}{|\mathbf{L} + \mathbf{V}|}"]),
     ] {

@@ -107,6 +107,9 @@ fn definition(formula: &str) -> Result<Vec<Definition>, String> {
     }
 }
 
+/// Greek letters that are symbols.
+const GREEK: &[&str] = &["\\theta", "\\alpha", "\\sigma", "\\pi"];
+
 /// Commands without a meaning of their own.
 const IGNORED: &[&str] = &["\\,", "\\;", "\\quad", "\\mathbf", "\\mathrm"];
 
@@ -292,7 +295,7 @@ impl Parser {
             number if number.starts_with(|first: char| first.is_ascii_digit()) => {
                 Node::Number(number.parse().map_err(|error| format!("`{number}`: {error}"))?)
             }
-            letter if letter.starts_with(|first: char| first.is_ascii_alphabetic()) || letter == "\\theta" => {
+            letter if letter.starts_with(|first: char| first.is_ascii_alphabetic()) || GREEK.contains(&letter) => {
                 Node::Symbol(self.subscripted(token))
             }
             other => return Err(format!("`{other}` in the place of a factor")),

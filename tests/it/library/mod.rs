@@ -3,6 +3,7 @@
 
 #[cfg(feature = "cli")]
 mod command;
+mod energy;
 mod evaluator;
 mod laws;
 mod registers;

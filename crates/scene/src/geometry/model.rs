@@ -37,6 +37,8 @@ pub(crate) struct Look {
     pub(crate) specular: [f64; 3],
     pub(crate) emission: [f64; 3],
     pub(crate) shininess: f64,
+    /// How metallic and how rough it is, if the file says so. Then `diffuse` is its base color, and its highlights follow from it.
+    pub(crate) metal: Option<[f64; 2]>,
     /// Its picture of colors.
     pub(crate) texture: Option<TextureSource>,
 }
@@ -59,6 +61,7 @@ impl Look {
             specular: [0.15; 3],
             emission: [0.0; 3],
             shininess: 40.0,
+            metal: None,
             texture: None,
         }
     }

@@ -24,6 +24,11 @@ const KEYS: &[&str] = &[
     "shininess",
     "threshold",
     "shade",
+    "base_color",
+    "metallic",
+    "roughness",
+    "clearcoat",
+    "clearcoat_roughness",
     "diffuse_model",
     "specular_model",
     "decal",
@@ -39,6 +44,11 @@ enum DiffuseModel {
     HalfLambert,
     ToonSoft,
     ToonHard,
+    OrenNayar,
+    Eon,
+    Burley,
+    Wrap,
+    Minnaert,
 }
 
 const DIFFUSE_MODELS: &[(&str, DiffuseModel)] = &[
@@ -47,6 +57,11 @@ const DIFFUSE_MODELS: &[(&str, DiffuseModel)] = &[
     ("half_lambert", DiffuseModel::HalfLambert),
     ("toon_soft", DiffuseModel::ToonSoft),
     ("toon_hard", DiffuseModel::ToonHard),
+    ("oren_nayar", DiffuseModel::OrenNayar),
+    ("eon", DiffuseModel::Eon),
+    ("burley", DiffuseModel::Burley),
+    ("wrap", DiffuseModel::Wrap),
+    ("minnaert", DiffuseModel::Minnaert),
 ];
 
 /// Specular models, with the numbers of the module's constants `SPECULAR_NONE` and so on.
@@ -61,6 +76,10 @@ enum SpecularModel {
     Quartic,
     TableHalf,
     TableLight,
+    Ggx,
+    Beckmann,
+    Sheen,
+    Normalized,
 }
 
 const SPECULAR_MODELS: &[(&str, SpecularModel)] = &[
@@ -73,10 +92,14 @@ const SPECULAR_MODELS: &[(&str, SpecularModel)] = &[
     ("quartic", SpecularModel::Quartic),
     ("table_half", SpecularModel::TableHalf),
     ("table_light", SpecularModel::TableLight),
+    ("ggx", SpecularModel::Ggx),
+    ("beckmann", SpecularModel::Beckmann),
+    ("sheen", SpecularModel::Sheen),
+    ("normalized", SpecularModel::Normalized),
 ];
 
 /// The uniforms of a material by name.
-pub(super) type Material = [(&'static str, Member); 9];
+pub(super) type Material = [(&'static str, Member); 12];
 
 /// The material of a draw, with its node; `None` if there is none, or if the program does not use one.
 pub(super) fn load_material<'t, 'i>(
@@ -104,24 +127,39 @@ pub(super) fn load_material<'t, 'i>(
     let node = own.map(|(_, node)| node).or(scene)?;
     let table = reader.table(node, "material")?;
     reader.check_keys(table, "a material", KEYS);
-    let diffuse = reader.reals(table, "diffuse", [0.8; 3]);
+    // The model of metals and roughness: a metal has no diffuse color, anything else mirrors 0.04.
+    let is_physical = table.contains_key("base_color") || table.contains_key("metallic");
+    let base = reader.reals(table, "base_color", [0.8; 3]);
+    let metallic = reader.real(table, "metallic", 0.0);
+    let [own_diffuse, own_specular] = if is_physical { by_metallic(base, metallic) } else { [[0.8; 3], [0.0; 3]] };
+    let own_model = if is_physical { SpecularModel::Ggx } else { SpecularModel::BlinnPhong };
+    let diffuse = reader.reals(table, "diffuse", own_diffuse);
     let diffuse_model = reader.choice_at(table, "diffuse_model", DiffuseModel::Lambert, DIFFUSE_MODELS);
-    let specular_model = reader.choice_at(table, "specular_model", SpecularModel::BlinnPhong, SPECULAR_MODELS);
+    let specular_model = reader.choice_at(table, "specular_model", own_model, SPECULAR_MODELS);
     require(reader, table, "diffuse_model", "ramp", diffuse_model == DiffuseModel::ToonSoft)?;
     let by_table = matches!(specular_model, SpecularModel::TableHalf | SpecularModel::TableLight);
     require(reader, table, "specular_model", "highlight", by_table)?;
     let members = [
         ("material.ambient", Member::Vector(reader.reals(table, "ambient", diffuse))),
         ("material.diffuse", Member::Vector(diffuse)),
-        ("material.specular", Member::Vector(reader.reals(table, "specular", [0.0; 3]))),
+        ("material.specular", Member::Vector(reader.reals(table, "specular", own_specular))),
         ("material.emission", Member::Vector(reader.reals(table, "emission", [0.0; 3]))),
         ("material.shininess", Member::Float(reader.real(table, "shininess", 32.0))),
         ("finish.threshold", Member::Float(reader.real(table, "threshold", 0.5))),
         ("finish.shade", Member::Vector(reader.reals(table, "shade", [0.0; 3]))),
+        ("finish.roughness", Member::Float(reader.real(table, "roughness", 0.5))),
+        ("finish.clearcoat", Member::Float(reader.real(table, "clearcoat", 0.0))),
+        ("finish.clearcoat_roughness", Member::Float(reader.real(table, "clearcoat_roughness", 0.1))),
         ("finish.diffuse_model", Member::Int(diffuse_model as i32)),
         ("finish.specular_model", Member::Int(specular_model as i32)),
     ];
     Some((members, node))
+}
+
+/// The diffuse color and the reflectance at normal incidence of a base color, as in glTF 2.0, appendix B.
+fn by_metallic(base: [f64; 3], metallic: f64) -> [[f64; 3]; 2] {
+    let metallic = metallic.clamp(0.0, 1.0);
+    [base.map(|color| color * (1.0 - metallic)), base.map(|color| 0.04 * (1.0 - metallic) + color * metallic)]
 }
 
 /// The colors of a material that the fixed-function pipeline has.

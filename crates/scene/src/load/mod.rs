@@ -34,7 +34,7 @@ use crate::fixed::has_fixed_function;
 use crate::geometry::Model;
 use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene};
-use crate::picture::Transfer;
+use crate::picture::{Encoding, Tone, Transfer};
 use crate::tables::{self, Node, Reader};
 use glisten_front::compiler::{Compiler, Options, Source, SourceSettings};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
@@ -60,7 +60,8 @@ pub const MAX_PIXELS: u64 = 1 << 26;
 /// The largest number of color attachments (`gl_MaxDrawBuffers`).
 pub const MAX_ATTACHMENTS: u32 = 8;
 
-const FRAMEBUFFER_KEYS: &[&str] = &["width", "height", "clear", "format", "attachments", "encode"];
+const FRAMEBUFFER_KEYS: &[&str] =
+    &["width", "height", "clear", "format", "attachments", "encode", "tonemap", "exposure"];
 const KEYS: &[&str] =
     &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery", "stability"];
 
@@ -284,19 +285,27 @@ impl Loader<'_> {
             self.reader.error(&SCENE_CANNOT_DRAW, span, message, "this is larger");
             return None;
         }
-        let encode = self.transfer(table, format);
+        let encode = self.encoding(table, format);
         Some(Framebuffer { width, height, clear, format, attachments, encode })
     }
 
-    /// `encode`: the transfer function of 8-bit picture files.
-    fn transfer(&mut self, table: &DeTable<'_>, format: Format) -> Transfer {
+    /// `exposure`, `tonemap` and `encode`: how the colors of 8-bit picture files follow from the framebuffer's.
+    fn encoding(&mut self, table: &DeTable<'_>, format: Format) -> Encoding {
         let transfer = self.reader.choice_at(table, "encode", Transfer::Linear, Transfer::NAMES);
+        let tone = self.reader.choice_at(table, "tonemap", Tone::None, Tone::NAMES);
+        let exposure = self.reader.real(table, "exposure", 0.0);
+        if let Some(node) = table.get("exposure").filter(|_| !(-64.0..=64.0).contains(&exposure)) {
+            let span = self.reader.span_of(node);
+            self.reader.wrong_value(span, "an exposure is -64 to 64 stops", "not in that range");
+        }
+        let encoding = Encoding { exposure: exposure.clamp(-64.0, 64.0), tone, transfer };
         let integer = matches!(format, Format::Rgba32Sint | Format::Rgba32Uint);
-        if let (true, Transfer::Srgb, Some(node)) = (integer, transfer, table.get("encode")) {
+        let key = ["encode", "tonemap", "exposure"].into_iter().find_map(|key| table.get(key));
+        if let (true, Some(node)) = (integer && encoding != Encoding::default(), key) {
             let span = self.reader.span_of(node);
             self.reader.wrong_value(span, "the numbers of an integer framebuffer are no light", "nothing to encode");
         }
-        transfer
+        encoding
     }
 
     /// The clear color, rounded to `f32` as by `glClearColor`.

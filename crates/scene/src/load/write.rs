@@ -8,7 +8,7 @@ use crate::model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, Format, Scene, State, Texels, Texture,
     TextureLevel, Wrap,
 };
-use crate::picture::Transfer;
+use crate::picture::{Tone, Transfer};
 use glisten_front::hir::{SamplerDim, ScalarValue, Stage};
 use std::fmt::Write;
 
@@ -46,8 +46,15 @@ pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
     if framebuffer.format != Format::Rgba32Float {
         let _ = writeln!(text, "format = {}", quoted(name_of(FORMATS, framebuffer.format)));
     }
-    if framebuffer.encode != Transfer::Linear {
-        let _ = writeln!(text, "encode = {}", quoted(name_of(Transfer::NAMES, framebuffer.encode)));
+    let encode = framebuffer.encode;
+    if encode.exposure != 0.0 {
+        let _ = writeln!(text, "exposure = {:?}", encode.exposure);
+    }
+    if encode.tone != Tone::None {
+        let _ = writeln!(text, "tonemap = {}", quoted(name_of(Tone::NAMES, encode.tone)));
+    }
+    if encode.transfer != Transfer::Linear {
+        let _ = writeln!(text, "encode = {}", quoted(name_of(Transfer::NAMES, encode.transfer)));
     }
     if framebuffer.attachments != 1 {
         let _ = writeln!(text, "attachments = {}", framebuffer.attachments);

@@ -3,10 +3,10 @@
 //! *In:* the bytes of a PNG, an OpenEXR or a NumPy file, or RGBA numbers. *Out:* the respective other.
 //!
 //! *Holds:* `.npy` and `.exr` contain float32 RGBA as in the framebuffer; `.png` contains 8 bits, straight alpha,
-//! clamped to [0, 1] and rounded, encoded by a [`Transfer`] if one is asked for. Nothing here touches the file system.
+//! clamped to [0, 1] and rounded, encoded by an [`Encoding`] if one is asked for. Nothing here touches the file system.
 
 use super::image::{Image, ImageError, Size};
-use super::{Picture, Transfer, byte, exr, jpeg, npy, png};
+use super::{Encoding, Picture, byte, exr, jpeg, npy, png};
 use std::path::Path;
 
 /// The format of a picture file.
@@ -84,14 +84,14 @@ impl Picture {
     /// # Errors
     /// There is no such attachment, or a side is 0 and the format cannot represent an empty picture.
     pub fn encode(&self, attachment: usize, format: ImageFormat) -> Result<Vec<u8>, ImageError> {
-        self.encode_by(attachment, format, Transfer::Linear)
+        self.encode_by(attachment, format, Encoding::default())
     }
 
     /// The bytes of a file like [`encode`](Self::encode), with the colors of a PNG encoded by a transfer function.
     ///
     /// # Errors
     /// As for [`encode`](Self::encode).
-    pub fn encode_by(&self, attachment: usize, format: ImageFormat, by: Transfer) -> Result<Vec<u8>, ImageError> {
+    pub fn encode_by(&self, attachment: usize, format: ImageFormat, by: Encoding) -> Result<Vec<u8>, ImageError> {
         let pixels = self.attachments.get(attachment).ok_or_else(|| ImageError("no such attachment".to_owned()))?;
         let (width, height) = (self.width, self.height);
         match format {
@@ -149,7 +149,8 @@ mod tests {
     #[test]
     fn a_transfer_function_concerns_the_colors_of_pngs() {
         let picture = Picture::of_colors(1, 1, vec![[0.0, 0.5, 1.0, 0.5]]);
-        let encode = |format| picture.encode_by(0, format, Transfer::Srgb).expect("it can be written");
+        let encode =
+            |format| picture.encode_by(0, format, crate::picture::Transfer::Srgb.into()).expect("it can be written");
         let bytes: Vec<f32> = read(&encode(ImageFormat::Png)).pixels[0].map(|value| value * 255.0).to_vec();
         assert_eq!(bytes, [0.0, 188.0, 255.0, 128.0]);
         for format in [ImageFormat::Npy, ImageFormat::Exr] {

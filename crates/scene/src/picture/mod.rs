@@ -12,6 +12,7 @@ mod interval;
 mod jpeg;
 mod npy;
 mod png;
+mod tone;
 mod transfer;
 
 pub use self::png::{Effort, png_rgb};
@@ -19,6 +20,7 @@ pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
 pub use file::ImageFormat;
 pub use image::{Image, ImageError};
 pub use interval::Interval;
+pub use tone::{Encoding, Tone};
 pub use transfer::Transfer;
 
 /// The contents of a framebuffer, top row first, x fastest.

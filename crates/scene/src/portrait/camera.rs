@@ -118,5 +118,8 @@ impl Framing {
                 triple(*color, 1.0)
             );
         }
+        text.push_str(
+            "\n# Sky and ground, which metals mirror.\n[[light]]\nkind = \"hemisphere\"\nsky = [0.16, 0.18, 0.22]\nground = [0.05, 0.047, 0.043]\n",
+        );
     }
 }

@@ -66,7 +66,7 @@ fn head(model: &Model, name: &str) -> String {
     }
     let name = name.replace(['\n', '\r'], " ");
     format!(
-        "# {name}: {triangles} triangles\n{notes}global_ambient = [0.06, 0.06, 0.07]\n\n[framebuffer]\nwidth = 512\nheight = 512\n\
+        "# {name}: {triangles} triangles\n{notes}\n[framebuffer]\nwidth = 512\nheight = 512\n\
          clear = [0.03, 0.034, 0.042, 1.0]\nencode = \"srgb\"\n"
     )
 }
@@ -79,11 +79,22 @@ fn draw(text: &mut String, name: &str, shown: &Shown) {
         quoted(name)
     );
     let look = &shown.look;
-    let _ = writeln!(text, "diffuse = {}\nspecular = {}", triple(look.diffuse, 1.0), triple(look.specular, 1.0));
+    let _ = match look.metal {
+        Some([metallic, roughness]) => writeln!(
+            text,
+            "base_color = {}\nmetallic = {}\nroughness = {}",
+            triple(look.diffuse, 1.0),
+            number(metallic, 1.0),
+            number(roughness, 1.0)
+        ),
+        None => writeln!(text, "diffuse = {}\nspecular = {}", triple(look.diffuse, 1.0), triple(look.specular, 1.0)),
+    };
     if look.emission != [0.0; 3] {
         let _ = writeln!(text, "emission = {}", triple(look.emission, 1.0));
     }
-    let _ = writeln!(text, "shininess = {}", number(look.shininess, 1.0));
+    if look.metal.is_none() {
+        let _ = writeln!(text, "shininess = {}", number(look.shininess, 1.0));
+    }
     if let Some((file, image)) = &shown.texture {
         let image = image.map_or_else(String::new, |image| format!(", image = {image}"));
         let _ = writeln!(

@@ -1,8 +1,8 @@
 //! The materials of a glTF file, in terms of the standard program.
 //!
 //! *In:* the metallic-roughness model, or the older model of specular and glossiness. *Out:* a [`Look`] for each material, and one for
-//! triangles without. *Holds:* a metal keeps half of its color as diffuse, because nothing surrounds it that it could mirror; the
-//! exponent of the highlight is 2 / roughness⁴ - 2, with which Blinn's lobe is as wide as that of GGX.
+//! triangles without. *Holds:* metal and roughness stay what they are, for the standard program's GGX. For the older model, the exponent
+//! of the highlight is 2 / roughness⁴ - 2, with which Blinn's lobe is as wide as that of GGX.
 
 use super::super::model::{Look, TextureSource};
 use gltf::json::Root;
@@ -39,15 +39,13 @@ fn look(root: &Root, material: &Material, name: &str, remarks: &mut Vec<String>)
             let (metal, roughness) = (f64::from(given.metallic_factor.0), f64::from(given.roughness_factor.0));
             // A texture says which parts are metal.
             let metal = if given.metallic_roughness_texture.is_some() { metal * 0.5 } else { metal };
-            look.diffuse = [r, g, b].map(|color| color * (1.0 - 0.5 * metal));
-            let gloss = 1.0 - 0.7 * roughness;
-            look.specular = [r, g, b].map(|color| (0.2 * (1.0 - metal) + color * metal) * gloss);
-            look.shininess = exponent(roughness);
+            look.diffuse = [r, g, b];
+            look.metal = Some([metal.clamp(0.0, 1.0), roughness.clamp(0.0, 1.0)]);
             given.base_color_texture.as_ref()
         }
     };
     if extensions.is_some_and(|extensions| extensions.unlit.is_some()) {
-        (look.emission, look.diffuse, look.specular) = (look.diffuse, [0.0; 3], [0.0; 3]);
+        (look.emission, look.diffuse, look.specular, look.metal) = (look.diffuse, [0.0; 3], [0.0; 3], None);
     }
     look.texture = texture.and_then(|info| source(root, info, name, remarks));
     look
