@@ -29,14 +29,17 @@ vec3 areaSphere(vec3 center, float radius, vec3 R)
 // bound: 2e-5 abs, near a ray along the tube its nearest point is anywhere on it
 vec3 areaTube(vec3 a, vec3 b, float radius, vec3 R)
 {
-    vec3 d = safeLimit(b - a);
+    // From the nearer end, whose digits matter.
+    bool swapped = safeExtent(b) < safeExtent(a);
+    vec3 from = swapped ? b : a;
+    vec3 d = safeLimit(swapped ? a - b : b - a);
     float size = safeExtent(d);
     vec3 u = size > 0.0 ? d / size : vec3(0.0);
     // (R.a) (R.u) - a.u and u.u - (R.u)^2 as products of what is across the ray.
     vec3 across = cross(R, u);
     float square = dot(across, across);
-    float t = square > 0.0 ? clamp(safeFinite(-dot(cross(R, a), across) / square), 0.0, size) : 0.0;
-    return areaSphere(safeFinite(a + t * u), radius, R);
+    float t = square > 0.0 ? clamp(safeFinite(-dot(cross(R, from), across) / square), 0.0, size) : 0.0;
+    return areaSphere(safeFinite(from + t * u), radius, R);
 }
 
 // The irradiance of a sphere of radiance 1 over pi, which replaces N.L / d^2 of a point light: exact where the whole sphere is above
