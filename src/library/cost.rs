@@ -143,28 +143,18 @@ impl Counter<'_> {
         }
         let shader = self.shader;
         let expr = shader.expr(id);
-        let size = self.size(expr.ty);
-        let own = match &expr.kind {
+        let own = own(self.types, shader, id);
+        match &expr.kind {
             ExprKind::Ternary(condition, yes, no) => {
                 let (yes, no) = (self.expr(*yes), self.expr(*no));
-                return self.expr(*condition).and(yes.dearest(no)).and(Cost::arithmetic(size));
+                self.expr(*condition).and(yes.dearest(no)).and(own)
             }
-            ExprKind::Binary(op, left, right) => self.binary(*op, *left, *right, expr.ty),
-            ExprKind::Assign(Some(op), left, right) => self.binary(*op, *left, *right, expr.ty),
-            ExprKind::Unary(..) | ExprKind::Convert(_) | ExprKind::IncDec(..) => Cost::arithmetic(size),
-            ExprKind::Logical(..) => Cost::arithmetic(1),
-            ExprKind::Call(function, _) => self.function(*function),
-            ExprKind::BuiltinCall(function, arguments) => {
-                let first = arguments.first().map_or(size, |first| self.size(shader.expr(*first).ty));
-                builtin(*function, size, first)
+            ExprKind::Call(function, _) => {
+                let called = self.function(*function);
+                expr.kind.children().into_iter().fold(called, |cost, child| cost.and(self.expr(child)))
             }
-            _ => Cost::default(),
-        };
-        expr.kind.children().into_iter().fold(own, |cost, child| cost.and(self.expr(child)))
-    }
-
-    fn size(&self, ty: TypeId) -> u32 {
-        self.types.flat_len(ty).max(1)
+            _ => expr.kind.children().into_iter().fold(own, |cost, child| cost.and(self.expr(child))),
+        }
     }
 
     /// Whether the expression consists of literals and of calls without arguments.
@@ -172,22 +162,42 @@ impl Counter<'_> {
         let kind = &self.shader.expr(id).kind;
         !matches!(kind, ExprKind::Var(_)) && kind.children().into_iter().all(|child| self.constant(child))
     }
+}
 
-    fn binary(&self, op: BinaryOp, left: ExprId, right: ExprId, ty: TypeId) -> Cost {
-        let size = self.size(ty);
-        let operand = self.shader.expr(left).ty;
-        match op {
-            BinaryOp::Div => Cost::special(size, 0),
-            BinaryOp::MatMul => {
-                let inner = match self.types.get(operand) {
-                    Type::Matrix(columns, _) => u32::from(columns),
-                    _ => self.size(operand),
-                };
-                Cost::arithmetic(size * (2 * inner - 1))
-            }
-            BinaryOp::Equal | BinaryOp::NotEqual => Cost::arithmetic(self.size(self.shader.expr(right).ty)),
-            _ => Cost::arithmetic(size),
+/// The cost of an expression without that of its operands, and without that of the function that it calls.
+pub(crate) fn own(types: &Types, shader: &Shader, id: ExprId) -> Cost {
+    let expr = shader.expr(id);
+    let size = |ty: TypeId| types.flat_len(ty).max(1);
+    match &expr.kind {
+        ExprKind::Binary(op, left, right) | ExprKind::Assign(Some(op), left, right) => {
+            binary(types, shader, *op, (*left, *right), size(expr.ty))
         }
+        ExprKind::Unary(..) | ExprKind::Convert(_) | ExprKind::IncDec(..) | ExprKind::Ternary(..) => {
+            Cost::arithmetic(size(expr.ty))
+        }
+        ExprKind::Logical(..) => Cost::arithmetic(1),
+        ExprKind::BuiltinCall(function, arguments) => {
+            let first = arguments.first().map_or(expr.ty, |first| shader.expr(*first).ty);
+            builtin(*function, size(expr.ty), size(first))
+        }
+        _ => Cost::default(),
+    }
+}
+
+/// The cost of an operator whose result has `size` components.
+fn binary(types: &Types, shader: &Shader, op: BinaryOp, (left, right): (ExprId, ExprId), size: u32) -> Cost {
+    let len = |id: ExprId| types.flat_len(shader.expr(id).ty).max(1);
+    match op {
+        BinaryOp::Div => Cost::special(size, 0),
+        BinaryOp::MatMul => {
+            let inner = match types.get(shader.expr(left).ty) {
+                Type::Matrix(columns, _) => u32::from(columns),
+                _ => len(left),
+            };
+            Cost::arithmetic(size * (2 * inner - 1))
+        }
+        BinaryOp::Equal | BinaryOp::NotEqual => Cost::arithmetic(len(right)),
+        _ => Cost::arithmetic(size),
     }
 }
 

@@ -15,6 +15,7 @@ mod reads;
 mod scenes;
 
 pub use catalogue::{Entry, FunctionEntry, entries, entry};
+pub(crate) use cost::own as own_cost;
 pub use cost::{Cost, cost};
 pub use header::Header;
 pub use programs::{LibraryProgram, programs, shader, shader_files};

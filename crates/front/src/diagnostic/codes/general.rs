@@ -46,6 +46,12 @@ codes! {
          is missing or wrong. `--engine` or a `[[source]]` table of `glisten.toml` names the engine."
         bad Text("/*{ \"INPUTS\": [{\"NAME\": \"level\", \"TYPE\": \"number\"}] }*/"),
         good Text("/*{ \"INPUTS\": [{\"NAME\": \"level\", \"TYPE\": \"float\"}] }*/");
+    OVER_BUDGET = "E0017" "over-budget" Error ""
+        "A shader costs more than `[lint.budgets]` of `glisten.toml` allows: operations of a class on the longest path through a \
+         stage, or registers of varyings. `glisten cost` shows where they are. A loop whose rounds nothing limits counts as many \
+         as `iterations` of the budget says, or 8."
+        bad Text("[lint.budgets]\n\"*.frag\" = { lookups = 1 }   # and the shader has two"),
+        good Text("[lint.budgets]\n\"*.frag\" = { lookups = 2 }");
     LONE_STAGE = "W0001" "lone-stage" Warning "OpenGL 3.2 §2.11"
         "A stage is compiled without its partner. The locations of varyings, the uniform block and the bindings are \
          then those of this stage alone. They do not fit another stage that is compiled alone, too. Give both files \
