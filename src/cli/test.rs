@@ -1,15 +1,18 @@
-//! `glisten test`: runs `.shader_test` files on the GPU and with the CPU reference.
+//! `glisten test`: runs `.shader_test` files, and the functions of sources under `//! test`, on the GPU and with the CPU reference.
 
-use super::args::ResultFormat;
+use super::args::{ResultFormat, SourceArgs};
 use super::console::Console;
+use super::engine::Engines;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
 use super::journal::{self, Note};
 use super::progress::Progress;
 use super::scenes::{gpu_failure, open_gpu};
+use super::search;
 use crate::scene::Scene;
 use crate::shader_test::{self, TestBackend, TestResult};
+use crate::unit_test::{UnitTest, has_tests, tests};
 use clap::{Args, ValueEnum};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::Diagnostic;
@@ -21,10 +24,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Run .shader_test files: shaders, draws, and expected pixels
+/// Run .shader_test files, and the functions of shaders under a comment `//! test`
 #[derive(Args, Debug)]
 pub(super) struct TestArgs {
-    /// Test files, or folders to search for them
+    /// Test files and shaders, or folders to search for them
     #[arg(required = true, value_name = "FILE|DIR")]
     paths: Vec<PathBuf>,
     /// The backend
@@ -42,6 +45,8 @@ pub(super) struct TestArgs {
     /// The format of the results
     #[arg(long, value_enum, default_value_t)]
     format: ResultFormat,
+    #[command(flatten)]
+    sources: SourceArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -69,6 +74,15 @@ struct TestRow {
     backend: String,
     result: String,
     reason: Option<String>,
+    /// The function, of a test in GLSL.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    test: Option<String>,
+    /// The line of its comment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    line: Option<u32>,
+    /// How many calls it makes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cases: Option<usize>,
 }
 
 /// The name of the backend that a driver is.
@@ -85,8 +99,11 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
         collect(path, &mut files, 0)?;
     }
     if files.is_empty() {
-        return Err(Failure::usage(format!("there is no .{EXTENSION} file")));
+        return Err(Failure::usage(format!("there is no .{EXTENSION} file, and no shader with `//! test`")));
     }
+    let engines = Engines::new(&args.sources)?;
+    let options = Options { defines: args.sources.defines.clone(), strict: args.sources.strict, ..Options::default() };
+    let compiler = Compiler::new(options).with_includes(engines.includes()).with_preparation(engines.clone());
     let mut backends = backends(args)?;
     let progress = Progress::new(console, files.len());
     let mut results = Vec::new();
@@ -96,6 +113,11 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
         progress.say(&name);
         let bytes = files::read(&name, path).map_err(|_| Failure::usage(format!("cannot read `{name}`")))?;
         let text = String::from_utf8_lossy(&bytes);
+        if is_source(path) && has_tests(&text) {
+            results.extend(units(&name, &text, &compiler, &mut backends, &mut known));
+            progress.step();
+            continue;
+        }
         for (backend, draws) in &mut backends {
             let row = known.take(&name, backend).unwrap_or_else(|| {
                 let _work = (*backend == GPU).then(|| journal::at_work(&journal::drawing(&name)));
@@ -115,6 +137,38 @@ pub(super) fn run(args: &TestArgs, console: &Console) -> Outcome {
     console.output(&text)?;
     let failed = results.iter().any(|result| result.result == "fail");
     Ok(if failed { Exit::Content } else { Exit::Ok })
+}
+
+/// Whether a file is a shader, and not a test file.
+fn is_source(path: &Path) -> bool {
+    path.extension().is_none_or(|extension| extension != EXTENSION)
+}
+
+/// Runs the tests in the functions of a source.
+fn units(name: &str, text: &str, compiler: &Compiler, backends: &mut [Named], known: &mut Known) -> Vec<TestRow> {
+    let found = match guard::guarded(|| tests(name, text, compiler)) {
+        Ok(found) => found,
+        Err(panic) => return vec![TestRow::new(name, "cpu", &TestResult::Fail(format!("internal error: {panic}")))],
+    };
+    let mut rows = Vec::new();
+    for test in &found {
+        for (backend, draws) in &mut *backends {
+            let key = format!("{name}:{}", test.line);
+            let row = known.take(&key, backend).unwrap_or_else(|| {
+                let _work = (*backend == GPU).then(|| journal::at_work(&journal::drawing(&key)));
+                let result = guard::guarded(|| match *backend {
+                    GPU => test.run(Some(draws.as_mut())),
+                    _ => test.run(None),
+                });
+                let result = result.unwrap_or_else(|panic| TestResult::Fail(format!("internal error: {panic}")));
+                let row = TestRow { file: key, ..TestRow::new(name, backend, &result) };
+                row.keep();
+                row
+            });
+            rows.push(row.of(name, test));
+        }
+    }
+    rows
 }
 
 /// The results of processes before this one, which a driver took down.
@@ -155,7 +209,14 @@ impl Known {
 impl TestRow {
     fn new(file: &str, backend: &str, found: &TestResult) -> Self {
         let (result, reason) = (found.name().to_owned(), found.reason().map(str::to_owned));
-        Self { file: file.to_owned(), backend: backend.to_owned(), result, reason }
+        let (file, backend) = (file.to_owned(), backend.to_owned());
+        Self { file, backend, result, reason, test: None, line: None, cases: None }
+    }
+
+    /// The row of a test in the source `file`.
+    fn of(self, file: &str, test: &UnitTest) -> Self {
+        let (name, line, cases) = (Some(test.name.clone()), Some(test.line), Some(test.cases()));
+        Self { file: file.to_owned(), test: name, line, cases, ..self }
     }
 
     /// Keeps the result for a process after this one.
@@ -177,6 +238,11 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: u32) -> Result<(), Fail
     if !std::fs::metadata(path).map_err(unreadable)?.is_dir() {
         files.push(path.to_owned());
         return Ok(());
+    }
+    if depth == 0 {
+        let with_tests =
+            |path: &PathBuf| std::fs::read(path).is_ok_and(|text| has_tests(&String::from_utf8_lossy(&text)));
+        files.extend(search::texts(path)?.into_iter().filter(with_tests));
     }
     let mut entries = std::fs::read_dir(path)
         .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>())
@@ -260,7 +326,8 @@ fn human(results: &[TestRow]) -> String {
     let mut text = String::new();
     for result in results.iter().filter(|result| result.result != "pass") {
         let reason = result.reason.as_deref().unwrap_or_default();
-        text.push_str(&format!("{} {} {}: {reason}\n", result.result, result.backend, result.file));
+        let test = result.test.as_ref().map_or_else(String::new, |test| format!(" {test}"));
+        text.push_str(&format!("{} {} {}{test}: {reason}\n", result.result, result.backend, result.file));
     }
     let count = |name: &str| results.iter().filter(|result| result.result == name).count();
     text + &format!("{} passed, {} failed, {} skipped\n", count("pass"), count("fail"), count("skip"))

@@ -9,10 +9,41 @@ use glisten_front::hir::{ArraySize, Function, ParamMode, SamplerDim, Scalar, Sha
 use glisten_front::{Compiler, Source};
 
 /// A triangle that covers the whole window.
-pub(super) const VERTEX: &str = "#version 150\nvoid main()\n{\n    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, \
+const VERTEX: &str = "void main()\n{\n    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, \
     gl_VertexID == 2 ? 3.0 : -1.0);\n    gl_Position = vec4(p, 0.0, 1.0);\n}\n";
 /// The prefix of the names of the table uniforms; a number follows.
 pub(super) const TABLE: &str = "glisten_table";
+
+/// The name of the texture with the inputs.
+pub(super) const INPUTS: &str = "glisten_inputs";
+/// The name of the output with the results.
+pub(super) const RESULT: &str = "glisten_result";
+
+/// A text with functions.
+#[derive(Clone, Copy, Debug)]
+pub struct Text<'a> {
+    /// The name of its file, next to which its includes are.
+    pub name: &'a str,
+    /// Its version: what follows `#version`.
+    pub version: &'a str,
+    /// The text, without a `#version` line and without `main`.
+    pub text: &'a str,
+}
+
+impl<'a> Text<'a> {
+    /// A text of GLSL 1.50 without a file.
+    pub fn new(text: &'a str) -> Self {
+        Self { name: "evaluate.frag", version: "150", text }
+    }
+}
+
+/// The vertex shader of a version.
+pub(super) fn vertex(version: &str) -> String {
+    format!("#version {version}\n{VERTEX}")
+}
+
+/// How many lines are in front of the text.
+pub(crate) const HEAD_LINES: u32 = 2;
 
 /// The text of a call.
 pub(super) struct Call {
@@ -22,8 +53,14 @@ pub(super) struct Call {
     pub(super) tables: usize,
 }
 
-fn head(text: &str) -> String {
-    format!("#version 150\n#extension GL_ARB_shading_language_include : enable\n{text}\n")
+fn head(Text { version, text, .. }: Text<'_>) -> String {
+    format!("#version {version}\n#extension GL_ARB_shading_language_include : enable\n{text}\n")
+}
+
+/// A shader with the text and an empty `main`.
+pub(crate) fn whole(text: Text<'_>) -> Source {
+    let whole = head(text) + "out vec4 glisten_result;\nvoid main() { glisten_result = vec4(0.0); }\n";
+    Source { name: text.name.into(), text: whole.into(), stage: Stage::Fragment }
 }
 
 /// The signatures of all functions that a text defines, including those of its includes, in order:
@@ -32,20 +69,18 @@ fn head(text: &str) -> String {
 /// # Errors
 /// The text does not compile.
 pub fn signatures(compiler: &Compiler, text: &str) -> Result<Vec<String>, EvaluateError> {
-    let (types, shader) = compile(compiler, text)?;
+    let (types, shader) = compile(compiler, Text::new(text))?;
     let defined = shader.functions.iter().filter(|function| function.body.is_some() && function.name != "main");
     Ok(defined.map(|function| signature_of(&types, function)).collect())
 }
 
-fn signature_of(types: &Types, function: &Function) -> String {
+pub(crate) fn signature_of(types: &Types, function: &Function) -> String {
     let names: Vec<String> = function.params().iter().map(|param| types.name(param.ty)).collect();
     format!("{}({})", function.name, names.join(","))
 }
 
-fn compile(compiler: &Compiler, text: &str) -> Result<(Types, Shader), EvaluateError> {
-    let text = head(text) + "out vec4 glisten_result;\nvoid main() { glisten_result = vec4(0.0); }\n";
-    let source = Source { name: "evaluate.frag".into(), text: text.into(), stage: Stage::Fragment };
-    let compilation = compiler.compile(&[source]);
+fn compile(compiler: &Compiler, text: Text<'_>) -> Result<(Types, Shader), EvaluateError> {
+    let compilation = compiler.compile(&[whole(text)]);
     let program = compilation.program.ok_or_else(|| EvaluateError::told(compilation.diagnostics.iter()))?;
     let mut stages = program.stages.into_iter();
     let shader = stages.next().ok_or_else(|| EvaluateError::new("there is no shader"))?;
@@ -55,7 +90,7 @@ fn compile(compiler: &Compiler, text: &str) -> Result<(Types, Shader), EvaluateE
 impl Call {
     pub(super) fn new(
         compiler: &Compiler,
-        text: &str,
+        text: Text<'_>,
         signature: &str,
         wraps: &[(usize, &str)],
     ) -> Result<Self, EvaluateError> {
@@ -160,7 +195,7 @@ impl Writer<'_> {
         Ok(format!("{}({})", self.types.name(ty), parts?.join(", ")))
     }
 
-    fn text(&self, text: &str, function: &Function, arguments: &[String], results: usize) -> String {
+    fn text(&self, text: Text<'_>, function: &Function, arguments: &[String], results: usize) -> String {
         let mut out = head(text);
         out += "uniform sampler2D glisten_inputs;\n";
         (0..self.tables).for_each(|index| out += &format!("uniform sampler2D {TABLE}{index};\n"));

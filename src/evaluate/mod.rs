@@ -25,12 +25,14 @@ use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Stage};
 use glisten_front::link::Program;
 use glisten_front::{Compiler, Source};
 use glisten_reference::{Precision, RenderOptions};
-use glisten_scene::picture::Picture;
-use glisten_scene::picture::Transfer;
+use glisten_scene::picture::{Interval, Picture, Transfer};
+use glisten_scene::values::UniformValues;
 use std::fmt;
 use std::sync::Arc;
 
+pub use generate::Text;
 pub use generate::signatures;
+pub(crate) use generate::{HEAD_LINES, signature_of, whole};
 
 /// How many rows of inputs share a line of the picture.
 const ROWS_A_LINE: usize = 64;
@@ -93,10 +95,24 @@ impl Evaluator {
         signature: &str,
         wraps: &[(usize, &str)],
     ) -> Result<Self, EvaluateError> {
+        Self::of_text(compiler, Text::new(text), signature, wraps)
+    }
+
+    /// Prepares the calls of a function of a text with a name and a version; see [`new`](Self::new).
+    ///
+    /// # Errors
+    /// The text has errors, it has no such function, or a type is not supported.
+    pub fn of_text(
+        compiler: &Compiler,
+        text: Text<'_>,
+        signature: &str,
+        wraps: &[(usize, &str)],
+    ) -> Result<Self, EvaluateError> {
         let call = generate::Call::new(compiler, text, signature, wraps)?;
+        let vertex = generate::vertex(text.version);
         let sources = [
-            Source { name: "evaluate.vert".into(), text: generate::VERTEX.into(), stage: Stage::Vertex },
-            Source { name: "evaluate.frag".into(), text: call.text.as_str().into(), stage: Stage::Fragment },
+            Source { name: "evaluate.vert".into(), text: vertex.into(), stage: Stage::Vertex },
+            Source { name: text.name.into(), text: call.text.as_str().into(), stage: Stage::Fragment },
         ];
         let compilation = compiler.compile(&sources);
         let Some(program) = compilation.program else {
@@ -149,15 +165,18 @@ impl Evaluator {
             let table = slot.name.strip_prefix(generate::TABLE).and_then(|index| index.parse::<usize>().ok());
             textures.push(match table {
                 Some(index) => tables.get(index).cloned(),
-                None => Some(Arc::new(self.packed(inputs, lines))),
+                None if slot.name == generate::INPUTS => Some(Arc::new(self.packed(inputs, lines))),
+                // A sampler of the text itself, which no called function reads.
+                None => None,
             });
         }
+        let attachments = self.attachment() as u32 + 1;
         let framebuffer = Framebuffer {
             width: (ROWS_A_LINE * self.parts()) as u32,
             height: lines as u32,
             clear: [0.0; 4],
             format: Format::Rgba32Float,
-            attachments: 1,
+            attachments,
             encode: Transfer::Linear.into(),
         };
         let draw = Draw {
@@ -167,7 +186,7 @@ impl Evaluator {
             indices: None,
             instances: 1,
             attributes: Vec::new(),
-            uniforms: Vec::new(),
+            uniforms: UniformValues::initial(&self.program).roots,
             textures,
             dynamic: Vec::new(),
             fixed: None,
@@ -188,10 +207,27 @@ impl Evaluator {
         table_of(TextureLevel { width, height, depth: 1, texels: Texels::Float(texels) }, Filter::Nearest)
     }
 
+    /// The color number of the results: the text may have outputs of its own.
+    fn attachment(&self) -> usize {
+        let outputs = &self.program.interface.outputs;
+        outputs.iter().find(|output| output.name == generate::RESULT).map_or(0, |output| output.location as usize)
+    }
+
     /// The results in a picture of the scene: for each row of inputs, [`results`](Self::results) numbers.
     pub fn read(&self, picture: &Picture, rows: usize) -> Vec<Vec<f64>> {
-        let Some(pixels) = picture.attachments.first() else { return Vec::new() };
-        let (parts, width, height) = (self.parts(), picture.width as usize, picture.height as usize);
+        let pixels = picture.attachments.get(self.attachment());
+        pixels.map_or_else(Vec::new, |pixels| self.rows(pixels, [picture.width, picture.height], rows))
+    }
+
+    /// The intervals of the results in a picture of the scene with envelopes.
+    pub fn read_intervals(&self, picture: &Picture, rows: usize) -> Vec<Vec<Interval>> {
+        let pixels = picture.intervals.as_ref().and_then(|all| all.get(self.attachment()));
+        pixels.map_or_else(Vec::new, |pixels| self.rows(pixels, [picture.width, picture.height], rows))
+    }
+
+    /// The channels of the pixels of each row.
+    fn rows<T: Copy>(&self, pixels: &[[T; 4]], [width, height]: [u32; 2], rows: usize) -> Vec<Vec<T>> {
+        let (parts, width, height) = (self.parts(), width as usize, height as usize);
         let row = |index: usize| {
             // Lines of the picture count from the top, `gl_FragCoord` from the bottom.
             let line = height.saturating_sub(index / ROWS_A_LINE + 1);

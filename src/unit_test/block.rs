@@ -1,0 +1,70 @@
+//! The comments that make tests of functions, as they are written.
+//!
+//! *In:* a text. *Out:* a [`Block`] for each comment that begins with `//! test` or `//! test: title`, with its lines. *Holds:* lines are those of the text, from
+//! 1. *Not done here:* what the lines mean ([`super::table`]).
+
+/// A comment that makes a test of the function below it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Block {
+    /// The line of `//! test`.
+    pub(super) line: u32,
+    /// The last line of the comment.
+    pub(super) last: u32,
+    /// The text that follows `test`, and the lines below, each with its number; empty ones are left out.
+    pub(super) lines: Vec<(u32, String)>,
+}
+
+/// The word that begins a test.
+const TEST: &str = "test";
+
+/// Whether a text may have tests.
+pub fn has_tests(text: &str) -> bool {
+    text.contains("//!") && !blocks(text).is_empty()
+}
+
+/// All tests of a text.
+pub(super) fn blocks(text: &str) -> Vec<Block> {
+    let mut blocks: Vec<Block> = Vec::new();
+    let mut open = false;
+    for (index, line) in text.lines().enumerate() {
+        let number = u32::try_from(index + 1).unwrap_or(u32::MAX);
+        let Some(comment) = line.trim_start().strip_prefix("//!") else {
+            open = false;
+            continue;
+        };
+        let comment = comment.trim();
+        let first = comment.strip_prefix(TEST).filter(|rest| rest.is_empty() || rest.starts_with([' ', '\t', ':']));
+        let told = match first {
+            Some(rest) if !open => {
+                blocks.push(Block { line: number, last: number, lines: Vec::new() });
+                open = true;
+                // A title is for people.
+                if rest.starts_with(':') { "" } else { rest.trim() }
+            }
+            _ => comment,
+        };
+        if let Some(block) = blocks.last_mut().filter(|_| open) {
+            block.last = number;
+            if !told.is_empty() {
+                block.lines.push((number, told.to_owned()));
+            }
+        }
+    }
+    blocks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{blocks, has_tests};
+
+    #[test]
+    fn comments_are_found_with_their_lines() {
+        let text = "// a\n//! test x = 0..1\n//!   tolerance 1e-3\n//!\nfloat f(float x)\n{\n}\n\n//! testing\n//! test\nvoid g() {}\n";
+        let found = blocks(text);
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].line, found[0].last), (2, 4));
+        assert_eq!(found[0].lines, [(2, "x = 0..1".to_owned()), (3, "tolerance 1e-3".to_owned())]);
+        assert_eq!((found[1].line, found[1].lines.len()), (10, 0));
+        assert!(has_tests(text) && !has_tests("//! tests are below\nvoid f() {}"));
+    }
+}
