@@ -20,6 +20,7 @@
 //! writes files.
 
 pub mod build;
+pub mod cost;
 pub mod engines;
 pub mod library;
 mod sources;
@@ -58,6 +59,8 @@ pub mod snapshot;
 pub mod specialize;
 #[cfg(feature = "stability")]
 pub mod stability;
+#[cfg(feature = "reference")]
+pub mod unit_test;
 pub mod upgrade;
 #[cfg(feature = "reference")]
 pub mod verify;

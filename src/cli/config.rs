@@ -12,6 +12,12 @@
 //! values = { LIGHTS = [0, 1, 4], LEGACY = [false] }
 //! skip = ["PCF !SHADOWS"]
 //!
+//! [lint.budgets]               # what a shader may cost ([`super::settings`])
+//! "*.frag" = { weight = 400, lookups = 4, varyings = 8 }
+//!
+//! [lint.ranges]                # what inputs may be
+//! lights = [0, 8]
+//!
 //! [fmt]
 //! indent = 4                   # or "tab"
 //! width = 100
@@ -33,8 +39,10 @@
 
 use super::args::set_level;
 use super::batch::Batch;
+use super::bounds::Bounds;
 use super::files;
 use super::rules::{KEYS as SOURCE_KEYS, Rule, RuleReader};
+use super::settings::{Budgets, ranges};
 use super::variants::stated::Stated;
 use crate::format;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
@@ -51,7 +59,8 @@ const NAME: &str = "glisten.toml";
 
 /// The keys of the file and of its tables.
 const KEYS: &[&str] = &["exclude", "lint", "stability", "source", "fmt"];
-const LINT_KEYS: &[&str] = &["allow", "warn", "deny", "exclude", "assume_version", "assume-version", "configurations"];
+const LINT_KEYS: &[&str] =
+    &["allow", "warn", "deny", "exclude", "assume_version", "assume-version", "configurations", "budgets", "ranges"];
 const LEVELS: &[(&str, Level)] = &[("allow", Level::Allow), ("warn", Level::Warn), ("deny", Level::Deny)];
 
 const FMT_KEYS: &[&str] = &["indent", "width", "braces"];
@@ -68,6 +77,8 @@ struct Configuration {
     style: format::Options,
     /// The values of macros for `lint --configurations`.
     stated: Stated,
+    budgets: Budgets,
+    ranges: Vec<(String, Bounds)>,
 }
 
 impl Configuration {
@@ -83,6 +94,12 @@ impl Configuration {
             read.levels = levels(reader, lint);
             if let Some(table) = reader.table_at(lint, "configurations") {
                 read.stated = Stated::read(reader, table);
+            }
+            if let Some(table) = reader.table_at(lint, "budgets") {
+                read.budgets = Budgets::read(reader, table, path.parent().unwrap_or(Path::new("")));
+            }
+            if let Some(table) = reader.table_at(lint, "ranges") {
+                read.ranges = ranges(reader, table);
             }
         }
         if let Some(stability) = reader.table_at(&document, "stability") {
@@ -222,10 +239,20 @@ pub(super) fn stability_bound(scene: &Path) -> Option<f64> {
     last.map(|(_, bound)| *bound)
 }
 
+/// The settings that `lint` obeys for the files of a folder.
+#[derive(Clone, Default)]
+pub(super) struct Settings {
+    pub(super) levels: Levels,
+    /// The costs that shaders may have.
+    pub(super) budgets: Budgets,
+    /// The ranges of inputs.
+    pub(super) ranges: Vec<(String, Bounds)>,
+}
+
 /// The configurations of all folders so far, completed by the levels of the command line.
 pub(super) struct Configs {
     given: Levels,
-    by_folder: BTreeMap<PathBuf, Levels>,
+    by_folder: BTreeMap<PathBuf, Arc<Settings>>,
     /// The errors in the configurations themselves.
     pub(super) errors: Vec<Batch>,
 }
@@ -238,26 +265,32 @@ impl Configs {
 
     /// The levels for the file called `name`.
     pub(super) fn levels(&mut self, name: &str) -> &Levels {
+        &self.settings(name).levels
+    }
+
+    /// The settings for the file called `name`.
+    pub(super) fn settings(&mut self, name: &str) -> &Arc<Settings> {
         let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !self.by_folder.contains_key(folder) {
-            let found = self.search(folder);
-            let levels = self.given.over(&found);
-            self.by_folder.insert(folder.to_owned(), levels);
+            let mut found = self.search(folder);
+            found.levels = self.given.over(&found.levels);
+            self.by_folder.insert(folder.to_owned(), Arc::new(found));
         }
         &self.by_folder[folder]
     }
 
-    fn search(&mut self, folder: &Path) -> Levels {
-        let Some(path) = nearest(folder) else { return Levels::default() };
+    fn search(&mut self, folder: &Path) -> Settings {
+        let Some(path) = nearest(folder) else { return Settings::default() };
         let name = path.to_string_lossy().into_owned();
         let mut sources = SourceMap::default();
-        let mut levels = Levels::default();
+        let mut settings = Settings::default();
         let diagnostics = match files::read(&name, &path) {
             Ok(bytes) => {
                 let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
                 let base = sources.add(&name, Arc::clone(&text)).map_or(0, |id| sources.file(id).base());
                 let mut reader = Reader::new(&CONFIGURATION, base, Arc::clone(&text));
-                levels = Configuration::read(&mut reader, &text, &path).levels;
+                let Configuration { levels, budgets, ranges, .. } = Configuration::read(&mut reader, &text, &path);
+                settings = Settings { levels, budgets, ranges };
                 reader.diagnostics.into_iter().collect()
             }
             Err(error) => vec![error.diagnostic(&mut sources, &name)],
@@ -266,6 +299,6 @@ impl Configs {
         if !batch.diagnostics.is_empty() && !self.errors.iter().any(|other| other.diagnostics == batch.diagnostics) {
             self.errors.push(batch);
         }
-        levels
+        settings
     }
 }

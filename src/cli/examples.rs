@@ -54,6 +54,17 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "cost",
+        &[
+            ("glisten cost a.vert a.frag", "operations on the shortest and the longest path, and the dearest lines"),
+            (
+                "glisten cost shaders --range lights=0..4 --format json",
+                "with a limit for the rounds of loops, for scripts",
+            ),
+            ("glisten cost --measure", "how well costs rank the times of the library's scenes here"),
+        ],
+    ),
+    (
         "reflect",
         &[
             ("glisten reflect a.vert a.frag", "attributes, uniforms, blocks, textures and outputs as a table"),

@@ -2,6 +2,7 @@
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use super::baseline::{Baseline, BaselineArgs};
+use super::config::Settings;
 use super::configurations::{Extent, Listed, explored};
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
@@ -12,13 +13,18 @@ use super::inputs::{self, Group, Inputs};
 use super::not_checked;
 use super::permutations;
 use super::session::{Session, Unit, compile_anywhere};
+use super::settings::numbers;
 use super::strings;
+use super::witness::{self, Shown};
+use crate::cost::{Assumptions, cost};
 use clap::Args;
-use glisten_front::diagnostic::{Code, Diagnostic, Levels};
+use glisten_front::diagnostic::{Code, Diagnostic};
+use glisten_front::link::Program;
 use glisten_front::lint::check_some;
-use glisten_front::source::Span;
+use glisten_front::source::{SourceMap, Span};
 use rayon::prelude::*;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Check shaders and the programs that they form
 #[derive(Args, Debug)]
@@ -45,6 +51,9 @@ pub(super) struct LintArgs {
     /// Check the shaders in the strings of JavaScript, TypeScript, Rust, Python, C and C++, too
     #[arg(long)]
     embedded: bool,
+    /// Write a scene for each finding on numerics into this folder, which shows it with the inputs that the finding names
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["configurations", "permutations"])]
+    witnesses: Option<PathBuf>,
     #[command(flatten)]
     fixes: FixArgs,
     #[command(flatten)]
@@ -88,7 +97,10 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     inputs.tell_empty_folders(console);
     let baseline = Baseline::new(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
-    let mut units = checked(&mut session, groups.clone(), &inputs);
+    let (mut units, shown) = checked(&mut session, groups.clone(), &inputs);
+    if let Some(folder) = &args.witnesses {
+        write_all(folder, &shown, console)?;
+    }
     if args.configurations || args.permutations.is_some() {
         let (all, extent) = explored(&mut session, units, &listed, &inputs.found, lints);
         units = all;
@@ -112,7 +124,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     }
     let mut fixer = Fixer::new(args.fixes);
     while fixer.advance(&units) {
-        units = checked(&mut session, groups.clone(), &inputs);
+        (units, _) = checked(&mut session, groups.clone(), &inputs);
         if let Some(baseline) = &baseline {
             baseline.apply(&mut units, None);
         }
@@ -133,16 +145,31 @@ fn told(extent: &Extent) -> String {
     format!("{} of {programs}, {compiled} of them different; {branches}", count(configurations, "configuration"))
 }
 
-/// Compiles the groups, and adds the findings of the rules.
-fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> Vec<Unit> {
+/// Writes the scenes that show findings.
+fn write_all(folder: &Path, shown: &[Shown], console: &Console) -> Result<(), Failure> {
+    if shown.is_empty() {
+        return Ok(());
+    }
+    files::make_folder(folder)?;
+    for Shown { name, scene, made: (extension, text) } in shown {
+        files::write(&folder.join(format!("{name}.{extension}")), text.as_bytes())?;
+        files::write(&folder.join(format!("{name}.toml")), scene.as_bytes())?;
+    }
+    let count = if shown.len() == 1 { "a scene".to_owned() } else { format!("{} scenes", shown.len()) };
+    console.remark(&format!("{count} in {}: `glisten stability` shows where the numbers are born", folder.display()));
+    Ok(())
+}
+
+/// Compiles the groups, and adds the findings of the rules, those on numerics with what shows them.
+fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> (Vec<Unit>, Vec<Shown>) {
     let mut units = session.compile(groups);
-    let found = lints(session, &units);
+    let (found, shown) = found(session, &units, true);
     for (unit, found) in units.iter_mut().zip(found) {
         session.add(&mut unit.batch, found);
     }
     certain(session, &mut units);
     not_checked::settle(session, &mut units, inputs);
-    units
+    (units, shown)
 }
 
 /// Drops the findings of units that depend on what their strings leave open.
@@ -155,20 +182,58 @@ fn certain(session: &Session<'_>, units: &mut [Unit]) {
     }
 }
 
-/// The findings of the rules in each unit, in parallel. Rules that the levels of all its files turn off are not run.
+/// The findings of the rules in units that were compiled in other ways than as they are, which is why no inputs are tried.
 fn lints(session: &mut Session<'_>, units: &[Unit]) -> Vec<Vec<Diagnostic>> {
-    let mut levels_of = |unit: &Unit| -> Vec<Levels> {
+    found(session, units, false).0
+}
+
+/// The findings of the rules in each unit, and what costs more than the project allows, in parallel. Rules that the levels of all
+/// its files turn off are not run.
+fn found(session: &mut Session<'_>, units: &[Unit], tries: bool) -> (Vec<Vec<Diagnostic>>, Vec<Shown>) {
+    let mut settings_of = |unit: &Unit| -> Vec<Arc<Settings>> {
         let files = unit.batch.sources.files().map(|(_, file)| file.name());
-        files.map(|name| session.levels_of(name)).collect()
+        files.map(|name| session.settings_of(name)).collect()
     };
-    let levels: Vec<Vec<Levels>> = units.iter().map(&mut levels_of).collect();
-    let found = |(unit, levels): (&Unit, Vec<Levels>)| {
-        let wanted = |code: &Code| levels.iter().any(|levels| levels.may_report(code));
-        let check = |program| guard::guarded(|| check_some(program, &unit.batch.sources, wanted));
-        unit.program.as_ref().map_or_else(Vec::new, |program| {
+    let settings: Vec<Vec<Arc<Settings>>> = units.iter().map(&mut settings_of).collect();
+    let compiler = session.compiler();
+    let found = |(unit, settings): (&Unit, Vec<Arc<Settings>>)| {
+        let wanted = |code: &Code| settings.iter().any(|settings| settings.levels.may_report(code));
+        let check = |program: &Program| {
+            let sources = &unit.batch.sources;
+            let mut found = check_some(program, sources, wanted);
+            found.extend(over_budget(program, sources, &settings));
+            let ranges = settings.first().map_or(&[][..], |settings| &settings.ranges);
+            if tries { witness::settle(unit, ranges, compiler, wanted, found) } else { (found, Vec::new()) }
+        };
+        unit.program.as_ref().map_or_else(Default::default, |program| {
             let first = unit.batch.sources.files().next().map_or(0, |(_, file)| file.base());
-            check(program).unwrap_or_else(|panic| vec![guard::diagnostic(&panic, Span::new(first, first))])
+            let found = guard::guarded(|| check(program));
+            found.unwrap_or_else(|panic| (vec![guard::diagnostic(&panic, Span::new(first, first))], Vec::new()))
         })
     };
-    session.pool().install(|| units.par_iter().zip(levels).map(found).collect())
+    let all: Vec<(Vec<Diagnostic>, Vec<Shown>)> =
+        session.pool().install(|| units.par_iter().zip(settings).map(found).collect());
+    let (found, shown): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+    (found, shown.into_iter().flatten().collect())
+}
+
+/// The costs of the stages of a program beyond the budgets of their files.
+fn over_budget(program: &Program, sources: &SourceMap, settings: &[Arc<Settings>]) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    if settings.iter().all(|settings| settings.budgets.is_empty()) {
+        return found;
+    }
+    for shader in &program.stages {
+        let Some(file) = shader.origin.file.map(|file| sources.file(file).name()) else { continue };
+        let mut budgets = settings.iter().filter_map(|settings| Some((settings, settings.budgets.of(file)?)));
+        let Some((settings, budget)) = budgets.next() else { continue };
+        let mut assumptions = Assumptions::default();
+        assumptions.iterations = budget.iterations.unwrap_or(assumptions.iterations);
+        assumptions.ranges = numbers(&settings.ranges);
+        let cost = cost(program, sources, &assumptions);
+        for stage in cost.stages.iter().filter(|stage| stage.stage == shader.stage.name()) {
+            found.extend(budget.check(&cost, stage));
+        }
+    }
+    found
 }

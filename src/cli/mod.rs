@@ -10,6 +10,7 @@
 mod args;
 mod baseline;
 mod batch;
+mod bounds;
 mod buffers;
 mod cache;
 mod cache_command;
@@ -19,6 +20,9 @@ mod completions;
 mod config;
 mod configurations;
 mod console;
+mod cost;
+mod cost_rank;
+mod cost_table;
 mod depfile;
 mod digest;
 mod engine;
@@ -76,6 +80,7 @@ mod rules;
 mod scenes;
 mod search;
 mod session;
+mod settings;
 mod snapshots;
 mod specialize;
 mod stability;
@@ -95,6 +100,7 @@ mod variants;
 mod verify;
 mod watch;
 mod with;
+mod witness;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::{ColorChoice, Console};
@@ -134,6 +140,7 @@ enum Command {
     Lint(lint::LintArgs),
     Compile(compile::CompileArgs),
     Reflect(reflect::ReflectArgs),
+    Cost(cost::CostArgs),
     Explain(explain::ExplainArgs),
     Rules(lint_rules::RulesArgs),
     Render(render::RenderArgs),
@@ -221,6 +228,7 @@ impl Command {
             Self::Gallery(args) => args.draws_by_a_driver(),
             Self::Test(args) => args.draws_by_a_driver(),
             Self::Lib(args) => args.draws_by_a_driver(),
+            Self::Cost(args) => args.draws_by_a_driver(),
             Self::Lint(_)
             | Self::Compile(_)
             | Self::Reflect(_)
@@ -251,6 +259,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Lint(args) => lint::run(args, console),
         Command::Compile(args) => compile::run(args, console),
         Command::Reflect(args) => reflect::run(args, console),
+        Command::Cost(args) => cost::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Rules(args) => lint_rules::run(args, console),
         Command::Render(args) => render::run(args, console),

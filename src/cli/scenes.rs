@@ -314,7 +314,6 @@ impl MachineArgs {
     }
 
     /// The name of the GPU that the arguments name.
-    #[cfg(feature = "play")]
     pub(super) fn adapter(&self) -> Option<&str> {
         self.adapter.as_deref()
     }

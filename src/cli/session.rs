@@ -5,7 +5,7 @@
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
 use super::batch::Batch;
 use super::cache::Kept;
-use super::config::Configs;
+use super::config::{Configs, Settings};
 use super::console::Console;
 use super::digest::Digest;
 use super::engine::Engines;
@@ -135,6 +135,11 @@ impl<'a> Session<'a> {
     /// The levels of a file.
     pub(super) fn levels_of(&mut self, name: &str) -> Levels {
         self.configs.levels(name).clone()
+    }
+
+    /// The settings that `lint` obeys for a file.
+    pub(super) fn settings_of(&mut self, name: &str) -> Arc<Settings> {
+        Arc::clone(self.configs.settings(name))
     }
 
     /// The errors in configurations so far.

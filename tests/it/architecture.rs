@@ -70,6 +70,7 @@ static ORDER: &[(&str, &[&str])] = &[
         "src",
         &[
             "library",
+            "cost",
             "engines",
             "embedded",
             "sources",
@@ -78,6 +79,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "evaluate",
             "measure",
             "shader_test",
+            "unit_test",
             "specialize",
             "build",
             "made",

@@ -24,6 +24,8 @@ mod cli;
 mod codes;
 #[cfg(feature = "cli")]
 mod configurations;
+#[cfg(feature = "cli")]
+mod cost;
 #[cfg(all(feature = "cli", target_os = "linux"))]
 mod crash;
 mod cycles;
@@ -125,6 +127,8 @@ mod report_checks;
 mod report_page;
 #[cfg(feature = "cli")]
 mod report_ways;
+#[cfg(all(feature = "cli", unix))]
+mod sarif;
 #[cfg(feature = "reference")]
 mod scene_helps;
 #[cfg(feature = "reference")]
@@ -132,6 +136,8 @@ mod scene_sources;
 mod scenes;
 #[cfg(feature = "cli")]
 mod shader_test;
+#[cfg(feature = "cli")]
+mod shown_inputs;
 mod snapshots;
 #[cfg(feature = "reference")]
 mod specialize;
@@ -151,6 +157,8 @@ mod support;
 mod targets;
 #[cfg(feature = "gpu")]
 mod tutorial;
+#[cfg(feature = "cli")]
+mod unit_tests;
 #[cfg(feature = "cli")]
 mod upgrade;
 mod versions;

@@ -10,7 +10,7 @@ mod forms;
 mod meanings;
 mod reads;
 mod text;
-mod textures;
+pub(super) mod textures;
 mod trial;
 mod values;
 

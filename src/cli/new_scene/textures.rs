@@ -115,7 +115,7 @@ fn of_number(table: &str, number: usize) -> String {
 }
 
 /// A small texture whose texels differ.
-fn values(kind: SamplerType) -> String {
+pub(in crate::cli) fn values(kind: SamplerType) -> String {
     let (size, texels) = match kind.dim {
         SamplerDim::D1 => ("width = 4", 4),
         SamplerDim::Buffer => ("width = 16", 16),

@@ -381,12 +381,16 @@ impl<'a> Preprocessor<'a> {
         self.trivia = trivia;
     }
 
-    /// `// glisten: allow(CODE, ...)`
+    /// `// glisten: allow(CODE, ...)`; `// glisten: range(low, high)` is understood, too.
     fn comment_pragma(&mut self, session: &mut ParseSession<'_>, span: Span) {
         let text = session.sources.snippet(span);
         // The comment's sign, and white space, precede it.
         let words =
             text.get(2..).unwrap_or("").trim_start().get(crate::syntax::lexer::PRAGMA.len()..).unwrap_or("").trim();
+        // The range of an input is read where it is declared.
+        if words.strip_prefix("range").is_some_and(|rest| rest.trim_start().starts_with('(')) {
+            return;
+        }
         let list = words.strip_prefix("allow").map(str::trim_start);
         let list = list.and_then(|list| list.strip_prefix('(')?.split_once(')')).map(|(list, _)| list);
         let list: Option<Vec<String>> = list

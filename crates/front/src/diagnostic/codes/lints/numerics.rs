@@ -1,6 +1,6 @@
 //! Lint rules of the group `numerics`: infinities, values that are not a number, lost precision.
 
-use super::super::Example::{Fragment, Program, Vertex};
+use super::super::Example::{Fragment, Program, Text, Vertex};
 
 lints! {
     NON_FINITE_CONSTANT = "L0007" "non-finite-constant" Warning Numerics No "0.1.0" "GLSL 1.50 §4.1.4"
@@ -137,4 +137,12 @@ lints! {
         good Vertex(
             "in vec4 p; in vec3 aNormal; uniform mat4 model; uniform mat3 normalMatrix; out vec3 n; void main() { n \
              = normalMatrix * aNormal; gl_Position = model * p; }");
+    NON_FINITE_IN_RANGE = "L0074" "non-finite-in-range" Warning Numerics No "0.2.0" "GLSL 1.50 §4.1.4"
+        "A value is infinite or NaN for inputs within the ranges that `[lint.ranges]` of `glisten.toml` or a comment \
+         `// glisten: range(low, high)` at a declaration states. The reference ran the shader with these inputs, which the finding \
+         names. Inputs without a range are given harmless values."
+        why
+        "It is told only where a run shows it, so it is never a guess."
+        bad Text("uniform float roughness; // glisten: range(0, 1)\n.. 1.0 / roughness"),
+        good Text("uniform float roughness; // glisten: range(0.01, 1)\n.. 1.0 / roughness");
 }
