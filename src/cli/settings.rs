@@ -149,7 +149,7 @@ fn bounds(reader: &mut Reader, node: &Node<'_>, name: &str) -> Option<Bounds> {
         DeValue::String(word) => {
             let found = Bounds::parse(word);
             if found.is_none() {
-                let near = did_you_mean(word, ["unit"].into_iter()).map(|near| format!("did you mean `{near}`?"));
+                let near = did_you_mean(word, ["unit"]).map(|near| format!("did you mean `{near}`?"));
                 let message = format!("`{word}` is no range");
                 let span = reader.span_of(node);
                 let help = near.unwrap_or_else(|| "write `[low, high]`, a number, or `\"unit\"`".to_owned());

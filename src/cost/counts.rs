@@ -18,8 +18,11 @@ pub struct Counts {
     pub branches: u64,
 }
 
-/// The classes with their names in tables, JSON and budgets.
-pub const CLASSES: &[(&str, fn(&Counts) -> u64)] = &[
+/// A class of operations: its name in tables, JSON and budgets, and its count.
+pub type Class = (&'static str, fn(&Counts) -> u64);
+
+/// The classes.
+pub const CLASSES: &[Class] = &[
     ("arithmetic", |counts| counts.arithmetic),
     ("special", |counts| counts.special),
     ("lookups", |counts| counts.lookups),

@@ -13,7 +13,7 @@ mod rates;
 mod trips;
 mod walk;
 
-pub use counts::{CLASSES, Counts};
+pub use counts::{CLASSES, Class, Counts};
 pub use known::Ranges;
 pub use rank::{ranks, spearman};
 

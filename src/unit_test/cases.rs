@@ -128,7 +128,7 @@ fn made(columns: &[Values], parameters: &[Parameter], cases: usize) -> Vec<Vec<f
 /// A direction: those of the axes first, then by chance.
 fn direction(number: usize, size: usize, random: &mut SplitMix64) -> Vec<f32> {
     if number < 2 * size {
-        let sign = if number % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
         return (0..size).map(|index| if index == number / 2 { sign } else { 0.0 }).collect();
     }
     loop {

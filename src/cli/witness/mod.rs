@@ -31,7 +31,7 @@ use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
 use inputs::Inputs;
 use samples::Others;
-use stand::Stand;
+use stand::{POINTS, Stand};
 use std::collections::BTreeMap;
 use trial::Trial;
 
@@ -45,8 +45,10 @@ static JUDGED: &[&Code] = &[
     &lints::NORMALIZE_OF_ZERO,
 ];
 
-/// The most operations of a whole trial.
-const MOST_WORK: u64 = 400_000_000;
+/// The most operations of a whole trial. A second of an optimized program runs ten times as many.
+const MOST_WORK: u64 = 10_000_000;
+/// The rounds that a loop of which nothing is known may take.
+const ITERATIONS: u64 = 64;
 /// The inputs that a note names.
 const MOST_NAMED: usize = 6;
 
@@ -91,9 +93,9 @@ pub(super) fn settle(
         if !has_findings && !looks {
             continue;
         }
-        let Some(stand) = stand_of(unit, program, shader, &inputs, compiler) else { continue };
+        let Some((stand, draws)) = stand_of(unit, program, shader, &inputs, compiler) else { continue };
         let stage = Subject { shader, sources, inputs: &inputs, stand: &stand };
-        if has_findings && let Some(trial) = Trial::run(&stand, &inputs, Others::Any) {
+        if has_findings && let Some(trial) = Trial::run(&stand, &inputs, (Others::Any, draws)) {
             found = found
                 .into_iter()
                 .filter_map(|finding| {
@@ -101,7 +103,7 @@ pub(super) fn settle(
                 })
                 .collect();
         }
-        if looks && let Some(trial) = Trial::run(&stand, &inputs, Others::Tame) {
+        if looks && let Some(trial) = Trial::run(&stand, &inputs, (Others::Tame, draws)) {
             stage.in_ranges(&trial, &mut found, &mut shown);
         }
     }
@@ -113,12 +115,20 @@ fn is_in(shader: &Shader, span: Span) -> bool {
     shader.exprs.iter().any(|expr| expr.span == span)
 }
 
-/// A scene that runs the stage, if its file can be read again and its work is not too much.
-fn stand_of(unit: &Unit, program: &Program, shader: &Shader, inputs: &Inputs, compiler: &Compiler) -> Option<Stand> {
-    let assumptions = Assumptions::default();
+/// A scene that runs the stage, and the draws that are not too much work, if its file can be read again.
+fn stand_of(
+    unit: &Unit,
+    program: &Program,
+    shader: &Shader,
+    inputs: &Inputs,
+    compiler: &Compiler,
+) -> Option<(Stand, usize)> {
+    let assumptions = Assumptions { iterations: ITERATIONS, ..Assumptions::default() };
     let costs = cost(program, &unit.batch.sources, &assumptions);
     let weight = costs.stages.iter().find(|stage| stage.stage == shader.stage.name())?.longest.weight();
-    if weight.saturating_mul(trial::ROWS as u64) > MOST_WORK {
+    let draws = MOST_WORK / weight.max(1).saturating_mul(POINTS as u64);
+    let draws = usize::try_from(draws).unwrap_or(usize::MAX).min(trial::DRAWS);
+    if draws == 0 {
         return None;
     }
     let mut files = unit.group.inputs.iter().filter(|input| input.stage == shader.stage);
@@ -126,7 +136,7 @@ fn stand_of(unit: &Unit, program: &Program, shader: &Shader, inputs: &Inputs, co
     if file.part.is_some() || !matches!(shader.stage, Stage::Vertex | Stage::Fragment) {
         return None;
     }
-    Stand::new(file.path.as_deref()?, shader, inputs, compiler)
+    Some((Stand::new(file.path.as_deref()?, shader, inputs, compiler)?, draws))
 }
 
 /// A stage whose findings are judged.

@@ -139,9 +139,9 @@ fn tame(input: &Input, random: &mut SplitMix64) -> Vec<f32> {
 
 /// A direction: those of the axes, and by chance.
 fn direction(number: usize, size: usize, random: &mut SplitMix64) -> Vec<f32> {
-    if size > 0 && number % 4 == 0 {
+    if size > 0 && number.is_multiple_of(4) {
         let axis = number / 4 % (2 * size);
-        let sign = if axis % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if axis.is_multiple_of(2) { 1.0 } else { -1.0 };
         return (0..size).map(|index| if index == axis / 2 { sign } else { 0.0 }).collect();
     }
     let vector: Vec<f64> = (0..size).map(|_| 2.0 * random.unit() - 1.0).collect();

@@ -13,14 +13,12 @@ use glisten_reference::RenderOptions;
 use glisten_reference::stability::trace;
 use std::collections::BTreeSet;
 
-/// The draws of a trial.
-const DRAWS: usize = 16;
-/// All rows of a trial.
-pub(super) const ROWS: usize = DRAWS * POINTS;
+/// The most draws of a trial.
+pub(super) const DRAWS: usize = 16;
 /// The plain numbers that are tried for each number of a row.
 const PLAIN: [f32; 4] = [0.0, 1.0, -1.0, 0.5];
 /// The most runs that make a row plain.
-const MOST_RUNS: usize = 160;
+const MOST_RUNS: usize = 48;
 
 /// A trial that was run.
 pub(super) struct Trial<'a> {
@@ -33,8 +31,8 @@ pub(super) struct Trial<'a> {
 
 impl<'a> Trial<'a> {
     /// Runs all rows; nothing if the reference cannot.
-    pub(super) fn run(stand: &'a Stand, inputs: &'a Inputs, others: Others) -> Option<Self> {
-        let rows: Vec<Vec<Vec<f32>>> = (0..DRAWS).map(|draw| rows(inputs, others, draw, POINTS)).collect();
+    pub(super) fn run(stand: &'a Stand, inputs: &'a Inputs, (others, draws): (Others, usize)) -> Option<Self> {
+        let rows: Vec<Vec<Vec<f32>>> = (0..draws).map(|draw| rows(inputs, others, draw, POINTS)).collect();
         let mut trial = Self { stand, inputs, others, rows, born: BTreeSet::new() };
         let all: Vec<Vec<&[f32]>> = trial.rows.iter().map(|rows| rows.iter().map(Vec::as_slice).collect()).collect();
         let born = trial.births(&all)?;
