@@ -137,7 +137,7 @@ lints! {
         good Vertex(
             "in vec4 p; in vec3 aNormal; uniform mat4 model; uniform mat3 normalMatrix; out vec3 n; void main() { n \
              = normalMatrix * aNormal; gl_Position = model * p; }");
-    NON_FINITE_IN_RANGE = "L0074" "non-finite-in-range" Warning Numerics No "0.2.0" "GLSL 1.50 §4.1.4"
+    NON_FINITE_IN_RANGE = "L0074" "non-finite-in-range" Warning Numerics No "0.1.0" "GLSL 1.50 §4.1.4"
         "A value is infinite or NaN for inputs within the ranges that `[lint.ranges]` of `glisten.toml` or a comment \
          `// glisten: range(low, high)` at a declaration states. The reference ran the shader with these inputs, which the finding \
          names. Inputs without a range are given harmless values."
