@@ -1,5 +1,7 @@
 //! What stays and what goes, by small programs: NaN, infinities, signed zeros, derivatives, effects.
 
+use glisten_front::builtin::BuiltinFunction;
+use glisten_front::builtin::operations::{Binary, Class, Numbers, Ternary};
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::{Compiler, Options, Source};
 use glisten_specialize::{Input, Known, Residual, specialize};
@@ -25,7 +27,7 @@ fn residual(fragment: &str, known: &[(&str, &[f32])]) -> Residual {
 /// The fragment stage of `color = EXPRESSION` with uniforms `u` and `w`, and the unknown `v`.
 fn of(expression: &str, u: f32, w: f32) -> String {
     let fragment = format!(
-        "#version 150\nin vec4 v;\nuniform float u;\nuniform float w;\nout vec4 color;\n\
+        "#version 400\nin vec4 v;\nuniform float u;\nuniform float w;\nout vec4 color;\n\
          void main() {{ color = vec4({expression}); }}\n"
     );
     residual(&fragment, &[("u", &[u]), ("w", &[w])]).text(Stage::Fragment).expect("a stage").to_owned()
@@ -54,6 +56,24 @@ fn a_literal_must_not_free_the_driver() {
         // What is bounded may be multiplied by anything.
         ("clamp(gl_FragCoord.x, 0.0, 1.0) * u", 0.5, 0.0, &[]),
         ("1.0 / u", 0.0, 0.0, &["u"]),
+        // `fma` is a product and a sum.
+        ("fma(v.x, u, v.y)", 0.0, 0.0, &["u"]),
+        ("fma(v.x, u, v.y)", 0.5, 0.0, &[]),
+        ("fma(v.x, v.y, u)", 0.0, 0.0, &["u"]),
+        ("fma(v.x, v.y, u)", 0.5, 0.0, &[]),
+        ("fma(v.x, u, -v.x)", 1.0, 0.0, &["u"]),
+        // A component of 0 is NaN where the others leave nothing to divide by.
+        ("normalize(vec2(v.x, u)).y", 0.0, 0.0, &["u"]),
+        ("normalize(vec3(clamp(gl_FragCoord.xy, 0.0, 1.0), u)).y", 1.0, 0.0, &[]),
+        ("reflect(v.xy, vec2(u, w)).x", 0.0, 1.0, &["u", "w"]),
+        ("faceforward(v.xy, vec2(u, w), v.zw).x", 0.0, 1.0, &["u", "w"]),
+        ("clamp(u, v.x, v.y)", 0.0, 0.0, &["u"]),
+        // What a driver finds to be 0 through other functions.
+        ("sqrt(clamp(gl_FragCoord.x, 0.0, 1.0) * u) * v.x", 0.0, 0.0, &["u"]),
+        ("dot(clamp(gl_FragCoord.xy, 0.0, 1.0), vec2(u)) * v.x", 0.0, 0.0, &["u"]),
+        ("(clamp(gl_FragCoord.x, 0.0, 1.0) * u + w) * v.x", 0.0, 0.0, &["u", "w"]),
+        ("float(bitfieldExtract(int(v.x), int(u), 8))", 30.0, 0.0, &["u"]),
+        ("float(bitfieldExtract(int(v.x), int(u), 8))", 8.0, 0.0, &[]),
         ("sqrt(u)", -1.0, 0.0, &["u"]),
         ("sqrt(u)", 2.0, 0.0, &[]),
     ];
@@ -66,6 +86,61 @@ fn a_literal_must_not_free_the_driver() {
     }
 }
 
+/// The result of a function of numbers, by its row in the table.
+fn computed(function: BuiltinFunction, arguments: &[f64]) -> Option<f64> {
+    let ternary = |op: Ternary| Some(op.of(*arguments.first()?, *arguments.get(1)?, *arguments.get(2)?));
+    let binary = |op: Binary| Some(op.of(*arguments.first()?, *arguments.get(1)?));
+    match function.class() {
+        Class::Binary(op) => binary(op),
+        Class::Ternary(op) => ternary(op),
+        Class::Numbers(Numbers::Atan) => binary(Binary::Atan2),
+        Class::Numbers(Numbers::Min) => binary(Binary::Min),
+        Class::Numbers(Numbers::Max) => binary(Binary::Max),
+        Class::Numbers(Numbers::Clamp) => ternary(Ternary::Clamp),
+        Class::Numbers(Numbers::Mix) => ternary(Ternary::Mix),
+        _ => None,
+    }
+}
+
+/// Of every function of the table: where it forgets an argument that is finite, and not one that is not, what makes it forget
+/// stays in its uniform.
+#[test]
+fn no_function_forgets_what_may_be_nan() {
+    let finite = [0.3, 0.7, 1.9, -2.5, 1e6, -1e6];
+    let other = [f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+    let (mut wrong, mut n_checked) = (Vec::new(), 0);
+    for function in BuiltinFunction::ALL {
+        let Some(arity) = (2..=3).find(|arity| computed(*function, &[0.5, 0.5, 0.5][..*arity]).is_some()) else {
+            continue;
+        };
+        for mask in 1..(1u32 << arity) - 1 {
+            for value in [0.0, 1.0, -1.0, 2.0] {
+                let result = |unknown: [f64; 2]| {
+                    let mut unknown = unknown.into_iter();
+                    let one = |index: u32| if mask >> index & 1 == 1 { value } else { unknown.next().unwrap_or(0.5) };
+                    let arguments: Vec<f64> = (0..arity as u32).map(one).collect();
+                    computed(*function, &arguments).map(f64::to_bits)
+                };
+                let first = result([finite[0], finite[1]]);
+                let forgets = finite.iter().all(|x| finite.iter().all(|y| result([*x, *y]) == first));
+                let remembers = other.iter().any(|x| result([*x, 0.5]) != first || result([0.5, *x]) != first);
+                if !forgets || !remembers {
+                    continue;
+                }
+                let mut unknown = ["v.x", "v.y"].into_iter();
+                let one = |index: u32| if mask >> index & 1 == 1 { "u" } else { unknown.next().unwrap_or("v.z") };
+                let call =
+                    format!("{}({})", function.name(), (0..arity as u32).map(one).collect::<Vec<_>>().join(", "));
+                n_checked += 1;
+                if !of(&call, value as f32, 0.0).contains("uniform float u;") {
+                    wrong.push(format!("{call} by {value}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty() && n_checked >= 5, "{n_checked}: {wrong:?}");
+}
+
 /// What cancels may be infinite: a driver that sees one expression twice makes 0 of the difference.
 #[test]
 fn what_becomes_one_expression_stays_apart() {
@@ -76,6 +151,10 @@ fn what_becomes_one_expression_stays_apart() {
         ("(v.x * u) / v.x", 1.0, 0.0, &["u"]),
         ("-v.x + v.x * u", 1.0, 0.0, &["u"]),
         ("v.x - (v.x - u)", 0.0, 0.0, &["u"]),
+        ("distance(v.xy, v.xy * u)", 1.0, 0.0, &["u"]),
+        ("mod(v.x, v.x * u)", 1.0, 0.0, &["u"]),
+        ("float(v.x <= v.x * u)", 1.0, 0.0, &["u"]),
+        ("max(v.x, v.x * u)", 1.0, 0.0, &[]),
         // What the original says twice is its own affair, and what is bounded is never infinite.
         ("v.x * u - v.x * u", 1.0, 0.0, &[]),
         ("step(0.5, v.x) - step(0.5, v.x) * u", 1.0, 0.0, &[]),

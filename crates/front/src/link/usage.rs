@@ -16,8 +16,8 @@ pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
                 }
             }
         }
-        ExprKind::BuiltinCall(crate::builtin::BuiltinFunction::Modf, arguments) => {
-            if let Some(&argument) = arguments.get(1) {
+        ExprKind::BuiltinCall(function, arguments) => {
+            if let Some(&argument) = function.written_argument().and_then(|index| arguments.get(index)) {
                 f(argument);
             }
         }

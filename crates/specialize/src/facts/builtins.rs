@@ -46,6 +46,8 @@ pub(crate) fn builtin(call: &Call<'_>) -> Facts {
         F::Asin | F::Acos | F::Atan => each(&|operands| angle(call, operands)),
         F::Pow => each(&|[x, y, _]| pow(*x, *y)),
         F::Mod => each(&|[x, y, _]| modulo(*x, *y)),
+        // Rounded once or twice: both lie in the range.
+        F::Fma => each(&|operands| fma(operands)),
         F::Dot => Facts::from_elem(dot(call), 1),
         F::Length | F::Distance => Facts::from_elem(length(call), 1),
         F::Normalize => normalize(call, len),
@@ -58,21 +60,17 @@ pub(crate) fn builtin(call: &Call<'_>) -> Facts {
             let sure = if call.function == F::Isnan { !range.nan } else { range.is_bounded() };
             Fact::result(if sure { truth(false) } else { What::Any }, &[*x])
         }),
-        F::LessThan | F::LessThanEqual | F::GreaterThan | F::GreaterThanEqual => each(&|[x, y, _]| {
-            let op = match call.function {
-                F::LessThan => BinaryOp::Less,
-                F::LessThanEqual => BinaryOp::LessEqual,
-                F::GreaterThan => BinaryOp::Greater,
-                _ => BinaryOp::GreaterEqual,
-            };
-            at(&super::binary(op, call.scalar(), 1, &[*x], &[*y]), 0)
-        }),
+        F::LessThan => each(&|[x, y, _]| compared(BinaryOp::Less, call.scalar(), *x, *y)),
+        F::LessThanEqual => each(&|[x, y, _]| compared(BinaryOp::LessEqual, call.scalar(), *x, *y)),
+        F::GreaterThan => each(&|[x, y, _]| compared(BinaryOp::Greater, call.scalar(), *x, *y)),
+        F::GreaterThanEqual => each(&|[x, y, _]| compared(BinaryOp::GreaterEqual, call.scalar(), *x, *y)),
         F::Equal | F::NotEqual => each(&|[x, y, _]| {
             let equal = equal_one(call.scalar(), *x, *y).map(|equal| equal == (call.function == F::Equal));
             Fact::result(equal.map_or(What::Any, truth), &[*x, *y])
         }),
         F::Not => super::unary(UnaryOp::Not, call.all(0)),
         F::Any | F::All => Facts::from_elem(quantified(call.function == F::All, call.all(0)), 1),
+        // Of any other, nothing is known.
         _ => constant_alone(call, len),
     }
 }
@@ -100,6 +98,11 @@ impl Call<'_> {
         let len = self.arguments.first().map_or(0, |(_, ty)| self.types.flat_len(*ty) as usize);
         (0..len).map(|index| (at(self.all(0), index), at(self.all(1), index))).collect()
     }
+}
+
+/// A comparison of two components.
+fn compared(op: BinaryOp, scalar: Scalar, x: Fact, y: Fact) -> Fact {
+    at(&super::binary(op, scalar, 1, &[x], &[y]), 0)
 }
 
 fn truth(value: bool) -> What {
@@ -176,7 +179,10 @@ fn float_one(function: F, x: Fact) -> What {
         F::Ceil => range.growing(f64::ceil, 0.0, 0.0),
         F::Trunc => range.growing(f64::trunc, 0.0, 0.0),
         F::Fract => Range { nan: !range.is_finite(), ..Range::between(0.0, 1.0) },
-        _ => Range { low: range.low.floor(), high: range.high.ceil(), nan: range.nan, negative_zero: true },
+        F::Round | F::RoundEven => {
+            Range { low: range.low.floor(), high: range.high.ceil(), nan: range.nan, negative_zero: true }
+        }
+        _ => Range::ANY,
     })
 }
 
@@ -245,7 +251,8 @@ fn function(function: F, x: Fact) -> Fact {
         F::Log2 => logarithm(range, f64::log2),
         F::Sin | F::Cos => Range { nan: !range.is_finite(), ..Range::between(-1.001, 1.001) },
         F::Radians => range.mul(Range::between(0.017_453_29, 0.017_453_3)),
-        _ => range.mul(Range::between(57.295_7, 57.295_8)),
+        F::Degrees => range.mul(Range::between(57.295_7, 57.295_8)),
+        _ => Range::ANY,
     };
     let what = Range { nan: what.nan || range.nan, ..what };
     // Only a root keeps the sign of a zero.
@@ -276,11 +283,12 @@ fn angle(call: &Call<'_>, operands: &[Fact; 3]) -> Fact {
             Fact::result(What::Float(Range { nan: !finite, ..Range::between(-pi, pi) }), &[*x, *y])
         }
         F::Atan => Fact::result(What::Float(Range { nan: x.range().nan, ..Range::between(-1.58, 1.58) }), &[*x]),
-        _ => {
+        F::Asin | F::Acos => {
             let range = x.range();
             let inside = !range.nan && range.low >= -1.0 && range.high <= 1.0;
             Fact::result(What::Float(Range { nan: !inside, ..Range::between(-pi, pi) }), &[*x])
         }
+        _ => Fact::result(What::Any, operands),
     }
 }
 
@@ -313,6 +321,15 @@ fn modulo(x: Fact, y: Fact) -> Fact {
         Range::ANY
     };
     Fact::result(What::Float(what), &[x, y])
+}
+
+/// `x * y + z`; what a fused sum rounds to 0 keeps its sign.
+fn fma(operands: &[Fact; 3]) -> Fact {
+    let [x, y, z] = operands.map(Fact::range);
+    let product = x.mul(y);
+    let sum = product.add(z);
+    let negative_zero = sum.has_zero() && (product.negative_zero || z.negative_zero);
+    Fact::result(What::Float(Range { negative_zero, ..sum }), operands)
 }
 
 fn product(x: Fact, y: Fact) -> Fact {

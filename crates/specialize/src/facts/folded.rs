@@ -8,7 +8,7 @@
 
 use super::{Fact, Facts, What, at, exact, spread, values};
 use glisten_front::builtin::BuiltinFunction as F;
-use glisten_front::builtin::operations::Class;
+use glisten_front::builtin::operations::{Binary, Class, Composite, MatrixFunction, Numbers, Ternary, Unary};
 use glisten_front::fold;
 use glisten_front::hir::{
     BinaryOp, ConstructKind, ExprId, ExprKind, Scalar, ScalarValue, Shader, Type, TypeId, Types, UnaryOp,
@@ -40,13 +40,119 @@ impl Operation {
         }
     }
 
-    /// Whether a result may become 0 though no operand is, because it is too small.
-    fn may_vanish(self) -> bool {
+    /// When a 0 may be what a target rounded a small number to.
+    fn vanishing(self) -> Vanishing {
         match self {
-            Self::Binary(op) => matches!(op, BinaryOp::Mul | BinaryOp::Div),
-            Self::Call(function) => matches!(function, F::Pow | F::Exp | F::Exp2 | F::MatrixCompMult | F::OuterProduct),
-            Self::Convert | Self::Unary(_) => false,
+            Self::Binary(op) => match op {
+                BinaryOp::Mul | BinaryOp::Div => Vanishing::Any,
+                BinaryOp::MatMul => Vanishing::FromNonzero,
+                BinaryOp::Add
+                | BinaryOp::Sub
+                | BinaryOp::Rem
+                | BinaryOp::Shl
+                | BinaryOp::Shr
+                | BinaryOp::BitAnd
+                | BinaryOp::BitXor
+                | BinaryOp::BitOr
+                | BinaryOp::Less
+                | BinaryOp::Greater
+                | BinaryOp::LessEqual
+                | BinaryOp::GreaterEqual
+                | BinaryOp::Equal
+                | BinaryOp::NotEqual
+                | BinaryOp::LogicalXor => Vanishing::Never,
+            },
+            Self::Call(function) => of_class(function.class()),
+            Self::Convert | Self::Unary(_) => Vanishing::Never,
         }
+    }
+}
+
+/// When a 0 may be what a target rounded a small number to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Vanishing {
+    /// A 0 is a 0.
+    Never,
+    /// Where no operand is 0.
+    FromNonzero,
+    /// Where the last operand is above the first.
+    AboveFirst,
+    /// Whatever the operands are.
+    Any,
+}
+
+/// [`Vanishing`] of a function. There is no wildcard: who adds an operation decides it here.
+fn of_class(class: Class) -> Vanishing {
+    match class {
+        Class::Unary(op) => match op {
+            Unary::Exp | Unary::Exp2 => Vanishing::Any,
+            // Exact, or a 0 at one argument alone, near which the result is no smaller than what separates arguments.
+            Unary::Neg
+            | Unary::Abs
+            | Unary::Sign
+            | Unary::Floor
+            | Unary::Trunc
+            | Unary::Round
+            | Unary::Ceil
+            | Unary::Fract
+            | Unary::Log
+            | Unary::Log2
+            | Unary::Acos
+            | Unary::Acosh => Vanishing::Never,
+            Unary::Radians
+            | Unary::Degrees
+            | Unary::Sin
+            | Unary::Cos
+            | Unary::Tan
+            | Unary::Asin
+            | Unary::Atan
+            | Unary::Sinh
+            | Unary::Cosh
+            | Unary::Tanh
+            | Unary::Asinh
+            | Unary::Atanh
+            | Unary::Sqrt
+            | Unary::Inversesqrt => Vanishing::FromNonzero,
+        },
+        Class::Binary(op) => match op {
+            Binary::Pow | Binary::Mul | Binary::Div => Vanishing::Any,
+            Binary::Mod | Binary::Min | Binary::Max | Binary::Step | Binary::Add | Binary::Sub => Vanishing::Never,
+            Binary::Atan2 => Vanishing::FromNonzero,
+        },
+        Class::Ternary(op) => match op {
+            Ternary::Clamp => Vanishing::Never,
+            Ternary::Smoothstep => Vanishing::AboveFirst,
+            Ternary::Mix => Vanishing::FromNonzero,
+            Ternary::Fma => Vanishing::Any,
+        },
+        Class::Numbers(Numbers::Abs | Numbers::Sign | Numbers::Min | Numbers::Max | Numbers::Clamp) => Vanishing::Never,
+        Class::Numbers(Numbers::Atan | Numbers::Mix) => Vanishing::FromNonzero,
+        Class::Composite(op) => match op {
+            Composite::Faceforward => Vanishing::Never,
+            Composite::Length
+            | Composite::Distance
+            | Composite::Dot
+            | Composite::Cross
+            | Composite::Normalize
+            | Composite::Reflect
+            | Composite::Refract
+            | Composite::Determinant
+            | Composite::Inverse => Vanishing::FromNonzero,
+        },
+        Class::Matrix(MatrixFunction::ComponentProduct | MatrixFunction::OuterProduct) => Vanishing::Any,
+        Class::Matrix(MatrixFunction::Transpose)
+        | Class::Relation(_)
+        | Class::Boolean(_)
+        | Class::Test(_)
+        | Class::BitCast(_)
+        | Class::Bits(_)
+        | Class::Packing(_) => Vanishing::Never,
+        Class::Modf
+        | Class::Composed
+        | Class::Derivative(_)
+        | Class::Noise(_)
+        | Class::Texture(_)
+        | Class::Emission(_) => Vanishing::Any,
     }
 }
 
@@ -141,7 +247,13 @@ fn is_certain(operation: Operation, operands: &[(Values, TypeId)], found: &[Scal
     let to_integer = matches!(operation, Operation::Convert);
     let zero = |value: &ScalarValue| matches!(value, ScalarValue::Float(value) if *value == 0.0);
     let signed = |value: &ScalarValue| matches!(value, ScalarValue::Float(value) if value.to_bits() == 1 << 31);
-    let vanishes = operation.may_vanish() && found.iter().any(zero);
+    let vanishes = found.iter().any(zero)
+        && match operation.vanishing() {
+            Vanishing::Never => false,
+            Vanishing::FromNonzero => !operands.iter().any(|(values, _)| values.iter().any(zero)),
+            Vanishing::AboveFirst => !is_below_first(operands),
+            Vanishing::Any => true,
+        };
     // Of 0 and -0 a target gives either.
     let chooses = matches!(operation, Operation::Call(F::Min | F::Max | F::Clamp));
     let either = chooses && found.iter().any(zero) && operands.iter().any(|(values, _)| values.iter().any(signed));
@@ -150,6 +262,16 @@ fn is_certain(operation: Operation, operands: &[(Values, TypeId)], found: &[Scal
         && !either
         && !found.iter().any(signed)
         && operands.iter().all(|(values, _)| values.iter().all(plain))
+}
+
+/// Whether each component of the last operand is at most that of the first.
+fn is_below_first(operands: &[(Values, TypeId)]) -> bool {
+    let (Some((first, _)), Some((last, _))) = (operands.first(), operands.last()) else { return false };
+    let number = |values: &Values, index: usize| {
+        let value = values.get(if values.len() == 1 { 0 } else { index });
+        if let Some(ScalarValue::Float(value)) = value { *value } else { f32::NAN }
+    };
+    (0..first.len().max(last.len())).all(|index| number(last, index) <= number(first, index))
 }
 
 /// The value of an operation on known operands, as the reference computes it in f32. None of what is not finite, subnormal,

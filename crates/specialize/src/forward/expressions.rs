@@ -5,6 +5,7 @@ use crate::facts::{self, Call, Fact, Facts, Operation, What, at};
 use crate::fast;
 use crate::known::Input;
 use glisten_front::builtin::BuiltinFunction;
+use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::hir::{
     BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, SamplerDim, Scalar, ScalarValue, Type, TypeId,
 };
@@ -258,8 +259,8 @@ impl Forward<'_> {
     }
 
     fn builtin_call(&mut self, function: BuiltinFunction, arguments: &[ExprId], own: Own) -> Val {
-        if function == BuiltinFunction::Modf {
-            return self.modf(arguments, own);
+        if let Some(index) = function.written_argument() {
+            return self.writing_call(function, index, arguments, own);
         }
         let (ids, facts) = self.evaluated(arguments);
         let sampler = facts.first().map(|(_, ty)| self.types.get(*ty));
@@ -284,15 +285,24 @@ impl Forward<'_> {
         }
     }
 
-    fn modf(&mut self, arguments: &[ExprId], own: Own) -> Val {
-        let [x, whole] = arguments else { return self.give(ExprKind::Error, own, Facts::new()) };
-        let x = self.eval(*x);
-        let (whole, place) = self.path(*whole);
-        if let Some(place) = place {
-            let unknown = vec![Fact::ANY; self.types.flat_len(own.0) as usize];
+    /// A call that writes one of its arguments: nothing is known of what it gives and writes.
+    fn writing_call(&mut self, function: BuiltinFunction, written: usize, arguments: &[ExprId], own: Own) -> Val {
+        let mut ids = Vec::with_capacity(arguments.len());
+        let mut target = None;
+        for (index, argument) in arguments.iter().enumerate() {
+            if index == written {
+                let (value, place) = self.path(*argument);
+                ids.push(value.id);
+                target = place.map(|place| (place, self.shader.expr(*argument).ty));
+            } else {
+                ids.push(self.eval(*argument).id);
+            }
+        }
+        if let Some((place, ty)) = target {
+            let unknown = vec![Fact::ANY; self.types.flat_len(ty) as usize];
             self.write(&place, &unknown);
         }
-        self.give(ExprKind::BuiltinCall(BuiltinFunction::Modf, vec![x.id, whole.id]), own, Facts::new())
+        self.give(ExprKind::BuiltinCall(function, ids), own, Facts::new())
     }
 
     /// What is known of a lookup, by the sampler that the first argument is.
@@ -302,8 +312,9 @@ impl Forward<'_> {
         };
         let Some(Some(texture)) = self.textures.get(slot as usize) else { return Facts::new() };
         let len = self.types.flat_len(ty) as usize;
-        match function {
-            BuiltinFunction::TextureSize => {
+        let Class::Texture(form) = function.class() else { return Facts::new() };
+        match form.lookup {
+            Lookup::Size => {
                 let level = match arguments.get(1).map(|(facts, _)| at(facts, 0).value()) {
                     None => 0,
                     Some(Some(ScalarValue::Int(level))) => level,
@@ -314,19 +325,17 @@ impl Forward<'_> {
                     size.iter().take(len).map(|n| Fact::bound(ScalarValue::Int(*n as i32))).collect()
                 })
             }
-            BuiltinFunction::TexelFetch | BuiltinFunction::TexelFetchOffset => {
+            Lookup::Fetch => {
                 // Past the edges there is 0, or anything that the texture holds.
                 let zero = Fact::in_range(facts::Range::point(0.0));
                 texture.channels.iter().take(len).map(|channel| fetched(*channel).join(zero)).collect()
             }
             // The channels of these are no colors, or not one texel's.
-            BuiltinFunction::TextureGather
-            | BuiltinFunction::TextureGatherOffset
-            | BuiltinFunction::TextureGatherOffsets
-            | BuiltinFunction::TextureQueryLod
-            | BuiltinFunction::TextureQueryLevels => Facts::new(),
-            _ if dim == SamplerDim::Buffer => Facts::new(),
-            _ => texture.channels.iter().take(len).map(|channel| looked_up(*channel)).collect(),
+            Lookup::Gather | Lookup::QueryLod | Lookup::Levels => Facts::new(),
+            Lookup::Implicit | Lookup::Lod | Lookup::Grad if dim == SamplerDim::Buffer => Facts::new(),
+            Lookup::Implicit | Lookup::Lod | Lookup::Grad => {
+                texture.channels.iter().take(len).map(|channel| looked_up(*channel)).collect()
+            }
         }
     }
 }

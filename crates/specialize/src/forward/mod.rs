@@ -19,7 +19,7 @@ mod selections;
 mod statements;
 mod store;
 
-pub(crate) use effects::Effects;
+pub(crate) use effects::{Effects, may_act};
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
@@ -282,12 +282,7 @@ impl<'a> Forward<'a> {
                 let mut given = 0..arguments.len();
                 !effect.ends && effect.writes.is_empty() && given.all(|index| is_in(function.param_mode(index)))
             }
-            ExprKind::BuiltinCall(function, _) => !matches!(
-                function,
-                glisten_front::builtin::BuiltinFunction::Modf
-                    | glisten_front::builtin::BuiltinFunction::EmitVertex
-                    | glisten_front::builtin::BuiltinFunction::EndPrimitive
-            ),
+            ExprKind::BuiltinCall(function, _) => !function.has_effects(),
             _ => true,
         }
     }

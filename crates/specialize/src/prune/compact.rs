@@ -4,6 +4,7 @@
 //! *In:* a stage and the globals that stay. *Out:* a stage with new handles.
 
 use super::uses::{Uses, reached};
+use crate::forward::may_act;
 use glisten_front::hir::{
     Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, Types,
     VarRef,
@@ -142,13 +143,7 @@ impl Rebuild<'_> {
     fn does_nothing(&self, root: ExprId) -> bool {
         let mut nothing = true;
         self.old.visit_expr(root, &mut |expr| {
-            nothing &= !matches!(
-                self.old.expr(expr).kind,
-                ExprKind::Assign(..)
-                    | ExprKind::IncDec(..)
-                    | ExprKind::Call(..)
-                    | ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _)
-            );
+            nothing &= !may_act(&self.old.expr(expr).kind);
         });
         nothing
     }

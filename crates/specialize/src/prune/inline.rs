@@ -3,6 +3,7 @@
 //! *In:* a stage. *Out:* the stage; whether anything went. *Holds:* arguments are without effects, and each stands for a
 //! parameter that is used at most once, or is as short as a name or a number.
 
+use crate::forward::may_act;
 use glisten_front::hir::{Expr, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, VarRef};
 
 /// A function may be so many expressions long to be written where it is called from several places.
@@ -76,13 +77,7 @@ fn fits(shader: &Shader, small: &Small, arguments: &[ExprId]) -> bool {
         && arguments.iter().zip(&small.uses).all(|(argument, uses)| {
             let mut plain = true;
             shader.visit_expr(*argument, &mut |expr| {
-                plain &= !matches!(
-                    shader.expr(expr).kind,
-                    ExprKind::Call(..)
-                        | ExprKind::Assign(..)
-                        | ExprKind::IncDec(..)
-                        | ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _)
-                );
+                plain &= !may_act(&shader.expr(expr).kind);
             });
             let short = matches!(shader.expr(*argument).kind, ExprKind::Var(_) | ExprKind::Literal(_));
             plain && (*uses <= 1 || short)

@@ -3,7 +3,7 @@
 //! *In:* a body. *Out:* the body without them. *Holds:* only whole locals that nothing else can name are followed; what a
 //! loop reads anywhere is taken to be read at its end and wherever it is left.
 
-use glisten_front::builtin::BuiltinFunction;
+use crate::forward::may_act;
 use glisten_front::hir::{ExprId, ExprKind, Function, LocalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
 
 /// Locals that are read later, a bit each: a set is copied for each branch.
@@ -202,16 +202,7 @@ impl Walk<'_> {
     fn is_plain(&self, root: ExprId) -> bool {
         let mut plain = true;
         self.shader.visit_expr(root, &mut |expr| {
-            plain &= !matches!(
-                self.shader.expr(expr).kind,
-                ExprKind::Assign(..)
-                    | ExprKind::IncDec(..)
-                    | ExprKind::Call(..)
-                    | ExprKind::BuiltinCall(
-                        BuiltinFunction::Modf | BuiltinFunction::EmitVertex | BuiltinFunction::EndPrimitive,
-                        _
-                    )
-            );
+            plain &= !may_act(&self.shader.expr(expr).kind);
         });
         plain
     }

@@ -6,7 +6,6 @@
 use super::once;
 use super::uses::{Stored, Uses, reached, stored};
 use crate::forward::Effects;
-use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
 };
@@ -222,10 +221,7 @@ impl Sweeper<'_> {
             pure &= match &self.shader.expr(expr).kind {
                 ExprKind::Assign(..) | ExprKind::IncDec(..) => false,
                 ExprKind::Call(callee, arguments) => self.is_idle_call(*callee, arguments),
-                ExprKind::BuiltinCall(function, _) => !matches!(
-                    function,
-                    BuiltinFunction::Modf | BuiltinFunction::EmitVertex | BuiltinFunction::EndPrimitive
-                ),
+                ExprKind::BuiltinCall(function, _) => !function.has_effects(),
                 _ => true,
             };
         });
@@ -299,7 +295,7 @@ impl Sweeper<'_> {
         self.shader.visit_body(&body, &mut |expr| {
             idle &= match &self.shader.expr(expr).kind {
                 ExprKind::Call(callee, arguments) => self.is_idle_call(*callee, arguments),
-                ExprKind::BuiltinCall(BuiltinFunction::Modf, _) => false,
+                ExprKind::BuiltinCall(function, _) => !function.has_effects(),
                 _ => true,
             };
         });

@@ -4,6 +4,7 @@
 //! *Holds:* structs between the stages, built-in ones and those that are compared as a whole stay. All stages have the same
 //! type for the same name.
 
+use crate::forward::may_act;
 use glisten_front::hir::{
     ArraySize, BinaryOp, ConstructKind, ExprKind, GlobalId, ScalarValue, Shader, Storage, StructId, Type, TypeId,
     Types, Value, VarRef,
@@ -148,13 +149,7 @@ fn trimmed(
 fn has_effects(shader: &Shader, root: glisten_front::hir::ExprId) -> bool {
     let mut effects = false;
     shader.visit_expr(root, &mut |expr| {
-        effects |= matches!(
-            shader.expr(expr).kind,
-            ExprKind::Assign(..)
-                | ExprKind::IncDec(..)
-                | ExprKind::Call(..)
-                | ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _)
-        );
+        effects |= may_act(&shader.expr(expr).kind);
     });
     effects
 }

@@ -5,8 +5,8 @@
 //! is evaluated: names, types and the order of what stays are those of the source.
 
 use super::{compact, overwritten_in, sweep, uses};
-use glisten_front::builtin::BuiltinFunction;
-use glisten_front::hir::{ExprId, ExprKind, GlobalId, Shader, Storage, Types};
+use crate::forward::may_act;
+use glisten_front::hir::{ExprId, GlobalId, Shader, Storage, Types};
 
 /// Leaves out what reaches no output. `live` says for each global whether somebody reads it when the stage has ended.
 pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -> Shader {
@@ -49,13 +49,7 @@ fn forget_initializers(types: &Types, shader: &mut Shader) -> bool {
 fn is_plain(shader: &Shader, root: ExprId) -> bool {
     let mut plain = true;
     shader.visit_expr(root, &mut |expr| {
-        plain &= !matches!(
-            shader.expr(expr).kind,
-            ExprKind::Assign(..)
-                | ExprKind::IncDec(..)
-                | ExprKind::Call(..)
-                | ExprKind::BuiltinCall(BuiltinFunction::Modf, _)
-        );
+        plain &= !may_act(&shader.expr(expr).kind);
     });
     plain
 }

@@ -3,7 +3,6 @@
 //! *In:* a stage. *Out:* counts, over what `main` reaches. *Holds:* a store does not read what it stores to, nor does
 //! `x = f(x)` read `x`: nobody else may want it.
 
-use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
     BinaryOp, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, Shader, Stmt, StmtKind, StructId, Type,
     TypeId, Types, VarRef,
@@ -187,10 +186,13 @@ impl Uses {
                         }
                     }
                 }
-                ExprKind::BuiltinCall(BuiltinFunction::Modf, arguments) => {
-                    if let [x, whole] = arguments.as_slice() {
-                        pending.push((*x, within));
-                        self.target(types, shader, *whole, by);
+                ExprKind::BuiltinCall(function, arguments) => {
+                    for (index, argument) in arguments.iter().enumerate() {
+                        if function.written_argument() == Some(index) {
+                            self.target(types, shader, *argument, by);
+                        } else {
+                            pending.push((*argument, within));
+                        }
                     }
                 }
                 ExprKind::Binary(BinaryOp::Equal | BinaryOp::NotEqual, a, b) => {

@@ -1,21 +1,24 @@
-//! Differences and quotients of what became one and the same: `a - a * u` by u = 1.
+//! Differences, quotients and their like of what became one and the same: `a - a * u` by u = 1.
 //!
-//! *In:* a walked stage. *Out:* the differences and quotients whose operands are written alike once what is known is a literal,
+//! *In:* a walked stage. *Out:* the operations of which two operands are written alike once what is known is a literal,
 //! and were not before. *Holds:* a driver makes 0 of `a - a`, although it is NaN where `a` is infinite; of two uniforms it knows
 //! nothing. So where operands may be infinite, what makes them alike stays in its uniform.
 
 use super::identities;
 use crate::forward::Walked;
+use glisten_front::builtin::operations::{Binary, Class, Numbers};
 use glisten_front::hir::{
-    BinaryOp, ExprId, ExprKind, FunctionId, LocalId, ParamMode, ScalarValue, Stmt, StmtKind, Storage, UnaryOp, VarRef,
+    BinaryOp, ExprId, ExprKind, FunctionId, LocalId, ScalarValue, Stmt, StmtKind, Storage, UnaryOp, VarRef,
 };
+use glisten_front::link::usage::written_by;
 use rustc_hash::{FxHashMap, FxHashSet, FxHasher};
+use smallvec::{SmallVec, smallvec};
 use std::hash::{Hash, Hasher};
 
 /// Deeper expressions are taken to differ.
 const DEPTH: u32 = 48;
 
-/// The differences and quotients of a stage that must not become those of one expression.
+/// The operations of a stage that must not become those of one expression.
 pub(super) fn cancelling(walked: &Walked) -> FxHashSet<ExprId> {
     let mut found = FxHashSet::default();
     for (function, body) in walked.shader.functions().filter_map(|(id, one)| Some((id, one.body.as_deref()?))) {
@@ -48,37 +51,66 @@ fn definitions(walked: &Walked, body: &[Stmt]) -> FxHashMap<LocalId, ExprId> {
             defined.insert(local, value);
         }
         for root in stmt.kind.exprs() {
-            shader.visit_expr(root, &mut |id| match &shader.expr(id).kind {
-                ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => assigned(*target),
-                // What a call writes to is among its arguments.
-                ExprKind::Call(_, arguments) | ExprKind::BuiltinCall(_, arguments) => {
-                    arguments.iter().filter(|one| matches!(shader.expr(**one).kind, ExprKind::Var(_))).for_each(
-                        |one| {
-                            if is_written(walked, id, *one) {
-                                assigned(*one);
-                            }
-                        },
-                    );
-                }
-                _ => {}
-            });
+            shader.visit_expr(root, &mut |id| written_by(shader, id, &mut assigned));
         }
     });
     defined.retain(|local, _| !changed.contains(local));
     defined
 }
 
-/// Whether a call writes to an argument.
-fn is_written(walked: &Walked, call: ExprId, argument: ExprId) -> bool {
-    match &walked.shader.expr(call).kind {
-        ExprKind::Call(callee, arguments) => arguments.iter().enumerate().any(|(index, one)| {
-            let mode = walked.shader.function(*callee).param_mode(index);
-            *one == argument && !matches!(mode, ParamMode::In)
-        }),
-        ExprKind::BuiltinCall(function, arguments) => {
-            *function == glisten_front::builtin::BuiltinFunction::Modf && arguments.get(1) == Some(&argument)
+/// The pairs of operands of which an operation gives something else if they are one expression.
+fn candidates(walked: &Walked, id: ExprId) -> SmallVec<[(ExprId, ExprId); 3]> {
+    let shader = &walked.shader;
+    match &shader.expr(id).kind {
+        ExprKind::Binary(op, a, b) => match op {
+            BinaryOp::Sub | BinaryOp::Div => smallvec![(*a, *b)],
+            BinaryOp::Add => match (&shader.expr(*a).kind, &shader.expr(*b).kind) {
+                (_, ExprKind::Unary(UnaryOp::Negate, b)) => smallvec![(*a, *b)],
+                (ExprKind::Unary(UnaryOp::Negate, a), _) => smallvec![(*a, *b)],
+                _ => SmallVec::new(),
+            },
+            // A NaN is neither equal to itself, nor at most itself.
+            BinaryOp::LessEqual | BinaryOp::GreaterEqual | BinaryOp::Equal | BinaryOp::NotEqual => smallvec![(*a, *b)],
+            // The same of one expression as of two, or of no floats.
+            BinaryOp::Mul
+            | BinaryOp::MatMul
+            | BinaryOp::Rem
+            | BinaryOp::Shl
+            | BinaryOp::Shr
+            | BinaryOp::BitAnd
+            | BinaryOp::BitXor
+            | BinaryOp::BitOr
+            | BinaryOp::Less
+            | BinaryOp::Greater
+            | BinaryOp::LogicalXor => SmallVec::new(),
+        },
+        ExprKind::BuiltinCall(function, arguments) if may_cancel(function.class()) => {
+            let pairs = arguments.iter().enumerate();
+            pairs.flat_map(|(index, a)| arguments.iter().skip(index + 1).map(|b| (*a, *b))).collect()
         }
-        _ => false,
+        _ => SmallVec::new(),
+    }
+}
+
+/// Whether a function may give something else if two of its arguments are one expression.
+fn may_cancel(class: Class) -> bool {
+    match class {
+        Class::Binary(op) => !matches!(op, Binary::Min | Binary::Max),
+        Class::Numbers(op) => !matches!(op, Numbers::Min | Numbers::Max),
+        Class::Ternary(_) | Class::Composite(_) | Class::Relation(_) | Class::Composed => true,
+        // Of one argument, or products, or nothing that a driver knows by heart.
+        Class::Unary(_)
+        | Class::Matrix(_)
+        | Class::Boolean(_)
+        | Class::Test(_)
+        | Class::BitCast(_)
+        | Class::Bits(_)
+        | Class::Packing(_)
+        | Class::Modf
+        | Class::Derivative(_)
+        | Class::Noise(_)
+        | Class::Texture(_)
+        | Class::Emission(_) => false,
     }
 }
 
@@ -92,16 +124,11 @@ struct Keys<'a> {
 
 impl Keys<'_> {
     fn cancels(&mut self, id: ExprId) -> bool {
-        let shader = &self.walked.shader;
-        let (a, b) = match shader.expr(id).kind {
-            ExprKind::Binary(BinaryOp::Sub | BinaryOp::Div, a, b) => (a, b),
-            ExprKind::Binary(BinaryOp::Add, a, b) => match (&shader.expr(a).kind, &shader.expr(b).kind) {
-                (_, ExprKind::Unary(UnaryOp::Negate, b)) => (a, *b),
-                (ExprKind::Unary(UnaryOp::Negate, a), _) => (*a, b),
-                _ => return false,
-            },
-            _ => return false,
-        };
+        candidates(self.walked, id).into_iter().any(|(a, b)| self.become_one(a, b))
+    }
+
+    /// Whether two operands are one expression once what is known is a literal, and may be infinite or NaN.
+    fn become_one(&mut self, a: ExprId, b: ExprId) -> bool {
         let facts = self.walked.facts(a);
         let float =
             |fact: &crate::facts::Fact| !matches!(fact.value(), Some(ScalarValue::Int(_) | ScalarValue::Uint(_)));

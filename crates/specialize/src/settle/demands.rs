@@ -4,9 +4,9 @@
 //! everything is demanded of everything, which is always right.
 
 use super::cancels::cancelling;
-use super::{Demand, danger};
+use super::{Demand, builtins, danger};
+use crate::facts::Fact;
 use crate::forward::Walked;
-use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, ParamMode, Stmt, StmtKind, Types, VarRef};
 use rustc_hash::FxHashSet;
 use smallvec::SmallVec;
@@ -218,19 +218,22 @@ impl Demands {
             | ExprKind::Construct(..)
             | ExprKind::Unary(..) => true,
             ExprKind::Binary(op, ..) => transparent_op(Some(*op)) || demand.is_apart(),
-            ExprKind::BuiltinCall(function, _) => matches!(
-                function,
-                F::Abs
-                    | F::Sign
-                    | F::Min
-                    | F::Max
-                    | F::Clamp
-                    | F::Mix
-                    | F::Transpose
-                    | F::MatrixCompMult
-                    | F::OuterProduct
-            ),
-            _ => false,
+            ExprKind::BuiltinCall(function, arguments) => {
+                let literal = |fact: &Fact| fact.value().is_some();
+                builtins::hands_on(*function)
+                    || arguments.iter().all(|argument| walked.facts(*argument).iter().any(literal))
+            }
+            // These have no operands, or what goes through them is found in `of_operands`.
+            ExprKind::Literal(_)
+            | ExprKind::Var(_)
+            | ExprKind::Index(..)
+            | ExprKind::Logical(..)
+            | ExprKind::Ternary(..)
+            | ExprKind::Comma(..)
+            | ExprKind::Assign(..)
+            | ExprKind::IncDec(..)
+            | ExprKind::Call(..)
+            | ExprKind::Error => false,
         };
         let facts = walked.facts(id);
         let constant = !facts.is_empty() && facts.iter().all(|fact| fact.constant);
@@ -241,6 +244,8 @@ impl Demands {
             // A driver could compute it from literals, whatever it comes to.
             (true, _) => demand.and(Demand::KEEP),
             (false, true) => demand,
+            // What is known of the result a driver may find as well.
+            (false, false) if demand.concerns(facts) => demand,
             (false, false) => Demand::NONE,
         }
     }

@@ -7,10 +7,12 @@
 //! it was, down to the uniform, attribute or texture that it comes from; a variable hands the demand on to what is stored
 //! in it. Literals of the source are literals in any case.
 
+mod builtins;
 mod cancels;
 mod danger;
 mod demands;
 mod identities;
+mod operands;
 mod rewrite;
 
 pub(super) use demands::Demands;
@@ -47,6 +49,17 @@ impl Demand {
     /// Whether operations stay that give an operand back.
     pub(super) fn is_apart(self) -> bool {
         self == Self::APART
+    }
+
+    /// Whether something is known of a value with these facts that a driver must not find.
+    pub(super) fn concerns(self, facts: &[Fact]) -> bool {
+        let point = |fact: &Fact| fact.value().is_some() || fact.range().low == fact.range().high;
+        let zero = |fact: &Fact| fact.range().low == 0.0 && fact.range().high == 0.0;
+        match self {
+            Self::NONE => false,
+            Self::NO_ZERO => facts.iter().any(|fact| fact.bound && zero(fact)),
+            _ => facts.iter().any(|fact| fact.bound && point(fact)),
+        }
     }
 
     /// Whether a value with these facts must stay what it was.

@@ -156,39 +156,38 @@ impl Writer<'_> {
         }
         let demands = self.demands.of_operands(self.types, self.walked, self.function, id, demand);
         let of = |index: usize| demands.get(index).copied().unwrap_or(Demand::KEEP);
-        let kind =
-            match kind {
-                ExprKind::Var(variable) => return self.variable(id, variable, ty, span),
-                ExprKind::Assign(op, target, value) => return self.assign(id, (op, target, value), of(1), (ty, span)),
-                ExprKind::IncDec(op, target) => ExprKind::IncDec(op, self.place(target)),
-                ExprKind::Literal(_) | ExprKind::Error => kind,
-                ExprKind::Member(base, member) => ExprKind::Member(self.expr(base, of(0)), member),
-                ExprKind::Index(base, index) => {
-                    let count = self.elements(base);
-                    self.reaches(base, index, count);
-                    let base = self.expr(base, of(0));
-                    ExprKind::Index(base, self.index(index, count))
-                }
-                ExprKind::Swizzle(base, swizzle) => ExprKind::Swizzle(self.expr(base, of(0)), swizzle),
-                ExprKind::Convert(a) => ExprKind::Convert(self.expr(a, of(0))),
-                ExprKind::Construct(kind, list) => ExprKind::Construct(kind, self.list(&list, &of)),
-                ExprKind::Unary(op, a) => ExprKind::Unary(op, self.expr(a, of(0))),
-                ExprKind::Binary(op, a, b) => ExprKind::Binary(op, self.expr(a, of(0)), self.expr(b, of(1))),
-                ExprKind::Logical(op, a, b) => ExprKind::Logical(op, self.expr(a, of(0)), self.expr(b, of(1))),
-                ExprKind::Ternary(c, a, b) => {
-                    ExprKind::Ternary(self.expr(c, of(0)), self.expr(a, of(1)), self.expr(b, of(2)))
-                }
-                ExprKind::Comma(a, b) => ExprKind::Comma(self.expr(a, of(0)), self.expr(b, of(1))),
-                ExprKind::Call(callee, list) => ExprKind::Call(callee, self.arguments(callee, &list, &of)),
-                ExprKind::BuiltinCall(function, list) => {
-                    let modf = function == glisten_front::builtin::BuiltinFunction::Modf;
-                    let list = list.iter().enumerate();
-                    let list = list.map(|(index, argument)| {
-                        if modf && index == 1 { self.place(*argument) } else { self.expr(*argument, of(index)) }
-                    });
-                    ExprKind::BuiltinCall(function, list.collect())
-                }
-            };
+        let kind = match kind {
+            ExprKind::Var(variable) => return self.variable(id, variable, ty, span),
+            ExprKind::Assign(op, target, value) => return self.assign(id, (op, target, value), of(1), (ty, span)),
+            ExprKind::IncDec(op, target) => ExprKind::IncDec(op, self.place(target)),
+            ExprKind::Literal(_) | ExprKind::Error => kind,
+            ExprKind::Member(base, member) => ExprKind::Member(self.expr(base, of(0)), member),
+            ExprKind::Index(base, index) => {
+                let count = self.elements(base);
+                self.reaches(base, index, count);
+                let base = self.expr(base, of(0));
+                ExprKind::Index(base, self.index(index, count))
+            }
+            ExprKind::Swizzle(base, swizzle) => ExprKind::Swizzle(self.expr(base, of(0)), swizzle),
+            ExprKind::Convert(a) => ExprKind::Convert(self.expr(a, of(0))),
+            ExprKind::Construct(kind, list) => ExprKind::Construct(kind, self.list(&list, &of)),
+            ExprKind::Unary(op, a) => ExprKind::Unary(op, self.expr(a, of(0))),
+            ExprKind::Binary(op, a, b) => ExprKind::Binary(op, self.expr(a, of(0)), self.expr(b, of(1))),
+            ExprKind::Logical(op, a, b) => ExprKind::Logical(op, self.expr(a, of(0)), self.expr(b, of(1))),
+            ExprKind::Ternary(c, a, b) => {
+                ExprKind::Ternary(self.expr(c, of(0)), self.expr(a, of(1)), self.expr(b, of(2)))
+            }
+            ExprKind::Comma(a, b) => ExprKind::Comma(self.expr(a, of(0)), self.expr(b, of(1))),
+            ExprKind::Call(callee, list) => ExprKind::Call(callee, self.arguments(callee, &list, &of)),
+            ExprKind::BuiltinCall(function, list) => {
+                let written = function.written_argument();
+                let list = list.iter().enumerate();
+                let list = list.map(|(index, argument)| {
+                    if written == Some(index) { self.place(*argument) } else { self.expr(*argument, of(index)) }
+                });
+                ExprKind::BuiltinCall(function, list.collect())
+            }
+        };
         self.push(kind, ty, span)
     }
 

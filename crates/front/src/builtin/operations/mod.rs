@@ -63,6 +63,55 @@ impl Operation {
         }
     }
 
+    /// The number of the argument that a call writes (§8.3), if it writes one.
+    pub fn written_argument(&self) -> Option<usize> {
+        match self.class {
+            Class::Modf => Some(1),
+            // What these write is assigned by the operations that the analysis writes out for them.
+            Class::Composed => None,
+            Class::Unary(_)
+            | Class::Binary(_)
+            | Class::Ternary(_)
+            | Class::Composite(_)
+            | Class::Numbers(_)
+            | Class::Matrix(_)
+            | Class::Relation(_)
+            | Class::Boolean(_)
+            | Class::Test(_)
+            | Class::BitCast(_)
+            | Class::Bits(_)
+            | Class::Packing(_)
+            | Class::Derivative(_)
+            | Class::Noise(_)
+            | Class::Texture(_)
+            | Class::Emission(_) => None,
+        }
+    }
+
+    /// Whether a call emits vertices or ends primitives (§8.10).
+    pub fn emits(&self) -> bool {
+        match self.class {
+            Class::Emission(_) => true,
+            Class::Unary(_)
+            | Class::Binary(_)
+            | Class::Ternary(_)
+            | Class::Composite(_)
+            | Class::Numbers(_)
+            | Class::Matrix(_)
+            | Class::Relation(_)
+            | Class::Boolean(_)
+            | Class::Test(_)
+            | Class::BitCast(_)
+            | Class::Bits(_)
+            | Class::Packing(_)
+            | Class::Modf
+            | Class::Composed
+            | Class::Derivative(_)
+            | Class::Noise(_)
+            | Class::Texture(_) => false,
+        }
+    }
+
     /// Whether a call may read from neighboring fragments (§8.7, §8.8): derivatives, and texture lookups with an
     /// implicit level of detail. Textures with one level need none:
     /// [`SamplerType::has_levels`](crate::language::SamplerType).
@@ -101,6 +150,16 @@ impl BuiltinFunction {
     /// constant.
     pub fn is_foldable(self) -> bool {
         !matches!(self.class(), Class::Noise(_) | Class::Emission(_))
+    }
+
+    /// The number of the argument that a call writes: see [`Operation::written_argument`].
+    pub fn written_argument(self) -> Option<usize> {
+        self.operation().written_argument()
+    }
+
+    /// Whether a call does more than to give a value: it writes an argument, or emits.
+    pub fn has_effects(self) -> bool {
+        self.operation().written_argument().is_some() || self.operation().emits()
     }
 
     /// Whether a call may read from neighboring fragments: see [`Operation::implicit_derivatives`].
