@@ -282,6 +282,34 @@ fn fragments_of_a_derivative_lie_on_one_plane() {
     }
 }
 
+/// So it is for what is computed from varyings: products, lengths, quotients, normalized vectors.
+#[test]
+fn fragments_of_a_derivative_share_the_errors_of_products() {
+    let gpu = gpu();
+    for (body, most) in [
+        // Each is of one coordinate: otherwise both rows of a quad, which a GPU may choose from, differ by more than roundings.
+        ("dFdx(place.x * place.x)", 4e-6),
+        ("dFdy(place.y * (place.y + 1.0))", 8e-6),
+        ("fwidth(dot(place.xx, vec2(place.x, 1.0)))", 2e-5),
+        ("fwidth(length(vec2(place.x + 3.0, place.x)))", 2e-5),
+        ("dFdx(sqrt(place.x * place.x + 1.0))", 1e-5),
+        ("dFdx(inversesqrt(place.x + 2.5))", 1e-5),
+        ("dFdy(place.y / (place.y + 2.5))", 1e-5),
+        ("dFdx(normalize(vec3(place.x, 0.5, 1.0)).x)", 1e-5),
+    ] {
+        let scene = square(&format!("void main() {{ color = vec4({body}); }}"), "rgba32float");
+        let width = widest(&scene, Profile::LLVMPIPE);
+        assert!(width > 0.0 && width < most, "{body}: {width:e}");
+        let envelope = reference(&scene, Precision::Envelope);
+        assert_inside(body, &drawn(&gpu, &scene), &envelope);
+        let options = as_on_vulkan(Precision::F32, Faults::NONE);
+        for member in 0..12 {
+            let picture = glisten_reference::simulate(&scene, &options, (1, member)).expect("it can be drawn");
+            assert_inside(&format!("{body}, simulated GPU {member}"), &picture, &envelope);
+        }
+    }
+}
+
 /// A surface drawn twice, the second time where depth is equal: decided, if the positions are invariant.
 #[test]
 fn a_prepass_decides_depth() {

@@ -3,7 +3,7 @@
 use super::code::Section;
 use super::inst::{Compare, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, IntToFloat, Operand};
 use super::registers::{Filled, Registers, blocks1, blocks2, blocks3, calls1, calls2, calls3, copy, map1, map2, map3};
-use super::{DFDY_SIGN, LANES};
+use super::{DFDY_SIGN, LANES, noise};
 use crate::domain::rules;
 use crate::domain::{Block, Corner, Domain, Element, Integer, Lanes, Number, NumberBlock, Source};
 use glisten_front::builtin::operations::BitFunction;
@@ -197,29 +197,6 @@ fn difference<N: Number>(a: N, b: N, apart: Option<f64>) -> N {
     if low <= high { N::with_interval(value, Interval { low, high, ..wide }) } else { plain }
 }
 
-/// The noise of a sum of terms: that of each times its factor, and the roundings of the sum itself.
-fn noise<D: Domain>(
-    this: &Registers<D>,
-    of: Source<'_, Float<D>>,
-    roundings: f64,
-    terms: &[Operand],
-    out: &mut Lanes<Float<D>>,
-) {
-    let largest = |number: Float<D>| {
-        let interval = number.interval();
-        interval.low.abs().max(interval.high.abs())
-    };
-    let term = |pair: &[Operand], lane: usize| match pair {
-        [noise, factor] => this.float(*noise).at(lane).value() * largest(this.float(*factor).at(lane)),
-        _ => f64::INFINITY,
-    };
-    out.update(|lane, _| {
-        let own = roundings * rules::ulp(largest(of.at(lane)));
-        let sum: f64 = terms.chunks(2).map(|pair| term(pair, lane)).sum();
-        Number::integer_with_interval(sum + own, Interval::point(sum + own))
-    });
-}
-
 /// Differences in quads, separately for each row and column. With the noise of the numbers, the errors of two of them
 /// are at most its sum apart.
 fn derivative<N: Number>(op: Derivative, out: &mut Lanes<N>, a: Source<'_, N>, noise: Option<Source<'_, N>>) {
@@ -389,10 +366,15 @@ impl<D: Domain> Registers<D> {
             Inst::Noise { dst, of, divides, list } => {
                 let roundings = if divides { rules::DIV.ulps() } else { 1.0 };
                 self.write_float(dst, |this, out| {
-                    noise(this, this.float(of), roundings, section.list(list), out);
+                    noise::linear(this, this.float(of), roundings, section.list(list), out);
                     Filled::Lanes
                 });
             }
+            Inst::NoiseOf { .. } if !D::HAS_INTERVALS => {}
+            Inst::NoiseOf { op, dst, of, list } => self.write_float(dst, |this, out| {
+                noise::of(this, (op, this.float(of)), section.list(list), out);
+                Filled::Lanes
+            }),
             Inst::Derivative { op, dst, a, noise } => self.write_float(dst, |this, out| {
                 // Infinity and envelopes have differences other than 0, even if all lanes are equal.
                 let noise = noise.filter(|_| D::HAS_INTERVALS).map(|noise| this.float(noise));

@@ -310,6 +310,14 @@ pub(super) enum Inst {
         divides: bool,
         list: List,
     },
+    /// The noise of `of`, by what it is computed from.
+    NoiseOf {
+        op: Noisy,
+        dst: Operand,
+        of: Operand,
+        /// Numbers, each followed by its noise.
+        list: List,
+    },
     Texture {
         call: u32,
     },
@@ -426,6 +434,19 @@ pub(super) enum Use {
     Write,
 }
 
+/// A computation whose noise depends on how its operands change from one fragment of a quad to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Noisy {
+    /// `a0 * b0 + a1 * b1 + ...`
+    Products,
+    /// `a / b`
+    Quotient,
+    /// `sqrt(a)`
+    Root,
+    /// `inversesqrt(a)`
+    InverseRoot,
+}
+
 impl Inst {
     /// Visits all operands that the instruction contains directly.
     pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
@@ -437,7 +458,10 @@ impl Inst {
                 noise.iter_mut().for_each(|noise| f(Float, Read, noise));
                 f(Float, Write, dst);
             }
-            Self::Float1 { dst, a, .. } | Self::Folded { dst, a, .. } | Self::Noise { dst, of: a, .. } => {
+            Self::Float1 { dst, a, .. }
+            | Self::Folded { dst, a, .. }
+            | Self::Noise { dst, of: a, .. }
+            | Self::NoiseOf { dst, of: a, .. } => {
                 f(Float, Read, a);
                 f(Float, Write, dst);
             }
@@ -533,9 +557,10 @@ impl Inst {
     /// The lists of operands that the instruction reads and writes.
     pub(super) fn lists(&self) -> [Option<(Class, Use, List)>; 2] {
         match *self {
-            Self::SumOfProducts { list, .. } | Self::Folded { list, .. } | Self::Noise { list, .. } => {
-                [Some((Class::Float, Use::Read, list)), None]
-            }
+            Self::SumOfProducts { list, .. }
+            | Self::Folded { list, .. }
+            | Self::Noise { list, .. }
+            | Self::NoiseOf { list, .. } => [Some((Class::Float, Use::Read, list)), None],
             Self::Composite { results, arguments, .. } => {
                 [Some((Class::Float, Use::Read, arguments)), Some((Class::Float, Use::Write, results))]
             }

@@ -58,6 +58,7 @@ mod machine;
 mod memory;
 mod mute;
 mod muted_run;
+mod noise;
 mod observe;
 mod registers;
 mod run;

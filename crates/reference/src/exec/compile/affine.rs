@@ -1,17 +1,19 @@
 //! The noise of derivatives' arguments: how far apart the errors of one register may be in two lanes of a quad.
 //!
-//! *In:* the definitions of registers. *Out:* for a register that is a varying, or linear in varyings with uniforms and
-//! constants as factors, a register with its *noise*: the part of its error that is not common to the fragments of a
-//! primitive. Both fragments of a derivative lie on one plane, so an error of the plane itself cancels.
+//! *In:* the definitions of registers. *Out:* for a register that is a varying, or computed from varyings by sums, products,
+//! quotients, roots, lengths and normalized vectors, a register with its *noise*: the part of its error that is not common to the
+//! fragments of a quad. Both fragments of a derivative lie on one plane, so an error of the plane itself cancels.
 //!
 //! *Holds:* the pipeline gives the noise of varyings; each operation adds its own rounding. The noise is computed only for
-//! arguments of derivatives. *Not done here:* functions, products of varyings, variables that a branch assigns to.
+//! arguments of derivatives. *Not done here:* other functions, whose own errors differ from fragment to fragment; variables that a branch assigns
+//! to; what is computed of the noise of operands ([`noise`](super::super::noise)).
 
 use super::super::code::Port;
-use super::super::inst::{Class, Float2, Inst, Operand};
-use super::Compiler;
+use super::super::inst::{Class, Float1, Float2, Inst, Noisy, Operand};
 use super::emit::Emitter;
 use super::facts::Definition;
+use super::{Compiler, Val};
+use glisten_front::builtin::operations::Composite;
 
 /// Longer chains of operations are not followed.
 const MAX_DEPTH: u32 = 24;
@@ -36,6 +38,10 @@ impl Emitter {
 impl Compiler<'_> {
     /// The register with the noise of an operand, if that is linear in varyings.
     pub(super) fn noise(&mut self, operand: Operand) -> Option<Operand> {
+        // What was computed in a branch may be missing after it.
+        if std::mem::replace(&mut self.emit.noises_at, self.emit.stores) != self.emit.stores {
+            self.emit.noises.clear();
+        }
         match self.noise_of(operand, 0)? {
             Noise::Zero => None,
             Noise::In(register) => Some(register),
@@ -53,9 +59,24 @@ impl Compiler<'_> {
         if depth > MAX_DEPTH || self.emit.is_home(Class::Float, operand) {
             return None;
         }
-        let found = match self.emit.definitions.get(&operand).copied() {
-            Some(Definition::Same(of)) => return self.noise_of(of, depth + 1),
-            Some(Definition::Of(op, a, b)) => self.noise_of_operation(operand, (op, a, b), depth + 1)?,
+        let depth = depth + 1;
+        let found = match self.emit.definitions.get(&operand).cloned() {
+            Some(Definition::Same(of)) => return self.noise_of(of, depth),
+            Some(Definition::Of(op, a, b)) => self.noise_of_operation(operand, (op, a, b), depth)?,
+            Some(Definition::Root(op, a)) => {
+                let op = if op == Float1::Sqrt { Noisy::Root } else { Noisy::InverseRoot };
+                self.noise_by(op, operand, &[a], depth)?
+            }
+            Some(Definition::Products(factors)) => self.noise_by(Noisy::Products, operand, &factors, depth)?,
+            Some(Definition::Length(vector)) => {
+                let square = self.square(&vector)?;
+                self.noise_by(Noisy::Root, operand, &[square], depth)?
+            }
+            Some(Definition::Normalized(vector, component)) => {
+                let square = self.square(&vector)?;
+                let scale = self.float1(Float1::Inversesqrt, square);
+                self.noise_by(Noisy::Products, operand, &[*vector.get(component)?, scale], depth)?
+            }
             None => self.noise_of_input(operand)?,
         };
         self.emit.noises.insert(operand, found);
@@ -75,6 +96,8 @@ impl Compiler<'_> {
             | (Float2::Add | Float2::Sub, Noise::Zero, Noise::In(only)) => vec![only, one],
             (Float2::Mul, Noise::In(noise), Noise::Zero) => vec![noise, b],
             (Float2::Mul, Noise::Zero, Noise::In(noise)) => vec![noise, a],
+            (Float2::Mul, Noise::In(_), Noise::In(_)) => return self.noise_by(Noisy::Products, result, &[a, b], depth),
+            (Float2::Div, _, Noise::In(_)) => return self.noise_by(Noisy::Quotient, result, &[a, b], depth),
             (Float2::Div, Noise::In(noise), Noise::Zero) => {
                 let factor = self.float2(Float2::Div, one, b);
                 vec![noise, factor]
@@ -86,6 +109,51 @@ impl Compiler<'_> {
         Some(self.emit.pure(Class::Float, &[result], |dst| Inst::Noise { dst, of: result, divides, list }))
     }
 
+    /// The noise of what is computed from operands that change from one fragment to the next.
+    fn noise_by(&mut self, op: Noisy, result: Operand, operands: &[Operand], depth: u32) -> Option<Operand> {
+        let mut list = Vec::with_capacity(2 * operands.len());
+        for operand in operands {
+            let noise = match self.noise_of(*operand, depth)? {
+                Noise::Zero => self.emit.float(0.0),
+                Noise::In(register) => register,
+            };
+            list.extend([*operand, noise]);
+        }
+        let list = self.emit.list(Class::Float, &list, false);
+        Some(self.emit.pure(Class::Float, &[result], |dst| Inst::NoiseOf { op, dst, of: result, list }))
+    }
+
+    /// The square of the length of a vector.
+    fn square(&mut self, vector: &[Operand]) -> Option<Operand> {
+        // The registers of variables may have changed since.
+        if vector.iter().any(|operand| self.emit.is_home(Class::Float, *operand)) {
+            return None;
+        }
+        let pairs: Vec<Operand> = vector.iter().flat_map(|operand| [*operand, *operand]).collect();
+        Some(self.sum_of_products(&pairs))
+    }
+
+    /// Remembers what the results of a function of whole vectors are computed from.
+    pub(super) fn define_composite(&mut self, op: Composite, values: &[Val], results: &[Operand]) {
+        let first = values.first().map_or(&[][..], |value| value.as_slice());
+        match (op, results) {
+            (Composite::Length, [result]) => {
+                self.emit.define(*result, Definition::Length(first.iter().copied().collect()));
+            }
+            (Composite::Dot, [result]) => {
+                let second = values.get(1).map_or(&[][..], |value| value.as_slice());
+                let pairs = first.iter().zip(second).flat_map(|(a, b)| [*a, *b]).collect();
+                self.emit.define(*result, Definition::Products(pairs));
+            }
+            (Composite::Normalize, results) => {
+                for (component, result) in results.iter().enumerate() {
+                    self.emit.define(*result, Definition::Normalized(first.iter().copied().collect(), component));
+                }
+            }
+            _ => {}
+        }
+    }
+
     /// The pipeline fills the register in.
     fn noise_of_input(&mut self, operand: Operand) -> Option<Operand> {
         let port = self.inputs.iter().find(|port| port.class == Class::Float && port.register == operand.number())?;
@@ -94,6 +162,9 @@ impl Compiler<'_> {
             return None;
         }
         let port = *port;
+        if let Some(known) = self.noises.iter().find(|noise| (noise.global, noise.flat) == (port.global, port.flat)) {
+            return Some(Operand::reg(known.register as u32));
+        }
         let register = self.emit.temp(Class::Float);
         self.noises.push(Port { register: register.number(), ..port });
         Some(register)

@@ -110,7 +110,9 @@ impl Compiler<'_> {
             Composite::Inverse => (matrix, matrix * matrix),
         };
         let arguments: Vec<&[Operand]> = values.iter().map(|value| &value[..]).collect();
-        self.composite(op, size, &arguments, count)
+        let results = self.composite(op, size, &arguments, count);
+        self.define_composite(op, values, &results);
+        results
     }
 
     /// Applies a function component by component. A scalar is combined with every component.

@@ -35,6 +35,8 @@ pub(super) struct Emitter {
     pub(super) definitions: FxHashMap<Operand, Definition>,
     /// The registers with the noise of registers.
     pub(super) noises: FxHashMap<Operand, Operand>,
+    /// The number of stores and joins when they were computed.
+    pub(super) noises_at: u32,
     /// The number of stores, and of points where lanes diverge or join.
     pub(super) stores: u32,
     /// Preamble instructions by what they compute (with `dst` blanked).

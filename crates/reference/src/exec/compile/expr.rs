@@ -80,8 +80,10 @@ impl Compiler<'_> {
 
     pub(super) fn float1(&mut self, op: Float1, a: Operand) -> Operand {
         let dst = self.emit.pure(Class::Float, &[a], |dst| Inst::Float1 { op, dst, a });
-        if op == Float1::Neg {
-            self.emit.define(dst, Definition::Same(a));
+        match op {
+            Float1::Neg => self.emit.define(dst, Definition::Same(a)),
+            Float1::Sqrt | Float1::Inversesqrt => self.emit.define(dst, Definition::Root(op, a)),
+            _ => {}
         }
         dst
     }

@@ -2,16 +2,24 @@
 //!
 //! *In:* nothing. *Out:* the types of what the [emitter](super::emit) remembers.
 
-use super::super::inst::{Float2, Operand};
+use super::super::inst::{Float1, Float2, Operand};
 use smallvec::SmallVec;
 
-/// The definition of a register that is linear in its operands.
-#[derive(Clone, Copy, Debug)]
+/// The definition of a register whose noise is known by that of its operands.
+#[derive(Clone, Debug)]
 pub(super) enum Definition {
     /// An operation.
     Of(Float2, Operand, Operand),
     /// A copy, or the negative.
     Same(Operand),
+    /// `sqrt`, `inversesqrt`.
+    Root(Float1, Operand),
+    /// A sum of the products of pairs.
+    Products(SmallVec<[Operand; 8]>),
+    /// The length of a vector.
+    Length(SmallVec<[Operand; 4]>),
+    /// A component of a normalized vector.
+    Normalized(SmallVec<[Operand; 4]>, usize),
 }
 
 /// The terms of a longer chain are not followed.

@@ -3,12 +3,13 @@
 
 use super::super::code::Form;
 use super::super::inst::{Class, Float2, Inst, Operand};
+use super::facts::Definition;
 use super::{Compiler, Val};
 use glisten_front::hir::{Type, TypeId};
 
 impl Compiler<'_> {
     /// `a0 b0 + a1 b1 + ...`
-    fn sum_of_products(&mut self, pairs: &[Operand]) -> Operand {
+    pub(super) fn sum_of_products(&mut self, pairs: &[Operand]) -> Operand {
         if let [a, b] = pairs {
             return self.float2(Float2::Mul, *a, *b);
         }
@@ -20,7 +21,9 @@ impl Compiler<'_> {
         let hoisted = pairs.iter().all(|operand| operand.is_scalar());
         let list = self.emit.list(Class::Float, pairs, hoisted);
         let reads: &[Operand] = if hoisted { &[] } else { &[Operand::reg(0)] };
-        self.emit.pure(Class::Float, reads, |dst| Inst::SumOfProducts { dst, list })
+        let sum = self.emit.pure(Class::Float, reads, |dst| Inst::SumOfProducts { dst, list });
+        self.emit.define(sum, Definition::Products(pairs.iter().copied().collect()));
+        sum
     }
 
     /// The linear algebra product.
