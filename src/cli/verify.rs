@@ -69,6 +69,9 @@ pub(super) struct VerifyArgs {
     /// By how many of its widths the hull of what simulated GPUs drew is widened, where envelopes are too wide to judge by
     #[arg(long, value_name = "X", default_value_t = 4.0, value_parser = parse_margin)]
     likely_margin: f64,
+    /// On llvmpipe, judge by what is known of its arithmetic where nothing else judges: noise of `fract(sin(x) * 43758.5)`
+    #[arg(long)]
+    as_device: bool,
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
@@ -390,6 +393,7 @@ fn compare(
         allow_inconclusive: args.allow_inconclusive,
         width: args.width,
         likely_margin: args.likely_margin,
+        as_device: args.as_device,
         sources: Some(sources),
         profile: args.profile.of(&gpu),
         reference: &TimedReference::new(machine, progress),

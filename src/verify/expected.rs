@@ -6,6 +6,7 @@
 
 use super::{Failure, Options};
 use crate::scene::Scene;
+use glisten_reference::domain::Gpu;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::{Undefined, faults_of, hides_undefined};
 use glisten_scene::compare::evidence::Ruler;
@@ -27,6 +28,8 @@ const MEMBERS: [u32; 5] = [2, 4, 8, 16, 32];
 const WITNESSES: [u32; 3] = [MIN_MEMBERS, MIN_MEMBERS, 2 * MIN_MEMBERS];
 /// How many of them draw everything in any case.
 const FIRST: u32 = 2;
+/// The share of the pixels that nothing else judges in which a picture has to agree with the device's known arithmetic.
+const DEVICE_SHARE: f64 = 0.95;
 /// The share of the picture up to which drawing a part of it pays.
 const PART: f64 = 0.5;
 
@@ -41,6 +44,8 @@ pub struct Expected<'a> {
     population: Option<Population>,
     /// The places that the language leaves undefined; found on demand.
     undefined: Option<Option<Undefined>>,
+    /// The picture that the device draws by its known arithmetic, while a picture is compared that agrees with it.
+    device: Option<Picture>,
     /// The picture with each known fault excused alone, and with all of them; drawn on demand.
     excused: Option<Vec<(&'static str, Picture)>>,
 }
@@ -63,6 +68,7 @@ impl<'a> Expected<'a> {
             likely_margin: options.likely_margin,
             population: None,
             undefined: None,
+            device: None,
             excused: None,
         })
     }
@@ -126,6 +132,16 @@ impl<'a> Expected<'a> {
                 }
             }
             compared.verdict.suspect.get_or_insert(0);
+            if self.options.as_device
+                && self.options.profile.straight_levels
+                && !compared.verdict.needs_excuse()
+                && !compared.verdict.is_suspect()
+                && lacks_evidence(&compared.verdict)
+                && self.find_device(picture, &compared.classes)?
+            {
+                compared = self.comparison(&excused).compare(picture, &self.picture);
+                self.device = None;
+            }
         }
         if !excused.is_empty() {
             self.excused = Some(excused);
@@ -145,6 +161,26 @@ impl<'a> Expected<'a> {
         let is_there = found.is_some();
         self.undefined = Some(found);
         Ok(is_there)
+    }
+
+    /// Looks for the picture that this device draws by what is known of its arithmetic, if it agrees with `picture` where nothing
+    /// else judges it. Returns whether there is one.
+    fn find_device(&mut self, picture: &Picture, classes: &[Option<Class>]) -> Result<bool, Failure> {
+        let is_open = |class: &Option<Class>| matches!(class, Some(Class::Weak | Class::Unlimited | Class::Undecided));
+        let places: Vec<bool> = classes.iter().map(is_open).collect();
+        let count = places.iter().filter(|place| **place).count();
+        let options = self.options.reference_options(Faults::NONE);
+        for number in 0..Gpu::LLVMPIPES {
+            let drawn = self.options.reference.as_llvmpipe(self.scene, &options, number, &places)?;
+            let ruler = Ruler::new(&self.picture, &self.written, self.options.width);
+            let agrees = |pixel: &usize| places.get(*pixel) == Some(&true) && ruler.agree(picture, &drawn, *pixel);
+            let agreeing = (0..places.len()).filter(agrees).count();
+            if agreeing as f64 >= DEVICE_SHARE * count as f64 {
+                self.device = Some(drawn);
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// The places in the picture that the language leaves undefined.
@@ -227,6 +263,7 @@ impl<'a> Expected<'a> {
             width,
             population: self.population.as_ref(),
             likely_margin,
+            device: self.device.as_ref(),
             undefined: self.undefined().map_or(&[], |undefined| &undefined.pixels),
         }
     }

@@ -86,6 +86,8 @@ pub struct Options<'a> {
     pub width: Option<f64>,
     /// By how many of its widths the hull of what simulated GPUs drew is widened for what is likely. Default: 4.
     pub likely_margin: f64,
+    /// Whether a picture of llvmpipe is judged by what is known of its arithmetic where nothing else judges.
+    pub as_device: bool,
     /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
     pub sources: Option<&'a SourceMap>,
     /// A folder for the pictures of a failed verification: one of each runner (`spirv.png`), `cpu.png` and
@@ -106,6 +108,7 @@ impl Default for Options<'_> {
             profile: Profile::default(),
             width: None,
             likely_margin: MARGIN,
+            as_device: false,
             sources: None,
             failures: None,
             reference: &ThisThread,

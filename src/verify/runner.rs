@@ -94,6 +94,20 @@ pub trait Reference {
         Ok(population)
     }
 
+    /// Draws some pixels of a scene as llvmpipe does, like [`glisten_reference::as_llvmpipe`].
+    ///
+    /// # Errors
+    /// The scene cannot be drawn.
+    fn as_llvmpipe(
+        &self,
+        scene: &Scene,
+        options: &RenderOptions,
+        number: u32,
+        places: &[bool],
+    ) -> Result<Picture, Failure> {
+        Ok(glisten_reference::as_llvmpipe(scene, options, number, Some(places))?)
+    }
+
     /// Finds what the language leaves undefined like [`glisten_reference::undefined`].
     ///
     /// # Errors

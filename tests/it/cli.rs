@@ -570,6 +570,7 @@ fn verify_prints_the_figures_of_the_contract() {
         "evidence_share",
         "suspect",
         "outside_likely",
+        "as_device",
         "undefined",
         "verdict",
         "worst",

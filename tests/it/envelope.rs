@@ -310,6 +310,24 @@ fn fragments_of_a_derivative_share_the_errors_of_products() {
     }
 }
 
+/// The known arithmetic of llvmpipe is llvmpipe's, bit for bit, where a hash shows every bit.
+#[test]
+fn the_sine_of_llvmpipe() {
+    let gpu = gpu();
+    let body = "vec2 p = floor(gl_FragCoord.xy); float x = p.x * 0.37109375 + p.y * 23.75; color = vec4(sin(x), cos(x), fract(sin(x) * 43758.5453), x);";
+    let scene = square(&format!("void main() {{ {body} }}"), "rgba32float");
+    let picture = drawn(&gpu, &scene);
+    let options = as_on_vulkan(Precision::F32, Faults::NONE);
+    let same = |number: u32| {
+        let known = glisten_reference::as_llvmpipe(&scene, &options, number, None).expect("it can be drawn");
+        let pairs = picture.attachments[0].iter().zip(&known.attachments[0]).zip(&known.covered);
+        let covered = pairs.filter(|(_, covered)| **covered);
+        covered.fold((0, 0), |(same, all), ((a, b), _)| (same + usize::from(a == b), all + 1))
+    };
+    let found: Vec<(usize, usize)> = (0..glisten_reference::domain::Gpu::LLVMPIPES).map(same).collect();
+    assert!(found.iter().any(|(same, all)| *all > 1000 && 20 * same >= 19 * all), "{found:?}");
+}
+
 /// A surface drawn twice, the second time where depth is equal: decided, if the positions are invariant.
 #[test]
 fn a_prepass_decides_depth() {

@@ -213,6 +213,35 @@ fn what_simulated_gpus_agree_on_is_likely() {
     assert!(told.starts_with("does not hold: ") && told.contains("--difference"), "{told}");
 }
 
+/// Noise of a hash differs between GPUs, and no specification says what it is. What this device computes is known.
+#[test]
+fn a_hash_is_judged_by_what_is_known_of_the_device() {
+    let noise = "#version 150\nin vec2 q;\nout vec4 c;\nfloat hash(vec2 p) {\n    \
+                 return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);\n}\nvoid main() {\n    vec2 p = q * 7.0, i = floor(p), f = \
+                 fract(p);\n    float a = mix(hash(i), hash(i + vec2(1, 0)), f.x), b = mix(hash(i + vec2(0, 1)), hash(i + 1.0), f.x);\n    \
+                 c = vec4(vec3(mix(a, b, f.y)), 1.0);\n}\n";
+    let folder = quad(1, noise);
+    let (exit, json) = verify(&folder, &["--as-device"]);
+    assert_eq!((exit, &json["verdict"]), (0, &"holds".into()), "{json}");
+    let as_device = json["as_device"].as_u64().expect("a number");
+    assert!(as_device > 3000 && as_device <= count(&json, "likely"), "{json}");
+    // Without the flag the specification judges, and nothing is known of a device that may be any.
+    for flags in [&[][..], &["--as-device", "--no-likely"], &["--as-device", "--profile", "vulkan"]] {
+        let (exit, json) = verify(&folder, flags);
+        assert_eq!((exit, &json["verdict"], &json["as_device"]), (1, &"inconclusive".into(), &0.into()), "{json}");
+    }
+    // Faults are no more what the device computes: in the hash, in what is done with it, and small ones.
+    assert_eq!(code(&folder.run(&["compile", "a.vert", "a.frag", "-o", "out", "-q"])), 0);
+    let right = fs::read_to_string(folder.path("out/a.frag.wgsl")).expect("compiled");
+    for (from, to) in [("43758.547", "43759.547"), ("78.233", "78.234"), ("7.0", "7.1"), ("floor(", "ceil(")] {
+        let wrong = right.replace(from, to);
+        assert_ne!(right, wrong, "{right}");
+        fs::write(folder.path("wrong.wgsl"), wrong).expect("written");
+        let (exit, json) = verify(&folder, &["--as-device", "--with", "fragment=wrong.wgsl"]);
+        assert!(exit == 1 && json["verdict"] != "holds" && json["as_device"] == 0, "{from}: {json}");
+    }
+}
+
 /// `compile` leaves out a varying that the fragment stage declares and never reads.
 #[test]
 fn a_module_may_leave_out_what_nobody_reads() {

@@ -23,7 +23,7 @@ mod work;
 pub use counts::{Counts, counts};
 pub use exec::Step;
 pub use expand::{expand, has_geometry_stage};
-pub use population::{populate, simulate};
+pub use population::{as_llvmpipe, populate, simulate};
 pub use undefined::{Undefined, UndefinedPlace, hides_undefined, undefined};
 pub use work::{Work, work};
 

@@ -42,6 +42,21 @@ pub fn simulate(scene: &Scene, options: &RenderOptions, member: (u64, u32)) -> R
     drawn(scene, options, member, None)
 }
 
+/// The picture that llvmpipe draws, as far as its arithmetic is known, or some of its pixels. `number` is one of the possibilities
+/// that are left, less than [`Gpu::LLVMPIPES`].
+///
+/// # Errors
+/// As [`render`](crate::render).
+pub fn as_llvmpipe(
+    scene: &Scene,
+    options: &RenderOptions,
+    number: u32,
+    places: Option<&[bool]>,
+) -> Result<Picture, Vec<Diagnostic>> {
+    let pixels = places.map(|places| PixelSet::of(places, scene.framebuffer.width));
+    drawn_by(Gpu::llvmpipe(number), scene, options, pixels.as_ref())
+}
+
 /// The picture of a GPU, or some of its pixels.
 fn drawn(
     scene: &Scene,
@@ -49,8 +64,17 @@ fn drawn(
     (seed, number): (u64, u32),
     pixels: Option<&PixelSet>,
 ) -> Result<Picture, Vec<Diagnostic>> {
+    drawn_by(Gpu::of(seed, number), scene, options, pixels)
+}
+
+fn drawn_by(
+    gpu: Gpu,
+    scene: &Scene,
+    options: &RenderOptions,
+    pixels: Option<&PixelSet>,
+) -> Result<Picture, Vec<Diagnostic>> {
     let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..*options };
-    let gpu = Gpu::of(seed, number).on(&options.profile);
+    let gpu = gpu.on(&options.profile);
     gpu.enter();
     let drawn = pipeline::render_studied::<Simulated>(scene, &options, Study { gpu: Some(gpu), pixels, ..Study::NONE });
     Gpu::STRICT.enter();

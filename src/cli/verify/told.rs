@@ -76,7 +76,8 @@ fn by(verdict: &Verdict) -> String {
 fn parts(verdict: &Verdict) -> String {
     let evidence = &verdict.evidence;
     let rows = [
-        (evidence.likely, "likely"),
+        (evidence.likely - verdict.as_device.min(evidence.likely), "likely"),
+        (verdict.as_device, "likely by what is known of this device"),
         (evidence.edge, "at edges"),
         (evidence.excused, "excused by known faults"),
         (evidence.weak, "weak"),

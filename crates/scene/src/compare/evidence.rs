@@ -305,6 +305,20 @@ pub struct Ruler<'a> {
 }
 
 impl<'a> Ruler<'a> {
+    /// Whether two pictures cover a pixel and have colors there that are at most half the goal apart, in the channels that the
+    /// programs write.
+    pub fn agree(&self, one: &Picture, other: &Picture, pixel: usize) -> bool {
+        let covers = [one, other].iter().all(|picture| picture.covered.get(pixel) == Some(&true));
+        let colors = |picture: &Picture, attachment: usize| picture.attachments.get(attachment)?.get(pixel).copied();
+        covers
+            && self.written_channels().all(|(attachment, channel, _)| {
+                match (colors(one, attachment), colors(other, attachment)) {
+                    (Some(one), Some(other)) => (one[channel] - other[channel]).abs() <= self.goal / 2.0,
+                    _ => false,
+                }
+            })
+    }
+
     /// The measure of the reference's picture; `width` replaces the goal.
     pub fn new(cpu: &'a Picture, written: &'a Written, width: Option<f64>) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -31,6 +31,9 @@ pub struct Comparison<'a> {
     pub population: Option<&'a Population>,
     /// By how many of its widths the hull of the simulated GPUs' numbers is widened for what is likely.
     pub likely_margin: f64,
+    /// The picture that the device draws by what is known of its arithmetic, if the other one is to be compared with it where
+    /// nothing else judges.
+    pub device: Option<&'a Picture>,
     /// For each pixel, whether it depends on what the language leaves undefined; empty if none does.
     pub undefined: &'a [bool],
 }
@@ -44,6 +47,7 @@ impl Default for Comparison<'_> {
             width: None,
             population: None,
             likely_margin: MARGIN,
+            device: None,
             undefined: &[],
         }
     }
@@ -218,6 +222,11 @@ impl<'a> Tally<'a> {
             let mut class = self.hard_class(ruler, pixel);
             if is_defined && matches!(class, Class::Weak | Class::Unlimited | Class::Undecided) {
                 likely = self.likely(ruler, pixel);
+                let is_as_known = |device: &Picture| ruler.agree(self.gpu, device, pixel);
+                if likely.is_none() && self.comparison.device.is_some_and(is_as_known) {
+                    likely = Some(Place::Near);
+                    self.verdict.as_device += 1;
+                }
             }
             if likely.is_some() {
                 (class, is_open) = (Class::Likely, false);

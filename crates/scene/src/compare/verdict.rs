@@ -147,6 +147,9 @@ pub struct Verdict {
     /// Pixels that are judged by the hull of what simulated GPUs drew ([`Class::Likely`](super::Class::Likely)), and are
     /// outside of it.
     pub outside_likely: u64,
+    /// Pixels that count as likely because the picture agrees with what is known of this device's arithmetic, where simulated GPUs
+    /// differ: noise of `fract(sin(x) * 43758.5)` and its like.
+    pub as_device: u64,
     /// Pixels that only a known fault of the driver explains; they count nowhere else but in `evidence`.
     pub known_faults: Vec<FaultCount>,
     /// The pixel with the largest difference; `None` (null) if none was compared.
@@ -235,6 +238,7 @@ impl Verdict {
             width: least.width,
             suspect: self.suspect.max(other.suspect),
             outside_likely: self.outside_likely.max(other.outside_likely),
+            as_device: self.as_device.min(other.as_device),
             known_faults: worse_faults(&self.known_faults, &other.known_faults),
             worst: far.worst.clone().or_else(|| near.worst.clone()),
         }

@@ -6,6 +6,7 @@
 
 use super::SimulatedFloat;
 use super::gpu::{Form, Function, Gpu, Swing};
+use super::llvmpipe;
 use crate::domain::rules::{self, ulp};
 use crate::domain::{Number, evaluate};
 use glisten_front::builtin::operations::precision::{Precision, Rule};
@@ -64,6 +65,13 @@ impl SimulatedFloat {
                 inside.max(ulps * ulp(exact))
             }
             Precision::Absolute(error) => error,
+            Precision::Angle { .. } if gpu.sine.is_some() && x.is_finite() => {
+                let sine = llvmpipe::sine(x, function == Function::Cos, gpu.sine == Some(true));
+                return Self(gpu.rounded(sine));
+            }
+            Precision::Inherited(formula) if gpu.sine.is_some() && function == Function::Tan => {
+                return evaluate(formula, &[&[Self(x)]], 0);
+            }
             Precision::Angle { error, reduced, lost } => {
                 return angular(&gpu, x, exact, function, [error, reduced, lost]);
             }

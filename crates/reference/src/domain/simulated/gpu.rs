@@ -45,6 +45,8 @@ pub struct Gpu {
     pub(super) levels: Levels,
     /// Whether its functions err as those of drivers do, and not as far as the rules allow.
     pub(super) typical: bool,
+    /// Whether its sine and cosine are those of llvmpipe, and whether products are fused in them.
+    pub(super) sine: Option<bool>,
     /// A bit for each [`Form`].
     forms: u8,
     /// The error of every function, as a share of the allowed one, of a GPU that errs as far as it may; else 0.
@@ -169,6 +171,7 @@ impl Gpu {
         weights: None,
         levels: Levels::EXACT,
         typical: true,
+        sine: None,
         forms: 0,
         extreme: 0.0,
     };
@@ -211,6 +214,23 @@ impl Gpu {
             typical,
             forms: blank.pick(Choice::Forms, 256) as u8,
             ..blank
+        }
+    }
+
+    /// How many GPUs compute as llvmpipe may do.
+    pub const LLVMPIPES: u32 = 4;
+
+    /// A GPU that computes as llvmpipe does, as far as that is known: it rounds to the nearest, flushes, divides, and its sine is
+    /// a known polynomial. What depends on the processor and on the compiler are numbers of their own: whether the polynomial has
+    /// fused products, whether constants of a chain are combined.
+    #[must_use]
+    pub fn llvmpipe(number: u32) -> Self {
+        Self {
+            flushes: true,
+            planes: Planes::FromCorner,
+            sine: Some(number & 1 == 0),
+            forms: if number & 2 == 2 { 1 << Form::Rule as u8 } else { 0 },
+            ..Self::STRICT
         }
     }
 

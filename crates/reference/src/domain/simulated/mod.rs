@@ -10,6 +10,7 @@ mod block;
 mod functions;
 mod gpu;
 mod levels;
+mod llvmpipe;
 mod rounding;
 
 pub use gpu::{Gpu, Planes};
