@@ -211,7 +211,7 @@ public:
 
     Program lint(const std::vector<Source> &sources) const { return made(sources, glisten_lint); }
 
-    // Rewrites sources for the version `150`, `330` or `300es`.
+    // Rewrites sources for the version `150`, `330`, `450`, `460`, `300es` or `vulkan`.
     Upgraded upgrade(const std::vector<Source> &sources, const std::string &version = "150") const {
         const std::vector<glisten_source> rows = rows_of(sources);
         glisten_upgrade *handle = nullptr;

@@ -1,4 +1,4 @@
-//! `glisten upgrade`: rewrites old shaders as 1.50 core, 3.30 or ES 3.00.
+//! `glisten upgrade`: rewrites old shaders as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00.
 //!
 //! *In:* the files of programs that compile. *Out:* their new texts, which compile, too, on standard output or in files; with
 //! `--scene`, the proof that the picture stays. *Holds:* nothing is written unless all new texts are valid and the picture is
@@ -14,7 +14,7 @@ use super::inputs::{self, Input};
 use super::session::{Session, Unit};
 use crate::engines;
 use crate::scene::{self, DiskFiles, Scene};
-use crate::upgrade::{Plan, Refused, Target, Text, completed, plan_of, rewrite};
+use crate::upgrade::{Plan, Refused, Target, Text, completed, plan_of, rewrite, to_vulkan};
 use clap::{Args, ValueEnum};
 use glisten_front::Stage;
 use glisten_front::compiler::{Compiler, Preparation, Prepared, Source};
@@ -26,7 +26,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30 or ES 3.00
+/// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
 #[derive(Args, Debug)]
 pub(super) struct UpgradeArgs {
     /// The shaders; files of one program are rewritten together, so that their stages still fit
@@ -62,9 +62,18 @@ enum ToArg {
     /// GLSL 3.30, core profile
     #[value(name = "330")]
     Core330,
+    /// GLSL 4.50, core profile
+    #[value(name = "450")]
+    Core450,
+    /// GLSL 4.60, core profile
+    #[value(name = "460")]
+    Core460,
     /// GLSL ES 3.00
     #[value(name = "300es", alias = "300-es")]
     Es300,
+    /// GLSL 4.50 for Vulkan: sets, bindings, locations, a block for the loose uniforms
+    #[value(name = "vulkan")]
+    Vulkan,
 }
 
 impl From<ToArg> for Target {
@@ -72,7 +81,10 @@ impl From<ToArg> for Target {
         match to {
             ToArg::Core150 => Self::Core150,
             ToArg::Core330 => Self::Core330,
+            ToArg::Core450 => Self::Core450,
+            ToArg::Core460 => Self::Core460,
             ToArg::Es300 => Self::Es300,
+            ToArg::Vulkan => Self::Vulkan,
         }
     }
 }
@@ -81,6 +93,13 @@ impl From<ToArg> for Target {
 struct Upgraded {
     input: Input,
     text: String,
+}
+
+impl Upgraded {
+    fn source(&self) -> Source {
+        let (name, stage) = (self.input.name.clone(), self.input.stage);
+        Source { name, text: self.text.as_str().into(), stage }
+    }
 }
 
 /// Runs the command.
@@ -116,7 +135,7 @@ pub(super) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
         for scene in &args.scenes {
             prove(scene, &texts, &plan, session.compiler(), &compiler, console)?;
         }
-        written.extend(texts);
+        written.extend(if args.to == ToArg::Vulkan { for_vulkan(&compiler, texts)? } else { texts });
     }
     write(args, console, &written)
 }
@@ -147,6 +166,7 @@ fn plan(unit: &Unit, compiler: &Compiler, target: Target) -> Result<Plan, Failur
         match refused {
             Refused::Newer { version: 300, .. } => failure.help("add `--to 300es`"),
             Refused::Newer { version, .. } if version <= 330 => failure.help("add `--to 330`"),
+            Refused::Newer { version, .. } if version <= 450 => failure.help("add `--to 450`"),
             Refused::NoCounterpart(_) => {
                 failure.help("write it in the terms of GLSL 1.50 first; for `gl_ClipVertex`, that is `gl_ClipDistance`")
             }
@@ -195,12 +215,7 @@ fn checker(args: &UpgradeArgs, compiler: &Compiler, plan: &Arc<Plan>) -> Result<
 
 /// Compiles the new texts and reports what is wrong with them.
 fn check(compiler: &Compiler, session: &mut Session<'_>, texts: &[Upgraded]) -> Result<Exit, Failure> {
-    let source = |upgraded: &Upgraded| Source {
-        name: upgraded.input.name.clone(),
-        text: upgraded.text.as_str().into(),
-        stage: upgraded.input.stage,
-    };
-    let compilation = compiler.compile(&texts.iter().map(source).collect::<Vec<_>>());
+    let compilation = compiler.compile(&texts.iter().map(Upgraded::source).collect::<Vec<_>>());
     let mut batch = Batch { sources: compilation.sources, diagnostics: Vec::new() };
     session.add(&mut batch, compilation.diagnostics.into_iter().filter(glisten_front::Diagnostic::is_error));
     if batch.diagnostics.is_empty() {
@@ -211,6 +226,17 @@ fn check(compiler: &Compiler, session: &mut Session<'_>, texts: &[Upgraded]) -> 
     let message = format!("the new text of `{}` is not valid, and nothing was written", names.join("`, `"));
     Err(Failure::new(Exit::Content, message)
         .help("the errors above are at lines of the new text; change the old one there"))
+}
+
+/// The texts by the rules of Vulkan.
+fn for_vulkan(compiler: &Compiler, texts: Vec<Upgraded>) -> Result<Vec<Upgraded>, Failure> {
+    let sources: Vec<Source> = texts.iter().map(Upgraded::source).collect();
+    let new = to_vulkan(compiler, &sources).map_err(|reason| {
+        let names: Vec<&str> = texts.iter().map(|upgraded| upgraded.input.name.as_str()).collect();
+        Failure::new(Exit::Content, format!("`{}` cannot be rewritten for Vulkan: {reason}", names.join("`, `")))
+            .help("`glisten compile --target glsl --glsl-version vulkan` writes new texts for any program")
+    })?;
+    Ok(texts.into_iter().zip(new).map(|(old, text)| Upgraded { text, ..old }).collect())
 }
 
 /// Draws a scene with the old and with the new texts.

@@ -1,4 +1,5 @@
-//! Upgrades: a source of GLSL 1.10 to 1.40, of the compatibility profile or of ES 1.00, written as 1.50 core, 3.30 or ES 3.00.
+//! Upgrades: a source of GLSL 1.10 to 1.40, of the compatibility profile or of ES 1.00, written as 1.50 core, 3.30, 4.50, 4.60, ES
+//! 3.00, or 4.50 for Vulkan.
 //!
 //! *In:* the texts of a program, each with its stage. *Out:* the new texts and notes on what the host has to do differently.
 //! *Holds:* only words are replaced and declarations added: comments, macros, includes and layout stay as they are. [`rewrite()`]
@@ -9,7 +10,9 @@ mod plan;
 mod program;
 mod rewrite;
 mod tokens;
+mod vulkan;
 
 pub use plan::{Plan, Target, Text};
 pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
 pub use rewrite::rewrite;
+pub use vulkan::to_vulkan;

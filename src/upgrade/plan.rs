@@ -19,32 +19,68 @@ pub enum Target {
     Core150,
     /// `#version 330`.
     Core330,
+    /// `#version 450`.
+    Core450,
+    /// `#version 460`.
+    Core460,
     /// `#version 300 es`.
     Es300,
+    /// `#version 450` by the rules of GL_KHR_vulkan_glsl.
+    Vulkan,
 }
 
 impl Target {
+    /// All targets, each with its word in options.
+    pub const ALL: [(&'static str, Self); 6] = [
+        ("150", Self::Core150),
+        ("330", Self::Core330),
+        ("450", Self::Core450),
+        ("460", Self::Core460),
+        ("300es", Self::Es300),
+        ("vulkan", Self::Vulkan),
+    ];
+
     /// The `#version` line.
     pub fn version_line(self) -> &'static str {
         match self {
             Self::Core150 => "#version 150",
             Self::Core330 => "#version 330 core",
+            Self::Core450 => "#version 450 core",
+            Self::Core460 => "#version 460 core",
             Self::Es300 => "#version 300 es",
+            Self::Vulkan => "#version 450",
+        }
+    }
+
+    /// The number of the language.
+    fn number(self) -> u16 {
+        match self {
+            Self::Core150 => 150,
+            Self::Core330 => 330,
+            Self::Core450 | Self::Vulkan => 450,
+            Self::Core460 => 460,
+            Self::Es300 => 300,
         }
     }
 
     /// The language.
     fn language(self) -> Version {
+        version(self.number())
+    }
+
+    /// Whether a text of a version is too new to be rewritten.
+    pub(super) fn is_older_than(self, number: u16) -> bool {
         match self {
-            Self::Core150 => version(150),
-            Self::Core330 => version(330),
-            Self::Es300 => version(300),
+            // Desktop texts up to 1.50 have what ES 3.00 has.
+            Self::Es300 => number != 300 && number > 150,
+            _ => number > self.number(),
         }
     }
 
-    /// The number of the newest desktop version that is rewritten.
-    pub(super) fn newest(self) -> u16 {
-        if self == Self::Core330 { 330 } else { 150 }
+    /// The name of the language.
+    pub(super) fn name(self) -> String {
+        let es = if self == Self::Es300 { "ES " } else { "" };
+        format!("{es}{}.{:02}", self.number() / 100, self.number() % 100)
     }
 }
 

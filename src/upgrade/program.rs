@@ -4,7 +4,7 @@
 //! *Holds:* texts that the sources include are read as if they were rewritten by the same plan; who owns them has to rewrite
 //! them, too.
 
-use super::{Plan, Target, Text, rewrite};
+use super::{Plan, Target, Text, rewrite, to_vulkan};
 use glisten_front::Stage;
 use glisten_front::compiler::{Compilation, Compiler, Preparation, Prepared, Source};
 use glisten_front::source::{Completion, IncludeForm, IncludeResolver, Included, Prelude, SourceMap};
@@ -32,6 +32,8 @@ pub enum Refused {
     NoCounterpart(&'static str),
     /// The new texts have errors.
     NotValid(Box<Compilation>),
+    /// The sources cannot be rewritten for Vulkan, for this reason.
+    NotForVulkan(String),
 }
 
 impl fmt::Display for Refused {
@@ -41,14 +43,12 @@ impl fmt::Display for Refused {
             Self::Newer { name, version, target } => {
                 let es = if [300, 310, 320].contains(version) { "ES " } else { "" };
                 let number = |number: u16| format!("{}.{:02}", number / 100, number % 100);
-                let goal = match target {
-                    Target::Es300 => "ES 3.00".to_owned(),
-                    _ => number(target.newest()),
-                };
+                let goal = target.name();
                 write!(f, "`{name}` is GLSL {es}{}, newer than the target {goal}", number(*version))
             }
             Self::NoCounterpart(name) => write!(f, "`{name}` has no counterpart, and nothing was written"),
             Self::NotValid(_) => f.write_str("the new texts have errors"),
+            Self::NotForVulkan(reason) => f.write_str(reason),
         }
     }
 }
@@ -91,14 +91,16 @@ pub fn upgrade(compiler: &Compiler, sources: &[Source], target: Target) -> Resul
         Source { text: rewrite(&text, &plan).into(), ..(*source).clone() }
     };
     let new: Vec<Source> = versions.iter().map(new).collect();
-    let compilation = compiler
-        .clone()
-        .with_preparation(Upgrading { compiler: compiler.clone(), plan: Arc::clone(&plan) })
-        .compile(&new);
+    let checker = compiler.clone().with_preparation(Upgrading { compiler: compiler.clone(), plan: Arc::clone(&plan) });
+    let compilation = checker.compile(&new);
     if compilation.diagnostics.has_errors() {
         return Err(Refused::NotValid(Box::new(compilation)));
     }
-    Ok(Upgraded { texts: new.iter().map(|source| source.text.to_string()).collect(), notes: plan.notes.clone() })
+    let texts = match target {
+        Target::Vulkan => to_vulkan(&checker, &new).map_err(Refused::NotForVulkan)?,
+        _ => new.iter().map(|source| source.text.to_string()).collect(),
+    };
+    Ok(Upgraded { texts, notes: plan.notes.clone() })
 }
 
 /// The plan for sources that compile, each with the number of its version.
@@ -110,7 +112,7 @@ pub fn plan_of(compiler: &Compiler, sources: &[(&Source, u16)], target: Target) 
     let mut texts = Vec::new();
     for ((source, version), others) in sources.iter().zip(&others) {
         let (stage, version) = (source.stage, *version);
-        if version > target.newest() && !(target == Target::Es300 && version == 300) {
+        if target.is_older_than(version) {
             return Err(Refused::Newer { name: source.name.clone(), version, target });
         }
         texts.push(Text { text: &source.text, stage, is_shader: true, version });

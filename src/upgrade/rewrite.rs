@@ -30,7 +30,7 @@ static SAMPLERS: &[&str] = &[
 ];
 
 /// A replacement.
-type Edit = (Range<usize>, String);
+pub(super) type Edit = (Range<usize>, String);
 
 /// The new text of a source.
 pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
@@ -79,7 +79,7 @@ fn precisions(stage: Stage, all: &[Token<'_>]) -> Vec<String> {
 }
 
 /// The text with its replacements, which do not overlap.
-fn applied(text: &str, mut edits: Vec<Edit>) -> String {
+pub(super) fn applied(text: &str, mut edits: Vec<Edit>) -> String {
     // Insertions come before what is replaced, and a whole declaration before its words.
     edits.sort_by_key(|(range, _)| (range.start, !range.is_empty(), Reverse(range.end)));
     let (mut new, mut at) = (String::new(), 0);
@@ -205,6 +205,12 @@ fn version_edit(text: &Text<'_>, target: Target, version: Option<Range<usize>>, 
             edits.push((start..start, format!("{line}\n")));
         }
     }
+}
+
+/// The start of the first line with code of a text.
+pub(super) fn first_code_of(text: &str) -> usize {
+    let code = without_comments(text);
+    first_code(&code, &directive_lines(&code))
 }
 
 /// The start of the first line with code, outside of conditional groups, or of the group that it is in.

@@ -13,7 +13,13 @@ fn here(arguments: &[&str]) -> Output {
 
 #[test]
 fn old_programs_become_new_ones_that_compile() {
-    for (to, version) in [("150", "#version 150"), ("330", "#version 330 core"), ("300es", "#version 300 es")] {
+    for (to, version) in [
+        ("150", "#version 150"),
+        ("330", "#version 330 core"),
+        ("450", "#version 450 core"),
+        ("460", "#version 460 core"),
+        ("300es", "#version 300 es"),
+    ] {
         let folder = Folder::new(&[]);
         let into = folder.path("new").to_string_lossy().into_owned();
         let files = [format!("{BASE}/lit.vert"), format!("{BASE}/lit.frag")];
@@ -117,4 +123,22 @@ fn the_stages_of_one_file_become_files() {
         assert!(text.starts_with("#version 150") && text.contains("in vec2 uv;"), "{text}");
     }
     assert_eq!(code(&folder.run(&["upgrade", "marked.glsl", "--in-place"])), 2);
+}
+
+#[test]
+fn words_that_the_new_version_reserves_get_other_names() {
+    let old = "uniform float centroid; uniform vec4 row_major; struct S { float sample; };\nuniform S s;\n\
+               void main() { gl_FragColor = row_major * centroid * s.sample; }\n";
+    let core = "#version 150\nuniform float buffer; out vec4 shared_; void main() { shared_ = vec4(buffer); }\n";
+    let folder = Folder::new(&[("a.frag", old.as_bytes()), ("b.frag", core.as_bytes())]);
+    for to in ["150", "450"] {
+        let output = folder.run(&["upgrade", "a.frag", "--to", to]);
+        assert_eq!(code(&output), 0, "{to}: {}", err(&output));
+        assert!(out(&output).contains("row_major_ * centroid_ * s.sample"), "{}", out(&output));
+    }
+    let output = folder.run(&["upgrade", "b.frag", "--to", "450"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(out(&output).contains("uniform float buffer_;"), "{}", out(&output));
+    let output = folder.run(&["upgrade", "b.frag", "--to", "150"]);
+    assert!(out(&output).contains("uniform float buffer;"), "{}", out(&output));
 }

@@ -205,6 +205,95 @@ fn the_reflection_names_the_version() {
     assert_eq!(glsl.renamed.get("sampler").map(String::as_str), Some("sampler_"));
 }
 
+/// Sources that are rewritten, and stay what people wrote.
+#[test]
+fn sources_are_rewritten_and_glslang_takes_them() {
+    let folder = Folder::new(&[]);
+    let (mut taken, mut refused, mut wrong) = (0, Vec::new(), Vec::new());
+    let programs = ["programs", "upgrade", "lower", "valid"].iter().flat_map(|folder| fixtures(folder).into_values());
+    for files in programs {
+        let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+        // Texts that glslang does not read as OpenGL's either.
+        let is_odd = |name: &String| ["/valid/preprocess/", "/valid/syntax/"].iter().any(|part| name.contains(part));
+        if names.iter().any(is_odd) {
+            continue;
+        }
+        let mut arguments: Vec<&str> = vec!["upgrade", "-q", "--to", "vulkan", "-o", "new"];
+        arguments.extend(names.iter().map(String::as_str));
+        let output = folder.run(&arguments);
+        if code(&output) != 0 {
+            refused.push(format!("{names:?}: {}", err(&output).lines().next().unwrap_or_default()));
+            continue;
+        }
+        let texts: Vec<(Stage, String)> = files
+            .iter()
+            .map(|file| {
+                let stage = crate::support::stage_of(file).expect("a shader");
+                let name = file.file_name().expect("a file").to_string_lossy().into_owned();
+                (stage, fs::read_to_string(folder.path(&format!("new/{name}"))).expect("written"))
+            })
+            .collect();
+        for (file, (_, text)) in files.iter().zip(&texts) {
+            let old = fs::read_to_string(file).expect("readable");
+            for comment in old.lines().filter_map(|line| Some(line[line.find("//")?..].trim())) {
+                assert!(text.contains(comment), "{comment} is not in {text}");
+            }
+        }
+        match complaint(&folder.path("new"), &texts) {
+            None => taken += 1,
+            Some(said) => wrong.push(format!("{names:?}: {said}\n{texts:#?}")),
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {}: {}", wrong.len(), taken + wrong.len(), wrong.join("\n\n"));
+    assert!(taken > 35 && refused.len() < taken, "{taken} taken, refused: {refused:#?}");
+}
+
+#[test]
+fn a_rewritten_source_is_the_same_source() {
+    let vertex = "#version 150\nin vec4 p, q; // data\n// The camera.\nuniform mat4 mvp, normals;  // two of them\n\
+                  struct Light { vec4 color; };\n#define COUNT 2\nuniform Light light[COUNT];\nflat out vec4 tint;\nout vec4 unread;\n\
+                  void main()\n{\n    unread = tint = light[1].color * float(gl_VertexID); // keep\n    gl_Position = mvp * (p + normals * q);\n}\n";
+    let fragment = "#version 150\nuniform sampler2D a, b;\nlayout(row_major) uniform Block { mat4 m; } block;\nflat in vec4 tint;\n\
+                    out vec4 color;\nvoid main() { color = tint + texture(a, gl_FragCoord.xy) * 1.0-dFdy(texture(b, tint.xy)) + block.m[0]; }\n";
+    let folder = Folder::new(&[("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes())]);
+    let output = folder.run(&["upgrade", "a.vert", "a.frag", "--to", "vulkan", "-o", "new"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let read = |name: &str| fs::read_to_string(folder.path(&format!("new/{name}"))).expect("written");
+    let (vertex, fragment) = (read("a.vert"), read("a.frag"));
+    has(
+        &vertex,
+        &[
+            "#version 450\n",
+            "    // The camera.\n    layout(offset = 0) mat4 mvp;  // two of them\n    layout(offset = 64) mat4 normals;\n",
+            "    layout(offset = 128) Light light[COUNT];\n",
+            "layout(location = 0) in vec4 p; layout(location = 1) in vec4 q; // data",
+            "struct Light { vec4 color; };\n#define COUNT 2\n",
+            "layout(location = 0) flat out vec4 tint;\nvec4 unread;\n",
+            "void openglMain()\n{\n    unread = tint = light[1].color * float(gl_VertexIndex); // keep\n",
+        ],
+    );
+    has(
+        &fragment,
+        &[
+            "layout(set = 1, binding = 0) uniform sampler2D a; layout(set = 1, binding = 2) uniform sampler2D b;",
+            "layout(std140, set = 0, binding = 1, row_major) uniform Block { mat4 m; } block;",
+            "vec4 fragCoord = vec4(gl_FragCoord.x, framebufferHeight - gl_FragCoord.y, gl_FragCoord.zw);",
+            "texture(a, fragCoord.xy) * 1.0-(-dFdy(texture(b, tint.xy)))",
+        ],
+    );
+    let said = complaint(&folder.path("new"), &[(Stage::Vertex, vertex), (Stage::Fragment, fragment)]);
+    assert!(said.is_none(), "{said:?}");
+    // A declaration in an included file is refused, and nothing is written.
+    let folder = Folder::new(&[
+        ("u.glsl", b"uniform vec4 u;\n"),
+        ("b.frag", b"#version 150\n#include \"u.glsl\"\nout vec4 c;\nvoid main() { c = u; }\n"),
+    ]);
+    let output = folder.run(&["upgrade", "b.frag", "--to", "vulkan", "-o", "new"]);
+    assert_eq!(code(&output), 1);
+    assert!(err(&output).contains("`u` is declared by a macro or in another file"), "{}", err(&output));
+    assert!(folder.names("new").is_empty());
+}
+
 /// Scenes whose programs have no textures, which WebGPU does not combine with samplers.
 const SCENES: &[&str] = &[
     "phong",

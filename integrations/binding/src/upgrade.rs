@@ -1,4 +1,4 @@
-//! [`upgrade`]: sources of older versions, rewritten for 1.50 core, 3.30 or ES 3.00.
+//! [`upgrade`]: sources of older versions, rewritten for 1.50 core, 3.30, 4.50, 4.60 or ES 3.00.
 
 use crate::error::Error;
 use crate::program::{Format, Report};
@@ -6,9 +6,6 @@ use crate::settings::Settings;
 use glisten::diagnostic::write::Finding;
 use glisten::upgrade::{Refused, Target};
 use glisten::{Compilation, Source};
-
-/// The words of the languages to write.
-static VERSIONS: [(&str, Target); 3] = [("150", Target::Core150), ("330", Target::Core330), ("300es", Target::Es300)];
 
 /// The sources of a program in another language; or what is wrong with them.
 #[derive(Debug, Default)]
@@ -26,8 +23,9 @@ pub fn upgrade(settings: &Settings, sources: &[Source], version: &str) -> Result
     if sources.is_empty() {
         return Err(Error::argument("there are no sources"));
     }
-    let Some((_, target)) = VERSIONS.iter().find(|(word, _)| *word == version) else {
-        return Err(Error::argument(format!("`{version}` is no version to write: 150, 330, 300es")));
+    let Some((_, target)) = Target::ALL.iter().find(|(word, _)| *word == version) else {
+        let words = Target::ALL.map(|(word, _)| word).join(", ");
+        return Err(Error::argument(format!("`{version}` is not a version to write: {words}")));
     };
     match glisten::upgrade::upgrade(&settings.compiler(), sources, *target) {
         Ok(done) => Ok(Upgraded { report: Report::default(), texts: done.texts, notes: done.notes }),

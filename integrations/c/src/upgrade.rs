@@ -14,7 +14,7 @@ pub struct Upgrade {
     notes: Vec<CString>,
 }
 
-/// Rewrites the sources of a program, as `glisten upgrade` does, for the version `150`, `330` or `300es`. Files that they include
+/// Rewrites the sources of a program, as `glisten upgrade` does, for the version `150`, `330`, `450`, `460`, `300es` or `vulkan`. Files that they include
 /// stay as they are. With errors in the sources, which `glisten_last_error` shows, the status is `GLISTEN_STATUS_CONTENT`; so it is
 /// if a source is newer than the version, or has a name that the version has no counterpart for.
 ///

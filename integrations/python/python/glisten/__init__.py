@@ -295,7 +295,7 @@ class Upgraded:
 def upgrade(
     sources: Sources,
     *,
-    to: Literal["150", "330", "300es"] = "150",
+    to: Literal["150", "330", "450", "460", "300es", "vulkan"] = "150",
     defines: Mapping[str, object] | None = None,
     include: Include | None = None,
     include_folders: Iterable[str | os.PathLike[str]] = (),

@@ -233,6 +233,12 @@ pub fn named(name: &str) -> &'static [&'static Row] {
     INDEX.get_or_init(|| groups().collect()).get(name).copied().unwrap_or(&[])
 }
 
+/// Whether a compiler for Vulkan knows a function with this name: one of the language, or of AMD_shader_trinary_minmax, which
+/// glslang has built in. It takes no other function of that name, since it could not have the precisions of the built-in one.
+pub fn is_known_for_vulkan(name: &str) -> bool {
+    !named(name).is_empty() || ["max3", "mid3", "min3"].contains(&name)
+}
+
 /// Every name once, in sorted order.
 pub fn names() -> impl Iterator<Item = &'static str> {
     by_name().chunk_by(|a, b| a.name == b.name).filter_map(|rows| rows.first().map(|row| row.name))

@@ -18,9 +18,6 @@ fn is_word(name: &str, version: GlslVersion) -> bool {
         || version == GlslVersion::Vulkan && VULKAN.binary_search(&name).is_ok()
 }
 
-/// Functions of extensions that glslang has built in, in order.
-static EXTENDED: &[&str] = &["max3", "mid3", "min3"];
-
 /// The types that GL_KHR_vulkan_glsl adds, in order: textures and samplers apart, and attachments that are read.
 static VULKAN: &[&str] = &[
     "isubpassInput",
@@ -77,12 +74,13 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
     let mut names = BTreeMap::new();
     for &name in &all {
         let reserved = is_word(name, version);
-        // GLSL ES 3.00 §6.1: built-in functions cannot be redefined. Global names share their scope. For Vulkan, glslang
-        // wants the precisions of the built-in function, which a desktop text cannot state.
-        let is_function = !functions::named(name).is_empty()
-            || version == GlslVersion::Vulkan && EXTENDED.binary_search(&name).is_ok();
-        let keeps_functions = matches!(version, GlslVersion::Es300 | GlslVersion::Vulkan);
-        let redefines = keeps_functions && global.contains(name) && is_function;
+        // GLSL ES 3.00 §6.1: built-in functions cannot be redefined. Global names share their scope.
+        let redefines = global.contains(name)
+            && match version {
+                GlslVersion::Es300 => !functions::named(name).is_empty(),
+                GlslVersion::Vulkan => functions::is_known_for_vulkan(name),
+                GlslVersion::Desktop330 | GlslVersion::Desktop450 => false,
+            };
         let underscores = version == GlslVersion::Es300 && is_kept_by_webgl(name);
         // The older names of texture functions are written as the newer ones, which nothing may hide.
         let hides = called.contains(name);

@@ -1,0 +1,71 @@
+//! Coordinates in the text: clip-space z, `gl_FragCoord` with its origin at the lower left, `dFdy`, the names of indices.
+//!
+//! *In:* a text and its stage. *Out:* edits. *Holds:* the conventions are the defaults of `glisten compile`: z in [0, w], the
+//! window's origin at the upper left without a flip, y up.
+
+use super::super::rewrite::Edit;
+use super::super::tokens::closing;
+use super::chunks::Chunks;
+use glisten_front::builtin::BuiltinVariable;
+use glisten_front::hir::{Shader, Stage};
+
+/// Names that Vulkan has for others, which are the same if the host draws from 0.
+static NAMES: &[(&str, &str)] = &[("gl_VertexID", "gl_VertexIndex"), ("gl_InstanceID", "gl_InstanceIndex")];
+
+/// The old name of a name of Vulkan.
+pub(super) fn old_name(name: &str) -> Option<&'static str> {
+    NAMES.iter().find(|row| row.1 == name).map(|row| row.0)
+}
+
+/// Functions along y.
+static ALONG_Y: &[&str] = &["dFdy", "dFdyFine", "dFdyCoarse"];
+
+/// Whether a stage needs the height of the framebuffer.
+pub(super) fn needs_height(shader: &Shader) -> bool {
+    let reads = shader.globals.iter().any(|one| one.builtin == Some(BuiltinVariable::FragCoord) && one.used);
+    shader.stage == Stage::Fragment && reads && !shader.frag_coord.origin_upper_left && shader.reads_row_of_frag_coord()
+}
+
+/// The edits of words and calls.
+pub(super) fn words(chunks: &Chunks<'_>, shader: &Shader, frag_coord: Option<&str>) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    for (index, token) in chunks.all.iter().enumerate() {
+        let range = token.range.clone();
+        if let Some((_, new)) = NAMES.iter().find(|row| row.0 == token.text) {
+            edits.push((range, (*new).to_owned()));
+        } else if let (Some(name), "gl_FragCoord") = (frag_coord, token.text) {
+            edits.push((range, name.to_owned()));
+        } else if ALONG_Y.contains(&token.text)
+            && shader.stage == Stage::Fragment
+            && chunks.word(index + 1) == "("
+            && let Some(end) = closing(&chunks.all, index + 1)
+        {
+            let end = chunks.place(end).end;
+            edits.push((range.start..range.start, "(-".to_owned()));
+            edits.push((end..end, ")".to_owned()));
+        }
+    }
+    edits
+}
+
+/// The new `main` of a vertex shader, which calls the old one, and the edit that renames that.
+pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<Vec<Edit>> {
+    let functions = chunks.list.iter().filter(|chunk| chunk.is_function);
+    let mut names = functions.filter_map(|chunk| {
+        let mut tokens = chunk.tokens.clone();
+        tokens.find(|index| chunks.word(*index) == "main" && chunks.word(*index + 1) == "(")
+    });
+    let place = chunks.place(names.next()?);
+    let size = if shader.globals.iter().any(|one| one.builtin == Some(BuiltinVariable::PointSize) && one.written) {
+        ""
+    } else {
+        "    gl_PointSize = 1.0;\n"
+    };
+    let gap = if chunks.text.ends_with('\n') { "" } else { "\n" };
+    let end = chunks.text.len();
+    let text = format!(
+        "{gap}\n// Vulkan's depth: [0, w] in clip space.\nvoid main() {{\n    {name}();\n    \
+         gl_Position.z = (gl_Position.z + gl_Position.w) * 0.5;\n{size}}}\n"
+    );
+    Some(vec![(place, name.to_owned()), (end..end, text)])
+}
