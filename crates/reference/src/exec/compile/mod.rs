@@ -17,6 +17,7 @@ mod dead;
 mod effects;
 mod emission;
 mod emit;
+mod ends;
 mod expr;
 mod facts;
 mod fuse;

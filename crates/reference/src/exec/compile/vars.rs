@@ -193,7 +193,7 @@ impl Compiler<'_> {
         if let Some(frame) = self.frames.iter().rev().find(|frame| frame.result == Some(var)) {
             // A function that may end without `return` has an undefined result (§6.1).
             let function = self.shader.function(frame.function);
-            return function.body.as_deref().filter(|body| !super::stmt::always_leaves(body)).map(|_| function.span);
+            return function.body.as_deref().filter(|body| !super::ends::always_leaves(body)).map(|_| function.span);
         }
         let frame = self.frames.iter().rev().find_map(|frame| {
             let local = frame.locals.iter().position(|local| *local == Some(var))?;
