@@ -1,6 +1,6 @@
 // name: area_light
 // kind: light
-// equation: the point of a sphere or a tube that is nearest to the mirror direction; E = (r / d)^2 N.L for a sphere above the horizon
+// equation: the point of a sphere that is nearest to the mirror direction; E = (r / d)^2 N.L for a sphere above the horizon
 // source: Karis, Real Shading in Unreal Engine 4, SIGGRAPH course 2013, pages 14 to 17
 // stability: lengths without overflow; a ray through the light's middle needs no division by its distance
 //
@@ -22,24 +22,6 @@ vec3 areaSphere(vec3 center, float radius, vec3 R)
     vec3 off = max(dot(c, R), 0.0) * R - c;
     float d = safeLength(off);
     return safeNormalize(safeFinite(c + off * (d > r ? r / d : 1.0)));
-}
-
-// The unit vector towards the point of a tube that is nearest to the mirror direction.
-//   a, b  the ends of the light's axis, from the shaded point    radius  limited to >= 0    R  unit vector
-// bound: 2e-5 abs, near a ray along the tube its nearest point is anywhere on it
-vec3 areaTube(vec3 a, vec3 b, float radius, vec3 R)
-{
-    // From the nearer end, whose digits matter.
-    bool swapped = safeExtent(b) < safeExtent(a);
-    vec3 from = swapped ? b : a;
-    vec3 d = safeLimit(swapped ? a - b : b - a);
-    float size = safeExtent(d);
-    vec3 u = size > 0.0 ? d / size : vec3(0.0);
-    // (R.a) (R.u) - a.u and u.u - (R.u)^2 as products of what is across the ray.
-    vec3 across = cross(R, u);
-    float square = dot(across, across);
-    float t = square > 0.0 ? clamp(safeFinite(-dot(cross(R, from), across) / square), 0.0, size) : 0.0;
-    return areaSphere(safeFinite(from + t * u), radius, R);
 }
 
 // The irradiance of a sphere of radiance 1 over pi, which replaces N.L / d^2 of a point light: exact where the whole sphere is above

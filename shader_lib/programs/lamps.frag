@@ -21,6 +21,22 @@ uniform vec3 tube_color = vec3(1.0);
 uniform vec3 room = vec3(0.05);   // light from everywhere, half as much from below
 out vec4 color;
 
+// The unit vector towards the point of a tube that is nearest to the ray R.
+vec3 nearestOfTube(vec3 a, vec3 b, float radius, vec3 R)
+{
+    // From the nearer end, whose digits matter.
+    bool swapped = safeExtent(b) < safeExtent(a);
+    vec3 from = swapped ? b : a;
+    vec3 d = safeLimit(swapped ? a - b : b - a);
+    float size = safeExtent(d);
+    vec3 u = size > 0.0 ? d / size : vec3(0.0);
+    // (R.a) (R.u) - a.u and u.u - (R.u)^2 as products of what is across the ray.
+    vec3 across = cross(R, u);
+    float square = dot(across, across);
+    float t = square > 0.0 ? clamp(safeFinite(-dot(cross(R, from), across) / square), 0.0, size) : 0.0;
+    return areaSphere(safeFinite(from + t * u), radius, R);
+}
+
 // The reflection of a light whose nearest point is in the direction `sharp`, for the irradiance that comes from `soft`.
 vec3 lit(vec3 N, vec3 V, vec3 sharp, vec3 soft, float irradiance, float size, vec3 radiance)
 {
@@ -46,7 +62,7 @@ void main()
     float tube_size = min(tube_radius / max(safeLength(middle), 0.001), 1.0);
     // The irradiance of a thin tube: its breadth times the angle that its length fills, for ends that are not too near.
     float along = safeLength(to - from) / max(safeLength(middle), 0.001);
-    vec3 near = areaTube(from, to, tube_radius, R);
+    vec3 near = nearestOfTube(from, to, tube_radius, R);
     sum += lit(N, V, near, safeNormalize(middle), tube_size * along, sqrt(tube_size), tube_color);
     vec3 mirrored = ggxAlbedo(dot(N, V), roughness, gloss) * (0.75 + 0.25 * R.y);
     sum += room * (body * (0.75 + 0.25 * N.y) + mirrored);

@@ -1,7 +1,7 @@
 //! Closed forms of lights of today: falloffs, cones, lights with a size, irradiance by spherical harmonics, variance shadows.
 
 use super::{Form, InputKind, cross, dot, forms, norm};
-use crate::measure::vector::{V, add, scale, sub, unit};
+use crate::measure::vector::{V, add, scale, unit};
 use crate::measure::{Answer, Args};
 use std::f64::consts::PI;
 
@@ -37,20 +37,6 @@ fn sphere(center: V, radius: f64, ray: V) -> Option<(V, f64)> {
     let point = add(center, scale(share, off));
     let length = norm(point);
     (length > 1e-3 * norm(center)).then(|| (unit(point), 16.0 * (norm(center) + 1e-6) / length))
-}
-
-fn tube(a: &Args<'_>) -> Option<Answer> {
-    let (p, q, radius, ray) = (a.v(), a.v(), a.f(), a.d());
-    let d = sub(q, p);
-    let square = norm(cross(ray, d)).powi(2);
-    if square < 1e-2 * dot(d, d) {
-        return None;
-    }
-    let t = ((dot(ray, p) * dot(ray, d) - dot(p, d)) / square).clamp(0.0, 1.0);
-    let nearest = add(p, scale(t, d));
-    let (towards, condition) = sphere(nearest, radius, ray)?;
-    let moved = (norm(p) * norm(d) + dot(d, d)) / square * norm(d) / norm(nearest).max(1e-3);
-    Some(Answer::new(towards, 1.0).conditioned(condition * (4.0 + 4.0 * moved)))
 }
 
 fn harmonics(a: &Args<'_>) -> Option<Answer> {
@@ -93,7 +79,6 @@ pub(super) static FORMS: &[Form] = forms! {
         let (towards, condition) = sphere(a.v(), a.f(), a.d())?;
         Some(Answer::new(towards, 1.0).conditioned(condition))
     };
-    "area_light" "areaTube(vec3,vec3,float,vec3)" [Point, Point, Gain, Direction] tube;
     "area_light" "areaSphereFactor(vec3,vec3,float)" [Direction, Point, Gain] |a| {
         let (n, center, radius) = (a.d(), a.v(), a.f());
         let sine = (radius / norm(center)).min(1.0);
