@@ -48,6 +48,7 @@ vec3 colorFromRec2020(vec3 color)
 }
 
 // The cube root with its sign.
+//   x  any finite number
 // bound: 3e-7 rel
 float colorCubeRoot(float x)
 {

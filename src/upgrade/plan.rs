@@ -4,7 +4,7 @@
 //! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
 
 use super::names::FUNCTIONS;
-use super::tokens::tokens;
+use super::tokens::{closing, tokens};
 use glisten_front::Stage;
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
 use glisten_front::language::{Profile, Storage, Types, Version};
@@ -221,8 +221,10 @@ impl Planner<'_> {
             keywords::is_taken(name, target)
                 && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
         };
+        let as_keywords = keyword_uses(texts);
         let names: Vec<&str> =
             self.used.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
+        let names: Vec<&str> = names.into_iter().filter(|name| !as_keywords.contains(name)).collect();
         for name in names {
             let new = self.free(name);
             Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
@@ -334,6 +336,31 @@ impl Planner<'_> {
     }
 }
 
+/// The words that a text uses as no name is used: before another word or a number (`precision mediump float`, `flat in`, `case 1`).
+/// They then mean what later versions mean by them, behind a condition on the version.
+fn keyword_uses<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    let mut found = BTreeSet::new();
+    for text in texts {
+        let all = tokens(text.text);
+        for (index, token) in all.iter().enumerate().filter(|(_, token)| token.is_word()) {
+            let Some(next) = all.get(index + 1) else { continue };
+            let is_operand = next.text.starts_with(|first: char| first.is_ascii_alphanumeric() || first == '_');
+            let follows = match token.text {
+                "layout" => next.text == "(",
+                "default" => next.text == ":",
+                "switch" => {
+                    closing(&all, index + 1).and_then(|end| all.get(end + 1)).is_some_and(|one| one.text == "{")
+                }
+                _ => false,
+            };
+            if is_operand || follows {
+                found.insert(token.text);
+            }
+        }
+    }
+    found
+}
+
 /// The name of a variable for all stages: what a fragment shader reads as `gl_Color` is written as `gl_FrontColor`.
 fn varying_name(row: &FixedRow, stage: Stage) -> &'static str {
     match (row.name, stage) {
@@ -393,6 +420,10 @@ mod tests {
         let plan = Plan::new(&[old], Target::Es300);
         assert_eq!(plan.word(Stage::Fragment, "patch"), Some("patch_"));
         assert_eq!(plan.word(Stage::Vertex, "resource"), Some("resource_"));
+        let guarded =
+            text("precision mediump float; flat in vec4 a; layout(location = 0) out vec4 c;", Stage::Fragment);
+        let plan = Plan::new(&[guarded], Target::Es300);
+        assert_eq!(["precision", "mediump", "flat", "layout"].map(|word| plan.word(Stage::Fragment, word)), [None; 4]);
         let plan = Plan::new(&[text("float centroid, row_major, sample, x;", Stage::Vertex)], Target::Core150);
         assert_eq!(plan.word(Stage::Vertex, "centroid"), Some("centroid_"));
         assert_eq!(plan.word(Stage::Vertex, "x"), None);

@@ -164,7 +164,7 @@ pub(super) static FORMS: &[Form] = forms! {
     "noise" "noiseSimplex(vec2)" [Place2] |a| one(simplex(a.f(), a.f()), 256.0);
     "noise" "noiseWorley(vec3)" [Place] |a| one(worley(a.v()), 8.0);
     "noise" "noiseFractal(vec3,int)" [Place, Octaves] |a| {
-        let (p, octaves) = (a.v(), a.f() as i32);
+        let (p, octaves) = (a.v(), (a.f() as i32).clamp(1, 16));
         let octave = |i: i32| gradient(p.map(|x| x * 2.0f64.powi(i))) / 2.0f64.powi(i);
         one((0..octaves).map(octave).sum(), 32.0)
     };
