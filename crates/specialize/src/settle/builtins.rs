@@ -162,7 +162,8 @@ fn fused(operands: &Operands<'_>) -> Own {
         let factors = product(a, b, false);
         let of = crate::facts::binary(BinaryOp::Mul, Scalar::Float, 1, &[a], &[b]);
         let terms = sum(at(&of, 0), c);
-        let cancels = !(a.range().is_finite() && b.range().is_finite()) && !c.range().is_finite();
+        let product_is_finite = a.range().is_finite() && b.range().is_finite();
+        let cancels = !product_is_finite && !c.range().is_finite();
         for (slot, (factor, own)) in demands.iter_mut().zip([(a, factors[0]), (b, factors[1])]) {
             let unit = factor.value().is_some_and(|value| matches!(value, ScalarValue::Float(1.0 | -1.0)));
             *slot = slot.and(own).and(terms[0]).and(keep_unless(!(unit && cancels)));
