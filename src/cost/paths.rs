@@ -5,7 +5,7 @@
 
 use super::counts::Counts;
 
-/// A line of a file, by the number that [`super::lines`] gives it.
+/// A line of a file, by the number that `lines` gives it.
 pub(super) type Line = u32;
 
 /// A path, by its number.
