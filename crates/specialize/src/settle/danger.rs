@@ -2,7 +2,7 @@
 //!
 //! *In:* an operation with the facts of its operands. *Out:* a [`Demand`] for each operand. *Holds:* operators and classes of
 //! functions are matched without a wildcard, so what is added does not compile until it is judged. Functions are in
-//! [`builtins`](super::builtins).
+//! `builtins`.
 //!
 //! | operation | what a driver may do with a literal | so |
 //! | --- | --- | --- |
