@@ -54,7 +54,7 @@ fn every_function_holds_its_bound_and_every_naive_form_is_told() {
     let programs: Vec<&Value> = found.iter().filter(is_program).collect();
     assert!(programs.len() >= 12, "the scenes of the standard programs: {programs:?}");
     for program in programs {
-        assert!(number(&program["cases"]) > 20.0 && number(&program["max_abs"]) > 0.0, "it is drawn: {program}");
+        assert!(number(&program["cases"]) >= 16.0 && number(&program["max_abs"]) > 0.0, "it is drawn: {program}");
         assert!(program["at"]["pixel"].is_array(), "{program}");
     }
 }
