@@ -34,8 +34,8 @@ pub mod cli;
 mod embedded;
 #[cfg(feature = "reference")]
 pub mod evaluate;
-#[cfg(feature = "cli")]
-mod format;
+#[doc(hidden)]
+pub mod format;
 #[cfg(feature = "cli")]
 pub mod gallery;
 #[cfg(feature = "lsp")]

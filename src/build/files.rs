@@ -1,7 +1,7 @@
 //! Files of a build: [`Reads`] remembers which were read; [`write()`] leaves a file alone that is up to date.
 
 use super::error::BuildError;
-use crate::sources::Disk;
+use crate::sources::{Disk, read_bounded};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ impl Reads {
     /// The text of a file. Bytes that are not UTF-8 are replaced: they are legal in comments only.
     pub(super) fn text(&self, path: &Path) -> Result<Arc<str>, BuildError> {
         self.add(path);
-        let bytes = fs::read(path).map_err(|error| BuildError::File { path: path.to_owned(), error })?;
+        let bytes = read_bounded(path).map_err(|error| BuildError::File { path: path.to_owned(), error })?;
         Ok(String::from_utf8_lossy(&bytes).into())
     }
 }

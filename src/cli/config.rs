@@ -48,6 +48,7 @@ use crate::format;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
 use glisten_front::source::SourceMap;
+use glisten_scene::is_allowed;
 use glisten_scene::tables::{CONFIGURATION, Reader};
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use std::collections::BTreeMap;
@@ -194,7 +195,7 @@ fn style(reader: &mut Reader, table: &DeTable<'_>) -> format::Options {
 /// The nearest configuration of a folder or of one above it.
 fn nearest(folder: &Path) -> Option<PathBuf> {
     let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    absolute.ancestors().map(|above| above.join(NAME)).find(|path| path.is_file())
+    absolute.ancestors().map(|above| above.join(NAME)).find(|path| path.is_file()).filter(|path| is_allowed(path))
 }
 
 /// The patterns that the nearest configuration excludes.

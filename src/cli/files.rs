@@ -6,7 +6,9 @@ use crate::scene::{DiskFiles, FileError, FileSource};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
+use glisten_scene::{confined_to, is_allowed};
 use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -62,6 +64,11 @@ pub(super) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     bytes
 }
 
+/// The arguments that confine a process of this program to the sandbox of this one.
+pub(super) fn sandbox() -> impl Iterator<Item = OsString> {
+    confined_to().into_iter().flat_map(|folder| ["--sandbox".into(), folder.into()])
+}
+
 /// The files of the disk for scenes, or the texts in their place; it notes what is read.
 pub(super) struct SceneFiles;
 
@@ -79,6 +86,10 @@ impl FileSource for SceneFiles {
 fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     if let Some(bytes) = buffers::get(path) {
         return Ok(bytes.to_vec());
+    }
+    if !is_allowed(path) {
+        let message = format!("`{name}` is outside of the sandbox, and is not read");
+        return Err(ReadError::new(&general::FILE_UNREADABLE, message));
     }
     let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;
     if metadata.is_dir() {

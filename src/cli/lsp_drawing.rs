@@ -4,6 +4,7 @@
 //! killed; the file is the same for the same scene.
 
 use super::digest::Hasher;
+use super::files;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -26,7 +27,13 @@ pub(super) fn start(scene: &Path) -> Result<(Arc<Mutex<Child>>, PathBuf), String
     let path = folder.join(format!("{digest}.png"));
     let program = std::env::current_exe().map_err(|error| format!("the program cannot be found: {error}"))?;
     let mut command = Command::new(program);
-    command.arg("render").arg(scene).arg("-o").arg(&path).args(["--backend", "cpu", "--timeout", TIMEOUT, "-q"]);
+    command
+        .arg("render")
+        .arg(scene)
+        .arg("-o")
+        .arg(&path)
+        .args(["--backend", "cpu", "--timeout", TIMEOUT, "-q"])
+        .args(files::sandbox());
     let child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
     let child = child.map_err(|error| format!("the scene cannot be drawn: {error}"))?;
     Ok((Arc::new(Mutex::new(child)), path))

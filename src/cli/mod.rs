@@ -105,7 +105,9 @@ mod witness;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
+use glisten_scene::confine_to;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use supervisor::Supervised;
 
@@ -133,6 +135,9 @@ struct GlobalArgs {
     /// When to use colors
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     color: ColorChoice,
+    /// Read only files in this folder, after links are followed: for sources and scenes from strangers
+    #[arg(long, global = true, value_name = "DIR")]
+    sandbox: Option<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -195,7 +200,14 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
         .map_err(|failure| end(Err(failure), &Console::new(false, ColorChoice::Auto)))?;
     let parsed = examples::with_examples(Cli::command()).try_get_matches_from(arguments);
     let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).map_err(|error| usage(&error))?;
-    Ok((cli.command, Console::new(cli.global.quiet, cli.global.color)))
+    let console = Console::new(cli.global.quiet, cli.global.color);
+    if let Some(folder) = &cli.global.sandbox {
+        confine_to(folder).map_err(|error| {
+            let message = format!("`{}` cannot be the sandbox: {error}", folder.display());
+            end(Err(Failure::usage(message)), &console)
+        })?;
+    }
+    Ok((cli.command, console))
 }
 
 /// Runs a command on a thread with a large stack, and reports a failure.

@@ -6,6 +6,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
+use super::files;
 use clap::{Args, CommandFactory};
 use notify::{Event, EventKind, RecursiveMode, Watcher};
 use std::any::TypeId;
@@ -36,7 +37,7 @@ pub(super) fn run(args: &WatchArgs, console: &Console) -> Outcome {
     let program = std::env::current_exe()
         .map_err(|error| Failure::new(Exit::Machine, format!("the program does not find itself: {error}")))?;
     let run = || {
-        let run = Command::new(&program).args(&args.command).status();
+        let run = Command::new(&program).args(&args.command).args(files::sandbox()).status();
         run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))
     };
     let named = std::iter::once("glisten".into()).chain(args.command.iter().cloned());

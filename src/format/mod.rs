@@ -14,29 +14,29 @@
 mod branches;
 mod chunks;
 mod layout;
-pub(crate) mod scan;
+pub mod scan;
 mod state;
 
 use scan::{Kind, scan};
 use std::ops::Range;
 
 /// The least and the greatest width of a line.
-pub(crate) const WIDTHS: [usize; 2] = [40, 400];
+pub const WIDTHS: [usize; 2] = [40, 400];
 /// The greatest number of columns of a level.
-pub(crate) const MAX_INDENT: usize = 16;
+pub const MAX_INDENT: usize = 16;
 
 /// The columns of a tab in the width of a line.
 const TAB: usize = 4;
 
 /// The choices that a project has.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Options {
+pub struct Options {
     /// The blanks of a level; none for tabs.
-    pub(crate) indent: Option<usize>,
+    pub indent: Option<usize>,
     /// The greatest number of columns of a line, where it can be broken.
-    pub(crate) width: usize,
+    pub width: usize,
     /// Whether the `{` of a function and of a statement has a line of its own.
-    pub(crate) braces_below: bool,
+    pub braces_below: bool,
 }
 
 impl Default for Options {
@@ -60,17 +60,17 @@ impl Options {
 
 /// A text in the style of a project.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Formatted {
+pub struct Formatted {
     /// The text.
-    pub(crate) text: String,
+    pub text: String,
     /// The number of lines of the text before.
-    pub(crate) lines: usize,
+    pub lines: usize,
     /// How many of them were kept as they were, because their brackets do not match or they do not parse.
-    pub(crate) kept: usize,
+    pub kept: usize,
 }
 
 /// Formats a text. Declarations around `broken`, the places of errors, are kept as they are.
-pub(crate) fn format(text: &str, broken: &[Range<usize>], options: &Options) -> Formatted {
+pub fn format(text: &str, broken: &[Range<usize>], options: &Options) -> Formatted {
     let lexemes = chunks::keep(text, scan(text), broken);
     let lines = text.lines().count();
     let kept = lexemes.iter().filter(|lexeme| lexeme.kind == Kind::Other);
@@ -92,7 +92,7 @@ pub(crate) fn format(text: &str, broken: &[Range<usize>], options: &Options) -> 
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// Whether two texts have the same tokens, comments and directives.
-fn has_same_lexemes(left: &str, right: &str) -> bool {
+pub fn has_same_lexemes(left: &str, right: &str) -> bool {
     let (left, right) = (scan(left), scan(right));
     // The ends of lines inside of a comment may be of another kind.
     let is_same = |(a, b): (&scan::Lexeme<'_>, &scan::Lexeme<'_>)| {

@@ -1,5 +1,7 @@
 //! [`Disk`]: who reads the files that sources include.
 
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -16,6 +18,19 @@ pub(crate) trait Disk: Send + Sync {
     fn searched(&self);
 }
 
+/// The largest source that is read; the compiler has a smaller limit of its own for all texts of a shader.
+const MAX_BYTES: u64 = 64 << 20;
+
+/// The bytes of a file. What is longer than any source, such as a device, is an error.
+pub(crate) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, format!("it is larger than {} MiB", MAX_BYTES >> 20)));
+    }
+    Ok(bytes)
+}
+
 /// Reads files and remembers nothing.
 #[cfg(any(test, feature = "reference"))]
 pub(super) struct Plain;
@@ -26,7 +41,7 @@ impl Disk for Plain {
         if path.is_dir() {
             return Err(format!("`{}` cannot be read: it is a folder", path.display()));
         }
-        let bytes = std::fs::read(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
+        let bytes = read_bounded(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
         Ok(String::from_utf8_lossy(&bytes).into())
     }
 

@@ -13,7 +13,7 @@ mod programs;
 mod settings;
 pub(crate) mod stages;
 
-pub(crate) use disk::Disk;
+pub(crate) use disk::{Disk, read_bounded};
 #[cfg(feature = "reference")]
 pub(crate) use host::completing;
 pub(crate) use includes::DiskIncludes;

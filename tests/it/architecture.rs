@@ -22,6 +22,11 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     ("crates/specialize", &["glisten-front"], &["naga", "wgpu", "clap", "png", "toml", "rayon", "tempfile"]),
     ("crates/gpu", &["glisten-front", "glisten-emit", "glisten-scene"], &["clap"]),
     ("crates/gl", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
+    (
+        "crates/fuzz",
+        &["glisten", "glisten-front", "glisten-emit", "glisten-scene", "glisten-reference", "glisten-specialize"],
+        &["naga", "wgpu"],
+    ),
 ];
 
 /// The top-level modules of a crate in the order of the data: each may use those before it.

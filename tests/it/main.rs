@@ -69,6 +69,8 @@ mod layouts;
 #[cfg(feature = "gpu")]
 mod library;
 #[cfg(feature = "cli")]
+mod limits;
+#[cfg(feature = "cli")]
 mod lines;
 mod link;
 mod lint;

@@ -6,7 +6,50 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind, Read};
+use std::path::{Component, Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The largest file that is read: a model of the largest number of triangles as text fits.
+pub const MAX_FILE_BYTES: u64 = 1 << 29;
+
+/// The only folder whose files are read, if there is one.
+static CONFINED_TO: OnceLock<PathBuf> = OnceLock::new();
+
+/// From now on, this process reads only files in `folder`, where [`DiskFiles`] and [`is_allowed`] are asked. It cannot be undone, and
+/// only the first call counts.
+///
+/// # Errors
+/// The folder cannot be found.
+pub fn confine_to(folder: &Path) -> io::Result<()> {
+    let folder = folder.canonicalize()?;
+    if !folder.is_dir() {
+        return Err(io::Error::from(ErrorKind::NotADirectory));
+    }
+    CONFINED_TO.get_or_init(|| folder);
+    Ok(())
+}
+
+/// The folder of [`confine_to`], if one was named.
+pub fn confined_to() -> Option<&'static Path> {
+    CONFINED_TO.get().map(PathBuf::as_path)
+}
+
+/// Whether the file at `path` may be read: its place after all links are in the folder of [`confine_to`], if one was named. A file that
+/// does not exist may be looked for inside of that folder.
+pub fn is_allowed(path: &Path) -> bool {
+    CONFINED_TO.get().is_none_or(|folder| is_inside(path, folder))
+}
+
+/// Whether a path leads into a folder, which is a canonical path. What does not exist is where its nearest folder that exists is.
+fn is_inside(path: &Path, folder: &Path) -> bool {
+    let path = if path.is_absolute() { path.to_owned() } else { Path::new(".").join(path) };
+    let Some((known, place)) = path.ancestors().find_map(|known| Some((known, known.canonicalize().ok()?))) else {
+        return false;
+    };
+    let climbs = path.strip_prefix(known).is_ok_and(|rest| rest.components().any(|part| part == Component::ParentDir));
+    !climbs && place.starts_with(folder)
+}
 
 /// Why a file could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,11 +87,27 @@ pub struct DiskFiles;
 
 impl FileSource for DiskFiles {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        std::fs::read(path).map_err(|error| match error.kind() {
-            ErrorKind::NotFound => FileError::Missing,
-            ErrorKind::IsADirectory => FileError::Folder,
-            _ => FileError::Unreadable(error.to_string()),
-        })
+        let path = Path::new(path);
+        if !is_allowed(path) {
+            return Err(FileError::Unreadable("it is outside of the sandbox".to_owned()));
+        }
+        let read = || -> io::Result<Option<Vec<u8>>> {
+            let file = std::fs::File::open(path)?;
+            // The length of a device or a pipe is not known before it is read.
+            if file.metadata()?.len() > MAX_FILE_BYTES {
+                return Ok(None);
+            }
+            let mut bytes = Vec::new();
+            file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
+            Ok((bytes.len() as u64 <= MAX_FILE_BYTES).then_some(bytes))
+        };
+        match read() {
+            Ok(Some(bytes)) => Ok(bytes),
+            Ok(None) => Err(FileError::Unreadable(format!("it is larger than {} MiB", MAX_FILE_BYTES >> 20))),
+            Err(error) if error.kind() == ErrorKind::NotFound => Err(FileError::Missing),
+            Err(error) if error.kind() == ErrorKind::IsADirectory => Err(FileError::Folder),
+            Err(error) => Err(FileError::Unreadable(error.to_string())),
+        }
     }
 }
 
@@ -71,7 +130,7 @@ impl FileSource for MemoryFiles {
 
 /// The path of a file that the file at `from` refers to: relative to its folder, unless it is absolute.
 pub(crate) fn relative_to(from: &str, path: &str) -> String {
-    match std::path::Path::new(from).parent() {
+    match Path::new(from).parent() {
         Some(folder) => folder.join(path).to_string_lossy().into_owned(),
         None => path.to_owned(),
     }
@@ -86,6 +145,31 @@ mod tests {
         assert_eq!(relative_to("scenes/a.toml", "a.vert"), "scenes/a.vert");
         assert_eq!(relative_to("a.toml", "a.vert"), "a.vert");
         assert_eq!(relative_to("scenes/a.toml", "/b/a.vert"), "/b/a.vert");
+    }
+
+    #[test]
+    fn links_are_followed_before_a_path_is_judged() {
+        let outside = tempfile::tempdir().expect("a folder");
+        let inside = outside.path().join("inside");
+        std::fs::create_dir(&inside).expect("a folder");
+        std::fs::write(outside.path().join("secret"), "x").expect("a file");
+        std::fs::write(inside.join("open"), "x").expect("a file");
+        let folder = inside.canonicalize().expect("it is there");
+        assert!(is_inside(&inside.join("open"), &folder) && is_inside(&inside.join("no/missing"), &folder));
+        assert!(!is_inside(&inside.join("../secret"), &folder) && !is_inside(&inside.join("../missing"), &folder));
+        assert!(!is_inside(&inside.join("no/../../secret"), &folder) && !is_inside(Path::new("/dev/zero"), &folder));
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("../secret", inside.join("link")).expect("a link");
+            assert!(!is_inside(&inside.join("link"), &folder));
+        }
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn what_never_ends_is_too_large() {
+        let Err(FileError::Unreadable(reason)) = DiskFiles.read("/dev/zero") else { panic!("it was read") };
+        assert!(reason.contains("MiB"), "{reason}");
     }
 
     #[test]

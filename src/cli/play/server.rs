@@ -6,6 +6,7 @@
 
 use super::super::console::Console;
 use super::super::exit::{Exit, Failure, Outcome};
+use super::super::files::sandbox;
 use super::super::interrupt::Interrupt;
 use super::PlayArgs;
 use super::access::{Asking, Folders, Token, check};
@@ -312,7 +313,7 @@ impl Server {
         let files = paths.iter().filter_map(|path| path.file_name());
         let made = std::env::current_exe().and_then(|program| {
             let mut command = Command::new(program);
-            command.current_dir(&folder).arg("new-scene").args(files).args(&self.source_args);
+            command.current_dir(&folder).arg("new-scene").args(files).args(&self.source_args).args(sandbox());
             command.stdin(Stdio::null()).output()
         });
         let stem = names.first().map(|name| Path::new(name).with_extension("toml"));

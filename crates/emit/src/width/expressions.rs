@@ -10,6 +10,24 @@ use naga::{ArraySize, Expression, Handle, MathFunction, SampleLevel, ScalarKind,
 /// No aggregate with more parts is converted as a whole.
 const MOST_PARTS: u32 = 256;
 
+/// Whether a function converts between an integer and floats of 32 bits (GLSL.std.450), whatever the width of the rest.
+fn is_packing(fun: MathFunction) -> bool {
+    use MathFunction as M;
+    matches!(
+        fun,
+        M::Pack4x8snorm
+            | M::Pack4x8unorm
+            | M::Pack2x16snorm
+            | M::Pack2x16unorm
+            | M::Pack2x16float
+            | M::Unpack4x8snorm
+            | M::Unpack4x8unorm
+            | M::Unpack2x16snorm
+            | M::Unpack2x16unorm
+            | M::Unpack2x16float
+    )
+}
+
 impl Rewriter<'_, '_> {
     pub(super) fn expression(&mut self, old: Handle<Expression>, expression: &Expression) -> Result<Value, Refusal> {
         use Expression as E;
@@ -64,7 +82,7 @@ impl Rewriter<'_, '_> {
                 let raw = self.add(raw);
                 Ok(self.read(old, raw, is_float))
             }
-            E::Math { fun, .. } if self.is_narrow(*fun) => {
+            E::Math { fun, .. } if self.is_narrow(*fun) || is_packing(*fun) => {
                 let raw = self.in_f32(expression)?;
                 Ok(self.read(old, raw, is_float))
             }

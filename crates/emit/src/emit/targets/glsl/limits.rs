@@ -16,6 +16,7 @@ use glisten_front::hir::{
 use glisten_front::language::NEVER;
 use glisten_front::link::Program;
 use glisten_front::source::Span;
+use smallvec::SmallVec;
 
 /// The errors for a stage, in the order of its globals.
 pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
@@ -44,7 +45,7 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
     for span in arrays_of_arrays(types, shader).take(1) {
         lacks.push(lacking(span, "array of arrays".into(), "compute one index from two"));
     }
-    for (name, span) in later_functions(shader) {
+    for (name, span) in later_functions(shader, true) {
         lacks.push(lacking(span, format!("function `{name}`"), "compile for `--glsl-version 330`"));
     }
     if program.interface.outputs.iter().any(|output| output.index == 1) && shader.stage == Stage::Fragment {
@@ -61,18 +62,36 @@ fn arrays_of_arrays<'a>(types: &'a Types, shader: &'a Shader) -> impl Iterator<I
     globals.chain(locals).filter(move |(ty, _)| nests(*ty)).map(|(_, span)| span)
 }
 
-/// The functions that came after ES 3.00, each with its first call.
-fn later_functions(shader: &Shader) -> Vec<(&'static str, Span)> {
+/// The errors for what GLSL 3.30 lacks.
+pub(super) fn of_330(shader: &Shader) -> Vec<Diagnostic> {
+    let lacks = |(name, span)| {
+        let message = format!("GLSL 3.30 has no function `{name}` for these arguments");
+        Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message).help("compile for `--glsl-version 450`")
+    };
+    later_functions(shader, false).into_iter().map(lacks).collect()
+}
+
+/// The functions that came after ES 3.00, or after 3.30 and without an extension, for the arguments of a call. Each with its first call.
+fn later_functions(shader: &Shader, is_es: bool) -> Vec<(&'static str, Span)> {
     let mut found: Vec<(&'static str, Span)> = Vec::new();
     for expr in &shader.exprs {
-        let ExprKind::BuiltinCall(function, _) = expr.kind else { continue };
-        let is_in = |row: &Row| row.availability.since.es <= 300;
-        let rows = || function.operation().prototypes();
+        let ExprKind::BuiltinCall(function, arguments) = &expr.kind else { continue };
+        let name = function.name();
+        let given: SmallVec<[TypeId; 8]> = arguments.iter().map(|argument| shader.expr(*argument).ty).collect();
+        let rows: SmallVec<[&Row; 8]> = function
+            .operation()
+            .prototypes()
+            .filter(|row| row.signatures(shader.stage).any(|signature| signature.has_types(&given)))
+            .collect();
+        let since = |row: &Row| if is_es { row.availability.since.es } else { row.availability.since.desktop };
+        let is_in = |row: &&Row| {
+            since(row) <= if is_es { 300 } else { 330 } || !is_es && !row.availability.extensions.is_empty()
+        };
         // What ES never had is said in other words, or refused by its types.
-        let is_derivative = matches!(function.operation().class, Class::Derivative(_));
-        let came_later = (is_derivative || rows().any(|row| row.availability.since.es != NEVER)) && !rows().any(is_in);
-        if came_later && !found.iter().any(|(name, _)| *name == function.name()) {
-            found.push((function.name(), expr.span));
+        let is_derivative = is_es && matches!(function.operation().class, Class::Derivative(_));
+        let came_later = (is_derivative || rows.iter().any(|row| since(row) != NEVER)) && !rows.iter().any(is_in);
+        if came_later && !found.iter().any(|(other, _)| *other == name) {
+            found.push((name, expr.span));
         }
     }
     found

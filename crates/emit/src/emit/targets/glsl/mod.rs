@@ -46,11 +46,13 @@ pub(in crate::emit) fn write(
         return Err(vec![Diagnostic::new(&general::INTERNAL, Span::default(), message)]);
     };
     let version = conventions.glsl_version;
-    if version == GlslVersion::Es300 {
-        let lacks = limits::of_es(program, shader);
-        if !lacks.is_empty() {
-            return Err(lacks);
-        }
+    let lacks = match version {
+        GlslVersion::Es300 => limits::of_es(program, shader),
+        GlslVersion::Desktop330 => limits::of_330(shader),
+        GlslVersion::Desktop450 | GlslVersion::Vulkan => Vec::new(),
+    };
+    if !lacks.is_empty() {
+        return Err(lacks);
     }
     let mut types = program.types.clone();
     let mut shader = match version {

@@ -70,7 +70,7 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
     for shader in &program.stages {
         collect(&program.types, shader, &mut all, &mut global);
     }
-    let called: BTreeSet<&str> = program.stages.iter().flat_map(texture_functions).collect();
+    let called: BTreeSet<&str> = program.stages.iter().flat_map(texture_functions).chain(overloaded(program)).collect();
     let mut names = BTreeMap::new();
     for &name in &all {
         let reserved = is_word(name, version);
@@ -108,6 +108,18 @@ fn texture_functions(shader: &Shader) -> impl Iterator<Item = &'static str> {
         ExprKind::BuiltinCall(function, _) if matches!(function.class(), Class::Texture(_)) => Some(function.name()),
         _ => None,
     })
+}
+
+/// The names of built-in functions that a program calls beside functions of its own with these names. Before 1.30 they are overloads of
+/// each other; later, those of the program hide the built-in ones (GLSL 1.30 §6.1).
+fn overloaded(program: &Program) -> impl Iterator<Item = &'static str> {
+    let own: BTreeSet<&str> =
+        program.stages.iter().flat_map(|shader| &shader.functions).map(|function| function.name.as_str()).collect();
+    let calls = program.stages.iter().flat_map(|shader| &shader.exprs).filter_map(|expr| match expr.kind {
+        ExprKind::BuiltinCall(function, _) => Some(function.name()),
+        _ => None,
+    });
+    calls.filter(move |name| own.contains(name))
 }
 
 /// Names that GLSL ES 3.00 §3.8 and WebGL keep to themselves.

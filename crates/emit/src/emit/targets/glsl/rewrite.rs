@@ -21,6 +21,7 @@ pub(super) fn rewrite(types: &mut Types, shader: &mut Shader, program: &Program,
     if version == GlslVersion::Es300 {
         flatten(types, shader, program);
     }
+    unwritten_inputs(shader, program);
     interpolations(shader, program);
     built_in_colors(types, shader);
     shadow_lookups(types, shader);
@@ -78,6 +79,32 @@ fn varying_names(shader: &mut Shader, program: &Program) {
             shader.globals.get_mut(to.global.index()).filter(|global| !taken && global.block.is_none())
         {
             global.name.clone_from(name);
+        }
+    }
+}
+
+/// What the compatibility profile reads and the stage before does not write is undefined (GLSL 1.20 §7.6). Later versions do not link then,
+/// so it is a variable without a value.
+fn unwritten_inputs(shader: &mut Shader, program: &Program) {
+    if shader.stage != Stage::Fragment || !program.stages.iter().any(|stage| stage.stage != Stage::Fragment) {
+        return;
+    }
+    let written: Vec<GlobalId> = program
+        .interface
+        .varyings
+        .iter()
+        .filter(|row| row.from.is_some())
+        .filter_map(|row| Some(row.to?.global))
+        .collect();
+    for index in 0..shader.globals.len() {
+        let is_written = written.contains(&GlobalId::new(index));
+        let unwritten = shader.globals.get_mut(index).filter(|global| {
+            let is_fixed = global.builtin.is_none() && global.name.starts_with("gl_") && global.block.is_none();
+            is_fixed && global.storage == Storage::In && !is_written
+        });
+        if let Some(global) = unwritten {
+            (global.storage, global.location) = (Storage::Private, None);
+            (global.interpolation, global.interpolation_written) = (Interpolation::Smooth, false);
         }
     }
 }

@@ -1,0 +1,68 @@
+//! Preprocessor, parser, analysis, link and lint.
+
+use super::{no_internal_error, no_internal_errors};
+use crate::Sections;
+use crate::sections::named;
+use glisten_front::diagnostic::write::{Finding, findings, human, json, sarif};
+use glisten_front::diagnostic::{Applicability, Diagnostic, Patch};
+use glisten_front::source::{Completion, SourceMap};
+use glisten_front::{Compilation, Compiler, Options, Source, lint};
+
+/// What is compiled, as text.
+pub(super) fn compiled(sources: &[Source]) -> Compilation {
+    let compilation = compiler().compile(sources);
+    no_internal_error(&compilation.diagnostics);
+    compilation
+}
+
+/// The compiler of every target: without includes, with three.js' loops.
+pub(super) fn compiler() -> Compiler {
+    let completion = Completion { unrolls: true, ..Completion::default() };
+    Compiler::new(Options { completion, ..Options::default() })
+}
+
+/// A program or errors, which can be written.
+pub(super) fn check(input: &[u8]) {
+    let text = String::from_utf8_lossy(input);
+    let sources = Sections::of(&text).shaders();
+    let compilation = compiled(&sources);
+    // A shader without `main` is a part of one; there are no programs of parts alone, and no error.
+    let is_part = !text.contains("main");
+    let is_decided = compilation.program.is_some() || compilation.diagnostics.has_errors();
+    assert!(is_decided || is_part || sources.is_empty(), "neither a program nor an error");
+    written(&compilation.sources, compilation.diagnostics.iter());
+}
+
+/// Every finding has a place in its text, and can be written in each format.
+fn written<'a>(sources: &SourceMap, list: impl Iterator<Item = &'a Diagnostic> + Clone) -> Vec<Finding> {
+    human(sources, list.clone(), false);
+    let findings = findings(sources, list);
+    json(&findings, None);
+    sarif(&findings, None);
+    findings
+}
+
+/// The rules, and their fixes.
+pub(super) fn lint(input: &[u8]) {
+    let text = String::from_utf8_lossy(input);
+    let sources = Sections::of(&text).shaders();
+    let compilation = compiled(&sources);
+    let Some(program) = &compilation.program else { return };
+    let found = lint::check(program, &compilation.sources);
+    no_internal_errors(&found);
+    for finding in written(&compilation.sources, found.iter()) {
+        for fix in finding.fixes.iter().filter(|fix| fix.applicability == Applicability::Safe) {
+            let mut patch = Patch::default();
+            patch.add(fix);
+            let new = |source: &Source| {
+                let text = patch.applied(&source.name, &source.text);
+                Source { text: text.expect("its edits are in the text").into(), ..source.clone() }
+            };
+            let changed: Vec<Source> = sources.iter().map(new).collect();
+            let again = compiled(&changed);
+            let error = again.diagnostics.iter().find(|one| one.is_error());
+            let message = error.map(|error| error.message.as_str()).unwrap_or_default();
+            assert!(error.is_none(), "a fix of {} breaks the text: {message}\n{}", finding.code, named(&changed));
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! Every limit of `docs/limits.md`: what is one below it and what is at it is accepted, and what is one above it is an error that has
+//! the code of the table.
+
+use crate::support::{compiler, root};
+use glisten::scene::{MemoryFiles, load};
+use glisten_front::Source;
+use glisten_front::hir::Stage;
+use glisten_front::source::{IncludeForm, IncludeResolver, Included};
+use std::fmt::Write as _;
+
+/// A bound on what a text or a scene may have.
+struct Limit {
+    /// What is counted.
+    what: &'static str,
+    /// The largest number that is accepted.
+    largest: u64,
+    /// The code of one more.
+    code: &'static str,
+    /// The text or the scene with this many.
+    make: fn(usize) -> Input,
+}
+
+enum Input {
+    /// A fragment shader.
+    Shader(String),
+    /// A scene file.
+    Scene(String),
+}
+
+use Input::Scene;
+
+fn shader(text: &str) -> Input {
+    Input::Shader(format!("#version 150\n{text}"))
+}
+
+fn in_main(body: &str) -> Input {
+    shader(&format!("void main() {{ {body} }}\n"))
+}
+
+fn nested(open: &str, count: usize, inner: &str, close: &str) -> String {
+    open.repeat(count) + inner + &close.repeat(count)
+}
+
+fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).map(line).collect()
+}
+
+/// A scene with these lines in its framebuffer, its draw and after it.
+fn scene(framebuffer: &str, draw: &str, after: &str) -> Input {
+    Scene(format!(
+        "[framebuffer]\n{framebuffer}\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nprimitive = \"triangles\"\n{draw}\n{after}"
+    ))
+}
+
+const SMALL: &str = "width = 8\nheight = 8";
+const THREE: &str = "vertex_count = 3";
+const MAIN: &str = "void main() {}\n";
+
+static LIMITS: &[Limit] = &[
+    Limit {
+        what: "nested blocks of a function",
+        largest: 256,
+        code: "E0003",
+        make: |n| in_main(&nested("{", n, "", "}")),
+    },
+    Limit {
+        what: "nested parentheses of an initializer",
+        largest: 254,
+        code: "E0003",
+        make: |n| in_main(&format!("float a = {};", nested("(", n, "1.0", ")"))),
+    },
+    Limit {
+        what: "nested parentheses of an `#if`",
+        largest: 64,
+        code: "E0003",
+        make: |n| shader(&format!("#if {}\n#endif\n{MAIN}", nested("(", n, "1", ")"))),
+    },
+    Limit {
+        what: "levels of structs in structs",
+        largest: 64,
+        code: "E0003",
+        make: |n| {
+            let inner = |at: usize| if at == 0 { "float x".to_owned() } else { format!("S{} s", at - 1) };
+            shader(&(lines(n, |at| format!("struct S{at} {{ {}; }};\n", inner(at))) + MAIN))
+        },
+    },
+    Limit {
+        what: "parameters of a macro",
+        largest: 256,
+        code: "E0113",
+        make: |n| {
+            let names: Vec<String> = (0..n).map(|at| format!("a{at}")).collect();
+            shader(&format!("#define F({}) 1\n{MAIN}", names.join(",")))
+        },
+    },
+    Limit {
+        what: "macros that use each other",
+        largest: 4096,
+        code: "E0130",
+        make: |n| {
+            let body = |at: usize| if at == 0 { "1.0".to_owned() } else { format!("A{}", at - 1) };
+            shader(
+                &(lines(n, |at| format!("#define A{at} {}\n", body(at))) + &format!("float a = A{};\n{MAIN}", n - 1)),
+            )
+        },
+    },
+    Limit {
+        what: "macro uses in each other's arguments",
+        largest: 65,
+        code: "E0130",
+        make: |n| shader(&format!("#define F(x) x\nfloat a = {};\n{MAIN}", nested("F(", n, "1.0", ")"))),
+    },
+    Limit {
+        what: "includes in includes",
+        largest: 64,
+        code: "E0121",
+        make: |n| shader(&format!("#include \"{n}\"\n{MAIN}")),
+    },
+    Limit {
+        what: "bytes of all texts of a shader",
+        largest: 8 << 20,
+        code: "E0001",
+        make: |n| {
+            let head = format!("#version 150\n{MAIN}//");
+            Input::Shader(format!("{head}{}", "x".repeat(n - head.len())))
+        },
+    },
+    Limit {
+        what: "elements of an array",
+        largest: 65_536,
+        code: "E0409",
+        make: |n| shader(&format!("float a[{n}];\n{MAIN}")),
+    },
+    Limit {
+        what: "overloads of a function",
+        largest: 1024,
+        code: "E0513",
+        make: |n| shader(&(lines(n, |at| format!("void f(float x[{}]) {{}}\n", at + 1)) + MAIN)),
+    },
+    Limit {
+        what: "`vec4` of a uniform block",
+        largest: 4096,
+        code: "E0717",
+        make: |n| shader(&format!("uniform B {{ vec4 a[{n}]; }};\nout vec4 c;\nvoid main() {{ c = a[0]; }}\n")),
+    },
+    Limit {
+        what: "elements of an array of uniform blocks",
+        largest: 72,
+        code: "E0718",
+        make: |n| shader(&format!("uniform B {{ vec4 a; }} b[{n}];\nout vec4 c;\nvoid main() {{ c = b[0].a; }}\n")),
+    },
+    Limit {
+        what: "samplers of a program",
+        largest: 1024,
+        code: "E0716",
+        make: |n| {
+            shader(&format!(
+                "uniform sampler2D t[{n}];\nout vec4 c;\nvoid main() {{ c = texture(t[0], vec2(0.0)); }}\n"
+            ))
+        },
+    },
+    Limit {
+        what: "locations of varyings",
+        largest: 32,
+        code: "E0715",
+        make: |n| shader(&format!("in vec4 v[{n}];\nout vec4 c;\nvoid main() {{ c = v[0]; }}\n")),
+    },
+    Limit {
+        what: "outputs of a fragment shader",
+        largest: 8,
+        code: "E0714",
+        make: |n| shader(&format!("out vec4 c[{n}];\nvoid main() {{ c[0] = vec4(1.0); }}\n")),
+    },
+    Limit {
+        what: "pixels of a side of a picture",
+        largest: 16_384,
+        code: "E0905",
+        make: |n| scene(&format!("width = {n}\nheight = 1"), THREE, ""),
+    },
+    Limit {
+        what: "rows of a picture 16,384 pixels wide",
+        largest: 4096,
+        code: "E0905",
+        make: |n| scene(&format!("width = 16384\nheight = {n}"), THREE, ""),
+    },
+    Limit {
+        what: "color attachments of a scene",
+        largest: 8,
+        code: "E0905",
+        make: |n| scene(&format!("{SMALL}\nattachments = {n}"), THREE, ""),
+    },
+    Limit {
+        what: "vertices of a draw",
+        largest: 1 << 22,
+        code: "E0905",
+        make: |n| scene(SMALL, &format!("vertex_count = {n}"), ""),
+    },
+    Limit {
+        what: "instances of a draw",
+        largest: 1 << 22,
+        code: "E0905",
+        make: |n| scene(SMALL, &format!("{THREE}\ninstances = {n}"), ""),
+    },
+];
+
+/// Includes file *n* - 1 from file *n*, down to 1, which is a comment.
+struct Chain;
+
+impl IncludeResolver for Chain {
+    fn resolve(&self, path: &str, _: IncludeForm, _: &str) -> Result<Included, String> {
+        let number: usize = path.parse().map_err(|_| format!("no file `{path}`"))?;
+        let text = if number > 1 { format!("#include \"{}\"\n", number - 1) } else { "// the last one\n".to_owned() };
+        Ok(Included { name: path.to_owned(), text: text.into() })
+    }
+}
+
+/// The codes of the errors of an input.
+fn errors(input: Input) -> Vec<&'static str> {
+    let diagnostics = match input {
+        Input::Shader(text) => {
+            let source = Source { name: "a.frag".into(), text: text.into(), stage: Stage::Fragment };
+            compiler().with_includes(Chain).compile(&[source]).diagnostics
+        }
+        Scene(text) => {
+            let vertex = "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n";
+            let fragment = "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+            let files = MemoryFiles::new([("a.toml", text.as_str()), ("a.vert", vertex), ("a.frag", fragment)]);
+            load("a.toml", &files, &compiler()).diagnostics
+        }
+    };
+    diagnostics.iter().filter(|one| one.is_error()).map(|one| one.code.id).collect()
+}
+
+#[test]
+fn limits_are_where_the_table_says() {
+    let mut wrong = String::new();
+    for Limit { what, largest, code, make } in LIMITS {
+        let largest = usize::try_from(*largest).expect("a size");
+        for count in [largest - 1, largest] {
+            let found = errors(make(count));
+            if !found.is_empty() {
+                let _ = writeln!(wrong, "{count} {what}: {found:?}");
+            }
+        }
+        let found = errors(make(largest + 1));
+        if !found.contains(code) || found.len() > 2 {
+            let _ = writeln!(wrong, "{} {what}: {found:?} instead of {code}", largest + 1);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// A number as people write it: `65,536`.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let with_comma = |(at, digit): (usize, char)| {
+        let comma = at > 0 && (digits.len() - at).is_multiple_of(3);
+        if comma { format!(",{digit}") } else { digit.to_string() }
+    };
+    digits.chars().enumerate().map(with_comma).collect()
+}
+
+#[test]
+fn the_page_has_the_table() {
+    let page = std::fs::read_to_string(root().join("docs/limits.md")).expect("the page is there");
+    let row = |limit: &Limit| format!("| {} | {} | {} |", limit.what, grouped(limit.largest), limit.code);
+    let missing: Vec<String> = LIMITS.iter().map(row).filter(|row| !page.contains(row)).collect();
+    assert!(missing.is_empty(), "docs/limits.md lacks\n{}", missing.join("\n"));
+}
+
+/// `--sandbox`: a scene of a stranger names files outside of its folder, by its path, by a link, by an include, and a device.
+#[test]
+#[cfg(unix)]
+fn a_scene_reads_nothing_outside_of_the_sandbox() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inside = folder.path().join("inside");
+    std::fs::create_dir(&inside).expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+    write("secret.frag", "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+    write("inside/a.vert", "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n");
+    write("inside/own.frag", "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+    write("inside/include.frag", "#version 150\n#include \"../secret.frag\"\n");
+    std::os::unix::fs::symlink("../secret.frag", inside.join("link.frag")).expect("a link");
+    let secret = folder.path().join("secret.frag");
+    let run = |fragment: &str, sandbox: bool| {
+        let scene = format!(
+            "[framebuffer]\n{SMALL}\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"{fragment}\"\nprimitive = \"triangles\"\n{THREE}\n"
+        );
+        write("inside/s.toml", &scene);
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_glisten"));
+        command.current_dir(folder.path()).args(["render", "inside/s.toml", "--backend", "cpu", "-o", "out.png"]);
+        if sandbox {
+            command.args(["--sandbox", "inside"]);
+        }
+        let output = command.output().expect("the program runs");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    assert_eq!(run("own.frag", true).0, Some(0), "{:?}", run("own.frag", true));
+    for fragment in ["../secret.frag", &secret.to_string_lossy(), "link.frag", "include.frag", "/dev/zero"] {
+        let (code, errors) = run(fragment, true);
+        assert!(code != Some(0) && errors.contains("outside of the sandbox"), "{fragment}: {code:?} {errors}");
+        if fragment != "/dev/zero" {
+            assert_eq!(run(fragment, false).0, Some(0), "{fragment} is read without a sandbox");
+        }
+    }
+    let (code, errors) = run("/dev/zero", false);
+    assert!(code == Some(2) && errors.contains("larger than"), "{code:?} {errors}");
+}
