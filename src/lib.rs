@@ -47,6 +47,8 @@ pub mod measure;
 #[cfg(feature = "cli")]
 mod page;
 #[cfg(feature = "cli")]
+pub mod port;
+#[cfg(feature = "cli")]
 pub mod report;
 #[cfg(feature = "reference")]
 pub use glisten_scene::fixed as fixed_function;

@@ -166,6 +166,17 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "port",
+        &[
+            ("glisten port pack --for minecraft-26.2 -o ported", "a resource pack for Minecraft's Vulkan"),
+            (
+                "glisten port shaders --for wgpu -o ported --prove",
+                "an engine's shaders for wgpu, with their pictures compared",
+            ),
+            ("glisten port pack --for minecraft-26.2 --check", "exit 1 if something is left to port"),
+        ],
+    ),
+    (
         "fixed-function",
         &[
             ("glisten fixed-function --lights 2 --fog exp --unit modulate", "both stages, with their switches"),

@@ -79,6 +79,14 @@ impl Failure {
         Self::Told { exit, message: message.into(), help: None }
     }
 
+    /// The message.
+    pub(super) fn message(&self) -> &str {
+        match self {
+            Self::Told { message, .. } => message,
+            Self::OutputClosed => "standard output was closed",
+        }
+    }
+
     /// Adds a help text.
     pub(super) fn help(self, help: impl Into<String>) -> Self {
         match self {

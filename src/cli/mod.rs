@@ -68,6 +68,7 @@ mod permutations;
 mod pictures;
 #[cfg(feature = "play")]
 mod play;
+mod port;
 mod profile;
 mod progress;
 mod recall;
@@ -163,6 +164,7 @@ enum Command {
     #[cfg(feature = "play")]
     Play(play::PlayArgs),
     Upgrade(upgrade::UpgradeArgs),
+    Port(port::PortArgs),
     FixedFunction(fixed_function::FixedFunctionArgs),
     Completions(completions::CompletionsArgs),
     Watch(watch::WatchArgs),
@@ -241,6 +243,7 @@ impl Command {
             Self::Test(args) => args.draws_by_a_driver(),
             Self::Lib(args) => args.draws_by_a_driver(),
             Self::Cost(args) => args.draws_by_a_driver(),
+            Self::Port(args) => args.draws_by_a_driver(),
             Self::Lint(_)
             | Self::Compile(_)
             | Self::Reflect(_)
@@ -289,6 +292,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         #[cfg(feature = "play")]
         Command::Play(args) => play::run(args, console),
         Command::Upgrade(args) => upgrade::run(args, console),
+        Command::Port(args) => port::run(args, console),
         Command::FixedFunction(args) => fixed_function::run(args, console),
         Command::Completions(args) => completions::run(args, Cli::command(), console),
         Command::Watch(args) => watch::run(args, console),

@@ -13,6 +13,7 @@ mod tokens;
 mod vulkan;
 
 pub use plan::{Plan, Target, Text};
+pub use program::plan_in;
 pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
 pub use rewrite::rewrite;
-pub use vulkan::to_vulkan;
+pub use vulkan::{Dialect, HostBlock, NewFile, NewTree, Note, Numbering, TreeProgram, to_vulkan, tree, with_version};

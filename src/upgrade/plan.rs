@@ -137,7 +137,12 @@ fn plain_name(name: &str) -> String {
 impl Plan {
     /// The plan for the texts of one program.
     pub fn new(texts: &[Text<'_>], target: Target) -> Self {
-        let mut used: BTreeSet<&str> = BTreeSet::new();
+        Self::with_words(texts, target, &BTreeSet::new())
+    }
+
+    /// The plan for the texts of a program; new names are none of these words.
+    pub fn with_words(texts: &[Text<'_>], target: Target, words: &BTreeSet<String>) -> Self {
+        let mut used: BTreeSet<&str> = words.iter().map(String::as_str).collect();
         let mut by_stage: BTreeSet<(Stage, &str)> = BTreeSet::new();
         for text in texts {
             for token in tokens(text.text).iter().filter(|token| token.is_word()) {
@@ -167,6 +172,11 @@ impl Plan {
     /// The declarations that a stage gets.
     pub(super) fn declarations(&self, stage: Stage) -> impl Iterator<Item = &str> {
         self.declarations.iter().filter(move |declared| declared.stage == stage).map(|declared| declared.line.as_str())
+    }
+
+    /// The names that come in place of what was built in.
+    pub fn provided(&self) -> impl Iterator<Item = &str> {
+        self.words.iter().filter(|((_, old), _)| old.starts_with("gl_")).map(|(_, new)| new.as_str())
     }
 
     /// The new name of an old one in any stage, for texts of the host such as scenes.

@@ -8,6 +8,7 @@ use super::{Plan, Target, Text, rewrite, to_vulkan};
 use glisten_front::Stage;
 use glisten_front::compiler::{Compilation, Compiler, Preparation, Prepared, Source};
 use glisten_front::source::{Completion, IncludeForm, IncludeResolver, Included, Prelude, SourceMap};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
@@ -108,6 +109,19 @@ pub fn upgrade(compiler: &Compiler, sources: &[Source], target: Target) -> Resul
 /// # Errors
 /// A source is newer than the target, or it has no counterpart for a name.
 pub fn plan_of(compiler: &Compiler, sources: &[(&Source, u16)], target: Target) -> Result<Plan, Refused> {
+    plan_in(compiler, sources, target, &BTreeSet::new())
+}
+
+/// The plan like [`plan_of`], for a program of a tree: new names are none of these words, so that all programs get the same ones.
+///
+/// # Errors
+/// A source is newer than the target, or it has no counterpart for a name.
+pub fn plan_in(
+    compiler: &Compiler,
+    sources: &[(&Source, u16)],
+    target: Target,
+    words: &BTreeSet<String>,
+) -> Result<Plan, Refused> {
     let others: Vec<Vec<Arc<str>>> = sources.iter().map(|(source, _)| other_texts(compiler, source)).collect();
     let mut texts = Vec::new();
     for ((source, version), others) in sources.iter().zip(&others) {
@@ -118,7 +132,7 @@ pub fn plan_of(compiler: &Compiler, sources: &[(&Source, u16)], target: Target) 
         texts.push(Text { text: &source.text, stage, is_shader: true, version });
         texts.extend(others.iter().map(|text| Text { text, stage, is_shader: false, version }));
     }
-    let plan = Plan::new(&texts, target);
+    let plan = Plan::with_words(&texts, target, words);
     plan.refused.first().map_or(Ok(()), |name| Err(Refused::NoCounterpart(name)))?;
     Ok(plan)
 }

@@ -91,6 +91,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "page",
             "snapshot",
             "upgrade",
+            "port",
             "format",
             "gallery",
             "report",

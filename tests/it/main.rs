@@ -108,6 +108,7 @@ mod own_snapshots;
 mod permutations;
 #[cfg(feature = "play")]
 mod play;
+mod port;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;
@@ -166,6 +167,7 @@ mod upgrade;
 mod versions;
 #[cfg(feature = "cli")]
 mod vulkan;
+mod vulkan_trees;
 #[cfg(feature = "cli")]
 mod watch;
 mod wgsl;

@@ -54,10 +54,21 @@ pub(super) struct NewSceneArgs {
     /// The width and height of the window
     #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=4096))]
     size: u32,
+    /// Whether findings are not told: another command has told them.
+    #[arg(skip)]
+    is_silent: bool,
     #[command(flatten)]
     sources: SourceArgs,
     #[command(flatten)]
     levels: LevelArgs,
+}
+
+impl NewSceneArgs {
+    /// The arguments for the files of a program, without a mesh.
+    pub(super) fn of(files: Vec<String>, output: PathBuf, size: u32, sources: &SourceArgs, levels: &LevelArgs) -> Self {
+        let (sources, levels) = (sources.clone(), levels.clone());
+        Self { files, output: Some(output), mesh: None, size, is_silent: true, sources, levels }
+    }
 }
 
 /// Runs the command.
@@ -81,7 +92,7 @@ pub(super) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
     let stages = inputs.iter().map(|input| (input.stage, relative(&input.name, folder))).collect();
     let name = inputs.first().map(Input::stem).unwrap_or_default();
     let units = session.compile(vec![Group { name, inputs }]);
-    let exit = session.tell_units(&units, false)?;
+    let exit = if args.is_silent { Exit::Ok } else { session.tell_units(&units, false)? };
     let Some((unit, program)) = units.first().and_then(|unit| Some((unit, unit.sound_program()?))) else {
         return Ok(exit.max(Exit::Content));
     };

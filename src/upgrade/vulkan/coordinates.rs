@@ -1,7 +1,7 @@
 //! Coordinates in the text: clip-space z, `gl_FragCoord` with its origin at the lower left, `dFdy`, the names of indices.
 //!
-//! *In:* a text and its stage. *Out:* edits. *Holds:* the conventions are the defaults of `glisten compile`: z in [0, w], the
-//! window's origin at the upper left without a flip, y up.
+//! *In:* a text, and the stages that read it. *Out:* edits. *Holds:* the conventions are the defaults of `glisten compile`: z in
+//! [0, w], the window's origin at the upper left without a flip, y up.
 
 use super::super::rewrite::Edit;
 use super::super::tokens::closing;
@@ -26,8 +26,13 @@ pub(super) fn needs_height(shader: &Shader) -> bool {
     shader.stage == Stage::Fragment && reads && !shader.frag_coord.origin_upper_left && shader.reads_row_of_frag_coord()
 }
 
-/// The edits of words and calls.
-pub(super) fn words(chunks: &Chunks<'_>, shader: &Shader, frag_coord: Option<&str>) -> Vec<Edit> {
+/// Whether a text names the coordinates of the fragment.
+pub(super) fn names_frag_coord(chunks: &Chunks<'_>) -> bool {
+    chunks.all.iter().any(|token| token.text == "gl_FragCoord")
+}
+
+/// The edits of words and calls. The new name of `gl_FragCoord` is given if it changes.
+pub(super) fn words(chunks: &Chunks<'_>, is_fragment: bool, frag_coord: Option<&str>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (index, token) in chunks.all.iter().enumerate() {
         let range = token.range.clone();
@@ -36,7 +41,7 @@ pub(super) fn words(chunks: &Chunks<'_>, shader: &Shader, frag_coord: Option<&st
         } else if let (Some(name), "gl_FragCoord") = (frag_coord, token.text) {
             edits.push((range, name.to_owned()));
         } else if ALONG_Y.contains(&token.text)
-            && shader.stage == Stage::Fragment
+            && is_fragment
             && chunks.word(index + 1) == "("
             && let Some(end) = closing(&chunks.all, index + 1)
         {
@@ -50,12 +55,7 @@ pub(super) fn words(chunks: &Chunks<'_>, shader: &Shader, frag_coord: Option<&st
 
 /// The new `main` of a vertex shader, which calls the old one, and the edit that renames that.
 pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<Vec<Edit>> {
-    let functions = chunks.list.iter().filter(|chunk| chunk.is_function);
-    let mut names = functions.filter_map(|chunk| {
-        let mut tokens = chunk.tokens.clone();
-        tokens.find(|index| chunks.word(*index) == "main" && chunks.word(*index + 1) == "(")
-    });
-    let place = chunks.place(names.next()?);
+    let place = chunks.place(main_of(chunks)?);
     let size = if shader.globals.iter().any(|one| one.builtin == Some(BuiltinVariable::PointSize) && one.written) {
         ""
     } else {
@@ -68,4 +68,14 @@ pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<V
          gl_Position.z = (gl_Position.z + gl_Position.w) * 0.5;\n{size}}}\n"
     );
     Some(vec![(place, name.to_owned()), (end..end, text)])
+}
+
+/// The name in the definition of `main`.
+pub(super) fn main_of(chunks: &Chunks<'_>) -> Option<usize> {
+    let functions = chunks.list.iter().filter(|chunk| chunk.is_function);
+    let mut names = functions.filter_map(|chunk| {
+        let mut tokens = chunk.tokens.clone();
+        tokens.find(|index| chunks.word(*index) == "main" && chunks.word(*index + 1) == "(")
+    });
+    names.next()
 }

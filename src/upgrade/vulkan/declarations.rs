@@ -1,13 +1,17 @@
-//! Declarations in the text: layouts of what stays, and the block for the loose uniforms.
+//! Declarations in the text: layouts of what stays, and the lines of the loose uniforms, which go into a block.
 //!
-//! *In:* a text, its stage, its program. *Out:* edits; or the reason why a declaration cannot be rewritten.
+//! *In:* a text with the facts about its declarations. *Out:* edits; or the reason why a declaration cannot be rewritten.
 
 use super::super::rewrite::Edit;
 use super::super::tokens::closing;
 use super::chunks::{Chunk, Chunks};
-use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
-use glisten_front::link::{Program, UniformRoot, Varying};
+use super::conditions::{Conditions, Open};
+use super::dialect::{Dialect, Numbering};
+use super::facts::{Fact, Loose, Numbered};
+use super::numbers::{Numbers, Space};
 use glisten_front::source::{SourceMap, Span, comments};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// Words before the type of a declaration.
 static QUALIFIERS: &[&str] = &["uniform", "lowp", "mediump", "highp", "const", "in", "out"];
@@ -17,63 +21,105 @@ static OF_VARYINGS: &[&str] = &["out", "flat", "smooth", "noperspective", "centr
 
 /// A text that is rewritten, with what is known about it.
 pub(super) struct Text<'a> {
-    pub(super) chunks: &'a Chunks<'a>,
-    pub(super) sources: &'a SourceMap,
-    pub(super) program: &'a Program,
-    pub(super) shader: &'a Shader,
-    /// The offset of the text in the source map.
-    pub(super) base: u32,
     pub(super) name: &'a str,
+    pub(super) chunks: &'a Chunks<'a>,
+    pub(super) conditions: &'a Conditions,
+    pub(super) facts: &'a BTreeMap<usize, Fact>,
+    /// Macros that stand for qualifiers.
+    pub(super) qualifiers: &'a BTreeSet<String>,
+    pub(super) dialect: &'a Dialect,
+    pub(super) numbers: &'a Numbers,
 }
 
-/// A global with its declaration.
+/// A name with its declaration.
 struct Declared<'a> {
-    id: GlobalId,
-    global: &'a Global,
+    place: usize,
+    fact: &'a Fact,
     chunk: &'a Chunk,
-    /// The token of its name.
+    /// The token of the name.
     token: usize,
+    /// The tokens of the macro use that it is an argument of.
+    call: Option<Range<usize>>,
 }
 
-/// The members of the loose block, and the edits that remove their old declarations.
+/// A loose uniform's lines in its block.
+pub(super) struct Line {
+    pub(super) place: usize,
+    /// The comment above it.
+    pub(super) above: Vec<String>,
+    /// The type, the name and the sizes of arrays.
+    pub(super) code: String,
+    pub(super) behind: String,
+    pub(super) conditions: Vec<Open>,
+}
+
+/// The loose uniforms of a text, and the edits that take them away.
 #[derive(Default)]
-pub(super) struct Loose {
-    /// Each line of the block, with its offset.
-    pub(super) lines: Vec<(u32, Vec<String>)>,
+pub(super) struct Moved {
+    pub(super) lines: Vec<Line>,
+    /// The removal of the old declarations.
     pub(super) edits: Vec<Edit>,
-    /// The place of the block; none if the stage declares no loose uniform.
-    pub(super) place: Option<usize>,
-    /// The uniforms that the stage declares.
-    pub(super) names: Vec<String>,
+    /// The place of the block, and the conditions there; none if the text declares no loose uniform.
+    pub(super) place: Option<(usize, Vec<Open>)>,
+    /// The blocks of the host that the text needs.
+    pub(super) known: BTreeSet<usize>,
+}
+
+/// The words of a layout.
+enum Words {
+    /// The declaration stays as it is.
+    Kept,
+    /// It has these words.
+    Layout(Vec<String>),
+    /// It is a variable of its own stage.
+    Inside,
 }
 
 impl<'a> Text<'a> {
     fn declared(&self) -> Result<Vec<Declared<'a>>, String> {
         let mut found = Vec::new();
-        for (id, global) in self.shader.globals() {
-            let crosses = matches!(global.storage, Storage::Uniform | Storage::In | Storage::Out);
-            if global.builtin.is_some() || !crosses {
-                continue;
-            }
-            let offset = global.span.start.checked_sub(self.base).map(|offset| offset as usize);
-            let place = offset.filter(|_| !global.span.expansion.is_some()).and_then(|offset| self.chunks.at(offset));
-            let Some((chunk, token)) = place.filter(|(_, token)| self.is_name(*token, global)) else {
-                let what = "is declared by a macro or in another file, which `--to vulkan` does not rewrite";
-                return Err(format!("`{}` {what}", global.name));
+        for (place, fact) in self.facts {
+            let Some((chunk, token)) = self.chunks.at(*place) else {
+                let word: String = self
+                    .chunks
+                    .text
+                    .get(*place..)
+                    .unwrap_or("")
+                    .chars()
+                    .take_while(|letter| letter.is_alphanumeric() || *letter == '_')
+                    .collect();
+                return Err(format!("`{word}` is declared inside of a macro of `{}`; declare it outside", self.name));
             };
-            if chunk.is_cut {
-                return Err(format!("the declaration of `{}` has a directive inside", global.name));
+            let call = self.call(chunk, token);
+            if chunk.is_cut && call.is_none() {
+                let word = self.chunks.word(token);
+                return Err(format!("the declaration of `{word}` in `{}` has a directive inside", self.name));
             }
-            found.push(Declared { id, global, chunk, token });
+            found.push(Declared { place: *place, fact, chunk, token, call });
         }
-        found.sort_by_key(|one| one.token);
         Ok(found)
     }
 
-    fn is_name(&self, token: usize, global: &Global) -> bool {
-        let word = self.chunks.word(token);
-        word == global.name
-            || global.block.as_ref().is_some_and(|block| word == block.name || block.instance.as_deref() == Some(word))
+    /// The use of a macro that has a token among its arguments.
+    fn call(&self, chunk: &Chunk, token: usize) -> Option<Range<usize>> {
+        let mut depth = 0_usize;
+        for index in (chunk.tokens.start..token).rev() {
+            match self.chunks.word(index) {
+                ")" | "]" => depth += 1,
+                "(" if depth == 0 => {
+                    let name = index.checked_sub(1).filter(|name| *name >= chunk.tokens.start)?;
+                    if matches!(self.chunks.word(name), "layout" | "]") {
+                        return None;
+                    }
+                    let close = closing(&self.chunks.all, index)?;
+                    let end = close + 1 + usize::from(self.chunks.word(close + 1) == ";");
+                    return Some(name..end);
+                }
+                "(" | "[" => depth = depth.checked_sub(1)?,
+                _ => {}
+            }
+        }
+        None
     }
 
     /// The layouts of everything but loose uniforms.
@@ -82,66 +128,54 @@ impl<'a> Text<'a> {
         let declared = self.declared()?;
         for (index, one) in declared.iter().enumerate() {
             let is_first = index == 0 || declared.get(index - 1).is_none_or(|before| before.chunk != one.chunk);
-            let Some(words) = self.words(one)? else { continue };
-            if words.is_empty() {
-                edits.extend(self.kept_inside(one, is_first));
-            } else if is_first {
-                edits.push(self.with_layout(one.chunk, &words));
-            } else {
-                edits.extend(self.split(one, &words));
+            match self.words(one.fact) {
+                Words::Kept => {}
+                Words::Inside => edits.extend(self.kept_inside(one, is_first)),
+                Words::Layout(words) => {
+                    if let Some(call) = &one.call {
+                        let start = self.chunks.place(call.start).start;
+                        edits.push((start..start, format!("layout({}) ", words.join(", "))));
+                    } else if is_first {
+                        edits.push(self.with_layout(one.chunk, &words));
+                    } else {
+                        edits.extend(self.split(one, &words));
+                    }
+                }
             }
         }
         Ok(edits)
     }
 
-    /// The words of a layout; `None` for a loose uniform, and none of them for an output that no stage reads.
-    fn words(&self, one: &Declared<'_>) -> Result<Option<Vec<String>>, String> {
-        let interface = &self.program.interface;
-        let own = |globals: &[(Stage, GlobalId)]| globals.contains(&(self.shader.stage, one.id));
-        if one.global.storage == Storage::Uniform {
-            if let Some(block) = interface
-                .blocks
-                .iter()
-                .find(|block| interface.roots.get(block.root.0 as usize).is_some_and(|root| own(&root.globals)))
-            {
-                let slot = block.slot;
-                let place = [format!("set = {}", slot.group), format!("binding = {}", slot.binding)];
-                return Ok(Some(["std140".to_owned()].into_iter().chain(place).collect()));
-            }
-            if let Some(slot) = interface.samplers.iter().find(|slot| own(&slot.globals)) {
-                if slot.name.contains('.') {
-                    return Err(format!(
-                        "`{}` is a struct with a sampler, which Vulkan does not have",
-                        one.global.name
-                    ));
-                }
-                let slot = slot.texture;
-                return Ok(Some(vec![format!("set = {}", slot.group), format!("binding = {}", slot.binding)]));
-            }
-            return Ok(None);
-        }
-        let location = |location: u32, component: u32| {
-            let component = (component > 0).then(|| format!("component = {component}"));
-            [Some(format!("location = {location}")), component].into_iter().flatten().collect::<Vec<_>>()
+    fn words(&self, fact: &Fact) -> Words {
+        let numbered = match fact {
+            Fact::Loose(_) | Fact::Known(_) => return Words::Kept,
+            Fact::Inside if self.dialect.numbering == Numbering::None => return Words::Kept,
+            Fact::Inside => return Words::Inside,
+            Fact::Numbered(numbered) => numbered,
         };
-        let (stage, storage) = (self.shader.stage, one.global.storage);
-        if stage == Stage::Vertex && storage == Storage::In {
-            let row = interface.attributes.iter().find(|row| row.global == one.id);
-            return Ok(Some(row.map_or_else(Vec::new, |row| location(row.location, 0))));
+        let Numbered { space, plus, component, index, is_block, .. } = *numbered;
+        let number = self.numbers.of(numbered.node).saturating_add(plus);
+        let group = match space {
+            Space::Buffer => Some(0),
+            Space::Texture => Some(1),
+            _ => None,
+        };
+        let mut words = Vec::new();
+        if is_block {
+            words.push("std140".to_owned());
         }
-        if stage == Stage::Fragment && storage == Storage::Out {
-            let dual = interface.outputs.iter().any(|row| row.index == 1);
-            let row = interface.outputs.iter().find(|row| row.global == one.id);
-            let words = row.map(|row| {
-                let index = dual.then(|| format!("index = {}", row.index));
-                location(row.location, 0).into_iter().chain(index).collect()
-            });
-            return Ok(Some(words.unwrap_or_default()));
+        match (group, self.dialect.numbering) {
+            (Some(group), Numbering::All) => {
+                words.extend([format!("set = {group}"), format!("binding = {number}")]);
+            }
+            (None, Numbering::All | Numbering::Locations) => {
+                words.push(format!("location = {number}"));
+                words.extend((component > 0).then(|| format!("component = {component}")));
+                words.extend(index.map(|index| format!("index = {index}")));
+            }
+            _ => {}
         }
-        let end = |row: &&Varying| if storage == Storage::In { row.to } else { row.from };
-        let rows = interface.varyings.iter().filter(|row| end(row).is_some_and(|end| end.global == one.id));
-        let first = rows.min_by_key(|row| end(row).map(|end| end.flat_offset));
-        Ok(Some(first.map_or_else(Vec::new, |row| location(row.location, row.component))))
+        if words.is_empty() { Words::Kept } else { Words::Layout(words) }
     }
 
     /// The first declaration of a chunk with a layout: merged into the one that is there, or before it.
@@ -155,7 +189,14 @@ impl<'a> Text<'a> {
             return (start..start, format!("layout({}) ", words.join(", ")));
         };
         let inner = self.chunks.place(chunk.tokens.start + at + 1).end..self.chunks.place(end).start;
-        let replaced = ["std140", "shared", "packed", "std430", "binding", "set", "location", "component", "index"];
+        let mut replaced = vec!["std140", "shared", "packed", "std430"];
+        let has = |word: &str| words.iter().any(|one| one.starts_with(word));
+        if has("binding") {
+            replaced.extend(["binding", "set"]);
+        }
+        if has("location") {
+            replaced.extend(["location", "component", "index"]);
+        }
         let old = self.chunks.text.get(inner.clone()).unwrap_or("");
         let kept = old.split(',').map(str::trim).filter(|id| {
             let word = id.split(['=', ' ']).next().unwrap_or("").to_ascii_lowercase();
@@ -167,6 +208,9 @@ impl<'a> Text<'a> {
 
     /// A later name of a declaration: `in vec4 a, b;` becomes two declarations.
     fn split(&self, one: &Declared<'_>, words: &[String]) -> Option<Edit> {
+        if matches!(one.fact, Fact::Numbered(Numbered { is_block: true, .. })) {
+            return None;
+        }
         let comma = one.token.checked_sub(1).filter(|at| self.chunks.word(*at) == ",")?;
         let head = self.head(one.chunk)?;
         Some((self.chunks.place(comma), format!("; layout({}) {head}", words.join(", "))))
@@ -194,20 +238,19 @@ impl<'a> Text<'a> {
 
     /// The first name that a chunk declares.
     fn first_name(&self, chunk: &Chunk) -> Option<usize> {
-        let names = self.shader.globals().filter_map(|(_, global)| {
-            let offset = global.span.start.checked_sub(self.base)? as usize;
-            self.chunks.at(offset).filter(|(of, _)| *of == chunk).map(|(_, token)| token)
-        });
-        names.min()
+        let range = self.chunks.range(chunk);
+        let (place, _) = self.facts.range(range).next()?;
+        self.chunks.at(*place).map(|(_, token)| token)
     }
 
     /// An output that no stage declares as its input is a variable of its own stage.
     fn kept_inside(&self, one: &Declared<'_>, is_first: bool) -> Vec<Edit> {
-        if !is_first || one.global.block.is_some() {
+        let has_others = self.facts.range(self.chunks.range(one.chunk)).any(|(_, fact)| *fact != Fact::Inside);
+        if !is_first || has_others || self.chunks.of(one.chunk).iter().any(|token| token.text == "{") {
             return Vec::new();
         }
-        let until = one.token;
-        let tokens = (one.chunk.tokens.start..until).filter(|index| OF_VARYINGS.contains(&self.chunks.word(*index)));
+        let tokens =
+            (one.chunk.tokens.start..one.token).filter(|index| OF_VARYINGS.contains(&self.chunks.word(*index)));
         tokens
             .map(|index| {
                 let place = self.chunks.place(index);
@@ -217,69 +260,127 @@ impl<'a> Text<'a> {
             .collect()
     }
 
-    /// The loose uniforms of the stage.
-    pub(super) fn loose(&self) -> Result<Loose, String> {
-        let mut loose = Loose::default();
-        let interface = &self.program.interface;
-        let (mut first, mut last, mut later_struct): (Option<&Chunk>, Option<&Chunk>, bool) = (None, None, false);
-        for one in self.declared()? {
-            let own = |root: &&UniformRoot| root.block.is_none() && root.globals.contains(&(self.shader.stage, one.id));
-            let Some(root) = interface.roots.iter().find(own) else { continue };
-            if self.program.types.contains_sampler(root.ty) {
-                continue;
-            }
-            let is_new = last != Some(one.chunk);
-            later_struct |= first.is_some_and(|first| self.declares_struct_after(first, root.ty));
-            first = first.or(Some(one.chunk));
-            last = Some(one.chunk);
-            let (ty, rest) = self.ty(one.chunk)?;
-            let declarator = self.declarator(one.token);
-            let span = one.global.span;
-            let mut lines = if is_new { comments::above_but_not_leading(self.sources, span) } else { Vec::new() };
-            lines.retain(|line| line.starts_with("//"));
-            let behind = if is_new { comments::behind(self.sources, self.end_of(one.chunk, span)) } else { None };
-            let behind = behind.map_or_else(String::new, |text| format!("  {text}"));
-            let n_above = lines.len();
-            lines.push(format!("layout(offset = {}) {ty} {declarator};{behind}", root.offset));
-            loose.lines.push((root.offset, lines));
-            loose.names.push(root.name.clone());
-            if is_new {
-                let range = self.whole_lines(one.chunk, n_above);
-                loose.edits.push((range, rest));
-            }
-        }
-        let between = |first: &Chunk, last: &Chunk| {
-            let functions = self.chunks.list.iter().filter(|chunk| chunk.is_function);
-            functions.into_iter().any(|one| first.tokens.end <= one.tokens.start && one.tokens.end <= last.tokens.start)
+    /// The loose uniforms of the text.
+    pub(super) fn moved(&self) -> Result<Moved, String> {
+        let mut moved = Moved::default();
+        let mut map = SourceMap::default();
+        let base = map.add(self.name, self.chunks.text).map_or(0, |file| map.file(file).base());
+        let span = |range: Range<usize>| {
+            Span::new(base.saturating_add(range.start as u32), base.saturating_add(range.end as u32))
         };
-        if let (Some(first), Some(last)) = (first, last) {
-            if later_struct && between(first, last) {
-                let what = "a struct of a uniform comes after a function that may use other uniforms";
-                return Err(format!("{what}; move the struct to the beginning of `{}`", self.name));
+        let mut moves: Vec<&Declared<'_>> = Vec::new();
+        let mut removed: BTreeSet<usize> = BTreeSet::new();
+        let (mut later_struct, mut after) = (false, None);
+        let declared = self.declared()?;
+        for one in &declared {
+            let loose = match one.fact {
+                Fact::Loose(loose) => Some(loose),
+                Fact::Known(index) => {
+                    moved.known.insert(*index);
+                    None
+                }
+                _ => continue,
+            };
+            let (range, is_call) = match &one.call {
+                Some(call) => {
+                    (self.chunks.place(call.start).start..self.chunks.place(call.end.saturating_sub(1)).end, true)
+                }
+                None => (self.chunks.range(one.chunk), false),
+            };
+            let is_new = removed.insert(range.start);
+            let first = moves.first().map(|first| self.chunks.range(first.chunk));
+            if let (Some(loose), Some(first)) = (loose, &first) {
+                later_struct |=
+                    loose.structs.iter().any(|name| self.struct_place(name).is_some_and(|at| at > first.end));
             }
-            let at = if later_struct { last } else { first };
-            loose.place = Some(self.line_start(self.chunks.range(at).start));
+            let name = span(self.chunks.place(one.token));
+            let mut above = if is_new && !is_call {
+                comments::above_but_not_leading(&map, span(range.clone()))
+            } else {
+                Vec::new()
+            };
+            above.retain(|line| line.starts_with("//"));
+            let end = Span::new(name.start, base.saturating_add(range.end as u32));
+            let behind = if is_new { comments::behind(&map, end) } else { None };
+            let (code, rest) = self.member(one, loose)?;
+            let n_above = above.len();
+            if loose.is_some() {
+                let conditions = self.conditions.at(range.start);
+                let behind = behind.map_or_else(String::new, |text| format!("  {text}"));
+                moved.lines.push(Line { place: one.place, above, code, behind, conditions });
+            }
+            moves.push(one);
+            if is_new {
+                let range = self.whole_lines(range, n_above);
+                if !rest.is_empty() {
+                    // The block follows the struct that stays.
+                    after = Some(range.end);
+                    later_struct |= moves.len() > 1;
+                }
+                moved.edits.push((range, rest));
+            }
         }
-        Ok(loose)
+        moved.place = self.block_place(&moves, later_struct)?;
+        if let (Some((place, _)), Some(after)) = (&mut moved.place, after) {
+            *place = after.max(*place);
+        }
+        // The comment above the first declaration goes with it.
+        if let Some((place, _)) = &mut moved.place
+            && let Some((range, _)) = moved.edits.iter().find(|(range, _)| range.start < *place && *place < range.end)
+        {
+            *place = range.start;
+        }
+        Ok(moved)
     }
 
-    /// A span that ends where a chunk does.
-    fn end_of(&self, chunk: &Chunk, span: Span) -> Span {
-        let end = self.base.saturating_add(self.chunks.range(chunk).end as u32);
-        Span { end, ..span }
+    /// The place of the definition of a struct in this text.
+    fn struct_place(&self, name: &str) -> Option<usize> {
+        let at =
+            (1..self.chunks.all.len()).find(|at| self.chunks.word(at - 1) == "struct" && self.chunks.word(*at) == name);
+        at.map(|at| self.chunks.place(at).start)
     }
 
-    /// Whether a struct of a type is defined in this text, after a chunk.
-    fn declares_struct_after(&self, chunk: &Chunk, ty: TypeId) -> bool {
-        let types: &Types = &self.program.types;
-        let mut after = false;
-        types.for_each_struct(ty, &mut |id| {
-            let offset = types.structure(id).span.start.checked_sub(self.base).map(|offset| offset as usize);
-            after |=
-                offset.is_some_and(|offset| offset > self.chunks.range(chunk).end && offset < self.chunks.text.len());
-            true
+    /// Where the block is: at the first of the declarations, or the last one, if a struct comes between them.
+    fn block_place(&self, moves: &[&Declared<'_>], later_struct: bool) -> Result<Option<(usize, Vec<Open>)>, String> {
+        let (Some(first), Some(last)) = (moves.first(), moves.last()) else { return Ok(None) };
+        let between = self.chunks.list.iter().filter(|chunk| {
+            chunk.is_function
+                && first.chunk.tokens.end <= chunk.tokens.start
+                && chunk.tokens.end <= last.chunk.tokens.start
         });
-        after
+        if later_struct && between.count() > 0 {
+            let what = "a struct of a uniform comes after a function that may use other uniforms";
+            return Err(format!("{what}; move the struct to the beginning of `{}`", self.name));
+        }
+        let at = self.chunks.range(if later_struct { last.chunk } else { first.chunk }).start;
+        let all: Vec<Vec<Open>> =
+            moves.iter().map(|one| self.conditions.at(self.chunks.range(one.chunk).start)).collect();
+        let own = self.conditions.at(at);
+        let n_same = |other: &Vec<Open>| own.iter().zip(other).take_while(|(a, b)| a == b).count();
+        let common = all.iter().map(n_same).min().unwrap_or(0);
+        let place = own.get(common).map_or(self.line_start(at), |open| open.start);
+        let kept: Vec<Open> = own.iter().take(common).cloned().collect();
+        for conditions in &all {
+            let inner = conditions.get(common..).unwrap_or_default();
+            let until = conditions.get(common).map_or(place, |open| open.start);
+            if let Some(name) = self.conditions.changed(inner, place..until.max(place)) {
+                let what = "decides whether a uniform is there, and changes between the uniforms";
+                return Err(format!("the macro `{name}` of `{}` {what}", self.name));
+            }
+        }
+        Ok(Some((place, kept)))
+    }
+
+    /// The code of a member, and what has to stay of the declaration: the struct that it defines.
+    fn member(&self, one: &Declared<'_>, loose: Option<&Loose>) -> Result<(String, String), String> {
+        if one.call.is_some() {
+            let name = self.chunks.word(one.token);
+            let Some(ty) = loose.map(|loose| loose.plain.as_deref()) else { return Ok(Default::default()) };
+            let ty = ty.ok_or_else(|| format!("a macro declares `{name}`, whose type is a struct"))?;
+            return Ok((format!("{ty} {name}"), String::new()));
+        }
+        let (ty, rest) = self.ty(one.chunk)?;
+        Ok((format!("{ty} {}", self.declarator(one.token)), rest))
     }
 
     /// The type of a declaration as it is written, and what has to stay of the declaration: the struct that it defines.
@@ -297,7 +398,7 @@ impl<'a> Text<'a> {
             return Ok((name.to_owned(), format!("{text};\n")));
         }
         let head = self.head(chunk).unwrap_or_default();
-        let words = head.split(' ').filter(|word| !QUALIFIERS.contains(word));
+        let words = head.split(' ').filter(|word| !QUALIFIERS.contains(word) && !self.qualifiers.contains(*word));
         Ok((words.collect::<Vec<_>>().join(" "), String::new()))
     }
 
@@ -335,10 +436,9 @@ impl<'a> Text<'a> {
         self.chunks.text.get(self.chunks.place(name).start..end).unwrap_or("").to_owned()
     }
 
-    /// The lines of a chunk and of the comment above it, if nothing else is on them; otherwise the chunk alone.
-    fn whole_lines(&self, chunk: &Chunk, n_above: usize) -> std::ops::Range<usize> {
+    /// The lines of a declaration and of the comment above it, if nothing else is on them; otherwise the declaration alone.
+    fn whole_lines(&self, range: Range<usize>, n_above: usize) -> Range<usize> {
         let text = self.chunks.text;
-        let range = self.chunks.range(chunk);
         let start = self.line_start(range.start);
         let end = text.get(range.end..).and_then(|rest| rest.find('\n')).map_or(text.len(), |at| range.end + at + 1);
         let before = text.get(start..range.start).unwrap_or("").trim();
@@ -353,13 +453,4 @@ impl<'a> Text<'a> {
     fn line_start(&self, offset: usize) -> usize {
         self.chunks.text.get(..offset).and_then(|before| before.rfind('\n')).map_or(0, |at| at + 1)
     }
-}
-
-/// A type as it is written before a name, if it needs no struct.
-pub(super) fn plain_type(types: &Types, ty: TypeId) -> Option<String> {
-    let mut inner = ty;
-    while let Type::Array(element, _) = types.get(inner) {
-        inner = element;
-    }
-    (!matches!(types.get(inner), Type::Struct(_) | Type::Sampler(_))).then(|| types.name(ty))
 }

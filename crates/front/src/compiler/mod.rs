@@ -2,6 +2,7 @@
 
 mod preparation;
 
+use preparation::Changed;
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
 use crate::analysis::{analyze, analyze_with_notes, keep_decisive, keep_understood, point_to_engine};
@@ -116,6 +117,14 @@ impl Compiler {
     #[must_use]
     pub fn with_preparation(self, preparation: impl Preparation + Send + Sync + 'static) -> Self {
         Self { preparation: Some(Arc::new(preparation)), ..self }
+    }
+
+    /// This compiler, which changes what completes each source.
+    #[must_use]
+    pub fn with_change(self, change: impl Fn(&Source, Prepared) -> Prepared + Send + Sync + 'static) -> Self {
+        let inner = self.preparation.clone();
+        let completion = self.options.completion.clone();
+        self.with_preparation(Changed { inner, completion, change: Arc::new(change) })
     }
 
     /// This compiler with other options.

@@ -77,3 +77,28 @@ pub trait Preparation {
         None
     }
 }
+
+/// A change of a prepared source.
+type Change = dyn Fn(&Source, Prepared) -> Prepared + Send + Sync;
+
+/// A preparation with a change after it.
+pub(super) struct Changed {
+    /// The preparation; without one, what the options say.
+    pub(super) inner: Option<Arc<dyn Preparation + Send + Sync>>,
+    pub(super) completion: Completion,
+    pub(super) change: Arc<Change>,
+}
+
+impl Preparation for Changed {
+    fn prepare(&self, source: &Source) -> Prepared {
+        let plain = || Prepared { completion: self.completion.clone(), ..Prepared::default() };
+        let prepared = self.inner.as_ref().map_or_else(plain, |inner| inner.prepare(source));
+        (self.change)(source, prepared)
+    }
+
+    fn with_settings(&self, settings: &SourceSettings) -> Option<Arc<dyn Preparation + Send + Sync>> {
+        let inner = self.inner.as_ref()?.with_settings(settings)?;
+        let (completion, change) = (self.completion.clone(), Arc::clone(&self.change));
+        Some(Arc::new(Self { inner: Some(inner), completion, change }))
+    }
+}

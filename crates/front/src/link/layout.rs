@@ -58,6 +58,12 @@ pub(super) fn extent(types: &Types, ty: TypeId, layout: MatrixLayout) -> Extent 
     }
 }
 
+/// The alignment and the size in bytes of a type as a member of a std140 block.
+pub fn std140(types: &Types, ty: TypeId) -> (u32, u32) {
+    let Extent { align, size } = extent(types, ty, MatrixLayout::ColumnMajor);
+    (align, size)
+}
+
 /// The stride in bytes between elements of an array: rule 4.
 pub(super) fn array_stride(types: &Types, element: TypeId, layout: MatrixLayout) -> u32 {
     round_up(extent(types, element, layout).size, VEC4_ALIGN)

@@ -60,7 +60,7 @@ pub mod usage;
 mod varyings;
 
 pub use fixed::FixedState;
-pub use layout::MAX_BLOCK_BYTES;
+pub use layout::{MAX_BLOCK_BYTES, std140};
 pub use matching::partners;
 pub use partial::{Understood, check_understood};
 pub use program::{

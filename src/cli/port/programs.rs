@@ -1,0 +1,263 @@
+//! The programs of a folder with new texts.
+//!
+//! *In:* groups of files, a host. *Out:* the new tree, and for each program what became of it. *Holds:* the texts of a program that has
+//! errors, before or after, stay as they are.
+
+use super::super::args::SourceArgs;
+use super::super::exit::Failure;
+use super::super::inputs::Group;
+use super::super::session::{Session, Unit, compile_anywhere};
+use super::super::upgrade::{Upgraded, checker, plan, rewritten, words};
+use super::tree::NewFolder;
+use crate::port::{Host, Outcome, ProgramReport};
+use crate::upgrade::{Dialect, NewTree, Plan, Refused, TreeProgram, tree};
+use glisten_front::compiler::{Compiler, Prepared, Source};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::source::{IncludeForm, IncludeResolver, Included};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A program with its new texts.
+pub(super) struct Done {
+    /// Its row in the account.
+    pub(super) report: ProgramReport,
+    /// Its files, the vertex shader first.
+    pub(super) files: Vec<PathBuf>,
+    /// Its place in the tree, if it is there.
+    pub(super) index: Option<usize>,
+    /// Whether it declares itself what the host has today.
+    pub(super) is_older: bool,
+    /// The new names of what was built in.
+    pub(super) plan: Option<Arc<Plan>>,
+}
+
+/// The programs of a folder.
+pub(super) struct Ported {
+    pub(super) programs: Vec<Done>,
+    /// The programs of the tree.
+    pub(super) units: Vec<TreeProgram>,
+    pub(super) tree: NewTree,
+    /// The same tree with OpenGL's coordinates, for what reads the new texts back.
+    pub(super) plain: NewTree,
+    /// The compiler of the programs as they were.
+    pub(super) old: Compiler,
+    /// The compiler of those that declare themselves what the host has today.
+    pub(super) older: Compiler,
+}
+
+impl Ported {
+    /// The rows of the account.
+    pub(super) fn reports(&self, pack: &Path, folder: &NewFolder) -> Vec<ProgramReport> {
+        let place = |name: &String| folder.place(pack, Path::new(name)).unwrap_or_else(|| name.clone());
+        let report = |one: &Done| {
+            let files = one.report.files.iter().map(place).collect();
+            ProgramReport { files, ..one.report.clone() }
+        };
+        self.programs.iter().map(report).collect()
+    }
+}
+
+/// Rewrites the programs of groups.
+pub(super) fn ported(
+    session: &mut Session<'_>,
+    groups: Vec<Group>,
+    host: &Host,
+    sources: &SourceArgs,
+) -> Result<Ported, Failure> {
+    let engines = session.engines().clone();
+    let dialect = host.dialect.clone();
+    let by = |compiler: &Compiler, group: Group, kind| {
+        compile_anywhere(&standing_in(compiler, dialect.as_ref(), kind), &engines, group)
+    };
+    let units = session.compile_by(groups, |compiler, group| {
+        let first = by(compiler, group.clone(), StandIn::Blocks);
+        if is_twice(&first.0) { by(compiler, group, StandIn::Nothing) } else { first }
+    });
+    let old = standing_in(session.compiler(), dialect.as_ref(), StandIn::Blocks);
+    let older = standing_in(session.compiler(), dialect.as_ref(), StandIn::Nothing);
+    let words = words(&units);
+    let (mut programs, mut trees) = (Vec::new(), Vec::new());
+    for unit in &units {
+        let mut done = undone(unit);
+        // A text for an older version of the host declares itself what the host has today.
+        let is_empty = |name: &str, text: &str| name.starts_with('<') && name.ends_with(".glsl>") && text.is_empty();
+        let is_older = unit.batch.sources.files().any(|(_, file)| is_empty(file.name(), file.text()));
+        let (old, kind) = if is_older { (&older, StandIn::Nothing) } else { (&old, StandIn::Blocks) };
+        done.is_older = is_older;
+        match new_program(unit, (old, kind), host, sources, &words)? {
+            Ok((program, plan)) => {
+                done.index = Some(trees.len());
+                done.report.notes = plan.iter().flat_map(|plan| plan.notes.clone()).collect();
+                done.plan = plan;
+                trees.push(program);
+            }
+            Err((result, because)) => {
+                done.report.result = result;
+                done.report.because = because;
+            }
+        }
+        programs.push(done);
+    }
+    let new = tree(&trees, host.dialect.as_ref());
+    for done in &mut programs {
+        let Some(index) = done.index else { continue };
+        let refused = new.refused.get(index).cloned().flatten();
+        let changes = new.files.iter().filter(|file| file.readers.contains(&index)).any(|file| {
+            let mut texts = units.iter().flat_map(|unit| unit.batch.sources.files());
+            !texts.any(|(_, old)| old.name() == file.name && **old.text() == *file.text)
+        });
+        done.report.result = match (&refused, changes) {
+            (Some(_), _) => Outcome::Refused,
+            (None, true) => Outcome::Ported,
+            (None, false) => Outcome::Unchanged,
+        };
+        if refused.is_some() {
+            done.index = None;
+        }
+        done.report.because = refused;
+    }
+    let plain = match &host.dialect {
+        Some(dialect) if dialect.coordinates => tree(&trees, Some(&Dialect { coordinates: false, ..dialect.clone() })),
+        _ => new.clone(),
+    };
+    Ok(Ported { programs, units: trees, tree: new, plain, old, older })
+}
+
+/// A program before anything is done.
+fn undone(unit: &Unit) -> Done {
+    let inputs = &unit.group.inputs;
+    let report = ProgramReport {
+        name: unit.group.name.clone(),
+        files: inputs.iter().map(|input| input.name.clone()).collect(),
+        result: Outcome::Refused,
+        because: None,
+        proof: None,
+        evidence: None,
+        notes: Vec::new(),
+    };
+    let mut files: Vec<_> = inputs.iter().filter_map(|input| Some((input.stage, input.path.clone()?))).collect();
+    files.sort();
+    Done { report, files: files.into_iter().map(|(_, path)| path).collect(), index: None, is_older: false, plan: None }
+}
+
+/// A program with the names of its new language, or the result without one.
+type New = Result<(TreeProgram, Option<Arc<Plan>>), (Outcome, Option<String>)>;
+
+fn new_program(
+    unit: &Unit,
+    (old, kind): (&Compiler, StandIn),
+    host: &Host,
+    args: &SourceArgs,
+    words: &std::collections::BTreeSet<String>,
+) -> Result<New, Failure> {
+    let is_for_vulkan = unit.batch.sources.files().any(|(_, file)| states_sets(file.text()));
+    if is_for_vulkan {
+        return Ok(Err((Outcome::Already, None)));
+    }
+    let unread = unit.unread.iter().flat_map(|batch| &batch.diagnostics);
+    if let Some(error) = unread.chain(&unit.batch.diagnostics).find(|found| found.is_error()) {
+        return Ok(Err((Outcome::Refused, Some(told(error)))));
+    }
+    if unit.group.inputs.iter().any(|input| input.part.is_some()) {
+        let because = "its file has several stages; `glisten upgrade` writes a file for each".to_owned();
+        return Ok(Err((Outcome::Refused, Some(because))));
+    }
+    let source = |text: &str, name: &str, stage| Source { name: name.to_owned(), text: text.into(), stage };
+    match plan(unit, old, host.target, words) {
+        Ok(plan) => {
+            let plan = Arc::new(plan);
+            let texts = rewritten(unit, &plan);
+            let compiler = standing_in(&checker(args, old, &plan)?, host.dialect.as_ref(), kind);
+            let sources: Vec<Source> = texts.iter().map(Upgraded::source).collect();
+            let compilation = compiler.compile(&sources);
+            if let Some(error) = compilation.diagnostics.iter().find(|found| found.is_error()) {
+                return Ok(Err((Outcome::Refused, Some(format!("in the new language, {}", told(error))))));
+            }
+            Ok(Ok((TreeProgram { compiler, sources }, Some(plan))))
+        }
+        // A newer text has the words of the host's language already.
+        Err(Refused::Newer { version, .. }) if host.dialect.is_some() && ![300, 310, 320].contains(&version) => {
+            let inputs = unit.group.inputs.iter();
+            let sources = inputs
+                .filter_map(|input| {
+                    let file = unit.batch.sources.files().find(|(_, file)| file.name() == input.name)?;
+                    Some(source(file.1.text(), &input.name, input.stage))
+                })
+                .collect();
+            Ok(Ok((TreeProgram { compiler: old.clone(), sources }, None)))
+        }
+        Err(refused) => Ok(Err((Outcome::Refused, Some(refused.to_string())))),
+    }
+}
+
+/// The message of an error, with its code.
+fn told(error: &Diagnostic) -> String {
+    format!("{} ({})", error.message, error.code.id)
+}
+
+/// Whether a text names sets, which only Vulkan has.
+fn states_sets(text: &str) -> bool {
+    let code = crate::engines::code::without_comments(text);
+    code.split("layout").skip(1).any(|rest| {
+        let words = rest.trim_start().strip_prefix('(').and_then(|rest| rest.split(')').next()).unwrap_or("");
+        words.split(',').any(|word| word.split('=').next().is_some_and(|word| word.trim() == "set"))
+    })
+}
+
+/// The text of an included file of the host that is not there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum StandIn {
+    /// The block that the host has today.
+    Blocks,
+    /// None: the host had no block then.
+    Nothing,
+}
+
+/// Whether a program declares itself what a block of the host has.
+fn is_twice(unit: &Unit) -> bool {
+    unit.batch.diagnostics.iter().any(|found| found.code.id == DECLARED_TWICE)
+}
+
+/// The code of a name that is declared twice.
+const DECLARED_TWICE: &str = "E0302";
+
+/// A compiler that takes the blocks of the host for included files of the host that are not there.
+fn standing_in(compiler: &Compiler, dialect: Option<&Dialect>, kind: StandIn) -> Compiler {
+    let Some(dialect) = dialect.filter(|dialect| dialect.blocks.iter().any(|block| block.include.is_some())) else {
+        return compiler.clone();
+    };
+    let (dialect, own) = (Arc::new(dialect.clone()), compiler.includes());
+    compiler.clone().with_change(move |_, prepared| {
+        let inner = prepared.includes.clone().unwrap_or_else(|| Arc::clone(&own));
+        Prepared { includes: Some(Arc::new(StandIns { inner, dialect: Arc::clone(&dialect), kind })), ..prepared }
+    })
+}
+
+struct StandIns {
+    inner: Arc<dyn IncludeResolver + Send + Sync>,
+    dialect: Arc<Dialect>,
+    kind: StandIn,
+}
+
+impl IncludeResolver for StandIns {
+    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
+        let found = self.inner.resolve(path, form, from);
+        let stand_in = || {
+            let found = self.dialect.stand_in(path)?;
+            let is_empty = self.kind == StandIn::Nothing;
+            Some(if is_empty { Included { text: "".into(), ..found } } else { found })
+        };
+        found.or_else(|error| stand_in().ok_or(error))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::states_sets;
+
+    #[test]
+    fn texts_for_vulkan_are_known() {
+        assert!(states_sets("layout(std140, set = 0, binding = 1) uniform A { vec4 a; };"));
+        assert!(!states_sets("layout(binding = 1) uniform A { vec4 set; }; // layout(set = 0)"));
+    }
+}

@@ -1,0 +1,169 @@
+//! The proof: each program in a scene that is made for it, the original drawn by OpenGL, the new one by Vulkan.
+//!
+//! *In:* ported programs. *Out:* for each `proved`, `inconclusive` or `failed`, with what was found. *Holds:* proved means:
+//! OpenGL's picture of the original and Vulkan's of the new program are within the envelope of the original. The new texts are read with OpenGL's
+//! coordinates, since glisten's own code for Vulkan turns them.
+
+use super::super::args::{LevelArgs, SourceArgs};
+use super::super::console::{ColorChoice, Console};
+use super::super::exit::{Exit, Failure};
+use super::super::new_scene;
+use super::super::upgrade::NewFiles;
+use super::programs::{Done, Ported};
+use crate::port::Host;
+use crate::scene::{self, DiskFiles, Scene};
+use crate::upgrade::Dialect;
+use crate::verify::{Conclusion, Drawn, Failure as DrawFailure, OnGpu, Options, Runner, verify};
+use glisten_front::compiler::Compiler;
+use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_ATTRIBUTE, SCENE_UNSET_TEXTURE, SCENE_UNSET_UNIFORM};
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{Precision, RenderOptions};
+use glisten_scene::FileSource;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+/// The width and height of the pictures.
+const SIDE: u32 = 64;
+
+/// Proves the programs that are ported.
+pub(super) fn prove(
+    ported: &mut Ported,
+    host: &Host,
+    sources: &SourceArgs,
+    levels: &LevelArgs,
+    console: &Console,
+) -> Result<(), Failure> {
+    let machine = |error: &dyn std::fmt::Display| Failure::new(Exit::Machine, error.to_string());
+    let gpu = Gpu::new(None).map_err(|error| machine(&error))?;
+    let folder = tempfile::tempdir().map_err(|error| Failure::usage(format!("no temporary folder: {error}")))?;
+    for index in 0..ported.programs.len() {
+        let Some(one) = ported.programs.get(index).filter(|one| one.index.is_some()) else { continue };
+        let scene = folder.path().join(format!("{index}")).join("scene.toml");
+        let judged = fs::create_dir_all(scene.parent().unwrap_or(folder.path()))
+            .map_err(|error| error.to_string())
+            .and_then(|()| judged(one, ported, host.dialect.as_ref(), &scene, (sources, levels), &gpu));
+        let (proof, evidence) = match judged {
+            Ok((conclusion, evidence)) => match conclusion {
+                Conclusion::Holds => ("proved", evidence),
+                Conclusion::Inconclusive => ("inconclusive", evidence),
+                Conclusion::Fails => ("failed", evidence),
+            },
+            Err(reason) => ("inconclusive", reason),
+        };
+        if let Some(one) = ported.programs.get_mut(index) {
+            console.remark(&format!("{}: {proof}: {evidence}", one.report.name));
+            one.report.proof = Some(proof.to_owned());
+            one.report.evidence = Some(evidence);
+        }
+    }
+    Ok(())
+}
+
+fn judged(
+    one: &Done,
+    ported: &Ported,
+    dialect: Option<&Dialect>,
+    path: &std::path::Path,
+    (sources, levels): (&SourceArgs, &LevelArgs),
+    gpu: &Gpu,
+) -> Result<(Conclusion, String), String> {
+    let index = one.index.ok_or("it is not in the tree")?;
+    let unit = ported.units.get(index).ok_or("it is not in the tree")?;
+    if ported.plain.refused.get(index).is_none_or(Option::is_some) {
+        return Err("the new texts cannot be read with OpenGL's coordinates".to_owned());
+    }
+    let files: Vec<String> = one.files.iter().map(|path| absolute(path)).collect();
+    let quiet = Console::new(true, ColorChoice::Never);
+    let args = new_scene::NewSceneArgs::of(files, path.to_owned(), SIDE, sources, levels);
+    new_scene::run(&args, &quiet).map_err(|failure| format!("no scene can be made: {}", failure.message()))?;
+    let name = path.to_string_lossy();
+    let old = if one.is_older { &ported.older } else { &ported.old };
+    let (before, _) = load(&name, &DiskFiles, old)?;
+    let (new_compiler, new_sources) = match dialect {
+        Some(dialect) => unit.read_back(index, &ported.plain, dialect),
+        None => (unit.compiler.clone(), unit.sources.clone()),
+    };
+    let texts: BTreeMap<PathBuf, &str> =
+        new_sources.iter().filter_map(|source| Some((fs::canonicalize(&source.name).ok()?, &*source.text))).collect();
+    let renamed = |word: &str| {
+        let by_plan = one.plan.as_ref().and_then(|plan| plan.renamed(word)).filter(|_| word.starts_with("gl_"));
+        let by_host = dialect.and_then(|dialect| dialect.renamed.get(word)).map(String::as_str);
+        by_plan.or(by_host).map(str::to_owned)
+    };
+    let new_files = NewFiles { scene: &name, files: texts, renamed: &renamed };
+    let (after, unset) = load(&name, &new_files, &new_compiler)?;
+    // A member that the old program does not have is not read.
+    let provided: Vec<&str> = one.plan.iter().flat_map(|plan| plan.provided()).collect();
+    let is_read = |message: &&String| provided.iter().any(|name| message.contains(&format!("`{name}`")));
+    if let Some(message) = unset.iter().find(is_read) {
+        return Err(format!("the scene of the original does not say all that the new program reads: {message}"));
+    }
+    let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..RenderOptions::default() };
+    let drawn = |scene: &Scene| {
+        let told =
+            |found: Vec<glisten_front::Diagnostic>| found.first().map_or_else(String::new, |one| one.message.clone());
+        glisten_reference::render(scene, &options).map_err(told)
+    };
+    let differing = drawn(&before)?.bit_unequal(&drawn(&after)?);
+    let (new, said) = on(&before, &Instead { scene: &after, gpu })?;
+    let (old, old_said) = by_opengl(&before)?;
+    let same = match differing {
+        0 => "the reference draws the same bytes".to_owned(),
+        n => format!("the reference draws {n} values with other roundings"),
+    };
+    Ok((new.max(old), format!("{same}; OpenGL: {old_said}; Vulkan: {said}")))
+}
+
+/// Draws the new program by Vulkan where the original is judged.
+struct Instead<'a> {
+    scene: &'a Scene,
+    gpu: &'a Gpu,
+}
+
+impl Runner for Instead<'_> {
+    fn name(&self) -> &'static str {
+        "vulkan"
+    }
+
+    fn draw(&self, _: &Scene) -> Result<Drawn, DrawFailure> {
+        OnGpu::new(self.gpu, Via::Spirv).draw(self.scene)
+    }
+}
+
+#[cfg(feature = "gl")]
+fn by_opengl(scene: &Scene) -> Result<(Conclusion, String), String> {
+    let gl = glisten_gl::Gl::new().map_err(|error| error.to_string())?;
+    on(scene, &crate::verify::OnOpenGl(&gl))
+}
+
+#[cfg(not(feature = "gl"))]
+fn by_opengl(_: &Scene) -> Result<(Conclusion, String), String> {
+    Err("this glisten was built without OpenGL".to_owned())
+}
+
+/// The verdict on a driver's picture, by the envelope.
+fn on(scene: &Scene, runner: &dyn Runner) -> Result<(Conclusion, String), String> {
+    let verification = verify(scene, &[runner], &Options::default()).map_err(|failure| failure.to_string())?;
+    let conclusion = verification.conclusion();
+    let Some(run) = verification.runs.first() else { return Err("nothing was drawn".to_owned()) };
+    let share = 100.0 * run.verdict.share_judged(&verification.demands);
+    let n = run.verdict.covered;
+    Ok((conclusion, format!("{n} pixels, {share:.0} % of them judged, {} outside", run.verdict.outside)))
+}
+
+fn absolute(path: &std::path::Path) -> String {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).to_string_lossy().into_owned()
+}
+
+/// A scene, and the warnings about what it does not set.
+fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<(Scene, Vec<String>), String> {
+    let loaded = scene::load(path, files, compiler);
+    let is_unset =
+        |code: &str| [SCENE_UNSET_UNIFORM.id, SCENE_UNSET_ATTRIBUTE.id, SCENE_UNSET_TEXTURE.id].contains(&code);
+    let unset = loaded.diagnostics.iter().filter(|found| is_unset(found.code.id));
+    let unset: Vec<String> = unset.map(|found| found.message.clone()).collect();
+    let first = loaded.diagnostics.iter().find(|found| found.is_error()).map(|error| error.message.clone());
+    let scene = loaded.scene.ok_or_else(|| first.unwrap_or_else(|| "the scene does not load".to_owned()))?;
+    Ok((scene, unset))
+}

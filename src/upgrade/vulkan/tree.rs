@@ -1,0 +1,283 @@
+//! [`tree`]: many programs that share files, rewritten together: each file once, for all programs that read it.
+//!
+//! *In:* programs that compile, and what their host wants. *Out:* new texts; for each program that is left out, why. *Holds:* a program
+//! that is left out does not change what others get. The new texts of all others compile.
+
+use super::check::{check, recorded};
+use super::chunks::Chunks;
+use super::conditions::Conditions;
+use super::coordinates;
+use super::dialect::Dialect;
+use super::facts::{Fact, Facts, Refusal};
+use super::files::{File, Files};
+use super::layouts::{Layouts, loose};
+use super::numbers::Numbers;
+use super::output::{NewFile, NewTree, Note, TreeProgram};
+use super::text::{Plan, foreign};
+use super::unseen::unseen;
+use super::{Compiled, Key};
+use crate::upgrade::tokens::tokens;
+use glisten_front::builtin::{BuiltinVariable, functions};
+use glisten_front::compiler::Compilation;
+use glisten_front::hir::{ExprKind, Shader, Stage};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Rewrites the programs of a tree for a host, or, without a dialect, only collects the texts that their compilers read.
+pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
+    let mut refused: Vec<Option<String>> = programs.iter().map(|_| None).collect();
+    let (compilations, includes): (Vec<Compilation>, Vec<_>) = programs
+        .iter()
+        .map(|program| {
+            let (compiler, includes) = recorded(&program.compiler);
+            (compiler.compile(&program.sources), includes)
+        })
+        .unzip();
+    let mut left: Vec<Compiled<'_>> = Vec::new();
+    for (index, (unit, compilation)) in programs.iter().zip(&compilations).enumerate() {
+        match sound(unit, compilation, dialect) {
+            Ok(program) => left.push(Compiled { index, unit, compilation, program }),
+            Err(reason) => refused.get_mut(index).into_iter().for_each(|one| *one = Some(reason.clone())),
+        }
+    }
+    loop {
+        let all: BTreeMap<(String, String), String> =
+            left.iter().filter_map(|one| includes.get(one.index)).flat_map(super::check::Includes::all).collect();
+        let attempt = rewritten(&left, dialect, all);
+        let failed: Vec<Refusal> = match &attempt {
+            Err((index, reason)) => vec![(*index, reason.clone())],
+            Ok((files, _)) => {
+                let judged = dialect.map(|dialect| left.iter().map(move |one| (one.index, check(one, files, dialect))));
+                judged.into_iter().flatten().filter_map(|(index, result)| Some((index, result.err()?))).collect()
+            }
+        };
+        if failed.is_empty() {
+            let (mut files, notes) = attempt.unwrap_or_default();
+            files.iter_mut().for_each(NewFile::point);
+            return NewTree { files, refused, notes };
+        }
+        for (index, reason) in failed {
+            left.retain(|one| one.index != index);
+            if let Some(one) = refused.get_mut(index) {
+                *one = Some(reason);
+            }
+        }
+    }
+}
+
+/// The program, if edits say it in Vulkan's terms.
+fn sound<'a>(
+    unit: &TreeProgram,
+    compilation: &'a Compilation,
+    dialect: Option<&Dialect>,
+) -> Result<&'a glisten_front::link::Program, String> {
+    let Some(program) = compilation.program.as_ref().filter(|_| !compilation.diagnostics.has_errors()) else {
+        let first = compilation.diagnostics.iter().find(|found| found.is_error());
+        return Err(first.map_or_else(|| "the sources have errors".to_owned(), |error| error.message.clone()));
+    };
+    if dialect.is_none() {
+        return Ok(program);
+    }
+    if program.stage(Stage::Geometry).is_some() {
+        return Err("a geometry stage is not rewritten for Vulkan".to_owned());
+    }
+    let sources = &unit.sources;
+    if sources.iter().any(|one| sources.iter().filter(|other| other.stage == one.stage).count() > 1) {
+        return Err("several sources of one stage are not rewritten for Vulkan".to_owned());
+    }
+    program.stages.iter().try_for_each(refuse)?;
+    Ok(program)
+}
+
+/// Refuses what no edit says in Vulkan's terms.
+fn refuse(shader: &Shader) -> Result<(), String> {
+    let known = shader.functions.iter().find(|one| functions::is_known_for_vulkan(&one.name));
+    if let Some(function) = known {
+        return Err(format!("the function `{}` has the name of a built-in one; rename it", function.name));
+    }
+    let called = shader.exprs.iter().filter_map(|expr| match expr.kind {
+        ExprKind::BuiltinCall(function, _) => Some(function.name()),
+        _ => None,
+    });
+    if let Some(name) = called.into_iter().find(|name| name.starts_with("noise")) {
+        return Err(format!("Vulkan has no `{name}`"));
+    }
+    let depth_range = Some(BuiltinVariable::DepthRange);
+    if shader.globals.iter().any(|global| global.builtin == depth_range && global.used) {
+        return Err("Vulkan has no `gl_DepthRange`".to_owned());
+    }
+    Ok(())
+}
+
+/// The new texts of programs, which are not checked.
+fn rewritten(
+    programs: &[Compiled<'_>],
+    dialect: Option<&Dialect>,
+    includes: BTreeMap<(String, String), String>,
+) -> Result<(Vec<NewFile>, Vec<Note>), Refusal> {
+    let files = Files::new(programs, includes)?;
+    let Some(dialect) = dialect else {
+        let all = files.all.iter().map(|(key, file)| new_file(&files, key, file, file.text.to_string()));
+        return Ok((all.collect(), Vec::new()));
+    };
+    let mut numbers = Numbers::default();
+    let mut facts = Facts::new(programs, &files, dialect, &mut numbers)?;
+    let qualifiers = qualifiers(&files);
+    let notes = add_unseen(&files, &mut facts, &qualifiers, &mut numbers);
+    let mut known: BTreeSet<String> = BTreeSet::new();
+    for fact in facts.all.values_mut().flat_map(BTreeMap::values_mut) {
+        if let Fact::Loose(loose) = &*fact
+            && let Some(block) = dialect.known(&loose.name)
+        {
+            known.insert(loose.name.clone());
+            *fact = Fact::Known(block);
+        }
+    }
+    let (turned, turned_parts) = if dialect.coordinates { turned(programs, &files) } else { Default::default() };
+    let layouts = Layouts::new(programs, &files, &facts, &turned, &mut numbers);
+    numbers.solve()?;
+    let names: BTreeSet<String> =
+        files.all.values().flat_map(|file| tokens(&file.text)).map(|token| token.text.to_owned()).collect();
+    let whole = whole(programs, &files, &facts, &layouts, dialect);
+    let plan = Plan {
+        dialect,
+        programs,
+        files: &files,
+        facts: &facts.all,
+        numbers: &numbers,
+        layouts: &layouts,
+        turned: &turned,
+        turned_parts: &turned_parts,
+        qualifiers: &qualifiers,
+        names: &names,
+        known: &known,
+        whole: &whole,
+    };
+    let mut new = Vec::new();
+    for (key, file) in &files.all {
+        let reader = file.readers.first().map_or(0, |(unit, _)| *unit);
+        let text = plan.rewritten(key, file).map_err(|reason| (reader, reason))?;
+        new.push(new_file(&files, key, file, text));
+    }
+    Ok((new, notes))
+}
+
+fn new_file(files: &Files, key: &Key, file: &File, text: String) -> NewFile {
+    let split = files.includes.iter().filter(|((from, _), to)| *from == key.0 && files.split.contains(*to));
+    let mut readers: Vec<usize> = file.readers.iter().map(|(unit, _)| *unit).collect();
+    readers.dedup();
+    NewFile {
+        name: key.0.clone(),
+        stage: key.1,
+        old: file.text.to_string(),
+        text,
+        readers,
+        is_source: !file.source_of.is_empty(),
+        split_includes: split.map(|((_, path), _)| path.clone()).collect(),
+        first: file.readers.first().map_or(Stage::Vertex, |(_, stage)| *stage),
+    }
+}
+
+/// Macros that stand for qualifiers in every definition: `#define VARYING in`.
+fn qualifiers(files: &Files) -> BTreeSet<String> {
+    static WORDS: &[&str] =
+        &["uniform", "in", "out", "flat", "smooth", "centroid", "lowp", "mediump", "highp", "const", "invariant"];
+    let (mut found, mut others): (BTreeSet<String>, BTreeSet<String>) = Default::default();
+    for file in files.all.values() {
+        let conditions = Conditions::new(&file.text);
+        for one in conditions.list.iter().filter(|one| one.word() == "define") {
+            let mut words = one.rest().split_whitespace();
+            let Some(name) = words.next() else { continue };
+            let is_plain = words.all(|word| WORDS.contains(&word));
+            if is_plain {
+                found.insert(name.to_owned())
+            } else {
+                others.insert(name.to_owned())
+            };
+        }
+    }
+    &found - &others
+}
+
+/// Adds what conditions hide, and says what stays as it is.
+fn add_unseen(files: &Files, facts: &mut Facts, qualifiers: &BTreeSet<String>, numbers: &mut Numbers) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for (key, file) in &files.all {
+        let chunks = Chunks::new(&file.text);
+        let of_file = facts.all.entry(key.clone()).or_default();
+        let (found, left) = unseen(&chunks, file, of_file, qualifiers, numbers);
+        of_file.extend(found);
+        for place in left {
+            let line = file.text.get(..place).map_or(0, |before| before.matches('\n').count()) as u32 + 1;
+            let text = "no program sees this declaration, which a condition hides, and it stays as it is".to_owned();
+            notes.push(Note { file: key.0.clone(), line, text });
+        }
+    }
+    notes
+}
+
+/// The fragment sources that turn `gl_FragCoord`, and the included files that name it and are read by them.
+fn turned(programs: &[Compiled<'_>], files: &Files) -> (BTreeSet<Key>, BTreeSet<Key>) {
+    let parts: BTreeMap<&Key, BTreeSet<usize>> = files
+        .all
+        .iter()
+        .filter(|(_, file)| file.source_of.is_empty() && coordinates::names_frag_coord(&Chunks::new(&file.text)))
+        .map(|(key, file)| {
+            (key, file.readers.iter().filter(|(_, stage)| *stage == Stage::Fragment).map(|(unit, _)| *unit).collect())
+        })
+        .collect();
+    let needs = |one: &&Compiled<'_>| one.program.stage(Stage::Fragment).is_some_and(coordinates::needs_height);
+    let mut units: BTreeSet<usize> = programs.iter().filter(needs).map(|one| one.index).collect();
+    loop {
+        let before = units.len();
+        // Programs that share a source or a part turn together.
+        for file in files.all.values().filter(|file| file.is_read_by(Stage::Fragment)) {
+            let own: BTreeSet<usize> = file.source_of.clone();
+            if own.iter().any(|unit| units.contains(unit)) {
+                units.extend(own);
+            }
+        }
+        for readers in parts.values() {
+            if readers.iter().any(|unit| units.contains(unit)) {
+                units.extend(readers);
+            }
+        }
+        if units.len() == before {
+            break;
+        }
+    }
+    let is_source = |file: &File| file.source_of.iter().any(|unit| units.contains(unit));
+    let sources = files.all.iter().filter(|(_, file)| file.is_read_by(Stage::Fragment) && is_source(file));
+    let of_units = parts.iter().filter(|(_, readers)| readers.iter().any(|unit| units.contains(unit)));
+    (sources.map(|(key, _)| key.clone()).collect(), of_units.map(|(key, _)| (*key).clone()).collect())
+}
+
+/// The programs both of whose stages can have the same block: no name is in the way, and no condition takes members away.
+fn whole(
+    programs: &[Compiled<'_>],
+    files: &Files,
+    facts: &Facts,
+    layouts: &Layouts,
+    dialect: &Dialect,
+) -> BTreeSet<usize> {
+    let is_whole = |compiled: &&Compiled<'_>| {
+        let Some(layout) = layouts.of_units.get(&compiled.index) else { return false };
+        let mut own = files.all.iter().filter(|(_, file)| file.owner() == Some(compiled.index));
+        !layout.has_unseen
+            && own.all(|(key, file)| {
+                let declared = loose(facts, key);
+                let turns = layout.height.is_some() && file.is_read_by(Stage::Fragment);
+                if declared.is_empty() && !turns {
+                    return true;
+                }
+                let conditions = Conditions::new(&file.text);
+                let mut stacks = declared.iter().map(|(place, _)| conditions.at(*place));
+                let first = stacks.next();
+                let is_even = stacks.all(|stack| Some(&stack) == first.as_ref());
+                let names: BTreeSet<&str> = declared.iter().map(|(_, one)| one.name.as_str()).collect();
+                let stage = file.readers.first().map_or(Stage::Vertex, |(_, stage)| *stage);
+                (is_even || !dialect.offsets)
+                    && foreign(compiled, stage, &Chunks::new(&file.text), layout, &names).is_some()
+            })
+    };
+    programs.iter().filter(is_whole).map(|one| one.index).collect()
+}
