@@ -1,7 +1,9 @@
 //! [`Compiler`] turns texts into a [`Program`] and diagnostics. It is the only entry to the front end.
 
+mod parts;
 mod preparation;
 
+pub use parts::{Before, Begun, OtherState, Part};
 use preparation::Changed;
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
@@ -186,20 +188,11 @@ impl Compiler {
 
     fn compile_and(&self, map: SourceMap, sources: &[Source], mut facts: Facts<'_>) -> (Compilation, Inspection) {
         let name = sources.first().map_or_else(String::new, |source| stem(&source.name));
-        let (mut map, mut diagnostics, mut types) = (map, Diagnostics::default(), Types::new());
-        let shaders =
-            sources.iter().map(|source| self.shader(source, &mut types, &mut map, &mut diagnostics, &mut facts));
-        let shaders: Vec<Option<Understood>> = shaders.collect();
+        let mut begun = Begun::new(map);
+        sources.iter().for_each(|source| begun.read(self, source, &mut facts));
         let Facts { asked, read, observer } = facts;
-        let inspected = observer.map(|observer| Inspection { types: types.clone(), views: observer.views });
-        let texts = shaders.iter().flatten().flat_map(|understood| understood.shader.texts.iter().cloned()).collect();
-        let shaders: Option<Vec<Understood>> = shaders.into_iter().collect();
-        let program = shaders.and_then(|shaders| self.link(name.clone(), types, shaders, &mut diagnostics));
-        if let Some(levels) = &self.levels {
-            diagnostics.retain_mut(|diagnostic| levels.apply(&map, diagnostic));
-        }
-        let compilation = Compilation { name, sources: map, program, texts, diagnostics, read, asked };
-        (compilation, inspected.unwrap_or_default())
+        begun.told(asked, read);
+        begun.end(self, name, observer.map(|observer| observer.views))
     }
 
     /// Links the stages. If there are errors, only compares the certain declarations. Other declarations of a shader

@@ -68,6 +68,11 @@ impl Diagnostics {
         self.list.len()
     }
 
+    /// How many different diagnostics there have been, with those that are gone.
+    pub(crate) fn seen(&self) -> usize {
+        self.seen.len()
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()

@@ -22,7 +22,7 @@ impl ExprId {
 }
 
 /// An expression with its type and its span.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Expr {
     /// The kind.
     pub kind: ExprKind,
@@ -127,7 +127,7 @@ pub enum ConstructKind {
 }
 
 /// The kinds of expressions. L-values (§5.8) are built from `Var`, `Member`, `Index` and `Swizzle`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub enum ExprKind {
     /// An expression in error, which has been reported.
     Error,

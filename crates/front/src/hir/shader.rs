@@ -4,6 +4,7 @@ use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Stmt, Type, T
 use crate::builtin::BuiltinVariable;
 use crate::language::{Interpolation, ParamMode, Sampling, Stage, Storage, Version};
 use crate::source::{FileId, Inclusion, Span};
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 /// The layout of a uniform block (§4.3.8.3).
@@ -17,7 +18,7 @@ pub enum BlockLayout {
 }
 
 /// The properties of a global that is an interface block. Its type is a struct or an array of structs.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct BlockInfo {
     /// The name after `uniform`, `in` or `out`, by which blocks are matched.
     pub name: String,
@@ -30,7 +31,7 @@ pub struct BlockInfo {
 }
 
 /// A variable at global scope, declared or built in.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Global {
     /// The name; for a block without an instance name, the block's name.
     pub name: String,
@@ -109,7 +110,7 @@ pub enum LocalKind {
 }
 
 /// A variable of a function.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Local {
     /// The name; empty for an unnamed parameter.
     pub name: String,
@@ -124,7 +125,7 @@ pub struct Local {
 }
 
 /// A function (§6.1).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Function {
     /// The name, which overloads share.
     pub name: String,
@@ -205,7 +206,7 @@ pub enum PrimitiveOut {
 }
 
 /// The layouts that a geometry shader declares.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct GeometryLayout {
     /// The input primitive.
     pub input: Option<PrimitiveIn>,
@@ -218,7 +219,7 @@ pub struct GeometryLayout {
 }
 
 /// The redeclaration of `gl_FragCoord` in a fragment shader (§4.3.8.1).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FragCoordLayout {
     /// `layout(origin_upper_left)`
     pub origin_upper_left: bool,
@@ -227,7 +228,7 @@ pub struct FragCoordLayout {
 }
 
 /// The redeclaration `out gl_PerVertex { .. };`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PerVertexOut {
     /// The members of the redeclared block, in order.
     pub members: Vec<String>,
@@ -310,6 +311,33 @@ pub struct Shader {
     pub texts: Vec<Arc<str>>,
     /// The text that it was made from.
     pub origin: Origin,
+}
+
+/// The hash of all that the shader means: everything but its texts and where they come from.
+impl Hash for Shader {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        // Without `..`, so that no field can be forgotten.
+        let Self {
+            stage,
+            version,
+            exprs,
+            globals,
+            functions,
+            main,
+            geometry,
+            frag_coord,
+            per_vertex_out,
+            precise,
+            tex_coords,
+            depth_mode,
+            mixes_outputs,
+            expr_depth,
+            texts: _,
+            origin: _,
+        } = self;
+        (stage, version, exprs, globals, functions, main, geometry, frag_coord).hash(state);
+        (per_vertex_out, precise, tex_coords, depth_mode, mixes_outputs, expr_depth).hash(state);
+    }
 }
 
 impl Shader {

@@ -4,7 +4,7 @@ use super::{ExprId, LocalId};
 use crate::source::Span;
 
 /// A statement.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Stmt {
     /// The kind.
     pub kind: StmtKind,
@@ -13,7 +13,7 @@ pub struct Stmt {
 }
 
 /// The kinds of statements.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 #[expect(missing_docs, reason = "fields of variants say what they are")]
 pub enum StmtKind {
     /// An expression, evaluated for its effects.
@@ -41,7 +41,7 @@ pub enum StmtKind {
 }
 
 /// The labels of a switch that share a body, and the body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Case {
     /// One or more labels.
     pub labels: Vec<CaseLabel>,
@@ -59,7 +59,7 @@ pub enum CaseLabel {
 }
 
 /// The form of a loop, which says whether the condition comes before or after the body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LoopKind {
     /// `for`
     For,
@@ -70,7 +70,7 @@ pub enum LoopKind {
 }
 
 /// The condition of a loop.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Condition {
     /// `while (bool b = ..)`: the local that takes the value in each iteration.
     pub local: Option<LocalId>,

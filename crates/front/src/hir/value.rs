@@ -1,6 +1,7 @@
 //! [`Value`]: constant values (§4.3.3) and default values.
 
 use super::{Scalar, TypeId};
+use std::hash::{Hash, Hasher};
 
 /// A scalar constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +14,19 @@ pub enum ScalarValue {
     Uint(u32),
     /// `float`
     Float(f32),
+}
+
+/// The hash of the bits: zeros of both signs and all NaN are told apart.
+impl Hash for ScalarValue {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let (kind, bits) = match *self {
+            Self::Bool(value) => (0u8, u32::from(value)),
+            Self::Int(value) => (1, value.cast_unsigned()),
+            Self::Uint(value) => (2, value),
+            Self::Float(value) => (3, value.to_bits()),
+        };
+        (kind, bits).hash(state);
+    }
 }
 
 impl ScalarValue {
@@ -28,7 +42,7 @@ impl ScalarValue {
 }
 
 /// A constant of any type, in flat layout: members in order, elements in order, matrices by columns.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Hash)]
 pub struct Value {
     /// The type.
     pub ty: TypeId,

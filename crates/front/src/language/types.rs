@@ -4,6 +4,7 @@
 //! as [`TypeId::VEC4`] need no table. Two declarations of a struct are two types.
 
 use rustc_hash::FxHashMap;
+use std::hash::{Hash, Hasher};
 
 /// The handle of a type in [`Types`]; equal handles mean equal types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -230,7 +231,7 @@ impl MemberPlace {
 }
 
 /// A member of a struct or a block.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Member {
     /// The name.
     pub name: String,
@@ -270,7 +271,7 @@ impl Member {
 }
 
 /// A struct type. Two declarations are two types, whatever their members.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct StructType {
     /// The name; empty for `struct { .. } s;`. For the type of a block, the block's name.
     pub name: String,
@@ -325,6 +326,23 @@ impl TypeSummary {
     /// Whether it contains a scalar of one of these types.
     pub(crate) fn holds(self, kinds: &[Scalar]) -> bool {
         kinds.iter().any(|&kind| self.scalars & (1 << kind as u8) != 0)
+    }
+}
+
+// All else follows from these two.
+impl PartialEq for Types {
+    fn eq(&self, other: &Self) -> bool {
+        self.types == other.types && self.structs == other.structs
+    }
+}
+
+impl Eq for Types {}
+
+impl Hash for Types {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        // Basic types are the same in all tables.
+        let own = self.types.get(TypeId::FOUR_OFFSETS.index() + 1..).unwrap_or_default();
+        (own, &self.structs).hash(state);
     }
 }
 

@@ -51,7 +51,7 @@ pub struct BlockIndex(pub u32);
 pub struct RootIndex(pub u32);
 
 /// All interfaces of a program.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Hash)]
 pub struct Interface {
     /// Vertex inputs, in order of declaration, without the built-in ones.
     pub attributes: Vec<Attribute>,
@@ -80,7 +80,7 @@ pub struct Interface {
 }
 
 /// A vertex attribute.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Attribute {
     /// The GLSL name.
     pub name: String,
@@ -97,7 +97,7 @@ pub struct Attribute {
 }
 
 /// One end of a varying: a part of a variable's flat layout ([`Types::flat_len`]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct VaryingEnd {
     /// The variable.
     pub global: GlobalId,
@@ -106,7 +106,7 @@ pub struct VaryingEnd {
 }
 
 /// An input of the geometry stage, or a member of `gl_in`, with the output of the vertex stage that it reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GeometryInput {
     /// The output of the vertex stage.
     pub from: VaryingEnd,
@@ -117,7 +117,7 @@ pub struct GeometryInput {
 }
 
 /// A scalar or vector that the rasterizer interpolates.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Varying {
     /// The path in GLSL: `vc`, `tangent[2]` (a column or an element), `v.color`, `Block.member`.
     pub name: String,
@@ -140,7 +140,7 @@ pub struct Varying {
 }
 
 /// A fragment output.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Output {
     /// The GLSL name.
     pub name: String,
@@ -164,7 +164,7 @@ pub struct SlotBinding {
 }
 
 /// A uniform block.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct Block {
     /// The block's name, without an array index.
     pub name: String,
@@ -185,7 +185,7 @@ pub struct Block {
 }
 
 /// A uniform variable or block as declared.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct UniformRoot {
     /// The variable's name; for a block, the block's name.
     pub name: String,
@@ -204,7 +204,7 @@ pub struct UniformRoot {
 }
 
 /// A scalar, vector, matrix, or array of those, in a root.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct UniformLeaf {
     /// The name that hosts use: `light[1].position`, `Block.member`, `Block[1].member`, `member` of a block without
     /// an instance name.
@@ -234,7 +234,7 @@ pub struct UniformLeaf {
 }
 
 /// A sampler, with the bindings of its texture and its sampler.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Hash)]
 pub struct SamplerSlot {
     /// The name that hosts use: `tex`, `tex[1]`, `material.albedo`.
     pub name: String,

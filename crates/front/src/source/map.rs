@@ -6,6 +6,7 @@
 //! *Holds:* offset 0 belongs to no file; a [`FileId`] or [`ExpansionId`] is valid only in the map that made it.
 
 use super::{ExpansionId, Span};
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 /// The handle of a text in a [`SourceMap`].
@@ -129,8 +130,28 @@ pub struct SourceMap {
     languages: Vec<(u32, Language)>,
 }
 
+/// The state of a map, as far as the places of what is added later depend on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Mark {
+    files: usize,
+    next: u32,
+    expansions: usize,
+    renumberings: usize,
+    languages: usize,
+}
+
+/// The texts and facts that were added to a map since a [`Mark`].
+#[derive(Clone, Debug)]
+pub(crate) struct Addition {
+    from: Mark,
+    files: Vec<SourceFile>,
+    expansions: Vec<Expansion>,
+    renumberings: Vec<Renumbering>,
+    languages: Vec<(u32, Language)>,
+}
+
 /// The language of a text, as its `#version` line states it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Language {
     /// 150 for 1.50.
     pub number: u16,
@@ -139,7 +160,7 @@ pub struct Language {
 }
 
 /// A `#line` directive: the line after it counts as `number`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Hash)]
 struct Renumbering {
     /// The global offset of the directive.
     offset: u32,
@@ -147,6 +168,21 @@ struct Renumbering {
     line: u32,
     /// The number of the next line.
     number: u32,
+}
+
+/// The hash of all texts that somebody wrote, and of where macros are used: the macros of the command line are no part of it.
+impl Hash for SourceMap {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let Self { files, expansions, renumberings, languages } = self;
+        files.len().hash(state);
+        for SourceFile { name, text, shown, base, line_starts: _ } in files {
+            let written = (name != Self::COMMAND_LINE).then_some((text, shown));
+            (name, written, base).hash(state);
+        }
+        expansions.len().hash(state);
+        expansions.iter().for_each(|Expansion { name, call, definition: _ }| (name, call).hash(state));
+        (renumberings, languages).hash(state);
+    }
 }
 
 impl SourceMap {
@@ -160,7 +196,7 @@ impl SourceMap {
     /// Adds a text. Returns `None` if the map has no room for it ([`Self::MAX_BYTES`]).
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> Option<FileId> {
         let text = text.into();
-        let base = self.files.last().map_or(1, |file| file.end() + 1);
+        let base = self.next_base();
         if text.len() >= (Self::MAX_BYTES - base.min(Self::MAX_BYTES)) as usize {
             return None;
         }
@@ -168,6 +204,50 @@ impl SourceMap {
         let id = FileId(self.files.len() as u32);
         self.files.push(SourceFile { name: name.into(), text, shown: None, base, line_starts });
         Some(id)
+    }
+
+    /// The offset of the next text. Behind the macros of the command line there is room, so that the places of later texts do not
+    /// depend on the macros' values.
+    fn next_base(&self) -> u32 {
+        const ROOM: u32 = 4096;
+        self.files.last().map_or(1, |file| match file.end() + 1 {
+            end if file.name == Self::COMMAND_LINE => end.next_multiple_of(ROOM),
+            end => end,
+        })
+    }
+
+    /// The state of the map now.
+    pub(crate) fn mark(&self) -> Mark {
+        Mark {
+            files: self.files.len(),
+            next: self.next_base(),
+            expansions: self.expansions.len(),
+            renumberings: self.renumberings.len(),
+            languages: self.languages.len(),
+        }
+    }
+
+    /// All that was added since a state of this map. Rows of later texts stand behind those of earlier ones.
+    pub(crate) fn since(&self, from: Mark) -> Addition {
+        Addition {
+            from,
+            files: self.files.iter().skip(from.files).cloned().collect(),
+            expansions: self.expansions.iter().skip(from.expansions).cloned().collect(),
+            renumberings: self.renumberings.iter().skip(from.renumberings).copied().collect(),
+            languages: self.languages.iter().skip(from.languages).copied().collect(),
+        }
+    }
+
+    /// Adds again what was added to a map in the same state. Returns whether this one is in it.
+    pub(crate) fn append(&mut self, addition: &Addition) -> bool {
+        let fits = self.mark() == addition.from;
+        if fits {
+            self.files.extend_from_slice(&addition.files);
+            self.expansions.extend_from_slice(&addition.expansions);
+            self.renumberings.extend_from_slice(&addition.renumberings);
+            self.languages.extend_from_slice(&addition.languages);
+        }
+        fits
     }
 
     /// Shows `text` instead of the texts called `name` that are as long: they are a part of it, at its place, with everything else
