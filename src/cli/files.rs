@@ -205,7 +205,7 @@ fn unwritable(path: &Path, error: &io::Error) -> Failure {
 /// pipe, `/dev/null`) is written to directly.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: &io::Error| unwritable(path, error);
-    match fs::metadata(path) {
+    let target = match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => {
             return Err(Failure::usage(format!("cannot write `{}`: it is a folder", path.display())));
         }
@@ -213,10 +213,10 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
             let mut file = fs::OpenOptions::new().write(true).open(path).map_err(|error| failed(&error))?;
             return file.write_all(bytes).map_err(|error| failed(&error));
         }
-        _ => {}
-    }
-    // A link is followed, so that it remains a link.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        // A link is followed, so that it remains a link.
+        Ok(_) => fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()),
+        Err(_) => path.to_owned(),
+    };
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     sweep(folder);
     let mut file = unfinished::create(&builder(), folder).map_err(|error| failed(&error))?;

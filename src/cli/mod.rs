@@ -58,6 +58,7 @@ mod lsp_shown;
 mod machine;
 mod made;
 mod man;
+mod memo;
 mod new_scene;
 mod new_scene_model;
 mod not_checked;

@@ -9,6 +9,7 @@ use super::digest::Digest;
 use super::exit::Failure;
 use super::guard;
 use super::inputs::Group;
+use super::memo::{Code, Memo, code};
 use super::optimize::{self, OptimizeArgs};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -18,6 +19,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -193,7 +195,18 @@ impl OutputPlan {
         program: &Program,
         sources: &SourceMap,
     ) -> Result<Vec<Output>, Vec<Diagnostic>> {
-        guard::guarded(|| self.emit_program(group, program, sources)).unwrap_or_else(|panic| {
+        self.emit_by(group, program, sources, None)
+    }
+
+    /// The same, with what is known of the stages of other programs of this plan.
+    pub(super) fn emit_by(
+        &self,
+        group: &Group,
+        program: &Program,
+        sources: &SourceMap,
+        memo: Option<&Memo>,
+    ) -> Result<Vec<Output>, Vec<Diagnostic>> {
+        guard::guarded(|| self.emit_program(group, program, sources, memo)).unwrap_or_else(|panic| {
             let span = sources.files().next().map_or(0, |(_, file)| file.base());
             Err(vec![guard::diagnostic(&panic, Span::new(span, span))])
         })
@@ -204,20 +217,24 @@ impl OutputPlan {
         group: &Group,
         program: &Program,
         sources: &SourceMap,
+        memo: Option<&Memo>,
     ) -> Result<Vec<Output>, Vec<Diagnostic>> {
         let mut outputs = Vec::new();
         let mut diagnostics = Vec::new();
         let mut texts = Vec::new();
-        let sources = Some(sources);
-        let optimized = optimize::optimized(program, self.targets.iter().any(|target| self.optimizes(*target)));
+        let applies = self.targets.iter().any(|target| self.optimizes(*target));
+        let optimized = match memo.filter(|_| applies) {
+            Some(memo) => Cow::Owned(memo.optimized(program)),
+            None => optimize::optimized(program, applies),
+        };
         for target in self.targets.iter().filter(|_| self.single_file) {
             let emitted = if self.optimizes(*target) { &optimized } else { program };
-            match emit::emit_single_file(emitted, *target, &self.conventions, sources) {
+            match emit::emit_single_file(emitted, *target, &self.conventions, Some(sources)) {
                 Ok(emitted) => {
                     if let (Target::Wgsl, Emitted::Text(text)) = (target, &emitted) {
                         texts.push(text.clone());
                     }
-                    outputs.push(output(single_name(group, *target), emitted.into_bytes()));
+                    outputs.push(output(single_name(group, *target), code(emitted)));
                 }
                 Err(errors) => diagnostics.extend(errors),
             }
@@ -226,13 +243,18 @@ impl OutputPlan {
             let Some(input) = group.inputs.iter().find(|input| input.stage == shader.stage) else { continue };
             for target in &self.targets {
                 let emitted = if self.optimizes(*target) { &optimized } else { program };
-                match emit::emit_with_sources(emitted, shader.stage, *target, &self.conventions, sources) {
-                    Ok(emitted) => {
+                let (stage, conventions) = (shader.stage, &self.conventions);
+                let made = match memo {
+                    Some(memo) => memo.code(emitted, stage, *target, conventions, sources),
+                    None => emit::emit_with_sources(emitted, stage, *target, conventions, Some(sources)).map(code),
+                };
+                match made {
+                    Ok(made) => {
                         let name = format!("{}.{}", input.file_name(), target.extension());
-                        if let (Target::Wgsl, Emitted::Text(text)) = (target, &emitted) {
-                            texts.push(text.clone());
+                        if *target == Target::Wgsl {
+                            texts.push(String::from_utf8_lossy(&made.1).into_owned());
                         }
-                        outputs.push(output(name, emitted.into_bytes()));
+                        outputs.push(output(name, made));
                     }
                     Err(errors) => diagnostics.extend(errors),
                 }
@@ -253,7 +275,7 @@ impl OutputPlan {
         }
         let mut json = serde_json::to_vec_pretty(&reflection).expect("a reflection is always JSON");
         json.push(b'\n');
-        outputs.push(output(format!("{}.json", group.name), json));
+        outputs.push(output(format!("{}.json", group.name), (Digest::of(&json), json.into())));
         if diagnostics.is_empty() { Ok(outputs) } else { Err(diagnostics) }
     }
 }
@@ -263,8 +285,8 @@ fn single_name(group: &Group, target: Target) -> String {
     format!("{}.{}", group.name, target.extension())
 }
 
-fn output(name: String, bytes: Vec<u8>) -> Output {
-    (name, Digest::of(&bytes), bytes.into())
+fn output(name: String, (digest, bytes): Code) -> Output {
+    (name, digest, bytes)
 }
 
 /// The files of each stage for the reflection, with the outputs for these targets.

@@ -46,14 +46,24 @@ impl Recall {
 
     /// Takes a program from the cache, or compiles it. `variant` tells apart programs that differ in their compilers.
     pub(super) fn compile(&self, compiler: &Compiler, group: Group, variant: &str) -> (Unit, usize) {
+        self.compile_by(group, variant, |group| compile_group(compiler, group))
+    }
+
+    /// The same, compiled by `by`.
+    pub(super) fn compile_by(
+        &self,
+        group: Group,
+        variant: &str,
+        by: impl FnOnce(Group) -> (Unit, usize),
+    ) -> (Unit, usize) {
         let Some((cache, key)) = self.cache.as_ref().and_then(|cache| Some((cache, self.key(cache, &group, variant)?)))
         else {
-            return compile_group(compiler, group);
+            return by(group);
         };
         if let Some(kept) = cache.find(key) {
             return recalled(group, kept);
         }
-        let ((mut unit, dropped), trace) = trace::recorded(|| compile_group(compiler, group));
+        let ((mut unit, dropped), trace) = trace::recorded(|| by(group));
         let diagnostics = unit.batch.diagnostics.clone();
         unit.fresh = unit.program.is_some().then_some(Fresh { key, trace, diagnostics, dropped });
         (unit, dropped)

@@ -467,7 +467,28 @@ pub(super) fn compile_group_by<T: Default>(
     if sources.is_empty() {
         return (unit, 0, T::default());
     }
-    let compiled = guard::guarded(|| work(&sources));
+    compile_into(unit, &sources, is_read, work)
+}
+
+/// Compiles a group whose sources were read before, one for each input.
+pub(super) fn compile_sources(
+    group: Group,
+    sources: &[Source],
+    work: impl FnOnce(&[Source]) -> Compilation,
+) -> (Unit, usize) {
+    let is_read = vec![true; sources.len()];
+    let (unit, dropped, ()) = compile_into(Unit::new(group), sources, is_read, |sources| (work(sources), ()));
+    (unit, dropped)
+}
+
+/// Fills a unit. `is_read` says for each input whether it is among the sources.
+fn compile_into<T: Default>(
+    mut unit: Unit,
+    sources: &[Source],
+    is_read: Vec<bool>,
+    work: impl FnOnce(&[Source]) -> (Compilation, T),
+) -> (Unit, usize, T) {
+    let compiled = guard::guarded(|| work(sources));
     match compiled {
         Ok((mut compilation, told)) => {
             strings::show_files(&unit.group, &mut compilation.sources, text_of);
@@ -483,7 +504,7 @@ pub(super) fn compile_group_by<T: Default>(
             (unit, dropped, told)
         }
         Err(panic) => {
-            unit.batch = internal(&sources, &panic);
+            unit.batch = internal(sources, &panic);
             (unit, 0, T::default())
         }
     }

@@ -110,6 +110,16 @@ pub(super) fn looked_for(path: &Path) {
     note(|| Place::Kind(path.to_string_lossy().into_owned()), || Found::at(path));
 }
 
+/// Notes again what another piece of work has read.
+pub(super) fn again(trace: &Trace) {
+    ACTIVE.with_borrow_mut(|active| {
+        if let Some(own) = active.last_mut() {
+            own.beyond |= trace.beyond;
+            trace.places.iter().for_each(|(place, found)| own.add(place.clone(), || found.clone()));
+        }
+    });
+}
+
 /// Notes that the rules of a folder matter.
 pub(super) fn rules_of(folder: &Path) {
     note(|| Place::Rules(folder.to_string_lossy().into_owned()), || Found::Rules);
@@ -134,7 +144,7 @@ fn note(place: impl FnOnce() -> Place, found: impl FnOnce() -> Found) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Found, Place, beyond, looked_for, read, recorded};
+    use super::{Found, Place, again, beyond, looked_for, read, recorded};
     use std::path::Path;
 
     #[test]
@@ -153,5 +163,10 @@ mod tests {
         let nothing = |place| (place, Found::Nothing);
         let places = [Place::File("a".into()), Place::Kind("c".into())].map(nothing);
         assert_eq!(outer.places(), Some(&places[..]));
+        let ((), same) = recorded(|| {
+            looked_for(Path::new("c"));
+            again(&outer);
+        });
+        assert_eq!(same.places().map(<[_]>::len), Some(2));
     }
 }

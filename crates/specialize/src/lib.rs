@@ -53,7 +53,7 @@ mod unlocated;
 
 pub use account::{Kind, LeftOut, Moved};
 pub use known::{Input, Known, KnownState, KnownTexture};
-pub use optimize::{left_out, optimize};
+pub use optimize::{left_out, optimize, optimize_by, without_unreached};
 pub use options::{Extent, Options};
 pub use residual::{Residual, ResidualStage, specialize, specialize_with};
 

@@ -12,38 +12,49 @@ use crate::known::Known;
 use crate::left::Left;
 use crate::prune;
 use glisten_front::Program;
-use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage};
+use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Types};
 use glisten_front::link::Interface;
 use glisten_front::source::SourceMap;
 
 /// Leaves out of a program what reaches no output.
 pub fn optimize(program: &Program) -> Program {
-    let mut optimized = program.clone();
+    optimize_by(program, &without_unreached)
+}
+
+/// A stage without what reaches none of its outputs that are `live`, by their globals.
+pub fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -> Shader {
+    prune::without_unreached(types, shader, live)
+}
+
+/// Optimizes like [`optimize`], by a function that does what [`without_unreached`] does: one that remembers stages, say.
+pub fn optimize_by(program: &Program, prune: &dyn Fn(&Types, &Shader, &[bool]) -> Shader) -> Program {
     // What a geometry stage reads is its own affair: no target has one.
     let linked = program.stage(Stage::Geometry).is_none();
     let fragment = program.stage(Stage::Fragment).map(|shader| {
         let live: Vec<bool> = shader.globals.iter().map(|global| global.storage == Storage::Out).collect();
-        prune::without_unreached(&program.types, shader, &live)
+        prune(&program.types, shader, &live)
     });
     let vertex = program.stage(Stage::Vertex).map(|shader| {
         let reader = fragment.as_ref().filter(|_| linked);
         let live: Vec<bool> =
             shader.globals().map(|(id, global)| is_read(&program.interface, (id, global), reader)).collect();
-        prune::without_unreached(&program.types, shader, &live)
+        prune(&program.types, shader, &live)
     });
-    for shader in &mut optimized.stages {
-        let pruned = match shader.stage {
-            Stage::Vertex => &vertex,
-            Stage::Fragment => &fragment,
-            Stage::Geometry => &None,
-        };
-        if let Some(pruned) = pruned {
-            shader.clone_from(pruned);
-        }
-    }
+    let mut interface = program.interface.clone();
     if linked {
-        drop_varyings(&mut optimized.interface, fragment.as_ref());
+        drop_varyings(&mut interface, fragment.as_ref());
     }
+    let (mut vertex, mut fragment) = (vertex, fragment);
+    let stages = program.stages.iter().map(|shader| {
+        let pruned = match shader.stage {
+            Stage::Vertex => vertex.take(),
+            Stage::Fragment => fragment.take(),
+            Stage::Geometry => None,
+        };
+        pruned.unwrap_or_else(|| shader.clone())
+    });
+    let (name, types, stages) = (program.name.clone(), program.types.clone(), stages.collect());
+    let mut optimized = Program { name, types, stages, interface };
     mark_active(&mut optimized);
     optimized
 }

@@ -128,7 +128,10 @@ impl Cache {
             places.iter().map(|(place, found)| (place, self.resolved(place, found))).collect();
         let list: Vec<Place> = resolved.iter().map(|(place, _)| (*place).clone()).collect();
         for (_, digest, bytes) in &kept.outputs {
-            self.put(Kind::Bytes, *digest, bytes);
+            let is_new = self.outputs.lock().is_ok_and(|mut known| known.insert(*digest, Arc::clone(bytes)).is_none());
+            if is_new {
+                self.put(Kind::Bytes, *digest, bytes);
+            }
         }
         self.put(Kind::Result, result_key(key, resolved.into_iter()), &kept.written().encode_to_vec());
         let (mut lists, known) = (self.own_lists(key).1, self.remote_lists(key).1);

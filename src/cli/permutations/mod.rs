@@ -11,6 +11,7 @@
 
 mod file;
 mod index;
+mod parts;
 mod prune;
 mod scenes;
 mod shared;
@@ -24,15 +25,18 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Group};
 use super::lone;
+use super::memo::Memo;
 use super::outputs::{Output, OutputArgs, OutputPlan};
 use super::progress::Progress;
 use super::recall::Recall;
-use super::session::{Session, Unit};
+use super::session::{self, Session, Unit, compile_group};
+use super::trace::{self, Trace};
 use super::variants::Variant;
 pub(super) use file::PermutedProgram;
-use glisten_front::compiler::Options;
+use glisten_front::compiler::{Options, Source};
 use glisten_front::diagnostic::Diagnostic;
 use index::{Entry, INDEX, Index};
+use parts::Parts;
 use rayon::prelude::*;
 use shared::Shared;
 use std::collections::BTreeSet;
@@ -74,12 +78,29 @@ struct Done {
     diagnostics: Vec<Diagnostic>,
 }
 
+/// The texts of a program, which all variants share.
+struct Texts {
+    /// None if one cannot be read.
+    sources: Option<Vec<Source>>,
+    trace: Trace,
+}
+
+impl Texts {
+    /// Reads the files of a program.
+    fn of(group: &Group) -> Self {
+        let read = || group.inputs.iter().map(|input| session::read(input).ok()).collect();
+        let (sources, trace) = trace::recorded(read);
+        Self { sources, trace }
+    }
+}
+
 /// The state of a run.
 struct Run<'a> {
     job: &'a Job<'a>,
     plan: OutputPlan,
     session: Session<'a>,
     recall: Recall,
+    memo: Memo,
     index: Index,
     /// The results that were reported, in order.
     units: Vec<Unit>,
@@ -97,8 +118,8 @@ pub(super) fn run(job: &Job<'_>, console: &Console) -> Outcome {
         Err(batch) => return session.tell(&[&batch], false),
     };
     let recall = Recall::new(job.cache, session.engines(), job.sources, job.bindings, &plan)?;
-    let (index, units, made) = (Index::new(), Vec::new(), Vec::new());
-    let mut run = Run { job, plan, session, recall, index, units, made, variants: 0, shaders: 0 };
+    let (memo, index, units, made) = (Memo::default(), Index::new(), Vec::new(), Vec::new());
+    let mut run = Run { job, plan, session, recall, memo, index, units, made, variants: 0, shaders: 0 };
     for program in &permutations.programs {
         run.program(program, console)?;
     }
@@ -132,10 +153,13 @@ impl Run<'_> {
         let group = Group { name: program.name.clone(), ..group };
         let progress = Progress::new(console, program.variants.len());
         progress.say(&program.name);
-        let shared = Shared::new(&program.names, &program.variants, self.plan.has_lines());
+        let lines = self.plan.has_lines();
+        let shared = Shared::new(&program.names, &program.variants, lines);
+        let parts = Parts::new(&program.names, &program.variants, lines);
+        let texts = Texts::of(&group);
         let one = |variant: &Variant| {
             let done = shared.find(variant).unwrap_or_else(|| {
-                let (asked, done) = self.variant(program, &group, variant);
+                let (asked, done) = self.variant(program, &group, variant, (&texts, &parts));
                 shared.keep(variant, &asked, done)
             });
             progress.step();
@@ -158,7 +182,13 @@ impl Run<'_> {
     }
 
     /// Compiles a variant. The first value is what the result depends on.
-    fn variant(&self, program: &PermutedProgram, group: &Group, variant: &Variant) -> (BTreeSet<String>, Done) {
+    fn variant(
+        &self,
+        program: &PermutedProgram,
+        group: &Group,
+        variant: &Variant,
+        (texts, parts): (&Texts, &Parts<'_>),
+    ) -> (BTreeSet<String>, Done) {
         let compiler = self.session.compiler();
         let given = compiler.options().defines.iter().filter(|(name, _)| !variant.contains_key(name)).cloned();
         let own = variant.iter().map(|(name, value)| (name.clone(), value.clone()));
@@ -168,11 +198,18 @@ impl Run<'_> {
             ..compiler.options().clone()
         };
         let compiler = compiler.with_options(options);
-        let (unit, dropped) = self.recall.compile(&compiler, group.clone(), &format!("{variant:?}"));
+        let by = |group: Group| match &texts.sources {
+            Some(sources) => {
+                trace::again(&texts.trace);
+                session::compile_sources(group, sources, |sources| parts.compile(&compiler, sources, variant))
+            }
+            None => compile_group(&compiler, group),
+        };
+        let (unit, dropped) = self.recall.compile_by(group.clone(), &format!("{variant:?}"), by);
         let asked = unit.asked.clone();
         let (outputs, diagnostics) = match (&unit.kept, &unit.program) {
             (Some(kept), _) => (kept.outputs.clone(), kept.notes.clone()),
-            (None, Some(linked)) => match self.plan.emit(group, linked, &unit.batch.sources) {
+            (None, Some(linked)) => match self.plan.emit_by(group, linked, &unit.batch.sources, Some(&self.memo)) {
                 Ok(outputs) => {
                     let notes = self.plan.notes(linked, &unit.batch.sources);
                     self.recall.keep(&unit, &outputs, &notes);

@@ -6,6 +6,7 @@
 //! *Holds:* every module is checked by naga's validator. An error of naga's validator or writers becomes an internal
 //! error at the position in the GLSL text, without naga's handles. The same input gives the same bytes.
 
+mod alone;
 mod emitted;
 mod merge;
 mod messages;
@@ -17,6 +18,7 @@ mod targets;
 mod wgsl;
 mod write;
 
+pub use alone::interface_of;
 pub use emitted::Emitted;
 pub use notes::{levels_of_comparisons, notes};
 pub use reflection::{Reflection, reflect};
