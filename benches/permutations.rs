@@ -6,7 +6,11 @@
 //! once as there are cores. libglslang (`peers/variants.cpp`, Debian's `glslang-dev`) compiles all variants in one process with as many
 //! threads: the ratio to it is that of two compilers, and the ratio to glslangValidator is mostly the start of processes. Both
 //! get the same text with `#version 330`, since they make no SPIR-V of 150 for OpenGL. A figure is the median over the rounds. A
-//! variant has two shaders.
+//! variant has two shaders. Ratios are those of CPU time, of all threads and of the system, which other work on the machine disturbs
+//! less than seconds.
+//!
+//! The last rows have 200 variants of the same program as programs of their own, a process of glisten for each: without a cache, with an
+//! empty one, and with a full one.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -19,6 +23,8 @@ use std::time::Instant;
 
 const ROUNDS: usize = 5;
 const EVERY: usize = 16;
+/// How many processes compile a program each.
+const ALONE: usize = 200;
 
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/permutations");
@@ -36,27 +42,23 @@ fn main() {
     if driver.is_none() {
         println!("libglslang cannot be compared with: install `g++` and `glslang-dev` (Debian)");
     }
-    let mut times: Vec<[f64; 6]> = Vec::new();
+    let mut rounds: Vec<[Spent; 6]> = Vec::new();
+    let mut alone: Vec<[Spent; 3]> = Vec::new();
+    let few: Vec<Vec<String>> = variants.iter().step_by((variants.len() / ALONE).max(1)).take(ALONE).cloned().collect();
     for round in 0..ROUNDS {
         let cache = at(&format!("cache{round}"));
-        let peer = if has_peer { glslang(&root, folder.path(), &sample) } else { f64::NAN };
-        let library = driver.as_ref().map_or(f64::NAN, |driver| in_process(driver, &root, folder.path(), &variants));
+        let scale = variants.len() as f64 / sample.len() as f64;
+        let peer = if has_peer { glslang(&root, folder.path(), &sample).times(scale) } else { Spent::UNKNOWN };
+        let library =
+            driver.as_ref().map_or(Spent::UNKNOWN, |driver| in_process(driver, &root, folder.path(), &variants));
         let cold = compile(&root, &at(&format!("cold{round}")), None);
         let filling = compile(&root, &at(&format!("filling{round}")), Some(&cache));
         let warm = compile(&root, &at(&format!("warm{round}")), Some(&cache));
-        let reading = read_all(&cache) + read_all(&at(&format!("warm{round}")));
-        times.push([peer / sample.len() as f64 * variants.len() as f64, library, cold, filling, warm, reading]);
+        let reading = spent(|| read_all(&cache) + read_all(&at(&format!("warm{round}"))));
+        rounds.push([peer, library, cold, filling, warm, reading]);
+        let cache = at(&format!("alone{round}"));
+        alone.push([None, Some(&cache), Some(&cache)].map(|cache| one_by_one(&root, &at("one"), &few, cache)));
     }
-    let median = |of: usize| {
-        let mut column: Vec<f64> = times.iter().map(|row| row[of]).collect();
-        column.sort_by(f64::total_cmp);
-        column[column.len() / 2]
-    };
-    let (peer, library) = (median(0), median(1));
-    println!("{} variants, {ROUNDS} rounds\n", variants.len());
-    println!(
-        "| way | seconds | shaders a second | times libglslang | times glslangValidator |\n| --- | --- | --- | --- | --- |"
-    );
     let rows = [
         "glslangValidator, a process for each variant",
         "libglslang, one process",
@@ -65,23 +67,86 @@ fn main() {
         "glisten, with a full cache",
         "reading the cache and the outputs, one thread",
     ];
-    for (of, name) in rows.iter().enumerate() {
-        let time = median(of);
-        println!("| {name} | {time:.3} | {:.0} | {:.2} | {:.1} |", shaders / time, library / time, peer / time);
+    let all: Vec<Spent> = (0..rows.len()).map(|of| median(rounds.iter().map(|round| round[of]))).collect();
+    println!("{} variants, {ROUNDS} rounds\n", variants.len());
+    println!("| method | seconds | CPU seconds | shaders a CPU second | times libglslang | times glslangValidator |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    for (name, Spent { seconds, cpu }) in rows.iter().zip(&all) {
+        let (each, library, peer) = (shaders / cpu, all[1].cpu / cpu, all[0].cpu / cpu);
+        println!("| {name} | {seconds:.2} | {cpu:.2} | {each:.0} | {library:.1} | {peer:.0} |");
+    }
+    println!("\n| {} programs, a process each | seconds | CPU seconds |\n| --- | --- | --- |", few.len());
+    for (of, name) in ["without a cache", "with an empty cache", "with a full cache"].iter().enumerate() {
+        let Spent { seconds, cpu } = median(alone.iter().map(|round| round[of]));
+        println!("| {name} | {seconds:.2} | {cpu:.2} |");
     }
 }
 
-/// Seconds of a run of glisten.
-fn compile(root: &Path, out: &Path, cache: Option<&Path>) -> f64 {
+/// Time that something takes: on the clock, and of all processors.
+#[derive(Clone, Copy)]
+struct Spent {
+    seconds: f64,
+    cpu: f64,
+}
+
+impl Spent {
+    const UNKNOWN: Self = Self { seconds: f64::NAN, cpu: f64::NAN };
+
+    fn times(self, factor: f64) -> Self {
+        Self { seconds: self.seconds * factor, cpu: self.cpu * factor }
+    }
+}
+
+/// The time that a piece of work takes, with that of the processes that it has waited for.
+fn spent<R>(work: impl FnOnce() -> R) -> Spent {
+    let (start, before) = (Instant::now(), cpu());
+    work();
+    Spent { seconds: start.elapsed().as_secs_f64(), cpu: cpu() - before }
+}
+
+/// The CPU seconds of this process and of those that it has waited for, by Linux, which counts hundredths.
+fn cpu() -> f64 {
+    let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace();
+    // utime, stime, cutime, cstime are fields 14 to 17; the name, which may have blanks, is the second.
+    let ticks: Vec<f64> = fields.skip(11).take(4).filter_map(|field| field.parse().ok()).collect();
+    if ticks.len() == 4 { ticks.iter().sum::<f64>() / 100.0 } else { f64::NAN }
+}
+
+/// The medians of seconds and of CPU seconds.
+fn median(times: impl Iterator<Item = Spent> + Clone) -> Spent {
+    let of = |column: &dyn Fn(Spent) -> f64| {
+        let mut column: Vec<f64> = times.clone().map(column).collect();
+        column.sort_by(f64::total_cmp);
+        column[column.len() / 2]
+    };
+    Spent { seconds: of(&|time| time.seconds), cpu: of(&|time| time.cpu) }
+}
+
+/// Compiles programs with these flags, a process each, one after the other.
+fn one_by_one(root: &Path, out: &Path, programs: &[Vec<String>], cache: Option<&Path>) -> Spent {
+    spent(|| {
+        for flags in programs {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+            command.args(["compile", "--quiet", "--target", "spirv", "uber.vert", "uber.frag", "-o"]).arg(out);
+            match cache {
+                Some(cache) => command.arg("--cache").arg(cache),
+                None => command.arg("--no-cache"),
+            };
+            assert!(command.args(flags).current_dir(root).status().expect("glisten runs").success());
+        }
+    })
+}
+
+/// The time of a run of glisten.
+fn compile(root: &Path, out: &Path, cache: Option<&Path>) -> Spent {
     let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
     command.args(["compile", "--quiet", "--target", "spirv", "--permutations", "uber.toml", "-o"]).arg(out);
     match cache {
         Some(cache) => command.arg("--cache").arg(cache),
         None => command.arg("--no-cache"),
     };
-    let start = Instant::now();
-    assert!(command.current_dir(root).status().expect("glisten runs").success());
-    start.elapsed().as_secs_f64()
+    spent(|| assert!(command.current_dir(root).status().expect("glisten runs").success()))
 }
 
 /// The flags of each variant.
@@ -125,8 +190,8 @@ fn build_driver(driver: &Path) -> Option<PathBuf> {
     built.then(|| driver.to_owned())
 }
 
-/// Seconds of libglslang for these variants, in one process.
-fn in_process(driver: &Path, root: &Path, folder: &Path, variants: &[Vec<String>]) -> f64 {
+/// The time of libglslang for these variants, in one process.
+fn in_process(driver: &Path, root: &Path, folder: &Path, variants: &[Vec<String>]) -> Spent {
     write_sources(root, folder);
     let output = folder.join("library");
     let _ = fs::remove_dir_all(&output);
@@ -134,41 +199,41 @@ fn in_process(driver: &Path, root: &Path, folder: &Path, variants: &[Vec<String>
     let line =
         |flags: &Vec<String>| flags.iter().map(|flag| flag.trim_start_matches("-D")).collect::<Vec<_>>().join(" ");
     let lines: String = variants.iter().map(|flags| line(flags) + "\n").collect();
-    let start = Instant::now();
-    let mut command = Command::new(driver);
-    command.arg(cores().to_string()).arg(&output).args(["uber.vert", "uber.frag"]).current_dir(folder);
-    let mut child = command.stdin(Stdio::piped()).spawn().expect("the driver was built");
-    child.stdin.take().expect("a pipe").write_all(lines.as_bytes()).expect("the driver reads");
-    assert!(child.wait().expect("the driver runs").success());
-    start.elapsed().as_secs_f64()
+    spent(|| {
+        let mut command = Command::new(driver);
+        command.arg(cores().to_string()).arg(&output).args(["uber.vert", "uber.frag"]).current_dir(folder);
+        let mut child = command.stdin(Stdio::piped()).spawn().expect("the driver was built");
+        child.stdin.take().expect("a pipe").write_all(lines.as_bytes()).expect("the driver reads");
+        assert!(child.wait().expect("the driver runs").success());
+    })
 }
 
-/// Seconds of glslangValidator for these variants.
-fn glslang(root: &Path, folder: &Path, variants: &[Vec<String>]) -> f64 {
+/// The time of glslangValidator for these variants.
+fn glslang(root: &Path, folder: &Path, variants: &[Vec<String>]) -> Spent {
     write_sources(root, folder);
     let next = AtomicUsize::new(0);
-    let start = Instant::now();
-    std::thread::scope(|scope| {
-        for number in 0..cores() {
-            let (next, place) = (&next, folder.join(format!("peer{number}")));
-            scope.spawn(move || {
-                fs::create_dir_all(&place).expect("a folder");
-                while let Some(flags) = variants.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let mut command = Command::new("glslangValidator");
-                    command.args(["-G100", "--aml", "--amb"]).args(flags);
-                    let files = ["uber.vert", "uber.frag"].map(|name| folder.join(name));
-                    let run = command.args(files).current_dir(&place).output().expect("it runs");
-                    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stdout));
-                }
-            });
+    let work = |place: PathBuf| {
+        fs::create_dir_all(&place).expect("a folder");
+        while let Some(flags) = variants.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let mut command = Command::new("glslangValidator");
+            command.args(["-G100", "--aml", "--amb"]).args(flags);
+            let files = ["uber.vert", "uber.frag"].map(|name| folder.join(name));
+            let run = command.args(files).current_dir(&place).output().expect("it runs");
+            assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stdout));
         }
-    });
-    start.elapsed().as_secs_f64()
+    };
+    spent(|| {
+        std::thread::scope(|scope| {
+            for number in 0..cores() {
+                let (work, place) = (&work, folder.join(format!("peer{number}")));
+                scope.spawn(move || work(place));
+            }
+        });
+    })
 }
 
-/// Seconds for reading all files below a folder.
-fn read_all(folder: &Path) -> f64 {
-    let start = Instant::now();
+/// Reads all files below a folder. Returns how many bytes there are.
+fn read_all(folder: &Path) -> usize {
     let mut folders = vec![PathBuf::from(folder)];
     let mut bytes = 0;
     while let Some(folder) = folders.pop() {
@@ -180,5 +245,5 @@ fn read_all(folder: &Path) -> f64 {
         }
     }
     assert!(bytes > 0);
-    start.elapsed().as_secs_f64()
+    bytes
 }
