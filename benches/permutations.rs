@@ -57,7 +57,8 @@ fn main() {
         let reading = spent(|| read_all(&cache) + read_all(&at(&format!("warm{round}"))));
         rounds.push([peer, library, cold, filling, warm, reading]);
         let cache = at(&format!("alone{round}"));
-        alone.push([None, Some(&cache), Some(&cache)].map(|cache| one_by_one(&root, &at("one"), &few, cache)));
+        let cache = Some(cache.as_path());
+        alone.push([None, cache, cache].map(|cache| one_by_one(&root, &at("one"), &few, cache)));
     }
     let rows = [
         "glslangValidator, a process for each variant",

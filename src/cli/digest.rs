@@ -76,7 +76,7 @@ impl std::hash::Hasher for Structure {
 
     /// A number for tables, which nobody asks for here.
     fn finish(&self) -> u64 {
-        Digest::of(&self.0).0.iter().take(8).fold(0, |all, byte| all << 8 | u64::from(*byte))
+        Digest::of(&self.0).0.iter().take(8).fold(0, |all, byte| (all << 8) | u64::from(*byte))
     }
 }
 

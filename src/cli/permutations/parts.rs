@@ -17,13 +17,15 @@ struct Kept {
     trace: Trace,
 }
 
+/// Parts by the number of the source, and what is before it.
+type Known = HashMap<(usize, Before), Arc<Shared<Kept>>>;
+
 /// The sources of a program so far.
 pub(super) struct Parts<'a> {
     names: &'a BTreeSet<String>,
     variants: &'a [Variant],
     nothing_is_shared: bool,
-    /// By the number of the source, and what is before it.
-    known: Mutex<HashMap<(usize, Before), Arc<Shared<Kept>>>>,
+    known: Mutex<Known>,
 }
 
 impl<'a> Parts<'a> {
