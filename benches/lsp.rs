@@ -1,4 +1,5 @@
-//! Latency of `glisten lsp`: from an edit in a source of 2,000 lines to its diagnostics, and of requests after it.
+//! Latency of `glisten lsp`: from an edit in a source of 2,000 lines to its diagnostics, of requests after it, and of the opening of a
+//! workspace of 5,000 files.
 //!
 //! ```sh
 //! cargo bench --bench lsp
@@ -27,7 +28,7 @@ struct Server {
 }
 
 impl Server {
-    fn start() -> Self {
+    fn start(root: Option<&str>) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_glisten"))
             .arg("lsp")
             .stdin(Stdio::piped())
@@ -37,7 +38,7 @@ impl Server {
         let input = child.stdin.take().expect("it is piped");
         let output = BufReader::new(child.stdout.take().expect("it is piped"));
         let mut server = Self { child, input, output, id: 0 };
-        server.ask("initialize", json!({ "processId": null, "rootUri": null, "capabilities": {} }));
+        server.ask("initialize", json!({ "processId": null, "rootUri": root, "capabilities": {} }));
         server.tell("initialized", json!({}));
         server
     }
@@ -129,7 +130,7 @@ fn main() {
     let vertex = "#version 150\nin vec3 position;\nout vec3 normal;\nvoid main() { normal = position; gl_Position = vec4(position, 1.0); }\n";
     fs::write(folder.path().join("big.vert"), vertex).expect("written");
     let uri = format!("file://{}/big.frag", folder.path().display());
-    let mut server = Server::start();
+    let mut server = Server::start(None);
     let document = json!({ "uri": uri, "languageId": "glsl", "version": 1, "text": text });
     server.tell("textDocument/didOpen", json!({ "textDocument": document }));
     server.wait("textDocument/publishDiagnostics", &uri);
@@ -169,5 +170,50 @@ fn main() {
     if let (Some(before), Some(after)) = (before, server.memory()) {
         println!("memory {before} KiB before, {after} KiB after");
     }
+    let _ = server.child.kill();
+    workspace();
+}
+
+/// Opens a file of a workspace: 1,000 headers, 2,000 programs of two stages that include them.
+fn workspace() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: String, text: &str| fs::write(folder.path().join(name), text).expect("written");
+    for n in 0..100 {
+        fs::create_dir(folder.path().join(format!("d{n}"))).expect("made");
+    }
+    for n in 0..1000 {
+        write(format!("d{}/h{n}.glsl", n % 100), &format!("vec3 tint{n}(vec3 a) {{\n    return a * {n}.0;\n}}\n"));
+    }
+    let version = "#version 150\n#extension GL_ARB_shading_language_include : require\n";
+    for n in 0..2000 {
+        let (at, header) = (n % 100, n % 1000);
+        write(
+            format!("d{at}/p{n}.vert"),
+            "#version 150\nin vec3 p;\nout vec3 v;\nvoid main() {\n    v = p;\n    gl_Position = vec4(p, 1.0);\n}\n",
+        );
+        let text = format!(
+            "{version}#include \"h{header}.glsl\"\nin vec3 v;\nout vec4 color;\nvoid main() {{\n    color = vec4(tint{header}(v), 1.0);\n}}\n"
+        );
+        write(format!("d{at}/p{n}.frag"), &text);
+    }
+    let root = format!("file://{}", folder.path().display());
+    let uri = format!("{root}/d7/p7.frag");
+    let text = fs::read_to_string(folder.path().join("d7/p7.frag")).expect("written");
+    let start = Instant::now();
+    let mut server = Server::start(Some(&root));
+    let document = json!({ "uri": uri, "languageId": "glsl", "version": 1, "text": text });
+    server.tell("textDocument/didOpen", json!({ "textDocument": document }));
+    server.wait("textDocument/publishDiagnostics", &uri);
+    println!("5,000 files: {:.2} s to the diagnostics of one", start.elapsed().as_secs_f64());
+    let found = server.ask("workspace/symbol", json!({ "query": "tint7" }));
+    let count = found["result"].as_array().map_or(0, Vec::len);
+    println!("5,000 files: {:.2} s until a name is found in all ({count} times)", start.elapsed().as_secs_f64());
+    let header = format!("{root}/d7/h7.glsl");
+    let text = fs::read_to_string(folder.path().join("d7/h7.glsl")).expect("written");
+    let document = json!({ "uri": header, "languageId": "glsl", "version": 1, "text": text });
+    let start = Instant::now();
+    server.tell("textDocument/didOpen", json!({ "textDocument": document }));
+    server.wait("textDocument/publishDiagnostics", &header);
+    println!("5,000 files: {:.2} s to the diagnostics of a header", start.elapsed().as_secs_f64());
     let _ = server.child.kill();
 }

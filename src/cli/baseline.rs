@@ -23,11 +23,11 @@ const VERSION: u32 = 1;
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Baseline")]
 pub(super) struct BaselineArgs {
-    /// Leave out the findings that this file lists
+    /// Leave out the findings that this file lists (default: `baseline` in `[lint]` of `glisten.toml`)
     #[arg(long, value_name = "FILE")]
     baseline: Option<PathBuf>,
     /// Write all findings of this run into the baseline instead of telling them
-    #[arg(long, requires = "baseline", conflicts_with_all = ["fix", "unsafe_fixes", "diff"])]
+    #[arg(long, conflicts_with_all = ["fix", "unsafe_fixes", "diff"])]
     update_baseline: bool,
 }
 
@@ -36,6 +36,11 @@ impl BaselineArgs {
     #[cfg(feature = "lsp")]
     pub(super) fn of(baseline: Option<PathBuf>) -> Self {
         Self { baseline, update_baseline: false }
+    }
+
+    /// The same arguments for another file.
+    pub(super) fn at(&self, path: PathBuf) -> Self {
+        Self { baseline: Some(path), ..self.clone() }
     }
 
     /// Whether the file is written.
@@ -96,6 +101,11 @@ impl Baseline {
         Ok(Some(Self { path, known: document.findings }))
     }
 
+    /// The file.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Removes the known findings from the units. Tells how many there were, and how many are gone from the files of the run.
     pub(super) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
         let found = self.entries(&units.iter().map(|unit| &unit.batch).collect::<Vec<_>>());
@@ -106,7 +116,7 @@ impl Baseline {
         }
         let present: BTreeSet<(&str, &str)> = found.values().map(Entry::key).collect();
         left_out += known.intersection(&present).count();
-        let checked = self.checked(units);
+        let checked = self.checked(&units.iter().collect::<Vec<_>>());
         let gone = self.known.iter().filter(|entry| checked.contains(&entry.file) && !present.contains(&entry.key()));
         let Some(console) = console else { return };
         if left_out > 0 {
@@ -132,7 +142,7 @@ impl Baseline {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn update(&self, units: &[Unit], console: &Console) -> Result<(), Failure> {
+    pub(super) fn update(&self, units: &[&Unit], console: &Console) -> Result<(), Failure> {
         let checked = self.checked(units);
         let folder = self.folder();
         let elsewhere = |entry: &&Entry| !checked.contains(&entry.file) && folder.join(&entry.file).exists();
@@ -168,7 +178,7 @@ impl Baseline {
     }
 
     /// The files of the units.
-    fn checked(&self, units: &[Unit]) -> BTreeSet<String> {
+    fn checked(&self, units: &[&Unit]) -> BTreeSet<String> {
         let names = |sources: &SourceMap| -> Vec<String> {
             sources.files().map(|(_, file)| self.relative(file.name())).collect()
         };

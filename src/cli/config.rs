@@ -7,6 +7,7 @@
 //! deny = ["warnings"]
 //! exclude = ["third_party", "*.generated.frag"]
 //! assume_version = "330"
+//! baseline = "lint.json"       # findings that may stay
 //!
 //! [lint.configurations]        # for `lint --configurations`
 //! values = { LIGHTS = [0, 1, 4], LEGACY = [false] }
@@ -60,8 +61,18 @@ const NAME: &str = "glisten.toml";
 
 /// The keys of the file and of its tables.
 const KEYS: &[&str] = &["exclude", "lint", "stability", "source", "fmt"];
-const LINT_KEYS: &[&str] =
-    &["allow", "warn", "deny", "exclude", "assume_version", "assume-version", "configurations", "budgets", "ranges"];
+const LINT_KEYS: &[&str] = &[
+    "allow",
+    "warn",
+    "deny",
+    "exclude",
+    "assume_version",
+    "assume-version",
+    "baseline",
+    "configurations",
+    "budgets",
+    "ranges",
+];
 const LEVELS: &[(&str, Level)] = &[("allow", Level::Allow), ("warn", Level::Warn), ("deny", Level::Deny)];
 
 const FMT_KEYS: &[&str] = &["indent", "width", "braces"];
@@ -80,6 +91,7 @@ struct Configuration {
     stated: Stated,
     budgets: Budgets,
     ranges: Vec<(String, Bounds)>,
+    baseline: Option<PathBuf>,
 }
 
 impl Configuration {
@@ -93,6 +105,8 @@ impl Configuration {
             reader.check_keys(lint, "`[lint]`", LINT_KEYS);
             read.exclude.extend(patterns(reader, lint));
             read.levels = levels(reader, lint);
+            let folder = path.parent().unwrap_or(Path::new(""));
+            read.baseline = reader.text_at(lint, "baseline").map(|(name, _)| folder.join(name));
             if let Some(table) = reader.table_at(lint, "configurations") {
                 read.stated = Stated::read(reader, table);
             }
@@ -248,6 +262,8 @@ pub(super) struct Settings {
     pub(super) budgets: Budgets,
     /// The ranges of inputs.
     pub(super) ranges: Vec<(String, Bounds)>,
+    /// The file of the findings that may stay.
+    pub(super) baseline: Option<PathBuf>,
 }
 
 /// The configurations of all folders so far, completed by the levels of the command line.
@@ -290,8 +306,9 @@ impl Configs {
                 let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
                 let base = sources.add(&name, Arc::clone(&text)).map_or(0, |id| sources.file(id).base());
                 let mut reader = Reader::new(&CONFIGURATION, base, Arc::clone(&text));
-                let Configuration { levels, budgets, ranges, .. } = Configuration::read(&mut reader, &text, &path);
-                settings = Settings { levels, budgets, ranges };
+                let Configuration { levels, budgets, ranges, baseline, .. } =
+                    Configuration::read(&mut reader, &text, &path);
+                settings = Settings { levels, budgets, ranges, baseline };
                 reader.diagnostics.into_iter().collect()
             }
             Err(error) => vec![error.diagnostic(&mut sources, &name)],

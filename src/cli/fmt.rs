@@ -1,7 +1,8 @@
 //! `glisten fmt`: brings sources into one style.
 //!
 //! *In:* files, folders, or standard input. *Out:* the files, rewritten; or which ones would change, or how. *Holds:* a file is
-//! replaced at once or not at all; a file whose bytes are not UTF-8 keeps them.
+//! replaced at once or not at all; a file whose bytes are not UTF-8 keeps them. In a file of another language, only strings change that
+//! are shaders.
 
 use super::config::{self, Configs};
 use super::console::Console;
@@ -9,7 +10,9 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
 use super::search;
+use super::strings;
 use super::texts::{Text, diff};
+use crate::embedded::{self, Host};
 use crate::format::{Formatted, Options, format};
 use crate::sources::stages;
 use clap::Args;
@@ -37,6 +40,9 @@ pub(super) struct FmtArgs {
     /// Write nothing; print what would change
     #[arg(long)]
     diff: bool,
+    /// Format the shaders in the strings of JavaScript, TypeScript, Rust, Python, C and C++, too
+    #[arg(long)]
+    embedded: bool,
     /// The name of standard input, whose folder tells the style
     #[arg(long, value_name = "NAME")]
     stdin_filename: Option<PathBuf>,
@@ -60,7 +66,7 @@ pub(super) fn run(args: &FmtArgs, console: &Console) -> Outcome {
     if args.files.iter().any(|file| file.as_os_str() == "-") {
         return standard_input(args, console);
     }
-    let paths = paths(&args.files)?;
+    let paths = paths(&args.files, args.embedded)?;
     let folders = paths.iter().map(|path| folder_of(path));
     if let Some(exit) = wrong_configuration(folders, console) {
         return Ok(exit);
@@ -75,7 +81,7 @@ pub(super) fn run(args: &FmtArgs, console: &Console) -> Outcome {
         let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
         let text = Text::new(bytes);
         let options = styles.get(folder_of(path)).cloned().unwrap_or_default();
-        let formatted = formatted(&text.text, path, &options);
+        let formatted = any_formatted(&text.text, path, &options);
         let done = Done { path: path.clone(), text, formatted };
         if done.changes() && !args.check && !args.diff {
             files::write(path, &done.text.bytes(&done.formatted.text))?;
@@ -117,7 +123,8 @@ fn standard_input(args: &FmtArgs, console: &Console) -> Outcome {
     read.map_err(|error| Failure::usage(format!("cannot read standard input: {error}")))?;
     let text = Text::new(bytes);
     let path = args.stdin_filename.clone().unwrap_or_else(|| "standard input".into());
-    let formatted = formatted(&text.text, &path, &config::style_of(folder_of(&path)));
+    refuse_host(&path, args.embedded)?;
+    let formatted = any_formatted(&text.text, &path, &config::style_of(folder_of(&path)));
     let done = Done { path, text, formatted };
     if args.check || args.diff {
         if done.changes() {
@@ -161,14 +168,18 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 /// The files that the command line names: files as they are, folders searched.
-fn paths(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+fn paths(named: &[PathBuf], embedded: bool) -> Result<Vec<PathBuf>, Failure> {
     let here = [PathBuf::from(".")];
     let named = if named.is_empty() { &here[..] } else { named };
     let mut paths = Vec::new();
     for path in named {
         if path.is_dir() {
             paths.extend(search::texts(path)?);
+            if embedded {
+                paths.extend(strings::hosts_in(path)?);
+            }
         } else {
+            refuse_host(path, embedded)?;
             paths.push(path.clone());
         }
     }
@@ -176,6 +187,30 @@ fn paths(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     paths.sort();
     paths.dedup();
     Ok(paths)
+}
+
+/// A file of another language is no shader.
+fn refuse_host(path: &Path, embedded: bool) -> Result<(), Failure> {
+    if embedded || Host::of(path).is_none() {
+        return Ok(());
+    }
+    let message = format!("`{}` is no shader", path.display());
+    Err(Failure::usage(message).help("`--embedded` formats the shaders in its strings"))
+}
+
+/// Formats a shader, or the shaders in the strings of a file.
+fn any_formatted(text: &str, path: &Path, options: &Options) -> Formatted {
+    let Some(host) = Host::of(path) else { return formatted(text, path, options) };
+    let programs = embedded::programs(host, text);
+    let (mut lines, mut kept) = (0, 0);
+    let mut one = |text: &str| {
+        let done = formatted(text, Path::new("string.glsl"), options);
+        lines += done.lines;
+        kept += done.kept;
+        done.text
+    };
+    let text = embedded::styled(text, &programs, &mut one);
+    Formatted { text, lines, kept }
 }
 
 pub(super) fn formatted(text: &str, path: &Path, options: &Options) -> Formatted {

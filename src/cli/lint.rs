@@ -1,7 +1,8 @@
 //! `glisten lint`: validates each file, then links the programs, and reports everything that is wrong.
 
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
-use super::baseline::{Baseline, BaselineArgs};
+use super::baseline::BaselineArgs;
+use super::baselines::Baselines;
 use super::config::Settings;
 use super::configurations::{Extent, Listed, explored};
 use super::console::Console;
@@ -95,7 +96,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
         }
     };
     inputs.tell_empty_folders(console);
-    let baseline = Baseline::new(&args.baseline)?;
+    let mut baselines = Baselines::given(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
     let (mut units, shown) = checked(&mut session, groups.clone(), &inputs);
     if let Some(folder) = &args.witnesses {
@@ -108,13 +109,12 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
             console.remark(&told(&extent));
         }
     }
-    if let Some(baseline) = baseline.as_ref().filter(|_| args.baseline.updates()) {
-        baseline.update(&units, console)?;
+    baselines.complete(&args.baseline, &mut session, &units)?;
+    if args.baseline.updates() {
+        baselines.update(&mut session, &units, console)?;
         return Ok(Exit::Ok);
     }
-    if let Some(baseline) = &baseline {
-        baseline.apply(&mut units, Some(console).filter(|_| session.is_human()));
-    }
+    baselines.apply(&mut units, Some(console).filter(|_| session.is_human()));
     if !args.fixes.any() {
         return session.tell_units(&units, true);
     }
@@ -125,9 +125,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let mut fixer = Fixer::new(args.fixes);
     while fixer.advance(&units) {
         (units, _) = checked(&mut session, groups.clone(), &inputs);
-        if let Some(baseline) = &baseline {
-            baseline.apply(&mut units, None);
-        }
+        baselines.apply(&mut units, None);
     }
     fixer.finish(console)?;
     session.tell_units(&units, !args.fixes.prints())

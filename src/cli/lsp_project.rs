@@ -4,7 +4,7 @@
 //! configurations, styles. *Holds:* a text in the editor counts instead of the file. A panic of the compiler is a finding.
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
-use super::baseline::Baseline;
+use super::baseline::{Baseline, BaselineArgs};
 use super::batch::Batch;
 use super::console::Console;
 use super::engine::{Engines, Traced};
@@ -49,7 +49,10 @@ pub(super) struct Files<'a> {
     pub(super) chosen: BTreeMap<String, String>,
     /// The processes that draw.
     pub(super) drawing: Drawing,
+    /// The baseline of the command line.
     baseline: Option<Baseline>,
+    /// Those that configurations name, as far as they are there.
+    baselines: BTreeMap<PathBuf, Option<Baseline>>,
     scenes: Option<Scenes>,
     console: &'a Console,
     sources: &'a SourceArgs,
@@ -102,11 +105,12 @@ impl<'a> Files<'a> {
         let overlay = Overlay::default();
         let session = session(console, sources, levels, bindings, &overlay)?;
         let (groups, includes, folders) = Default::default();
-        let (chosen, drawing, scenes) = Default::default();
+        let (chosen, drawing, scenes, baselines) = Default::default();
         Ok(Self {
             chosen,
             drawing,
             baseline,
+            baselines,
             scenes,
             console,
             sources,
@@ -182,6 +186,16 @@ impl<'a> Files<'a> {
                 vec![guard::diagnostic(&panic, Span::new(base, base))]
             }
         }
+    }
+
+    /// The baseline that counts for a program. One that is not there, or is none, leaves nothing out.
+    fn baseline_of(&mut self, group: &Group) -> Option<&Baseline> {
+        if self.baseline.is_some() {
+            return self.baseline.as_ref();
+        }
+        let path = self.session.settings_of(&group.inputs.first()?.name).baseline.clone()?;
+        let read = |path: &PathBuf| Baseline::new(&BaselineArgs::of(Some(path.clone()))).ok().flatten();
+        self.baselines.entry(path.clone()).or_insert_with(|| read(&path)).as_ref()
     }
 
     /// The compiler for a program.
@@ -363,7 +377,7 @@ impl Project for Files<'_> {
                 self.session.add(&mut batch, found);
                 self.session.add(&mut batch, lints);
                 self.keep_certain(&group, &mut batch);
-                if let Some(baseline) = &self.baseline {
+                if let Some(baseline) = self.baseline_of(&group) {
                     baseline.keep_new(&mut batch);
                 }
                 let program = compilation.program.map(|linked| Program { name: group.name.clone(), ..linked });
@@ -460,6 +474,7 @@ impl Project for Files<'_> {
     fn configurations(&self) -> Vec<PathBuf> {
         let above = self.folders.iter().flat_map(|folder| folder.ancestors());
         let mut paths: Vec<PathBuf> = above.map(|folder| folder.join(CONFIGURATION)).collect();
+        paths.extend(self.baselines.keys().cloned());
         paths.sort();
         paths.dedup();
         paths
@@ -474,6 +489,7 @@ impl Project for Files<'_> {
             self.session = session;
         }
         self.groups.clear();
+        self.baselines.clear();
         self.includes = Includes::default();
     }
 

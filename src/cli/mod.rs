@@ -9,6 +9,7 @@
 
 mod args;
 mod baseline;
+mod baselines;
 mod batch;
 mod bounds;
 mod buffers;

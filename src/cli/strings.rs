@@ -49,9 +49,7 @@ pub(super) fn split(named: Vec<PathBuf>) -> (Vec<PathBuf>, Vec<PathBuf>) {
 pub(super) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> Result<(), Failure> {
     let mut all: Vec<PathBuf> = hosts.to_vec();
     for folder in named.iter().filter(|path| path.is_dir()) {
-        let mut found = search::files(folder)?;
-        found.retain(|path| Host::of(path).is_some());
-        found.sort();
+        let found = hosts_in(folder)?;
         inputs.found.extend(found.iter().cloned());
         all.extend(found);
     }
@@ -72,6 +70,17 @@ pub(super) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> 
         inputs.groups.extend(groups);
     }
     Ok(())
+}
+
+/// The files in a folder whose strings are looked at.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub(super) fn hosts_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let mut found = search::files(folder)?;
+    found.retain(|path| Host::of(path).is_some());
+    found.sort();
+    Ok(found)
 }
 
 /// The programs in the strings of a file, if it is one of their languages.

@@ -13,6 +13,7 @@
 
 mod analysis;
 mod builtins;
+mod constructors;
 mod cut;
 mod describe;
 mod project;

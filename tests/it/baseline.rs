@@ -133,3 +133,35 @@ fn junit_counts_its_cases() {
     let xml = out(&folder.run(&["lint", "clean.frag", "--format", "junit"]));
     assert!(xml.contains("tests=\"1\" failures=\"0\"") && xml.contains("nothing found"), "{xml}");
 }
+
+/// `baseline` in `[lint]` stands for the flag, below the folder of `glisten.toml`.
+#[test]
+fn configurations_name_baselines() {
+    let old = "#version 150\nout vec4 color;\nvoid main() { float a = 1.0; color = vec4(1.0); }\n";
+    let folder = Folder::new(&[
+        ("glisten.toml", b"[lint]\nbaseline = \"known/lint.json\"\n"),
+        ("sub/glisten.toml", b"[lint]\nbaseline = \"own.json\"\n"),
+        ("known/.gitignore", b""),
+        ("old.frag", old.as_bytes()),
+        ("sub/old.frag", old.as_bytes()),
+        ("sub/deep/new.frag", old.replace("vec4(1.0)", "vec4(0.5)").as_bytes()),
+    ]);
+    let missing = folder.run(&["lint", "old.frag"]);
+    assert_eq!(code(&missing), 2, "{}", err(&missing));
+    assert!(err(&missing).contains("--update-baseline"), "{}", err(&missing));
+    let output = folder.run(&["lint", ".", "--update-baseline"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = |name: &str| fs::read_to_string(folder.path(name)).expect(name);
+    assert!(text("known/lint.json").contains("../old.frag") || text("known/lint.json").contains("old.frag"));
+    assert!(!text("known/lint.json").contains("new.frag"), "each file has the baseline of its own configuration");
+    assert!(text("sub/own.json").contains("deep/new.frag"));
+    assert_eq!(lint(&folder, &[]), (0, Vec::new()));
+    let more = old.replace("color = vec4(1.0)", "\n    float b = 2.0; color = vec4(1.0)");
+    fs::write(folder.path("sub/old.frag"), more).expect("written");
+    let (_, fresh) = lint(&folder, &[]);
+    assert_eq!(fresh.len(), 1, "{fresh:?}");
+    // The flag takes precedence.
+    let output = folder.run(&["lint", ".", "--baseline", "all.json", "--update-baseline"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(text("all.json").contains("sub/old.frag"));
+}

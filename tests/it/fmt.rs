@@ -98,3 +98,24 @@ fn sources_of_the_repository_keep_their_tokens() {
         assert!(bare(path) == bare(&folder.path(&format!("{number}/{name}"))), "{}", path.display());
     }
 }
+
+#[test]
+fn shaders_in_strings_are_formatted() {
+    let script = "const a   = `\n    precision mediump float;\n    uniform vec3   tint;\n    void main(){gl_FragColor=vec4(tint*${ k },1.0);}\n`;\nfunction  f(){return   a}\n";
+    let styled = "const a   = `\n    precision mediump float;\n    uniform vec3 tint;\n    void main() { gl_FragColor = vec4(tint * ${ k }, 1.0); }\n`;\nfunction  f(){return   a}\n";
+    let folder = Folder::new(&[("app.js", script.as_bytes()), ("a.frag", b"float   x;\n"), ("b.py", b"x  =  1\n")]);
+    let refused = folder.run(&["fmt", "app.js"]);
+    assert_eq!(code(&refused), 2);
+    assert!(err(&refused).contains("--embedded"), "{}", err(&refused));
+    let check = folder.run(&["fmt", "--check"]);
+    assert_eq!((code(&check), out(&check)), (1, "would reformat a.frag\n".into()), "strings are not looked at");
+    let check = folder.run(&["fmt", "--embedded", "--check"]);
+    assert_eq!((code(&check), out(&check)), (1, "would reformat a.frag\nwould reformat app.js\n".into()));
+    assert_eq!(code(&folder.run(&["fmt", "--embedded"])), 0);
+    assert_eq!(fs::read_to_string(folder.path("app.js")).expect("a file"), styled);
+    assert_eq!(fs::read(folder.path("b.py")).expect("a file"), b"x  =  1\n");
+    assert_eq!(code(&folder.run(&["fmt", "--embedded", "--check"])), 0, "a second run changes nothing");
+    let piped = folder.run_with_input(&["fmt", "--embedded", "--stdin-filename", "app.js", "-"], script);
+    assert_eq!((code(&piped), out(&piped)), (0, styled.to_owned()));
+    assert_eq!(code(&folder.run_with_input(&["fmt", "--stdin-filename", "app.js", "-"], script)), 2);
+}

@@ -81,7 +81,11 @@ mod lit_scenes;
 #[cfg(feature = "lsp")]
 mod lsp;
 #[cfg(feature = "lsp")]
+mod lsp_broken;
+#[cfg(feature = "lsp")]
 mod lsp_day;
+#[cfg(feature = "lsp")]
+mod lsp_edits;
 #[cfg(feature = "lsp")]
 mod lsp_shown;
 mod lsp_strings;

@@ -1,11 +1,12 @@
 //! The overloads of a call that is being typed (LSP 3.17, `textDocument/signatureHelp`).
 //!
-//! *Holds:* all overloads are shown, those of the shader or those of the language, constructors of structs included; the one that
-//! has enough parameters comes first.
+//! *Holds:* all overloads are shown, those of the shader or those of the language, constructors included; the one that has enough parameters comes
+//! first.
 
 use super::hover::own_place;
 use crate::lsp::analysis::Analysis;
 use crate::lsp::builtins;
+use crate::lsp::constructors::{self, Constructor};
 use crate::lsp::cut::{is_in_comment, open_brackets};
 use crate::lsp::describe;
 use crate::lsp::state::{Point, State};
@@ -110,6 +111,10 @@ fn signatures(
     }
     let view = point.analyses.first()?.views_of(&point.path).into_iter().next()?;
     let rows = builtins::prototypes(name, view.shader.version, builtins::extensions(view), view.shader.stage);
+    if rows.is_empty() {
+        let rows = constructors::constructors(name, view.shader.version);
+        return Some(rows.into_iter().map(|row| of_constructor(name, row)).collect());
+    }
     let sentence = sentences::sentence(name).map(str::to_owned);
     Some(rows.into_iter().map(|row| of_builtin(row, sentence.clone())).collect())
 }
@@ -151,6 +156,10 @@ fn of_shader(analysis: &Analysis, number: usize, name: &str) -> Vec<SignatureInf
         }
     }
     rows
+}
+
+fn of_constructor(name: &str, row: Constructor) -> SignatureInformation {
+    signature(name, "", &row.params, Some(row.sentence.to_owned()))
 }
 
 fn of_builtin(row: &Row, documentation: Option<String>) -> SignatureInformation {

@@ -148,10 +148,12 @@ impl Maker<'_, '_> {
                     }
                     symbols.extend(symbol);
                 }
-                DeclarationKind::Broken(names) => {
-                    for name in names {
+                DeclarationKind::Broken(fragment) => {
+                    symbols.extend(fragment.variables.iter().filter_map(|broken| self.structure(view, &broken.ty)));
+                    for name in &fragment.names {
                         let spelled = view.ast.name(*name);
-                        symbols.extend(self.symbol(spelled, SymbolKind::VARIABLE, span, name.span, None));
+                        let detail = self.detail(number, view, name.span);
+                        symbols.extend(self.symbol(spelled, SymbolKind::VARIABLE, span, name.span, detail));
                     }
                 }
                 DeclarationKind::Error

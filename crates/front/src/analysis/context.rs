@@ -54,6 +54,8 @@ pub(super) struct Analyzer<'a> {
     pub(super) extensions: Extensions,
     /// The types that have a default precision, in ES (§4.5.4).
     pub(super) precisions: Precisions,
+    /// Whether nothing is reported: what is analyzed has an error that was reported.
+    pub(super) is_quiet: bool,
     /// The features whose lack has been reported, by bit.
     pub(super) lacking: u64,
     /// The current function.
@@ -92,6 +94,7 @@ impl<'a> Analyzer<'a> {
             scopes: Scopes::new(!ast.version.has(Feature::SharedNames)),
             extensions: Extensions::empty(),
             precisions: Precisions::of(stage, ast.version),
+            is_quiet: false,
             lacking: 0,
             body: None,
             declared: Declared::default(),
@@ -112,7 +115,7 @@ impl<'a> Analyzer<'a> {
             self.extensions = declaration.extensions;
             match &declaration.kind {
                 DeclarationKind::Error | DeclarationKind::Empty => {}
-                DeclarationKind::Broken(names) => self.enter_broken(names),
+                DeclarationKind::Broken(fragment) => self.global_fragment(fragment, declaration.span),
                 DeclarationKind::Precision { qualifier, ty } => self.precision(qualifier, ty),
                 DeclarationKind::Variables(variables) => self.global_variables(variables, declaration.span),
                 DeclarationKind::Requalify { qualifiers, names } => {
@@ -147,7 +150,9 @@ impl<'a> Analyzer<'a> {
 
     /// Reports a diagnostic.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(worded(diagnostic));
+        if !self.is_quiet {
+            self.diagnostics.push(worded(diagnostic));
+        }
     }
 
     /// The spelling of a name.
@@ -248,16 +253,6 @@ impl<'a> Analyzer<'a> {
         }
         self.scopes.enter(name.symbol, entry, name.span);
         self.note_entry(name.span, entry);
-    }
-
-    /// Enters the names of a broken declaration as poison, so that their uses raise no more messages.
-    pub(super) fn enter_broken(&mut self, names: &[Ident]) {
-        for name in names {
-            if self.scopes.find_here(name.symbol).is_none() {
-                self.scopes.enter(name.symbol, Entry::Poison, name.span);
-                self.note_entry(name.span, Entry::Poison);
-            }
-        }
     }
 
     /// Whether to keep searching for names similar to unknown ones: each search compares a name with all names in

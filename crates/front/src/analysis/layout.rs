@@ -291,7 +291,7 @@ impl Analyzer<'_> {
         let value = match &expr.kind {
             AstExprKind::Literal(Literal::Int(value)) if !id.parenthesized => u32::try_from(*value).ok(),
             AstExprKind::Literal(Literal::Uint(value)) if !id.parenthesized => Some(*value),
-            AstExprKind::Error => return None,
+            AstExprKind::Error(_) => return None,
             _ if self.allows(Feature::LayoutExpressions, expr.span) => {
                 let typed = self.expr(root);
                 if self.ty(typed).is_error() {

@@ -18,6 +18,7 @@
 //! [`TypeId::ERROR`](crate::hir::TypeId::ERROR), which is compatible with everything. No traversal recurses along
 //! left operands.
 
+mod broken;
 mod constant;
 mod context;
 mod decisive;

@@ -151,7 +151,8 @@ fn declared(kind: &DeclarationKind) -> Vec<Ident> {
             variables.declarators.iter().map(|declarator| declarator.name).chain(structure).collect()
         }
         DeclarationKind::Block(block) => vec![block.name],
-        DeclarationKind::Requalify { names, .. } | DeclarationKind::Broken(names) => names.clone(),
+        DeclarationKind::Requalify { names, .. } => names.clone(),
+        DeclarationKind::Broken(fragment) => fragment.names.clone(),
         DeclarationKind::Error
         | DeclarationKind::Empty
         | DeclarationKind::Precision { .. }

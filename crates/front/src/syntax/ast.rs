@@ -16,6 +16,11 @@ use crate::source::{FileId, Inclusion, Span};
 pub struct ExprId(u32);
 
 impl ExprId {
+    /// The handle of the expression at an index.
+    pub(super) fn at(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The index in the arena.
     pub fn index(self) -> usize {
         self.0 as usize
@@ -190,7 +195,7 @@ impl BinaryOp {
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     /// Text that made no sense and has been reported.
-    Error,
+    Error(Vec<ExprId>),
     /// A literal.
     Literal(Literal),
     /// A name.
@@ -348,8 +353,8 @@ pub struct Declaration {
 pub enum DeclarationKind {
     /// A declaration that has been reported.
     Error,
-    /// A declaration of these names that has been reported.
-    Broken(Vec<Ident>),
+    /// A declaration that has been reported, with what was understood of it.
+    Broken(Box<Fragment>),
     /// A lone `;`.
     Empty,
     /// `precision highp float;`
@@ -364,6 +369,24 @@ pub enum DeclarationKind {
     Prototype(FunctionHeader),
     /// `float f(float x) { .. }`
     Function(FunctionHeader, Vec<Stmt>),
+}
+
+/// What was understood of a statement or declaration that has an error.
+#[derive(Clone, Debug)]
+pub struct Fragment {
+    /// The names that it declares, in source order.
+    pub names: Vec<Ident>,
+    /// The variables among them whose type was read to its end.
+    pub variables: Option<VariableDecl>,
+    /// The expressions that belong to no variable.
+    pub rest: Option<ExprId>,
+}
+
+impl Fragment {
+    /// Whether nothing was understood.
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty() && self.variables.is_none() && self.rest.is_none()
+    }
 }
 
 /// Variables of one type.
@@ -434,8 +457,8 @@ pub struct Stmt {
 pub enum StmtKind {
     /// A statement that has been reported.
     Error,
-    /// A declaration of these names that has been reported.
-    Broken(Vec<Ident>),
+    /// A statement that has been reported, with what was understood of it.
+    Broken(Box<Fragment>),
     /// `;`
     Empty,
     /// `a;`

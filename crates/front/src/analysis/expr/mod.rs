@@ -64,6 +64,14 @@ impl Analyzer<'_> {
             ExprKind::Call(name, arguments) => self.call(*name, arguments, span),
             ExprKind::Construct(spec, arguments) => self.construct_spec(spec, arguments, span),
             ExprKind::List(elements) => self.misplaced_list(elements, span),
+            ExprKind::Error(pieces) => {
+                self.quietly(|this| {
+                    for piece in pieces {
+                        this.expr(*piece);
+                    }
+                });
+                self.poison(span)
+            }
             // Expressions with a left operand never get here; `left_operand` has taken them apart.
             _ => self.poison(span),
         }
@@ -146,7 +154,7 @@ pub(super) fn recursion_depth(kind: &ExprKind, depths: &[u32]) -> u32 {
     let dims = |dims: &[ast::ArrayDim]| dims.iter().filter_map(|dim| dim.size.as_ref()).map(at).max().unwrap_or(0);
     // The deepest operand that the loop visits, and the deepest that it recurses into.
     let (left, right) = match kind {
-        ExprKind::Error | ExprKind::Literal(_) | ExprKind::Name(_) => return 0,
+        ExprKind::Literal(_) | ExprKind::Name(_) => return 0,
         ExprKind::Unary(_, a) | ExprKind::IncDec(IncDec::PreIncrement | IncDec::PreDecrement, a) => (0, at(a)),
         ExprKind::IncDec(_, a) | ExprKind::Index(a, None) | ExprKind::Field(a, _) => return at(a),
         ExprKind::Binary(_, _, a, b)
@@ -154,7 +162,7 @@ pub(super) fn recursion_depth(kind: &ExprKind, depths: &[u32]) -> u32 {
         | ExprKind::Comma(a, b)
         | ExprKind::Index(a, Some(b)) => (at(a), at(b)),
         ExprKind::Ternary(a, b, c) => (at(a), at(b).max(at(c))),
-        ExprKind::Call(_, arguments) | ExprKind::List(arguments) => (0, list(arguments)),
+        ExprKind::Error(arguments) | ExprKind::Call(_, arguments) | ExprKind::List(arguments) => (0, list(arguments)),
         ExprKind::Construct(spec, arguments) => (0, list(arguments).max(dims(&spec.array))),
         ExprKind::Method(a, _, arguments) => (at(a), list(arguments)),
     };

@@ -87,6 +87,9 @@ impl Analyzer<'_> {
             let id = self.fixed_global(row);
             return self.variable(VarRef::Global(id), name.span);
         }
+        if self.is_quiet {
+            return self.poison(name.span);
+        }
         self.report_unknown(name);
         // From here on the name is poison, so that it is reported once.
         self.scopes.enter(name.symbol, Entry::Poison, name.span);

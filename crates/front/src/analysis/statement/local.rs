@@ -23,7 +23,7 @@ enum Declared {
 
 impl Analyzer<'_> {
     /// `vec3 a = b, c;` inside a function.
-    pub(super) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
+    pub(in crate::analysis) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
         let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
         let base = self.type_spec(&declaration.ty);
         self.check_precision(record.precision, base, declaration.ty.span);

@@ -83,7 +83,7 @@ impl Analyzer<'_> {
                 }
                 return;
             }
-            S::Broken(names) => return self.enter_broken(names),
+            S::Broken(fragment) => return self.local_fragment(fragment, span, out),
             S::Empty => return,
             // A declaration of nothing, `S;`. Only the meaning of the name distinguishes it from an expression (§9).
             S::Expr(expr) if self.is_struct_name(*expr) => return,

@@ -21,7 +21,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn external_declaration(&mut self) {
         let start = self.current;
         let before = self.mark();
-        self.declaring.clear();
+        self.begin();
         let kind = match self.kind() {
             TokenKind::Semicolon => {
                 let span = self.bump().span;
@@ -38,9 +38,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             _ => self.global(),
         };
         let kind = kind.unwrap_or_else(|_: Reported| {
-            let names = std::mem::take(&mut self.declaring);
+            let fragment = self.fragment(before, start.span);
             self.recover_declaration(before);
-            DeclarationKind::Broken(names)
+            DeclarationKind::Broken(Box::new(fragment))
         });
         let span = self.since(start.span);
         let extensions = self.session.extensions_at(start);
@@ -70,8 +70,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
             return Ok(self.function_without_brace(header));
         }
-        if !matches!(kind, DeclarationKind::Function(..)) {
-            self.semicolon("the declaration")?;
+        if !matches!(kind, DeclarationKind::Function(..))
+            && let Err(reported) = self.semicolon("the declaration")
+        {
+            if let DeclarationKind::Variables(variables) = kind {
+                self.unfinished = Some(variables);
+            }
+            return Err(reported);
         }
         Ok(kind)
     }
@@ -208,8 +213,14 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if self.kind() == TokenKind::LeftParen {
             return Ok(DeclarationKind::Prototype(self.function_header(start, qualifiers, ty, name)?));
         }
-        let declarators = self.declarators(name)?;
-        Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators }))
+        let mut declarators = Vec::new();
+        let done = self.declarators(name, &mut declarators);
+        let variables = VariableDecl { qualifiers, ty, declarators };
+        if let Err(reported) = done {
+            self.unfinished = Some(variables);
+            return Err(reported);
+        }
+        Ok(DeclarationKind::Variables(variables))
     }
 
     /// Whether what follows the `}` of a struct cannot be a variable, so that a `;` must be missing.
@@ -260,8 +271,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// init_declarator_list, from its first name on
-    fn declarators(&mut self, first: Ident) -> Parse<Vec<Declarator>> {
-        let mut list = vec![self.declarator(first)?];
+    fn declarators(&mut self, first: Ident, list: &mut Vec<Declarator>) -> Parse<()> {
+        self.declarator(first, list)?;
         while self.eat(TokenKind::Comma).is_some() {
             if matches!(self.kind(), TokenKind::Int | TokenKind::Uint | TokenKind::Float) {
                 let found = self.describe(self.current);
@@ -272,16 +283,22 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 return Err(self.report_found(diagnostic));
             }
             let name = self.ident("the name of a variable")?;
-            list.push(self.declarator(name)?);
+            self.declarator(name, list)?;
         }
-        Ok(list)
+        Ok(())
     }
 
-    fn declarator(&mut self, name: Ident) -> Parse<Declarator> {
+    /// Reads a declarator. One whose initializer is broken is kept without it.
+    fn declarator(&mut self, name: Ident, list: &mut Vec<Declarator>) -> Parse<()> {
         self.declaring.push(name);
         let array = self.array_specifiers()?;
-        let initializer = if self.eat(TokenKind::Equal).is_some() { Some(self.initializer()?) } else { None };
-        Ok(Declarator { name, array, initializer })
+        let value = if self.eat(TokenKind::Equal).is_some() { self.initializer().map(Some) } else { Ok(None) };
+        let (initializer, done) = match value {
+            Ok(initializer) => (initializer, Ok(())),
+            Err(reported) => (None, Err(reported)),
+        };
+        list.push(Declarator { name, array, initializer });
+        done
     }
 
     /// function_prototype, from its parentheses on
@@ -293,6 +310,21 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         name: Ident,
     ) -> Parse<FunctionHeader> {
         let opening: Token = self.bump();
+        self.in_parameters = true;
+        let params = self.parameters();
+        // Before a body, a forgotten `)` is reported and assumed.
+        let body_follows = self.kind() == TokenKind::LeftBrace;
+        let closed =
+            if params.is_ok() { self.close(opening, TokenKind::RightParen, "`,` or `)`").map(|_| ()) } else { Ok(()) };
+        self.in_parameters = false;
+        let params = params?;
+        if !body_follows {
+            closed?;
+        }
+        Ok(FunctionHeader { qualifiers, ty, name, params, span: self.since(start) })
+    }
+
+    fn parameters(&mut self) -> Parse<Vec<ParamDecl>> {
         let mut params = Vec::new();
         if self.kind() == TokenKind::Void && self.ahead(1).kind == TokenKind::RightParen {
             self.bump();
@@ -303,13 +335,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 params.push(self.parameter()?);
             }
         }
-        // Before a body, a forgotten `)` is reported and assumed.
-        let body_follows = self.kind() == TokenKind::LeftBrace;
-        let closed = self.close(opening, TokenKind::RightParen, "`,` or `)`");
-        if !body_follows {
-            closed?;
-        }
-        Ok(FunctionHeader { qualifiers, ty, name, params, span: self.since(start) })
+        Ok(params)
     }
 
     /// Reads the comma before another parameter. A missing comma before the start of a parameter is reported and

@@ -98,10 +98,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(self.ast.push(kind, span))
     }
 
-    /// An expression that replaces an error.
-    pub(super) fn error_expr(&mut self, span: Span) -> ExprId {
-        self.depths.push(1);
-        self.ast.push(ExprKind::Error, span)
+    /// An expression that replaces an error, with what was understood of it.
+    pub(super) fn error_expr(&mut self, span: Span, pieces: Vec<ExprId>) -> ExprId {
+        let depth = self.deepest(&pieces) + 1;
+        self.depths.push(depth);
+        self.ast.push(ExprKind::Error(pieces), span)
     }
 
     fn depth(&self, id: ExprId) -> u16 {
@@ -116,7 +117,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// same level.
     fn depth_of(&self, kind: &ExprKind) -> u16 {
         let below = match kind {
-            ExprKind::Error | ExprKind::Literal(_) | ExprKind::Name(_) => 0,
+            ExprKind::Literal(_) | ExprKind::Name(_) => 0,
             ExprKind::Binary(_, _, left, right) | ExprKind::Comma(left, right) => {
                 return self.depth(*left).max(self.depth(*right) + 1);
             }
@@ -125,7 +126,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
             ExprKind::Assign(_, _, a, b) | ExprKind::Index(a, Some(b)) => self.depth(*a).max(self.depth(*b)),
             ExprKind::Ternary(a, b, c) => self.deepest(&[*a, *b, *c]),
-            ExprKind::Call(_, list) | ExprKind::List(list) => self.deepest(list),
+            ExprKind::Error(list) | ExprKind::Call(_, list) | ExprKind::List(list) => self.deepest(list),
             ExprKind::Construct(ty, list) => {
                 let sizes = ty.array.iter().filter_map(|dim| dim.size).map(|size| self.depth(size)).max();
                 self.deepest(list).max(sizes.unwrap_or(0))
@@ -329,7 +330,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             TokenKind::Ident | TokenKind::Reserved => return self.name(),
             TokenKind::Invalid => {
                 self.bump();
-                return Ok(self.error_expr(token.span));
+                return Ok(self.error_expr(token.span, Vec::new()));
             }
             TokenKind::Type => return self.constructor(),
             TokenKind::Foreign => return Err(self.foreign()),

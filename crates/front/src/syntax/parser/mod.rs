@@ -4,7 +4,8 @@
 //! *In:* a [`TokenSource`]. *Out:* an [`Ast`] of what was understood, and diagnostics.
 //!
 //! The parser keeps no table of type names: two names in a row begin a declaration, and `S(x)` is a call of something
-//! named `S`. An error ends the statement, member or declaration around it ([`recover`]); parsing goes on after that.
+//! named `S`. An error ends the statement, member or declaration around it ([`recover`]), at the latest before a line that begins another
+//! one ([`layout`]). What was read of it is kept ([`fragment`]), and parsing goes on after that.
 //!
 //! *Holds:* every error is reported once, where it is found, and then propagated as [`Reported`]. [`MAX_NESTING`]
 //! bounds the nesting, both of the parser's own calls and of the expressions that it builds. A chain of left operands
@@ -13,13 +14,15 @@
 mod declaration;
 mod expr;
 mod foreign;
+mod fragment;
+mod layout;
 mod recover;
 mod statement;
 #[cfg(test)]
 mod tests;
 mod types;
 
-use super::ast::{Ast, BinaryOp, ExprId, Ident};
+use super::ast::{Ast, BinaryOp, ExprId, Ident, VariableDecl};
 use super::keywords::TABLE;
 use super::of_later_word;
 use super::session::{ParseSession, TokenSource};
@@ -50,6 +53,8 @@ type Parse<T> = Result<T, Reported>;
 struct Mark {
     consumed: usize,
     braces: i32,
+    /// The number of expressions.
+    exprs: usize,
 }
 
 /// The state of a parse.
@@ -85,6 +90,14 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     assumed_brace: bool,
     /// The variables that the current declaration has named so far.
     declaring: Vec<Ident>,
+    /// The current declaration of variables, if it is broken.
+    unfinished: Option<VariableDecl>,
+    /// The tokens of the current statement or declaration that have been read, back to the last statement inside of it.
+    taken: Vec<Token>,
+    /// How many expressions there were when the last statement ended.
+    settled: usize,
+    /// Whether the parameters of a function are read.
+    in_parameters: bool,
     /// The opening brace of the current function.
     function_brace: Span,
     strict: bool,
@@ -114,6 +127,10 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             overdeep: false,
             assumed_brace: false,
             declaring: Vec::new(),
+            unfinished: None,
+            taken: Vec::new(),
+            settled: 0,
+            in_parameters: false,
             function_brace: Span::default(),
             strict,
         }
@@ -161,6 +178,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     /// Reads the next token.
     fn bump(&mut self) -> Token {
         let token = self.current;
+        self.taken.push(token);
         self.previous = token;
         self.consumed += 1;
         match token.kind {
@@ -195,14 +213,10 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         if !ends {
             return Err(self.unexpected(expected));
         }
-        let (closing, bracket) = (kind.spelling(), opening.kind.spelling());
-        let diagnostic = Diagnostic::new(
-            &codes::UNCLOSED_DELIMITER,
-            self.previous.span.after(),
-            format!("`{bracket}` is not closed"),
-        )
-        .here(format!("expected `{closing}`"))
-        .label(opening.span, "opened here");
+        if let Some(reported) = self.left_unfinished(expected) {
+            return Err(reported);
+        }
+        let diagnostic = layout::unclosed(opening, self.previous.span.after());
         Err(self.report_found(diagnostic))
     }
 
@@ -277,7 +291,13 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, format!("expected {expected}, found {found}"))
                 .here(format!("expected {expected}"));
         let word = self.session.spelling(self.current);
-        self.report_found(of_later_word(diagnostic, word, self.session.version))
+        let diagnostic = of_later_word(diagnostic, word, self.session.version);
+        if diagnostic.code.id == codes::UNEXPECTED_TOKEN.id
+            && let Some(reported) = self.left_unfinished(expected)
+        {
+            return reported;
+        }
+        self.report_found(diagnostic)
     }
 
     /// Reports an error at the next token, unless the tokens ended because of an error that has been reported. The
@@ -318,7 +338,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
 
     /// The position before the next token.
     fn mark(&self) -> Mark {
-        Mark { consumed: self.consumed, braces: self.braces }
+        Mark { consumed: self.consumed, braces: self.braces, exprs: self.n_exprs() }
     }
 
     /// The span from `first` to the last token read.

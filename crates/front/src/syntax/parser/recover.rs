@@ -14,26 +14,6 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.report_found(diagnostic)
     }
 
-    /// Whether the next token is the first of its line and certainly begins a statement or declaration.
-    fn begins_anew(&mut self) -> bool {
-        if !self.current.starts_line() {
-            return false;
-        }
-        match self.kind() {
-            TokenKind::If
-            | TokenKind::For
-            | TokenKind::While
-            | TokenKind::Do
-            | TokenKind::Switch
-            | TokenKind::Return
-            | TokenKind::Break
-            | TokenKind::Continue
-            | TokenKind::Discard => true,
-            TokenKind::Type | TokenKind::Void => self.ahead(1).kind == TokenKind::Ident,
-            _ => false,
-        }
-    }
-
     /// Skips the rest of a broken statement or member that began at `start`: up to its `;` or past its `{..}`, but
     /// never a brace that closes the block around it. Otherwise it skips at least one token.
     pub(super) fn recover_statement(&mut self, start: Mark) {
@@ -87,6 +67,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if self.overdeep {
             return false;
         }
+        if self.recovered {
+            // The header was left unfinished. What is indented is its body.
+            self.recovered = self.is_outdented(self.current);
+            return !self.recovered;
+        }
         let mut parens = 0_usize;
         loop {
             match self.kind() {
@@ -99,7 +84,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 // The `)` was forgotten, and the body follows.
                 TokenKind::LeftBrace => return true,
                 TokenKind::RightBrace | TokenKind::Eof => return false,
-                _ if self.begins_anew() => return true,
+                _ if self.begins_anew() => {
+                    self.recovered = self.is_outdented(self.current);
+                    return !self.recovered;
+                }
                 _ => {}
             }
             self.bump();

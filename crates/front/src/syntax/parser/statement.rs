@@ -1,6 +1,6 @@
 //! Parses statements (GLSL 1.50 §6.2 to §6.4, §9).
 
-use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
+use super::{Mark, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Applicability, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Condition, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
@@ -42,14 +42,16 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn statement(&mut self) -> Stmt {
         let start = self.current.span;
         let before = self.mark();
-        self.declaring.clear();
+        self.begin();
         let kind = self.nested(Self::statement_kind).unwrap_or_else(|_: Reported| {
-            let names = std::mem::take(&mut self.declaring);
+            let fragment = self.fragment(before, start);
             if !self.leaving_function {
                 self.recover_statement(before);
             }
-            if names.is_empty() { StmtKind::Error } else { StmtKind::Broken(names) }
+            if fragment.is_empty() { StmtKind::Error } else { StmtKind::Broken(Box::new(fragment)) }
         });
+        self.taken.clear();
+        self.settled = self.n_exprs();
         Stmt { kind, span: self.since(start) }
     }
 
@@ -110,7 +112,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             return Err(self.nested_function());
         }
         let kind = self.local_declaration()?;
-        self.semicolon("the declaration")?;
+        if let Err(reported) = self.semicolon("the declaration") {
+            if let StmtKind::Variables(variables) = kind {
+                self.unfinished = Some(variables);
+            }
+            return Err(reported);
+        }
         Ok(kind)
     }
 
@@ -178,7 +185,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// `( expression )` after `if`, `switch` or `while`; skips a broken one to its end.
     fn condition_in_parens(&mut self) -> Parse<ExprId> {
-        self.in_parens(|this| this.expression())?.ok_or(Reported).or_else(|_| Ok(self.error_expr(self.previous.span)))
+        let from = self.n_exprs();
+        let condition = self.in_parens(|this| this.expression())?;
+        Ok(condition.unwrap_or_else(|| self.broken_expr(from, self.previous.span)))
     }
 
     /// Parses `( production )`. Returns `None` if the production failed and parsing can go on after its `)`.
@@ -265,6 +274,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     fn for_statement(&mut self) -> Parse<StmtKind> {
         self.bump();
+        let from = self.n_exprs();
         let header = self.in_parens(|this| {
             let init = this.for_init()?;
             let condition = if this.kind() == TokenKind::Semicolon { None } else { Some(this.condition()?) };
@@ -274,10 +284,20 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let step = if this.kind() == TokenKind::RightParen { None } else { Some(this.expression()?) };
             Ok((init, condition, step))
         })?;
+        let (init, condition, step) = match header {
+            Some(header) => header,
+            None => self.broken_for(from),
+        };
         let body = Box::new(self.statement());
-        // The body was parsed for its own errors; the loop's header is unknown.
-        let Some((init, condition, step)) = header else { return Ok(StmtKind::Error) };
         Ok(StmtKind::For { init: Box::new(init), condition, step, body })
+    }
+
+    /// What is known of the header of a `for` that has an error: its variable.
+    fn broken_for(&mut self, from: usize) -> (Stmt, Option<Condition>, Option<ExprId>) {
+        let span = self.previous.span;
+        let start = Mark { exprs: from, ..self.mark() };
+        let fragment = self.fragment(start, span);
+        (Stmt { kind: StmtKind::Broken(Box::new(fragment)), span }, None, None)
     }
 
     /// for_init_statement
@@ -290,6 +310,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         } else {
             StmtKind::Expr(self.expression()?)
         };
+        if let StmtKind::Variables(variables) = &kind {
+            // The rest of the header may be broken.
+            self.unfinished = Some(variables.clone());
+        }
         if self.eat(TokenKind::Semicolon).is_none() {
             return Err(self.unexpected("`;` after the first part of the `for`"));
         }
@@ -318,9 +342,18 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     fn while_statement(&mut self) -> Parse<StmtKind> {
         self.bump();
+        let from = self.n_exprs();
         let condition = self.in_parens(|this| this.condition())?;
+        let condition = condition.unwrap_or_else(|| {
+            let pieces = self.broken_expr(from, self.previous.span);
+            Condition::Expr(pieces)
+        });
+        let names = std::mem::take(&mut self.declaring);
         let body = Box::new(self.statement());
-        let Some(condition) = condition else { return Ok(StmtKind::Error) };
+        if !names.is_empty() && matches!(condition, Condition::Expr(_)) {
+            // The body may use what the broken condition declares.
+            return Ok(StmtKind::Error);
+        }
         Ok(StmtKind::While { condition, body })
     }
 
@@ -354,8 +387,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     fn return_statement(&mut self) -> Parse<StmtKind> {
         self.bump();
         // A `return` whose `;` is missing does not return what is on the next line if that is not an expression.
+        let next = self.taken.len();
         let value = match self.kind() {
             TokenKind::Semicolon | TokenKind::RightBrace => None,
+            _ if self.certainly_begins(next) => None,
             _ => Some(self.expression()?),
         };
         self.semicolon("`return`")?;

@@ -1,6 +1,5 @@
 //! Tests of the parser, with trees printed as nested lists: operators bind as in §5.1, and declarations are
-//! distinguished from expressions.
-//! expressions.
+//! distinguished from expressions. Broken text: where its error is, and what is kept.
 
 use crate::diagnostic::Diagnostics;
 use crate::language::Stage;
@@ -30,7 +29,7 @@ fn body(ast: &Ast) -> &[Stmt] {
 fn dump(ast: &Ast, id: ExprId) -> String {
     let all = |list: &[ExprId]| list.iter().map(|id| format!(" {}", dump(ast, *id))).collect::<String>();
     match &ast.expr(id).kind {
-        ExprKind::Error => "error".to_owned(),
+        ExprKind::Error(pieces) => format!("(error{})", all(pieces)),
         ExprKind::Literal(Literal::Bool(value)) => value.to_string(),
         ExprKind::Literal(Literal::Int(value)) => value.to_string(),
         ExprKind::Literal(Literal::Uint(value)) => format!("{value}u"),
@@ -176,4 +175,110 @@ fn every_mistake_is_reported_once() {
         ]
     );
     assert!(matches!(body(&ast).last(), Some(Stmt { kind: StmtKind::Expr(_), .. })));
+}
+
+/// The messages of a body of several lines with the numbers of their lines, counted from the first one of the body, and its statements.
+fn broken(lines: &str) -> (Ast, Vec<(u32, String)>) {
+    let mut sources = SourceMap::default();
+    let mut diagnostics = Diagnostics::default();
+    let text = format!("#version 150\nvoid main() {{\n{lines}\n}}\nvoid after() {{}}\n");
+    let file = sources.add("test.vert", text).expect("room");
+    let options =
+        ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false, completion: Completion::default() };
+    let ast = parse(&mut sources, file, &options, &NoIncludes, &mut diagnostics);
+    let line = |span| sources.line(span).expect("a place") - 2;
+    let found = diagnostics.iter().map(|found| (line(found.primary.span), found.message.clone())).collect();
+    (ast, found)
+}
+
+#[test]
+fn unfinished_lines_end_where_the_next_statement_begins() {
+    let unclosed = "`(` is not closed";
+    let operand = "expected an expression before the end of the line";
+    for (line, message) in [
+        ("    vec3 n = normalize(", unclosed),
+        ("    x = f(a,", unclosed),
+        ("    x = f(a, b", unclosed),
+        ("    f(", unclosed),
+        ("    x = a[", "`[` is not closed"),
+        ("    x = (a + b) * (c", unclosed),
+        ("    x = a +", operand),
+        ("    x = a + b *", operand),
+        ("    x =", operand),
+        ("    float x =", operand),
+        ("    float x = a ? b :", operand),
+        ("    if (", unclosed),
+        ("    if (a", unclosed),
+        ("    if (a <", operand),
+        ("    while (a &&", operand),
+        ("    for (int i = 0; i <", operand),
+        ("    for (int i = 0;", unclosed),
+        ("    a.", "expected the name of a member or a swizzle before the end of the line"),
+        ("    x = a.b.", "expected the name of a member or a swizzle before the end of the line"),
+        ("    return", "`;` is missing after `return`"),
+    ] {
+        for next in ["float kept = 1.0;", "for (;;) { float kept; }", "return;", "const float kept = 2.0;"] {
+            let (ast, found) = broken(&format!("    before = 1.0;\n{line}\n    {next}\n    last = 2.0;"));
+            assert_eq!(found, [(2, message.to_owned())], "{line}\n{next}");
+            let Some(DeclarationKind::Function(header, body)) = ast.declarations.first().map(|it| &it.kind) else {
+                panic!("{line}: no function");
+            };
+            assert_eq!(ast.name(header.name), "main");
+            let n_known =
+                body.iter().filter(|stmt| !matches!(stmt.kind, StmtKind::Error | StmtKind::Broken(_))).count();
+            assert!(n_known >= 3, "{line}\n{next}: {body:?}");
+            assert_eq!(ast.declarations.len(), 2, "{line}\n{next}: what follows is kept");
+        }
+    }
+}
+
+#[test]
+fn assignments_and_calls_on_the_next_line_are_statements() {
+    for line in ["    vec3 n = normalize(", "    x = f(a,", "    if (a <", "    f("] {
+        for next in ["next = 1.0;", "a.b[2].c += 1.0;", "g(x, y);", "i++;", "S next;"] {
+            let (ast, found) = broken(&format!("{line}\n    {next}\n    last = 2.0;"));
+            assert_eq!(found.iter().map(|row| row.0).collect::<Vec<_>>(), [1], "{line}\n{next}: {found:?}");
+            let Some(DeclarationKind::Function(_, body)) = ast.declarations.first().map(|it| &it.kind) else {
+                panic!("{line}: no function");
+            };
+            assert_eq!(body.len(), 3, "{line}\n{next}: {body:?}");
+        }
+    }
+    // Lines of an expression are no statements, and its mistake is where it is.
+    let (_, found) = broken("    x = mix(\n        a,\n        f(b),\n        c d);\n    y = 1.0;");
+    assert_eq!(found, [(4, "expected `,`, `)` or an operator, found `d`".to_owned())]);
+    let (_, found) = broken("    float a = 1.0,\n    b = 2.0,\n    c = 3.0 4.0;\n    y = 1.0;");
+    assert_eq!(found, [(3, "expected `;` after the declaration, found `4.0`".to_owned())]);
+}
+
+#[test]
+fn broken_statements_keep_what_was_understood() {
+    let (ast, _) = broken("    vec3 n = normalize(a.b, c[1] +\n    float x = 1.0;");
+    let Some(DeclarationKind::Function(_, body)) = ast.declarations.first().map(|it| &it.kind) else { panic!() };
+    let [Stmt { kind: StmtKind::Broken(fragment), .. }, Stmt { kind: StmtKind::Variables(_), .. }] = body.as_slice()
+    else {
+        panic!("{body:?}")
+    };
+    assert_eq!(fragment.names.iter().map(|name| ast.name(*name)).collect::<Vec<_>>(), ["n"]);
+    assert!(fragment.variables.as_ref().is_some_and(|variables| variables.declarators.len() == 1));
+    assert_eq!(fragment.rest.map(|rest| dump(&ast, rest)).as_deref(), Some("(error (. a b) ([] c 1))"));
+    let (ast, _) = broken("    for (int i = 0; i < n\n    float x = 1.0;");
+    let Some(DeclarationKind::Function(_, body)) = ast.declarations.first().map(|it| &it.kind) else { panic!() };
+    assert_eq!(body.len(), 2, "{body:?}");
+}
+
+#[test]
+fn unfinished_declarations_leave_the_rest() {
+    let text = "uniform vec3\nuniform vec3 light;\nvec3 f(vec3 a,\nvoid main() {}\nconst vec3 c = normalize(\nin vec3 d;\n\
+                layout(location = 1\nin vec3 e;\nvec3 g(\n    vec3 a,\n    vec3 b) { return a; }\n";
+    let mut sources = SourceMap::default();
+    let mut diagnostics = Diagnostics::default();
+    let file = sources.add("test.vert", format!("#version 150\n{text}")).expect("room");
+    let options =
+        ParseOptions { stage: Stage::Vertex, defines: Vec::new(), strict: false, completion: Completion::default() };
+    let ast = parse(&mut sources, file, &options, &NoIncludes, &mut diagnostics);
+    let lines: Vec<u32> = diagnostics.iter().filter_map(|found| sources.line(found.primary.span)).collect();
+    assert_eq!(lines, [2, 4, 6, 8], "{:?}", diagnostics.iter().map(|it| &it.message).collect::<Vec<_>>());
+    let n_broken = ast.declarations.iter().filter(|it| matches!(it.kind, DeclarationKind::Broken(_))).count();
+    assert_eq!((ast.declarations.len(), n_broken), (9, 4));
 }

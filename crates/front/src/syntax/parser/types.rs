@@ -241,6 +241,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 return Err(self.unclosed_brace(opening.span));
             }
             let before = self.mark();
+            self.taken.clear();
             match self.nested(Self::member) {
                 Ok(member) => members.push(member),
                 Err(_) => self.recover_statement(before),

@@ -1,0 +1,137 @@
+//! `glisten lsp` on half-typed text: errors stay on their line, and the rest keeps its symbols, findings and completion.
+
+use crate::cli::Folder;
+use crate::editor::{Editor, labels};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+
+const BEFORE: &str = "#version 150\nstruct Light { vec3 direction; float power; };\nuniform Light lamp;\nin vec3 normal;\n\
+    out vec4 color;\nvec3 shade(vec3 n, float amount) {\n    return n * amount;\n}\nvoid main() {\n    vec3 first = normal;\n";
+const AFTER: &str = "    float last = lamp.power;\n    float wrong = first;\n    color = vec4(shade(first, last), 1.0);\n}\n\
+    float after(vec3 a) {\n    return a.x;\n}\n";
+
+/// What a person has typed of a line, and what is not finished yet.
+const HALF: [&str; 26] = [
+    "    vec3 n = normalize(",
+    "    vec3 n = normalize(first",
+    "    vec3 n = shade(first,",
+    "    vec3 n = shade(first, lamp.",
+    "    vec3 n = shade(first, lamp.power",
+    "    vec3 n = first +",
+    "    vec3 n = first * (lamp.direction",
+    "    vec3 n =",
+    "    vec3 n",
+    "    float n = lamp.",
+    "    float n = first[",
+    "    const float n = 1.0 +",
+    "    lamp.",
+    "    shade(",
+    "    shade(first,",
+    "    if (",
+    "    if (first.x <",
+    "    if (first.x < 1.0",
+    "    if (first.x < 1.0)",
+    "    for (",
+    "    for (int i = 0",
+    "    for (int i = 0; i <",
+    "    while (first.x",
+    "    return",
+    "    color = vec4(first, 1.0",
+    "    first = mix(first, lamp.direction, 0.5",
+];
+
+fn symbols(editor: &mut Editor) -> BTreeSet<String> {
+    let uri = editor.uri("a.frag");
+    let answer = editor.ask("textDocument/documentSymbol", json!({ "textDocument": { "uri": uri } }));
+    let list = answer.as_array().expect("a list");
+    list.iter().map(|one| one["name"].as_str().expect("a name").to_owned()).collect()
+}
+
+fn line_of(one: &Value) -> u64 {
+    one["range"]["start"]["line"].as_u64().expect("a line")
+}
+
+/// One server sees all half-typed lines one after the other.
+#[test]
+fn the_rest_of_a_file_stays_what_it_is() {
+    let whole = format!("{BEFORE}    // nothing yet\n{AFTER}");
+    let folder = Folder::new(&[("a.frag", whole.as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", &whole);
+    let line = BEFORE.matches('\n').count() as u64;
+    let is_below = |one: &Value| line_of(one) > line && one["severity"] == 1;
+    let mut of_rest: Vec<Value> = editor.diagnostics("a.frag");
+    of_rest.retain(|one| is_below(one));
+    assert_eq!(of_rest.len(), 1, "the wrong type of `wrong`: {of_rest:?}");
+    let known = symbols(&mut editor);
+    for (number, half) in HALF.iter().enumerate() {
+        let text = format!("{BEFORE}{half}\n{AFTER}");
+        editor.change("a.frag", number as i64 + 2, json!([{ "text": text }]));
+        let found = editor.diagnostics("a.frag");
+        let errors: Vec<&Value> = found.iter().filter(|one| one["severity"] == 1).collect();
+        let below: Vec<&Value> = errors.iter().copied().filter(|one| line_of(one) > line).collect();
+        assert_eq!(below, of_rest.iter().collect::<Vec<_>>(), "{half}");
+        if !half.ends_with(')') {
+            assert!(errors.iter().any(|one| line_of(one) == line), "{half}: {errors:?}");
+        }
+        assert!(errors.iter().all(|one| line_of(one) >= line), "{half}: {errors:?}");
+        assert_eq!(symbols(&mut editor), known, "{half}");
+        // Completion at the cursor, and in the lines below.
+        let column = half.encode_utf16().count();
+        let there = json!({ "textDocument": { "uri": editor.uri("a.frag") }, "position": { "line": line, "character": column } });
+        let offered = labels(&editor.ask("textDocument/completion", there));
+        let wanted = if half.ends_with("lamp.") { "power" } else { "first" };
+        if !half.ends_with("vec3 n") {
+            assert!(offered.iter().any(|one| one == wanted), "{half}: {offered:?}");
+        }
+        let member = editor.on("a.frag", &text, "power;\n    float wrong");
+        let hover = editor.ask("textDocument/hover", member)["contents"]["value"].to_string();
+        assert!(hover.contains("float Light.power"), "{half}: {hover}");
+        let member = editor.on("a.frag", &text, "ower;\n    float wrong");
+        assert!(labels(&editor.ask("textDocument/completion", member)).contains(&"direction".to_owned()), "{half}");
+    }
+    editor.close();
+}
+
+/// A variable whose value is not finished has its type, and the names in the broken text are known.
+#[test]
+fn what_is_broken_is_understood_as_far_as_it_goes() {
+    let text =
+        format!("{BEFORE}    vec3 n = normalize(first, lamp.direction +\n    float l = n;\n    n.x = 1.0;\n{AFTER}");
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", &text);
+    let line = BEFORE.matches('\n').count() as u64;
+    let errors = editor.diagnostics("a.frag");
+    assert!(errors.iter().any(|one| line_of(one) == line + 1), "a `vec3` is no `float`: {errors:?}");
+    for (word, part) in
+        [("n = normalize", "vec3 n"), ("first, lamp", "vec3 first"), ("direction +", "vec3 Light.direction")]
+    {
+        let there = editor.on("a.frag", &text, word);
+        let hover = editor.ask("textDocument/hover", there)["contents"]["value"].to_string();
+        assert!(hover.contains(part), "{word}: {hover}");
+    }
+    let mut there = editor.on("a.frag", &text, "first = normal");
+    there["context"] = json!({ "includeDeclaration": false });
+    let uses = editor.ask("textDocument/references", there);
+    assert_eq!(uses.as_array().map(Vec::len), Some(3), "the broken use is one of them: {uses}");
+    editor.close();
+}
+
+#[test]
+fn constructors_have_signatures() {
+    let text = "#version 150\nout vec4 color;\nvoid main() {\n    vec3 n = vec3(1.0, \n    mat2 m = mat2(\n}\n";
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", text);
+    for (word, label, parameter) in
+        [(" \n    mat2", "vec3(float x, float y, float z)", 1), ("\n}", "mat2(vec2 column0, vec2 column1)", 0)]
+    {
+        let there = editor.on("a.frag", text, word);
+        let help = editor.ask("textDocument/signatureHelp", there);
+        assert_eq!(help["signatures"][0]["label"], label, "{help}");
+        assert_eq!((help["activeSignature"].as_u64(), help["activeParameter"].as_u64()), (Some(0), Some(parameter)));
+        assert!(help["signatures"].as_array().is_some_and(|all| all.len() > 3), "{help}");
+    }
+    editor.close();
+}
