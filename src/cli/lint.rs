@@ -13,12 +13,15 @@ use super::guard;
 use super::inputs::{self, Group, Inputs};
 use super::not_checked;
 use super::permutations;
+use super::scene_ranges::SceneRanges;
 use super::session::{Session, Unit, compile_anywhere};
 use super::settings::numbers;
 use super::strings;
-use super::witness::{self, Shown};
+use super::witness::{self, Case, Shown};
 use crate::cost::{Assumptions, cost};
+use crate::scene::DiskFiles;
 use clap::Args;
+use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::link::Program;
 use glisten_front::lint::check_some;
@@ -55,6 +58,9 @@ pub(super) struct LintArgs {
     /// Write a scene for each finding on numerics into this folder, which shows it with the inputs that the finding names
     #[arg(long, value_name = "DIR", conflicts_with_all = ["configurations", "permutations"])]
     witnesses: Option<PathBuf>,
+    /// Take what the uniforms and attributes of this scene are as the ranges of inputs of the shaders that it draws
+    #[arg(long, value_name = "SCENE", conflicts_with_all = ["configurations", "permutations"])]
+    scene: Vec<PathBuf>,
     #[command(flatten)]
     fixes: FixArgs,
     #[command(flatten)]
@@ -98,7 +104,8 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     inputs.tell_empty_folders(console);
     let mut baselines = Baselines::given(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
-    let (mut units, shown) = checked(&mut session, groups.clone(), &inputs);
+    let scenes = SceneRanges::read(&args.scene, session.compiler())?;
+    let (mut units, shown) = checked(&mut session, groups.clone(), &inputs, &scenes);
     if let Some(folder) = &args.witnesses {
         write_all(folder, &shown, console)?;
     }
@@ -124,7 +131,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     }
     let mut fixer = Fixer::new(args.fixes);
     while fixer.advance(&units) {
-        (units, _) = checked(&mut session, groups.clone(), &inputs);
+        (units, _) = checked(&mut session, groups.clone(), &inputs, &scenes);
         baselines.apply(&mut units, None);
     }
     fixer.finish(console)?;
@@ -159,9 +166,14 @@ fn write_all(folder: &Path, shown: &[Shown], console: &Console) -> Result<(), Fa
 }
 
 /// Compiles the groups, and adds the findings of the rules, those on numerics with what shows them.
-fn checked(session: &mut Session<'_>, groups: Vec<Group>, inputs: &Inputs) -> (Vec<Unit>, Vec<Shown>) {
+fn checked(
+    session: &mut Session<'_>,
+    groups: Vec<Group>,
+    inputs: &Inputs,
+    scenes: &SceneRanges,
+) -> (Vec<Unit>, Vec<Shown>) {
     let mut units = session.compile(groups);
-    let (found, shown) = found(session, &units, true);
+    let (found, shown) = found(session, &units, &[], scenes);
     for (unit, found) in units.iter_mut().zip(found) {
         session.add(&mut unit.batch, found);
     }
@@ -180,28 +192,49 @@ fn certain(session: &Session<'_>, units: &mut [Unit]) {
     }
 }
 
-/// The findings of the rules in units that were compiled in other ways than as they are, which is why no inputs are tried.
-fn lints(session: &mut Session<'_>, units: &[Unit]) -> Vec<Vec<Diagnostic>> {
-    found(session, units, false).0
+/// The findings of the rules in units that these compilers have compiled.
+fn lints(session: &mut Session<'_>, units: &[Unit], compilers: &[Compiler]) -> Vec<Vec<Diagnostic>> {
+    found(session, units, compilers, &SceneRanges::default()).0
 }
 
+/// By how much less inputs are tried for one of many configurations.
+const HASTE: u64 = 4;
+
 /// The findings of the rules in each unit, and what costs more than the project allows, in parallel. Rules that the levels of all
-/// its files turn off are not run.
-fn found(session: &mut Session<'_>, units: &[Unit], tries: bool) -> (Vec<Vec<Diagnostic>>, Vec<Shown>) {
+/// its files turn off are not run. A unit without a compiler of its own has that of the session.
+fn found(
+    session: &mut Session<'_>,
+    units: &[Unit],
+    compilers: &[Compiler],
+    scenes: &SceneRanges,
+) -> (Vec<Vec<Diagnostic>>, Vec<Shown>) {
     let mut settings_of = |unit: &Unit| -> Vec<Arc<Settings>> {
         let files = unit.batch.sources.files().map(|(_, file)| file.name());
         files.map(|name| session.settings_of(name)).collect()
     };
     let settings: Vec<Vec<Arc<Settings>>> = units.iter().map(&mut settings_of).collect();
     let compiler = session.compiler();
-    let found = |(unit, settings): (&Unit, Vec<Arc<Settings>>)| {
+    let found = |(number, (unit, settings)): (usize, (&Unit, Vec<Arc<Settings>>))| {
         let wanted = |code: &Code| settings.iter().any(|settings| settings.levels.may_report(code));
         let check = |program: &Program| {
             let sources = &unit.batch.sources;
             let mut found = check_some(program, sources, wanted);
             found.extend(over_budget(program, sources, &settings));
-            let ranges = settings.first().map_or(&[][..], |settings| &settings.ranges);
-            if tries { witness::settle(unit, ranges, compiler, wanted, found) } else { (found, Vec::new()) }
+            // What is stated takes precedence over scenes.
+            let mut ranges = settings.first().map_or_else(Vec::new, |settings| settings.ranges.clone());
+            let paths = unit.group.inputs.iter().filter_map(|input| input.path.as_deref());
+            ranges.extend(paths.flat_map(|path| scenes.of(path)));
+            let own = compilers.get(number);
+            let case = Case {
+                group: &unit.group,
+                program,
+                sources,
+                ranges: &ranges,
+                compiler: own.unwrap_or(compiler),
+                files: &DiskFiles,
+                haste: if own.is_some() { HASTE } else { 1 },
+            };
+            witness::settle(&case, wanted, found)
         };
         unit.program.as_ref().map_or_else(Default::default, |program| {
             let first = unit.batch.sources.files().next().map_or(0, |(_, file)| file.base());
@@ -210,7 +243,7 @@ fn found(session: &mut Session<'_>, units: &[Unit], tries: bool) -> (Vec<Vec<Dia
         })
     };
     let all: Vec<(Vec<Diagnostic>, Vec<Shown>)> =
-        session.pool().install(|| units.par_iter().zip(settings).map(found).collect());
+        session.pool().install(|| units.par_iter().zip(settings).enumerate().map(found).collect());
     let (found, shown): (Vec<_>, Vec<_>) = all.into_iter().unzip();
     (found, shown.into_iter().flatten().collect())
 }

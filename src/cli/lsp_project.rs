@@ -6,6 +6,7 @@
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::baseline::{Baseline, BaselineArgs};
 use super::batch::Batch;
+use super::bounds::Bounds;
 use super::console::Console;
 use super::engine::{Engines, Traced};
 use super::exit::Failure;
@@ -13,6 +14,7 @@ use super::files;
 use super::inputs::{self, Group, Input};
 use super::lsp_drawing::Drawing;
 use super::lsp_files::{self, Includes};
+use super::lsp_judged::{Judged, Judging, OpenFiles};
 use super::session::Session;
 use super::strings;
 use super::{config, fmt, guard, search};
@@ -53,6 +55,7 @@ pub(super) struct Files<'a> {
     baseline: Option<Baseline>,
     /// Those that configurations name, as far as they are there.
     baselines: BTreeMap<PathBuf, Option<Baseline>>,
+    judged: Judged,
     scenes: Option<Scenes>,
     console: &'a Console,
     sources: &'a SourceArgs,
@@ -105,12 +108,13 @@ impl<'a> Files<'a> {
         let overlay = Overlay::default();
         let session = session(console, sources, levels, bindings, &overlay)?;
         let (groups, includes, folders) = Default::default();
-        let (chosen, drawing, scenes, baselines) = Default::default();
+        let (chosen, drawing, scenes, baselines, judged) = Default::default();
         Ok(Self {
             chosen,
             drawing,
             baseline,
             baselines,
+            judged,
             scenes,
             console,
             sources,
@@ -196,6 +200,26 @@ impl<'a> Files<'a> {
         let path = self.session.settings_of(&group.inputs.first()?.name).baseline.clone()?;
         let read = |path: &PathBuf| Baseline::new(&BaselineArgs::of(Some(path.clone()))).ok().flatten();
         self.baselines.entry(path.clone()).or_insert_with(|| read(&path)).as_ref()
+    }
+
+    /// The ranges of inputs that the configuration of a program states.
+    fn ranges_of(&mut self, group: &Group) -> Vec<(String, Bounds)> {
+        let first = group.inputs.first();
+        first.map_or_else(Vec::new, |input| self.session.settings_of(&input.name).ranges.clone())
+    }
+
+    /// The findings of the rules as far as they are judged by runs.
+    fn judged_lints(
+        &mut self,
+        key: &ProgramKey,
+        group: &Group,
+        compilation: &Compilation,
+        lints: Vec<Diagnostic>,
+    ) -> Vec<Diagnostic> {
+        let Some(linked) = &compilation.program else { return lints };
+        let ranges = self.ranges_of(group);
+        let case = Judging { group, program: linked, sources: &compilation.sources, ranges: &ranges };
+        self.judged.told(key, &case, lints)
     }
 
     /// The compiler for a program.
@@ -372,6 +396,7 @@ impl Project for Files<'_> {
             Ok((mut compilation, inspection)) => {
                 self.show_files(&group, &mut compilation.sources);
                 let lints = self.lints(&compilation);
+                let lints = self.judged_lints(program, &group, &compilation, lints);
                 let mut batch = Batch { sources: compilation.sources, diagnostics: Vec::new() };
                 let found: Vec<Diagnostic> = compilation.diagnostics.into_iter().collect();
                 self.session.add(&mut batch, found);
@@ -400,6 +425,26 @@ impl Project for Files<'_> {
                 Compiled { findings: vec![guard::diagnostic(&panic, span)], sources: map, ..nothing() }
             }
         }
+    }
+
+    fn judge(&mut self) -> Option<ProgramKey> {
+        let key = self.judged.next()?;
+        let group = self.groups.get(&key).cloned()?;
+        let (sources, unread, _) = self.read(&group);
+        if sources.is_empty() || !unread.is_empty() {
+            return None;
+        }
+        let compiler = self.compiler(&group);
+        let compilation = guard::guarded(|| compiler.inspect(&sources, None)).ok()?.0;
+        let linked = compilation.program.as_ref()?;
+        let found = self.lints(&compilation);
+        let ranges = self.ranges_of(&group);
+        let files = compilation.sources.files();
+        let levels: Vec<Levels> = files.map(|(_, file)| self.session.levels_of(file.name())).collect();
+        let wanted = |code: &Code| levels.iter().any(|levels| levels.may_report(code));
+        let case = Judging { group: &group, program: linked, sources: &compilation.sources, ranges: &ranges };
+        let files = OpenFiles(self.overlay.clone());
+        self.judged.judge(&key, &case, (&compiler, &files), wanted, found).then_some(key)
     }
 
     fn probe(&mut self, program: &ProgramKey, file: &Path, text: Arc<str>, probe: Option<&str>) -> Option<Compiled> {
@@ -490,6 +535,7 @@ impl Project for Files<'_> {
         }
         self.groups.clear();
         self.baselines.clear();
+        self.judged.clear();
         self.includes = Includes::default();
     }
 

@@ -53,6 +53,8 @@ mod lsp_drawing;
 #[cfg(feature = "lsp")]
 mod lsp_files;
 #[cfg(feature = "lsp")]
+mod lsp_judged;
+#[cfg(feature = "lsp")]
 mod lsp_project;
 #[cfg(feature = "lsp")]
 mod lsp_shown;
@@ -80,6 +82,7 @@ mod report;
 mod report_checks;
 mod responses;
 mod rules;
+mod scene_ranges;
 mod scenes;
 mod search;
 mod session;

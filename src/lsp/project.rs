@@ -142,6 +142,9 @@ pub(crate) trait Project: Shown {
     /// Compiles a program, and lints it.
     fn compile(&mut self, program: &ProgramKey) -> Compiled;
 
+    /// Judges by runs what one program's findings say about numbers, if a program waits for it. Its key, if that changed its findings.
+    fn judge(&mut self) -> Option<ProgramKey>;
+
     /// Compiles one file up to where `text` ends, with a name in it about which more is wanted.
     fn probe(&mut self, program: &ProgramKey, file: &Path, text: Arc<str>, probe: Option<&str>) -> Option<Compiled>;
 

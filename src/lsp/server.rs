@@ -155,6 +155,7 @@ impl Server<'_> {
                     Ok(message) => message,
                     Err(error) if error.is_timeout() => {
                         self.look_at_files();
+                        self.rest();
                         continue;
                     }
                     Err(_) => return,
@@ -349,6 +350,15 @@ impl Server<'_> {
         self.n_sent += 1;
         let id = RequestId::from(format!("glisten-{}", self.n_sent));
         self.send(Request { id, method: method.to_owned(), params });
+    }
+
+    /// Does what waits until the editor rests.
+    fn rest(&mut self) {
+        let mut is_changed = false;
+        let slot = &mut is_changed;
+        // A panic has been dealt with: nothing is kept but the documents.
+        let _ = guarded(&mut self.state, move |state| *slot = state.rest());
+        self.is_stale |= is_changed;
     }
 
     /// Looks whether a configuration, or a file that is not open, changed on disk.

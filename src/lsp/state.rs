@@ -137,6 +137,13 @@ impl<'p> State<'p> {
         self.analyses.retain(|key, analysis| !analysis.has(path) && !key.files.iter().any(|file| file == path));
     }
 
+    /// Does what waits until the editor rests. Whether findings changed.
+    pub(crate) fn rest(&mut self) -> bool {
+        let Some(key) = self.project.judge() else { return false };
+        self.analyses.remove(&key);
+        true
+    }
+
     /// Forgets everything but the documents.
     pub(crate) fn reload(&mut self) {
         self.project.reload();

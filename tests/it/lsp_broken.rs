@@ -11,7 +11,7 @@ const AFTER: &str = "    float last = lamp.power;\n    float wrong = first;\n   
     float after(vec3 a) {\n    return a.x;\n}\n";
 
 /// What a person has typed of a line, and what is not finished yet.
-const HALF: [&str; 26] = [
+const HALF: [&str; 25] = [
     "    vec3 n = normalize(",
     "    vec3 n = normalize(first",
     "    vec3 n = shade(first,",
@@ -30,7 +30,6 @@ const HALF: [&str; 26] = [
     "    if (",
     "    if (first.x <",
     "    if (first.x < 1.0",
-    "    if (first.x < 1.0)",
     "    for (",
     "    for (int i = 0",
     "    for (int i = 0; i <",
@@ -79,9 +78,17 @@ fn the_rest_of_a_file_stays_what_it_is() {
         // Completion at the cursor, and in the lines below.
         let column = half.encode_utf16().count();
         let there = json!({ "textDocument": { "uri": editor.uri("a.frag") }, "position": { "line": line, "character": column } });
-        let offered = labels(&editor.ask("textDocument/completion", there));
-        let wanted = if half.ends_with("lamp.") { "power" } else { "first" };
-        if !half.ends_with("vec3 n") {
+        let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        let word = half.rsplit(|letter| !is_part(letter)).next().unwrap_or("");
+        let is_number = word.starts_with(|letter: char| letter.is_ascii_digit());
+        if !is_number && !half.ends_with("vec3 n") {
+            let offered = labels(&editor.ask("textDocument/completion", there));
+            let after_dot = half.trim_end_matches(is_part).ends_with('.');
+            let wanted = match (after_dot, half.contains("first.x")) {
+                (true, true) => "xy",
+                (true, false) => "power",
+                (false, _) => "first",
+            };
             assert!(offered.iter().any(|one| one == wanted), "{half}: {offered:?}");
         }
         let member = editor.on("a.frag", &text, "power;\n    float wrong");

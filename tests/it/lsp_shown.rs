@@ -213,3 +213,29 @@ fn messages_that_are_none_are_passed_over() {
     half.extend(b"Content-Length: 100\r\n\r\n{\"half");
     assert_eq!(told(&half).1, Some(1));
 }
+
+/// What a finding on numerics says is shown by a run once the editor rests, and not told before.
+#[test]
+fn findings_on_numerics_come_with_inputs() {
+    let text = "#version 150\nin vec3 n; in vec3 l; uniform float k; out vec4 c;\n\
+                void main() { c = vec4(pow(dot(normalize(n), normalize(l)), k)); }\n";
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", text);
+    assert!(editor.diagnostics("a.frag").iter().all(|one| one["code"] != "L0028"), "an edit does not wait for runs");
+    let found = editor.diagnostics("a.frag");
+    let shown: Vec<&str> =
+        found.iter().filter(|one| one["code"] == "L0028").filter_map(|one| one["message"].as_str()).collect();
+    assert_eq!(shown.len(), 1, "{found:?}");
+    assert!(shown[0].contains("the reference computes it so with `n`"), "{shown:?}");
+    // The text in the editor counts, not that on the disk; a sound one has nothing to wait for.
+    let sound =
+        text.replace("pow(dot(normalize(n), normalize(l)), k)", "pow(max(dot(normalize(n), normalize(l)), 0.0), k)");
+    editor.change("a.frag", 2, json!([{ "text": sound }]));
+    assert!(editor.diagnostics("a.frag").is_empty());
+    let root = text.replace("pow(dot(normalize(n), normalize(l)), k)", "acos(dot(normalize(n), normalize(l)))");
+    editor.change("a.frag", 3, json!([{ "text": root }]));
+    assert!(editor.diagnostics("a.frag").iter().all(|one| one["code"] != "L0030"));
+    assert!(editor.diagnostics("a.frag").iter().any(|one| one["code"] == "L0030"));
+    editor.close();
+}

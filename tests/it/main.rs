@@ -23,6 +23,7 @@ mod cache_faults;
 mod cli;
 mod codes;
 #[cfg(feature = "cli")]
+mod comparison;
 mod configurations;
 #[cfg(feature = "cli")]
 mod cost;

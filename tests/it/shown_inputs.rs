@@ -93,3 +93,44 @@ fn a_scene_shows_the_finding() {
     assert_eq!((found["verdict"].as_str(), code(&output)), (Some("broken"), 1));
     assert!(found["non_finite"].as_u64() > Some(0), "{found}");
 }
+
+#[test]
+fn a_scene_states_ranges() {
+    let text = "#version 150\nin float x; uniform float k; out vec4 c;\nvoid main() { c = vec4(x / (k - 0.5)); }\n";
+    let vertex = "#version 150\nin vec3 p; out float x;\nvoid main() { x = p.x; gl_Position = vec4(p, 1.0); }\n";
+    let scene = |values: &[f64]| {
+        let draw = |k: &f64| {
+            format!(
+                "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n[draw.attributes]\n\
+                 p = {{ size = 3, values = [0, 0, 0, 1, 0, 0, 0, 1, 0] }}\n[draw.uniforms]\nk = {k:?}\n"
+            )
+        };
+        format!("[framebuffer]\nwidth = 8\nheight = 8\n{}", values.iter().map(draw).collect::<String>())
+    };
+    let (wide, narrow) = (scene(&[0.0, 1.0]), scene(&[0.75, 1.0]));
+    let folder = Folder::new(&[
+        ("a.frag", text.as_bytes()),
+        ("a.vert", vertex.as_bytes()),
+        ("wide.toml", wide.as_bytes()),
+        ("narrow.toml", narrow.as_bytes()),
+    ]);
+    let told = |arguments: &[&str]| {
+        let (findings, _) = folder.lint(arguments);
+        findings.iter().filter(|one| one["code"] == "L0074" && one["file"] == "a.frag").count()
+    };
+    assert_eq!(told(&["."]), 0, "nothing is stated");
+    assert_eq!(told(&[".", "--scene", "wide.toml"]), 1, "`k` is from 0 to 1 there");
+    assert_eq!(told(&[".", "--scene", "narrow.toml"]), 0);
+    assert_eq!(code(&folder.run(&["lint", ".", "--scene", "none.toml"])), 2);
+}
+
+#[test]
+fn configurations_name_inputs_too() {
+    let text = shader("\n#ifdef SHINY\nr = pow(dot(N, L), k);\n#else\nr = acos(x * 0.0);\n#endif\n");
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let (findings, _) = folder.lint(&["a.frag", "--configurations"]);
+    let notes: Vec<String> =
+        findings.iter().filter(|one| one["code"] == "L0028").map(|one| one["notes"].to_string()).collect();
+    assert_eq!(notes.len(), 1, "{findings:?}");
+    assert!(notes[0].contains("the reference computes it so") && notes[0].contains("only with `SHINY=1`"), "{notes:?}");
+}

@@ -48,7 +48,7 @@ const MAX_VARIANTS: usize = 4096;
 const MAX_ROUNDS: usize = 3;
 
 /// The checks of units by themselves.
-type Lints = fn(&mut Session<'_>, &[Unit]) -> Vec<Vec<Diagnostic>>;
+type Lints = fn(&mut Session<'_>, &[Unit], &[Compiler]) -> Vec<Vec<Diagnostic>>;
 
 /// How much was looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -298,7 +298,9 @@ impl<'l> Search<'l> {
         let (variants, units): (Vec<Variant>, Vec<(Unit, usize)>) =
             found.into_iter().map(|found| (found.variant, (found.unit, 0))).unzip();
         let mut units = session.adopt(units);
-        let findings = lints(session, &units);
+        let compilers: Vec<Compiler> =
+            variants.iter().map(|variant| compiler_of(session.compiler(), variant, &[])).collect();
+        let findings = lints(session, &units, &compilers);
         for (unit, findings) in units.iter_mut().zip(findings) {
             session.add(&mut unit.batch, findings);
         }
@@ -385,6 +387,15 @@ fn has_result(variant: &Variant, found: &Found) -> bool {
     found.unit.asked.iter().all(|name| variant.get(name) == found.variant.get(name))
 }
 
+/// The compiler of a configuration, which watches these macros.
+fn compiler_of(compiler: &Compiler, variant: &Variant, names: &[String]) -> Compiler {
+    let given = compiler.options().defines.iter().cloned();
+    let own = variant.iter().map(|(name, value)| (name.clone(), value.clone()));
+    let options =
+        Options { defines: given.chain(own).collect(), watched: names.to_vec(), ..compiler.options().clone() };
+    compiler.clone().with_options(options)
+}
+
 fn compiled(
     compiler: &Compiler,
     group: &Group,
@@ -392,11 +403,7 @@ fn compiled(
     names: &[String],
     texts: &BTreeMap<String, Conditions>,
 ) -> Found {
-    let given = compiler.options().defines.iter().cloned();
-    let own = variant.iter().map(|(name, value)| (name.clone(), value.clone()));
-    let options =
-        Options { defines: given.chain(own).collect(), watched: names.to_vec(), ..compiler.options().clone() };
-    let compiler = compiler.clone().with_options(options);
+    let compiler = compiler_of(compiler, &variant, names);
     let (unit, _, inactive) = session::compile_group_by(group.clone(), |sources| {
         let (compilation, inspection) = compiler.inspect(sources, None);
         let spans = inspection.views().flat_map(|(_, view)| view.ast.directives.inactive.iter().copied());

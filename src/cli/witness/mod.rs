@@ -20,8 +20,9 @@ mod stand;
 mod trial;
 
 use super::bounds::Bounds;
-use super::session::Unit;
+use super::inputs::Group;
 use crate::cost::{Assumptions, cost};
+use crate::scene::FileSource;
 use depends::inputs_of;
 use glisten_front::Compiler;
 use glisten_front::diagnostic::codes::lints;
@@ -72,17 +73,44 @@ fn place(sources: &SourceMap, span: Span) -> Option<Place> {
     Some((name, span.start.checked_sub(file.base())?, span.end.checked_sub(file.base())?))
 }
 
-/// Judges the findings of a unit by runs, and adds what stated ranges lead to.
+/// A program whose findings are judged.
+pub(super) struct Case<'a> {
+    /// Its files.
+    pub(super) group: &'a Group,
+    /// The program.
+    pub(super) program: &'a Program,
+    /// Its texts.
+    pub(super) sources: &'a SourceMap,
+    /// What is stated about inputs, by name.
+    pub(super) ranges: &'a [(String, Bounds)],
+    /// What compiled it.
+    pub(super) compiler: &'a Compiler,
+    /// Where its files are read again.
+    pub(super) files: &'a dyn FileSource,
+    /// By how much the work of a trial is divided.
+    pub(super) haste: u64,
+}
+
+/// Whether a finding is told only with a witness.
+#[cfg(feature = "lsp")]
+pub(super) fn is_judged(finding: &Diagnostic) -> bool {
+    JUDGED.iter().any(|code| code.id == finding.code.id)
+}
+
+/// Whether anything is stated about the inputs of a program.
+#[cfg(feature = "lsp")]
+pub(super) fn has_ranges(program: &Program, sources: &SourceMap, ranges: &[(String, Bounds)]) -> bool {
+    program.stages.iter().any(|shader| Inputs::of(program, shader, sources, ranges).any_stated())
+}
+
+/// Judges the findings of a program by runs, and adds what stated ranges lead to.
 pub(super) fn settle(
-    unit: &Unit,
-    ranges: &[(String, Bounds)],
-    compiler: &Compiler,
+    case: &Case<'_>,
     wanted: impl Fn(&Code) -> bool,
     mut found: Vec<Diagnostic>,
 ) -> (Vec<Diagnostic>, Vec<Shown>) {
     let mut shown = Vec::new();
-    let Some(program) = &unit.program else { return (found, shown) };
-    let sources = &unit.batch.sources;
+    let Case { program, sources, ranges, .. } = *case;
     for shader in &program.stages {
         let is_judged = |finding: &Diagnostic| {
             JUDGED.iter().any(|code| code.id == finding.code.id) && is_in(shader, finding.primary.span)
@@ -93,9 +121,14 @@ pub(super) fn settle(
         if !has_findings && !looks {
             continue;
         }
-        let Some((stand, draws)) = stand_of(unit, program, shader, &inputs, compiler) else { continue };
+        let Some((stand, draws)) = stand_of(case, shader, &inputs) else { continue };
         let stage = Subject { shader, sources, inputs: &inputs, stand: &stand };
-        if has_findings && let Some(trial) = Trial::run(&stand, &inputs, (Others::Any, draws)) {
+        if has_findings
+            && let Some(trial) = {
+                let wanted = found.iter().filter(|one| is_judged(one)).flat_map(|one| stage.places_of(one)).collect();
+                Trial::run(&stand, &inputs, (Others::Any, draws), Some(&wanted))
+            }
+        {
             found = found
                 .into_iter()
                 .filter_map(|finding| {
@@ -103,7 +136,7 @@ pub(super) fn settle(
                 })
                 .collect();
         }
-        if looks && let Some(trial) = Trial::run(&stand, &inputs, (Others::Tame, draws)) {
+        if looks && let Some(trial) = Trial::run(&stand, &inputs, (Others::Tame, draws), None) {
             stage.in_ranges(&trial, &mut found, &mut shown);
         }
     }
@@ -116,27 +149,21 @@ fn is_in(shader: &Shader, span: Span) -> bool {
 }
 
 /// A scene that runs the stage, and the draws that are not too much work, if its file can be read again.
-fn stand_of(
-    unit: &Unit,
-    program: &Program,
-    shader: &Shader,
-    inputs: &Inputs,
-    compiler: &Compiler,
-) -> Option<(Stand, usize)> {
+fn stand_of(case: &Case<'_>, shader: &Shader, inputs: &Inputs) -> Option<(Stand, usize)> {
     let assumptions = Assumptions { iterations: ITERATIONS, ..Assumptions::default() };
-    let costs = cost(program, &unit.batch.sources, &assumptions);
+    let costs = cost(case.program, case.sources, &assumptions);
     let weight = costs.stages.iter().find(|stage| stage.stage == shader.stage.name())?.longest.weight();
-    let draws = MOST_WORK / weight.max(1).saturating_mul(POINTS as u64);
+    let draws = MOST_WORK / case.haste.max(1) / weight.max(1).saturating_mul(POINTS as u64);
     let draws = usize::try_from(draws).unwrap_or(usize::MAX).min(trial::DRAWS);
     if draws == 0 {
         return None;
     }
-    let mut files = unit.group.inputs.iter().filter(|input| input.stage == shader.stage);
+    let mut files = case.group.inputs.iter().filter(|input| input.stage == shader.stage);
     let (file, None) = (files.next()?, files.next()) else { return None };
     if file.part.is_some() || !matches!(shader.stage, Stage::Vertex | Stage::Fragment) {
         return None;
     }
-    Some((Stand::new(file.path.as_deref()?, shader, inputs, compiler)?, draws))
+    Some((Stand::new(file.path.as_deref()?, shader, inputs, (case.compiler, case.files))?, draws))
 }
 
 /// A stage whose findings are judged.
@@ -148,6 +175,12 @@ struct Subject<'a> {
 }
 
 impl Subject<'_> {
+    /// The places of the operations that show a finding.
+    fn places_of(&self, finding: &Diagnostic) -> Vec<Place> {
+        let users = users(self.shader, finding.primary.span).into_iter();
+        users.filter_map(|(_, parent)| place(self.sources, parent.span)).collect()
+    }
+
     /// The finding with inputs that show it; nothing if no run did.
     fn witnessed(&self, trial: &Trial<'_>, finding: Diagnostic, shown: &mut Vec<Shown>) -> Option<Diagnostic> {
         for (id, parent) in users(self.shader, finding.primary.span) {

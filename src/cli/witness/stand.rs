@@ -5,7 +5,7 @@
 
 use super::inputs::{Input, InputKind, Inputs};
 use crate::cli::new_scene::textures;
-use crate::scene::{self, AttributeValues, DiskFiles, Draw, FileError, FileSource, Scene};
+use crate::scene::{self, AttributeValues, Draw, FileError, FileSource, Scene};
 use glisten_front::Compiler;
 use glisten_front::hir::{Scalar, ScalarValue, Shader, Stage, Type};
 use glisten_front::source::SourceMap;
@@ -35,8 +35,9 @@ pub(super) struct Stand {
     made: String,
 }
 
-/// The files of the disk, and those that are made.
+/// The files of the program, and those that are made.
 struct Overlay<'a> {
+    base: &'a dyn FileSource,
     scene: (&'a str, &'a str),
     made: (&'a str, &'a str),
 }
@@ -44,7 +45,7 @@ struct Overlay<'a> {
 impl FileSource for Overlay<'_> {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
         let made = [self.scene, self.made].into_iter().find(|(name, _)| same(name, path));
-        made.map_or_else(|| DiskFiles.read(path), |(_, text)| Ok(text.as_bytes().to_vec()))
+        made.map_or_else(|| self.base.read(path), |(_, text)| Ok(text.as_bytes().to_vec()))
     }
 }
 
@@ -54,7 +55,12 @@ fn same(one: &str, other: &str) -> bool {
 }
 
 impl Stand {
-    pub(super) fn new(path: &Path, shader: &Shader, inputs: &Inputs, compiler: &Compiler) -> Option<Self> {
+    pub(super) fn new(
+        path: &Path,
+        shader: &Shader,
+        inputs: &Inputs,
+        (compiler, base): (&Compiler, &dyn FileSource),
+    ) -> Option<Self> {
         let name = path.file_name()?.to_str()?;
         if !inputs.is_whole {
             return None;
@@ -70,12 +76,13 @@ impl Stand {
         let (first, second) = if is_fragment { (made_name.as_str(), name) } else { (name, made_name.as_str()) };
         let text = toml(first, second, inputs, shader);
         let (scene_path, made_path) = (in_folder(&format!("{MADE}.toml")), in_folder(&made_name));
-        let files = Overlay { scene: (&scene_path, &text), made: (&made_path, &made) };
+        let files = Overlay { base, scene: (&scene_path, &text), made: (&made_path, &made) };
         let mut loaded = scene::load(&scene_path, &files, compiler);
         let samplers = toml_textures(loaded.scene.as_ref()?.draws.first()?);
         if !samplers.is_empty() {
             // The names of samplers are known once the program is.
-            let files = Overlay { scene: (&scene_path, &format!("{text}{samplers}")), made: (&made_path, &made) };
+            let text = format!("{text}{samplers}");
+            let files = Overlay { base, scene: (&scene_path, &text), made: (&made_path, &made) };
             loaded = scene::load(&scene_path, &files, compiler);
         }
         let scene = loaded.scene?;

@@ -1,7 +1,7 @@
 //! Runs a stage with many rows of inputs, and finds one row that makes a number that is not finite.
 //!
-//! *In:* a stand, inputs. *Out:* the places at which such numbers were born, and a row for each. *Holds:* rows are halved until one is left,
-//! and its numbers are made plain as long as the place stays.
+//! *In:* a stand, inputs. *Out:* the places at which such numbers were born, and a row for each. *Holds:* the runs end when all places that
+//! are looked for were seen. The rows of a draw are halved until one is left, and its numbers are made plain as long as the place stays.
 
 use super::inputs::Inputs;
 use super::samples::{Others, rows};
@@ -10,15 +10,20 @@ use super::{Place, place};
 use crate::cli::guard;
 use crate::scene::Scene;
 use glisten_reference::RenderOptions;
-use glisten_reference::stability::trace;
-use std::collections::BTreeSet;
+use glisten_reference::stability::births;
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::{Duration, Instant};
 
 /// The most draws of a trial.
 pub(super) const DRAWS: usize = 16;
+/// The draws after which a trial looks whether it has seen enough.
+const STEPS: [usize; 3] = [1, 4, DRAWS];
 /// The plain numbers that are tried for each number of a row.
 const PLAIN: [f32; 4] = [0.0, 1.0, -1.0, 0.5];
 /// The most runs that make a row plain.
-const MOST_RUNS: usize = 48;
+const MOST_RUNS: usize = 16;
+/// How long the runs that make rows plain may take for a stage. Longer ones are told as they are.
+const MOST_TIME: Duration = Duration::from_secs(2);
 
 /// A trial that was run.
 pub(super) struct Trial<'a> {
@@ -26,61 +31,74 @@ pub(super) struct Trial<'a> {
     inputs: &'a Inputs,
     others: Others,
     rows: Vec<Vec<Vec<f32>>>,
-    born: BTreeSet<Place>,
+    /// The places at which numbers were born, each with the first draw that shows it.
+    born: BTreeMap<Place, usize>,
+    start: Instant,
 }
 
+/// The rows of a draw.
+type Rows<'r> = Vec<&'r [f32]>;
+
 impl<'a> Trial<'a> {
-    /// Runs all rows; nothing if the reference cannot.
-    pub(super) fn run(stand: &'a Stand, inputs: &'a Inputs, (others, draws): (Others, usize)) -> Option<Self> {
-        let rows: Vec<Vec<Vec<f32>>> = (0..draws).map(|draw| rows(inputs, others, draw, POINTS)).collect();
-        let mut trial = Self { stand, inputs, others, rows, born: BTreeSet::new() };
-        let all: Vec<Vec<&[f32]>> = trial.rows.iter().map(|rows| rows.iter().map(Vec::as_slice).collect()).collect();
-        let born = trial.births(&all)?;
-        trial.born = born;
+    /// Runs rows until all places that are `wanted` were seen, all rows if nothing is said; nothing if the reference cannot.
+    pub(super) fn run(
+        stand: &'a Stand,
+        inputs: &'a Inputs,
+        (others, draws): (Others, usize),
+        wanted: Option<&BTreeSet<Place>>,
+    ) -> Option<Self> {
+        let start = Instant::now();
+        let mut trial = Self { stand, inputs, others, rows: Vec::new(), born: BTreeMap::new(), start };
+        for step in STEPS.map(|step| if wanted.is_some() { step } else { DRAWS }) {
+            let first = trial.rows.len();
+            let more: Vec<Vec<Vec<f32>>> =
+                (first..step.min(draws)).map(|draw| rows(inputs, others, draw, POINTS)).collect();
+            if more.is_empty() {
+                break;
+            }
+            let all: Vec<Rows<'_>> = more.iter().map(|rows| rows.iter().map(Vec::as_slice).collect()).collect();
+            for (draw, at) in trial.births(&all)? {
+                trial.born.entry(at).or_insert(first + draw);
+            }
+            trial.rows.extend(more);
+            if wanted.is_some_and(|wanted| wanted.iter().all(|at| trial.born.contains_key(at))) {
+                break;
+            }
+        }
         Some(trial)
     }
 
     /// The places at which numbers that are not finite were born.
     pub(super) fn places(&self) -> impl Iterator<Item = Place> {
-        self.born.iter().cloned()
+        self.born.keys().cloned()
     }
 
-    /// Those of some rows, draw by draw.
-    fn births(&self, draws: &[Vec<&[f32]>]) -> Option<BTreeSet<Place>> {
-        let draws = draws.iter().filter_map(|rows| self.stand.draw(self.inputs, rows)).collect();
+    /// Those of some rows, each with its draw, in the order of the draws.
+    fn births(&self, draws: &[Rows<'_>]) -> Option<BTreeSet<(usize, Place)>> {
+        let draws = draws.iter().map(|rows| self.stand.draw(self.inputs, rows)).collect::<Option<_>>()?;
         let scene = Scene { draws, ..self.stand.scene.clone() };
         let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
-        let traced = guard::guarded(|| trace(&scene, &options)).ok()?.ok()?;
-        let born = traced.spans.iter().filter(|span| span.births > 0);
-        Some(born.filter_map(|span| place(&self.stand.sources, span.span)).collect())
+        let born = guard::guarded(|| births(&scene, &options)).ok()?.ok()?;
+        let at = |(draw, span)| Some((draw, place(&self.stand.sources, span)?));
+        Some(born.into_iter().filter_map(at).collect())
     }
 
-    fn shows(&self, draws: &[Vec<&[f32]>], at: &Place) -> bool {
-        self.births(draws).is_some_and(|born| born.contains(at))
+    /// The first of some draws in which a number is born at a place.
+    fn first_that_shows(&self, draws: &[Rows<'_>], at: &Place) -> Option<usize> {
+        self.births(draws)?.into_iter().find(|(_, place)| place == at).map(|(draw, _)| draw)
     }
 
     /// A row of inputs for which a number is born at a place.
     pub(super) fn row_of(&self, at: &Place) -> Option<Vec<f32>> {
-        if !self.born.contains(at) {
-            return None;
-        }
-        let mut draws: Vec<Vec<&[f32]>> =
-            self.rows.iter().map(|rows| rows.iter().map(Vec::as_slice).collect()).collect();
-        while draws.len() > 1 {
-            let rest = draws.split_off(draws.len() / 2);
-            if !self.shows(&draws, at) {
-                draws = rest;
-            }
-        }
-        let mut rows = draws.pop()?;
+        let rows = self.rows.get(*self.born.get(at)?)?;
+        let mut rows: Rows<'_> = rows.iter().map(Vec::as_slice).collect();
+        // The rows of a draw have the same uniforms, so each part of them is a draw, too.
         while rows.len() > 1 {
-            let rest = rows.split_off(rows.len() / 2);
-            if !self.shows(&[rows.clone()], at) {
-                rows = rest;
-            }
+            let parts: Vec<Rows<'_>> = rows.chunks(rows.len().div_ceil(8)).map(<[_]>::to_vec).collect();
+            let first = self.first_that_shows(&parts, at)?;
+            rows = parts.into_iter().nth(first)?;
         }
-        let row = rows.pop()?.to_vec();
-        self.shows(&[vec![row.as_slice()]], at).then(|| self.plain(row, at))
+        Some(self.plain(rows.pop()?.to_vec(), at))
     }
 
     /// The row with plain numbers where they show the same. What is stated about inputs holds for them, too.
@@ -94,22 +112,31 @@ impl<'a> Trial<'a> {
             if !is_free || input.size() > 4 {
                 continue;
             }
-            let mut candidates: Vec<Vec<f32>> = PLAIN.iter().map(|number| vec![*number; input.size()]).collect();
+            let mut values: Vec<Vec<f32>> = PLAIN.iter().map(|number| vec![*number; input.size()]).collect();
             let rounded = |digits: f32| {
                 row.get(own.clone()).map(|own| own.iter().map(|n| (n * digits).round() / digits).collect())
             };
-            candidates.extend([10.0, 100.0, 1000.0].into_iter().filter_map(rounded));
-            for candidate in candidates {
-                runs += 1;
-                if runs > MOST_RUNS {
-                    return row;
-                }
-                let mut changed = row.clone();
-                changed.splice(own.clone(), candidate);
-                if changed == row || self.shows(&[vec![changed.as_slice()]], at) {
-                    row = changed;
-                    break;
-                }
+            values.extend([10.0, 100.0, 1000.0].into_iter().filter_map(rounded));
+            let candidates: Vec<Vec<f32>> = values
+                .into_iter()
+                .map(|value| {
+                    let mut changed = row.clone();
+                    changed.splice(own.clone(), value);
+                    changed
+                })
+                .take_while(|changed| *changed != row)
+                .collect();
+            if candidates.is_empty() {
+                continue;
+            }
+            runs += 1;
+            if runs > MOST_RUNS || self.start.elapsed() > MOST_TIME {
+                return row;
+            }
+            // Each candidate is a draw of one row.
+            let draws: Vec<Rows<'_>> = candidates.iter().map(|row| vec![row.as_slice()]).collect();
+            if let Some(changed) = self.first_that_shows(&draws, at).and_then(|draw| candidates.get(draw)) {
+                row.clone_from(changed);
             }
         }
         row

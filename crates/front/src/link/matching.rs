@@ -40,11 +40,16 @@ impl<'a> Outputs<'a> {
     }
 
     /// The output that feeds an input: one of the same explicit location (GLSL 4.10 §4.4.1), or else of the same name
-    /// and kind.
+    /// and kind, unless both state locations, which then differ.
     pub(super) fn partner(&self, input: &Global) -> Option<(GlobalId, &'a Global)> {
         let is_block = input.block.is_some();
         let by_location = || self.by_location.get(&(input.location?, input.component.unwrap_or(0), is_block));
-        let id = *by_location().or_else(|| self.by_name.get(&(input.match_name(), is_block)))?;
+        let by_name = || {
+            let id = self.by_name.get(&(input.match_name(), is_block))?;
+            let differs = input.location.is_some() && self.producer.global(*id).location.is_some();
+            (!differs).then_some(id)
+        };
+        let id = *by_location().or_else(by_name)?;
         Some((id, self.producer.global(id)))
     }
 }

@@ -35,6 +35,7 @@ mod record;
 #[cfg(test)]
 mod tests;
 
+pub use births::births;
 pub use draw::{Arithmetic, draw};
 pub use errors::ErrorMap;
 pub use exact::{EXACT_BITS, ExactPixel, recompute};

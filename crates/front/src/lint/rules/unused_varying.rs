@@ -18,7 +18,10 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let program = subject.program;
     for pair in program.stages.windows(2) {
         let [producer, consumer] = pair else { continue };
-        let located = |global: &Global| consumer.globals.iter().any(|other| other.location == global.location);
+        let located = |global: &Global| {
+            let mut inputs = consumer.globals.iter().filter(|other| other.storage == Storage::In);
+            inputs.any(|other| other.location == global.location)
+        };
         let outputs =
             producer.globals().filter(|(_, global)| global.storage == Storage::Out && global.builtin.is_none());
         for (id, output) in outputs {
