@@ -22,7 +22,7 @@ const HASTE: u64 = 4;
 /// The most programs whose judgements are kept.
 const MOST_KEPT: usize = 64;
 
-/// What was judged, and what waits for it.
+/// The findings that were judged, and the programs that wait for it.
 #[derive(Default)]
 pub(super) struct Judged {
     /// The findings of programs, by the digests of their texts.
@@ -73,7 +73,7 @@ impl Judged {
     }
 
     /// Judges the findings of a program. Whether they are others than those that were told.
-    pub(super) fn judge(
+    pub(super) fn find_witnesses(
         &mut self,
         key: &ProgramKey,
         case: &Judging<'_>,

@@ -427,7 +427,7 @@ impl Project for Files<'_> {
         }
     }
 
-    fn judge(&mut self) -> Option<ProgramKey> {
+    fn find_witnesses(&mut self) -> Option<ProgramKey> {
         let key = self.judged.next()?;
         let group = self.groups.get(&key).cloned()?;
         let (sources, unread, _) = self.read(&group);
@@ -444,7 +444,7 @@ impl Project for Files<'_> {
         let wanted = |code: &Code| levels.iter().any(|levels| levels.may_report(code));
         let case = Judging { group: &group, program: linked, sources: &compilation.sources, ranges: &ranges };
         let files = OpenFiles(self.overlay.clone());
-        self.judged.judge(&key, &case, (&compiler, &files), wanted, found).then_some(key)
+        self.judged.find_witnesses(&key, &case, (&compiler, &files), wanted, found).then_some(key)
     }
 
     fn probe(&mut self, program: &ProgramKey, file: &Path, text: Arc<str>, probe: Option<&str>) -> Option<Compiled> {

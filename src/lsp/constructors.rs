@@ -14,7 +14,7 @@ static SCALARS: &[(&str, &str)] = &[("float", ""), ("int", "i"), ("uint", "u"), 
 pub(crate) struct Constructor {
     /// The types and names of its parameters.
     pub(crate) params: Vec<String>,
-    /// What it makes of them.
+    /// The value that it makes of them.
     pub(crate) sentence: &'static str,
 }
 

@@ -143,7 +143,7 @@ pub(crate) trait Project: Shown {
     fn compile(&mut self, program: &ProgramKey) -> Compiled;
 
     /// Judges by runs what one program's findings say about numbers, if a program waits for it. Its key, if that changed its findings.
-    fn judge(&mut self) -> Option<ProgramKey>;
+    fn find_witnesses(&mut self) -> Option<ProgramKey>;
 
     /// Compiles one file up to where `text` ends, with a name in it about which more is wanted.
     fn probe(&mut self, program: &ProgramKey, file: &Path, text: Arc<str>, probe: Option<&str>) -> Option<Compiled>;

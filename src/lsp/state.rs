@@ -139,7 +139,7 @@ impl<'p> State<'p> {
 
     /// Does what waits until the editor rests. Whether findings changed.
     pub(crate) fn rest(&mut self) -> bool {
-        let Some(key) = self.project.judge() else { return false };
+        let Some(key) = self.project.find_witnesses() else { return false };
         self.analyses.remove(&key);
         true
     }

@@ -104,7 +104,7 @@ fn fault(name: &str) -> Fault {
     Fault { at: at.unwrap_or_else(|| panic!("{name} says where its fault is")), files }
 }
 
-/// What glisten says at the place, with and without the rules that are off by default.
+/// The code that glisten has for the place, with and without the rules that are off by default.
 fn by_glisten(folder: &Folder, fault: &Fault) -> String {
     let files: Vec<&str> = fault.files.iter().map(|path| path.to_str().expect("a name")).collect();
     let name = fault.at.0.to_string_lossy().into_owned();
@@ -122,7 +122,7 @@ fn by_glisten(folder: &Folder, fault: &Fault) -> String {
     codes(&all).first().map_or_else(String::new, |code| format!("{code}, off by default"))
 }
 
-/// What a command says, without colors; nothing if it is not installed.
+/// The output of a command, without colors; nothing if it is not installed.
 fn said(command: &mut Command) -> Option<String> {
     let output = command.env("NO_COLOR", "1").output().ok()?;
     let text = [output.stdout, output.stderr].concat();

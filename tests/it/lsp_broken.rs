@@ -10,7 +10,7 @@ const BEFORE: &str = "#version 150\nstruct Light { vec3 direction; float power; 
 const AFTER: &str = "    float last = lamp.power;\n    float wrong = first;\n    color = vec4(shade(first, last), 1.0);\n}\n\
     float after(vec3 a) {\n    return a.x;\n}\n";
 
-/// What a person has typed of a line, and what is not finished yet.
+/// Lines that a person has not finished yet.
 const HALF: [&str; 25] = [
     "    vec3 n = normalize(",
     "    vec3 n = normalize(first",

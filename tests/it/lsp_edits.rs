@@ -108,7 +108,7 @@ fn edit(text: &str, random: &mut Random) -> (Value, String) {
     (change, format!("{}{new}{}", &text[..start], &text[end..]))
 }
 
-/// What a server says of the document: findings, symbols, colors.
+/// The findings, symbols and colors of the document by a server.
 fn state(editor: &mut Editor) -> [Value; 3] {
     let document = json!({ "textDocument": { "uri": editor.uri("a.frag") } });
     ["diagnostic", "documentSymbol", "semanticTokens/full"].map(|request| {

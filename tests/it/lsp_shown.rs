@@ -214,7 +214,7 @@ fn messages_that_are_none_are_passed_over() {
     assert_eq!(told(&half).1, Some(1));
 }
 
-/// What a finding on numerics says is shown by a run once the editor rests, and not told before.
+/// A finding on numerics is told with inputs, once the editor rests, and not before.
 #[test]
 fn findings_on_numerics_come_with_inputs() {
     let text = "#version 150\nin vec3 n; in vec3 l; uniform float k; out vec4 c;\n\

@@ -81,9 +81,9 @@ pub(super) struct Case<'a> {
     pub(super) program: &'a Program,
     /// Its texts.
     pub(super) sources: &'a SourceMap,
-    /// What is stated about inputs, by name.
+    /// The stated ranges of inputs, by name.
     pub(super) ranges: &'a [(String, Bounds)],
-    /// What compiled it.
+    /// The compiler that made it.
     pub(super) compiler: &'a Compiler,
     /// Where its files are read again.
     pub(super) files: &'a dyn FileSource,

@@ -371,7 +371,7 @@ pub enum DeclarationKind {
     Function(FunctionHeader, Vec<Stmt>),
 }
 
-/// What was understood of a statement or declaration that has an error.
+/// The understood part of a statement or declaration that has an error.
 #[derive(Clone, Debug)]
 pub struct Fragment {
     /// The names that it declares, in source order.

@@ -1,4 +1,4 @@
-//! What is kept of a statement or declaration that has an error.
+//! The understood part of a statement or declaration that has an error.
 //!
 //! *In:* the expressions and names that were read before the error. *Out:* a [`Fragment`], so that names in broken text are known to an
 //! editor, and variables have their types. *Not done here:* saying anything about it; the error has been reported.
@@ -20,7 +20,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.taken.clear();
     }
 
-    /// What was understood of the statement or declaration that began at a mark.
+    /// The understood part of the statement or declaration that began at a mark.
     pub(super) fn fragment(&mut self, start: Mark, span: Span) -> Fragment {
         let variables = self.unfinished.take();
         let names = std::mem::take(&mut self.declaring);

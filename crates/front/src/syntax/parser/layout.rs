@@ -10,6 +10,7 @@ use super::types::is_qualifier;
 use super::{Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
+use crate::syntax::ast::Ident;
 
 /// How many tokens are looked at to tell whether a line begins a statement.
 const MAX_LOOK: usize = 256;
@@ -206,6 +207,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.recovered = true;
         let Some(&first) = self.taken.get(number) else { return };
         self.consumed = self.consumed.saturating_sub(self.taken.len() - number);
+        let is_behind = |name: &Ident| self.taken.iter().skip(number).any(|token| token.span == name.span);
+        let names: Vec<Ident> = self.declaring.iter().filter(|name| !is_behind(name)).copied().collect();
+        if names.len() < self.declaring.len() {
+            // They are declared by the line that is read once more.
+            self.declaring = names;
+            self.unfinished = None;
+        }
         self.ahead.push_front(self.current);
         for token in self.taken.drain(number..).skip(1).rev() {
             self.ahead.push_front(token);

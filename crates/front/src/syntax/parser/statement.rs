@@ -292,7 +292,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(StmtKind::For { init: Box::new(init), condition, step, body })
     }
 
-    /// What is known of the header of a `for` that has an error: its variable.
+    /// The known part of the header of a `for` that has an error: its variable.
     fn broken_for(&mut self, from: usize) -> (Stmt, Option<Condition>, Option<ExprId>) {
         let span = self.previous.span;
         let start = Mark { exprs: from, ..self.mark() };
