@@ -171,6 +171,7 @@ fn by_naga(fault: &Fault) -> Option<String> {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "the table is for the page")]
 fn fifty_faults_are_found() {
     let folder = Folder::new(&[]);
     let names: BTreeSet<String> = fs::read_dir(root().join("fixtures/faults"))

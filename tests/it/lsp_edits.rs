@@ -127,6 +127,7 @@ fn memory(editor: &Editor) -> Option<u64> {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "the figures of a long run are read")]
 fn random_edits_leave_what_a_new_server_knows() {
     let edits = std::env::var("GLISTEN_EDITS").ok().and_then(|text| text.parse().ok()).unwrap_or(EDITS);
     let whole = source();

@@ -41,7 +41,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let from = from.max(self.settled);
         let exprs = self.ast.exprs.get(from..).unwrap_or_default();
         let mut is_inner = vec![false; exprs.len()];
-        let inner = exprs.iter().flat_map(|expr| children(expr)).chain(belong);
+        let inner = exprs.iter().flat_map(children).chain(belong);
         for id in inner.filter_map(|id| id.index().checked_sub(from)) {
             if let Some(flag) = is_inner.get_mut(id) {
                 *flag = true;
