@@ -1,4 +1,4 @@
-//! What must hold for any input, as functions.
+//! Promises that must hold for any input, as functions.
 //!
 //! ```text
 //!  bytes ──► Target::check ──► returns, or panics where a promise does not hold
@@ -25,7 +25,7 @@ pub use words::dictionary;
 pub struct Target {
     /// Its name: `emit`.
     pub name: &'static str,
-    /// What holds for any input, in one sentence.
+    /// A sentence: it holds for any input.
     pub promise: &'static str,
     /// Panics if the promise does not hold for this input.
     pub check: fn(&[u8]),

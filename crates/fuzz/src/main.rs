@@ -14,7 +14,7 @@ use glisten_fuzz::{TARGETS, Target, dictionary, seeds, target};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
-/// What makes rustc count which edges of the program were taken, as libFuzzer reads it.
+/// The flags by which rustc counts which edges of the program were taken, as libFuzzer reads it.
 const COUNTERS: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=3 \
     -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \
     -Cllvm-args=-sanitizer-coverage-trace-compares";

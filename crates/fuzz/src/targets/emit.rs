@@ -41,7 +41,7 @@ pub(super) fn check(input: &[u8]) {
     }
 }
 
-/// What a target lacks is said; it is no error of glisten.
+/// A target may lack something; it says so, which is no error of glisten.
 fn told<T>(result: Result<T, Vec<Diagnostic>>) -> Option<T> {
     match result {
         Ok(written) => Some(written),
@@ -77,7 +77,7 @@ pub(super) fn accepted(sources: &[Source], otherwise: &str) {
     assert!(error.is_none(), "{otherwise}: {message}\n{}", named(sources));
 }
 
-/// What `-O` leaves is a program that the same host can use: it asks for nothing new, and each target takes it that took the whole.
+/// The rest after `-O` is a program that the same host can use: it asks for nothing new, and each target takes it that took the whole.
 pub(super) fn optimize(input: &[u8]) {
     let Some(program) = program(input) else { return };
     let left = optimized(&program);

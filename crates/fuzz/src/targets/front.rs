@@ -8,7 +8,7 @@ use glisten_front::diagnostic::{Applicability, Diagnostic, Patch};
 use glisten_front::source::{Completion, SourceMap};
 use glisten_front::{Compilation, Compiler, Options, Source, lint};
 
-/// What is compiled, as text.
+/// The compilation of an input.
 pub(super) fn compiled(sources: &[Source]) -> Compilation {
     let compilation = compiler().compile(sources);
     no_internal_error(&compilation.diagnostics);

@@ -60,9 +60,9 @@ pub(crate) const ALL: &[Target] = &[
     },
     Target { name: "scene", promise: "a scene draws or has errors", check: scene::check, begins: Kind::Scenes },
     Target {
-        name: "judge",
+        name: "compare",
         promise: "no pixel in f32 is outside of the envelope",
-        check: scene::judge,
+        check: scene::compare,
         begins: Kind::Scenes,
     },
     Target {

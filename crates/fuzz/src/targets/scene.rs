@@ -56,7 +56,7 @@ pub(super) fn check(input: &[u8]) {
 }
 
 /// f32 without any freedom is what a conforming GPU may draw.
-pub(super) fn judge(input: &[u8]) {
+pub(super) fn compare(input: &[u8]) {
     let loaded = loaded(input);
     let Some(scene) = small(&loaded) else { return };
     // The reference holds whole numbers in its floats; those of f32 have fewer digits.

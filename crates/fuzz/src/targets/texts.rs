@@ -1,4 +1,4 @@
-//! What rewrites sources: `fmt` and `upgrade`.
+//! Rewritten sources: `fmt` and `upgrade`.
 
 use super::emit::accepted;
 use super::front::compiler;
@@ -18,7 +18,7 @@ pub(super) fn format(input: &[u8]) {
     }
 }
 
-/// Another version. What it lacks is refused, by a sentence of its own or by the errors of the new text.
+/// Another version. A feature that it lacks is refused, by a sentence of its own or by the errors of the new text.
 pub(super) fn upgrade(input: &[u8]) {
     let text = String::from_utf8_lossy(input);
     let sources = Sections::of(&text).shaders();

@@ -110,7 +110,7 @@ fn texture_functions(shader: &Shader) -> impl Iterator<Item = &'static str> {
     })
 }
 
-/// The names of built-in functions that a program calls beside functions of its own with these names. Before 1.30 they are overloads of
+/// The names of built-in functions that a program calls, besides functions of its own with these names. Before 1.30 they are overloads of
 /// each other; later, those of the program hide the built-in ones (GLSL 1.30 §6.1).
 fn overloaded(program: &Program) -> impl Iterator<Item = &'static str> {
     let own: BTreeSet<&str> =

@@ -83,7 +83,7 @@ fn varying_names(shader: &mut Shader, program: &Program) {
     }
 }
 
-/// What the compatibility profile reads and the stage before does not write is undefined (GLSL 1.20 §7.6). Later versions do not link then,
+/// An input of the compatibility profile that the stage before does not write is undefined (GLSL 1.20 §7.6). Later versions do not link then,
 /// so it is a variable without a value.
 fn unwritten_inputs(shader: &mut Shader, program: &Program) {
     if shader.stage != Stage::Fragment || !program.stages.iter().any(|stage| stage.stage != Stage::Fragment) {
