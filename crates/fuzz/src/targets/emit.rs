@@ -13,8 +13,8 @@ use glisten_specialize::optimize as optimized;
 /// Conventions that differ in all that the writers look at.
 fn conventions() -> [Conventions; 3] {
     let plain = Conventions::default();
-    let half = Conventions { floats: FloatWidth::Half, window_origin: WindowOrigin::LowerLeft, ..plain.clone() };
-    let vulkan = Conventions { glsl_version: GlslVersion::Vulkan, debug_lines: true, ..plain.clone() };
+    let half = Conventions { floats: FloatWidth::Half, window_origin: WindowOrigin::LowerLeft, ..plain };
+    let vulkan = Conventions { glsl_version: GlslVersion::Vulkan, debug_lines: true, ..plain };
     [plain, half, vulkan]
 }
 
