@@ -14,7 +14,7 @@
 mod branches;
 mod chunks;
 mod layout;
-pub mod scan;
+pub(crate) mod scan;
 mod state;
 
 use scan::{Kind, scan};

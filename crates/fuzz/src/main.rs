@@ -9,6 +9,8 @@
 //! *In:* the names of targets and a time. *Out:* inputs that break a promise, as files; a line for each target with what was
 //! executed. The exit code is 1 if there is such an input. *Holds:* a stable compiler is enough: the counters are a pass of LLVM.
 
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for developers")]
+
 use clap::Parser;
 use glisten_fuzz::{TARGETS, Target, dictionary, seeds, target};
 use std::path::{Path, PathBuf};

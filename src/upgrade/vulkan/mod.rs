@@ -1,5 +1,5 @@
 //! Texts of GLSL for OpenGL as texts for Vulkan (GL_KHR_vulkan_glsl), by edits: sets, bindings and locations, the loose uniforms as
-//! members of blocks, coordinates by the defaults of `glisten compile`. [`to_vulkan`] takes one program, [`tree`] many that share files.
+//! members of blocks, coordinates by the defaults of `glisten compile`. [`to_vulkan`] takes one program, [`tree()`] many that share files.
 //!
 //! *In:* compilers, and the sources of programs that compile. *Out:* new texts. *Holds:* comments, macros and layout stay. The new texts,
 //! read as OpenGL's, compile, too, and have the same interface.
