@@ -15,6 +15,7 @@ const MAX_LINES: usize = 700;
 
 /// Every crate, the crates of glisten that it may depend on, and outside crates that it must not depend on.
 static CRATES: &[(&str, &[&str], &[&str])] = &[
+    ("crates/features", &[], &["wgpu"]),
     ("crates/front", &[], &["naga", "wgpu", "clap", "png", "toml", "rayon", "tempfile"]),
     ("crates/emit", &["glisten-front"], &["wgpu", "clap", "png", "toml", "rayon"]),
     ("crates/scene", &["glisten-front"], &["naga", "wgpu", "clap"]),

@@ -469,17 +469,6 @@ fn reflect_of_several_programs_is_an_object_by_stem() {
     assert_eq!(json["uniforms"][0]["name"], "mc");
 }
 
-#[cfg(not(feature = "gl"))]
-#[test]
-fn a_backend_that_is_not_built_says_how_to_build_it() {
-    let folder = Folder::new(&[]);
-    for arguments in [&["render", "none.toml", "-o", "s.png"][..], &["gallery", "-o", "pages"]] {
-        let output = folder.run(&[arguments, &["--backend", "gl"]].concat());
-        assert_eq!(code(&output), 2, "{}", err(&output));
-        assert!(err(&output).contains("cargo install --path . --features gl"), "{}", err(&output));
-    }
-}
-
 #[test]
 fn macros_come_from_the_command_line() {
     let folder = Folder::new(&[("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(VALUE); }\n")]);

@@ -47,6 +47,7 @@ mod evidence;
 #[cfg(feature = "reference")]
 mod exec;
 #[cfg(feature = "cli")]
+mod features;
 mod first_hour;
 #[cfg(feature = "cli")]
 mod first_steps;
