@@ -299,6 +299,10 @@ fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) ->
         Some(stage) => Ok(vec![Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: None }]),
         None => Err(Failure::usage(format!("cannot tell the shader stage of `{name}`")).help(match Host::of(path) {
             Some(_) => "`glisten lint --embedded` reads the shaders in its strings".to_owned(),
+            None if path.extension().is_some_and(|extension| extension == "toml") => {
+                "a scene is for `glisten verify`, `render` and others; name the shaders of its `[[draw]]`s here"
+                    .to_owned()
+            }
             None => format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()),
         })),
     }
