@@ -8,13 +8,14 @@ use super::files;
 use super::journal;
 use super::scenes::{gpu_failure, open_gpu};
 use crate::evaluate::EvaluateError;
-use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, modules, shader, shader_files};
+use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, flat, modules, shader, shader_files};
 use crate::measure::{Figures, Form, Trial, forms};
 use clap::{Args, Subcommand, ValueEnum};
 use glisten_front::diagnostic::did_you_mean;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Use the library of lighting models
@@ -45,6 +46,9 @@ enum LibCommand {
     },
     /// Write all modules, and the programs made of them, as files that include each other
     Export {
+        /// Write the text of a module in place of its include: each file is whole, for hosts without includes
+        #[arg(long)]
+        flat: bool,
         /// The output folder
         #[arg(value_name = "DIR")]
         folder: PathBuf,
@@ -90,7 +94,9 @@ pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
         LibCommand::List { format: ResultFormat::Human } => list(),
         LibCommand::List { format: ResultFormat::Json } => lines(&entries().iter().map(summary).collect::<Vec<_>>()),
         LibCommand::Show { name, source, format } => show(&find(name)?, *source, *format)?,
-        LibCommand::Export { folder } => return export(folder, console),
+        LibCommand::Export { flat, folder } => {
+            return export(folder, if *flat { Layout::Flat } else { Layout::Includes }, console);
+        }
         LibCommand::Measure { modules, rows, backend, adapter, format } => {
             let gpu = match backend {
                 MeasureBackends::Cpu => None,
@@ -241,15 +247,32 @@ fn wrapped(text: &str, indent: &str) -> String {
     lines.join("\n")
 }
 
-fn export(folder: &Path, console: &Console) -> Outcome {
+/// How exported files hold the modules that they use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Layout {
+    /// By `#include` of another exported file.
+    Includes,
+    /// By their texts.
+    Flat,
+}
+
+fn export(folder: &Path, layout: Layout, console: &Console) -> Outcome {
     files::make_folder(folder)?;
     for module in modules() {
-        files::write(&folder.join(format!("{}.glsl", module.name)), module.text.as_bytes())?;
+        let text = match layout {
+            Layout::Includes => Cow::Borrowed(module.text),
+            Layout::Flat => Cow::Owned(flat(module.text)),
+        };
+        files::write(&folder.join(format!("{}.glsl", module.name)), text.as_bytes())?;
     }
     let programs = folder.join("programs");
     files::make_folder(&programs)?;
     for (file, text) in shader_files().filter_map(|file| Some((file, shader(file)?))) {
-        files::write(&programs.join(file), from_disk(text).as_bytes())?;
+        let text = match layout {
+            Layout::Includes => from_disk(text),
+            Layout::Flat => flat(text),
+        };
+        files::write(&programs.join(file), text.as_bytes())?;
     }
     let counts = (modules().len(), shader_files().count());
     console.remark(&format!("wrote {} modules and {} shaders to {}", counts.0, counts.1, folder.display()));

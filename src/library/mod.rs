@@ -8,6 +8,8 @@
 
 mod catalogue;
 mod cost;
+#[cfg(feature = "cli")]
+mod flat;
 mod header;
 mod programs;
 #[cfg(feature = "reference")]
@@ -17,6 +19,8 @@ mod scenes;
 pub use catalogue::{Entry, FunctionEntry, entries, entry};
 pub(crate) use cost::own as own_cost;
 pub use cost::{Cost, cost};
+#[cfg(feature = "cli")]
+pub(crate) use flat::flat;
 pub use header::Header;
 pub use programs::{LibraryProgram, programs, shader, shader_files};
 pub use scenes::{LibraryScene, scenes};
@@ -107,16 +111,21 @@ pub struct Embedded;
 impl Embedded {
     /// The module that an include refers to, if there is one.
     pub fn find(path: &str, form: IncludeForm, from: &str) -> Option<Included> {
+        if form == IncludeForm::Quoted && !is_embedded(from) {
+            return None;
+        }
+        let module = Self::module(path, form)?;
+        Some(Included { name: format!("{SHOWN}{}.glsl", module.name), text: module.text.into() })
+    }
+
+    /// The module that an include refers to if a text of the library has it.
+    fn module(path: &str, form: IncludeForm) -> Option<&'static Module> {
         let file = match form {
             IncludeForm::Angled => path.strip_prefix(FOLDER)?,
             IncludeForm::Quoted => path.strip_prefix("./").unwrap_or(path),
         };
-        if form == IncludeForm::Quoted && !is_embedded(from) {
-            return None;
-        }
         let name = file.strip_suffix(".glsl")?;
-        let module = MODULES.iter().find(|module| module.name == name)?;
-        Some(Included { name: format!("{SHOWN}{file}"), text: module.text.into() })
+        MODULES.iter().find(|module| module.name == name)
     }
 }
 

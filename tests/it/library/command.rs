@@ -1,5 +1,6 @@
 //! `glisten lib`, end to end.
 
+use crate::emit::missing;
 use crate::support::root;
 use serde_json::Value;
 use std::fs;
@@ -75,6 +76,42 @@ fn an_unknown_module_is_wrong_usage_and_names_the_nearest() {
     assert!(output.status.code() == Some(2) && err(&output).contains("`phongFactor`"), "{}", err(&output));
     for arguments in [&[][..], &["list", "extra"], &["export"], &["measure", "nothing_like_it"]] {
         assert_eq!(run(arguments).status.code(), Some(2), "{arguments:?}");
+    }
+}
+
+/// Flat files need no include mechanism: each module alone, all modules in one shader, and the programs.
+#[test]
+fn flat_files_are_whole() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let target = folder.path().join("flat");
+    let output = run(&["export", "--flat", &target.to_string_lossy()]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let shaders = folder.path().join("shaders");
+    fs::create_dir(&shaders).expect("made");
+    let mut whole = "#version 150\n".to_owned();
+    for module in glisten::library::modules() {
+        let written = fs::read_to_string(target.join(format!("{}.glsl", module.name))).expect("it is written");
+        assert!(!written.contains("#include"), "{written}");
+        let shader = format!("#version 150\n{written}void main() {{}}\n");
+        fs::write(shaders.join(format!("{}.frag", module.name)), shader).expect("written");
+        whole += &written;
+    }
+    fs::write(shaders.join("whole.frag"), whole + "void main() {}\n").expect("written");
+    for entry in fs::read_dir(target.join("programs")).expect("it is written") {
+        let path = entry.expect("an entry").path();
+        let text = fs::read_to_string(&path).expect("readable");
+        assert!(!text.contains("#include") && !text.contains("shading_language_include"), "{text}");
+        fs::copy(&path, shaders.join(path.file_name().expect("a name"))).expect("copied");
+    }
+    let lint = Command::new(env!("CARGO_BIN_EXE_glisten")).args(["lint", "-q"]).arg(&shaders).output();
+    let lint = lint.expect("the program runs");
+    assert_eq!(lint.status.code(), Some(0), "{}{}", out(&lint), err(&lint));
+    let files = fs::read_dir(&shaders).expect("it is there").map(|one| one.expect("an entry").path());
+    let files: Vec<_> = files.collect();
+    assert!(files.len() > 80, "only {} files", files.len());
+    match Command::new("glslangValidator").args(&files).output() {
+        Ok(judged) => assert!(judged.status.success(), "{}", out(&judged)),
+        Err(_) => missing("glslangValidator", "Debian has it in the package glslang-tools"),
     }
 }
 
