@@ -300,7 +300,7 @@ fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) ->
         None => Err(Failure::usage(format!("cannot tell the shader stage of `{name}`")).help(match Host::of(path) {
             Some(_) => "`glisten lint --embedded` reads the shaders in its strings".to_owned(),
             None if path.extension().is_some_and(|extension| extension == "toml") => {
-                "a scene is for `glisten verify`, `render` and others; name the shaders of its `[[draw]]`s here"
+                "`glisten verify` and `glisten render` take scenes; this command takes the shaders that a scene names"
                     .to_owned()
             }
             None => format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()),

@@ -95,7 +95,7 @@ pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
         LibCommand::List { format: ResultFormat::Json } => lines(&entries().iter().map(summary).collect::<Vec<_>>()),
         LibCommand::Show { name, source, format } => show(&find(name)?, *source, *format)?,
         LibCommand::Export { flat, folder } => {
-            return export(folder, if *flat { Layout::Flat } else { Layout::Includes }, console);
+            return export(folder, if *flat { Includes::Replaced } else { Includes::Kept }, console);
         }
         LibCommand::Measure { modules, rows, backend, adapter, format } => {
             let gpu = match backend {
@@ -247,30 +247,30 @@ fn wrapped(text: &str, indent: &str) -> String {
     lines.join("\n")
 }
 
-/// How exported files hold the modules that they use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Layout {
-    /// By `#include` of another exported file.
-    Includes,
-    /// By their texts.
-    Flat,
+/// The includes in exported files.
+#[derive(Clone, Copy, Debug)]
+enum Includes {
+    /// Each names another exported file.
+    Kept,
+    /// Each is the text of the module.
+    Replaced,
 }
 
-fn export(folder: &Path, layout: Layout, console: &Console) -> Outcome {
+fn export(folder: &Path, includes: Includes, console: &Console) -> Outcome {
     files::make_folder(folder)?;
     for module in modules() {
-        let text = match layout {
-            Layout::Includes => Cow::Borrowed(module.text),
-            Layout::Flat => Cow::Owned(flat(module.text)),
+        let text = match includes {
+            Includes::Kept => Cow::Borrowed(module.text),
+            Includes::Replaced => Cow::Owned(flat(module.text)),
         };
         files::write(&folder.join(format!("{}.glsl", module.name)), text.as_bytes())?;
     }
     let programs = folder.join("programs");
     files::make_folder(&programs)?;
     for (file, text) in shader_files().filter_map(|file| Some((file, shader(file)?))) {
-        let text = match layout {
-            Layout::Includes => from_disk(text),
-            Layout::Flat => flat(text),
+        let text = match includes {
+            Includes::Kept => from_disk(text),
+            Includes::Replaced => flat(text),
         };
         files::write(&programs.join(file), text.as_bytes())?;
     }

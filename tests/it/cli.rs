@@ -478,6 +478,15 @@ fn macros_come_from_the_command_line() {
     assert_eq!(code(&folder.run(&["lint", "a.frag", "-D", "1X"])), 2);
 }
 
+#[test]
+fn a_scene_in_place_of_a_shader_is_told_who_takes_it() {
+    let folder = Folder::triangle();
+    fs::write(folder.path("s.toml"), SCENE).expect("written");
+    let output = folder.run(&["lint", "s.toml"]);
+    assert_eq!(code(&output), 2, "{}", err(&output));
+    assert!(err(&output).contains("`glisten verify` and `glisten render` take scenes"), "{}", err(&output));
+}
+
 /// A scene that contains the triangle.
 const SCENE: &str = "[framebuffer]\nwidth = 16\nheight = 8\n\n[[draw]]\nvertex = \"tri.vert\"\nfragment = \"tri.frag\"\n\
     primitive = \"triangles\"\n[draw.attributes]\npv = { size = 2, values = [-1, -1, 3, -1, -1, 3] }\n\

@@ -46,8 +46,8 @@ mod equations;
 mod evidence;
 #[cfg(feature = "reference")]
 mod exec;
-#[cfg(feature = "cli")]
 mod features;
+#[cfg(feature = "cli")]
 mod first_hour;
 #[cfg(feature = "cli")]
 mod first_steps;
