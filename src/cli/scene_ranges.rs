@@ -44,6 +44,9 @@ impl SceneRanges {
 
     /// The ranges of a file.
     pub(super) fn of(&self, file: &Path) -> Vec<(String, Bounds)> {
+        if self.0.is_empty() {
+            return Vec::new();
+        }
         let own = self.0.get(&identity(file)).into_iter().flatten();
         own.map(|(name, range)| (name.clone(), Bounds::Within(*range))).collect()
     }
