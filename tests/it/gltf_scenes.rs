@@ -190,7 +190,7 @@ fn wrong_files_and_keys_are_told_with_their_place() {
         assert!(code == *id && at == *place && text.contains(message), "{key}: {code} {at} {text}");
     }
     let (code, _, text) = the_error(&scene("[[scene]]\nlights = true\n", &file));
-    assert!(code == "E0902" && text.contains("names its glTF file"), "{code} {text}");
+    assert!(code == "E0906" && text.contains("names its glTF file"), "{code} {text}");
     let (code, _, text) = the_error(&scene("[[scene]]\ngltf = \"a.gltf\"\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
     assert!(code == "E0911" && text.contains("is no glTF file"), "{code} {text}");
     // What the file says.

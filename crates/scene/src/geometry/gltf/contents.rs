@@ -1,4 +1,4 @@
-//! What a glTF file has besides its triangles: materials, lights, cameras.
+//! The contents of a glTF file besides its triangles: materials, lights, cameras.
 //!
 //! *In:* the document. *Out:* [`Contents`]: materials by the metallic-roughness model with its extensions, the lights of
 //! `KHR_lights_punctual` and the cameras in world space, in the order of a walk from the scene's roots. *Holds:* numbers are finite
@@ -8,12 +8,11 @@ use super::lamps::{Lamp, Lamps};
 use super::nodes::Nodes;
 use super::surface::{self, Surface};
 use crate::geometry::model::ModelCamera;
-use gltf::json::Value;
 
 /// The most lights of a file.
 pub(crate) const MAX_LAMPS: usize = 64;
 
-/// What a scene takes from a file.
+/// All that a scene takes from a file but its triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Contents {
     /// By the numbers of a model's looks: the last one is for triangles without a material.
@@ -56,28 +55,6 @@ pub(crate) fn contents(bytes: &[u8]) -> Result<Contents, String> {
     }
     contents.materials.push(Surface::default());
     Ok(contents)
-}
-
-/// A member of an extension that is a number, or the default of one that is not there.
-///
-/// # Errors
-/// It is no number, or none of f32.
-pub(super) fn number(table: &Value, key: &str, default: f64) -> Result<f64, String> {
-    let Some(value) = table.get(key) else { return Ok(default) };
-    let value = value.as_f64().filter(|value| (*value as f32).is_finite());
-    value.ok_or_else(|| format!("its `{key}` is not a number"))
-}
-
-/// A member of an extension that is a list of three numbers.
-///
-/// # Errors
-/// As of [`number`].
-pub(super) fn triple(table: &Value, key: &str, default: [f64; 3]) -> Result<[f64; 3], String> {
-    let Some(value) = table.get(key) else { return Ok(default) };
-    let numbers: Option<Vec<f64>> = value.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
-    let numbers = numbers.filter(|numbers| numbers.iter().all(|value| (*value as f32).is_finite()));
-    let wrong = || format!("its `{key}` is not three numbers");
-    numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).ok_or_else(wrong)
 }
 
 /// Whether the bytes are those of a glTF file, by how they begin.

@@ -3,7 +3,7 @@
 //! *In:* the extension of the document and of its nodes. *Out:* a [`Lamp`] for each node with a light. *Holds:* a color is that of the
 //! library, whose lights are without pi: the file's color times its intensity, divided by pi.
 
-use super::contents::{number, triple};
+use super::numbers::{number, triple};
 use glam::{DMat4, DVec3};
 use gltf::json::scene::Node;
 use gltf::json::{Root, Value};

@@ -10,6 +10,7 @@ mod contents;
 mod lamps;
 mod looks;
 mod nodes;
+mod numbers;
 mod primitives;
 mod surface;
 

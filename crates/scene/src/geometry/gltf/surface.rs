@@ -4,8 +4,8 @@
 //! *Out:* a [`Surface`]. *Holds:* what other extensions and textures would change is a remark.
 
 use super::super::model::TextureSource;
-use super::contents::{number, triple};
 use super::looks::source;
+use super::numbers::{number, triple};
 use gltf::json::material::{AlphaMode, Material};
 use gltf::json::texture::{CLAMP_TO_EDGE, Info, MIRRORED_REPEAT, NEAREST};
 use gltf::json::validation::Checked;
@@ -21,7 +21,7 @@ pub(crate) struct Surface {
     pub(crate) metallic: f64,
     pub(crate) roughness: f64,
     pub(crate) emission: [f64; 3],
-    /// What its parts that are no metal mirror at normal incidence.
+    /// The light that its parts without metal mirror at normal incidence.
     pub(crate) dielectric: [f64; 3],
     /// The strength and the roughness of a coat.
     pub(crate) clearcoat: [f64; 2],
@@ -203,7 +203,7 @@ fn covering(material: &Material) -> Result<Covering, String> {
     })
 }
 
-/// What light at normal incidence a dielectric mirrors: by its index of refraction, times a color.
+/// The light at normal incidence that a dielectric mirrors: by its index of refraction, times a color.
 fn dielectric(ior: Option<&Value>, specular: Option<&Value>) -> Result<[f64; 3], String> {
     let ior = ior.map_or(Ok(1.5), |table| number(table, "ior", 1.5))?;
     let none = Value::Null;

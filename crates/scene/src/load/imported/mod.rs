@@ -27,7 +27,7 @@ const KEYS: &[&str] = &["gltf", "camera", "lights", "transform", "material", "ma
 /// The most draws of a file.
 const MAX_DRAWS: usize = 1024;
 
-/// What a scene does not say itself.
+/// Whether a scene leaves its camera and its lights to files.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wants {
     pub(super) camera: bool,
