@@ -42,7 +42,14 @@ pub(crate) struct DiskIncludes {
 impl DiskIncludes {
     /// A resolver that searches `folders`, and the folders called `roots` above an including file, in the style of an engine.
     pub(crate) fn new(disk: Arc<dyn Disk>, folders: Vec<PathBuf>, style: Style, roots: &[String]) -> Self {
-        Self { disk, folders, lookup: style.lookup(), roots: roots.to_vec(), below: Arc::default(), seen: Arc::default() }
+        Self {
+            disk,
+            folders,
+            lookup: style.lookup(),
+            roots: roots.to_vec(),
+            below: Arc::default(),
+            seen: Arc::default(),
+        }
     }
 
     /// The folders above a file in which its includes are searched.

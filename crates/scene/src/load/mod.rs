@@ -162,6 +162,9 @@ fn is_lit_by(key: &str, uniform: &str) -> bool {
     }
 }
 
+/// Textures by what a draw says of them; `None` for one that cannot be loaded.
+type SharedTextures = BTreeMap<String, Option<Arc<Texture>>>;
+
 /// The state of loading.
 struct Loader<'a> {
     path: &'a str,
@@ -174,7 +177,7 @@ struct Loader<'a> {
     /// The files with meshes that were read, by path; `None` for one that cannot be.
     models: BTreeMap<String, Option<Arc<Model>>>,
     /// The textures of imported draws, which share them, and how many texels they have.
-    shared: Option<(BTreeMap<String, Option<Arc<Texture>>>, u64)>,
+    shared: Option<(SharedTextures, u64)>,
     io_error: bool,
 }
 
