@@ -129,9 +129,12 @@ fn files_below(folders: &[PathBuf]) -> BTreeMap<String, PathBuf> {
 /// How long the files below a folder are known.
 const FRESH: Duration = Duration::from_secs(2);
 
-/// The files below folders, and when they were listed.
+/// The files below a folder, and when they were listed.
+type Listed = (Instant, Arc<[PathBuf]>);
+
+/// The files below folders.
 #[derive(Default)]
-struct Seen(Mutex<BTreeMap<PathBuf, (Instant, Arc<[PathBuf]>)>>);
+struct Seen(Mutex<BTreeMap<PathBuf, Listed>>);
 
 impl Seen {
     /// The files of a folder and of those below it.
