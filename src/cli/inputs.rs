@@ -225,9 +225,8 @@ pub(super) fn collect(
             named.push(file.clone());
         }
     }
-    let by_name: BTreeSet<PathBuf> = files.iter().map(|name| identity(name)).collect();
-    let folders: BTreeSet<PathBuf> = files.iter().filter(|file| file.is_dir()).map(|file| identity(file)).collect();
-    if by_name != folders {
+    let by_name: BTreeSet<PathBuf> = files.iter().filter(|file| !file.is_dir()).map(|name| identity(name)).collect();
+    if !by_name.is_empty() {
         inputs.found.retain(|name| !by_name.contains(&identity(name)));
         inputs.left.retain(|left| !by_name.contains(&identity(&left.path)));
     }
@@ -348,8 +347,9 @@ pub(super) fn group(inputs: Vec<Input>) -> Vec<Group> {
         let key = (folder, input.stem(), own);
         let fits = |group: &Group| group.inputs.iter().all(|other| other.stage != input.stage);
         let known = of_key.entry(key.clone()).or_default();
-        match known.iter().copied().find(|&at| groups.get(at).is_some_and(|(_, group)| fits(group))) {
-            Some(at) => groups.get_mut(at).into_iter().for_each(|(_, group)| group.inputs.push(input.clone())),
+        let at = known.iter().copied().find(|&at| groups.get(at).is_some_and(|(_, group)| fits(group)));
+        match at.and_then(|at| groups.get_mut(at)) {
+            Some((_, group)) => group.inputs.push(input),
             None => {
                 known.push(groups.len());
                 groups.push((key, Group { name: input.stem(), inputs: vec![input] }));

@@ -144,6 +144,7 @@ impl Seen {
             return Arc::clone(files);
         }
         let files: Arc<[PathBuf]> = walk(folder, MAX_NEARBY).iter().map(|path| normal(path)).collect();
+        known.retain(|_, (listed, _)| listed.elapsed() < FRESH);
         known.insert(folder.to_owned(), (Instant::now(), Arc::clone(&files)));
         files
     }

@@ -4,26 +4,13 @@ use crate::cli::{Folder, code, err};
 use crate::lit_scenes::value;
 use crate::scenes::{the_error, told};
 use crate::support::compiler;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use glisten::scene::{BlendFactor, Cull, Loaded, MemoryFiles, load};
 use glisten_scene::picture::Image;
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
 use std::fs;
-
-/// Bytes in base64, with padding.
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for chunk in bytes.chunks(3) {
-        let at = |k: usize| u32::from(chunk.get(k).copied().unwrap_or(0));
-        let bits = at(0) << 16 | at(1) << 8 | at(2);
-        for k in 0..4 {
-            let letter = LETTERS[(bits >> (18 - 6 * k)) as usize & 63];
-            text.push(if k <= chunk.len() { letter as char } else { '=' });
-        }
-    }
-    text
-}
 
 /// A square from (-1, -1) to (1, 1) that faces +z, in parts: each with a material of these, next to each other along x. The last node
 /// is a camera at z = 3; then the given ones.
@@ -56,7 +43,7 @@ fn squares(materials: &[&str], nodes: &str, more: &str) -> String {
         materials.join(", "),
         bytes.len(),
         bytes.len(),
-        base64(&bytes)
+        STANDARD.encode(&bytes)
     )
 }
 

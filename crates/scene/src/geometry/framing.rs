@@ -39,24 +39,16 @@ pub(crate) struct Framing {
 impl Framing {
     /// The file's camera if it sees the model, otherwise one that frames it. `None` if the model has no extent.
     pub(crate) fn of(model: &Model) -> Option<Self> {
-        let points = || model.parts.iter().flat_map(|part| &part.soup.positions).copied().map(DVec3::from);
-        let low = points().reduce(DVec3::min)?;
-        let high = points().reduce(DVec3::max)?;
-        let size = (high - low).length();
-        if size.is_nan() || size <= 0.0 {
-            return None;
-        }
-        let center = (low + high) / 2.0;
-        let own = model.camera.as_ref().and_then(|camera| Self::of_file(camera, &points().collect::<Vec<_>>(), size));
-        Some(own.unwrap_or_else(|| Self::around(&points().collect::<Vec<_>>(), center, size)))
+        let points = model.parts.iter().flat_map(|part| &part.soup.positions);
+        let points: Vec<DVec3> = points.copied().map(DVec3::from).collect();
+        let (_, size) = extent(&points)?;
+        let own = model.camera.as_ref().and_then(|camera| Self::of_file(camera, &points, size));
+        own.or_else(|| Self::of_points(&points))
     }
 
     /// A camera that frames points; `None` if they have no extent.
     pub(crate) fn of_points(points: &[DVec3]) -> Option<Self> {
-        let low = points.iter().copied().reduce(DVec3::min)?;
-        let high = points.iter().copied().reduce(DVec3::max)?;
-        let size = (high - low).length();
-        (size > 0.0).then(|| Self::around(points, (low + high) / 2.0, size))
+        extent(points).map(|(center, size)| Self::around(points, center, size))
     }
 
     fn around(points: &[DVec3], center: DVec3, size: f64) -> Self {
@@ -112,4 +104,12 @@ impl Framing {
         let towards = move |place: DVec3| (right * place.x + up * place.y + back * place.z).normalize();
         LIGHTS.iter().map(move |(comment, place, color)| (*comment, towards(*place), *color))
     }
+}
+
+/// The center and the size of points; `None` if they have no extent.
+fn extent(points: &[DVec3]) -> Option<(DVec3, f64)> {
+    let low = points.iter().copied().reduce(DVec3::min)?;
+    let high = points.iter().copied().reduce(DVec3::max)?;
+    let size = (high - low).length();
+    (size > 0.0).then_some(((low + high) / 2.0, size))
 }

@@ -31,6 +31,7 @@ const SURFACE_KEYS: &[&str] = &[
     "vertex_colors",
 ];
 
+/// All other keys.
 const KEYS: &[&str] = &[
     "ambient",
     "diffuse",
@@ -50,16 +51,6 @@ const KEYS: &[&str] = &[
     "ramp",
     "highlight",
     "dielectric",
-    "metallic_roughness",
-    "emission_map",
-    "occlusion_map",
-    "normal_map",
-    "alpha",
-    "alpha_cutoff",
-    "two_sided",
-    "normal_scale",
-    "occlusion_strength",
-    "vertex_colors",
 ];
 
 /// Diffuse models, with the numbers of the module's constants `DIFFUSE_NONE` and so on.
@@ -165,7 +156,7 @@ pub(super) fn load_material<'t, 'i>(
     }
     let node = own.map(|(_, node)| node).or(scene)?;
     let table = reader.table(node, "material")?;
-    reader.check_keys(table, "a material", KEYS);
+    reader.check_keys(table, "a material", &[KEYS, SURFACE_KEYS].concat());
     // The model of metals and roughness: a metal has no diffuse color, anything else mirrors 0.04.
     let is_physical = table.contains_key("base_color") || table.contains_key("metallic");
     let base = reader.reals(table, "base_color", [0.8; 3]);
@@ -242,7 +233,7 @@ pub(super) fn load_colors(
 ) -> Option<Colors> {
     let table = reader.table(draw.get("material").or(scene)?, "material")?;
     if program.interface.roots.iter().all(|root| root.name != "material") {
-        reader.check_keys(table, "a material", KEYS);
+        reader.check_keys(table, "a material", &[KEYS, SURFACE_KEYS].concat());
     }
     let diffuse = reader.reals(table, "diffuse", [0.8; 3]);
     Some(Colors {

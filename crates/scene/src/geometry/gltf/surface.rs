@@ -85,13 +85,13 @@ impl Default for Surface {
 
 /// Extensions that change the picture and that the standard program does not have.
 static MISSING: &[(&str, &str)] = &[
-    ("KHR_materials_transmission", "light passes through it"),
-    ("KHR_materials_volume", "light passes through it"),
-    ("KHR_materials_sheen", "its sheen"),
-    ("KHR_materials_iridescence", "its iridescence"),
-    ("KHR_materials_anisotropy", "its anisotropy"),
-    ("KHR_materials_dispersion", "its dispersion"),
-    ("KHR_materials_diffuse_transmission", "light passes through it"),
+    ("KHR_materials_transmission", "no light passes through it"),
+    ("KHR_materials_volume", "no light passes through it"),
+    ("KHR_materials_sheen", "it has no sheen"),
+    ("KHR_materials_iridescence", "it has no iridescence"),
+    ("KHR_materials_anisotropy", "its highlights are round"),
+    ("KHR_materials_dispersion", "it splits no light"),
+    ("KHR_materials_diffuse_transmission", "no light passes through it"),
 ];
 
 /// Textures of extensions that are read otherwise.
@@ -130,12 +130,10 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
         return Err("its emission is not finite".to_owned());
     }
     let left_out = MISSING.iter().filter(|(key, _)| extension(key).is_some());
-    let left_out =
-        left_out.map(|(key, what)| format!("`{name}` is drawn without {key}: {what}, and here it is left out"));
-    remarks.extend(left_out);
+    remarks.extend(left_out.map(|(key, what)| format!("`{name}` is drawn without {key}: {what}")));
     if material.extensions.as_ref().is_some_and(|all| all.pbr_specular_glossiness.is_some()) {
         remarks.push(format!(
-            "`{name}` has the older model of specular and glossiness, of which its metallic-roughness is drawn"
+            "`{name}` is by KHR_materials_pbrSpecularGlossiness, and is drawn by its metal and roughness instead"
         ));
     }
     for (key, maps) in MISSING_MAPS {

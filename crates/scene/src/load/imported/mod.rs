@@ -12,11 +12,8 @@ use super::matrices::load_transform;
 use crate::geometry::{Contents, Framing, Model, ModelCamera, gltf_contents, is_gltf};
 use crate::tables::{Node, NumberValue, Reader};
 use glam::{DMat4, DVec3};
-use glisten_front::diagnostic::codes::scenes::{
-    MODEL_SIMPLIFIED, SCENE_BAD_ASSET, SCENE_MISSING_KEY, SCENE_WRONG_VALUE,
-};
+use glisten_front::diagnostic::codes::scenes::{MODEL_SIMPLIFIED, SCENE_BAD_ASSET, SCENE_WRONG_VALUE};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
-use glisten_front::source::Span;
 use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
@@ -275,8 +272,9 @@ fn check_name(
 pub(super) fn read<'i>(reader: &mut Reader, written: &'i Written<'_, 'i>) -> Imported<'i> {
     let mut imported = Imported { draws: Vec::new(), lights: Vec::new(), camera: None };
     let Ok(document) = DeTable::parse(&written.text) else {
-        let message = "the file has names that no scene can have".to_owned();
-        reader.error(&SCENE_MISSING_KEY, Span::default(), message, "");
+        let message = "its names cannot be written into a scene".to_owned();
+        let place = reader.span(written.place.clone());
+        reader.error(&SCENE_BAD_ASSET, place, message, "not a scene that can be read");
         return imported;
     };
     let mut document = placed_table(document.into_inner(), &written.place);
