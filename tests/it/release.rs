@@ -1,4 +1,4 @@
-//! The names of the packages are free, or ours, and what is published depends on nothing else.
+//! The names of the packages are free, or ours; what is published depends on nothing else; `cargo run` is the program.
 //!
 //! If a registry does not answer, the first test says so and passes, also if `CI` is set: machines without a network build, too.
 
@@ -20,15 +20,34 @@ fn nobody_else_has_the_names_of_the_packages() {
     }
 }
 
-/// `cargo package` refuses a crate that depends on one without a version, and a registry one that depends on a crate which is not there.
-#[test]
-fn published_crates_depend_on_published_ones() {
+/// The workspace as Cargo knows it.
+fn metadata() -> Value {
     let metadata = Command::new(env!("CARGO"))
         .args(["metadata", "--no-deps", "--format-version", "1", "--offline", "--locked"])
         .current_dir(root())
         .output()
         .expect("Cargo starts");
-    let metadata: Value = serde_json::from_slice(&metadata.stdout).expect("JSON");
+    serde_json::from_slice(&metadata.stdout).expect("JSON")
+}
+
+/// The README's first command is `cargo run`: of several binaries of the default members, Cargo takes the one default that a package names.
+#[test]
+fn cargo_run_is_the_program() {
+    let metadata = metadata();
+    let is_default = |package: &&Value| {
+        let defaults = metadata["workspace_default_members"].as_array().expect("a list");
+        defaults.contains(&package["id"])
+    };
+    let packages = metadata["packages"].as_array().expect("a list");
+    let named = packages.iter().filter(is_default).filter(|package| package["default_run"].is_string());
+    let named: Vec<(&Value, &Value)> = named.map(|package| (&package["name"], &package["default_run"])).collect();
+    assert_eq!(named, [(&Value::from("glisten"), &Value::from("glisten"))]);
+}
+
+/// `cargo package` refuses a crate that depends on one without a version, and a registry one that depends on a crate which is not there.
+#[test]
+fn published_crates_depend_on_published_ones() {
+    let metadata = metadata();
     let packages = metadata["packages"].as_array().expect("a list");
     let is_published = |package: &&Value| package["publish"].is_null();
     let (published, others): (Vec<&Value>, Vec<&Value>) = packages.iter().partition(is_published);
