@@ -61,6 +61,8 @@ pub mod snapshot;
 pub mod specialize;
 #[cfg(feature = "stability")]
 pub mod stability;
+#[cfg(feature = "cli")]
+mod trace;
 #[cfg(feature = "reference")]
 pub mod unit_test;
 pub mod upgrade;

@@ -135,6 +135,13 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
         ],
     ),
     (
+        "trace",
+        &[
+            ("glisten trace scene.toml --pixel 120,80", "what each fragment of the pixel computed, line by line"),
+            ("glisten trace scene.toml --vertex 3 --format json", "a vertex, for scripts"),
+        ],
+    ),
+    (
         "report",
         &[
             ("glisten report scene.toml -o out", "error against work and run time, as a page and a table"),

@@ -34,6 +34,7 @@ mod files;
 mod fix;
 mod fixed_function;
 mod fmt;
+mod follow;
 mod fullscreen;
 mod gallery;
 mod guard;
@@ -158,6 +159,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Specialize(specialize::SpecializeArgs),
     Stability(stability::StabilityArgs),
+    Trace(follow::TraceArgs),
     Report(report::ReportArgs),
     Gallery(gallery::GalleryArgs),
     Test(test::TestArgs),
@@ -256,6 +258,7 @@ impl Command {
             | Self::Rules(_)
             | Self::Specialize(_)
             | Self::Stability(_)
+            | Self::Trace(_)
             | Self::NewScene(_)
             | Self::Fmt(_)
             | Self::Upgrade(_)
@@ -286,6 +289,7 @@ fn dispatch(command: &Command, console: &Console) -> Outcome {
         Command::Verify(args) => verify::run(args, console),
         Command::Specialize(args) => specialize::run(args, console),
         Command::Stability(args) => stability::run(args, console),
+        Command::Trace(args) => follow::run(args, console),
         Command::Report(args) => report::run(args, console),
         Command::Gallery(args) => gallery::run(args, console),
         Command::Test(args) => test::run(args, console),

@@ -166,6 +166,8 @@ mod stability_page;
 mod study;
 mod support;
 mod targets;
+#[cfg(feature = "cli")]
+mod trace;
 #[cfg(feature = "gpu")]
 mod tutorial;
 #[cfg(feature = "cli")]

@@ -17,6 +17,8 @@ mod raster;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
+#[cfg(any(test, feature = "stability"))]
+pub mod trace;
 mod undefined;
 mod work;
 

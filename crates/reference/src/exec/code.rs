@@ -1,6 +1,7 @@
 //! [`Code`]: the compiled form of a stage.
 
 use super::inst::{Class, Inst, List, Operand, TextureCall};
+use super::note::Note;
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
@@ -59,6 +60,22 @@ pub enum Form {
     Counted,
     /// Unfused; scalars that are read before anything was written to them may have any number.
     Guessed,
+    /// Unfused; an observer is shown the value of each expression as [`Note`]s.
+    Noted,
+    /// As [`Self::Noted`], with the rewritten sums and products of [`Self::Fast`], which make envelopes narrower.
+    NotedTight,
+}
+
+impl Form {
+    /// Whether sums and products may be rewritten.
+    pub(super) fn rewrites(self) -> bool {
+        matches!(self, Self::Fast | Self::NotedTight)
+    }
+
+    /// Whether values are noted.
+    pub(super) fn notes(self) -> bool {
+        matches!(self, Self::Noted | Self::NotedTight)
+    }
 }
 
 /// When a section runs.
@@ -122,6 +139,8 @@ pub(super) struct Inner {
     /// The declarations of the variables that may be read before anything was written to them; empty unless the form is
     /// [`Form::Guessed`].
     pub(super) unwritten: Vec<Span>,
+    /// What [`Inst::Note`] refers to; empty unless the form has notes.
+    pub(super) notes: Vec<Note>,
 }
 
 impl Section {

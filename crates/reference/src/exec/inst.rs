@@ -4,7 +4,7 @@
 //! ([`Types::flat_len`](glisten_front::hir::Types::flat_len)). An [`Operand`] may also be one number for all lanes.
 //! Arithmetic writes all lanes, active or not: it is total, so only stores to variables are masked.
 
-use glisten_front::hir::SamplerType;
+use glisten_front::hir::{SamplerType, Scalar};
 
 // The operations are those of the front end's table. Functions of whole vectors and matrices are computed in the
 // domain's wide type and rounded once.
@@ -60,6 +60,13 @@ impl Operand {
 pub(super) enum Class {
     Float,
     Int,
+}
+
+impl Class {
+    /// The class of a scalar; without a type, it is the number of a sampler's slot.
+    pub(super) fn of(scalar: Option<Scalar>) -> Self {
+        if scalar == Some(Scalar::Float) { Self::Float } else { Self::Int }
+    }
 }
 
 /// A range of operands in [`Inner::lists`](super::code::Inner).
@@ -394,6 +401,12 @@ pub(super) enum Inst {
     },
     /// Ends the primitive of each active lane (`EndPrimitive`).
     EndPrimitive,
+    /// Shows an observer the scalars of a [`Note`](super::note::Note).
+    Note {
+        note: u32,
+        floats: List,
+        ints: List,
+    },
     /// The lanes where `c` is true stay in the loop. Jumps to `exit` if there is none.
     LoopTest {
         c: Operand,
@@ -547,6 +560,7 @@ impl Inst {
             | Self::Endless
             | Self::Emit { .. }
             | Self::EndPrimitive
+            | Self::Note { .. }
             | Self::LoopNext { .. }
             | Self::LoopBack { .. }
             | Self::Idle
@@ -564,7 +578,7 @@ impl Inst {
             Self::Composite { results, arguments, .. } => {
                 [Some((Class::Float, Use::Read, arguments)), Some((Class::Float, Use::Write, results))]
             }
-            Self::Emit { floats, ints } => {
+            Self::Emit { floats, ints } | Self::Note { floats, ints, .. } => {
                 [Some((Class::Float, Use::Read, floats)), Some((Class::Int, Use::Read, ints))]
             }
             Self::LoadFloat { table, .. } => [Some((Class::Float, Use::Read, table)), None],
@@ -615,7 +629,7 @@ impl TextureCall {
             Lookup::Size | Lookup::Levels => true,
             Lookup::QueryLod => false,
             Lookup::Implicit | Lookup::Lod | Lookup::Grad | Lookup::Fetch | Lookup::Gather => {
-                self.kind.texel != glisten_front::hir::Scalar::Float && !self.kind.shadow
+                self.kind.texel != Scalar::Float && !self.kind.shadow
             }
         }
     }

@@ -59,6 +59,7 @@ mod memory;
 mod mute;
 mod muted_run;
 mod noise;
+mod note;
 mod observe;
 mod registers;
 mod run;
@@ -75,7 +76,8 @@ pub(crate) use guess::{Guess, Numbers, Place};
 pub(crate) use identity::hashed;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};
-pub use observe::{Event, Kind, Observer, Order, Piece, Values, What};
+pub use note::{Note, NoteKind, Noted, NotedScalar};
+pub use observe::{Event, Fate, Invoked, Kind, Observer, Order, Piece, Values, What};
 pub use step::Step;
 pub use streams::Stream;
 

@@ -2,6 +2,7 @@
 
 use super::Mask;
 use super::inst::{Composite, Float1, Float2, Float3, Inst};
+use super::note::Noted;
 use super::step::Step;
 use crate::domain::{Domain, Source};
 use glisten_front::hir::Stage;
@@ -138,12 +139,49 @@ pub struct Event<'a, D: Domain> {
     pub what: What<'a, D>,
 }
 
+/// An invocation that an observer may follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Invoked {
+    /// Of the vertex stage: `gl_VertexID` and `gl_InstanceID`.
+    Vertex {
+        /// The index of the vertex.
+        vertex: u32,
+        /// The instance.
+        instance: u32,
+    },
+    /// Of the fragment stage.
+    Fragment {
+        /// `gl_PrimitiveID`
+        primitive: u32,
+        /// `gl_FrontFacing`
+        front: bool,
+    },
+}
+
+/// What became of an invocation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fate {
+    /// It ran to its end; a fragment was drawn.
+    #[default]
+    Done,
+    /// The fragment was discarded.
+    Discarded,
+    /// The fragment failed the depth or the stencil test.
+    Failed,
+}
+
 /// Receives the events of a machine.
 pub trait Observer<D: Domain>: Send + Debug {
     /// Receives an event.
     fn see(&mut self, event: &Event<'_, D>);
     /// Counts a step in so many lanes; complete only in code of the counted form.
     fn count(&mut self, _step: Step, _lanes: u32) {}
+    /// Receives a value of the text; only in code of a form with notes.
+    fn note(&mut self, _noted: &Noted<'_, D>) {}
+    /// Whether it follows this invocation, which is about to run in a lane.
+    fn follows(&mut self, _lane: usize, _invocation: &Invoked) {}
+    /// What became of the fragment in a lane.
+    fn ended(&mut self, _lane: usize, _fate: Fate) {}
     /// Called at the end of a piece of the drawing.
     fn finish(self: Box<Self>, order: Order);
 }

@@ -97,6 +97,7 @@ impl<D: Domain> Machine<D> {
                     self.emit_vertices(section.list(floats), section.list(ints), mask);
                 }
                 Inst::EndPrimitive => self.end_primitives(mask),
+                Inst::Note { note, floats, ints } => self.note(note, section, [floats, ints], mask),
                 Inst::LoopTest { c, active, exit } => {
                     mask = self.truth(c, &mut mask);
                     self.slots[active as usize] = mask;

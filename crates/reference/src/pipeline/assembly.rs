@@ -9,7 +9,8 @@ use super::vertices::Vertices;
 use crate::LineRule;
 use crate::domain::{Domain, Number};
 use crate::raster::{Fixed, NEAR, ONE, Shape, line, point, triangle};
-use glisten_scene::{Cull, Primitive, State};
+use glisten_front::hir::Stage;
+use glisten_scene::{Cull, Draw, Primitive, State};
 
 /// The vertices between which the values of a primitive's fragments are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,6 +99,25 @@ pub(super) fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
             let primitives = adjacency::primitives(primitive, count).into_iter();
             primitives.enumerate().map(|(number, all)| inner(primitive, number, all)).collect()
         }
+    }
+}
+
+/// The vertices of a primitive of an instance, by its `gl_PrimitiveID`; none if a geometry stage makes the primitives.
+#[cfg(any(test, feature = "stability"))]
+pub(in super::super) fn vertices_of(draw: &Draw, primitive: u32) -> Vec<u32> {
+    if draw.program.stage(Stage::Geometry).is_some() {
+        return Vec::new();
+    }
+    let all = assemble(draw.state.primitive, draw.vertex_count);
+    let vertex = |position: u32| match &draw.indices {
+        Some(indices) => indices.get(position as usize).copied().unwrap_or(position),
+        None => position,
+    };
+    match all.get(primitive as usize).map(|one| one.map(vertex)) {
+        Some(Assembled::Point(vertex)) => vec![vertex],
+        Some(Assembled::Line(ends)) => ends.to_vec(),
+        Some(Assembled::Triangle(corners, _)) => corners.to_vec(),
+        None => Vec::new(),
     }
 }
 

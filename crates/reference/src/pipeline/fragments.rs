@@ -18,13 +18,15 @@ use super::source::Source;
 use super::surface::BIN;
 use super::target::{Bin, local};
 use super::vertices::Vertices;
-use super::watch::{PixelSet, Probe, jittered};
+use super::watch::{Followed, PixelSet, Probe, jittered};
 use crate::domain::{Domain, ErrorPart, Integer, Number, Profile};
-use crate::exec::{LANES, Machine, Mask};
+use crate::exec::{Fate, Invoked, LANES, Machine, Mask};
 use crate::raster::band::band;
 use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
 use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
+use smallvec::SmallVec;
+use std::ops::Range;
 use std::sync::PoisonError;
 
 /// The data that all bins of a draw share.
@@ -39,6 +41,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) profile: Profile,
     pub(super) probe: Option<&'a Probe>,
     pub(super) pixels: Option<&'a PixelSet>,
+    pub(super) followed: Option<Followed>,
     pub(super) jitter: Option<u64>,
     pub(super) exact_inputs: &'a [GlobalId],
     /// The surface of the instance, if another draw has the same; else 0.
@@ -222,8 +225,15 @@ impl<D: Domain> Shading<'_, D> {
             if let Some(probe) = self.probe {
                 self.examine(probe, batch);
             }
+            for (lane, invoked) in self.followed(batch) {
+                machine.announce(lane, &invoked);
+            }
             machine.run(Mask(batch.live), batch.helpers());
-            self.write_lanes(bin, batch, machine);
+            let passed = self.write_lanes(bin, batch, machine);
+            for (lane, _) in self.followed(batch) {
+                let is_discarded = machine.discarded().contains(lane);
+                machine.conclude(lane, fate(is_discarded, passed >> lane & 1 == 1));
+            }
         }
         batch.clear();
     }
@@ -308,8 +318,21 @@ impl<D: Domain> Shading<'_, D> {
         }
     }
 
-    /// Everything after the fragment stage: late depth test, blending, storing.
-    fn write_lanes(&self, bin: &mut Bin<'_, D>, batch: &Batch<'_, D>, machine: &Machine<D>) {
+    /// The fragments of the batch that observers follow.
+    fn followed(&self, batch: &Batch<'_, D>) -> SmallVec<[(usize, Invoked); 1]> {
+        let Some(Followed::Pixel(pixel)) = self.followed else { return SmallVec::new() };
+        let [x, y] = pixel.map(|at| f64::from(at) + 0.5);
+        let places = &batch.fragments.places;
+        let is_there = |lane: &usize| batch.live >> lane & 1 == 1 && places.x[*lane] == x && places.y[*lane] == y;
+        let of_run = |(run, lanes): (&Run<'_, D>, Range<usize>)| {
+            let invoked = Invoked::Fragment { primitive: run.id, front: run.front };
+            lanes.filter(is_there).map(move |lane| (lane, invoked)).collect::<SmallVec<[_; 1]>>()
+        };
+        batch.runs().flat_map(of_run).collect()
+    }
+
+    /// Everything after the fragment stage: late depth test, blending, storing. Returns the lanes that passed all tests.
+    fn write_lanes(&self, bin: &mut Bin<'_, D>, batch: &Batch<'_, D>, machine: &Machine<D>) -> u64 {
         let state = &self.draw.state;
         let pixels = &batch.fragments.pixels;
         let (discarded, perhaps) = (machine.discarded().0, machine.perhaps_discarded().0);
@@ -339,6 +362,16 @@ impl<D: Domain> Shading<'_, D> {
                 bin.write_colors(pixels, output.attachment, color, state.blend, tests);
             }
         }
+        tests.passes
+    }
+}
+
+/// What became of a fragment.
+fn fate(is_discarded: bool, passed: bool) -> Fate {
+    match (is_discarded, passed) {
+        (true, _) => Fate::Discarded,
+        (false, true) => Fate::Done,
+        (false, false) => Fate::Failed,
     }
 }
 

@@ -58,6 +58,8 @@ use super::domain::Domain;
 use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece, hashed};
 use super::raster::Shape;
 use assembly::Prim;
+#[cfg(any(test, feature = "stability"))]
+pub(super) use assembly::vertices_of;
 use before::{Before, Run};
 pub(super) use expand::{Emission, expand};
 pub(super) use explain::explain;
@@ -81,7 +83,7 @@ use vertices::{Invocation, ShadeOptions};
 pub(super) use watch::Chosen;
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Probe;
-pub(super) use watch::{MakeObserver, PixelSet, Study};
+pub(super) use watch::{Followed, MakeObserver, PixelSet, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
@@ -140,7 +142,9 @@ fn draw_all<D: Domain>(
     let fragment_code = Code::compile_as(&draw.program, Stage::Fragment, watch.study.form)?;
     before.show_common(draw, &watch);
     watch.common(&fragment_code, draw, Piece::SameForFragments);
-    let plan = Plan::new(&draw.program);
+    let mut plan = Plan::new(&draw.program);
+    // Those that fail are followed, too.
+    plan.early_depth &= watch.study.followed.is_none();
     let outputs = output_plans(draw, scene.framebuffer.attachments);
     let viewport = [scene.framebuffer.width as f32, scene.framebuffer.height as f32];
     let (order, unique) = unique_vertices(draw);
@@ -177,6 +181,7 @@ fn draw_all<D: Domain>(
                 profile,
                 probe: watch.study.probe,
                 pixels: watch.study.pixels,
+                followed: watch.study.followed,
                 jitter: watch.study.jitter,
                 exact_inputs: watch.study.exact_inputs,
                 surface: if watch.surface == 0 { 0 } else { hashed((watch.surface, watch.instance)) | 1 },

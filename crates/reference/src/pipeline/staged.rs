@@ -84,7 +84,9 @@ pub(super) fn stage<D: Domain>(job: &Job<'_, D>, plan: &Plan, feeds: &Feeds, inv
         }
         fill_inputs(job.draw, plan, lanes, single);
         let live = Mask::first(lanes.len());
+        job.watch.announce(machine, lanes);
         machine.run(live, Mask::NONE);
+        job.watch.conclude(machine, lanes);
         single.run(live, Mask::NONE);
         rows(feeds, lanes.len(), machine, single)
     });

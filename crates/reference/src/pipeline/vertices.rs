@@ -165,7 +165,7 @@ pub(super) fn shade<D: Domain>(
 ) -> Vertices<D> {
     let job = Job { stage: Stage::Vertex, piece: Piece::Vertices, code, draw, profile, endless, watch };
     let chunks: Vec<Chunk<D>> = job.run(invocations, |machine, single, lanes| {
-        let mut chunk = shade_chunk(draw, plan, lanes, machine, single, watch.study.jitter);
+        let mut chunk = shade_chunk(draw, plan, lanes, machine, single, watch);
         if positions == Positions::Own {
             chunk.cover_by_own_positions();
         }
@@ -251,15 +251,17 @@ fn shade_chunk<D: Domain>(
     lanes: &[Invocation],
     machine: &mut Machine<D>,
     single: &mut Machine<F32>,
-    jitter: Option<u64>,
+    watch: &Watch<'_, D>,
 ) -> Chunk<D> {
     fill_inputs(draw, plan, lanes, machine);
-    if let Some(seed) = jitter {
+    if let Some(seed) = watch.study.jitter {
         jitter_attributes(seed, draw, lanes, machine);
     }
     fill_inputs(draw, plan, lanes, single);
     let live = Mask::first(lanes.len());
+    watch.announce(machine, lanes);
     machine.run(live, Mask::NONE);
+    watch.conclude(machine, lanes);
     single.run(live, Mask::NONE);
     let count = lanes.len();
     let distances = distance_count(draw, plan);

@@ -3,7 +3,7 @@
 //! *In:* a [`Study`]. *Out:* machines for it, each for one piece of the drawing.
 
 use crate::domain::{Domain, ErrorPart, Gpu, Profile};
-use crate::exec::{Code, Exactly, Form, Guess, Machine, Observer, Order, Piece, Purpose};
+use crate::exec::{Code, Exactly, Fate, Form, Guess, Invoked, Machine, Observer, Order, Piece, Purpose};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
@@ -43,6 +43,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) gpu: Option<Gpu>,
     /// Numbers in the place of what the language leaves undefined.
     pub(crate) guess: Option<&'a Arc<Guess>>,
+    /// The invocations that observers follow.
+    pub(crate) followed: Option<Followed>,
 }
 
 impl<D: Domain> Study<'_, D> {
@@ -58,7 +60,18 @@ impl<D: Domain> Study<'_, D> {
         form: Form::Fast,
         gpu: None,
         guess: None,
+        followed: None,
     };
+}
+
+/// Invocations that observers follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(not(any(test, feature = "stability")), expect(dead_code, reason = "only that feature follows any"))]
+pub(crate) enum Followed {
+    /// The fragments of a pixel: column and row.
+    Pixel([u32; 2]),
+    /// A vertex: its index and its instance.
+    Vertex(u32, u32),
 }
 
 /// A set of pixels.
@@ -163,6 +176,22 @@ impl<D: Domain> Watch<'_, D> {
             None => self.study.guess.map_or(Purpose::Results, |guess| Purpose::Guessing(Arc::clone(guess))),
         };
         Machine::with(purpose, profile, code, &draw.uniforms, &draw.textures)
+    }
+
+    /// Announces the vertices that observers follow.
+    pub(super) fn announce(&self, machine: &mut Machine<D>, lanes: &[(u32, u32)]) {
+        let Some(Followed::Vertex(vertex, instance)) = self.study.followed else { return };
+        if let Some(lane) = lanes.iter().position(|lane| *lane == (vertex, instance)) {
+            machine.announce(lane, &Invoked::Vertex { vertex, instance });
+        }
+    }
+
+    /// Ends the vertices that observers follow.
+    pub(super) fn conclude(&self, machine: &mut Machine<D>, lanes: &[(u32, u32)]) {
+        let Some(Followed::Vertex(vertex, instance)) = self.study.followed else { return };
+        if let Some(lane) = lanes.iter().position(|lane| *lane == (vertex, instance)) {
+            machine.conclude(lane, Fate::Done);
+        }
     }
 
     /// Whether a bin is drawn.

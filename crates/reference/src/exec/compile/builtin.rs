@@ -1,6 +1,5 @@
 //! Compiles calls of built-in functions (§8), by their class in the table of operations.
 
-use super::super::code::Form;
 use super::super::inst::{
     Class as File, Composite, Derivative, Float1, Float2, Float3, FloatToInt, Inst, Int1, Int2, Operand,
 };
@@ -191,7 +190,7 @@ impl Compiler<'_> {
                 if a.is_scalar() || self.shader.stage != Stage::Fragment {
                     return self.emit.float(0.0);
                 }
-                let noise = if self.emit.form == Form::Fast { self.noise(*a) } else { None };
+                let noise = if self.emit.form.rewrites() { self.noise(*a) } else { None };
                 self.emit.pure(File::Float, &[*a], |dst| Inst::Derivative { op, dst, a: *a, noise })
             })
             .collect()

@@ -7,7 +7,7 @@
 //! *Holds:* Vulkan (Precision and Operation: Evaluation of Expressions) and WGSL (Reassociation and Fusion) allow it, and
 //! drivers do it. Values are those of the text. *Not done here:* chains whose terms include the negative of a variable.
 
-use super::super::code::{Form, PoolSource};
+use super::super::code::PoolSource;
 use super::super::inst::{Class, Float2, Inst, Operand};
 use super::Compiler;
 use super::emit::Emitter;
@@ -91,7 +91,7 @@ impl Compiler<'_> {
     /// `a op b`, and where constants may be combined, the same with them combined.
     pub(super) fn chained(&mut self, op: Float2, a: Operand, b: Operand) -> Operand {
         let plain = self.float2(op, a, b);
-        if self.emit.form != Form::Fast {
+        if !self.emit.form.rewrites() {
             return plain;
         }
         let Some(chain) = self.emit.chain(op, a, b) else { return plain };

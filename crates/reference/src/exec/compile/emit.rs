@@ -3,6 +3,7 @@
 
 use super::super::code::{Form, PoolSource, Section};
 use super::super::inst::{Class, Inst, List, Operand, Slot, Target, TextureCall};
+use super::super::note::Note;
 use super::facts::{Chain, Definition};
 use glisten_front::link::RootIndex;
 use glisten_front::source::Span;
@@ -18,6 +19,7 @@ pub(super) struct Emitter {
     pub(super) span: Span,
     pub(super) words: Vec<u32>,
     pub(super) textures: Vec<TextureCall>,
+    pub(super) notes: Vec<Note>,
     pub(super) pools: [Vec<PoolSource>; 2],
     pub(super) preamble_results: [u32; 2],
     pub(super) mask_slots: u32,

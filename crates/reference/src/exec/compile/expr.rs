@@ -14,7 +14,9 @@ impl Compiler<'_> {
     pub(super) fn expr(&mut self, id: ExprId) -> Val {
         let shader = self.shader;
         let expr = shader.expr(id);
-        self.at(expr.span, |this| this.expr_of(expr, id))
+        let value = self.at(expr.span, |this| this.expr_of(expr, id));
+        self.note_expr(expr, &value);
+        value
     }
 
     fn expr_of(&mut self, expr: &Expr, id: ExprId) -> Val {
@@ -196,6 +198,7 @@ impl Compiler<'_> {
         let operator = if plus { BinaryOp::Add } else { BinaryOp::Sub };
         let after: Val = before.iter().map(|a| self.arithmetic(operator, *a, one, self.types.scalar_of(ty))).collect();
         self.write_path(&path, &after);
+        self.note_stepped(place, &after);
         if matches!(op, IncDec::PreIncrement | IncDec::PreDecrement) { after } else { before }
     }
 
@@ -298,7 +301,7 @@ impl Compiler<'_> {
 
     fn logical(&mut self, op: LogicalOp, a: ExprId, b: ExprId) -> Val {
         let left = self.scalar(a);
-        if !self.effects.has(b) {
+        if !self.effects.has(b) && !self.emit.form.notes() {
             let right = self.scalar(b);
             let op = if op == LogicalOp::And { Int2::And } else { Int2::Or };
             return Val::from_slice(&[self.int2(op, left, right)]);
@@ -335,7 +338,7 @@ impl Compiler<'_> {
 
     fn ternary(&mut self, condition: ExprId, yes: ExprId, no: ExprId, ty: TypeId) -> Val {
         let c = self.scalar(condition);
-        if !self.effects.has(yes) && !self.effects.has(no) {
+        if !self.effects.has(yes) && !self.effects.has(no) && !self.emit.form.notes() {
             let (yes, no) = (self.expr(yes), self.expr(no));
             let classes = self.classes(ty);
             return (yes.iter().zip(&no).zip(classes.iter()))

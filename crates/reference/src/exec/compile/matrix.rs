@@ -1,7 +1,6 @@
 //! Compiles products of matrices and vectors (§5.10), and the matrix functions of §8.5 that only move or multiply
 //! components.
 
-use super::super::code::Form;
 use super::super::inst::{Class, Float2, Inst, Operand};
 use super::facts::Definition;
 use super::{Compiler, Val};
@@ -13,7 +12,7 @@ impl Compiler<'_> {
         if let [a, b] = pairs {
             return self.float2(Float2::Mul, *a, *b);
         }
-        if self.emit.form != Form::Fast {
+        if !self.emit.form.rewrites() {
             let products: Val = pairs.chunks_exact(2).map(|pair| self.float2(Float2::Mul, pair[0], pair[1])).collect();
             let sum = products.into_iter().reduce(|sum, product| self.float2(Float2::Add, sum, product));
             return sum.unwrap_or_else(|| self.emit.float(0.0));

@@ -22,6 +22,7 @@ mod expr;
 mod facts;
 mod fuse;
 mod matrix;
+mod note;
 mod open;
 mod path;
 mod stmt;
@@ -33,7 +34,7 @@ use super::inst::{Class, Operand, Slot};
 use effects::Effects;
 use emit::Emitter;
 use glisten_front::diagnostic::{Code as DiagnosticCode, Diagnostic, codes};
-use glisten_front::hir::{ExprId, FunctionId, Scalar, Shader, Stage, Type, TypeId, Types};
+use glisten_front::hir::{ExprId, FunctionId, Scalar, Shader, Stage, Storage, Type, TypeId, Types};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -161,7 +162,9 @@ impl<'a> Compiler<'a> {
 
     fn run(mut self, main: FunctionId) -> Result<Inner, Vec<Diagnostic>> {
         self.declare_globals();
+        self.note_globals(Storage::In);
         self.inline(main, Vec::new(), Span::default());
+        self.note_globals(Storage::Out);
         let outputs = self.settle_outputs();
         if self.emit.main.insts.len() > MAX_INSTRUCTIONS {
             self.refuse(
@@ -184,7 +187,8 @@ impl<'a> Compiler<'a> {
         let registers = alloc::allocate(&mut self.emit, &mut ports);
         let noises = ports.split_off(self.inputs.len() + outputs.len());
         let outputs = ports.split_off(self.inputs.len());
-        let Emitter { main, preamble, words, textures, pools, preamble_results, mask_slots, splats, .. } = self.emit;
+        let Emitter { main, preamble, words, textures, pools, preamble_results, mask_slots, splats, notes, .. } =
+            self.emit;
         let [float_pool, int_pool] = pools;
         Ok(Inner {
             stage: self.shader.stage,
@@ -204,6 +208,7 @@ impl<'a> Compiler<'a> {
             max_vertices: self.shader.geometry.max_vertices.unwrap_or(0),
             mask_slots: mask_slots as usize,
             unwritten: self.unwritten,
+            notes,
         })
     }
 
@@ -227,7 +232,7 @@ impl<'a> Compiler<'a> {
         }
         let mut list = Vec::new();
         flatten(self.types, ty, &mut list);
-        let classes: Rc<[Class]> = list.into();
+        let classes: Rc<[Class]> = list.into_iter().map(Class::of).collect();
         self.classes.insert(ty, Rc::clone(&classes));
         classes
     }
@@ -262,20 +267,20 @@ impl<'a> Compiler<'a> {
     }
 }
 
-fn flatten(types: &Types, ty: TypeId, list: &mut Vec<Class>) {
+/// Adds the type of each scalar in flat order; none of a sampler.
+fn flatten(types: &Types, ty: TypeId, list: &mut Vec<Option<Scalar>>) {
     match types.get(ty) {
         Type::Error | Type::Void => {}
-        Type::Sampler(_) => list.push(Class::Int),
+        Type::Sampler(_) => list.push(None),
         Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) => {
-            let class = if types.scalar_of(ty) == Some(Scalar::Float) { Class::Float } else { Class::Int };
-            list.extend((0..types.flat_len(ty)).map(|_| class));
+            list.extend((0..types.flat_len(ty)).map(|_| types.scalar_of(ty)));
         }
         Type::Struct(id) => types.structure(id).members.iter().for_each(|member| flatten(types, member.ty, list)),
         Type::Array(element, _) => {
             let size = types.flat_len(element);
             let start = list.len();
             flatten(types, element, list);
-            let one: Vec<Class> = list.get(start..).unwrap_or(&[]).to_vec();
+            let one: Vec<Option<Scalar>> = list.get(start..).unwrap_or(&[]).to_vec();
             let count = types.flat_len(ty).checked_div(size).unwrap_or(0);
             list.truncate(start);
             (0..count).for_each(|_| list.extend_from_slice(&one));

@@ -1,6 +1,7 @@
 //! Compiles statements and calls (§6).
 
 use super::super::inst::{Class, Inst, Operand, Slot, Target};
+use super::super::note::NoteKind;
 use super::effects::Assigned;
 use super::path::Path;
 use super::vars::VarId;
@@ -54,6 +55,7 @@ impl Compiler<'_> {
                 }
             }
             StmtKind::Discard => {
+                self.note_discard();
                 self.emit.push(Inst::Discard);
             }
         }
@@ -77,6 +79,7 @@ impl Compiler<'_> {
             self.open.insert(var);
         }
         if let Some(value) = value {
+            self.note_local(facts, &value);
             self.assign_all(var, &value);
         }
     }
@@ -102,9 +105,10 @@ impl Compiler<'_> {
     }
 
     fn selection(&mut self, arms: &[(ExprId, Vec<Stmt>)], otherwise: &[Stmt]) {
-        let Some((first, _)) = arms.first() else { return };
-        let first = self.scalar(*first);
+        let Some((asked, _)) = arms.first() else { return };
+        let first = self.scalar(*asked);
         let first = self.emit.keep(Class::Int, first);
+        self.note_branch(NoteKind::If, *asked, first);
         let later: Vec<ExprId> = arms.iter().skip(1).map(|arm| arm.0).collect();
         let bodies = arms.iter().map(|arm| arm.1.as_slice()).chain([otherwise]);
         self.settle_for_stmts(bodies, &later);
@@ -133,12 +137,15 @@ impl Compiler<'_> {
         self.scopes.push(Scope::Arms { join });
         let value = self.in_region(|this| this.scalar(condition));
         self.scopes.pop();
+        self.note_branch(NoteKind::If, condition, value);
         value
     }
 
     fn switch(&mut self, selector: ExprId, cases: &[Case]) {
+        let asked = selector;
         let selector = self.scalar(selector);
         let selector = self.emit.keep(Class::Int, selector);
+        self.note_branch(NoteKind::Switch, asked, selector);
         let selector = self.emit.in_register(Class::Int, selector);
         self.settle_for_stmts(cases.iter().map(|case| case.body.as_slice()), &[]);
         let (join, rest) = (self.emit.slot(), self.emit.slot());
@@ -209,6 +216,7 @@ impl Compiler<'_> {
     fn loop_test(&mut self, condition: Option<&Condition>, active: Slot) -> Option<Target> {
         let condition = condition?;
         let c = self.scalar(condition.expr);
+        self.note_branch(NoteKind::Loop, condition.expr, c);
         if let Some(local) = condition.local {
             let var = self.declare(TypeId::BOOL, false);
             self.bind(local, var);
@@ -333,6 +341,7 @@ impl Compiler<'_> {
                 self.settle(result, flat);
             }
         }
+        self.note_call(callee, span, &arguments);
         self.scopes.push(Scope::Function);
         self.stmts(body);
         self.scopes.pop();
@@ -342,6 +351,7 @@ impl Compiler<'_> {
         self.parted = outer;
         let finals = outs.into_iter().map(|var| self.read_all(var)).collect();
         let value = self.read_all(result);
+        self.note_return(callee, span, &value);
         self.frames.pop();
         (value, finals)
     }
