@@ -59,7 +59,8 @@ fn invocation_lines(invocation: &ToldInvocation, (number, of): (usize, usize), s
     let mut file = None;
     let steps = outside_of_the_library(&invocation.steps, shown);
     for (index, step) in steps.iter().enumerate() {
-        if is_left_out(step, steps.get(index + 1).copied(), shown) {
+        let before = index.checked_sub(1).and_then(|before| steps.get(before)).copied();
+        if is_left_out(step, before, steps.get(index + 1).copied(), shown) {
             continue;
         }
         if let Some(place) = step.place.as_ref().filter(|_| !matches!(step.kind, "input" | "output"))
@@ -104,8 +105,18 @@ fn outside_of_the_library(steps: &[ToldStep], shown: Shown) -> Vec<&ToldStep> {
     kept.map(|(_, step)| step).collect()
 }
 
+/// Whether a step is `i++` or the like, and the one before it is its variable.
+fn steps_it(step: &ToldStep, before: &ToldStep) -> bool {
+    let operators = ["++", "--"];
+    before.kind == "local"
+        && operators
+            .iter()
+            .any(|operator| step.text.strip_suffix(operator).or(step.text.strip_prefix(operator)).is_some())
+        && step.text.trim_matches(['+', '-', ' ']) == before.text
+}
+
 /// Whether the next step tells the same, or people seldom want to see it.
-fn is_left_out(step: &ToldStep, next: Option<&ToldStep>, shown: Shown) -> bool {
+fn is_left_out(step: &ToldStep, before: Option<&ToldStep>, next: Option<&ToldStep>, shown: Shown) -> bool {
     let repeats = |next: &ToldStep| {
         let ends_there = match (&step.place, &next.place) {
             (Some(step), Some(next)) => step.file == next.file && step.end == next.end,
@@ -118,7 +129,8 @@ fn is_left_out(step: &ToldStep, next: Option<&ToldStep>, shown: Shown) -> bool {
     match step.kind {
         "return" => true,
         "read" => !shown.all,
-        "value" => next.is_some_and(repeats),
+        // The variable of `i++` is told with its new value.
+        "value" => before.is_some_and(|before| steps_it(step, before)) || next.is_some_and(repeats),
         _ => false,
     }
 }

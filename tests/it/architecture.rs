@@ -98,6 +98,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "report",
             "account",
             "stability",
+            "trace",
             "lsp",
             "cli",
             "main",

@@ -59,6 +59,23 @@ try {
   await changes(before);
   seen.turned = true;
 
+  // A click inspects, a drag does not.
+  seen.drag = await page.locator("#stepper").isVisible();
+  await page.mouse.click(x, y);
+  await page.waitForSelector("#stepper:not([hidden])", limit);
+  seen.inspected = await page.textContent("#inspected");
+  const stepOf = () => page.textContent("#step-now");
+  await page.click("#step-last");
+  seen.last = await stepOf();
+  await page.click("#step-back");
+  seen.back = await stepOf();
+  seen.emphasis = await page.locator("#editor .cm-step").first().textContent();
+  // The value of an expression under the pointer.
+  await page.locator("#editor .cm-step").first().hover();
+  await page.waitForSelector(".cm-value", limit);
+  seen.value = await page.textContent(".cm-value");
+  await page.mouse.move(2, 2);
+
   await page.click("#judge");
   await page.waitForSelector("#verdict:not([hidden])", limit);
   seen.verdict = await page.textContent("#verdict");

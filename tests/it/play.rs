@@ -185,6 +185,25 @@ fn texts_of_the_page_count_instead_of_files() {
 }
 
 #[test]
+fn a_pixel_is_followed_through_texts_of_the_page() {
+    let folder = folder();
+    let play = Play::start(folder.path(), &["shaders"]);
+    let text = FRAGMENT.replace("shade, 0.5", "shade * 3.0, 0.5");
+    let trace = |x: u32| {
+        play.ask(
+            &json!({ "ask": "trace", "scene": "shaders/a.toml", "x": x, "y": 4, "texts": { "shaders/a.frag": text } }),
+        )
+    };
+    let found = trace(3);
+    let steps = found["ok"]["invocations"][0]["steps"].as_array().expect("a list");
+    let product = steps.iter().find(|step| step["text"] == "shade * 3.0").expect("an expression of the new text");
+    assert_eq!((&product["value"], &product["file"]), (&json!([0.75]), &json!("shaders/a.frag")));
+    assert!(trace(16)["error"].as_str().is_some_and(|error| error.contains("16 by 16")));
+    let outside = json!({ "ask": "trace", "scene": "secret.frag", "x": 0, "y": 0 });
+    assert_eq!(play.post("/api/ask", &outside).status, 403);
+}
+
+#[test]
 fn a_saved_file_is_written_unless_it_changed() {
     let folder = folder();
     let play = Play::start(folder.path(), &["shaders/a.toml"]);
@@ -328,6 +347,16 @@ fn the_page_works_in_a_browser() {
     assert_eq!(seen["files"].as_array().map(Vec::len), Some(3), "{seen:#}");
     for key in ["wgsl", "reflection", "mark", "fixed", "slider", "turned"] {
         assert_eq!(seen[key], json!(true), "{key}: {seen:#}");
+    }
+    assert_eq!(seen["drag"], json!(false), "a drag inspects nothing: {seen:#}");
+    for (key, part) in [
+        ("inspected", "2 fragments; color (1, 0.5, 1, 1)"),
+        ("last", "out color"),
+        ("back", "color.r = mix(color.r, 1.0, 0.5)"),
+        ("emphasis", "color.r = mix(color.r, 1.0, 0.5)"),
+        ("value", "float\n1"),
+    ] {
+        assert!(seen[key].as_str().is_some_and(|text| text.contains(part)), "{key}: {seen:#}");
     }
     assert!(seen["finding"].as_str().is_some_and(|text| text.contains("there is no function `mixx`")), "{seen:#}");
     assert_eq!((&seen["verdict"], &seen["pictures"]), (&json!("holds"), &json!(4)), "{seen:#}");

@@ -6,8 +6,8 @@ import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirro
 import { StreamLanguage, bracketMatching, foldGutter, foldKeymap, indentOnInput, indentUnit, syntaxHighlighting, HighlightStyle } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
-import { Annotation, Compartment, EditorState } from "@codemirror/state";
-import { EditorView, drawSelection, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
+import { Annotation, Compartment, EditorState, StateEffect, StateField } from "@codemirror/state";
+import { Decoration, EditorView, drawSelection, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 
 // The colors are those of the page, which has a light and a dark set.
@@ -30,6 +30,8 @@ const theme = EditorView.theme({
   ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "color-mix(in srgb, var(--accent) 9%, transparent)" },
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "color-mix(in srgb, var(--accent) 28%, transparent) !important" },
   ".cm-tooltip, .cm-panels": { backgroundColor: "var(--card)", color: "var(--ink)", border: "1px solid var(--rule)" },
+  ".cm-step": { backgroundColor: "color-mix(in srgb, var(--accent) 34%, transparent)", outline: "1px solid var(--accent)" },
+  ".cm-value": { padding: ".2rem .5rem", fontFamily: "var(--code)", whiteSpace: "pre" },
   ".cm-diagnosticAction": { backgroundColor: "var(--accent)", color: "var(--on-pill)" },
   ".cm-panels input, .cm-panels button": { font: "inherit" },
 });
@@ -74,9 +76,22 @@ const language = (kind, words) => {
 // Texts that the page sets are no changes by a person.
 const ofPage = Annotation.define();
 
+// The expression that a person looks at.
+const setStep = StateEffect.define();
+const step = StateField.define({
+  create: () => Decoration.none,
+  update: (old, change) => {
+    const asked = change.effects.filter((effect) => effect.is(setStep)).at(-1);
+    if (!asked) return old.map(change.changes);
+    const { from, to } = asked.value ?? {};
+    return from < to ? Decoration.set([Decoration.mark({ class: "cm-step" }).range(from, to)]) : Decoration.none;
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
 // An editor in `parent`, whose texts nobody can change if it is `readOnly`. `changed` is called with the text when a person, a fix or a control changes it; `moved` with the line
-// where the cursor is.
-export const create = ({ parent, readOnly = false, label = "", words = {}, changed = () => {}, moved = () => {} }) => {
+// where the cursor is; `valueAt` gives the text to show for a place of a text, by its name, line and column (in characters), or null.
+export const create = ({ parent, readOnly = false, label = "", words = {}, changed = () => {}, moved = () => {}, valueAt = () => null }) => {
   const spoken = new Compartment();
   const states = new Map();
   let current = null;
@@ -85,12 +100,25 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     if (update.docChanged && !byPage) changed(current, update.state.doc.toString());
     if (update.selectionSet || update.docChanged) moved(update.state.doc.lineAt(update.state.selection.main.head).number);
   });
+  const values = hoverTooltip((view, place) => {
+    const line = view.state.doc.lineAt(place);
+    const column = Array.from(line.text.slice(0, place - line.from)).length + 1;
+    const told = valueAt(current, line.number, column);
+    if (told === null) return null;
+    const create = () => {
+      const dom = document.createElement("div");
+      dom.className = "cm-value";
+      dom.textContent = told;
+      return { dom };
+    };
+    return { pos: place, above: true, create };
+  }, { hoverTime: 150 });
   const extensions = (kind, readOnly) => [
     lineNumbers(), foldGutter(), history(), drawSelection(), indentOnInput(), bracketMatching(), closeBrackets(),
     highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(), indentUnit.of("    "),
     label === "Translation" ? [] : lintGutter(), readOnly ? [] : [autocompletion({ override: [completeAnyWord] })],
     keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
-    spoken.of(language(kind, words[kind] ?? {})), syntaxHighlighting(colors), theme, listen,
+    spoken.of(language(kind, words[kind] ?? {})), syntaxHighlighting(colors), theme, listen, step, values,
     EditorState.readOnly.of(readOnly), EditorView.editable.of(true),
     EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false" }),
   ];
@@ -140,6 +168,13 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
       view.dispatch({ changes: changes.map(({ from, to, text }) => ({ from: clamp(from), to: clamp(to), insert: text })) });
     },
     placeOf,
+    // Emphasizes the text between two places (line and column), in sight; none of a null.
+    emphasize(range) {
+      const place = range && { from: placeOf(range.start.line, range.start.column), to: placeOf(range.end.line, range.end.column) };
+      const effects = [setStep.of(place)];
+      if (place) effects.push(EditorView.scrollIntoView(place.from, { y: "center" }));
+      view.dispatch({ effects });
+    },
     // Moves to a line and column.
     go(line, column = 1) {
       const place = placeOf(line, column);

@@ -44,6 +44,13 @@ pub(super) enum Wish {
         /// From the top.
         y: u32,
     },
+    /// The values that the fragments of a pixel computed.
+    Trace {
+        /// From the left.
+        x: u32,
+        /// From the top.
+        y: u32,
+    },
 }
 
 fn wgsl() -> String {

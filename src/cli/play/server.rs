@@ -257,7 +257,7 @@ impl Server {
         let line = job.to_string();
         let answer = match ask {
             "look" => self.looks.ask(&line),
-            "pixel" => self.draws.ask_behind(&line),
+            "pixel" | "trace" => self.draws.ask_behind(&line),
             _ => self.draws.ask(&line),
         };
         match answer {

@@ -15,6 +15,8 @@ use super::look::{self, Shown};
 use super::pictures::{Pictures, told};
 use crate::scene::{self, Loaded};
 use glisten_emit::Target;
+use glisten_front::source::SourceMap;
+use glisten_reference::trace::{Place, trace};
 use serde_json::{Value, json};
 use std::io::BufRead;
 use std::path::Path;
@@ -84,11 +86,22 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, pictures: &mut Picture
             let (scene, sources) = drawable(loaded)?;
             pictures.compare(&scene, &sources, &args.machine)
         }
+        Wish::Trace { x, y } => {
+            let (scene, sources) = drawable(loaded)?;
+            followed(&job.scene, &scene, &sources, [x, y])
+        }
         Wish::Pixel { .. } => Ok(Value::Null),
     }
 }
 
-fn drawable(loaded: Loaded) -> Result<(scene::Scene, glisten_front::source::SourceMap), String> {
+/// The values that the fragments of a pixel computed, as `glisten trace` tells them.
+fn followed(name: &str, scene: &scene::Scene, sources: &SourceMap, pixel: [u32; 2]) -> Result<Value, String> {
+    let place = Place::Pixel(pixel);
+    let found = trace(scene, place).map_err(|errors| told(errors.iter().take(1)))?;
+    serde_json::to_value(crate::trace::told(name, scene, sources, place, &found)).map_err(|error| error.to_string())
+}
+
+fn drawable(loaded: Loaded) -> Result<(scene::Scene, SourceMap), String> {
     let Loaded { scene, sources, diagnostics, .. } = loaded;
     match scene {
         Some(scene) => Ok((scene, sources)),

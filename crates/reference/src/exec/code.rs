@@ -139,7 +139,7 @@ pub(super) struct Inner {
     /// The declarations of the variables that may be read before anything was written to them; empty unless the form is
     /// [`Form::Guessed`].
     pub(super) unwritten: Vec<Span>,
-    /// What [`Inst::Note`] refers to; empty unless the form has notes.
+    /// The notes that [`Inst::Note`] refers to; empty unless the form has notes.
     pub(super) notes: Vec<Note>,
 }
 

@@ -5,15 +5,10 @@
 //! an undecided condition are explored, nothing is shown.
 
 use super::Mask;
-use super::code::Section;
-use super::inst::List;
-use super::machine::Machine;
-use super::observe::{Fate, Invoked};
 use crate::domain::{Domain, Source};
 use glisten_front::hir::{Scalar, TypeId};
 use glisten_front::source::Span;
 use smallvec::SmallVec;
-use std::sync::Arc;
 
 /// The kind of a [`Note`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -45,7 +40,7 @@ pub enum NoteKind {
 /// A place of the text.
 #[derive(Clone, Debug)]
 pub struct Note {
-    /// What it is.
+    /// Its kind.
     pub kind: NoteKind,
     /// The expression, the statement or the declaration.
     pub span: Span,
@@ -77,42 +72,4 @@ pub enum NotedScalar<'a, D: Domain> {
     Float(Source<'a, D::Float>),
     /// An `int`, the bits of a `uint`, or a `bool`.
     Int(Source<'a, D::Int>),
-}
-
-impl<D: Domain> Machine<D> {
-    /// Shows the scalars of a note.
-    pub(super) fn note(&mut self, number: u32, section: &Section, [floats, ints]: [List; 2], mask: u64) {
-        let lanes = mask & self.watched;
-        if self.ways.exploring || lanes == 0 {
-            return;
-        }
-        let inner = Arc::clone(&self.code.inner);
-        let (Some(observer), Some(note)) = (&mut self.observer, inner.notes.get(number as usize)) else { return };
-        let registers = &self.registers;
-        let mut floats = section.list(floats).iter();
-        let mut ints = section.list(ints).iter();
-        let scalar = |scalar: &Option<Scalar>| {
-            if *scalar == Some(Scalar::Float) {
-                floats.next().map(|operand| NotedScalar::Float(registers.float(*operand)))
-            } else {
-                ints.next().map(|operand| NotedScalar::Int(registers.int(*operand)))
-            }
-        };
-        let scalars = note.scalars.iter().filter_map(scalar).collect();
-        observer.note(&Noted { note, number, lanes: Mask(lanes), scalars });
-    }
-
-    /// Lets the observer follow an invocation of the next run.
-    pub(crate) fn announce(&mut self, lane: usize, invocation: &Invoked) {
-        if let Some(observer) = &mut self.observer {
-            observer.follows(lane, invocation);
-        }
-    }
-
-    /// Tells the observer what became of an invocation of the last run.
-    pub(crate) fn conclude(&mut self, lane: usize, fate: Fate) {
-        if let Some(observer) = &mut self.observer {
-            observer.ended(lane, fate);
-        }
-    }
 }

@@ -158,7 +158,7 @@ pub enum Invoked {
     },
 }
 
-/// What became of an invocation.
+/// The end of an invocation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fate {
     /// It ran to its end; a fragment was drawn.
@@ -180,7 +180,7 @@ pub trait Observer<D: Domain>: Send + Debug {
     fn note(&mut self, _noted: &Noted<'_, D>) {}
     /// Whether it follows this invocation, which is about to run in a lane.
     fn follows(&mut self, _lane: usize, _invocation: &Invoked) {}
-    /// What became of the fragment in a lane.
+    /// Receives the fate of the invocation in a lane.
     fn ended(&mut self, _lane: usize, _fate: Fate) {}
     /// Called at the end of a piece of the drawing.
     fn finish(self: Box<Self>, order: Order);

@@ -6,13 +6,15 @@
 
 use super::Mask;
 use super::code::Section;
-use super::inst::{Class, Compare, FloatToInt, Inst, Lookup, Operand, TextureCall, Use};
+use super::inst::{Class, Compare, FloatToInt, Inst, List, Lookup, Operand, TextureCall, Use};
 use super::machine::Machine;
-use super::observe::{Event, Kind, Observer, Order, What};
+use super::note::{Noted, NotedScalar};
+use super::observe::{Event, Fate, Invoked, Kind, Observer, Order, What};
 use crate::domain::{Domain, Source};
 use glisten_front::hir::Scalar;
 use glisten_front::source::Span;
 use smallvec::SmallVec;
+use std::sync::Arc;
 
 impl<D: Domain> Machine<D> {
     /// Lets an observer see all later runs.
@@ -103,6 +105,42 @@ impl<D: Domain> Machine<D> {
                 let what = What::Output(values.source());
                 observer.see(&Event { span: Span::default(), lanes: Mask(lanes), what });
             }
+        }
+    }
+
+    /// Shows the scalars of a note.
+    pub(super) fn note(&mut self, number: u32, section: &Section, [floats, ints]: [List; 2], mask: u64) {
+        let lanes = mask & self.watched;
+        if self.ways.exploring || lanes == 0 {
+            return;
+        }
+        let inner = Arc::clone(&self.code.inner);
+        let (Some(observer), Some(note)) = (&mut self.observer, inner.notes.get(number as usize)) else { return };
+        let registers = &self.registers;
+        let mut floats = section.list(floats).iter();
+        let mut ints = section.list(ints).iter();
+        let scalar = |scalar: &Option<Scalar>| {
+            if *scalar == Some(Scalar::Float) {
+                floats.next().map(|operand| NotedScalar::Float(registers.float(*operand)))
+            } else {
+                ints.next().map(|operand| NotedScalar::Int(registers.int(*operand)))
+            }
+        };
+        let scalars = note.scalars.iter().filter_map(scalar).collect();
+        observer.note(&Noted { note, number, lanes: Mask(lanes), scalars });
+    }
+
+    /// Lets the observer follow an invocation of the next run.
+    pub(crate) fn announce(&mut self, lane: usize, invocation: &Invoked) {
+        if let Some(observer) = &mut self.observer {
+            observer.follows(lane, invocation);
+        }
+    }
+
+    /// Tells the observer the fate of an invocation of the last run.
+    pub(crate) fn conclude(&mut self, lane: usize, fate: Fate) {
+        if let Some(observer) = &mut self.observer {
+            observer.ended(lane, fate);
         }
     }
 }

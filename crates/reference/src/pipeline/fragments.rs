@@ -366,7 +366,7 @@ impl<D: Domain> Shading<'_, D> {
     }
 }
 
-/// What became of a fragment.
+/// The fate of a fragment.
 fn fate(is_discarded: bool, passed: bool) -> Fate {
     match (is_discarded, passed) {
         (true, _) => Fate::Discarded,

@@ -51,7 +51,7 @@ pub enum Place {
     },
 }
 
-/// What followed invocations computed.
+/// The values that followed invocations computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
     /// The invocations in the order in which they are drawn.
@@ -73,7 +73,7 @@ pub struct Invocation {
     pub invoked: Invoked,
     /// The vertices of the primitive, in their order in the draw; empty if a geometry stage made it.
     pub vertices: Vec<u32>,
-    /// What became of it.
+    /// Its end.
     pub fate: Fate,
     /// The values, in the order in which they were computed.
     pub entries: Vec<Entry>,
@@ -84,7 +84,7 @@ pub struct Invocation {
 /// A value of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// What it is.
+    /// The kind of place.
     pub kind: NoteKind,
     /// The expression, the statement or the declaration.
     pub span: Span,

@@ -9,7 +9,7 @@ use crate::exec::{Event, Fate, Invoked, LANES, NoteKind, Noted, NotedScalar, Obs
 use glisten_front::hir::{Scalar, Stage};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What all recorders of a drawing have recorded.
+/// The invocations that all recorders of a drawing have recorded.
 #[derive(Debug, Default)]
 pub(super) struct Recordings(Mutex<Vec<(Order, Vec<Invocation>)>>);
 

@@ -54,6 +54,7 @@ const latest = (work, patience) => {
 // ---- The editor and the files.
 const editor = Editor.create({
   parent: byId("editor"), label: "Source", words: start.words, readOnly: !isLive,
+  valueAt: (name, line, column) => inspector.valueAt(name, line, column),
   changed: (name, text) => {
     const doc = docs.get(name);
     if (!doc) return;
@@ -64,7 +65,7 @@ const editor = Editor.create({
 const textChanged = () => {
   edition += 1;
   isJudged = isJudging = false;
-  showFiles(); look(); draw();
+  showFiles(); look(); draw(); inspector.refresh();
 };
 const translation = Editor.create({ parent: byId("translation"), label: "Translation", words: start.words, readOnly: true });
 
@@ -274,7 +275,13 @@ const controlElement = (control) => {
 const figure = (name, source, width, height, caption) => {
   const image = html("img", { src: source, width, height, alt: name, draggable: "false", style: `--ratio: ${width / height}` });
   image.addEventListener("pointermove", (event) => { if (!turning) point(image, event, width, height); });
-  image.addEventListener("pointerdown", (event) => turn(image, event));
+  let pressed = null;
+  image.addEventListener("pointerdown", (event) => { pressed = [event.clientX, event.clientY]; turn(image, event); });
+  image.addEventListener("click", (event) => {
+    // A drag turns the camera.
+    if (!isLive || !pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return;
+    inspector.inspect(...pixelAt(image, event, width, height));
+  });
   image.addEventListener("wheel", (event) => { if (eye()) { event.preventDefault(); move(Math.exp(event.deltaY / 600)); } }, { passive: false });
   return html("figure", {}, image, html("figcaption", {}, html("strong", {}, name), caption ? `: ${caption}` : ""));
 };
@@ -327,10 +334,13 @@ const judge = async () => {
 
 // The numbers of the pixel under the pointer.
 let wanted = null, isAsking = false;
-const point = (image, event, width, height) => {
+const pixelAt = (image, event, width, height) => {
   const box = image.getBoundingClientRect();
   const at = (place, size) => Math.max(0, Math.min(size - 1, Math.floor(place * size)));
-  wanted = [at((event.clientX - box.left) / box.width, width), at((event.clientY - box.top) / box.height, height)];
+  return [at((event.clientX - box.left) / box.width, width), at((event.clientY - box.top) / box.height, height)];
+};
+const point = (image, event, width, height) => {
+  wanted = pixelAt(image, event, width, height);
   if (isLive) askPixel();
 };
 const askPixel = async () => {
@@ -346,6 +356,122 @@ const askPixel = async () => {
   isAsking = false;
   if (wanted) askPixel();
 };
+
+// ---- The inspector: what the fragments of a pixel computed, step by step.
+const inspector = (() => {
+  const WINDOW = 150;  // the steps in the list before and after the current one
+  let pixel = null, invocations = [], steps = [], now = 0;
+  const number = (value) => {
+    if (typeof value !== "number") return String(value);
+    const single = Math.fround(value), size = Math.abs(single);
+    if (single === 0 || (size >= 1e-4 && size < 1e7)) return String(Number(single.toPrecision(7)));
+    return single.toExponential(6).replace(/\.?0+e/, "e");
+  };
+  const list = (values) => (values.length === 1 ? number(values[0]) : `(${values.slice(0, 16).map(number).join(", ")}${values.length > 16 ? ", …" : ""})`);
+  const texts = {
+    local: (step) => `${step.text} =`, if: (step) => `if (${step.text})`, loop: (step) => `while (${step.text})`,
+    switch: (step) => `switch (${step.text})`, call: (step) => `call ${step.text}`, return: (step) => `return from ${step.text}`,
+    input: (step) => `in ${step.text}`, output: (step) => `out ${step.text}`,
+  };
+  const text = (step) => (texts[step.kind] ?? ((other) => other.text))(step);
+  const base = (name) => name.split(/[\\/]/).at(-1);
+  const place = (step) => (step.file ? `${base(step.file)}:${step.start.line}` : "");
+  const told = (step) => (step.value ? list(step.value) : "");
+  const isFar = (step) => (step.exact ?? []).some((exact, index) => typeof exact !== typeof step.value[index] || Math.abs(step.value[index] - exact) > 1e-4 * Math.max(Math.abs(exact), 1e-30));
+  const fates = { drawn: "drawn", discarded: "discarded", failed: "failed the depth or stencil test" };
+  const row = (name, cells) => html("tr", {}, html("th", {}, name), cells.map((cell) => html("td", {}, cell)));
+  const show = (index, isAsked = true) => {
+    now = Math.max(0, Math.min(steps.length - 1, index));
+    const step = steps[now];
+    byId("step").value = now;
+    byId("step-first").disabled = byId("step-back").disabled = now === 0;
+    byId("step-on").disabled = byId("step-last").disabled = now >= steps.length - 1;
+    if (!step) return;
+    const table = step.value?.length ? html("table", {}, html("tbody", {},
+      row(step.exact ? "f32" : step.type, step.value.slice(0, 16).map(number)),
+      step.exact ? row("exact", step.exact.slice(0, 16).map(number)) : null,
+      step.interval ? row("a GPU may have", step.interval.slice(0, 16).map(([low, high]) => `${number(low)} … ${number(high)}`)) : null)) : null;
+    byId("step-now").replaceChildren(
+      html("div", {}, `step ${now + 1} of ${steps.length} · ${place(step)}${step.type ? ` · ${step.type}` : ""}${isFar(step) ? " · f32 is far from the exact value" : ""}${step.may_be_nan ? " · a GPU may have NaN" : ""}`),
+      html("code", {}, text(step)), ...(table ? [table] : []));
+    const first = Math.max(0, now - WINDOW);
+    const items = steps.slice(first, now + WINDOW + 1).map((one, index) => html("li", {},
+      html("button", { ...(first + index === now ? { "aria-current": "step" } : {}), click: () => show(first + index) },
+        html("span", { class: "at" }, place(one)), html("span", { class: "text" }, "  ".repeat(Math.min(one.depth, 12)) + text(one)), html("span", { class: "value" }, told(one)))));
+    byId("step-list").replaceChildren(...items);
+    const current = byId("step-list").querySelector("[aria-current]");
+    if (current) byId("step-list").scrollTop = current.offsetTop - byId("step-list").offsetTop - 100;
+    if (!isAsked || !step.file) return;
+    if (docs.has(step.file)) {
+      if (shown !== step.file) open(step.file);
+      editor.emphasize(step);
+    }
+  };
+  const choose = (index, isAsked) => {
+    const one = invocations[index];
+    steps = one?.steps ?? [];
+    byId("stepper").hidden = steps.length === 0;
+    byId("step").max = Math.max(0, steps.length - 1);
+    editor.emphasize(null);
+    show(isAsked ? Math.max(0, steps.findIndex((step) => step.kind !== "input")) : now, isAsked);
+  };
+  const take = (answer, isAsked) => {
+    const before = Number(byId("fragments").value) || 0;
+    invocations = answer.invocations;
+    const drawn = invocations.findLastIndex((one) => one.fate === "drawn");
+    const label = (one, index) => `${index + 1}: primitive ${one.primitive} of draw ${one.draw}, ${fates[one.fate] ?? one.fate}`;
+    byId("fragments").replaceChildren(...invocations.map((one, index) => html("option", { value: index }, label(one, index))));
+    byId("choose-fragment").hidden = invocations.length === 0;
+    const chosen = isAsked ? Math.max(0, drawn) : Math.min(before, invocations.length - 1);
+    byId("fragments").value = chosen;
+    const color = answer.colors?.[0];
+    const found = invocations.length === 0 ? "no fragment reached it" : `${invocations.length} fragment${invocations.length > 1 ? "s" : ""}`;
+    byId("inspected").textContent = `pixel ${pixel.join(", ")}: ${found}${color ? `; color ${list(color.value)}` : ""}`;
+    choose(chosen, isAsked);
+  };
+  let isAsked = false;
+  const run = latest(async () => {
+    const asked = edition, wasAsked = isAsked;
+    isAsked = false;
+    const answer = await ask({ ask: "trace", x: pixel[0], y: pixel[1] });
+    if (asked !== edition) return;
+    if (answer.ok) take(answer.ok, wasAsked);
+    else if (answer.status === 409) setTimeout(run, 300);
+    else byId("inspected").textContent = `Not inspected: ${answer.error}`;
+  }, 1500);
+  byId("fragments").addEventListener("change", () => choose(Number(byId("fragments").value), true));
+  byId("step").addEventListener("input", () => show(Number(byId("step").value)));
+  for (const [id, to] of [["step-first", () => 0], ["step-back", () => now - 1], ["step-on", () => now + 1], ["step-last", () => steps.length - 1]]) byId(id).addEventListener("click", () => show(to()));
+  const inspect = (x, y) => {
+    pixel = [x, y];
+    [byId("inspect-x").value, byId("inspect-y").value] = pixel;
+    isAsked = true;
+    run();
+  };
+  byId("inspect").addEventListener("click", () => inspect(Math.max(0, Math.trunc(Number(byId("inspect-x").value))), Math.max(0, Math.trunc(Number(byId("inspect-y").value)))));
+  return {
+    inspect,
+    // The texts changed: the same pixel again.
+    refresh: () => { if (pixel) { editor.emphasize(null); run(); } },
+    // Another scene.
+    forget: () => { pixel = null; invocations = []; steps = []; byId("stepper").hidden = byId("choose-fragment").hidden = true; byId("inspected").textContent = "Click a pixel of the picture."; },
+    // The value of the smallest expression at a place: the last one up to the current step, or else the next one.
+    valueAt: (name, line, column) => {
+      const after = (a, b) => a.line > b.line || (a.line === b.line && a.column > b.column);
+      const at = { line, column };
+      const size = (step) => (step.end.line - step.start.line) * 1e6 + step.end.column - step.start.column;
+      let best = null;
+      steps.forEach((step, index) => {
+        if (step.file !== name || !step.value || after(step.start, at) || !after(step.end, at)) return;
+        const longer = best ? size(step) - size(best) : -1;
+        if (longer < 0 || (longer === 0 && index <= now)) best = step;
+      });
+      if (!best) return null;
+      const step = best;
+      return `${step.text}: ${step.type}\n${told(step)}${isFar(step) ? `\nexact ${list(step.exact)}` : ""}`;
+    },
+  };
+})();
 
 // The camera turns around its target.
 let turning = null;
@@ -389,6 +515,7 @@ const choose = (name, text) => {
   isJudged = isJudging = false;
   scene = name;
   shown = null;
+  inspector.forget();
   if (text !== undefined) docs.set(name, { text, saved: null, isWritable: true });
   look(); draw();
   return true;
@@ -452,7 +579,7 @@ if (isLive) {
   watch();
 } else {
   scene = start.scene;
-  byId("choose-scene").hidden = byId("judge").hidden = byId("by").hidden = true;
+  byId("choose-scene").hidden = byId("judge").hidden = byId("by").hidden = byId("inspector").hidden = true;
   byId("pixel").textContent = `This page shows one state of the scene. \`glisten play ${scene}\` draws it again while it changes.`;
   const show = () => {
     const key = target() + (byId("leaves-out").checked ? "-left-out" : "");
