@@ -11,6 +11,7 @@
 //! Each ends in time and memory that grow with the input: what takes longer than the runner's limit is a finding.
 //! *Not done here:* making inputs; that is libFuzzer's work.
 
+pub mod mutants;
 mod sections;
 mod seeds;
 mod targets;

@@ -11,6 +11,8 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for developers")]
 
+mod survey;
+
 use clap::Parser;
 use glisten_fuzz::{TARGETS, Target, dictionary, seeds, target};
 use std::path::{Path, PathBuf};
@@ -38,6 +40,12 @@ struct Arguments {
     /// Instead of fuzzing, make this input of the target smaller
     #[arg(long)]
     minimize: Option<PathBuf>,
+    /// Instead of fuzzing, change sources in so many ways, and compare the verdicts of glisten and of glslang
+    #[arg(long, value_name = "N")]
+    mutants: Option<usize>,
+    /// The number from which the changes follow
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
 }
 
 /// An error, as a sentence.
@@ -58,6 +66,16 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<usize> {
+    if let Some(count) = arguments.mutants {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let folders: Vec<PathBuf> = match arguments.seeds.as_slice() {
+            [] => ["fixtures/valid", "fixtures/programs"].map(|folder| root.join(folder)).to_vec(),
+            named => named.to_vec(),
+        };
+        let (table, bad) = survey::survey(&folders, count, arguments.seed, &root.join("target/fuzz/mutants"))?;
+        println!("{table}");
+        return Ok(bad);
+    }
     if arguments.targets.is_empty() {
         TARGETS.iter().for_each(|target| println!("{:12} {}", target.name, target.promise));
         return Ok(0);

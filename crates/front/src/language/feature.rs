@@ -136,7 +136,7 @@ features! {
     /// Structs without a name.
     NamelessStructs "a struct without a name" since(110, NEVER), STAYS, NONE, "§4.1.8";
     /// Inputs of fragment shaders may be invariant, as the outputs that feed them.
-    InvariantInputs "an invariant input" since(120, 100), Since::new(NEVER, 300), NONE, "§4.6.1";
+    InvariantInputs "an invariant input" since(120, 100), Since::new(420, 300), NONE, "§4.6.1";
     /// Functions share the name space of variables; in 1.10 they have their own.
     SharedNames "one name space for functions and variables" since(120, 100), STAYS, NONE, "§4.2";
     /// Functions are declared at global scope alone.

@@ -52,7 +52,7 @@ impl Analyzer<'_> {
         }
         let name = self.name(block.name);
         if name == "gl_PerVertex" {
-            self.redeclare_per_vertex(block, storage);
+            self.redeclare_per_vertex(block, storage, (word, word_span));
             return;
         }
         let is_uniform = storage == Storage::Uniform;
@@ -158,24 +158,25 @@ impl Analyzer<'_> {
     }
 
     fn check_member_storage(&mut self, record: &Qualifiers, context: &BlockContext) {
-        if let Some((word, span)) = record.storage
-            && word != context.word
-        {
-            let (member, block) = (word.spelling(), context.word.spelling());
-            self.report(
-                Diagnostic::new(
-                    &qualifiers::BLOCK,
-                    span,
-                    format!("a member cannot be `{member}` in an `{block}` block"),
-                )
-                .here("another storage than the block")
-                .label(context.word_span, format!("the block is `{block}`"))
-                .help(Advice::new(Applicability::Unsafe, "remove it", Place::Over, "")),
-            );
+        self.check_member_word(record, (context.word, context.word_span));
+        if let (Some(span), Storage::In) = (record.invariant, context.storage) {
+            self.require_here(Feature::InvariantInputs, span);
         }
         if context.storage == Storage::Uniform || (self.stage == Stage::Vertex && context.storage == Storage::In) {
             self.no_interpolation(record, "a member of a uniform block");
         }
+    }
+
+    /// Reports a member with another storage qualifier than its block (§4.3.7).
+    pub(super) fn check_member_word(&mut self, record: &Qualifiers, (block, block_span): (StorageWord, Span)) {
+        let Some((word, span)) = record.storage.filter(|(word, _)| *word != block) else { return };
+        let (member, block) = (word.spelling(), block.spelling());
+        self.report(
+            Diagnostic::new(&qualifiers::BLOCK, span, format!("a member cannot be `{member}` in an `{block}` block"))
+                .here("another storage than the block")
+                .label(block_span, format!("the block is `{block}`"))
+                .help(Advice::new(Applicability::Unsafe, "remove it", Place::Over, "")),
+        );
     }
 
     fn block_member_base(&mut self, row: &MemberDecl) -> TypeId {

@@ -5,7 +5,7 @@
 //! without an instance name for the output. Members that it omits can no longer be used.
 
 use super::super::context::Analyzer;
-use super::super::qualifiers::DeclarationContext;
+use super::super::qualifiers::{DeclarationContext, StorageWord};
 use super::super::state::PerVertex;
 use crate::builtin::variables::{self, Row, VARIABLES};
 use crate::builtin::{BuiltinVariable, fixed};
@@ -18,14 +18,14 @@ use crate::syntax::ast::{BlockDecl, Declarator};
 
 impl Analyzer<'_> {
     /// `out gl_PerVertex { vec4 gl_Position; };`
-    pub(super) fn redeclare_per_vertex(&mut self, block: &BlockDecl, storage: Storage) {
+    pub(super) fn redeclare_per_vertex(&mut self, block: &BlockDecl, storage: Storage, word: (StorageWord, Span)) {
         let span = block.name.span;
         if let Some(problem) = self.per_vertex_problem(block, storage) {
             self.report(problem);
             return;
         }
         self.allows(Feature::PerVertex, span);
-        let members = self.per_vertex_members(block);
+        let members = self.per_vertex_members(block, word);
         let names: Vec<String> = members.iter().map(|member| member.name.clone()).collect();
         if storage == Storage::In {
             self.redeclare_gl_in(block, members);
@@ -124,10 +124,11 @@ impl Analyzer<'_> {
             .map(|finding| finding.label(earlier, "mentioned here"))
     }
 
-    fn per_vertex_members(&mut self, block: &BlockDecl) -> Vec<Member> {
+    fn per_vertex_members(&mut self, block: &BlockDecl, word: (StorageWord, Span)) -> Vec<Member> {
         let mut members: Vec<Member> = Vec::new();
         for row in &block.members {
             let record = self.qualifiers(&row.qualifiers, DeclarationContext::BlockMember);
+            self.check_member_word(&record, word);
             let base = self.type_spec(&row.ty);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);

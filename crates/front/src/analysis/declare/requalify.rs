@@ -137,6 +137,13 @@ impl Analyzer<'_> {
     }
 
     fn default_layout(&mut self, record: &Qualifiers, span: Span) {
+        if let Some(invariant) = record.invariant {
+            self.report(
+                Diagnostic::new(&qualifiers::MISPLACED, invariant, "`invariant` without the name of an output")
+                    .here("nothing is made invariant"),
+            );
+            return;
+        }
         match record.storage {
             Some((StorageWord::Uniform, _)) => {
                 let layout = self.layout(record, LayoutSubject::UniformDefault);

@@ -1,6 +1,6 @@
 //! Parses declarations, global and local (GLSL 1.50 §4, §6.1, §9).
 
-use super::types::is_qualifier;
+use super::types::{is_precision, is_qualifier};
 use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::source::Span;
@@ -233,8 +233,14 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     fn precision(&mut self) -> Parse<DeclarationKind> {
         self.bump();
         let mut qualifiers = self.qualifiers()?;
-        let one = if qualifiers.len() == 1 { qualifiers.pop() } else { None };
-        let Some(qualifier) = one else {
+        let wrong = qualifiers.iter().find(|one| !is_precision(&one.kind)).map(|one| one.span);
+        if let Some(span) = wrong.or(qualifiers.get(1).map(|second| second.span)) {
+            let word = self.session.sources.snippet(span).to_owned();
+            let message = format!("expected one of `lowp`, `mediump` and `highp` after `precision`, found `{word}`");
+            let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, message).here("not a precision");
+            return Err(self.report_found(diagnostic));
+        }
+        let Some(qualifier) = qualifiers.pop() else {
             return Err(self.unexpected("`lowp`, `mediump` or `highp` after `precision`"));
         };
         let ty = self.type_specifier()?;

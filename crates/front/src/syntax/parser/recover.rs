@@ -18,7 +18,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// never a brace that closes the block around it. Otherwise it skips at least one token.
     pub(super) fn recover_statement(&mut self, start: Mark) {
         self.operators.clear();
-        if std::mem::take(&mut self.recovered) {
+        // Going back to the start would find the same error again.
+        if std::mem::take(&mut self.recovered) && self.consumed > start.consumed {
             return;
         }
         let overdeep = std::mem::take(&mut self.overdeep);
@@ -41,6 +42,32 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             if closed && !overdeep {
                 return;
             }
+        }
+    }
+
+    /// Skips the rest of a broken `case` that began at `start`: past its `:`, or up to the next line.
+    pub(super) fn recover_label(&mut self, start: Mark) {
+        if self.overdeep {
+            self.recover_statement(start);
+            return;
+        }
+        self.operators.clear();
+        self.recovered = false;
+        loop {
+            match self.kind() {
+                TokenKind::Eof => {
+                    self.end_reported = true;
+                    return;
+                }
+                TokenKind::Colon | TokenKind::Semicolon => {
+                    self.bump();
+                    return;
+                }
+                TokenKind::LeftBrace | TokenKind::RightBrace => return,
+                _ if self.consumed > start.consumed && self.current.starts_line() => return,
+                _ => {}
+            }
+            self.bump();
         }
     }
 

@@ -241,9 +241,18 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 return Err(self.unclosed_brace(opening.span));
             }
             let before = self.mark();
+            let start = self.current.span;
+            self.begin();
             match self.switch_item() {
                 Ok(item) => body.push(item),
-                Err(_) => self.recover_statement(before),
+                Err(_) => {
+                    self.recover_label(before);
+                    let span = self.since(start);
+                    let value = self.broken_expr(before.exprs, span);
+                    // It is a label, and something follows it.
+                    body.push(SwitchItem::Case(value, span));
+                    body.push(SwitchItem::Stmt(Stmt { kind: StmtKind::Error, span }));
+                }
             }
             if self.leaving_function {
                 return Err(Reported);

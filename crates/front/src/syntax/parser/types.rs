@@ -45,6 +45,11 @@ static LATER_QUALIFIERS: &[(&str, u16)] = &[
     ("buffer", 430),
 ];
 
+/// Whether it is `lowp`, `mediump` or `highp`.
+pub(super) fn is_precision(kind: &QualifierKind) -> bool {
+    matches!(kind, QualifierKind::Lowp | QualifierKind::Mediump | QualifierKind::Highp)
+}
+
 /// Whether a token begins a qualifier.
 pub(super) fn is_qualifier(kind: TokenKind) -> bool {
     kind == TokenKind::Layout || qualifier(kind).is_some()
