@@ -213,9 +213,29 @@ fn any_formatted(text: &str, path: &Path, options: &Options) -> Formatted {
     Formatted { text, lines, kept }
 }
 
+/// How often a text with errors is formatted until it stays the same.
+const MOST_PASSES: usize = 6;
+
+/// A text in the style of the options. Formatting the result changes nothing: which places of a wrong text do not parse depends on its
+/// lines, so it is formatted until it stays the same, and kept if it never does.
 pub(super) fn formatted(text: &str, path: &Path, options: &Options) -> Formatted {
-    let broken = guard::guarded(|| broken(text, path)).unwrap_or_default();
-    format(text, &broken, options)
+    let pass = |text: &str| {
+        let broken = guard::guarded(|| broken(text, path)).unwrap_or_default();
+        (format(text, &broken, options), !broken.is_empty())
+    };
+    let (mut done, is_broken) = pass(text);
+    if !is_broken {
+        return done;
+    }
+    let lines = done.lines;
+    for _ in 0..MOST_PASSES {
+        let (again, _) = pass(&done.text);
+        if again.text == done.text {
+            return Formatted { lines, ..again };
+        }
+        done = again;
+    }
+    Formatted { text: text.to_owned(), lines, kept: lines }
 }
 
 /// The places that do not parse, of a source that says its version. Without its includes, or without a version, a text cannot be

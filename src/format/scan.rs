@@ -3,6 +3,8 @@
 //! *In:* any text. *Out:* [`Lexeme`]s, whose texts and blanks add up to it. *Holds:* nothing is skipped; what GLSL has no token for
 //! (GLSL 1.50 §3.1) is [`Kind::Other`].
 
+use super::BYTE_ORDER_MARK;
+
 /// The kind of a lexeme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -58,7 +60,10 @@ pub(crate) fn scan(text: &str) -> Vec<Lexeme<'_>> {
     let mut lexemes = Vec::new();
     let (mut at, mut lines, mut spaced, mut starts_line) = (0, 0, false, true);
     while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
-        let blank = rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n', '\x0b', '\x0c', '\u{feff}']).len();
+        // A byte order mark is one at the beginning alone.
+        let rest = if at == 0 { rest.strip_prefix(BYTE_ORDER_MARK).unwrap_or(rest) } else { rest };
+        at = text.len() - rest.len();
+        let blank = rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n', '\x0b', '\x0c']).len();
         if blank > 0 {
             let ends = rest.get(..blank).unwrap_or("").matches('\n').count();
             lines += ends;

@@ -79,6 +79,12 @@ fn what_is_kept_at_the_beginning_keeps_its_blanks() {
 }
 
 #[test]
+fn a_byte_order_mark_elsewhere_stays() {
+    let text = "float   a;\nfloat\u{feff}   b;\nfloat   c;\n";
+    assert_eq!(formatted(text), "float a;\nfloat\u{feff}   b;\nfloat c;\n");
+}
+
+#[test]
 fn comments_and_line_ends_stay() {
     let text = "/* a\n     b */\r\nfloat   a;   // x \\\n y  \r\n#define A   \\\r\n   b\r\n";
     let once = formatted(text);

@@ -42,6 +42,23 @@ fn what_cannot_be_laid_out_is_kept() {
     assert_eq!(bytes("b.frag"), b"//  \x95\x5c\x8e\xa6 a\nfloat x;\n");
 }
 
+/// What does not parse depends on the lines, which formatting changes.
+#[test]
+fn a_wrong_text_is_formatted_once_too() {
+    let folder = Folder::new(&[]);
+    for text in [
+        "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }out\n\n; block\n{\n\tvec4 d;\n} Out;\n",
+        "#version 150\nin vec4 a;\nin\n; vec4 b;\nvoid main() { }\n",
+        "#version 150\nvoid\n\n; main()\n{ gl_Position = vec4(1.0); }\n",
+        "#version 150\nout vec4 c;\nvoid main() { if (true) { vec4\n; c = vec4(1.0); }\n",
+        "#version 150\nuniform { float a; };\nuniform\n;\nvoid main() { switch (1) { case case 1: break; } }\n",
+    ] {
+        let run = |text: &str| out(&folder.run_with_input(&["fmt", "--stdin-filename", "a.vert", "-"], text));
+        let once = run(text);
+        assert_eq!(run(&once), once, "{text}");
+    }
+}
+
 #[test]
 fn standard_input_and_mistakes() {
     let folder = Folder::new(&[
