@@ -67,6 +67,7 @@ static MODULES: &[Module] = &[
     module!("irradiance"),
     module!("lambert"),
     module!("lights"),
+    module!("ltc"),
     module!("lut"),
     module!("naive"),
     module!("noise"),

@@ -68,6 +68,7 @@ static SCENES: &[LibraryScene] = &[
     scene!("velvet"),
     scene!("lacquer"),
     scene!("lamps"),
+    scene!("panels"),
     scene!("probe"),
     scene!("noises"),
     scene!("dial"),

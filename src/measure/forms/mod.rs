@@ -6,6 +6,7 @@ mod equations;
 mod geometry;
 mod helpers;
 mod looks;
+mod ltc;
 mod microfacet;
 mod models;
 mod naive;
@@ -28,6 +29,7 @@ pub(super) static ALL: &[&[Form]] = &[
     tone::FORMS,
     looks::FORMS,
     sources::FORMS,
+    ltc::FORMS,
     shapes::FORMS,
     naive::FORMS,
 ];

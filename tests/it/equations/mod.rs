@@ -85,6 +85,7 @@ const SHOWN: &[(&str, Shown)] = &[
     ("velvet", Shown::Points(&[0])),
     ("lacquer", Shown::ByValue(&["clearcoatWeight(vec3,vec3,float)"])),
     ("lamps", Shown::ByValue(&["areaSphereFactor(vec3,vec3,float)"])),
+    ("panels", Shown::ByValue(&["ltcEdge(vec3,vec3)", "ltcPolygon(vec3[16],int,float)"])),
     ("probe", Shown::ByValue(&["irradiance(vec3,vec3[9])"])),
     ("noises", Shown::ByValue(&["noiseValue(vec3)", "noiseGradient(vec3)"])),
     ("dial", Shown::ByValue(&["sdfBlend(float,float,float)"])),

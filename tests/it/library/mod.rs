@@ -6,6 +6,7 @@ mod command;
 mod energy;
 mod evaluator;
 mod laws;
+mod ltc;
 mod registers;
 mod seeds;
 mod stiff;
