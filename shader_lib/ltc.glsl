@@ -12,7 +12,7 @@
 // and by the diffuse color or ltcAlbedo().
 #ifndef GLISTEN_LTC
 #define GLISTEN_LTC
-#include "lut.glsl"
+#include "safe.glsl"
 
 // The frame of a surface: multiplied by a vector, it has N as z and the eye in the plane of x and z.
 //   N, V  unit normal, unit vector towards the eye
@@ -28,28 +28,40 @@ mat3 ltcFrame(vec3 N, vec3 V)
     return mat3(x.x, y.x, N.x, x.y, y.y, N.y, x.z, y.z, N.z);
 }
 
+// A table's numbers between its texels, by weights that are exact: a GPU's own filter has as few as 256 steps.
+//   N, V  unit vectors: sqrt(1 - N.V) goes from left to right    roughness  upwards, limited to [0, 1]
+// bound: 2e-6 abs, the steep ends of the table
+vec4 ltcTexel(sampler2D table, vec3 N, vec3 V, float roughness)
+{
+    ivec2 last = textureSize(table, 0) - 1;
+    // sqrt(1 - N.V), by the distance of the directions.
+    vec2 at = vec2(last) * vec2(safeUnit(sqrt(safeOneMinusCos(N, V))), safeUnit(roughness));
+    vec2 low = floor(at);
+    ivec2 a = ivec2(low);
+    ivec2 b = min(a + 1, last);
+    vec2 t = at - low;
+    vec4 below = (1.0 - t.x) * texelFetch(table, a, 0) + t.x * texelFetch(table, ivec2(b.x, a.y), 0);
+    vec4 above = (1.0 - t.x) * texelFetch(table, ivec2(a.x, b.y), 0) + t.x * texelFetch(table, b, 0);
+    return (1.0 - t.y) * below + t.y * above;
+}
+
 // The frame, and then the inverse matrix of the cosine that is like `ggx`.
-//   table  `ltc_matrix`, clamped and linear    N, V  unit vectors    roughness  the root of alpha, limited to [0, 1]
+//   table  `ltc_matrix`, of any filter    N, V  unit vectors    roughness  the root of alpha, limited to [0, 1]
 // bound: 6e-6 abs, the frame and the steep ends of the table
 mat3 ltcMatrix(sampler2D table, vec3 N, vec3 V, float roughness)
 {
-    vec2 size = vec2(textureSize(table, 0));
-    // sqrt(1 - N.V), by the distance of the directions.
-    float angle = sqrt(safeOneMinusCos(N, V));
-    vec4 m = texture(table, vec2(lutCoordinate(angle, size.x), lutCoordinate(roughness, size.y)));
+    vec4 m = ltcTexel(table, N, V, roughness);
     mat3 shape = mat3(m.x, 0.0, m.z, 0.0, 1.0, 0.0, m.y, 0.0, m.w);
     mat3 to = ltcFrame(N, V);
     return mat3(safeFinite(shape * to[0]), safeFinite(shape * to[1]), safeFinite(shape * to[2]));
 }
 
 // The color of all light that `ggx` reflects, which multiplies a light's E.
-//   table  `ltc_albedo`, clamped and linear    N, V  unit vectors    roughness  limited to [0, 1]    Kspec  0 to 1
+//   table  `ltc_albedo`, of any filter    N, V  unit vectors    roughness  limited to [0, 1]    Kspec  0 to 1
 // bound: 2e-6 color, the steep ends of the table
 vec3 ltcAlbedo(sampler2D table, vec3 N, vec3 V, float roughness, vec3 Kspec)
 {
-    vec2 size = vec2(textureSize(table, 0));
-    float angle = sqrt(safeOneMinusCos(N, V));
-    vec2 a = texture(table, vec2(lutCoordinate(angle, size.x), lutCoordinate(roughness, size.y))).xy;
+    vec2 a = ltcTexel(table, N, V, roughness).xy;
     return safeLimit(Kspec * (a.x - a.y) + a.y);
 }
 

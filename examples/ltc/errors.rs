@@ -97,7 +97,7 @@ fn tables() -> Result<Vec<Arc<Texture>>, String> {
     let fragment = "#version 150\nuniform sampler2D m;\nuniform sampler2D a;\nout vec4 c;\n\
         void main() { c = texture(m, vec2(0.5)) + texture(a, vec2(0.5)); }\n";
     let scene = "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n\
-        textures = { m = { pattern = \"ltc_matrix\", filter = \"linear\" }, a = { pattern = \"ltc_albedo\", filter = \"linear\" } }\n";
+        textures = { m = { pattern = \"ltc_matrix\" }, a = { pattern = \"ltc_albedo\" } }\n";
     let files = MemoryFiles::new([("a.toml", scene), ("a.vert", vertex), ("a.frag", fragment)]);
     let loaded = load("a.toml", &files, &Compiler::new(Options::default()));
     let told = || loaded.diagnostics.iter().map(|found| found.message.clone()).collect::<Vec<_>>().join("; ");

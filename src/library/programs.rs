@@ -116,7 +116,7 @@ static PROGRAMS: &[LibraryProgram] = &[
     program("metal", "texspec.vert", "texspec.frag", "article: `texspec` with a mottled pattern for its texture"),
     program("mist", "surface.vert", "mist.frag", "Lambert in fog that lies on the ground"),
     program("noises", "surface.vert", "noises.frag", "solid textures of noise, lit"),
-    program("panels", "surface.vert", "panels.frag", "microfacets under a rectangle, a disk and a tube of light"),
+    program("panels", "surface.vert", "panels.frag", "microfacets under a rectangle of light"),
     program("phong", "surface.vert", "phong.frag", "textbook, (101) with (83) and (86), at each fragment"),
     program("phong_vertex", "phong_vertex.vert", "shade.frag", "textbook, (101) with (83) and (86), at each vertex"),
     program("probe", "surface.vert", "probe.frag", "light from all around by spherical harmonics"),

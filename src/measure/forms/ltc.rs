@@ -132,6 +132,11 @@ pub(super) static FORMS: &[Form] = forms! {
         let columns: Vec<f64> = (0..9).map(|at| rows[at % 3][at / 3]).collect();
         Some(Answer::new(columns, 1.0).conditioned(condition))
     };
+    "ltc" "ltcTexel(sampler2D,vec3,vec3,float)" [Direction, Direction, Unit] |a| {
+        let mut texel = looked_up(angle(a.d(), a.d()));
+        texel.push(1.0);
+        Some(Answer::new(texel, 1.0).conditioned(32.0))
+    };
     "ltc" "ltcMatrix(sampler2D,vec3,vec3,float)" [Direction, Direction, Unit] |a| {
         let (n, v) = (a.d(), a.d());
         let (rows, condition) = frame(n, v)?;
