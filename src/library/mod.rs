@@ -49,6 +49,7 @@ macro_rules! module {
 
 static MODULES: &[Module] = &[
     module!("ambient"),
+    module!("ao"),
     module!("area_light"),
     module!("artistic"),
     module!("attenuation"),
@@ -57,6 +58,7 @@ static MODULES: &[Module] = &[
     module!("burley"),
     module!("clearcoat"),
     module!("color"),
+    module!("dissolve"),
     module!("fog"),
     module!("fresnel"),
     module!("ggx"),
@@ -69,6 +71,7 @@ static MODULES: &[Module] = &[
     module!("lights"),
     module!("ltc"),
     module!("lut"),
+    module!("matcap"),
     module!("naive"),
     module!("noise"),
     module!("normal"),
@@ -77,6 +80,7 @@ static MODULES: &[Module] = &[
     module!("oren_nayar"),
     module!("outline"),
     module!("phong"),
+    module!("photometry"),
     module!("punctual"),
     module!("quartic"),
     module!("safe"),

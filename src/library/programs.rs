@@ -37,6 +37,7 @@ static SHADERS: &[(&str, &str)] = &[
     shader!("diffuse.vert"),
     shader!("edge.frag"),
     shader!("edge.vert"),
+    shader!("ember.frag"),
     shader!("hemi_amb.vert"),
     shader!("hemi_spec.vert"),
     shader!("hemisphere.vert"),
@@ -102,6 +103,7 @@ static PROGRAMS: &[LibraryProgram] = &[
     program("dial", "page.vert", "dial.frag", "a clock of distances, whose edges are smooth"),
     program("diffuse", "diffuse.vert", "diffuse.frag", "article: parallel light and constant ambient light"),
     program("edge", "edge.vert", "edge.frag", "article: the outline, drawn before the model"),
+    program("ember", "surface.vert", "ember.frag", "a surface that burns away, lit by the picture of a ball"),
     program("hemi_amb", "hemi_amb.vert", "diffuse.frag", "article: parallel light over half spheres"),
     program(
         "hemi_spec",

@@ -71,6 +71,7 @@ static SCENES: &[LibraryScene] = &[
     scene!("panels"),
     scene!("probe"),
     scene!("noises"),
+    scene!("ember"),
     scene!("dial"),
     scene!("mist"),
     scene!("tones"),

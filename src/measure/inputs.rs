@@ -98,6 +98,8 @@ pub enum InputKind {
     Warp,
     /// Sixteen corners of which the first ones are a flat convex light, how many these are, and how they turn.
     Corners,
+    /// The far ends of four cascades, growing.
+    Ends,
     /// Nine coefficients of spherical harmonics for each channel, -2 to 2.
     Harmonics,
 }
@@ -327,6 +329,13 @@ impl Random {
             InputKind::Place => to.extend(self.range3(64.0)),
             InputKind::Place2 => to.extend([self.range(-64.0, 64.0), self.range(-64.0, 64.0)]),
             InputKind::Octaves => to.push(self.range(1.0, 7.0).floor()),
+            InputKind::Ends => {
+                let mut end = 0.0;
+                (0..4).for_each(|_| {
+                    end += self.spread(1.0, 100.0);
+                    to.push(end);
+                });
+            }
             InputKind::Warp => {
                 let sharp = self.spread(1e-3, 1.0);
                 let matrix = [self.range(0.2, 1.0), self.range(0.0, 0.5), self.range(-0.2, 0.0) * sharp, sharp];

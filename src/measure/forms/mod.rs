@@ -12,6 +12,7 @@ mod models;
 mod naive;
 mod shapes;
 mod sources;
+mod today;
 mod tone;
 
 use super::vector::{V, cross, dot, norm};
@@ -30,6 +31,7 @@ pub(super) static ALL: &[&[Form]] = &[
     looks::FORMS,
     sources::FORMS,
     ltc::FORMS,
+    today::FORMS,
     shapes::FORMS,
     naive::FORMS,
 ];

@@ -88,6 +88,7 @@ const SHOWN: &[(&str, Shown)] = &[
     ("panels", Shown::ByValue(&["ltcEdge(vec3,vec3)", "ltcPolygon(vec3[16],int,float)"])),
     ("probe", Shown::ByValue(&["irradiance(vec3,vec3[9])"])),
     ("noises", Shown::ByValue(&["noiseValue(vec3)", "noiseGradient(vec3)"])),
+    ("ember", Shown::ByValue(&["dissolveKept(float,float,float)"])),
     ("dial", Shown::ByValue(&["sdfBlend(float,float,float)"])),
     ("mist", Shown::ByValue(&["fogMean(float)", "fogFactor(float,vec3,float,float,float)"])),
     ("tones", Shown::ByValue(&["tonemapReinhard(vec3,float)"])),
