@@ -92,7 +92,7 @@ impl fmt::Display for Row {
 }
 
 /// The two tables, as a scene has them.
-fn tables() -> Result<Vec<Arc<Texture>>, String> {
+pub(crate) fn tables() -> Result<Vec<Arc<Texture>>, String> {
     let vertex = "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n";
     let fragment = "#version 150\nuniform sampler2D m;\nuniform sampler2D a;\nout vec4 c;\n\
         void main() { c = texture(m, vec2(0.5)) + texture(a, vec2(0.5)); }\n";

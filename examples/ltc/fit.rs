@@ -31,9 +31,12 @@ pub(crate) fn entry(column: u32, row: u32) -> Entry {
     // At the horizon itself, nothing is reflected.
     let ggx = Ggx::new((1.0 - x * x).max(1e-3), (y * y).max(SHARPEST));
     let samples: Vec<Sample> = (0..SAMPLES).map(|index| ggx.sample(spread(index))).collect();
+    let many = (0..16 * SAMPLES).map(|index| ggx.sample(spread(index)));
+    let [all, grazing] = many.fold([0.0; 2], |[all, grazing], sample| {
+        let weight = sample.weight / f64::from(16 * SAMPLES);
+        [all + weight, grazing + weight * (1.0 - sample.half).max(0.0).powi(5)]
+    });
     let mean = |value: &dyn Fn(&Sample) -> f64| samples.iter().map(value).sum::<f64>() / f64::from(SAMPLES);
-    let all = mean(&|sample| sample.weight);
-    let grazing = mean(&|sample| sample.weight * (1.0 - sample.half).max(0.0).powi(5));
     let axis = unit([mean(&|s| s.weight * s.light[0]), 0.0, mean(&|s| s.weight * s.light[2])]);
     let axis = if column == 0 { [0.0, 0.0, 1.0] } else { axis };
     let error = |shape: V| Cosine::new(axis, shape).error(ggx, all, &samples);

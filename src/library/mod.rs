@@ -59,6 +59,7 @@ static MODULES: &[Module] = &[
     module!("clearcoat"),
     module!("color"),
     module!("dissolve"),
+    module!("energy"),
     module!("fog"),
     module!("fresnel"),
     module!("ggx"),

@@ -162,6 +162,22 @@ pub(super) static FORMS: &[Form] = forms! {
     };
     "ltc" "ltcTurn(vec3,vec3,vec3)" [Point, Point, Point]
         |a| Some(Answer::new([dot(cross(unit(a.v()), unit(a.v())), unit(a.v()))], 1.0).conditioned(4.0));
+    "energy" "energyFactor(sampler2D,vec3,vec3,vec3,float,vec3)" [Lighting, Unit, Color] |a| {
+        let (n, l, v, _, f0) = (a.d(), a.d(), a.d(), a.f(), a.v());
+        let (light, eye) = (looked_up(angle(n, l)), looked_up(angle(n, v)));
+        let mean = eye[2];
+        let factor = |f0: f64| {
+            let f = f0 + (1.0 - f0) / 21.0;
+            let many = f * f * mean / (1.0 - f + f * mean);
+            many * dot(n, l).max(0.0) * (1.0 - light[0]) * (1.0 - eye[0]) / (1.0 - mean)
+        };
+        Some(Answer::new(f0.map(factor), 1.0).conditioned(64.0))
+    };
+    "energy" "energyCompensation(sampler2D,vec3,vec3,float,vec3)" [Direction, Direction, Unit, Color] |a| {
+        let (n, v, _, f0) = (a.d(), a.d(), a.f(), a.v());
+        let e = looked_up(angle(n, v))[0].max((-10.0f64).exp2());
+        Some(Answer::relative(f0.map(|f0| 1.0 + f0 * (1.0 / e - 1.0))).conditioned(64.0 + 64.0 / e))
+    };
     "ltc" "ltcEdge(vec3,vec3)" [Near] |a| {
         let (a, b) = (a.d(), a.d());
         let sum = norm(add(a, b));

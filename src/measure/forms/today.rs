@@ -20,11 +20,8 @@ fn bounced(a: &Args<'_>) -> Option<Answer> {
     let (v, color) = (a.f(), a.v());
     let value = |k: f64| {
         let c = f64::from;
-        let (x, y, z) = (
-            c(2.0404_f32) * k - c(0.3324_f32),
-            c(-4.7951_f32) * k + c(0.6417_f32),
-            c(2.7552_f32) * k + c(0.6903_f32),
-        );
+        let (x, y, z) =
+            (c(2.0404_f32) * k - c(0.3324_f32), c(-4.7951_f32) * k + c(0.6417_f32), c(2.7552_f32) * k + c(0.6903_f32));
         v.max(x * v.powi(3) + y * v * v + z * v)
     };
     Some(Answer::new(color.map(value), 1.0).conditioned(32.0))
@@ -59,7 +56,9 @@ fn cascade(a: &Args<'_>) -> Option<Answer> {
         if depth < end {
             let t = (depth - start) / (end - start);
             let condition = 8.0 + 8.0 * depth / (end - start) / share;
-            return Some(Answer::new([index as f64 + ((t - 1.0 + share) / share).clamp(0.0, 1.0)], 1.0).conditioned(condition));
+            return Some(
+                Answer::new([index as f64 + ((t - 1.0 + share) / share).clamp(0.0, 1.0)], 1.0).conditioned(condition),
+            );
         }
         start = end;
     }

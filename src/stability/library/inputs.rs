@@ -123,7 +123,9 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
         InputKind::Place => to.extend([cell_place(random), cell_place(random), cell_place(random)]),
         InputKind::Place2 => to.extend([cell_place(random), cell_place(random)]),
         InputKind::Octaves => to.push(random.pick(&[1.0, 4.0, 6.0])),
-        InputKind::Ends => to.extend(random.pick(&[[1.0, 2.0, 3.0, 4.0], [0.25, 1.0, 11.2, 1e4], [1e-3, 1.0, 4.0, 1e6]])),
+        InputKind::Ends => {
+            to.extend(random.pick(&[[1.0, 2.0, 3.0, 4.0], [0.25, 1.0, 11.2, 1e4], [1e-3, 1.0, 4.0, 1e6]]))
+        }
         InputKind::Warp => {
             // The rows of smooth surfaces, and an eye at the horizon.
             let matrix = random.pick(&[

@@ -140,7 +140,10 @@ const PATTERNS: &[Pattern] = &[
         is_table: true,
         from: BLACK,
         to: WHITE,
-        formula: |_, x, y| cosines(x, y, |[.., all, grazing]| [all, grazing, 0.0, 1.0]),
+        formula: |_, x, y| {
+            let [all, grazing, ..] = cosines(x, y, |[.., all, grazing]| [all, grazing, 0.0, 0.0]);
+            [all, grazing, mean_albedo(y), 1.0]
+        },
     },
 ];
 
@@ -248,6 +251,17 @@ fn cosines(x: f64, y: f64, part: fn([f64; 6]) -> Texel) -> Texel {
     let corners = [at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)];
     let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
     std::array::from_fn(|channel| corners.iter().zip(weights).map(|(corner, weight)| corner[channel] * weight).sum())
+}
+
+/// The mean over all directions of the first number of `ltc_albedo`, by the cosine: with cos = 1 - x^2, of 4 (1 - x^2) x over x.
+fn mean_albedo(y: f64) -> f64 {
+    const STEPS: u32 = 8 * (LTC - 1);
+    let part = |step: u32| {
+        let x = (f64::from(step) + 0.5) / f64::from(STEPS);
+        let [all, ..] = cosines(x, y, |[.., all, _]| [all, 0.0, 0.0, 0.0]);
+        all * 4.0 * (1.0 - x * x) * x / f64::from(STEPS)
+    };
+    (0..STEPS).map(part).sum()
 }
 
 fn mix(from: Color, to: Color, x: f64) -> Color {
