@@ -19,8 +19,8 @@ vec3 energyFactor(sampler2D table, vec3 N, vec3 L, vec3 V, float roughness, vec3
     float NL = min(dot(N, L), 1.0);
     if (!(NL > 0.0))
         return vec3(0.0);
-    vec4 l = ltcTexel(table, N, L, roughness);
-    vec4 v = ltcTexel(table, N, V, roughness);
+    vec4 l = ltcTexel(table, vec2(sqrt(NL), roughness));
+    vec4 v = ltcTexel(table, vec2(sqrt(safeUnit(dot(N, V))), roughness));
     float mean = safeUnit(v.z);
     float lost = 1.0 - mean;
     float least = exp2(-20.0);
@@ -39,7 +39,7 @@ vec3 energyFactor(sampler2D table, vec3 N, vec3 L, vec3 V, float roughness, vec3
 // bound: 1e-5 size, the steep ends of the table
 vec3 energyCompensation(sampler2D table, vec3 N, vec3 V, float roughness, vec3 Kspec)
 {
-    float E = max(safeUnit(ltcTexel(table, N, V, roughness).x), exp2(-10.0));
+    float E = max(safeUnit(ltcTexel(table, vec2(sqrt(safeUnit(dot(N, V))), roughness)).x), exp2(-10.0));
     return vec3(1.0) + vec3(safeUnit(Kspec.x), safeUnit(Kspec.y), safeUnit(Kspec.z)) * ((1.0 - E) / E);
 }
 

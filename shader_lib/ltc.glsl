@@ -29,13 +29,12 @@ mat3 ltcFrame(vec3 N, vec3 V)
 }
 
 // A table's numbers between its texels, by weights that are exact: a GPU's own filter has as few as 256 steps.
-//   N, V  unit vectors: sqrt(1 - N.V) goes from left to right    roughness  upwards, limited to [0, 1]
+//   place  limited to [0, 1]: from the first to the last column, and from the first to the last row
 // bound: 2e-6 abs, the steep ends of the table
-vec4 ltcTexel(sampler2D table, vec3 N, vec3 V, float roughness)
+vec4 ltcTexel(sampler2D table, vec2 place)
 {
     ivec2 last = textureSize(table, 0) - 1;
-    // sqrt(1 - N.V), by the distance of the directions.
-    vec2 at = vec2(last) * vec2(safeUnit(sqrt(safeOneMinusCos(N, V))), safeUnit(roughness));
+    vec2 at = vec2(last) * vec2(safeUnit(place.x), safeUnit(place.y));
     vec2 low = floor(at);
     ivec2 a = ivec2(low);
     ivec2 b = min(a + 1, last);
@@ -50,7 +49,8 @@ vec4 ltcTexel(sampler2D table, vec3 N, vec3 V, float roughness)
 // bound: 6e-6 abs, the frame and the steep ends of the table
 mat3 ltcMatrix(sampler2D table, vec3 N, vec3 V, float roughness)
 {
-    vec4 m = ltcTexel(table, N, V, roughness);
+    // The columns are sqrt(1 - N.V), by the distance of the directions.
+    vec4 m = ltcTexel(table, vec2(sqrt(safeOneMinusCos(N, V)), roughness));
     mat3 shape = mat3(m.x, 0.0, m.z, 0.0, 1.0, 0.0, m.y, 0.0, m.w);
     mat3 to = ltcFrame(N, V);
     return mat3(safeFinite(shape * to[0]), safeFinite(shape * to[1]), safeFinite(shape * to[2]));
@@ -61,7 +61,8 @@ mat3 ltcMatrix(sampler2D table, vec3 N, vec3 V, float roughness)
 // bound: 2e-6 color, the steep ends of the table
 vec3 ltcAlbedo(sampler2D table, vec3 N, vec3 V, float roughness, vec3 Kspec)
 {
-    vec2 a = ltcTexel(table, N, V, roughness).xy;
+    // The columns are sqrt(N.V): towards the horizon, the reflection changes most.
+    vec2 a = ltcTexel(table, vec2(sqrt(safeUnit(dot(N, V))), roughness)).xy;
     return safeLimit(Kspec * (a.x - a.y) + a.y);
 }
 

@@ -12,7 +12,7 @@ use glisten::{Compiler, Options, Precision};
 use std::fmt;
 use std::sync::Arc;
 
-/// What is called: the reflection of a white mirror, and of a white diffuse surface, for each shape.
+/// The functions that are called: the reflection of a white mirror, and of a white diffuse surface, for each shape.
 const CALLS: &str = "#include <glisten/ltc.glsl>
 mat3 bent(sampler2D m, vec3 V, float r) { return ltcMatrix(m, vec3(0.0, 0.0, 1.0), V, r); }
 float all(sampler2D a, vec3 V, float r) { return ltcAlbedo(a, vec3(0.0, 0.0, 1.0), V, r, vec3(1.0)).x; }
@@ -80,7 +80,7 @@ pub(crate) struct Row {
     pub(crate) roughness: f64,
     /// The mean and the largest difference of the reflection by `ggx`.
     pub(crate) mirrored: [f64; 2],
-    /// The same of a diffuse surface.
+    /// Those of a diffuse surface.
     pub(crate) diffuse: [f64; 2],
 }
 
@@ -162,7 +162,7 @@ pub(crate) fn rows(rays: u32, lights: u32) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-/// What a white mirror and a white diffuse surface reflect of a light.
+/// The light that a white mirror and a white diffuse surface reflect of a lamp.
 fn integrals(ggx: Ggx, meets: impl Fn(V) -> bool, rays: u32) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for index in 0..rays {

@@ -8,7 +8,7 @@ use super::ggx::{Ggx, Sample, V, dot, scale, spread, unit};
 use std::f64::consts::{PI, TAU};
 
 /// The number of angles and of roughnesses.
-pub(crate) const SIZE: u32 = 24;
+pub(crate) const SIZE: u32 = 32;
 
 /// The number of directions that an entry is fitted to, and as many of the fitted cosine.
 const SAMPLES: u32 = 1024;
@@ -21,7 +21,7 @@ const SHARPEST: f64 = 1e-4;
 pub(crate) struct Entry {
     /// The numbers of the inverse matrix that are not 0 or 1, divided by the one in its middle: the first row, then the last.
     pub(crate) matrix: [f64; 4],
-    /// What a white mirror reflects of white surroundings, and the part of that which Schlick's term keeps for F_0 = 0.
+    /// The light that a white mirror reflects of white surroundings, and the part of that which Schlick's term keeps for F_0 = 0.
     pub(crate) albedo: [f64; 2],
 }
 
@@ -31,12 +31,15 @@ pub(crate) fn entry(column: u32, row: u32) -> Entry {
     // At the horizon itself, nothing is reflected.
     let ggx = Ggx::new((1.0 - x * x).max(1e-3), (y * y).max(SHARPEST));
     let samples: Vec<Sample> = (0..SAMPLES).map(|index| ggx.sample(spread(index))).collect();
-    let many = (0..16 * SAMPLES).map(|index| ggx.sample(spread(index)));
-    let [all, grazing] = many.fold([0.0; 2], |[all, grazing], sample| {
+    // The albedo's columns are denser towards the horizon.
+    let seen = Ggx::new((x * x).max(1e-6), ggx.alpha);
+    let many = (0..16 * SAMPLES).map(|index| seen.sample(spread(index)));
+    let albedo = many.fold([0.0; 2], |[all, grazing], sample| {
         let weight = sample.weight / f64::from(16 * SAMPLES);
         [all + weight, grazing + weight * (1.0 - sample.half).max(0.0).powi(5)]
     });
     let mean = |value: &dyn Fn(&Sample) -> f64| samples.iter().map(value).sum::<f64>() / f64::from(SAMPLES);
+    let all = mean(&|sample| sample.weight);
     let axis = unit([mean(&|s| s.weight * s.light[0]), 0.0, mean(&|s| s.weight * s.light[2])]);
     let axis = if column == 0 { [0.0, 0.0, 1.0] } else { axis };
     let error = |shape: V| Cosine::new(axis, shape).error(ggx, all, &samples);
@@ -49,7 +52,7 @@ pub(crate) fn entry(column: u32, row: u32) -> Entry {
         let found = starts.map(|start| least(error, start));
         if error(found[0]) <= error(found[1]) { found[0] } else { found[1] }
     };
-    Entry { matrix: Cosine::new(axis, shape).inverse(), albedo: [all, grazing] }
+    Entry { matrix: Cosine::new(axis, shape).inverse(), albedo }
 }
 
 /// A cosine under a matrix: the columns of the matrix, in the plane of the eye and across it.

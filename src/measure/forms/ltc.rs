@@ -126,14 +126,21 @@ fn angle(n: V, v: V) -> f64 {
     2.0_f64.sqrt() * (0.5 * norm(cross(n, v)).atan2(dot(n, v))).sin()
 }
 
+/// The test table at the root of a cosine, and how uncertain that is near the horizon.
+fn reflected(n: V, v: V) -> (Vec<f64>, f64) {
+    let cos = dot(n, v);
+    let x = cos.max(0.0).sqrt();
+    (looked_up(x), 64.0 + 64.0 / cos.abs().sqrt().max(1e-9))
+}
+
 pub(super) static FORMS: &[Form] = forms! {
     "ltc" "ltcFrame(vec3,vec3)" [Direction, Direction] |a| {
         let (rows, condition) = frame(a.d(), a.d())?;
         let columns: Vec<f64> = (0..9).map(|at| rows[at % 3][at / 3]).collect();
         Some(Answer::new(columns, 1.0).conditioned(condition))
     };
-    "ltc" "ltcTexel(sampler2D,vec3,vec3,float)" [Direction, Direction, Unit] |a| {
-        let mut texel = looked_up(angle(a.d(), a.d()));
+    "ltc" "ltcTexel(sampler2D,vec2)" [Two] |a| {
+        let mut texel = looked_up(a.f());
         texel.push(1.0);
         Some(Answer::new(texel, 1.0).conditioned(32.0))
     };
@@ -152,8 +159,8 @@ pub(super) static FORMS: &[Form] = forms! {
     };
     "ltc" "ltcAlbedo(sampler2D,vec3,vec3,float,vec3)" [Direction, Direction, Unit, Color] |a| {
         let (n, v, _, f0) = (a.d(), a.d(), a.f(), a.v());
-        let m = looked_up(angle(n, v));
-        Some(Answer::new(f0.map(|f0| f0 * m[0] + (1.0 - f0) * m[1]), 1.0).conditioned(32.0))
+        let (m, condition) = reflected(n, v);
+        Some(Answer::new(f0.map(|f0| f0 * m[0] + (1.0 - f0) * m[1]), 1.0).conditioned(condition))
     };
     "ltc" "ltcArc(vec3,vec3)" [Near] |a| {
         let (a, b) = (a.d(), a.d());
@@ -164,19 +171,20 @@ pub(super) static FORMS: &[Form] = forms! {
         |a| Some(Answer::new([dot(cross(unit(a.v()), unit(a.v())), unit(a.v()))], 1.0).conditioned(4.0));
     "energy" "energyFactor(sampler2D,vec3,vec3,vec3,float,vec3)" [Lighting, Unit, Color] |a| {
         let (n, l, v, _, f0) = (a.d(), a.d(), a.d(), a.f(), a.v());
-        let (light, eye) = (looked_up(angle(n, l)), looked_up(angle(n, v)));
+        let ((light, one), (eye, other)) = (reflected(n, l), reflected(n, v));
         let mean = eye[2];
         let factor = |f0: f64| {
             let f = f0 + (1.0 - f0) / 21.0;
             let many = f * f * mean / (1.0 - f + f * mean);
             many * dot(n, l).max(0.0) * (1.0 - light[0]) * (1.0 - eye[0]) / (1.0 - mean)
         };
-        Some(Answer::new(f0.map(factor), 1.0).conditioned(64.0))
+        Some(Answer::new(f0.map(factor), 1.0).conditioned(one + other))
     };
     "energy" "energyCompensation(sampler2D,vec3,vec3,float,vec3)" [Direction, Direction, Unit, Color] |a| {
         let (n, v, _, f0) = (a.d(), a.d(), a.f(), a.v());
-        let e = looked_up(angle(n, v))[0].max((-10.0f64).exp2());
-        Some(Answer::relative(f0.map(|f0| 1.0 + f0 * (1.0 / e - 1.0))).conditioned(64.0 + 64.0 / e))
+        let (m, condition) = reflected(n, v);
+        let e = m[0].max((-10.0f64).exp2());
+        Some(Answer::relative(f0.map(|f0| 1.0 + f0 * (1.0 / e - 1.0))).conditioned(condition / e))
     };
     "ltc" "ltcEdge(vec3,vec3)" [Near] |a| {
         let (a, b) = (a.d(), a.d());
@@ -185,7 +193,8 @@ pub(super) static FORMS: &[Form] = forms! {
     };
     "ltc" "ltcPolygon(vec3[16],int,float)" [Corners] |a| moved(a, |a| {
         let corners: Vec<V> = (0..16).map(|_| a.v()).collect();
-        polygon(&corners[..a.f() as usize], a.f())
+        let count = (a.f() as usize).clamp(3, 16);
+        polygon(&corners.into_iter().take(count).collect::<Vec<_>>(), a.f())
     });
     "ltc" "ltcRectangle(mat3,vec3,vec3,vec3)" [Warp, Place, Place, Place]
         |a| moved(a, |a| parallelogram(matrix(a), a.v(), a.v(), a.v()));

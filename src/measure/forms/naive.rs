@@ -74,7 +74,7 @@ pub(super) static FORMS: &[Form] = forms! {
         let (a, b) = (a.d(), a.d());
         let (sine, cosine) = (norm(cross(a, b)), dot(a, b));
         // An arc cosine of 1 minus rounding has half of its digits, or no value.
-        (sine > 1e-3).then(|| Answer::new([sine.atan2(cosine) * cross(a, b)[2] / sine], 1.0).conditioned(8.0 + 16.0 / sine))
+        (sine > 1e-7).then(|| Answer::new([sine.atan2(cosine) * cross(a, b)[2] / sine], 1.0).conditioned(8.0 + 16.0 / sine))
     };
     "naive" "naiveHalfRange(vec3,vec3)" [Direction, Direction] |a| Some(Answer::new([0.5 + dot(a.d(), a.d()) / 2.0], 1.0));
 };

@@ -1,8 +1,9 @@
 //! Lights with corners under a matrix: the tables are those that the example fits, and the lights are near the integral.
 
 #[path = "../../../examples/ltc/errors.rs"]
-mod errors;
+pub(super) mod errors;
 #[path = "../../../examples/ltc/fit.rs"]
+#[expect(dead_code, reason = "the example writes the tables")]
 mod fit;
 #[path = "../../../examples/ltc/ggx.rs"]
 mod ggx;

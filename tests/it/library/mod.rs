@@ -5,6 +5,7 @@
 mod command;
 mod energy;
 mod evaluator;
+mod furnace;
 mod laws;
 mod ltc;
 mod registers;

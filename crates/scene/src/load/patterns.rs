@@ -227,7 +227,7 @@ fn opaque([r, g, b]: Color) -> Texel {
 }
 
 /// The columns and the rows of `ltc.txt`.
-const LTC: u32 = 24;
+const LTC: u32 = 32;
 
 /// `ltc.txt`, which `cargo run --release --example ltc` made: six numbers for each texel.
 static COSINES: LazyLock<Vec<[f64; 6]>> = LazyLock::new(|| {
@@ -253,13 +253,13 @@ fn cosines(x: f64, y: f64, part: fn([f64; 6]) -> Texel) -> Texel {
     std::array::from_fn(|channel| corners.iter().zip(weights).map(|(corner, weight)| corner[channel] * weight).sum())
 }
 
-/// The mean over all directions of the first number of `ltc_albedo`, by the cosine: with cos = 1 - x^2, of 4 (1 - x^2) x over x.
+/// The mean over all directions of the first number of `ltc_albedo`, by the cosine: with cos = x^2, of 4 x^3 over x.
 fn mean_albedo(y: f64) -> f64 {
     const STEPS: u32 = 8 * (LTC - 1);
     let part = |step: u32| {
         let x = (f64::from(step) + 0.5) / f64::from(STEPS);
         let [all, ..] = cosines(x, y, |[.., all, _]| [all, 0.0, 0.0, 0.0]);
-        all * 4.0 * (1.0 - x * x) * x / f64::from(STEPS)
+        all * 4.0 * x.powi(3) / f64::from(STEPS)
     };
     (0..STEPS).map(part).sum()
 }
@@ -370,8 +370,8 @@ mod tests {
         let matrix = texels("ltc_matrix", LTC, LTC);
         assert!(matrix.iter().step_by(LTC as usize).all(|texel| texel[0] == 1.0 && texel[1] == 0.0));
         let (fine, albedo) = (texels("ltc_matrix", 2 * LTC - 1, 1), texels("ltc_albedo", LTC, LTC));
-        assert!((fine[1][1] - 0.5 * (matrix[552][1] + matrix[553][1])).abs() < 1e-7);
-        assert!(albedo.iter().all(|texel| texel[0] <= 1.0 && texel[1] < texel[0]));
+        assert!((fine[1][1] - 0.5 * (matrix[992][1] + matrix[993][1])).abs() < 1e-7);
+        assert!(albedo.iter().all(|texel| texel[0] <= 1.0 && texel[1] <= texel[0]));
     }
 
     #[test]
