@@ -23,7 +23,7 @@ vec3 ball(vec2 place)
 
 void main()
 {
-    float x = 0.5 + 0.6 * noiseFractal(3.0 * world, 3);
+    float x = 0.5 + 0.6 * noiseFractal(3.0 * world, 2);
     float kept = dissolveKept(x, gone, fwidth(x));
     if (!(kept > 0.0))
         discard;
