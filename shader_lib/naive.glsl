@@ -83,6 +83,9 @@ vec3 naiveHemisphere(vec3 N, vec3 A, vec3 sky, vec3 ground)
     return 0.5 * (1.0 + dot(N, A)) * sky + 0.5 * (1.0 - dot(N, A)) * ground;
 }
 
+// Heitz et al. 2016: the integral of an edge as its arc cosine.
+float naiveEdge(vec3 a, vec3 b) { return acos(dot(a, b)) * normalize(cross(a, b)).z; }
+
 // The coordinate of the article's half-range lookup.
 float naiveHalfRange(vec3 N, vec3 L) { return 0.5 * dot(N, L) + 0.5; }
 

@@ -8,6 +8,7 @@
 const SYMBOLS: &[(&str, &str, &str)] = &[
     ("cdot", "mo", "\u{22c5}"),
     ("otimes", "mo", "\u{2297}"),
+    ("times", "mo", "\u{d7}"),
     ("lceil", "mo", "\u{2308}"),
     ("rceil", "mo", "\u{2309}"),
     ("{", "mo", "{"),

@@ -94,6 +94,12 @@ pub enum InputKind {
     Place2,
     /// 1 to 6 octaves.
     Octaves,
+    /// The inverse matrix of a linearly transformed cosine times a frame: nine numbers, by columns.
+    Warp,
+    /// Sixteen corners of which the first ones are a flat convex light, how many these are, and how they turn.
+    Corners,
+    /// The far ends of four cascades, growing.
+    Ends,
     /// Nine coefficients of spherical harmonics for each channel, -2 to 2.
     Harmonics,
 }
@@ -172,6 +178,33 @@ impl Random {
         let mirror = super::vector::sub(scale(2.0 * super::vector::dot(n, l), n), l);
         let radians = self.spread(1e-5, 1.0);
         [n, l, self.near(mirror, radians)]
+    }
+
+    /// The numbers of a cosine's inverse matrix with a frame behind it.
+    pub(crate) fn warp(&mut self, [a, b, c, d]: [f64; 4], to: &mut Vec<f64>) {
+        let n = self.direction();
+        let side = loop {
+            let side = super::vector::cross(n, self.direction());
+            if super::vector::norm(side) > 0.1 {
+                break unit(side);
+            }
+        };
+        let x = super::vector::cross(side, n);
+        let rows = [add(scale(a, x), scale(b, n)), side, add(scale(c, x), scale(d, n))];
+        to.extend((0..9).filter_map(|at: usize| rows.get(at % 3)?.get(at / 3).copied()));
+    }
+
+    /// Corners of an ellipse around a point, in order, and their number.
+    pub(crate) fn corners(&mut self, center: V, size: f64, count: u64, to: &mut Vec<f64>) {
+        let (x, y) = (scale(size, self.direction()), scale(size, self.direction()));
+        for corner in 0..16 {
+            let turn = (corner as f64 + self.range(0.0, 0.9)) / count as f64 * std::f64::consts::TAU;
+            let place = add(center, add(scale(turn.cos(), x), scale(turn.sin(), y)));
+            to.extend(place);
+        }
+        // A quarter more stays the same number of corners if it is moved by an ULP.
+        to.push(count as f64 + 0.25);
+        to.push(super::vector::dot(center, super::vector::cross(x, y)).signum());
     }
 
     fn weights(&mut self) -> V {
@@ -296,6 +329,23 @@ impl Random {
             InputKind::Place => to.extend(self.range3(64.0)),
             InputKind::Place2 => to.extend([self.range(-64.0, 64.0), self.range(-64.0, 64.0)]),
             InputKind::Octaves => to.push(self.range(1.0, 7.0).floor()),
+            InputKind::Ends => {
+                let mut end = 0.0;
+                (0..4).for_each(|_| {
+                    end += self.spread(1.0, 100.0);
+                    to.push(end);
+                });
+            }
+            InputKind::Warp => {
+                let sharp = self.spread(1e-3, 1.0);
+                let matrix = [self.range(0.2, 1.0), self.range(0.0, 0.5), self.range(-0.2, 0.0) * sharp, sharp];
+                self.warp(matrix, to);
+            }
+            InputKind::Corners => {
+                let (size, count) = (self.spread(1e-2, 1e2), 3 + self.below(14));
+                let center = self.direction();
+                self.corners(center, size, count, to);
+            }
             InputKind::Harmonics => (0..27).for_each(|_| to.push(self.range(-2.0, 2.0))),
         }
     }
@@ -309,6 +359,7 @@ impl InputKind {
             Self::Direction => (1, true),
             Self::Near | Self::Opposed | Self::Tangent => (2, true),
             Self::Lighting => (3, true),
+            Self::Corners => (3, false),
             _ => (1, false),
         }
     }

@@ -6,11 +6,13 @@ mod equations;
 mod geometry;
 mod helpers;
 mod looks;
+mod ltc;
 mod microfacet;
 mod models;
 mod naive;
 mod shapes;
 mod sources;
+mod today;
 mod tone;
 
 use super::vector::{V, cross, dot, norm};
@@ -28,6 +30,8 @@ pub(super) static ALL: &[&[Form]] = &[
     tone::FORMS,
     looks::FORMS,
     sources::FORMS,
+    ltc::FORMS,
+    today::FORMS,
     shapes::FORMS,
     naive::FORMS,
 ];

@@ -2,7 +2,7 @@
 //! elsewhere.
 
 use super::geometry::{barycentric, interpolated, segment};
-use super::{Form, InputKind, cosine_power, dot, forms, half, norm};
+use super::{Form, InputKind, cosine_power, cross, dot, forms, half, norm};
 use crate::measure::vector::{add, mul, scale, sub};
 use crate::measure::{Answer, Args};
 
@@ -69,6 +69,12 @@ pub(super) static FORMS: &[Form] = forms! {
     "naive" "naiveHemisphere(vec3,vec3,vec3,vec3)" [Direction, Direction, Intensity, Intensity] |a| {
         let (cos, sky, ground) = (dot(a.d(), a.d()), a.v(), a.v());
         Some(Answer::new(add(scale(0.5 + 0.5 * cos, sky), scale(0.5 - 0.5 * cos, ground)), 4.0))
+    };
+    "naive" "naiveEdge(vec3,vec3)" [Near] |a| {
+        let (a, b) = (a.d(), a.d());
+        let (sine, cosine) = (norm(cross(a, b)), dot(a, b));
+        // An arc cosine of 1 minus rounding has half of its digits, or no value.
+        (sine > 1e-7).then(|| Answer::new([sine.atan2(cosine) * cross(a, b)[2] / sine], 1.0).conditioned(8.0 + 16.0 / sine))
     };
     "naive" "naiveHalfRange(vec3,vec3)" [Direction, Direction] |a| Some(Answer::new([0.5 + dot(a.d(), a.d()) / 2.0], 1.0));
 };

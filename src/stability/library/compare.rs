@@ -257,6 +257,7 @@ impl Figures {
                 "mat4" => 16,
                 "Light" => 20,
                 "vec3[9]" => 27,
+                "vec3[16]" => 48,
                 "Material" => 13,
                 "sampler2D" => 0,
                 _ => 1,

@@ -123,6 +123,24 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
         InputKind::Place => to.extend([cell_place(random), cell_place(random), cell_place(random)]),
         InputKind::Place2 => to.extend([cell_place(random), cell_place(random)]),
         InputKind::Octaves => to.push(random.pick(&[1.0, 4.0, 6.0])),
+        InputKind::Ends => {
+            to.extend(random.pick(&[[1.0, 2.0, 3.0, 4.0], [0.25, 1.0, 11.2, 1e4], [1e-3, 1.0, 4.0, 1e6]]))
+        }
+        InputKind::Warp => {
+            // The rows of smooth surfaces, and an eye at the horizon.
+            let matrix = random.pick(&[
+                [1.0, 0.0, 0.0, 1e-4],
+                [0.6, 0.5, -1e-4, 1e-4],
+                [0.01, 0.1, -1e-3, 1e-4],
+                [1.0, 0.0, 0.0, 1.0],
+            ]);
+            random.warp(matrix, to);
+        }
+        InputKind::Corners => {
+            let (size, count) = (random.pick(&[0.0, 1e-6, 1.0, 1e6, 1e20]), random.pick(&[3, 4, 16]));
+            let center = scale(random.pick(&[0.0, 1e-6, 1.0]), any_direction(random));
+            random.corners(center, size, count, to);
+        }
         InputKind::Harmonics => (0..27).for_each(|_| to.push(signed(random, COLORS))),
     }
 }

@@ -170,6 +170,7 @@ static LITERAL: &[(&str, &str)] = &[
         "areaSphere(vec3,float,vec3)",
         "normalize(center + (dot(center, R) * R - center) * clamp(radius / length(dot(center, R) * R - center), 0.0, 1.0))",
     ),
+    ("ltcEdge(vec3,vec3)", "naiveEdge(a, b)"),
     ("triplanarWeights(vec3,float)", "pow(abs(N), vec3(sharpness)) / dot(pow(abs(N), vec3(sharpness)), vec3(1.0))"),
     ("colorCubeRoot(float)", "pow(x, 1.0 / 3.0)"),
     (

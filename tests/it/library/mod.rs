@@ -5,7 +5,9 @@
 mod command;
 mod energy;
 mod evaluator;
+mod furnace;
 mod laws;
+mod ltc;
 mod registers;
 mod seeds;
 mod stiff;

@@ -12,9 +12,11 @@ use crate::tables::{Node, list};
 use glisten_front::diagnostic::codes::scenes::{SCENE_WRONG_KIND, SCENE_WRONG_VALUE};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 use toml::de::DeTable;
 
 type Color = [f64; 3];
+type Texel = [f64; 4];
 
 /// A pattern: its name, formula and defaults.
 #[derive(Clone, Copy)]
@@ -28,7 +30,7 @@ pub(super) struct Pattern {
     is_table: bool,
     from: Color,
     to: Color,
-    formula: fn(&Parameters, f64, f64) -> Color,
+    formula: fn(&Parameters, f64, f64) -> Texel,
 }
 
 /// The parameters of a formula.
@@ -57,7 +59,7 @@ const PATTERNS: &[Pattern] = &[
         is_table: false,
         from: BLACK,
         to: WHITE,
-        formula: |p, _, _| p.to,
+        formula: |p, _, _| opaque(p.to),
     },
     Pattern {
         name: "specular",
@@ -66,7 +68,7 @@ const PATTERNS: &[Pattern] = &[
         is_table: true,
         from: BLACK,
         to: WHITE,
-        formula: |p, x, _| mix(p.from, p.to, x.powf(p.exponent)),
+        formula: |p, x, _| opaque(mix(p.from, p.to, x.powf(p.exponent))),
     },
     Pattern {
         name: "metal",
@@ -75,7 +77,7 @@ const PATTERNS: &[Pattern] = &[
         is_table: true,
         from: BLACK,
         to: WHITE,
-        formula: |p, x, _| mix(p.from, p.to, metal(p, x)),
+        formula: |p, x, _| opaque(mix(p.from, p.to, metal(p, x))),
     },
     Pattern {
         name: "soft",
@@ -84,7 +86,7 @@ const PATTERNS: &[Pattern] = &[
         is_table: true,
         from: [0.95, 0.5, 0.2],
         to: WHITE,
-        formula: |p, x, _| mix(p.from, p.to, smoothstep(p.edge - p.softness, p.edge + p.softness, x)),
+        formula: |p, x, _| opaque(mix(p.from, p.to, smoothstep(p.edge - p.softness, p.edge + p.softness, x))),
     },
     Pattern {
         name: "hemisphere",
@@ -93,7 +95,7 @@ const PATTERNS: &[Pattern] = &[
         is_table: true,
         from: [0.35, 0.25, 0.15],
         to: [0.6, 0.75, 1.0],
-        formula: |p, x, _| mix(p.from, p.to, x),
+        formula: |p, x, _| opaque(mix(p.from, p.to, x)),
     },
     Pattern {
         name: "checker",
@@ -102,7 +104,7 @@ const PATTERNS: &[Pattern] = &[
         is_table: false,
         from: [0.2; 3],
         to: [0.9; 3],
-        formula: |p, s, t| if is_odd(p, s, t) { p.from } else { p.to },
+        formula: |p, s, t| opaque(if is_odd(p, s, t) { p.from } else { p.to }),
     },
     Pattern {
         name: "tile",
@@ -111,7 +113,7 @@ const PATTERNS: &[Pattern] = &[
         is_table: false,
         from: [0.45, 0.42, 0.4],
         to: [0.8, 0.76, 0.7],
-        formula: tile,
+        formula: |p, s, t| opaque(tile(p, s, t)),
     },
     Pattern {
         name: "sky",
@@ -120,7 +122,28 @@ const PATTERNS: &[Pattern] = &[
         is_table: false,
         from: [0.85, 0.9, 0.95],
         to: [0.25, 0.5, 0.85],
-        formula: sky,
+        formula: |p, s, t| opaque(sky(p, s, t)),
+    },
+    Pattern {
+        name: "ltc_matrix",
+        keys: &[],
+        size: (LTC, LTC),
+        is_table: true,
+        from: BLACK,
+        to: WHITE,
+        formula: |_, x, y| cosines(x, y, |[a, b, c, d, ..]| [a, b, c, d]),
+    },
+    Pattern {
+        name: "ltc_albedo",
+        keys: &[],
+        size: (LTC, LTC),
+        is_table: true,
+        from: BLACK,
+        to: WHITE,
+        formula: |_, x, y| {
+            let [all, grazing, ..] = cosines(x, y, |[.., all, grazing]| [all, grazing, 0.0, 0.0]);
+            [all, grazing, mean_albedo(y), 1.0]
+        },
     },
 ];
 
@@ -192,11 +215,53 @@ fn fill(pattern: &Pattern, parameters: &Parameters, width: u32, height: u32) -> 
     let mut texels = Vec::with_capacity(width as usize * height as usize);
     for row in 0..height {
         for column in 0..width {
-            let [r, g, b] = (pattern.formula)(parameters, place(column, width), place(row, height));
-            texels.push([r as f32, g as f32, b as f32, 1.0]);
+            let texel = (pattern.formula)(parameters, place(column, width), place(row, height));
+            texels.push(texel.map(|channel| channel as f32));
         }
     }
     TextureLevel { width, height, depth: 1, texels: Texels::Float(texels) }
+}
+
+fn opaque([r, g, b]: Color) -> Texel {
+    [r, g, b, 1.0]
+}
+
+/// The columns and the rows of `ltc.txt`.
+const LTC: u32 = 32;
+
+/// `ltc.txt`, which `cargo run --release --example ltc` made: six numbers for each texel.
+static COSINES: LazyLock<Vec<[f64; 6]>> = LazyLock::new(|| {
+    let texel = |line: &str| {
+        let mut numbers = line.split(' ').map(|number| number.parse().unwrap_or(f64::NAN));
+        std::array::from_fn(|_| numbers.next().unwrap_or(f64::NAN))
+    };
+    include_str!("ltc.txt").lines().map(texel).collect()
+});
+
+/// Numbers of that table between its texels.
+fn cosines(x: f64, y: f64, part: fn([f64; 6]) -> Texel) -> Texel {
+    let last = LTC - 1;
+    let place = |x: f64| {
+        let at = x.clamp(0.0, 1.0) * f64::from(last);
+        let below = (at.floor() as u32).min(last - 1);
+        (below, at - f64::from(below))
+    };
+    let ((column, s), (row, t)) = (place(x), place(y));
+    let at = |column: u32, row: u32| part(COSINES.get((row * LTC + column) as usize).copied().unwrap_or([f64::NAN; 6]));
+    let corners = [at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)];
+    let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t];
+    std::array::from_fn(|channel| corners.iter().zip(weights).map(|(corner, weight)| corner[channel] * weight).sum())
+}
+
+/// The mean over all directions of the first number of `ltc_albedo`, by the cosine: with cos = x^2, of 4 x^3 over x.
+fn mean_albedo(y: f64) -> f64 {
+    const STEPS: u32 = 8 * (LTC - 1);
+    let part = |step: u32| {
+        let x = (f64::from(step) + 0.5) / f64::from(STEPS);
+        let [all, ..] = cosines(x, y, |[.., all, _]| [all, 0.0, 0.0, 0.0]);
+        all * 4.0 * x.powi(3) / f64::from(STEPS)
+    };
+    (0..STEPS).map(part).sum()
 }
 
 fn mix(from: Color, to: Color, x: f64) -> Color {
@@ -290,11 +355,23 @@ mod tests {
 
     #[test]
     fn every_pattern_is_a_color_everywhere() {
-        for pattern in PATTERNS {
+        for pattern in PATTERNS.iter().filter(|pattern| !pattern.name.starts_with("ltc")) {
             for texel in texels(pattern.name, 67, 31) {
                 assert!(texel.iter().all(|channel| (0.0..=1.0).contains(channel)), "{}: {texel:?}", pattern.name);
             }
         }
+    }
+
+    #[test]
+    fn the_cosines_are_all_there() {
+        assert_eq!(COSINES.len(), (LTC * LTC) as usize);
+        assert!(COSINES.iter().flatten().all(|number| number.is_finite()));
+        // An eye above the surface sees the same in all directions; between texels is the mean.
+        let matrix = texels("ltc_matrix", LTC, LTC);
+        assert!(matrix.iter().step_by(LTC as usize).all(|texel| texel[0] == 1.0 && texel[1] == 0.0));
+        let (fine, albedo) = (texels("ltc_matrix", 2 * LTC - 1, 1), texels("ltc_albedo", LTC, LTC));
+        assert!((fine[1][1] - 0.5 * (matrix[992][1] + matrix[993][1])).abs() < 1e-7);
+        assert!(albedo.iter().all(|texel| texel[0] <= 1.0 && texel[1] <= texel[0]));
     }
 
     #[test]
