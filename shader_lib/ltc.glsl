@@ -133,6 +133,7 @@ float ltcPolygon(vec3[16] corners, int count, float turn)
 }
 
 // How three vectors turn: the volume between their directions.
+//   a, b, c  vectors
 // bound: 4e-7 abs
 float ltcTurn(vec3 a, vec3 b, vec3 c)
 {

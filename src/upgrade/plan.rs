@@ -68,6 +68,11 @@ impl Target {
         version(self.number())
     }
 
+    /// Whether inputs of fragment shaders may be `invariant` (up to GLSL 4.10; not in ES 3.00).
+    pub(super) fn has_invariant_inputs(self) -> bool {
+        self != Self::Es300 && self.number() < 420
+    }
+
     /// Whether a text of a version is too new to be rewritten.
     pub(super) fn is_older_than(self, number: u16) -> bool {
         match self {

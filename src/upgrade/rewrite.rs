@@ -110,6 +110,40 @@ fn own_functions<'t>(all: &[Token<'t>]) -> Vec<&'t str> {
     own
 }
 
+/// The place of an `invariant` before an input of a fragment shader, or of the whole `invariant name;` of one.
+fn invariance_of_an_input(all: &[Token<'_>], index: usize) -> Option<Range<usize>> {
+    let (token, next) = (all.get(index)?, all.get(index + 1)?);
+    let is_input = |token: &Token<'_>| matches!(token.text, "in" | "varying");
+    let rest = all.get(index + 1..)?;
+    let mut qualifiers = rest.iter().take_while(|token| !matches!(token.text, ";" | "=" | "(" | "{"));
+    if qualifiers.any(is_input) || is_in_input_block(all, index) {
+        return Some(token.range.start..next.range.start);
+    }
+    let end = rest.get(1).filter(|end| end.text == ";")?;
+    // The declaration: `in`, other words, and the name.
+    let mut statements = all.get(..index)?.split(|token| token.text == ";");
+    let declares =
+        statements.any(|words| words.iter().any(is_input) && words.iter().any(|word| word.text == next.text));
+    declares.then(|| token.range.start..end.range.end)
+}
+
+/// Whether a token is between the braces of an input block.
+fn is_in_input_block(all: &[Token<'_>], index: usize) -> bool {
+    let mut closed = 0_usize;
+    for (at, token) in all.iter().enumerate().take(index).rev() {
+        match token.text {
+            "}" => closed += 1,
+            "{" if closed > 0 => closed -= 1,
+            "{" => {
+                let before = |back: usize| at.checked_sub(back).and_then(|at| all.get(at));
+                return before(2).is_some_and(|word| word.text == "in");
+            }
+            _ => {}
+        }
+    }
+    false
+}
+
 /// The replacements at one word.
 fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str], edits: &mut Vec<Edit>) {
     let Some(token) = all.get(index) else { return };
@@ -117,6 +151,10 @@ fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str
     let (before, after) = (at(index.checked_sub(1)), at(Some(index + 1)));
     // A member has any name that is no keyword.
     if before == Some(".") && !plan.is_keyword(token.text) {
+        return;
+    }
+    if token.text == "invariant" && stage == Stage::Fragment && !plan.target.has_invariant_inputs() {
+        edits.extend(invariance_of_an_input(all, index).map(|range| (range, String::new())));
         return;
     }
     let range = token.range.clone();

@@ -42,7 +42,7 @@ fn what_cannot_be_laid_out_is_kept() {
     assert_eq!(bytes("b.frag"), b"//  \x95\x5c\x8e\xa6 a\nfloat x;\n");
 }
 
-/// What does not parse depends on the lines, which formatting changes.
+/// The places that do not parse depend on the lines, which formatting changes.
 #[test]
 fn a_wrong_text_is_formatted_once_too() {
     let folder = Folder::new(&[]);

@@ -371,13 +371,17 @@ fn blocks_between_stages_are_varyings_in_webgl_2() {
 
 #[test]
 fn both_sources_of_blending_are_emitted_even_if_one_is_written() {
-    let text = "#version 150\n#extension GL_ARB_explicit_attrib_location : enable\n\
-        layout(location = 0, index = 0) out vec4 a; layout(location = 0, index = 1) out vec4 b;\n\
-        void main() { a = vec4(1.0); }\n";
-    let source = Source { name: "a.frag".into(), text: text.into(), stage: Stage::Fragment };
-    let program = compiler().compile(&[source]).program.expect("it compiles");
-    for target in [Target::Wgsl, Target::Hlsl, Target::Msl, Target::Spirv] {
-        let emitted = emit(&program, Stage::Fragment, target, &Conventions::default());
-        assert!(emitted.is_ok(), "{}: {emitted:?}", target.name());
+    let head = "#version 150\n#extension GL_ARB_explicit_attrib_location : enable\n";
+    for rest in [
+        "layout(location = 0, index = 0) out vec4 a; layout(location = 0, index = 1) out vec4 b; void main() { a = vec4(1.0); }\n",
+        "layout(location = 0, index = 1) out vec4 b; void main() { b = vec4(1.0); }\n",
+        "layout(location = 0, index = 1) out vec2 b; void main() { }\n",
+    ] {
+        let source = Source { name: "a.frag".into(), text: format!("{head}{rest}").into(), stage: Stage::Fragment };
+        let program = compiler().compile(&[source]).program.expect("it compiles");
+        for target in [Target::Wgsl, Target::Hlsl, Target::Msl, Target::Spirv] {
+            let emitted = emit(&program, Stage::Fragment, target, &Conventions::default());
+            assert!(emitted.is_ok(), "{rest} {}: {emitted:?}", target.name());
+        }
     }
 }

@@ -142,3 +142,21 @@ fn words_that_the_new_version_reserves_get_other_names() {
     let output = folder.run(&["upgrade", "b.frag", "--to", "150"]);
     assert!(out(&output).contains("uniform float buffer;"), "{}", out(&output));
 }
+
+/// From GLSL 4.20 on, only outputs are invariant.
+#[test]
+fn inputs_lose_their_invariance() {
+    let old = "#version 410\n// a\nin C { invariant vec2 t; } i;\ninvariant in vec2 u; // u\nin vec2 v;\ninvariant v;\n\
+        out vec4 color;\nvoid main() { color = vec4(i.t, u + v); }\n";
+    let es = "#version 100\nprecision mediump float;\ninvariant varying vec2 a;\nvarying vec2 b;\ninvariant b;\n\
+        void main() { gl_FragColor = vec4(a, b); }\n";
+    let folder = Folder::new(&[("a.frag", old.as_bytes()), ("b.frag", es.as_bytes())]);
+    for (file, to) in [("a.frag", "450"), ("a.frag", "vulkan"), ("b.frag", "460"), ("b.frag", "300es")] {
+        let output = folder.run(&["upgrade", file, "--to", to]);
+        assert_eq!(code(&output), 0, "{file} {to}: {}", err(&output));
+        assert!(!out(&output).contains("invariant"), "{file} {to}: {}", out(&output));
+    }
+    assert!(out(&folder.run(&["upgrade", "a.frag", "--to", "450"])).contains("in vec2 u; // u\n"));
+    let kept = folder.run(&["upgrade", "b.frag", "--to", "330"]);
+    assert!(out(&kept).contains("invariant in vec2 a;"), "{}{}", out(&kept), err(&kept));
+}

@@ -167,6 +167,19 @@ impl Ctx<'_, '_> {
                 });
             }
         }
+        let second = interface.outputs.iter().find(|output| output.index == 1);
+        if let Some(second) = second.filter(|_| interface.outputs.iter().all(|output| output.index == 1)) {
+            // The program declares the second source alone.
+            members.insert(
+                0,
+                OutputMember {
+                    name: "first_source".to_owned(),
+                    ty: self.low.vector_type(Scalar::Float, 4),
+                    binding: plain_location(second.location, Some(0)),
+                    source: OutputSource::Nothing,
+                },
+            );
+        }
         if let Some(global) = self.low.builtin_global(BuiltinVariable::FragDepth) {
             members.push(OutputMember {
                 name: "depth".to_owned(),

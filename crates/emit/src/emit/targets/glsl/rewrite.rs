@@ -30,6 +30,9 @@ pub(super) fn rewrite(types: &mut Types, shader: &mut Shader, program: &Program,
     if matches!(version, GlslVersion::Es300 | GlslVersion::Vulkan) {
         silence(types, shader);
     }
+    if matches!(version, GlslVersion::Desktop450 | GlslVersion::Vulkan) {
+        outputs_alone_are_invariant(types, shader);
+    }
     if version == GlslVersion::Es300 {
         late_initializers(shader);
         plain_qualifiers(shader);
@@ -309,6 +312,17 @@ fn is_constant(shader: &Shader, initializer: ExprId) -> bool {
         _ => {}
     });
     constant
+}
+
+/// From 4.20 on, only outputs are invariant, and match inputs that do not say so (GLSL 4.20 §4.8.1).
+fn outputs_alone_are_invariant(types: &mut Types, shader: &mut Shader) {
+    for global in shader.globals.iter_mut().filter(|global| global.storage == Storage::In) {
+        global.invariant = false;
+        let element = types.element(global.ty).filter(|_| matches!(types.get(global.ty), Type::Array(..)));
+        if let (Some(_), Type::Struct(block)) = (&global.block, types.get(element.unwrap_or(global.ty))) {
+            types.structure_mut(block).members.iter_mut().for_each(|member| member.invariant = false);
+        }
+    }
 }
 
 /// Qualifiers that ES lacks and that change nothing in it: units of samplers and blocks, `invariant` of inputs.
