@@ -119,7 +119,7 @@ fn light(index: u32, eye: V) -> [V; 3] {
     let flat = (1.0 - height * height).max(0.0).sqrt();
     let anywhere = [flat * turn(b).cos(), flat * turn(b).sin(), height];
     let mirror = [-eye[0], -eye[1], eye[2]];
-    let towards = if index % 2 == 0 { anywhere } else { unit(add(mirror, scale(0.3, anywhere))) };
+    let towards = if index.is_multiple_of(2) { anywhere } else { unit(add(mirror, scale(0.3, anywhere))) };
     let center = scale(1.2 + 2.0 * d, towards);
     let axis = unit([turn(c).cos(), turn(c).sin(), d - 0.5]);
     let x = unit(cross(axis, unit(add(center, [0.1, 0.2, 0.3]))));

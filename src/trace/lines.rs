@@ -170,7 +170,8 @@ fn lost(value: &ToldValue) -> Option<String> {
     let is_far = |(single, exact): (&Scalar, &f64)| match single {
         Scalar::Float(single) => {
             let is_same = single.0 == *exact || single.0.is_nan() && exact.is_nan();
-            !is_same && !((single.0 - exact).abs() <= TELLING * exact.abs().max(1e-30))
+            let off = (single.0 - exact).abs();
+            !is_same && (off.is_nan() || off > TELLING * exact.abs().max(1e-30))
         }
         Scalar::Int(_) | Scalar::Bool(_) => false,
     };

@@ -124,7 +124,7 @@ fn invariance_of_an_input(all: &[Token<'_>], index: usize) -> Option<Range<usize
     let mut statements = all.get(..index)?.split(|token| token.text == ";");
     let declares =
         statements.any(|words| words.iter().any(is_input) && words.iter().any(|word| word.text == next.text));
-    declares.then(|| token.range.start..end.range.end)
+    declares.then_some(token.range.start..end.range.end)
 }
 
 /// Whether a token is between the braces of an input block.

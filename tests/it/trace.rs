@@ -3,7 +3,7 @@
 use crate::cli::{Folder, code, err, out};
 use crate::support::root;
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::Path;
 
 fn scene() -> String {
     root().join("fixtures/trace/steps.toml").display().to_string()
@@ -71,7 +71,7 @@ fn the_color_is_that_of_the_picture_of_every_library_scene() {
 }
 
 /// Compares some pixels of a scene with its picture by the reference in f64. Returns how many.
-fn same_colors(scene: &PathBuf) -> usize {
+fn same_colors(scene: &Path) -> usize {
     let sources = glisten::scene::load(
         &scene.display().to_string(),
         &glisten::scene::DiskFiles,

@@ -102,7 +102,7 @@ fn moved(a: &Args<'_>, value: impl Fn(&Args<'_>) -> f64) -> Option<Answer> {
     const STEP: f64 = 1e-7;
     let found = value(a);
     let slope = (0..6_usize).fold(0.0, |most: f64, turn| {
-        let by = |at: usize| if (at * (turn + 3) + at / 3 + turn) % 3 == 0 { 1.0 - STEP } else { 1.0 + STEP };
+        let by = |at: usize| if (at * (turn + 3) + at / 3 + turn).is_multiple_of(3) { 1.0 - STEP } else { 1.0 + STEP };
         let numbers: Vec<f64> = a.numbers.iter().enumerate().map(|(at, number)| number * by(at)).collect();
         most.max((value(&Args::of(&numbers)) - found).abs() / STEP)
     });
