@@ -258,8 +258,9 @@ impl Ctx<'_, '_> {
 }
 
 impl Lower<'_> {
-    /// A private variable that contains these bits.
+    /// A private variable that contains these bits. Every NaN is the same: its sign depends on the machine that folds it.
     fn hidden_bits(&mut self, bits: u32) -> Handle<GlobalVariable> {
+        let bits = if f32::from_bits(bits).is_nan() { f32::NAN.to_bits() } else { bits };
         if let Some((_, known)) = self.hidden.iter().find(|(known, _)| *known == bits) {
             return *known;
         }

@@ -9,8 +9,7 @@ use super::vertices::Vertices;
 use crate::LineRule;
 use crate::domain::{Domain, Number};
 use crate::raster::{Fixed, NEAR, ONE, Shape, line, point, triangle};
-use glisten_front::hir::Stage;
-use glisten_scene::{Cull, Draw, Primitive, State};
+use glisten_scene::{Cull, Primitive, State};
 
 /// The vertices between which the values of a primitive's fragments are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,8 +103,8 @@ pub(super) fn assemble(primitive: Primitive, count: u32) -> Vec<Assembled> {
 
 /// The vertices of a primitive of an instance, by its `gl_PrimitiveID`; none if a geometry stage makes the primitives.
 #[cfg(any(test, feature = "stability"))]
-pub(in super::super) fn vertices_of(draw: &Draw, primitive: u32) -> Vec<u32> {
-    if draw.program.stage(Stage::Geometry).is_some() {
+pub(in super::super) fn vertices_of(draw: &glisten_scene::Draw, primitive: u32) -> Vec<u32> {
+    if draw.program.stage(glisten_front::hir::Stage::Geometry).is_some() {
         return Vec::new();
     }
     let all = assemble(draw.state.primitive, draw.vertex_count);

@@ -82,8 +82,10 @@ use vertices::{Invocation, ShadeOptions};
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Chosen;
 #[cfg(any(test, feature = "stability"))]
+pub(super) use watch::Followed;
+#[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Probe;
-pub(super) use watch::{Followed, MakeObserver, PixelSet, Study};
+pub(super) use watch::{MakeObserver, PixelSet, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
