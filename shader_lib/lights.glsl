@@ -9,7 +9,8 @@
 // the lights are declared, since an array is copied when it is passed to a function. For other models, pass their
 // reflections to the other lightTerm(). All positions and directions are in one space.
 //
-// GLISTEN_LIGHTS is the size of a scene's array of lights; define it before the include for more than 8.
+// GLISTEN_LIGHTS is the size of a scene's array of lights; define it before the include for more than 8. With GLISTEN_CONES, lights
+// have the range and the cone of `punctual`, too.
 #ifndef GLISTEN_LIGHTS_MODULE
 #define GLISTEN_LIGHTS_MODULE
 #include "ambient.glsl"
@@ -19,6 +20,9 @@
 #include "illumination.glsl"
 #include "lambert.glsl"
 #include "spot.glsl"
+#ifdef GLISTEN_CONES
+#include "punctual.glsl"
+#endif
 
 #ifndef GLISTEN_LIGHTS
 #define GLISTEN_LIGHTS 8
@@ -46,6 +50,13 @@ struct Light {
     vec3 attenuation;
     // Spot lights: L_exp of (98).
     float exponent;
+#ifdef GLISTEN_CONES
+    // Point and spot lights: the distance at which the inverse square law, instead of `attenuation`, ends; 0 for `attenuation`.
+    float range;
+    // Spot lights: 1 - cos of the cone's inner and outer angle, instead of `exponent`; an outer one of 0 for `exponent`.
+    float inner;
+    float outer;
+#endif
 };
 
 struct Material {
@@ -71,6 +82,10 @@ vec3 lightVector(Light light, vec3 P)
 // bound: 3e-7 rel
 float lightAttenuation(Light light, vec3 P)
 {
+#ifdef GLISTEN_CONES
+    if (light.kind != LIGHT_DIRECTIONAL && light.range > 0.0)
+        return punctualFalloff(lightDistance(light.position, P), light.range);
+#endif
     return light.kind == LIGHT_DIRECTIONAL ? 1.0 : attenuation(lightDistance(light.position, P), light.attenuation);
 }
 
@@ -78,6 +93,10 @@ float lightAttenuation(Light light, vec3 P)
 // bound: 2.4e-7 abs
 float lightBeam(Light light, vec3 L)
 {
+#ifdef GLISTEN_CONES
+    if (light.kind == LIGHT_SPOT && light.outer > 0.0)
+        return punctualCone(L, safeNormalize(light.direction), light.inner, light.outer);
+#endif
     return light.kind == LIGHT_SPOT ? spotFactor(L, safeNormalize(light.direction), light.exponent) : 1.0;
 }
 

@@ -10,6 +10,8 @@
 //
 // The selected models are uniforms and not macros, so that one program draws every scene. A compiler that knows the
 // uniforms can remove the other models.
+//
+// With GLISTEN_SURFACE, a material has what changes from point to point by its textures, as in glTF 2.0.
 #ifndef GLISTEN_SCENE
 #define GLISTEN_SCENE
 #include "lights.glsl"
@@ -54,6 +56,21 @@ struct Finish {
     // The strength of a coat of lacquer, and its roughness.
     float clearcoat;
     float clearcoat_roughness;
+#ifdef GLISTEN_SURFACE
+    // The color before its parts are told apart, linear RGB, and how metallic it is; below 0 for a material that is not by this model.
+    vec3 base_color;
+    float metallic;
+    // What a part that is no metal mirrors at normal incidence.
+    vec3 dielectric;
+    // How much of the base color covers what is behind it, below 0 for all; above 0, the value below which nothing is drawn.
+    float alpha;
+    float alpha_cutoff;
+    // 1 for a surface whose normal turns with the side that is seen.
+    float two_sided;
+    // How strong the two textures are.
+    float normal_scale;
+    float occlusion_strength;
+#endif
 };
 
 uniform Light light[GLISTEN_LIGHTS];

@@ -5,7 +5,7 @@
 // stability: finite for every finite input
 //
 // The sum over a scene's lights (module `scene`) with any of the library's models, as the standard program computes
-// it.
+// it. With GLISTEN_SURFACE, textures change the material from point to point: standardSurface() is called first.
 #ifndef GLISTEN_STANDARD
 #define GLISTEN_STANDARD
 #include "artistic.glsl"
@@ -30,6 +30,24 @@ uniform sampler2D ramp;
 // The specular tables: cosine 0 at s = 0, 1 at 1.
 uniform sampler2D highlight;
 
+#ifdef GLISTEN_SURFACE
+// Roughness and metal in green and blue, as parts of the material's; light that the surface sends out, a part of its emission;
+// ambient light that reaches it, in red.
+uniform sampler2D metallic_roughness;
+uniform sampler2D emission_map;
+uniform sampler2D occlusion_map;
+
+// The material at the shaded point.
+Material surface;
+float surface_roughness;
+float surface_occlusion;
+#define STANDARD_MATERIAL surface
+#define STANDARD_ROUGHNESS surface_roughness
+#else
+#define STANDARD_MATERIAL material
+#define STANDARD_ROUGHNESS finish.roughness
+#endif
+
 // The light that reaches the eye, in two parts so that a decal can color one and not the other; linear RGB.
 struct Reflection {
     // Ambient and diffuse.
@@ -38,29 +56,52 @@ struct Reflection {
     vec3 gloss;
 };
 
+#ifdef GLISTEN_SURFACE
+// The material at a point: the base color, the roughness and the rest of the uniforms, each times its texture.
+//   st  texture coordinates    base  the texel of the base color, linear RGB
+void standardSurface(vec2 st, vec3 base)
+{
+    vec4 rough = texture(metallic_roughness, st);
+    surface = material;
+    if (finish.metallic < 0.0) {
+        surface.diffuse = material.diffuse * base;
+        surface.ambient = material.ambient * base;
+    } else {
+        vec3 color = finish.base_color * base;
+        float metallic = safeUnit(finish.metallic * rough.b);
+        surface.diffuse = color * (1.0 - metallic);
+        surface.ambient = surface.diffuse;
+        surface.specular = mix(finish.dielectric, color, metallic);
+    }
+    surface.emission = material.emission * texture(emission_map, st).rgb;
+    surface_roughness = safeUnit(finish.roughness * rough.g);
+    surface_occlusion = safeUnit(1.0 + finish.occlusion_strength * (texture(occlusion_map, st).r - 1.0));
+}
+#endif
+
 // The diffuse reflection of a light of intensity 1, per channel.
 //   N  unit normal    L, V  unit vectors towards the light and the eye
 vec3 standardDiffuse(vec3 N, vec3 L, vec3 V)
 {
     switch (finish.diffuse_model) {
     case DIFFUSE_LAMBERT:
-        return vec3(lambertFactor(N, L)) * material.diffuse;
+        return vec3(lambertFactor(N, L)) * STANDARD_MATERIAL.diffuse;
     case DIFFUSE_HALF_LAMBERT:
-        return vec3(halfLambertFactor(N, L)) * material.diffuse;
+        return vec3(halfLambertFactor(N, L)) * STANDARD_MATERIAL.diffuse;
     case DIFFUSE_TOON_SOFT:
-        return toonSoft(ramp, N, L) * material.diffuse;
+        return toonSoft(ramp, N, L) * STANDARD_MATERIAL.diffuse;
     case DIFFUSE_TOON_HARD:
-        return toonHard(N, L, finish.threshold, vec3(1.0), finish.shade) * material.diffuse;
+        return toonHard(N, L, finish.threshold, vec3(1.0), finish.shade) * STANDARD_MATERIAL.diffuse;
     case DIFFUSE_OREN_NAYAR:
-        return vec3(orenNayarFactor(N, L, V, finish.roughness)) * material.diffuse;
+        return vec3(orenNayarFactor(N, L, V, STANDARD_ROUGHNESS)) * STANDARD_MATERIAL.diffuse;
     case DIFFUSE_EON:
-        return eonFactor(N, L, V, material.diffuse, finish.roughness);
+        return eonFactor(N, L, V, STANDARD_MATERIAL.diffuse, STANDARD_ROUGHNESS);
     case DIFFUSE_BURLEY:
-        return vec3(burleyFactor(N, L, V, finish.roughness)) * material.diffuse;
+        return vec3(burleyFactor(N, L, V, STANDARD_ROUGHNESS)) * STANDARD_MATERIAL.diffuse;
     case DIFFUSE_WRAP:
-        return vec3(wrapFactor(N, L, finish.threshold)) * material.diffuse;
+        return vec3(wrapFactor(N, L, finish.threshold)) * STANDARD_MATERIAL.diffuse;
     case DIFFUSE_MINNAERT:
-        return vec3(minnaertFactor(N, L, V, 1.0 + finish.roughness)) * material.diffuse;
+        return vec3(minnaertFactor(N, L, V, 1.0 + STANDARD_ROUGHNESS)) * STANDARD_MATERIAL.diffuse;
     }
     return vec3(0.0);
 }
@@ -78,40 +119,40 @@ vec3 standardFresnel(vec3 L, vec3 V)
 {
     if (!standardHasFresnel())
         return vec3(0.0);
-    vec3 F90 = vec3(safeUnit(50.0 * safeExtent(material.specular)));
-    return fresnelSchlick(dot(V, halfVector(L, V)), material.specular, F90);
+    vec3 F90 = vec3(safeUnit(50.0 * safeExtent(STANDARD_MATERIAL.specular)));
+    return fresnelSchlick(dot(V, halfVector(L, V)), STANDARD_MATERIAL.specular, F90);
 }
 
 // The specular reflection of a light of intensity 1, per channel.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    fresnel  standardFresnel()
 vec3 standardSpecular(vec3 N, vec3 L, vec3 V, vec3 fresnel)
 {
-    float alpha = finish.roughness * finish.roughness;
+    float alpha = STANDARD_ROUGHNESS * STANDARD_ROUGHNESS;
     switch (finish.specular_model) {
     case SPECULAR_PHONG:
-        return vec3(phongFactor(N, L, V, material.shininess)) * material.specular;
+        return vec3(phongFactor(N, L, V, STANDARD_MATERIAL.shininess)) * STANDARD_MATERIAL.specular;
     case SPECULAR_BLINN_PHONG:
-        return vec3(blinnPhongFactor(N, L, V, material.shininess)) * material.specular;
+        return vec3(blinnPhongFactor(N, L, V, STANDARD_MATERIAL.shininess)) * STANDARD_MATERIAL.specular;
     case SPECULAR_SCHLICK_PHONG:
-        return vec3(schlickPhongFactor(N, L, V, material.shininess)) * material.specular;
+        return vec3(schlickPhongFactor(N, L, V, STANDARD_MATERIAL.shininess)) * STANDARD_MATERIAL.specular;
     case SPECULAR_SCHLICK_BLINN:
-        return vec3(schlickBlinnFactor(N, L, V, material.shininess)) * material.specular;
+        return vec3(schlickBlinnFactor(N, L, V, STANDARD_MATERIAL.shininess)) * STANDARD_MATERIAL.specular;
     case SPECULAR_THRESHOLD:
-        return vec3(thresholdFactor(N, L, V, finish.threshold)) * material.specular;
+        return vec3(thresholdFactor(N, L, V, finish.threshold)) * STANDARD_MATERIAL.specular;
     case SPECULAR_QUARTIC:
-        return vec3(quarticFactor(N, L, V)) * material.specular;
+        return vec3(quarticFactor(N, L, V)) * STANDARD_MATERIAL.specular;
     case SPECULAR_TABLE_HALF:
-        return specularLutHalf(highlight, N, L, V) * material.specular;
+        return specularLutHalf(highlight, N, L, V) * STANDARD_MATERIAL.specular;
     case SPECULAR_TABLE_LIGHT:
-        return specularLutLight(highlight, N, L) * material.specular;
+        return specularLutLight(highlight, N, L) * STANDARD_MATERIAL.specular;
     case SPECULAR_GGX:
         return ggxFactor(N, L, V, alpha) * fresnel;
     case SPECULAR_BECKMANN:
         return beckmannFactor(N, L, V, alpha) * fresnel;
     case SPECULAR_SHEEN:
-        return vec3(sheenFactor(N, L, V, alpha)) * material.specular;
+        return vec3(sheenFactor(N, L, V, alpha)) * STANDARD_MATERIAL.specular;
     case SPECULAR_NORMALIZED:
-        return vec3(normalizedBlinnFactor(N, L, V, material.shininess)) * material.specular;
+        return vec3(normalizedBlinnFactor(N, L, V, STANDARD_MATERIAL.shininess)) * STANDARD_MATERIAL.specular;
     }
     return vec3(0.0);
 }
@@ -129,14 +170,14 @@ vec3 standardMirrored(Light one, vec3 R, float roughness)
 //   one  the light    N  unit normal    V  unit vector towards the eye
 Reflection standardDome(Light one, vec3 N, vec3 V)
 {
-    Reflection sum = Reflection(ambient(material.ambient, lightDome(one, N)), vec3(0.0));
+    Reflection sum = Reflection(ambient(STANDARD_MATERIAL.ambient, lightDome(one, N)), vec3(0.0));
     vec3 R = mirrorDirection(N, V);
     float NV = safeUnit(dot(N, V));
     if (standardHasFresnel()) {
-        vec3 seen = material.specular * 50.0;
-        vec3 albedo = min(ggxAlbedo(NV, finish.roughness, material.specular), seen);
+        vec3 seen = STANDARD_MATERIAL.specular * 50.0;
+        vec3 albedo = min(ggxAlbedo(NV, STANDARD_ROUGHNESS, STANDARD_MATERIAL.specular), seen);
         sum.body = sum.body * (1.0 - min(albedo, vec3(1.0)));
-        sum.gloss = safeLimit(albedo * standardMirrored(one, R, finish.roughness));
+        sum.gloss = safeLimit(albedo * standardMirrored(one, R, STANDARD_ROUGHNESS));
     }
     if (finish.clearcoat > 0.0) {
         float w = clearcoatWeight(N, V, finish.clearcoat);
@@ -150,13 +191,20 @@ Reflection standardDome(Light one, vec3 N, vec3 V)
 //   one  the light    P  shaded point    N  unit normal    V  unit vector towards the eye
 Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
 {
+#ifdef GLISTEN_SURFACE
+    if (one.kind == LIGHT_HEMISPHERE) {
+        Reflection dome = standardDome(one, N, V);
+        return Reflection(surface_occlusion * dome.body, surface_occlusion * dome.gloss);
+    }
+#else
     if (one.kind == LIGHT_HEMISPHERE)
         return standardDome(one, N, V);
+#endif
     vec3 L = lightVector(one, P);
     float d = lightAttenuation(one, P);
     float cspot = lightBeam(one, L);
     vec3 fresnel = standardFresnel(L, V);
-    vec3 Iamb = ambient(material.ambient, one.ambient);
+    vec3 Iamb = ambient(STANDARD_MATERIAL.ambient, one.ambient);
     vec3 Idiff = safeLimit(standardDiffuse(N, L, V) * one.diffuse * (1.0 - fresnel));
     vec3 Ispec = safeLimit(standardSpecular(N, L, V, fresnel) * one.specular);
     if (finish.clearcoat > 0.0) {
@@ -173,7 +221,10 @@ Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
 //   P, N, V  as above
 Reflection standardReflection(vec3 P, vec3 N, vec3 V)
 {
-    Reflection sum = Reflection(ambient(material.ambient, global_ambient), vec3(0.0));
+    Reflection sum = Reflection(ambient(STANDARD_MATERIAL.ambient, global_ambient), vec3(0.0));
+#ifdef GLISTEN_SURFACE
+    sum.body *= surface_occlusion;
+#endif
     int last = min(lights, GLISTEN_LIGHTS);
     for (int k = 0; k < last; ++k) {
         Reflection one = standardLight(light[k], P, N, V);
@@ -187,7 +238,7 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
 //   reflection  of all lights    decal  white for none
 vec3 standardColor(Reflection reflection, vec3 decal)
 {
-    return safeLimit(safeLimit(reflection.body * decal) + safeLimit(reflection.gloss + material.emission));
+    return safeLimit(safeLimit(reflection.body * decal) + safeLimit(reflection.gloss + STANDARD_MATERIAL.emission));
 }
 
 #endif

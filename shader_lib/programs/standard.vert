@@ -6,6 +6,14 @@
 in vec3 position;
 in vec3 normal;
 in vec2 texcoord;
+#ifdef GLISTEN_NORMALS
+in vec4 tangent;
+out vec4 along;         // tangent in world space, not of unit length, and its handedness
+#endif
+#ifdef GLISTEN_COLORS
+in vec4 vertex_color;
+out vec4 tint;
+#endif
 uniform mat4 model;
 uniform mat3 model_normal;
 uniform mat4 model_view_projection;
@@ -18,5 +26,11 @@ void main()
     world = (model * vec4(position, 1.0)).xyz;
     direction = transformNormal(model_normal, normal);
     st = texcoord;
+#ifdef GLISTEN_NORMALS
+    along = vec4(mat3(model) * tangent.xyz, tangent.w);
+#endif
+#ifdef GLISTEN_COLORS
+    tint = vertex_color;
+#endif
     gl_Position = model_view_projection * vec4(position, 1.0);
 }

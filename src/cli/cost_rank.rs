@@ -2,9 +2,9 @@
 //!
 //! *In:* scenes. *Out:* for each, what its draws cost and how long a frame takes, and Spearman's coefficient of both. *Holds:* a draw costs
 //! the longest paths of its stages, once for each vertex and each fragment that the reference counts, with the values of its
-//! uniforms for the rounds of loops; two operations for each component that is interpolated; and a fixed weight for each entry of the
-//! draw and each fragment, for what is done besides the stages. The time is the shortest of several
-//! rounds, without that of an empty frame.
+//! uniforms for the rounds of loops; two operations for each component that is interpolated; the fragment stage for the pixels that a
+//! triangle does not cover, but that are shaded with those that it covers; and a fixed weight for each entry of the draw and each
+//! fragment, for what is done besides the stages. The time is the shortest of several rounds, without that of an empty frame.
 
 use super::args::ResultFormat;
 use super::console::Console;
@@ -28,9 +28,11 @@ use std::path::PathBuf;
 /// The weight of a component that is interpolated.
 const INTERPOLATED: u64 = 2;
 /// The weight of what a GPU does with each vertex besides its stage, for each entry of the draw: fetching, clipping, setting up edges.
-const ENTRY: u64 = 1500;
+const ENTRY: u64 = 1000;
 /// The weight of what it does with each fragment besides its stage: coverage, depth, writing.
 const FRAGMENT: u64 = 20;
+/// How many pixels beyond its own a triangle shades, because whole blocks are shaded: those of llvmpipe have 4 by 4 pixels.
+const BEYOND: u64 = 16;
 
 /// The cost of a draw.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -41,7 +43,7 @@ struct Spent {
     fragments: u64,
     /// The longest paths of all vertices.
     vertex_weight: u64,
-    /// The longest paths of all fragments, and their interpolation.
+    /// The longest paths of all fragments and of the pixels that are shaded with them, and their interpolation.
     fragment_weight: u64,
 }
 
@@ -168,11 +170,12 @@ fn of_draw(draw: &Draw, counts: &Counts, iterations: u64) -> Spent {
     let interpolated = INTERPOLATED * u64::from(cost.varyings.components);
     let entries = u64::from(draw.vertex_count).saturating_mul(u64::from(draw.instances));
     let (vertices, fragments) = (of(Step::VERTEX), of(Step::FRAGMENT));
+    let shaded = fragments.saturating_add(entries / 3 * BEYOND);
     let mut spent = Spent { entries, vertices, fragments, ..Spent::default() };
     for stage in &cost.stages {
         let weight = stage.longest.weight();
         if stage.stage == "fragment" {
-            spent.fragment_weight = weight.saturating_add(interpolated).saturating_mul(fragments);
+            spent.fragment_weight = weight.saturating_add(interpolated).saturating_mul(shaded);
         } else {
             spent.vertex_weight = spent.vertex_weight.saturating_add(weight.saturating_mul(vertices));
         }

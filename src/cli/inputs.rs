@@ -225,9 +225,11 @@ pub(super) fn collect(
             named.push(file.clone());
         }
     }
-    let by_name: BTreeSet<PathBuf> = files.iter().map(|name| identity(name)).collect();
-    inputs.found.retain(|name| !by_name.contains(&identity(name)));
-    inputs.left.retain(|left| !by_name.contains(&identity(&left.path)));
+    let by_name: BTreeSet<PathBuf> = files.iter().filter(|file| !file.is_dir()).map(|name| identity(name)).collect();
+    if !by_name.is_empty() {
+        inputs.found.retain(|name| !by_name.contains(&identity(name)));
+        inputs.left.retain(|left| !by_name.contains(&identity(&left.path)));
+    }
     let mut in_programs = BTreeSet::new();
     let mut groups = Vec::new();
     for program in &args.programs {
@@ -247,8 +249,11 @@ pub(super) fn collect(
     let mut seen = BTreeSet::new();
     let alone = named.len() == 1 && args.programs.is_empty();
     let mut listed = Vec::new();
-    for name in named.iter().filter(|name| !in_programs.contains(&identity(name)) && seen.insert(identity(name))) {
-        listed.extend(stages_of(name, args, &engines, alone)?);
+    for name in &named {
+        let identity = identity(name);
+        if !in_programs.contains(&identity) && seen.insert(identity) {
+            listed.extend(stages_of(name, args, &engines, alone)?);
+        }
     }
     inputs.groups = group(listed);
     inputs.groups.extend(groups);
@@ -330,17 +335,25 @@ pub(super) fn parts_in(path: &Path, text: &str) -> Vec<Input> {
 /// Groups files by folder and stem; each stage occurs at most once in a group. What tessellation stages stand between is no pair.
 pub(super) fn group(inputs: Vec<Input>) -> Vec<Group> {
     let mut groups: Vec<((PathBuf, String, String), Group)> = Vec::new();
+    let mut of_key: BTreeMap<(PathBuf, String, String), Vec<usize>> = BTreeMap::new();
+    let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
     for input in inputs {
         let folder = input.path.as_deref().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-        let folder = fs::canonicalize(&folder).unwrap_or(folder);
+        let real = |folder: &PathBuf| fs::canonicalize(folder).unwrap_or_else(|_| folder.clone());
+        let folder = folders.entry(folder).or_insert_with_key(real).clone();
         // The stages of one file belong to each other, whatever files of the same stem there are.
         let own = input.part.as_ref().map_or(String::new(), |part| format!("{}:{}", input.name, part.index));
         let key = (folder, input.stem(), own);
         let fits = |group: &Group| group.inputs.iter().all(|other| other.stage != input.stage);
-        match groups.iter_mut().find(|(other, group)| *other == key && fits(group)) {
+        let known = of_key.entry(key.clone()).or_default();
+        let at = known.iter().copied().find(|&at| groups.get(at).is_some_and(|(_, group)| fits(group)));
+        match at.and_then(|at| groups.get_mut(at)) {
             Some((_, group)) => group.inputs.push(input),
-            None => groups.push((key, Group { name: input.stem(), inputs: vec![input] })),
+            None => {
+                known.push(groups.len());
+                groups.push((key, Group { name: input.stem(), inputs: vec![input] }));
+            }
         }
     }
     let groups = groups.into_iter().flat_map(|((folder, stem, own), group)| {

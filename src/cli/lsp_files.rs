@@ -14,6 +14,8 @@ use std::sync::Arc;
 const MAX_FILES: usize = 20_000;
 /// The largest scene file that is looked at.
 const MAX_SCENE: u64 = 1 << 20;
+/// The largest file that is looked at because an include may name it: stems are those of textures and meshes, too.
+const MAX_HEADER: u64 = 1 << 20;
 
 /// The names in the include directives of the files of some folders.
 #[derive(Debug, Default)]
@@ -31,10 +33,20 @@ impl Includes {
         }
         let Ok(files) = search::files(folder) else { return };
         let is_source = |path: &PathBuf| stages::by_name(path).is_some() || stages::may_be_combined(path);
-        for path in files.into_iter().filter(is_source).take(MAX_FILES) {
-            if let Ok(bytes) = files::read(&path.to_string_lossy(), &path) {
-                self.names.insert(path, included(&String::from_utf8_lossy(&bytes)));
+        let (mut next, mut others): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(is_source);
+        next.truncate(MAX_FILES);
+        // What these include is a source whatever its name ends in.
+        while !next.is_empty() {
+            let mut wanted: BTreeSet<String> = BTreeSet::new();
+            for path in next {
+                if let Ok(bytes) = files::read(&path.to_string_lossy(), &path) {
+                    let names = included(&String::from_utf8_lossy(&bytes));
+                    wanted.extend(names.iter().cloned());
+                    self.names.insert(path, names);
+                }
             }
+            (next, others) = others.into_iter().partition(|path| wanted.contains(&stem(path)));
+            next.retain(|path| path.metadata().is_ok_and(|metadata| metadata.len() <= MAX_HEADER));
         }
     }
 

@@ -128,12 +128,12 @@ impl<'a> Files<'a> {
         })
     }
 
-    /// Whether a file has one of these words.
-    fn has_word(&self, path: &Path, words: &[&str]) -> bool {
+    /// Whether a file has a wanted word.
+    fn has_word(&self, path: &Path, is_wanted: &dyn Fn(&str) -> bool) -> bool {
         let read = || files::read_source(&path.to_string_lossy(), Some(path)).ok();
         let Some(text) = self.overlay.text(path).or_else(read) else { return false };
         let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-        text.split(|letter: char| !is_part(letter)).any(|word| words.contains(&word))
+        text.split(|letter: char| !is_part(letter)).any(|word| !word.is_empty() && is_wanted(word))
     }
 
     /// The macros of the command line.
@@ -345,7 +345,7 @@ impl Project for Files<'_> {
         }
         let mut keys: BTreeSet<ProgramKey> = BTreeSet::new();
         for includer in self.includes.of(file) {
-            if !self.has_word(&includer, words) {
+            if !self.has_word(&includer, &|word| words.contains(&word)) {
                 continue;
             }
             let own = self.programs_of(&includer);
@@ -365,13 +365,26 @@ impl Project for Files<'_> {
         }
     }
 
-    fn programs_in(&mut self, folder: &Path) -> Vec<ProgramKey> {
+    fn programs_with(&mut self, folder: &Path, is_wanted: &dyn Fn(&str) -> bool, most: usize) -> Vec<ProgramKey> {
         self.includes.add(folder);
-        let engines = self.session.engines().clone();
         let files: Vec<PathBuf> = self.includes.files().filter(|path| path.starts_with(folder)).cloned().collect();
-        let inputs = files.iter().filter(|path| matches!(search::classify(path, &engines), Some(Ok(()))));
-        let inputs = inputs.flat_map(|path| self.inputs(path)).collect();
-        inputs::group(inputs).into_iter().map(|group| self.keep(group)).collect()
+        let mut keys: BTreeSet<ProgramKey> = BTreeSet::new();
+        for file in files {
+            if keys.len() >= most {
+                break;
+            }
+            if keys.iter().any(|key| key.files.contains(&file)) || !self.has_word(&file, is_wanted) {
+                continue;
+            }
+            let own = self.programs_of(&file);
+            if own.is_empty() {
+                let includers = self.includes.of(&file);
+                keys.extend(includers.iter().find_map(|includer| self.programs_of(includer).into_iter().next()));
+            } else {
+                keys.extend(own);
+            }
+        }
+        keys.into_iter().collect()
     }
 
     fn alone(&mut self, file: &Path) -> ProgramKey {

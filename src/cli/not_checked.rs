@@ -51,7 +51,7 @@ fn pass_over(units: &mut Vec<Unit>, inputs: &Inputs) -> Vec<NotChecked> {
     units.retain(|unit| !unit.group.inputs.is_empty());
     let includers = includers(units);
     for left in &inputs.left {
-        if !includers.contains_key(&identity(&left.path)) {
+        if includers.is_empty() || !includers.contains_key(&identity(&left.path)) {
             passed.push(whole(&left.path, because(left.why)));
         }
     }
@@ -138,8 +138,8 @@ fn includers(units: &[Unit]) -> BTreeMap<PathBuf, Vec<(String, PathBuf)>> {
     let mut identify = |name: &str| known.entry(name.to_owned()).or_insert_with(|| identity(Path::new(name))).clone();
     for unit in units {
         for (input, files) in unit.group.inputs.iter().zip(&unit.read) {
-            let own = identify(&input.name);
             for file in files.iter().skip(1) {
+                let own = identify(&input.name);
                 let file = identify(unit.batch.sources.file(*file).name());
                 includers.entry(file).or_default().push((input.name.clone(), own.clone()));
             }
@@ -152,6 +152,9 @@ fn includers(units: &[Unit]) -> BTreeMap<PathBuf, Vec<(String, PathBuf)>> {
 fn included(units: &mut [Unit], inputs: &Inputs) -> Vec<NotChecked> {
     let includers = includers(units);
     let (mut passed, mut gone) = (Vec::new(), BTreeSet::new());
+    if includers.is_empty() {
+        return passed;
+    }
     for unit in units.iter_mut() {
         let (mut names, mut partial) = (BTreeSet::new(), BTreeSet::new());
         for index in indices(unit).filter(|index| is_found(unit, *index, inputs)) {

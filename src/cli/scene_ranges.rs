@@ -5,12 +5,12 @@
 
 use super::bounds::Bounds;
 use super::exit::{Exit, Failure};
+use super::inputs::identity;
 use crate::scene::{self, AttributeValues, DiskFiles, Draw};
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::ScalarValue;
 use glisten_scene::values::{LeafShape, of_leaf};
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The ranges of the files that scenes draw.
@@ -44,13 +44,12 @@ impl SceneRanges {
 
     /// The ranges of a file.
     pub(super) fn of(&self, file: &Path) -> Vec<(String, Bounds)> {
+        if self.0.is_empty() {
+            return Vec::new();
+        }
         let own = self.0.get(&identity(file)).into_iter().flatten();
         own.map(|(name, range)| (name.clone(), Bounds::Within(*range))).collect()
     }
-}
-
-fn identity(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
 fn widen(ranges: &mut BTreeMap<String, [f64; 2]>, name: &str, [low, high]: [f64; 2]) {

@@ -128,8 +128,8 @@ fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {
 fn is_excluded(path: &Path, excludes: &mut BTreeMap<PathBuf, Option<Gitignore>>) -> bool {
     let folder = path.parent().unwrap_or(Path::new(""));
     let patterns = excludes.entry(folder.to_owned()).or_insert_with(|| config::excluded(folder));
-    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     patterns.as_ref().is_some_and(|patterns| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
     })
 }

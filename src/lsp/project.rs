@@ -133,8 +133,8 @@ pub(crate) trait Project: Shown {
     /// Notes that the include directives of an open document changed.
     fn includes_changed(&mut self, file: &Path);
 
-    /// All programs in a folder and below it.
-    fn programs_in(&mut self, folder: &Path) -> Vec<ProgramKey>;
+    /// Programs in a folder and below it that together have all files with a wanted word. The search ends when there are `most`.
+    fn programs_with(&mut self, folder: &Path, is_wanted: &dyn Fn(&str) -> bool, most: usize) -> Vec<ProgramKey>;
 
     /// A file alone, for one that belongs to no program.
     fn alone(&mut self, file: &Path) -> ProgramKey;

@@ -11,8 +11,10 @@ use crate::engines::{Lookup, Style};
 use crate::library::{self, Embedded};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, blanked, version_line};
 use std::collections::BTreeMap;
+use std::fs::DirEntry;
 use std::path::{Component, Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The largest number of files below a search folder among which one is found by its name alone.
 const MAX_FILES: usize = 50_000;
@@ -33,12 +35,21 @@ pub(crate) struct DiskIncludes {
     roots: Vec<String>,
     /// All files below the search folders by their names, if the style looks there.
     below: Arc<OnceLock<BTreeMap<String, PathBuf>>>,
+    /// The files near sources, which many missing includes look through.
+    seen: Arc<Seen>,
 }
 
 impl DiskIncludes {
     /// A resolver that searches `folders`, and the folders called `roots` above an including file, in the style of an engine.
     pub(crate) fn new(disk: Arc<dyn Disk>, folders: Vec<PathBuf>, style: Style, roots: &[String]) -> Self {
-        Self { disk, folders, lookup: style.lookup(), roots: roots.to_vec(), below: Arc::default() }
+        Self {
+            disk,
+            folders,
+            lookup: style.lookup(),
+            roots: roots.to_vec(),
+            below: Arc::default(),
+            seen: Arc::default(),
+        }
     }
 
     /// The folders above a file in which its includes are searched.
@@ -115,43 +126,74 @@ fn files_below(folders: &[PathBuf]) -> BTreeMap<String, PathBuf> {
     files
 }
 
-/// The files near a source, in which a missing include may be: those below the folders that it is in, up to the working directory,
-/// the nearest first.
-fn nearby(from: &str) -> Vec<PathBuf> {
-    let folder = Path::new(from).parent().unwrap_or(Path::new(""));
-    let here = [Path::new("")].into_iter().filter(|_| !folder.is_absolute());
-    // Above that, there may be a whole disk.
-    let is_root = |folder: &Path| folder.as_os_str().is_empty() || folder.parent().is_none();
-    let above = folder.ancestors().filter(|folder| !is_root(folder)).take(NEARBY);
-    let shown = |folder: &Path| if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() };
-    let mut files = Vec::new();
-    for folder in above.chain(here) {
-        files.extend(walk(&shown(folder), MAX_NEARBY).into_iter().map(|path| normal(&path)));
+/// How long the files below a folder are known.
+const FRESH: Duration = Duration::from_secs(2);
+
+/// The files below a folder, and when they were listed.
+type Listed = (Instant, Arc<[PathBuf]>);
+
+/// The files below folders.
+#[derive(Default)]
+struct Seen(Mutex<BTreeMap<PathBuf, Listed>>);
+
+impl Seen {
+    /// The files of a folder and of those below it.
+    fn files(&self, folder: &Path) -> Arc<[PathBuf]> {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, files)) = known.get(folder).filter(|(listed, _)| listed.elapsed() < FRESH) {
+            return Arc::clone(files);
+        }
+        let files: Arc<[PathBuf]> = walk(folder, MAX_NEARBY).iter().map(|path| normal(path)).collect();
+        known.retain(|_, (listed, _)| listed.elapsed() < FRESH);
+        known.insert(folder.to_owned(), (Instant::now(), Arc::clone(&files)));
+        files
     }
-    files
+
+    /// The file that a missing include may mean: below the folders that the source is in, up to the working directory, the nearest
+    /// first.
+    fn nearest(&self, wanted: &Path, from: &str) -> Option<PathBuf> {
+        let folder = Path::new(from).parent().unwrap_or(Path::new(""));
+        let here = [Path::new("")].into_iter().filter(|_| !folder.is_absolute());
+        // Above that, there may be a whole disk.
+        let is_root = |folder: &Path| folder.as_os_str().is_empty() || folder.parent().is_none();
+        let above = folder.ancestors().filter(|folder| !is_root(folder)).take(NEARBY);
+        let shown = |folder: &Path| if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() };
+        let mut folders = above.chain(here);
+        folders.find_map(|folder| self.files(&shown(folder)).iter().find(|file| file.ends_with(wanted)).cloned())
+    }
 }
 
 /// The files of a folder and of those below it, in order, at most `most`, and at most as many folders.
 fn walk(folder: &Path, most: usize) -> Vec<PathBuf> {
-    let (mut files, mut open, mut n_seen) = (Vec::new(), vec![(folder.to_owned(), 0)], 0);
-    while let Some((path, depth)) = open.pop() {
+    let (mut files, mut open, mut n_seen) = (Vec::new(), vec![(folder.to_owned(), true, 0)], 0);
+    while let Some((path, is_folder, depth)) = open.pop() {
         n_seen += 1;
         if files.len() >= most || n_seen > most * 2 {
             break;
         }
-        let is_hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        let listed = if depth == 0 || (!is_hidden && depth <= DEEPEST) { std::fs::read_dir(&path).ok() } else { None };
-        match listed {
-            Some(entries) => {
-                let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-                // The last one is looked at first.
-                paths.sort_by(|a, b| b.cmp(a));
-                open.extend(paths.into_iter().map(|path| (path, depth + 1)));
-            }
-            None => files.extend(path.is_file().then_some(path)),
+        if !is_folder {
+            files.push(path);
+            continue;
         }
+        let is_hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        if depth > 0 && (is_hidden || depth > DEEPEST) {
+            continue;
+        }
+        let mut entries: Vec<(PathBuf, bool)> =
+            std::fs::read_dir(&path).into_iter().flatten().flatten().filter_map(|entry| kind(&entry)).collect();
+        // The last one is looked at first.
+        entries.sort_by(|(a, _), (b, _)| b.as_os_str().cmp(a.as_os_str()));
+        open.extend(entries.into_iter().map(|(path, is_folder)| (path, is_folder, depth + 1)));
     }
     files
+}
+
+/// The path of an entry of a folder, and whether it is a folder; nothing for what is neither a file nor a folder. Links are followed.
+fn kind(entry: &DirEntry) -> Option<(PathBuf, bool)> {
+    let (path, kind) = (entry.path(), entry.file_type().ok()?);
+    let (is_file, is_folder) =
+        if kind.is_symlink() { (path.is_file(), path.is_dir()) } else { (kind.is_file(), kind.is_dir()) };
+    (is_file || is_folder).then_some((path, is_folder))
 }
 
 /// The text of a module of JavaScript between its first and its last backquote; everything else is blank.
@@ -165,7 +207,7 @@ fn in_backquotes(text: &str) -> Arc<str> {
 impl IncludeResolver for DiskIncludes {
     fn remedy(&self, path: &str, from: &str) -> Option<String> {
         let wanted: PathBuf = normal(Path::new(path.trim_start_matches('/')));
-        let found = nearby(from).into_iter().find(|file| file.ends_with(&wanted))?;
+        let found = self.seen.nearest(&wanted, from)?;
         let folder = found.ancestors().nth(wanted.components().count())?;
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         Some(format!("found in `{0}`: add `-I {0}`", folder.display()))

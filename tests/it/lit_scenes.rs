@@ -68,7 +68,7 @@ fn mistake(from: &str, to: &str) -> (&'static str, String, String) {
 
 /// The numbers of a uniform.
 #[track_caller]
-fn value(draw: &Draw, name: &str) -> Vec<f32> {
+pub(crate) fn value(draw: &Draw, name: &str) -> Vec<f32> {
     let interface = &draw.program.interface;
     let leaf = interface.uniforms.iter().find(|leaf| leaf.name == name).unwrap_or_else(|| panic!("no `{name}`"));
     let start = leaf.flat_offset as usize;

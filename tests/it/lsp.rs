@@ -291,6 +291,33 @@ fn documents_are_outlined_colored_folded_and_formatted() {
     editor.close();
 }
 
+/// A name is found in every program of a workspace, however many there are, and in headers of any extension.
+#[test]
+fn names_are_found_in_a_whole_workspace() {
+    let program = |n: usize| format!("#version 150\nout vec4 color{n};\nvoid main() {{ color{n} = vec4(1.0); }}\n");
+    let version = "#version 150\n#extension GL_ARB_shading_language_include : require\n";
+    let user =
+        format!("{version}#include \"noise.inc\"\nout vec4 color;\nvoid main() {{ color = vec4(grain(1.0)); }}\n");
+    let mut files: Vec<(String, String)> = (0..500).map(|n| (format!("p{n:03}.frag"), program(n))).collect();
+    files.push(("user.frag".into(), user));
+    files.push(("noise.inc".into(), "float grain(float a) {\n    return fract(a * 7.0);\n}\n".into()));
+    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
+    let folder = Folder::new(&files);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("p000.frag", &program(0));
+    let mut find = |query: &str| {
+        let found = editor.ask("workspace/symbol", json!({ "query": query }));
+        let found: Vec<Value> =
+            found.as_array().expect("a list").iter().map(|symbol| symbol["location"].clone()).collect();
+        places(&Value::from(found))
+    };
+    assert_eq!(find("color499"), ["p499.frag:1:9"]);
+    assert_eq!(find("grain"), ["noise.inc:0:6"]);
+    assert_eq!(find("nowhere").len(), 0);
+    assert_eq!(find("").len(), 400);
+    editor.close();
+}
+
 #[test]
 fn fixes_are_actions() {
     let folder = program();

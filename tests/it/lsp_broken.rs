@@ -1,7 +1,7 @@
 //! `glisten lsp` on half-typed text: errors stay on their line, and the rest keeps its symbols, findings and completion.
 
 use crate::cli::Folder;
-use crate::editor::{Editor, labels};
+use crate::editor::{Editor, labels, places};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -123,6 +123,32 @@ fn what_is_broken_is_understood_as_far_as_it_goes() {
     let uses = editor.ask("textDocument/references", there);
     assert_eq!(uses.as_array().map(Vec::len), Some(3), "the broken use is one of them: {uses}");
     editor.close();
+}
+
+/// A function whose header is not finished keeps its name and its body; nothing follows from the error elsewhere.
+#[test]
+fn functions_with_broken_headers_are_known() {
+    for header in
+        ["vec3 tone(vec3 n, float {", "vec3 tone(vec3 n float b {", "vec3 tone(vec3 n, 2 {", "vec3 tone(vec3 n, in"]
+    {
+        let text = format!(
+            "#version 150\nout vec4 color;\n{header}\n{}    vec3 sum = n;\n    return sum * b;\n}}\n\
+             void main() {{ color = vec4(tone(vec3(1.0), 2.0), 1.0); }}\n",
+            if header.ends_with('{') { "" } else { ") {\n" }
+        );
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let mut editor = Editor::new(&folder, json!({}));
+        editor.open("a.frag", &text);
+        let errors = editor.diagnostics("a.frag");
+        assert!(!errors.is_empty() && errors.iter().all(|one| line_of(one) <= 3), "{header}: {errors:?}");
+        assert_eq!(symbols(&mut editor), ["color", "main", "tone"].map(str::to_owned).into(), "{header}");
+        let there = editor.on("a.frag", &text, "tone(vec3(1.0)");
+        assert_eq!(places(&editor.ask("textDocument/definition", there)), ["a.frag:2:5"], "{header}");
+        let there = editor.on("a.frag", &text, "sum * b");
+        let hover = editor.ask("textDocument/hover", there)["contents"]["value"].to_string();
+        assert!(hover.contains("vec3 sum"), "{header}: {hover}");
+        editor.close();
+    }
 }
 
 #[test]

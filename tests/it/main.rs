@@ -61,6 +61,8 @@ mod fmt;
 mod gallery;
 #[cfg(feature = "gpu")]
 mod geometry;
+#[cfg(feature = "cli")]
+mod gltf_scenes;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod helps;

@@ -214,11 +214,14 @@ pub(super) fn workspace(state: &mut State<'_>, query: &str) -> Option<WorkspaceS
         keys.extend(state.analyses_of(&path).iter().map(|analysis| analysis.key.clone()));
     }
     for folder in state.folders.clone() {
-        keys.extend(state.project.programs_in(&folder).into_iter().take(MAX_PROGRAMS));
+        keys.extend(state.project.programs_with(&folder, &|word| fits(word, query), MAX_PROGRAMS));
     }
     keys.sort();
     keys.dedup();
     for key in keys {
+        if found.len() >= MAX_SYMBOLS {
+            break;
+        }
         let analysis = state.analysis(&key);
         of_program(state, &analysis, query, &mut found);
         // A workspace may have more programs than should be kept.

@@ -424,6 +424,8 @@ pub struct FunctionHeader {
     pub name: Ident,
     /// The parameters; `(void)` has none.
     pub params: Vec<ParamDecl>,
+    /// Whether all parameters could be read.
+    pub is_whole: bool,
     /// The span of the header alone.
     pub span: Span,
 }

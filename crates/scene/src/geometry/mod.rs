@@ -5,6 +5,7 @@
 //! checked: a wrong file gives a sentence, with a line where the format has lines.
 
 mod adjacency;
+mod framing;
 mod gltf;
 mod model;
 mod mtl;
@@ -14,7 +15,10 @@ mod polygon;
 mod soup;
 mod tangents;
 
-pub(crate) use gltf::image as gltf_image;
+pub(crate) use framing::{DOME, Framing};
+pub(crate) use gltf::{
+    Contents, Covering, Lamp, LampKind, Map, Surface, contents as gltf_contents, image as gltf_image, is_gltf,
+};
 pub use model::is_model_file;
 pub(crate) use model::{Look, Model, ModelCamera, Projection, TextureSource};
 pub(crate) use mtl::parse as parse_mtl;

@@ -7,6 +7,7 @@ use super::normals::Normals;
 use super::{Geometry, MAX_TRIANGLES, Soup, gltf, obj};
 use crate::files::FileSource;
 use glam::{DMat4, DVec3};
+use std::collections::BTreeSet;
 
 /// The meshes of a file.
 #[derive(Clone, Debug, Default)]
@@ -142,6 +143,12 @@ impl Model {
             seen.has_texcoords &= part.soup.has_texcoords();
         }
         seen
+    }
+
+    /// The looks that triangles have, in order.
+    pub(crate) fn used(&self) -> Vec<usize> {
+        let used = self.parts.iter().filter(|part| !part.soup.triangles.is_empty()).map(|part| part.look);
+        used.collect::<BTreeSet<usize>>().into_iter().collect()
     }
 
     /// Whether any triangle has this look.

@@ -3,7 +3,7 @@
 use super::attributes::{load_attributes, scalar_of};
 use super::fixed::{self, GENERATED, load_pipeline, load_switches};
 use super::lights::{LIGHT_SPACES, LightSpace};
-use super::material::{load_colors, load_material};
+use super::material::{load_colors, load_material, macros};
 use super::matrices::View;
 use super::mesh::{Mesh, load_mesh};
 use super::names::{BLENDS, CULLS, FRONT_FACES, PRIMITIVES, PROVOKING};
@@ -80,7 +80,7 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let (files, generated) = load_stages(loader, table, place, (around, switches));
     let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
     let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
-    let program = load_program(loader, table, files, (switches, generated.as_ref()))?;
+    let program = load_program(loader, table, files, around, (switches, generated.as_ref()))?;
     let possible = check_program(&mut loader.reader, &program, framebuffer, place)
         .and_then(|()| check_primitive(&mut loader.reader, table, &program, &state, place));
     let view = View::load(&mut loader.reader, table, around.camera, framebuffer);
@@ -249,11 +249,17 @@ fn load_program(
     loader: &mut Loader<'_>,
     table: &DeTable<'_>,
     files: Vec<(Stage, String, Span)>,
+    around: &Surroundings<'_, '_>,
     (switches, generated): (FixedState, Option<&OtherStage>),
 ) -> Option<Arc<Program>> {
     let attribute_locations = load_locations(&mut loader.reader, table, "attribute_locations");
     let frag_data_locations = load_locations(&mut loader.reader, table, "frag_data_locations");
-    let defines = load_defines(&mut loader.reader, table);
+    let mut defines = load_defines(&mut loader.reader, table);
+    for (name, value) in own_macros(table, &files, around) {
+        if defines.iter().all(|(known, _)| known != name) {
+            defines.push((name.to_owned(), value));
+        }
+    }
     let sources = load_sources(loader, table)?;
     if files.is_empty() {
         return None;
@@ -283,6 +289,22 @@ fn load_program(
         }
     }
     Some(program)
+}
+
+/// The macros that programs of the library have for what the scene gives them.
+fn own_macros(
+    table: &DeTable<'_>,
+    files: &[(Stage, String, Span)],
+    around: &Surroundings<'_, '_>,
+) -> Vec<(&'static str, String)> {
+    if files.iter().all(|(_, name, _)| library_file(name).is_none()) {
+        return Vec::new();
+    }
+    let is_standard = files.iter().any(|(_, name, _)| library_file(name) == Some("standard.frag"));
+    let names = if is_standard { macros(table, around.material) } else { Vec::new() };
+    let cones = around.lighting.has_cones().then_some("GLISTEN_CONES");
+    let flags = names.into_iter().chain(cones).map(|name| (name, "1".to_owned()));
+    flags.chain(around.lighting.room().map(|room| ("GLISTEN_LIGHTS", room.to_string()))).collect()
 }
 
 fn load_locations(reader: &mut Reader, table: &DeTable<'_>, key: &str) -> Vec<(String, u32, Span)> {

@@ -44,7 +44,7 @@ impl Kind {
     fn keys(self) -> &'static [&'static str] {
         match self {
             Self::Directional => &["kind", "towards", "color", "ambient", "diffuse", "specular"],
-            Self::Point => &["kind", "position", "color", "ambient", "diffuse", "specular", "attenuation"],
+            Self::Point => &["kind", "position", "color", "ambient", "diffuse", "specular", "attenuation", "range"],
             Self::Spot => &[
                 "kind",
                 "position",
@@ -56,6 +56,8 @@ impl Kind {
                 "diffuse",
                 "specular",
                 "attenuation",
+                "range",
+                "cone",
             ],
             Self::Hemisphere => &["kind", "axis", "sky", "ground"],
         }
@@ -97,7 +99,12 @@ pub(super) struct Lighting {
     pub(super) lights: Vec<Light>,
     /// Ambient light that belongs to no light source: L_glob of (100).
     pub(super) global_ambient: [f64; 3],
+    /// How many of the lights are the scene's own, and not those of files.
+    n_own: usize,
 }
+
+/// The lights that programs of the library have room for by themselves.
+const ROOM: usize = 8;
 
 /// One light.
 #[derive(Clone, Debug)]
@@ -112,6 +119,10 @@ pub(super) struct Light {
     specular: [f64; 3],
     attenuation: [f64; 3],
     exponent: f64,
+    /// Where the inverse square law ends, instead of `attenuation`.
+    range: Option<f64>,
+    /// The inner and the outer angle of a spot's cone in degrees, instead of `exponent`.
+    cone: Option<[f64; 2]>,
 }
 
 impl Lighting {
@@ -124,12 +135,24 @@ impl Lighting {
                 None => reader.wrong_type(node, "light", "a list of tables, each headed `[[light]]`"),
             }
         }
-        Self { lights, global_ambient: reader.reals(table, "global_ambient", [0.0; 3]) }
+        let n_own = lights.len();
+        Self { lights, global_ambient: reader.reals(table, "global_ambient", [0.0; 3]), n_own }
+    }
+
+    /// The room that the lights of files need beyond what programs have. A scene says itself how many lights of its own there may be.
+    pub(super) fn room(&self) -> Option<usize> {
+        let n_lights = self.lights.len();
+        (n_lights > ROOM && self.n_own <= ROOM && n_lights > self.n_own).then_some(n_lights)
+    }
+
+    /// Whether a light has a range or a cone, which the library's programs have with the macro `GLISTEN_CONES`.
+    pub(super) fn has_cones(&self) -> bool {
+        self.lights.iter().any(|light| light.range.is_some() || light.cone.is_some())
     }
 }
 
 impl Light {
-    fn load(reader: &mut Reader, node: &Node<'_>) -> Option<Self> {
+    pub(super) fn load(reader: &mut Reader, node: &Node<'_>) -> Option<Self> {
         let table = reader.table(node, "light")?;
         let span = reader.span_of(node);
         let Some(kind) = table.get("kind") else {
@@ -172,6 +195,8 @@ impl Light {
             specular: reader.reals(table, "specular", color),
             attenuation: reader.reals(table, "attenuation", [1.0, 0.0, 0.0]),
             exponent: reader.real(table, "exponent", 1.0),
+            range: load_range(reader, table),
+            cone: load_cone(reader, table),
         })
     }
 
@@ -194,7 +219,7 @@ impl Light {
             Kind::Spot => LightSource {
                 spot_direction: direction.normalize_or(DVec3::NEG_Z).to_array(),
                 spot_exponent: self.exponent,
-                spot_cutoff: 90.0,
+                spot_cutoff: self.cone.map_or(90.0, |[_, outer]| outer),
                 ..lit
             },
             Kind::Hemisphere => {
@@ -205,7 +230,7 @@ impl Light {
     }
 
     /// The members of the struct `Light`, by name.
-    pub(super) fn members(&self, space: LightSpace, view: DMat4) -> [(&'static str, Member); 8] {
+    pub(super) fn members(&self, space: LightSpace, view: DMat4) -> [(&'static str, Member); 11] {
         let (position, direction) = match space {
             LightSpace::World => (self.position, self.direction),
             LightSpace::Eye => (view.transform_point3(self.position), view.transform_vector3(self.direction)),
@@ -219,7 +244,51 @@ impl Light {
             ("specular", Member::Vector(self.specular)),
             ("attenuation", Member::Vector(self.attenuation)),
             ("exponent", Member::Float(self.exponent)),
+            ("range", Member::Float(self.range.unwrap_or(0.0))),
+            ("inner", Member::Float(self.cone.map_or(0.0, |[inner, _]| one_minus_cos(inner)))),
+            ("outer", Member::Float(self.cone.map_or(0.0, |[_, outer]| one_minus_cos(outer)))),
         ]
+    }
+}
+
+/// 1 - cos of an angle in degrees, without the cancellation of narrow ones.
+fn one_minus_cos(angle: f64) -> f64 {
+    2.0 * (angle.to_radians() / 2.0).sin().powi(2)
+}
+
+/// `range`: a distance above 0; `None` for a light that does not end.
+fn load_range(reader: &mut Reader, table: &DeTable<'_>) -> Option<f64> {
+    let node = table.get("range")?;
+    let range = reader.finite(node, "range")?;
+    let span = reader.span_of(node);
+    if range <= 0.0 {
+        reader.wrong_value(span, "a light's `range` is above 0", "no distance");
+        return None;
+    }
+    exclude(reader, table, "range", "attenuation");
+    Some(range)
+}
+
+/// `cone`: the inner and the outer angle between the beam's middle and its edge.
+fn load_cone(reader: &mut Reader, table: &DeTable<'_>) -> Option<[f64; 2]> {
+    let node = table.get("cone")?;
+    let cone = reader.reals(table, "cone", [0.0, 45.0]);
+    let [inner, outer] = cone;
+    let span = reader.span_of(node);
+    if !(0.0 <= inner && inner < outer && outer <= 90.0) {
+        let message = "a `cone` is an inner and a larger outer angle, 0 to 90 degrees";
+        reader.wrong_value(span, message, "expected `[inner, outer]`");
+        return None;
+    }
+    exclude(reader, table, "cone", "exponent");
+    Some(cone)
+}
+
+/// Reports a key that another one replaces.
+fn exclude(reader: &mut Reader, table: &DeTable<'_>, key: &str, other: &str) {
+    if let Some((name, _)) = table.get_key_value(other) {
+        let span = reader.span_of(name);
+        reader.wrong_value(span, format!("a light with a `{key}` has no `{other}`"), "leave one of the two out");
     }
 }
 

@@ -14,8 +14,24 @@ use glisten_front::link::Program;
 use toml::de::DeTable;
 
 /// The samplers of the library's programs for which a material may provide a texture.
-pub(super) const TEXTURES: &[&str] = &["decal", "ramp", "highlight"];
+pub(super) const TEXTURES: &[&str] =
+    &["decal", "ramp", "highlight", "metallic_roughness", "emission_map", "occlusion_map", "normal_map"];
 
+/// The keys for which the program `standard` has the macro `GLISTEN_SURFACE`: what changes from point to point.
+const SURFACE_KEYS: &[&str] = &[
+    "metallic_roughness",
+    "emission_map",
+    "occlusion_map",
+    "normal_map",
+    "alpha",
+    "alpha_cutoff",
+    "two_sided",
+    "normal_scale",
+    "occlusion_strength",
+    "vertex_colors",
+];
+
+/// All other keys.
 const KEYS: &[&str] = &[
     "ambient",
     "diffuse",
@@ -34,6 +50,7 @@ const KEYS: &[&str] = &[
     "decal",
     "ramp",
     "highlight",
+    "dielectric",
 ];
 
 /// Diffuse models, with the numbers of the module's constants `DIFFUSE_NONE` and so on.
@@ -99,7 +116,20 @@ const SPECULAR_MODELS: &[(&str, SpecularModel)] = &[
 ];
 
 /// The uniforms of a material by name.
-pub(super) type Material = [(&'static str, Member); 12];
+pub(super) type Material = [(&'static str, Member); 20];
+
+/// The macros that the program `standard` has for the material of a draw, or of the scene.
+pub(super) fn macros(draw: &DeTable<'_>, scene: Option<&Node<'_>>) -> Vec<&'static str> {
+    let node = draw.get("material").or(scene);
+    let Some(table) = node.and_then(|node| node.get_ref().as_table()) else { return Vec::new() };
+    let flagged = |key: &str| table.get(key).and_then(|node| node.get_ref().as_bool()).unwrap_or(false);
+    let rows = [
+        ("GLISTEN_SURFACE", SURFACE_KEYS.iter().any(|key| table.contains_key(*key))),
+        ("GLISTEN_NORMALS", table.contains_key("normal_map")),
+        ("GLISTEN_COLORS", flagged("vertex_colors")),
+    ];
+    rows.into_iter().filter(|(_, wanted)| *wanted).map(|(name, _)| name).collect()
+}
 
 /// The material of a draw, with its node; `None` if there is none, or if the program does not use one.
 pub(super) fn load_material<'t, 'i>(
@@ -126,12 +156,19 @@ pub(super) fn load_material<'t, 'i>(
     }
     let node = own.map(|(_, node)| node).or(scene)?;
     let table = reader.table(node, "material")?;
-    reader.check_keys(table, "a material", KEYS);
+    reader.check_keys(table, "a material", &[KEYS, SURFACE_KEYS].concat());
     // The model of metals and roughness: a metal has no diffuse color, anything else mirrors 0.04.
     let is_physical = table.contains_key("base_color") || table.contains_key("metallic");
     let base = reader.reals(table, "base_color", [0.8; 3]);
     let metallic = reader.real(table, "metallic", 0.0);
-    let [own_diffuse, own_specular] = if is_physical { by_metallic(base, metallic) } else { [[0.8; 3], [0.0; 3]] };
+    let dielectric = reader.reals(table, "dielectric", [0.04; 3]);
+    let [own_diffuse, own_specular] =
+        if is_physical { by_metallic(base, metallic, dielectric) } else { [[0.8; 3], [0.0; 3]] };
+    // Colors that the scene states are not those of the model.
+    let is_stated = ["diffuse", "specular"].iter().any(|key| table.contains_key(*key));
+    let parted = if is_physical && !is_stated { metallic.clamp(0.0, 1.0) } else { -1.0 };
+    let two_sided = f64::from(u8::from(reader.flag(table, "two_sided", false)));
+    reader.flag(table, "vertex_colors", false);
     let own_model = if is_physical { SpecularModel::Ggx } else { SpecularModel::BlinnPhong };
     let diffuse = reader.reals(table, "diffuse", own_diffuse);
     let diffuse_model = reader.choice_at(table, "diffuse_model", DiffuseModel::Lambert, DIFFUSE_MODELS);
@@ -152,14 +189,29 @@ pub(super) fn load_material<'t, 'i>(
         ("finish.clearcoat_roughness", Member::Float(reader.real(table, "clearcoat_roughness", 0.1))),
         ("finish.diffuse_model", Member::Int(diffuse_model as i32)),
         ("finish.specular_model", Member::Int(specular_model as i32)),
+        ("finish.base_color", Member::Vector(base)),
+        ("finish.metallic", Member::Float(parted)),
+        ("finish.dielectric", Member::Vector(dielectric)),
+        (
+            "finish.alpha",
+            Member::Float(reader.real(table, "alpha", if table.contains_key("alpha_cutoff") { 1.0 } else { -1.0 })),
+        ),
+        ("finish.alpha_cutoff", Member::Float(reader.real(table, "alpha_cutoff", 0.0))),
+        ("finish.two_sided", Member::Float(two_sided)),
+        ("finish.normal_scale", Member::Float(reader.real(table, "normal_scale", 1.0))),
+        ("finish.occlusion_strength", Member::Float(reader.real(table, "occlusion_strength", 1.0))),
     ];
     Some((members, node))
 }
 
 /// The diffuse color and the reflectance at normal incidence of a base color, as in glTF 2.0, appendix B.
-fn by_metallic(base: [f64; 3], metallic: f64) -> [[f64; 3]; 2] {
+fn by_metallic(base: [f64; 3], metallic: f64, dielectric: [f64; 3]) -> [[f64; 3]; 2] {
     let metallic = metallic.clamp(0.0, 1.0);
-    [base.map(|color| color * (1.0 - metallic)), base.map(|color| 0.04 * (1.0 - metallic) + color * metallic)]
+    let mut mirrored = dielectric;
+    for (mirrored, color) in mirrored.iter_mut().zip(base) {
+        *mirrored = *mirrored * (1.0 - metallic) + color * metallic;
+    }
+    [base.map(|color| color * (1.0 - metallic)), mirrored]
 }
 
 /// The colors of a material that the fixed-function pipeline has.
@@ -181,7 +233,7 @@ pub(super) fn load_colors(
 ) -> Option<Colors> {
     let table = reader.table(draw.get("material").or(scene)?, "material")?;
     if program.interface.roots.iter().all(|root| root.name != "material") {
-        reader.check_keys(table, "a material", KEYS);
+        reader.check_keys(table, "a material", &[KEYS, SURFACE_KEYS].concat());
     }
     let diffuse = reader.reals(table, "diffuse", [0.8; 3]);
     Some(Colors {

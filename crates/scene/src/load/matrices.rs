@@ -152,7 +152,7 @@ fn orthographic(half_width: f64, half_height: f64, near: f64, far: f64) -> DMat4
 
 /// Scales first, then rotates (degrees about x, then y, then z; or `[degrees, x, y, z]` about an axis), then
 /// translates.
-fn load_transform(reader: &mut Reader, table: &DeTable<'_>) -> DMat4 {
+pub(super) fn load_transform(reader: &mut Reader, table: &DeTable<'_>) -> DMat4 {
     reader.check_keys(table, "a transform", TRANSFORM_KEYS);
     let translate = DVec3::from(reader.reals(table, "translate", [0.0; 3]));
     let about_axis = table.get("rotate").and_then(|node| node.get_ref().as_array()).is_some_and(|list| list.len() == 4);

@@ -8,6 +8,7 @@ mod attributes;
 mod combine;
 mod draw;
 mod fixed;
+mod imported;
 mod lights;
 mod material;
 mod matrices;
@@ -33,7 +34,7 @@ use crate::files::{FileError, FileSource, relative_to};
 use crate::fixed::has_fixed_function;
 use crate::geometry::Model;
 use crate::library::{Library, WithLibrary};
-use crate::model::{Draw, Format, Framebuffer, Scene};
+use crate::model::{Draw, Format, Framebuffer, Scene, Texture};
 use crate::picture::{Encoding, Tone, Transfer};
 use crate::tables::{self, Node, Reader};
 use glisten_front::compiler::{Compiler, Options, Source, SourceSettings};
@@ -62,8 +63,18 @@ pub const MAX_ATTACHMENTS: u32 = 8;
 
 const FRAMEBUFFER_KEYS: &[&str] =
     &["width", "height", "clear", "format", "attachments", "encode", "tonemap", "exposure"];
-const KEYS: &[&str] =
-    &["framebuffer", "draw", "camera", "light", "material", "global_ambient", "report", "gallery", "stability"];
+const KEYS: &[&str] = &[
+    "framebuffer",
+    "draw",
+    "camera",
+    "light",
+    "material",
+    "global_ambient",
+    "report",
+    "gallery",
+    "stability",
+    "scene",
+];
 
 /// The result of loading a scene.
 #[derive(Clone, Debug)]
@@ -89,6 +100,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
         sources: SourceMap::default(),
         programs: Vec::new(),
         models: BTreeMap::new(),
+        shared: None,
         io_error: false,
     };
     let scene = loader.scene();
@@ -121,6 +133,11 @@ struct Surroundings<'t, 'i> {
     framebuffer: Framebuffer,
 }
 
+/// Whether a scene says how it is lit.
+fn is_lit(table: &DeTable<'_>) -> bool {
+    table.contains_key("light") || table.contains_key("global_ambient")
+}
+
 /// The file that a scene refers to with `<glisten/programs/phong.frag>`.
 fn library_file(name: &str) -> Option<&str> {
     name.strip_prefix("<glisten/programs/")?.strip_suffix('>')
@@ -145,6 +162,9 @@ fn is_lit_by(key: &str, uniform: &str) -> bool {
     }
 }
 
+/// Textures by what a draw says of them; `None` for one that cannot be loaded.
+type SharedTextures = BTreeMap<String, Option<Arc<Texture>>>;
+
 /// The state of loading.
 struct Loader<'a> {
     path: &'a str,
@@ -156,6 +176,8 @@ struct Loader<'a> {
     programs: Vec<(ProgramKey, Option<Arc<Program>>)>,
     /// The files with meshes that were read, by path; `None` for one that cannot be.
     models: BTreeMap<String, Option<Arc<Model>>>,
+    /// The textures of imported draws, which share them, and how many texels they have.
+    shared: Option<(SharedTextures, u64)>,
     io_error: bool,
 }
 
@@ -173,14 +195,23 @@ impl Loader<'_> {
         }
         self.reader.check_keys(table, "a scene", KEYS);
         let framebuffer = self.framebuffer(table)?;
+        let mut lighting = Lighting::load(&mut self.reader, table);
+        let camera = self.reader.table_at(table, "camera");
+        let wants = imported::Wants { camera: camera.is_none(), lights: !is_lit(table) };
+        let written = imported::write(self, table, wants);
+        let read: Option<Vec<imported::Imported<'_>>> =
+            written.as_ref().map(|all| all.iter().map(|one| imported::read(&mut self.reader, one)).collect());
+        let is_complete = read.is_some();
+        let read = read.unwrap_or_default();
+        lighting.lights.extend(read.iter().flat_map(|one| one.lights.iter().cloned()));
         let around = Surroundings {
-            camera: self.reader.table_at(table, "camera"),
+            camera: camera.or_else(|| read.iter().find_map(|one| one.camera.as_ref())),
             material: table.get("material"),
-            lighting: Lighting::load(&mut self.reader, table),
+            lighting,
             framebuffer,
         };
         let mut draws = Vec::new();
-        let mut complete = true;
+        let mut complete = is_complete;
         let nodes = self.draw_tables(table);
         for node in &nodes {
             match load_draw(self, node, &around) {
@@ -188,10 +219,19 @@ impl Loader<'_> {
                 None => complete = false,
             }
         }
+        let n_own = draws.len();
+        self.shared = Some(Default::default());
+        let made: Vec<&Node<'_>> = read.iter().flat_map(|one| &one.draws).collect();
+        for node in &made {
+            match load_draw(self, node, &around) {
+                Some(draw) => draws.push(draw),
+                None => complete = false,
+            }
+        }
         if complete {
             self.warn_unlit(table, &draws);
-            let pairs: Vec<(&Node<'_>, &Draw)> = nodes.iter().copied().zip(&draws).collect();
-            warn_unread(&mut self.reader, table, &pairs, self.library);
+            let pairs: Vec<(&Node<'_>, &Draw)> = nodes.iter().chain(&made).copied().zip(&draws).collect();
+            warn_unread(&mut self.reader, table, (&pairs, n_own), self.library);
         }
         if draws.is_empty() && complete && !self.reader.diagnostics.has_errors() {
             self.warn_empty(table);

@@ -49,6 +49,8 @@ const MAX_SIDE: u32 = 8192;
 const MAX_SAMPLES: u32 = 32;
 /// The largest number of texels of a texture's first level.
 const MAX_TEXELS: u64 = 1 << 25;
+/// The largest number of texels of the first levels of all textures that imported draws have.
+const MAX_SHARED_TEXELS: u64 = 1 << 27;
 
 /// The texture of each sampler slot of the program, in order: the draw's own, or the material's, or, for a sampler of
 /// one of the library's programs (`conventional`), a white one.
@@ -91,7 +93,7 @@ pub(super) fn load_textures(
                 (given.get_mut(index), textures.get_mut(index), kinds.get(index))
             {
                 *flag = true;
-                *slot = load_texture(loader, node, name_text, kind).map(Arc::new);
+                *slot = shared_texture(loader, node, name_text, kind);
             }
         }
     }
@@ -99,7 +101,7 @@ pub(super) fn load_textures(
         let Some(node) = material.and_then(|material| material.get(slot.name.as_str())) else { continue };
         if !*given && TEXTURES.contains(&slot.name.as_str()) {
             *given = true;
-            *texture = load_texture(loader, node, &slot.name, kind).map(Arc::new);
+            *texture = shared_texture(loader, node, &slot.name, kind);
         }
     }
     let mut unset = Vec::new();
@@ -163,6 +165,27 @@ fn unset_texture(kind: SamplerType, level: u8) -> Texture {
         compare: Compare::Lequal,
         sampling: Sampling::default(),
     }
+}
+
+/// A texture, which the draws of a file share: the file, and not the scene, says how often it is there.
+fn shared_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: SamplerType) -> Option<Arc<Texture>> {
+    let key = format!("{kind:?} {node:?}");
+    if let Some(known) = loader.shared.as_ref().and_then(|(known, _)| known.get(&key)) {
+        return known.clone();
+    }
+    let texture = load_texture(loader, node, name, kind).map(Arc::new);
+    let Some((known, n_texels)) = loader.shared.as_mut() else { return texture };
+    let texels = |level: &TextureLevel| u64::from(level.width) * u64::from(level.height) * u64::from(level.depth);
+    *n_texels += texture.as_ref().and_then(|texture| texture.levels.first()).map_or(0, texels);
+    let is_too_much = *n_texels > MAX_SHARED_TEXELS;
+    let texture = texture.filter(|_| !is_too_much);
+    known.insert(key, texture.clone());
+    if is_too_much {
+        let span = loader.reader.span_of(node);
+        let message = format!("the textures of a scene's files have at most {MAX_SHARED_TEXELS} texels together");
+        loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too many");
+    }
+    texture
 }
 
 fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: SamplerType) -> Option<Texture> {

@@ -296,7 +296,7 @@ impl<'p> Values<'p> {
     /// Sets the uniforms `light`, `lights` and `global_ambient` to the scene's lights, as far as the program declares
     /// them.
     fn fill_lights(&mut self, reader: &mut Reader, context: &Context<'_>, place: Span) {
-        let Lighting { lights, global_ambient } = context.lighting;
+        let Lighting { lights, global_ambient, .. } = context.lighting;
         let program = self.program;
         if lights.is_empty() && !context.conventional {
             return;

@@ -32,6 +32,17 @@ const MATERIAL: &[(&str, &str)] = &[
     ("decal", "decal"),
     ("ramp", "ramp"),
     ("highlight", "highlight"),
+    ("metallic_roughness", "metallic_roughness"),
+    ("emission_map", "emission_map"),
+    ("occlusion_map", "occlusion_map"),
+    ("normal_map", "normal_map"),
+    ("dielectric", "finish.dielectric"),
+    ("dielectric", "material.specular"),
+    ("alpha", "finish.alpha"),
+    ("alpha_cutoff", "finish.alpha_cutoff"),
+    ("two_sided", "finish.two_sided"),
+    ("normal_scale", "finish.normal_scale"),
+    ("occlusion_strength", "finish.occlusion_strength"),
 ];
 
 /// Keys of a light, and the values that they set. A color sets two, of which one is enough.
@@ -50,6 +61,8 @@ const LIGHT: &[(&str, &str)] = &[
     ("ground", "light.ambient"),
     ("attenuation", "light.attenuation"),
     ("exponent", "light.exponent"),
+    ("range", "light.range"),
+    ("cone", "light.outer"),
 ];
 
 /// The models that the textbook's programs have by themselves: program, diffuse model, specular model.
@@ -70,11 +83,12 @@ struct Reading<'t, 'i> {
     read: BTreeSet<String>,
 }
 
-/// Warns about the keys of a scene, whose draws are complete, that nothing reads.
+/// Warns about the keys of a scene, whose draws are complete, that nothing reads. The materials of draws after the first `n_own`
+/// are not the scene's own.
 pub(super) fn warn_unread(
     reader: &mut Reader,
     scene: &DeTable<'_>,
-    draws: &[(&Node<'_>, &Draw)],
+    (draws, n_own): (&[(&Node<'_>, &Draw)], usize),
     library: &dyn Library,
 ) {
     let readings: Vec<Reading<'_, '_>> = draws.iter().filter_map(|(node, draw)| reading(node, draw)).collect();
@@ -89,7 +103,7 @@ pub(super) fn warn_unread(
     if let Some(table) = scene.get("material").and_then(|node| node.get_ref().as_table()) {
         warn_table(reader, ("material", table), MATERIAL, &declaring(&shared, "material"), library);
     }
-    for one in &all {
+    for one in all.iter().take(n_own) {
         if let Some(table) = one.table.get("material").and_then(|node| node.get_ref().as_table()) {
             warn_table(reader, ("material", table), MATERIAL, &declaring(&[one], "material"), library);
         }

@@ -1,125 +1,31 @@
-//! The camera and the lights of a portrait.
+//! Writes the camera and the lights of a portrait.
 //!
-//! *In:* a [`Model`]. *Out:* a view from the front, the right and above that just contains every vertex, or the file's own camera; three
-//! lights that go with it: a key, a fill and a rim light. *Holds:* the near and the far plane enclose the model.
+//! *In:* a [`Framing`]. *Out:* tables of a scene. *Holds:* numbers are rounded to what matters for a model of its size.
 
 use super::{number, triple};
-use crate::geometry::{Model, ModelCamera, Projection};
+use crate::geometry::{DOME, Framing, Projection};
 use glam::DVec3;
 use std::fmt::Write;
 
-/// From the model towards the camera: a three-quarter view.
-const TOWARDS_CAMERA: DVec3 = DVec3::new(0.55, 0.42, 1.0);
-/// The vertical angle of the view in degrees.
-const FOVY: f64 = 35.0;
-/// How much of the picture's half the model fills.
-const FILL: f64 = 0.92;
-
-/// The lights: a comment, and where each is: rightwards, upwards, towards the camera; its color.
-static LIGHTS: &[(&str, DVec3, [f64; 3])] = &[
-    ("Key: from above, left of the camera", DVec3::new(-0.55, 0.75, 0.7), [0.95, 0.92, 0.86]),
-    ("Fill: softer, from the right", DVec3::new(0.9, 0.1, 0.6), [0.22, 0.25, 0.3]),
-    ("Rim: from behind", DVec3::new(0.45, 0.7, -0.9), [0.5, 0.5, 0.55]),
-];
-
-/// A camera for a model.
-pub(super) struct Framing {
-    eye: DVec3,
-    target: DVec3,
-    up: DVec3,
-    projection: Projection,
-    near: f64,
-    far: f64,
-    /// The size of what is seen, which says how exact numbers must be.
-    size: f64,
-}
-
-impl Framing {
-    /// The file's camera if it sees the model, otherwise one that frames it. `None` if the model has no extent.
-    pub(super) fn of(model: &Model) -> Option<Self> {
-        let points = || model.parts.iter().flat_map(|part| &part.soup.positions).copied().map(DVec3::from);
-        let low = points().reduce(DVec3::min)?;
-        let high = points().reduce(DVec3::max)?;
-        let size = (high - low).length();
-        if size.is_nan() || size <= 0.0 {
-            return None;
-        }
-        let center = (low + high) / 2.0;
-        let own = model.camera.as_ref().and_then(|camera| Self::of_file(camera, &points().collect::<Vec<_>>(), size));
-        Some(own.unwrap_or_else(|| Self::around(&points().collect::<Vec<_>>(), center, size)))
+/// Writes `[camera]` and the lights.
+pub(super) fn write(framing: &Framing, text: &mut String) {
+    let point = |point: DVec3| triple(point.to_array(), framing.size);
+    let _ = write!(text, "\n[camera]\neye = {}\ntarget = {}\n", point(framing.eye), point(framing.target));
+    if framing.up != DVec3::Y {
+        let _ = writeln!(text, "up = {}", triple(framing.up.to_array(), 1.0));
     }
-
-    fn around(points: &[DVec3], center: DVec3, size: f64) -> Self {
-        let back = TOWARDS_CAMERA.normalize();
-        let right = DVec3::Y.cross(back).normalize();
-        let up = back.cross(right);
-        let extent = |axis: DVec3| {
-            let along = || points.iter().map(|point| (*point - center).dot(axis));
-            (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max))
-        };
-        let middle = |axis: DVec3| {
-            let (low, high) = extent(axis);
-            axis * ((low + high) / 2.0)
-        };
-        let target = center + middle(right) + middle(up);
-        let slope = (FOVY / 2.0).to_radians().tan() * FILL;
-        let distance = |point: &DVec3| {
-            let at = *point - target;
-            at.dot(right).abs().max(at.dot(up).abs()) / slope + at.dot(back)
-        };
-        let distance = points.iter().map(distance).fold(size / 100.0, f64::max);
-        let (low, high) = extent(back);
-        let near = ((distance - high) * 0.9).max(distance * 0.01);
-        let far = ((distance - low) * 1.1).max(near * 2.0);
-        let projection = Projection::Perspective(FOVY);
-        Self { eye: target + back * distance, target, up: DVec3::Y, projection, near, far, size }
-    }
-
-    /// The file's camera, if it has some of the points before it.
-    fn of_file(camera: &ModelCamera, points: &[DVec3], size: f64) -> Option<Self> {
-        let depth = |point: &DVec3| (*point - camera.eye).dot(camera.forward);
-        let slope = |point: &DVec3| (*point - camera.eye).reject_from(camera.forward).length() / depth(point).max(1e-9);
-        let reach = match camera.projection {
-            Projection::Perspective(angle) => (angle / 2.0).to_radians().tan() * 1.42,
-            Projection::Orthographic(_) => f64::INFINITY,
-        };
-        let is_seen = points.iter().any(|point| depth(point) > camera.near && slope(point) < reach);
-        if !is_seen || camera.forward.cross(camera.up).length() < 1e-6 {
-            return None;
-        }
-        let deepest = points.iter().map(depth).fold(camera.near, f64::max);
-        let far = camera.far.unwrap_or(deepest * 1.1).max(camera.near * 2.0);
-        let target = camera.eye + camera.forward * (deepest / 2.0).max(camera.near);
-        let (eye, up, projection, near) = (camera.eye, camera.up, camera.projection, camera.near);
-        Some(Self { eye, target, up, projection, near, far, size: size.min(deepest) })
-    }
-
-    /// Writes `[camera]` and the lights.
-    pub(super) fn write(&self, text: &mut String) {
-        let point = |point: DVec3| triple(point.to_array(), self.size);
-        let _ = write!(text, "\n[camera]\neye = {}\ntarget = {}\n", point(self.eye), point(self.target));
-        if self.up != DVec3::Y {
-            let _ = writeln!(text, "up = {}", triple(self.up.to_array(), 1.0));
-        }
-        let _ = match self.projection {
-            Projection::Perspective(angle) => writeln!(text, "fovy = {}", number(angle, 1.0)),
-            Projection::Orthographic(half) => writeln!(text, "ortho = {}", number(half, half)),
-        };
-        let _ = writeln!(text, "near = {}\nfar = {}", number(self.near, self.near), number(self.far, self.far));
-        let back = (self.eye - self.target).normalize_or(DVec3::Z);
-        let right = self.up.cross(back).normalize_or(DVec3::X);
-        let up = back.cross(right);
-        for (comment, place, color) in LIGHTS {
-            let towards = (right * place.x + up * place.y + back * place.z).normalize();
-            let _ = write!(
-                text,
-                "\n# {comment}.\n[[light]]\nkind = \"directional\"\ntowards = {}\ncolor = {}\n",
-                triple(towards.to_array(), 1.0),
-                triple(*color, 1.0)
-            );
-        }
-        text.push_str(
-            "\n# Sky and ground, which metals mirror.\n[[light]]\nkind = \"hemisphere\"\nsky = [0.16, 0.18, 0.22]\nground = [0.05, 0.047, 0.043]\n",
+    let _ = match framing.projection {
+        Projection::Perspective(angle) => writeln!(text, "fovy = {}", number(angle, 1.0)),
+        Projection::Orthographic(half) => writeln!(text, "ortho = {}", number(half, half)),
+    };
+    let _ = writeln!(text, "near = {}\nfar = {}", number(framing.near, framing.near), number(framing.far, framing.far));
+    for (comment, towards, color) in framing.lights() {
+        let _ = write!(
+            text,
+            "\n# {comment}.\n[[light]]\nkind = \"directional\"\ntowards = {}\ncolor = {}\n",
+            triple(towards.to_array(), 1.0),
+            triple(color, 1.0)
         );
     }
+    let _ = write!(text, "\n# Sky and ground, which metals mirror.\n{DOME}");
 }

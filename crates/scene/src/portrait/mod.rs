@@ -7,8 +7,7 @@ mod camera;
 mod looks;
 
 use crate::files::{FileError, FileSource};
-use crate::geometry::{Model, Normals};
-use camera::Framing;
+use crate::geometry::{Framing, Model, Normals};
 use looks::Shown;
 use std::fmt::Write;
 
@@ -44,7 +43,7 @@ pub fn portrait(path: &str, name: &str, files: &dyn FileSource) -> Result<Portra
     let framing =
         Framing::of(&model).ok_or_else(|| PortraitError::Model("all of its triangles are without area".to_owned()))?;
     let mut text = head(&model, name);
-    framing.write(&mut text);
+    camera::write(&framing, &mut text);
     shown.iter().for_each(|shown| draw(&mut text, name, shown));
     Ok(Portrait { text, remarks })
 }

@@ -96,7 +96,7 @@ impl Analyzer<'_> {
         self.precisions = self.precisions.ended(&precisions);
         self.check_returns(id);
         self.body = None;
-        if self.name(header.name) == "main" && header.params.is_empty() {
+        if self.name(header.name) == "main" && (header.params.is_empty() || !header.is_whole) {
             self.shader.main = Some(id);
         }
         if let Some(function) = self.shader.functions.get_mut(id.index()) {
@@ -132,7 +132,7 @@ impl Analyzer<'_> {
             let rule = if redefines { Feature::BuiltinsHidden } else { Feature::BuiltinOverloads };
             self.require_here(rule, name.span);
         }
-        if function.name == "main" {
+        if function.name == "main" && header.is_whole {
             self.check_main(header, &function);
         }
         let span = name.span;
@@ -140,14 +140,14 @@ impl Analyzer<'_> {
             Some((Entry::Functions(set), _)) => {
                 let params = types_of(&function);
                 let same = self.declared.function(name.symbol, params);
-                if let Some(id) = same {
+                if let Some(id) = same.filter(|_| header.is_whole) {
                     return self.is_same(id, &function).then_some(id);
                 }
                 if self.scopes.functions(set).len() >= MAX_OVERLOADS {
                     self.report_too_many(name);
                     return None;
                 }
-                let id = self.add_function(function, name);
+                let id = self.add_function(function, header);
                 self.scopes.add_overload(set, id);
                 Some(id)
             }
@@ -162,7 +162,7 @@ impl Analyzer<'_> {
                 None
             }
             None => {
-                let id = self.add_function(function, name);
+                let id = self.add_function(function, header);
                 let set = self.scopes.overload_set(id);
                 let entry = if good_name { Entry::Functions(set) } else { Entry::Poison };
                 self.scopes.enter_function(name.symbol, entry, span);
@@ -183,9 +183,13 @@ impl Analyzer<'_> {
         );
     }
 
-    fn add_function(&mut self, function: Function, name: Ident) -> FunctionId {
+    fn add_function(&mut self, function: Function, header: &FunctionHeader) -> FunctionId {
         let id = FunctionId::new(self.shader.functions.len());
-        self.declared.add_function(name.symbol, types_of(&function), id);
+        if header.is_whole {
+            self.declared.add_function(header.name.symbol, types_of(&function), id);
+        } else {
+            self.declared.add_partial(id);
+        }
         self.shader.functions.push(function);
         id
     }

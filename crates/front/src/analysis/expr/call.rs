@@ -129,6 +129,12 @@ impl Analyzer<'_> {
     fn user_call(&mut self, name: Ident, set: OverloadSet, arguments: Vec<ExprId>, span: Span) -> ExprId {
         let given: Signature = arguments.iter().map(|&argument| self.ty(argument)).collect();
         let exact = self.declared.function(name.symbol, given.clone());
+        if exact.is_none()
+            && let Some(function) = self.unclear(set)
+        {
+            self.note(name.span, Denoted::Function(function), NoteRole::Uses);
+            return self.poison(span);
+        }
         let found = exact.or_else(|| self.by_conversion(name, set, &given));
         let Some(function) = found else { return self.poison(span) };
         self.note(name.span, Denoted::Function(function), NoteRole::Uses);
@@ -139,6 +145,13 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         self.push(ExprKind::Call(function, arguments), ret, span)
+    }
+
+    /// An overload whose header has an error, so that nothing can be said about the arguments that it takes.
+    fn unclear(&self, set: OverloadSet) -> Option<FunctionId> {
+        let has_error = |id: FunctionId| self.shader.function(id).param_types().any(|(ty, _)| ty.is_error());
+        let mut overloads = self.scopes.functions(set).iter().copied();
+        overloads.find(|&id| self.declared.is_partial(id) || has_error(id))
     }
 
     /// The overload that takes the arguments after implicit conversions, if there is exactly one.

@@ -147,6 +147,10 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
             return;
         }
+        if self.body.as_ref().is_some_and(|body| self.declared.is_partial(body.function)) {
+            // It may be a parameter that could not be read.
+            return;
+        }
         let help = super::foreign::variable(spelling).map(Advice::from);
         let help = help.or_else(|| self.nearest_variable(spelling).map(Advice::meant));
         let help = help.or_else(|| self.missing_macro(spelling).map(Advice::from));

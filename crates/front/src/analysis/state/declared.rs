@@ -18,6 +18,8 @@ pub(in crate::analysis) struct Declared {
     functions: FxHashMap<(Symbol, Signature), FunctionId>,
     /// The functions that have a prototype.
     prototypes: FxHashSet<FunctionId>,
+    /// The functions whose parameters could not all be read.
+    partial: FxHashSet<FunctionId>,
     /// The names of all blocks, which have no other meaning at global scope (§4.3.7).
     blocks: FxHashMap<Symbol, Span>,
     /// The names of blocks by the interface that they are part of.
@@ -52,6 +54,16 @@ impl Declared {
     /// Enters a function.
     pub(in crate::analysis) fn add_function(&mut self, name: Symbol, parameters: Signature, id: FunctionId) {
         self.functions.insert((name, parameters), id);
+    }
+
+    /// Notes that the parameters of a function are not all known.
+    pub(in crate::analysis) fn add_partial(&mut self, id: FunctionId) {
+        self.partial.insert(id);
+    }
+
+    /// Whether the parameters of a function are not all known.
+    pub(in crate::analysis) fn is_partial(&self, id: FunctionId) -> bool {
+        self.partial.contains(&id)
     }
 
     /// Notes a prototype of a function. Returns whether it is the first.

@@ -311,21 +311,27 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     ) -> Parse<FunctionHeader> {
         let opening: Token = self.bump();
         self.in_parameters = true;
-        let params = self.parameters();
+        let mut params = Vec::new();
+        let read = self.parameters(&mut params);
         // Before a body, a forgotten `)` is reported and assumed.
         let body_follows = self.kind() == TokenKind::LeftBrace;
         let closed =
-            if params.is_ok() { self.close(opening, TokenKind::RightParen, "`,` or `)`").map(|_| ()) } else { Ok(()) };
+            if read.is_ok() { self.close(opening, TokenKind::RightParen, "`,` or `)`").map(|_| ()) } else { Ok(()) };
+        let is_whole = read.is_ok() && closed.is_ok();
+        let is_understood = is_whole || body_follows || self.body_follows_later();
         self.in_parameters = false;
-        let params = params?;
-        if !body_follows {
-            closed?;
+        if !is_understood {
+            return Err(Reported);
         }
-        Ok(FunctionHeader { qualifiers, ty, name, params, span: self.since(start) })
+        Ok(FunctionHeader { qualifiers, ty, name, params, is_whole, span: self.since(start) })
     }
 
-    fn parameters(&mut self) -> Parse<Vec<ParamDecl>> {
-        let mut params = Vec::new();
+    /// Skips the rest of a broken parameter list. Returns whether a body follows it: then the name and the body are understood.
+    fn body_follows_later(&mut self) -> bool {
+        self.recover_header() && self.kind() == TokenKind::LeftBrace
+    }
+
+    fn parameters(&mut self, params: &mut Vec<ParamDecl>) -> Parse<()> {
         if self.kind() == TokenKind::Void && self.ahead(1).kind == TokenKind::RightParen {
             self.bump();
         }
@@ -335,7 +341,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 params.push(self.parameter()?);
             }
         }
-        Ok(params)
+        Ok(())
     }
 
     /// Reads the comma before another parameter. A missing comma before the start of a parameter is reported and

@@ -55,7 +55,7 @@ fn exponent(roughness: f64) -> f64 {
     (2.0 / roughness.max(0.1).powi(4) - 2.0).clamp(1.0, 512.0)
 }
 
-fn source(root: &Root, info: &Info, name: &str, remarks: &mut Vec<String>) -> Option<TextureSource> {
+pub(super) fn source(root: &Root, info: &Info, name: &str, remarks: &mut Vec<String>) -> Option<TextureSource> {
     let texture = root.get(info.index)?;
     let Some(image) = root.get(texture.source) else {
         remarks.push(format!("the texture of `{name}` is in a format that is not read (KTX or WebP): it is left out"));

@@ -6,17 +6,24 @@
 
 mod accessor;
 mod buffers;
+mod contents;
+mod lamps;
 mod looks;
 mod nodes;
+mod numbers;
 mod primitives;
+mod surface;
 
 use super::model::{Model, ModelCamera, Projection};
 use crate::files::FileSource;
 use buffers::Buffers;
+pub(crate) use contents::{Contents, contents, is_gltf};
 use glam::DMat4;
 use gltf::json::{Index, Root, camera::Camera};
+pub(crate) use lamps::{Lamp, LampKind};
 use nodes::Nodes;
 use primitives::Builder;
+pub(crate) use surface::{Covering, Map, Surface};
 
 /// Extensions that a file may require: they do not change where its triangles are.
 static HARMLESS: &[&str] = &[

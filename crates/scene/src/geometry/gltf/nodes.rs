@@ -6,6 +6,7 @@
 use glam::{DMat4, DQuat, DVec3, Mat4};
 use gltf::json::Root;
 use gltf::json::scene::Node;
+use std::collections::BTreeSet;
 
 /// The nodes of a scene.
 pub(super) struct Nodes {
@@ -18,14 +19,12 @@ impl Nodes {
     /// The nodes of the default scene, or of the first one; without scenes, all.
     pub(super) fn of(root: &Root) -> Result<Self, String> {
         let scene = root.scene.map_or(0, |scene| scene.value());
-        let is_child = |node: usize| {
-            let mut children = root.nodes.iter().flat_map(|node| node.children.iter().flatten());
-            children.any(|child| child.value() == node)
-        };
+        let children = root.nodes.iter().flat_map(|node| node.children.iter().flatten());
+        let children: BTreeSet<usize> = children.map(|child| child.value()).collect();
         let starts: Vec<usize> = match root.scenes.get(scene) {
             Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
             None if !root.scenes.is_empty() => return Err(format!("there is no scene {scene}")),
-            None => (0..root.nodes.len()).filter(|node| !is_child(*node)).collect(),
+            None => (0..root.nodes.len()).filter(|node| !children.contains(node)).collect(),
         };
         let mut nodes = Self { order: Vec::new(), worlds: vec![DMat4::IDENTITY; root.nodes.len()] };
         let mut visited = vec![false; root.nodes.len()];

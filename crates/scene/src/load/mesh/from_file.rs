@@ -73,7 +73,7 @@ pub(super) fn load(loader: &mut Loader<'_>, table: &DeTable<'_>, node: &Node<'_>
 /// The number of a material by its name, or by its place in the file, from 0.
 fn find_look(loader: &mut Loader<'_>, node: &Node<'_>, path: &str, model: &Model) -> Option<usize> {
     let span = loader.reader.span_of(node);
-    let used: Vec<usize> = (0..model.looks.len()).filter(|look| model.uses(*look)).collect();
+    let used = model.used();
     if let Some(name) = node.get_ref().as_str() {
         let named = |look: &&usize| model.looks.get(**look).is_some_and(|known| known.name == name);
         if let Some(look) = used.iter().find(named) {
@@ -105,7 +105,7 @@ fn find_look(loader: &mut Loader<'_>, node: &Node<'_>, path: &str, model: &Model
 
 impl Loader<'_> {
     /// The meshes of a file that the scene names at `span`, and its path.
-    fn model(&mut self, name: &str, span: Span) -> Option<(String, Arc<Model>)> {
+    pub(in super::super) fn model(&mut self, name: &str, span: Span) -> Option<(String, Arc<Model>)> {
         let path = crate::files::relative_to(self.path, name);
         if let Some(known) = self.models.get(&path) {
             return Some((path, Arc::clone(known.as_ref()?)));

@@ -1,0 +1,173 @@
+//! Writes what a glTF file has as tables of a scene.
+//!
+//! *In:* its camera, lights and materials. *Out:* TOML. *Holds:* every number is written so that it reads as itself.
+
+use crate::files::relative_to;
+use crate::geometry::{Covering, DOME, Framing, Lamp, LampKind, Map, ModelCamera, Projection, Surface, TextureSource};
+use glam::{DMat4, DVec3};
+use std::fmt::Write;
+
+/// The factor of lengths of a transform.
+fn scale_of(transform: DMat4) -> f64 {
+    transform.determinant().abs().cbrt()
+}
+
+/// `[camera]` for a camera of the file; one without a far plane sees all points.
+pub(super) fn camera(text: &mut String, camera: &ModelCamera, transform: DMat4, points: &[DVec3]) {
+    let scale = scale_of(transform);
+    let eye = transform.transform_point3(camera.eye);
+    let forward = transform.transform_vector3(camera.forward).normalize_or(camera.forward);
+    let up = transform.transform_vector3(camera.up).normalize_or(camera.up);
+    let near = camera.near * scale;
+    let deepest = points.iter().map(|point| (*point - eye).dot(forward)).fold(near, f64::max);
+    let far = camera.far.map_or((deepest * 1.1).max(near * 2.0), |far| far * scale);
+    let projection = match camera.projection {
+        Projection::Orthographic(half) => Projection::Orthographic(half * scale),
+        other => other,
+    };
+    view(text, [eye, eye + forward * deepest.max(near), up], projection, [near, far]);
+}
+
+/// `[camera]` for a camera that frames the file.
+pub(super) fn framing(text: &mut String, framing: &Framing) {
+    view(text, [framing.eye, framing.target, framing.up], framing.projection, [framing.near, framing.far]);
+}
+
+fn view(text: &mut String, [eye, target, up]: [DVec3; 3], projection: Projection, [near, far]: [f64; 2]) {
+    let _ = writeln!(
+        text,
+        "[camera]\neye = {}\ntarget = {}\nup = {}\nnear = {near:?}\nfar = {far:?}",
+        triple(eye.to_array()),
+        triple(target.to_array()),
+        triple(up.to_array())
+    );
+    let _ = match projection {
+        Projection::Perspective(angle) => writeln!(text, "fovy = {angle:?}"),
+        Projection::Orthographic(half) => writeln!(text, "ortho = {half:?}"),
+    };
+}
+
+/// The lights of a model that nothing lights.
+pub(super) fn portrait_lights(text: &mut String, framing: &Framing) {
+    for (_, towards, color) in framing.lights() {
+        let _ = writeln!(
+            text,
+            "[[light]]\nkind = \"directional\"\ntowards = {}\ncolor = {}",
+            triple(towards.to_array()),
+            triple(color)
+        );
+    }
+    text.push_str(DOME);
+}
+
+/// `[[light]]` for a light of the file. With the lengths, the light grows so that it is as bright on what it lights.
+pub(super) fn lamp(text: &mut String, lamp: &Lamp, transform: DMat4) {
+    let scale = scale_of(transform);
+    let position = triple(transform.transform_point3(lamp.position).to_array());
+    let direction = transform.transform_vector3(lamp.direction).normalize_or(lamp.direction);
+    let (kind, range) = match lamp.kind {
+        LampKind::Directional => {
+            let (towards, color) = (triple((-direction).to_array()), triple(lamp.color));
+            let _ = writeln!(text, "[[light]]\nkind = \"directional\"\ntowards = {towards}\ncolor = {color}");
+            return;
+        }
+        LampKind::Point(range) => ("point", range),
+        LampKind::Spot(range, _) => ("spot", range),
+    };
+    let color = triple(lamp.color.map(|channel| channel * scale * scale));
+    let _ = writeln!(text, "[[light]]\nkind = \"{kind}\"\nposition = {position}\ncolor = {color}");
+    let _ = match range {
+        Some(range) => writeln!(text, "range = {:?}", range * scale),
+        None => writeln!(text, "attenuation = [0.0, 0.0, 1.0]"),
+    };
+    if let LampKind::Spot(_, [inner, outer]) = lamp.kind {
+        let _ = writeln!(text, "direction = {}\ncone = [{inner:?}, {outer:?}]", triple(direction.to_array()));
+    }
+}
+
+/// Whether a surface shows what is behind it.
+pub(super) fn is_blended(surface: &Surface) -> bool {
+    surface.covering == Covering::Blend
+}
+
+/// `[[draw]]` for the triangles of a material.
+pub(super) fn draw(text: &mut String, file: &str, look: usize, surface: &Surface, is_colored: bool) {
+    let cull = if surface.is_two_sided { "none" } else { "back" };
+    let _ = writeln!(
+        text,
+        "[[draw]]\nprogram = \"standard\"\ndepth_test = true\ncull = \"{cull}\"\n\
+         mesh = {{ file = {}, material = {look} }}",
+        quoted(file)
+    );
+    if is_blended(surface) {
+        text.push_str("blend = \"alpha\"\ndepth_write = false\n");
+    }
+    let _ = writeln!(text, "[draw.material]\ntwo_sided = {}", surface.is_two_sided);
+    let color = triple(surface.base_color);
+    let _ = if surface.is_unlit {
+        writeln!(
+            text,
+            "diffuse_model = \"none\"\nspecular_model = \"none\"\ndiffuse = [0.0, 0.0, 0.0]\n\
+             specular = [0.0, 0.0, 0.0]\nemission = {color}"
+        )
+    } else {
+        writeln!(
+            text,
+            "base_color = {color}\nmetallic = {:?}\nroughness = {:?}\ndielectric = {}\nemission = {}",
+            surface.metallic,
+            surface.roughness,
+            triple(surface.dielectric),
+            triple(surface.emission)
+        )
+    };
+    let [clearcoat, coat_roughness] = surface.clearcoat;
+    if clearcoat > 0.0 && !surface.is_unlit {
+        let _ = writeln!(text, "clearcoat = {clearcoat:?}\nclearcoat_roughness = {coat_roughness:?}");
+    }
+    let _ = match surface.covering {
+        Covering::Opaque => Ok(()),
+        Covering::Mask(cutoff) => writeln!(text, "alpha = {:?}\nalpha_cutoff = {cutoff:?}", surface.alpha),
+        Covering::Blend => writeln!(text, "alpha = {:?}", surface.alpha),
+    };
+    if is_colored {
+        text.push_str("vertex_colors = true\n");
+    }
+    let maps = &surface.maps;
+    map(text, file, "decal", maps.base_color.as_ref(), "srgb");
+    if surface.is_unlit {
+        map(text, file, "emission_map", maps.base_color.as_ref(), "srgb");
+        return;
+    }
+    map(text, file, "emission_map", maps.emission.as_ref(), "srgb");
+    map(text, file, "metallic_roughness", maps.metallic_roughness.as_ref(), "linear");
+    if maps.occlusion.is_some() {
+        let _ = writeln!(text, "occlusion_strength = {:?}", surface.occlusion_strength);
+        map(text, file, "occlusion_map", maps.occlusion.as_ref(), "linear");
+    }
+    if maps.normal.is_some() {
+        let _ = writeln!(text, "normal_scale = {:?}", surface.normal_scale);
+        map(text, file, "normal_map", maps.normal.as_ref(), "linear");
+    }
+}
+
+/// A texture of a material, in a file next to the glTF file or in it.
+fn map(text: &mut String, file: &str, key: &str, map: Option<&Map>, decode: &str) {
+    let Some(Map { source, wrap, is_nearest }) = map else { return };
+    let (name, image) = match source {
+        TextureSource::File(name) => (relative_to(file, name), String::new()),
+        TextureSource::Embedded(number) => (file.to_owned(), format!(", image = {number}")),
+    };
+    let filter = if *is_nearest { "filter = \"nearest\"" } else { "filter = \"trilinear\", mipmaps = true" };
+    let name = quoted(&name);
+    let _ = writeln!(text, "{key} = {{ file = {name}{image}, decode = \"{decode}\", wrap = \"{wrap}\", {filter} }}");
+}
+
+fn triple(values: [f64; 3]) -> String {
+    let [x, y, z] = values.map(|value| value + 0.0);
+    format!("[{x:?}, {y:?}, {z:?}]")
+}
+
+/// A string of TOML.
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
