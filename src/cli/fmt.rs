@@ -13,20 +13,15 @@ use super::search;
 use super::strings;
 use super::texts::{Text, diff};
 use crate::embedded::{self, Host};
-use crate::format::{Formatted, Options, format};
+use crate::format::{self, Formatted, Options};
 use crate::sources::stages;
 use clap::Args;
 use glisten_front::Stage;
-use glisten_front::compiler::{self, Compiler, Source};
 use glisten_front::diagnostic::{Levels, write};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::Read;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// The codes of the grammar.
-const SYNTAX: &str = "E02";
 
 /// Format shaders and includes
 #[derive(Args, Debug)]
@@ -213,48 +208,9 @@ fn any_formatted(text: &str, path: &Path, options: &Options) -> Formatted {
     Formatted { text, lines, kept }
 }
 
-/// How often a text with errors is formatted until it stays the same.
-const MOST_PASSES: usize = 6;
-
-/// A text in the style of the options. Formatting the result changes nothing: which places of a wrong text do not parse depends on its
-/// lines, so it is formatted until it stays the same, and kept if it never does.
+/// A text in the style of the options.
 pub(super) fn formatted(text: &str, path: &Path, options: &Options) -> Formatted {
-    let pass = |text: &str| {
-        let broken = guard::guarded(|| broken(text, path)).unwrap_or_default();
-        (format(text, &broken, options), !broken.is_empty())
-    };
-    let (mut done, is_broken) = pass(text);
-    if !is_broken {
-        return done;
-    }
-    let lines = done.lines;
-    for _ in 0..MOST_PASSES {
-        let (again, _) = pass(&done.text);
-        if again.text == done.text {
-            return Formatted { lines, ..again };
-        }
-        done = again;
-    }
-    Formatted { text: text.to_owned(), lines, kept: lines }
-}
-
-/// The places that do not parse, of a source that says its version. Without its includes, or without a version, a text cannot be
-/// judged.
-fn broken(text: &str, path: &Path) -> Vec<Range<usize>> {
-    let includes = ["#include", "import", "include"];
-    let directives = || text.lines().filter(|line| line.trim_start().starts_with('#'));
-    let is_whole = directives().any(|line| line.contains("version"))
-        && !directives().any(|line| includes.iter().any(|word| line.contains(word)));
-    if !is_whole {
-        return Vec::new();
-    }
     let stage = stages::by_name(path).unwrap_or(Stage::Fragment);
-    let source = Source { name: "source".into(), text: text.into(), stage };
-    let compilation = Compiler::new(compiler::Options::default()).compile(&[source]);
-    let base = compilation.sources.files().next().map_or(0, |(_, file)| file.base() as usize);
-    let in_text = |range: Range<usize>| {
-        (range.start >= base && range.end <= base + text.len()).then(|| range.start - base..range.end - base)
-    };
-    let errors = compilation.diagnostics.iter().filter(|one| one.is_error() && one.code.id.starts_with(SYNTAX));
-    errors.filter_map(|one| in_text(one.primary.span.start as usize..one.primary.span.end as usize)).collect()
+    let formatted = guard::guarded(|| format::formatted(text, stage, options));
+    formatted.unwrap_or_else(|_| format::format(text, &[], options))
 }

@@ -12,11 +12,13 @@
 //! at the `#if`, so that it may open or close brackets. Nothing is expanded, so that a source needs no includes.
 
 mod branches;
+mod broken;
 mod chunks;
 mod layout;
 pub(crate) mod scan;
 mod state;
 
+pub use broken::formatted;
 use scan::{Kind, scan};
 use std::ops::Range;
 

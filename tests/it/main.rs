@@ -180,6 +180,8 @@ mod vulkan;
 mod vulkan_trees;
 #[cfg(feature = "cli")]
 mod watch;
+#[cfg(feature = "cli")]
+mod web;
 mod wgsl;
 #[cfg(feature = "reference")]
 mod widths;

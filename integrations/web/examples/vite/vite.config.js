@@ -1,0 +1,3 @@
+import glisten from "glisten/vite";
+
+export default { plugins: [glisten()] };

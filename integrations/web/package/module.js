@@ -1,0 +1,66 @@
+// A WebAssembly module of glisten: requests and replies are a JSON text and bytes.
+
+/** What a shader, a scene or an argument has wrong. */
+export class GlistenError extends Error {
+  constructor(message, kind, diagnostics = []) {
+    super(message);
+    this.name = "GlistenError";
+    this.kind = kind;
+    this.diagnostics = diagnostics;
+  }
+}
+
+/** Calls of one module. A trap ends its instance, and the next call gets a new one. */
+export class Module {
+  constructor(compiled) {
+    this.compiled = compiled;
+    this.instance = null;
+  }
+
+  call(request, blob = new Uint8Array()) {
+    this.instance ??= new WebAssembly.Instance(this.compiled, {});
+    const { glisten_reserve, glisten_call, glisten_reply, glisten_fault, memory } = this.instance.exports;
+    const read = (length) => new Uint8Array(memory.buffer, glisten_reply() >>> 0, length >>> 0).slice();
+    const text = new TextEncoder().encode(JSON.stringify(request));
+    let reply;
+    try {
+      const at = glisten_reserve(4 + text.length + blob.length) >>> 0;
+      new DataView(memory.buffer).setUint32(at, text.length, true);
+      new Uint8Array(memory.buffer).set(text, at + 4);
+      new Uint8Array(memory.buffer).set(blob, at + 4 + text.length);
+      reply = read(glisten_call());
+    } catch (trap) {
+      this.instance = null;
+      let why = "";
+      try {
+        why = new TextDecoder().decode(read(glisten_fault()));
+      } catch {
+        // The instance cannot say.
+      }
+      throw new GlistenError(`internal error: ${why || trap.message}; please report it with the input`, "internal");
+    }
+    const length = new DataView(reply.buffer).getUint32(0, true);
+    const object = JSON.parse(new TextDecoder().decode(reply.subarray(4, 4 + length)));
+    if (object.error) throw new GlistenError(object.error.message, object.error.kind);
+    object.bytes = ([offset, count]) => reply.slice(4 + length + offset, 4 + length + offset + count);
+    return object;
+  }
+
+  /** Calls, and asks `include` for what is missing until nothing is. */
+  asked(request, include, blob) {
+    if (typeof include !== "function") return this.call(request, blob);
+    const answers = [];
+    for (;;) {
+      const reply = this.call({ ...request, asks: true, answers }, blob);
+      if (!reply.wanted) return reply;
+      const known = new Set(answers.map(key));
+      for (const one of reply.wanted) {
+        if (known.has(key(one))) continue;
+        known.add(key(one));
+        answers.push({ ...one, text: include(one.path, one.angled, one.from) ?? null });
+      }
+    }
+  }
+}
+
+const key = ({ path, angled, from }) => JSON.stringify([path, angled, from]);

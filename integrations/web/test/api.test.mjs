@@ -1,0 +1,86 @@
+// Each function of the package, and what it says of wrong input.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { compiler, reference } from "./package.mjs";
+
+const VERTEX = "#version 150\nin vec2 p;\nout vec2 at;\nvoid main() { at = p; gl_Position = vec4(p, 0.0, 1.0); }\n";
+const FRAGMENT = "#version 150\nuniform vec4 tint;\nin vec2 at;\nout vec4 color;\nvoid main() { color = tint * vec4(at, 0.0, 1.0); }\n";
+const program = { "a.vert": VERTEX, "a.frag": FRAGMENT };
+
+test("compile gives the code of each stage and the reflection", () => {
+  const { stages, reflection, diagnostics } = compiler.compile(program, { target: ["wgsl", "spirv", "glsl"] });
+  assert.deepEqual(Object.keys(stages).sort(), ["fragment", "vertex"]);
+  assert.match(stages.vertex.wgsl, /@vertex/);
+  assert.match(stages.fragment.glsl, /^#version 300 es/);
+  assert.deepEqual([...stages.fragment.spirv.slice(0, 4)], [3, 2, 0x23, 7]);
+  assert.equal(reflection.uniforms[0].name, "tint");
+  assert.deepEqual(diagnostics, []);
+  assert.equal(compiler.reflect(program).attributes[0].name, "p");
+});
+
+test("errors are thrown with their places", () => {
+  const wrong = { "a.frag": "#version 150\nout vec4 c;\nvoid main() { c = mixx(c); }\n" };
+  assert.throws(() => compiler.compile(wrong), (error) => {
+    assert.ok(error instanceof compiler.GlistenError);
+    const [{ code, line, help }] = error.diagnostics;
+    assert.deepEqual([error.kind, code, line, help], ["content", "E0304", 3, "did you mean `mix`?"]);
+    return true;
+  });
+  assert.throws(() => compiler.compile({ "a.txt": "" }), { kind: "argument" });
+  assert.throws(() => compiler.compile(program, { target: "cobol" }), { kind: "argument" });
+});
+
+test("lint finds, and fix mends", () => {
+  const old = { "a.frag": "#version 150\nout vec4 c;\nin vec2 uv;\nuniform sampler2D t;\nvoid main() { c = texture2D(t, uv); }\n" };
+  const found = compiler.lint(old);
+  assert.ok(found.diagnostics.some((one) => one.fixes.length > 0), found.text);
+  const { texts, applied } = compiler.fix(old);
+  assert.ok(applied > 0);
+  assert.match(texts["a.frag"], /texture\(t, uv\)/);
+  assert.equal(compiler.fix(texts).applied, 0);
+});
+
+test("includes come from a map, from a function and from the library", () => {
+  const source = (path) => ({ "a.frag": `#version 150\n#include ${path}\nout vec4 c;\nvoid main() { c = vec4(f()); }\n` });
+  const text = "float f() { return 0.5; }\n";
+  const wgsl = (options) => compiler.compile(source('"lib/f.glsl"'), options).stages.fragment.wgsl;
+  assert.equal(wgsl({ includes: { "lib/f.glsl": text } }), wgsl({ includes: () => text }));
+  assert.throws(() => wgsl({ includes: () => null }), { kind: "content" });
+  const lit = "#version 150\n#include <glisten/lambert.glsl>\nout vec4 c;\nvoid main() { c = vec4(lambertFactor(vec3(0, 0, 1), vec3(0, 0, 1))); }\n";
+  assert.match(compiler.compile({ "a.frag": lit }).stages.fragment.wgsl, /lambertFactor/);
+});
+
+test("upgrade and format rewrite texts", () => {
+  const old = { "a.frag": "#version 120\nvarying vec2 u;\nvoid main() { gl_FragColor = vec4(u, 0.0, 1.0); }\n" };
+  assert.match(compiler.upgrade(old, "330").texts["a.frag"], /#version 330 core[^]*in vec2 u;/);
+  assert.equal(compiler.format("void main(){int x;}\n", { indent: 2 }), "void main() { int x; }\n");
+  assert.throws(() => compiler.format("", { width: 1 }), { kind: "argument" });
+});
+
+test("hostile input is an error, and the next call works", () => {
+  const deep = `#version 150\nvoid main() { float x = ${"(".repeat(200_000)}1.0; }\n`;
+  const long = `#version 150\nvoid main() {\n${"float x;\n".repeat(100_000)}}\n`;
+  for (const text of [deep, long, "\0\ud800", "#version 150\n#define f(x) f(f(x)) f(f(x))\nf(f(f(f(f(f(f(f(1))))))))\n", "\xff\xfe"]) {
+    assert.throws(() => compiler.compile({ "a.frag": text }), compiler.GlistenError);
+    assert.match(compiler.compile(program).stages.vertex.wgsl, /@vertex/);
+  }
+});
+
+const scene = "[framebuffer]\nwidth = 8\nheight = 4\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nprimitive = \"triangle_strip\"\n" +
+  "[draw.attributes]\np = { size = 2, values = [-1, -1, 1, -1, -1, 1, 1, 1] }\n[draw.uniforms]\ntint = [1, 0.5, 0, 1]\n";
+
+test("render draws what ImageData takes", () => {
+  const picture = reference.render("a.toml", { "a.toml": scene, ...program });
+  assert.deepEqual([picture.width, picture.height, picture.data.constructor, picture.data.length], [8, 4, Uint8ClampedArray, 128]);
+  assert.ok(picture.covered.every((covered) => covered === 1));
+  // The pixel at the right edge in the middle: at.x is 0.875.
+  assert.equal(picture.data[4 * (8 + 7)], Math.round(0.875 * 255));
+  assert.throws(() => reference.render("b.toml", { "a.toml": scene }), reference.GlistenError);
+});
+
+test("a loop without an end is an error, and the next picture is drawn", () => {
+  const endless = FRAGMENT.replace("{ color", "{ while (at.x < 9.0) ; color");
+  assert.throws(() => reference.render("a.toml", { "a.toml": scene, "a.vert": VERTEX, "a.frag": endless }), reference.GlistenError);
+  assert.equal(reference.render("a.toml", { "a.toml": scene, ...program }).width, 8);
+});

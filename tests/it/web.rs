@@ -1,0 +1,25 @@
+//! The npm package, where it has been built: its own tests, which compare it with this program.
+
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn the_package_gives_what_the_program_gives() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let package = root.join("target/web/package/reference.wasm");
+    let runs_node = Command::new("node").arg("--version").output().is_ok_and(|node| node.status.success());
+    if !package.is_file() || !runs_node {
+        let message = "\nthe npm package is not tried: `integrations/web/make` builds it; it needs Node";
+        eprintln!("{message}");
+        return;
+    }
+    let tests = ["api", "native"].map(|name| root.join(format!("integrations/web/test/{name}.test.mjs")));
+    let ran = Command::new("node")
+        .arg("--test")
+        .args(tests)
+        .env("GLISTEN", env!("CARGO_BIN_EXE_glisten"))
+        .env("GLISTEN_WEB", root.join("target/web/package"))
+        .output()
+        .expect("node runs");
+    assert!(ran.status.success(), "{}\n{}", String::from_utf8_lossy(&ran.stdout), String::from_utf8_lossy(&ran.stderr));
+}
