@@ -65,7 +65,8 @@ impl Asked {
     /// What the host is to be asked for; none if the call had everything.
     pub(crate) fn wanted(&self) -> Option<Value> {
         let wanted = self.wanted.lock().unwrap_or_else(PoisonError::into_inner);
-        let one = |(path, angled, from): &(String, bool, String)| json!({ "path": path, "angled": angled, "from": from });
+        let one =
+            |(path, angled, from): &(String, bool, String)| json!({ "path": path, "angled": angled, "from": from });
         (!wanted.is_empty()).then(|| wanted.iter().map(one).collect())
     }
 }

@@ -24,7 +24,8 @@ pub(crate) fn upgrade(request: &Request) -> Result<Reply, Error> {
 
 /// Answers `format`.
 pub(crate) fn format(request: &Request) -> Result<Reply, Error> {
-    let (style, mut options) = (&request.style, Options { braces_below: request.style.braces_below, ..Options::default() });
+    let (style, mut options) =
+        (&request.style, Options { braces_below: request.style.braces_below, ..Options::default() });
     if let Some(indent) = style.indent {
         if indent > MAX_INDENT {
             return Err(Error::argument(format!("{indent} is no indentation: it is 0 (tabs) to {MAX_INDENT}")));
