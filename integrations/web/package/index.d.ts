@@ -10,8 +10,15 @@ export interface Source {
 }
 /** Sources in order, or texts by their names. */
 export type Sources = readonly Source[] | Readonly<Record<string, string>> | ReadonlyMap<string, string>;
-/** The text of an included file; nothing where the library is to be asked. */
-export type Include = (path: string, angled: boolean, from: string) => string | null | undefined;
+/**
+ * The text of an included file, with a name that tells it from others of the same path: the name is `from` for what the file
+ * includes, and is in diagnostics. Without a name, it is the path. Nothing where the library is to be asked.
+ */
+export type Include = (
+  path: string,
+  angled: boolean,
+  from: string,
+) => string | { name: string; text: string } | null | undefined;
 
 /** Options of all calls that compile. */
 export interface Options {

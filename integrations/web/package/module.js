@@ -57,7 +57,8 @@ export class Module {
       for (const one of reply.wanted) {
         if (known.has(key(one))) continue;
         known.add(key(one));
-        answers.push({ ...one, text: include(one.path, one.angled, one.from) ?? null });
+        const found = include(one.path, one.angled, one.from) ?? null;
+        answers.push({ ...one, ...(typeof found === "string" || found === null ? { text: found } : found) });
       }
     }
   }

@@ -13,12 +13,11 @@ const FRAGMENT = ["frag", "fs", "fsh"];
 
 /** The files of the program of a file. */
 function filesOf(file) {
-  const [, stem, extension] = /^(.*)\.([a-z]+)$/.exec(file.replace(/\.glsl$/, "")) ?? [];
-  const tail = file.endsWith(".glsl") ? ".glsl" : "";
+  const [, stem, extension, tail] = /^(.*?)\.([a-z]+)(\.glsl)?$/.exec(file) ?? [];
   const others = VERTEX.includes(extension) ? FRAGMENT : FRAGMENT.includes(extension) ? VERTEX : [];
-  const other = others.map((one) => `${stem}.${one}${tail}`).find(existsSync);
-  const files = other ? [file, other] : [file];
-  return VERTEX.includes(extension) ? files : files.reverse();
+  const other = others.map((one) => `${stem}.${one}${tail ?? ""}`).find(existsSync);
+  if (!other) return [file];
+  return VERTEX.includes(extension) ? [file, other] : [other, file];
 }
 
 export default function glisten(given = {}) {
@@ -40,15 +39,11 @@ export default function glisten(given = {}) {
         this.addWatchFile(name);
         return { name, text: readFileSync(name, "utf8") };
       });
-      // Diagnostics and later includes name files by the path that was asked for, so it is kept with where it was found.
-      const places = new Map();
       const includes = (path, angled, from) => {
-        const near = angled ? [] : [dirname(places.get(from) ?? from)];
-        const found = [...near, ...folders].map((folder) => join(folder, path)).find(existsSync);
+        const found = [...(angled ? [] : [dirname(from)]), ...folders].map((folder) => join(folder, path)).find(existsSync);
         if (!found) return null;
-        places.set(path, found);
         this.addWatchFile(found);
-        return readFileSync(found, "utf8");
+        return { name: found, text: readFileSync(found, "utf8") };
       };
       let program;
       try {

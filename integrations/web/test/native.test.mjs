@@ -8,13 +8,15 @@ import { compiler, files, native, programs, reference, root } from "./package.mj
 
 test("the WGSL of all programs of the fixtures is the same", () => {
   let compared = 0;
-  for (const folder of ["fixtures/programs", "fixtures/lower"]) {
+  for (const folder of ["fixtures/programs", "fixtures/lower", "fixtures/valid"]) {
+    const texts = Object.entries(files(folder)).filter(([name]) => name.endsWith(".glsl"));
+    const includes = Object.fromEntries(texts.map(([name, bytes]) => [name, bytes.toString()]));
     for (const [stem, sources] of programs(folder)) {
       const read = (out) => Object.fromEntries(readdirSync(out).map((name) => [name, readFileSync(join(out, name))]));
       const told = native(["compile", ...sources.map(({ name }) => name), "--target", "wgsl", "--target", "spirv", "-o", "OUT"], read);
       let own = null;
       try {
-        own = compiler.compile(sources.map(({ name, text }) => ({ name, text })), { target: ["wgsl", "spirv"] });
+        own = compiler.compile(sources.map(({ name, text }) => ({ name, text })), { target: ["wgsl", "spirv"], includes });
       } catch (error) {
         assert.ok(error instanceof compiler.GlistenError && error.kind !== "internal", `${stem}: ${error}`);
       }
@@ -45,7 +47,10 @@ test("the reference draws the same bits", () => {
         return null;
       }
     });
-    if (!told.read) continue;
+    if (!told.read) {
+      assert.throws(() => reference.render(scene, all), reference.GlistenError, `${scene}: the program says ${told.stderr}`);
+      continue;
+    }
     const { width, height, attachments } = reference.render(scene, all, { floats: true });
     const header = told.read.readUInt16LE(8) + 10;
     const floats = new Float32Array(told.read.buffer.slice(told.read.byteOffset + header, told.read.byteOffset + told.read.length));

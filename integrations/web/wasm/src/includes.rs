@@ -6,12 +6,13 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An answer of the host: the include that it was asked for, and its text if there is one.
+/// An answer of the host: the include that it was asked for, and its text if there is one, with the name that tells it from others.
 #[derive(Clone, Deserialize)]
 pub(crate) struct Found {
     path: String,
     angled: bool,
     from: String,
+    name: Option<String>,
     text: Option<String>,
 }
 
@@ -50,7 +51,9 @@ impl Asked {
         }
         let is_it = |one: &&Found| one.path == path && one.angled == angled && one.from == from;
         match answers.iter().find(is_it) {
-            Some(Found { text: Some(text), .. }) => Answer::Found { name: path.to_owned(), text: text.clone() },
+            Some(Found { name, text: Some(text), .. }) => {
+                Answer::Found { name: name.clone().unwrap_or_else(|| path.to_owned()), text: text.clone() }
+            }
             Some(_) => Answer::Pass,
             None => {
                 if self.asks {
