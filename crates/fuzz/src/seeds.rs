@@ -54,7 +54,8 @@ pub fn seeds(kind: Kind, folders: &[PathBuf]) -> Vec<Seed> {
     }
 }
 
-fn files_under(folder: &Path) -> Vec<PathBuf> {
+/// The files under a folder, in no order.
+pub(crate) fn files_under(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -83,7 +84,7 @@ fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|extension| extension == ending)
 }
 
-fn stage_of(path: &Path) -> Option<Stage> {
+pub(crate) fn stage_of(path: &Path) -> Option<Stage> {
     Stage::ALL.into_iter().find(|stage| has_ending(path, crate::sections::extension(*stage)))
 }
 

@@ -3,9 +3,8 @@
 //! *In:* folders of sources, a number of mutants, a number from which chance follows. *Out:* a table, and the mutants on which both
 //! disagree as files, each kind with its first one. *Holds:* without glslangValidator there is no comparison, and the table says so.
 
-use glisten_front::Stage;
-use glisten_fuzz::mutants::{Chance, Mutant, Verdict, mutant, verdict};
-use std::collections::{BTreeMap, BTreeSet};
+use glisten_fuzz::mutants::{Chance, Mutant, Verdict, mutant, sources, verdict};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -14,13 +13,8 @@ use std::time::Duration;
 const LIMIT: Duration = Duration::from_secs(10);
 /// The files that one process of glslang checks.
 const BATCH: usize = 50;
-/// Longer sources are slow to change and rarely tell more.
-const LONGEST: usize = 20_000;
 /// An error so many lines from the change is near it.
 const NEAR: usize = 1;
-
-/// Versions that both read, without a profile of their own.
-const VERSIONS: &[&str] = &["130", "140", "150", "330", "400", "410", "420", "430", "440", "450", "460"];
 
 /// A mutant with its file and the verdicts.
 struct Judged {
@@ -30,6 +24,17 @@ struct Judged {
     took: Duration,
     /// The first error of glslang; none if it accepts it, nothing if it is not known.
     other: Option<Option<String>>,
+}
+
+impl Judged {
+    /// The error of the one compiler that refuses it; none if both say the same, or one says nothing.
+    fn disagreement(&self) -> Option<String> {
+        match (&self.verdict, self.other.as_ref()?) {
+            (Verdict::Accepted, Some(says)) => Some(format!("glslang alone: {says}")),
+            (Verdict::Refused { says, .. }, None) => Some(format!("glisten alone: {says}")),
+            _ => None,
+        }
+    }
 }
 
 /// Makes mutants. Returns the table, and the number of mutants without an end.
@@ -45,11 +50,11 @@ pub(crate) fn survey(folders: &[PathBuf], count: usize, seed: u64, out: &Path) -
     let mut chance = Chance::new(seed);
     let mut all = Vec::new();
     while all.len() < count {
-        let Some((extension, stage, text)) = chance.one(&sources) else { break };
-        let Some(mutant) = mutant(text, &mut chance) else { continue };
-        let file = out.join(format!("{seed}-{:06}.{extension}", all.len()));
+        let Some(source) = chance.one(&sources) else { break };
+        let Some(mutant) = mutant(&source.text, &mut chance) else { continue };
+        let file = out.join(format!("{seed}-{:06}.{}", all.len(), source.ending()));
         std::fs::write(&file, &mutant.text).map_err(|error| format!("{}: {error}", file.display()))?;
-        let (verdict, took) = verdict(&mutant.text, *stage, LIMIT);
+        let (verdict, took) = verdict(&mutant.text, source.stage, LIMIT);
         all.push(Judged { file, mutant, verdict, took, other: None });
     }
     for batch in all.chunks_mut(BATCH) {
@@ -58,41 +63,6 @@ pub(crate) fn survey(folders: &[PathBuf], count: usize, seed: u64, out: &Path) -
     clean(&all);
     let bad = all.iter().filter(|one| matches!(one.verdict, Verdict::Endless | Verdict::Panicked)).count();
     Ok((table(&all, sources.len()), bad))
-}
-
-/// The texts of shaders under the folders.
-fn sources(folders: &[PathBuf]) -> Vec<(String, Stage, String)> {
-    let mut found = Vec::new();
-    let mut rest = folders.to_vec();
-    let mut files = BTreeSet::new();
-    while let Some(folder) = rest.pop() {
-        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-            if entry.path().is_dir() {
-                rest.push(entry.path());
-            } else {
-                files.insert(entry.path());
-            }
-        }
-    }
-    for file in files {
-        let extension = file.extension().unwrap_or_default().to_string_lossy().into_owned();
-        let stage = match extension.as_str() {
-            "vert" => Stage::Vertex,
-            "frag" => Stage::Fragment,
-            "geom" => Stage::Geometry,
-            _ => continue,
-        };
-        let Ok(text) = std::fs::read_to_string(&file) else { continue };
-        let version = text.lines().find_map(|line| line.trim_start().strip_prefix("#version"));
-        let is_read = version.is_some_and(|version| {
-            let mut words = version.split_whitespace();
-            words.next().is_some_and(|number| VERSIONS.contains(&number)) && words.next() != Some("es")
-        });
-        if is_read && text.len() <= LONGEST && !text.contains("#include") {
-            found.push((extension, stage, text));
-        }
-    }
-    found
 }
 
 /// Asks glslang about several mutants; alone about each if it does not come to an end with all of them.
@@ -165,28 +135,20 @@ fn table(all: &[Judged], sources: usize) -> String {
     let near = refused.iter().filter(|(one, line)| line.abs_diff(one.mutant.line) <= NEAR).count();
     let share = 100.0 * near as f64 / refused.len().max(1) as f64;
     lines.push(format!("{} are refused, {share:.1} % of them within {NEAR} line of the change", refused.len()));
-    let (mut agreed, mut known) = (0, 0);
+    let known = all.iter().filter(|one| one.other.is_some()).count();
     let mut kinds: BTreeMap<String, Vec<&Judged>> = BTreeMap::new();
     for one in all {
-        let Some(other) = &one.other else { continue };
-        known += 1;
-        match (&one.verdict, other) {
-            (Verdict::Accepted, Some(says)) => kinds.entry(format!("glslang alone: {says}")).or_default().push(one),
-            (Verdict::Refused { says, .. }, None) => {
-                kinds.entry(format!("glisten alone: {says}")).or_default().push(one)
-            }
-            _ => agreed += 1,
+        if let Some(kind) = one.disagreement() {
+            kinds.entry(kind).or_default().push(one);
         }
     }
+    let agreed = known - kinds.values().map(Vec::len).sum::<usize>();
     if known == 0 {
         lines.push("glslangValidator is not there: nothing was compared".to_owned());
         return lines.join("\n");
     }
-    let share = 100.0 * f64::from(agreed) / f64::from(known);
-    lines.push(format!(
-        "glslang agrees on {agreed} of {known} ({share:.1} %); it crashed on {}",
-        all.len() - known as usize
-    ));
+    let share = 100.0 * agreed as f64 / known as f64;
+    lines.push(format!("glslang agrees on {agreed} of {known} ({share:.1} %); it crashed on {}", all.len() - known));
     let mut kinds: Vec<_> = kinds.into_iter().collect();
     kinds.sort_by_key(|(_, mutants)| std::cmp::Reverse(mutants.len()));
     for (kind, mutants) in kinds {
@@ -196,17 +158,11 @@ fn table(all: &[Judged], sources: usize) -> String {
     lines.join("\n")
 }
 
-/// Removes the files on which both agree.
+/// Removes the files that show nothing.
 fn clean(all: &[Judged]) {
-    for one in all {
-        let agrees = match (&one.verdict, &one.other) {
-            (Verdict::Accepted, Some(None)) | (Verdict::Refused { .. }, Some(Some(_)) | None) => true,
-            (Verdict::Accepted, other) => other.is_none(),
-            _ => false,
-        };
-        if agrees {
-            // What stays only takes room.
-            let _ = std::fs::remove_file(&one.file);
-        }
+    let is_bad = |one: &Judged| matches!(one.verdict, Verdict::Endless | Verdict::Panicked);
+    for one in all.iter().filter(|one| !is_bad(one) && one.disagreement().is_none()) {
+        // What stays only takes room.
+        let _ = std::fs::remove_file(&one.file);
     }
 }

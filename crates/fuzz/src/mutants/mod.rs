@@ -11,10 +11,12 @@
 //! the same mutants on every machine. Most mutants are wrong; some are right, or right and different.
 
 mod changed;
+mod sources;
 mod tokens;
 mod verdict;
 
 pub use changed::{Mutant, mutant};
+pub use sources::{Whole, sources};
 pub use verdict::{Verdict, verdict};
 
 /// Numbers by chance: SplitMix64.

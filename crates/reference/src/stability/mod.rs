@@ -33,7 +33,7 @@ mod loops;
 mod origin;
 mod record;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use births::births;
 pub use draw::{Arithmetic, draw};

@@ -22,11 +22,16 @@ fn traced_with(body: &str, more: &str) -> (Trace, SourceMap) {
 }
 
 pub(super) fn scene_of(body: &str, more: &str) -> (Scene, SourceMap) {
+    scene_with(VERTEX, body, more)
+}
+
+/// A program with this vertex stage and this body of the fragment stage, in a picture of 16x16 pixels.
+pub(crate) fn scene_with(vertex: &str, body: &str, more: &str) -> (Scene, SourceMap) {
     let scene = "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
         primitive = \"triangle_strip\"\n[draw.attributes]\np = { size = 2, values = [-1, -1, 1, -1, -1, 1, 1, 1] }\n";
     let scene = format!("{scene}{more}");
     let fragment = format!("#version 150\nin vec2 at;\nout vec4 o;\n{body}\n");
-    let files = MemoryFiles::new([("a.toml", scene.as_str()), ("a.vert", VERTEX), ("a.frag", fragment.as_str())]);
+    let files = MemoryFiles::new([("a.toml", scene.as_str()), ("a.vert", vertex), ("a.frag", fragment.as_str())]);
     let loaded = load("a.toml", &files, &NoLibrary, &Compiler::new(Options::default()));
     let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
     let scene = loaded.scene.unwrap_or_else(|| panic!("{told:?}"));

@@ -1,23 +1,16 @@
 //! Known programs: each value is that of the text, in order.
 
 use super::{Component, Fate, Invocation, NoteKind, Place, Trace, trace};
+use crate::stability::tests::scene_with;
 use crate::{Precision, RenderOptions, render};
-use glisten_front::compiler::{Compiler, Options};
 use glisten_front::source::SourceMap;
-use glisten_scene::{MemoryFiles, NoLibrary, Scene, load};
+use glisten_scene::Scene;
 
 const VERTEX: &str = "#version 150\nin vec2 p;\nout vec2 at;\n\
     void main() { vec2 half_way = p * 0.5; at = p; gl_Position = vec4(p, half_way.x, 1.0); }\n";
 
 fn scene_of(body: &str, more: &str) -> (Scene, SourceMap) {
-    let scene = "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
-        primitive = \"triangle_strip\"\n[draw.attributes]\np = { size = 2, values = [-1, -1, 1, -1, -1, 1, 1, 1] }\n";
-    let scene = format!("{scene}{more}");
-    let fragment = format!("#version 150\nin vec2 at;\nout vec4 o;\n{body}\n");
-    let files = MemoryFiles::new([("a.toml", scene.as_str()), ("a.vert", VERTEX), ("a.frag", fragment.as_str())]);
-    let loaded = load("a.toml", &files, &NoLibrary, &Compiler::new(Options::default()));
-    let told: Vec<&str> = loaded.diagnostics.iter().map(|finding| finding.message.as_str()).collect();
-    (loaded.scene.unwrap_or_else(|| panic!("{told:?}")), loaded.sources)
+    scene_with(VERTEX, body, more)
 }
 
 fn at(scene: &Scene, place: Place) -> Trace {

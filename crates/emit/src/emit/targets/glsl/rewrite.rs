@@ -30,7 +30,7 @@ pub(super) fn rewrite(types: &mut Types, shader: &mut Shader, program: &Program,
     if matches!(version, GlslVersion::Es300 | GlslVersion::Vulkan) {
         silence(types, shader);
     }
-    if matches!(version, GlslVersion::Desktop450 | GlslVersion::Vulkan) {
+    if version != GlslVersion::Desktop330 {
         outputs_alone_are_invariant(types, shader);
     }
     if version == GlslVersion::Es300 {
@@ -314,24 +314,26 @@ fn is_constant(shader: &Shader, initializer: ExprId) -> bool {
     constant
 }
 
-/// From 4.20 on, only outputs are invariant, and match inputs that do not say so (GLSL 4.20 §4.8.1).
+/// From 4.20 on and in ES 3.00, only outputs are invariant, and match inputs that do not say so (GLSL 4.20 §4.8.1).
 fn outputs_alone_are_invariant(types: &mut Types, shader: &mut Shader) {
     for global in shader.globals.iter_mut().filter(|global| global.storage == Storage::In) {
         global.invariant = false;
-        let element = types.element(global.ty).filter(|_| matches!(types.get(global.ty), Type::Array(..)));
-        if let (Some(_), Type::Struct(block)) = (&global.block, types.get(element.unwrap_or(global.ty))) {
+        let element = match types.get(global.ty) {
+            Type::Array(element, _) => element,
+            _ => global.ty,
+        };
+        if let (Some(_), Type::Struct(block)) = (&global.block, types.get(element)) {
             types.structure_mut(block).members.iter_mut().for_each(|member| member.invariant = false);
         }
     }
 }
 
-/// Qualifiers that ES lacks and that change nothing in it: units of samplers and blocks, `invariant` of inputs.
+/// Qualifiers that ES lacks and that change nothing in it: units of samplers and blocks.
 fn plain_qualifiers(shader: &mut Shader) {
     for global in &mut shader.globals {
         global.binding = None;
         if let Some(block) = &mut global.block {
             block.binding = None;
         }
-        global.invariant &= global.storage != Storage::In;
     }
 }
