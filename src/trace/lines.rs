@@ -9,9 +9,6 @@ use super::numbers::short;
 /// The columns of the text; longer texts are cut.
 const WIDTH: usize = 56;
 
-/// A value in f32 that differs from the exact one by this share of it is shown with that.
-const TELLING: f64 = 1e-4;
-
 /// Which lines are shown.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Shown {
@@ -45,8 +42,7 @@ pub(crate) fn lines(told: &Told, shown: Shown) -> String {
     }
     for (number, color) in told.colors.iter().enumerate() {
         let name = if told.colors.len() == 1 { "color".to_owned() } else { format!("color {number}") };
-        let exact = format!("exact {}", list(&color.exact.iter().map(|number| short(number.0)).collect::<Vec<_>>()));
-        text.push_str(&format!("\n{name}  {}\n       {exact}\n", value(color)));
+        text.push_str(&format!("\n{name}  {}\n       exact {}\n", value(color), exact(color)));
         if let Some(range) = range(color) {
             text.push_str(&format!("       a GPU may draw {range}\n"));
         }
@@ -156,8 +152,8 @@ fn line(step: &ToldStep, shown: Shown) -> String {
         (_, None) => String::new(),
     };
     let mut line = format!("  {at:>7}  {text:WIDTH$}  {}", value(&step.value));
-    if let Some(exact) = lost(&step.value) {
-        line.push_str(&format!("  exact {exact}"));
+    if step.value.is_far {
+        line.push_str(&format!("  exact {}", exact(&step.value)));
     }
     if let Some(range) = range(&step.value).filter(|_| shown.all) {
         line.push_str(&format!("  in {range}"));
@@ -165,20 +161,9 @@ fn line(step: &ToldStep, shown: Shown) -> String {
     format!("{}\n", line.trim_end())
 }
 
-/// The exact value, where f32 is far from it.
-fn lost(value: &ToldValue) -> Option<String> {
-    let is_far = |(single, exact): (&Scalar, &f64)| match single {
-        Scalar::Float(single) => {
-            let is_same = single.0 == *exact || single.0.is_nan() && exact.is_nan();
-            let off = (single.0 - exact).abs();
-            !is_same && (off.is_nan() || off > TELLING * exact.abs().max(1e-30))
-        }
-        Scalar::Int(_) | Scalar::Bool(_) => false,
-    };
-    let exact: Vec<f64> = value.exact.iter().map(|number| number.0).collect();
-    let floats = value.value.iter().filter(|scalar| matches!(scalar, Scalar::Float(_)));
-    let is_lost = floats.zip(&exact).any(is_far);
-    is_lost.then(|| list(&exact.iter().map(|number| short(*number)).collect::<Vec<_>>()))
+/// The exact value.
+fn exact(value: &ToldValue) -> String {
+    list(&value.exact.iter().map(|number| short(number.0)).collect::<Vec<_>>())
 }
 
 fn value(value: &ToldValue) -> String {

@@ -84,6 +84,9 @@ pub(super) struct ToldValue {
     /// Whether a conforming GPU may have a NaN.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub(super) may_be_nan: bool,
+    /// Whether f32 is far from exact arithmetic.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(super) is_far: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -173,11 +176,13 @@ fn on_one_line(text: &str) -> String {
 }
 
 fn value(scalars: &[Component]) -> ToldValue {
-    let mut told = ToldValue { value: Vec::new(), exact: Vec::new(), interval: Vec::new(), may_be_nan: false };
+    let mut told =
+        ToldValue { value: Vec::new(), exact: Vec::new(), interval: Vec::new(), may_be_nan: false, is_far: false };
     for scalar in scalars {
         told.value.push(match *scalar {
             Component::Float { single, exact, interval } => {
                 told.exact.push(Number(exact));
+                told.is_far |= is_far(single, exact);
                 if let Some(interval) = interval {
                     told.interval.push([Number(interval.low), Number(interval.high)]);
                     told.may_be_nan |= interval.may_be_nan;
@@ -190,4 +195,13 @@ fn value(scalars: &[Component]) -> ToldValue {
         });
     }
     told
+}
+
+/// A value in f32 that differs from the exact one by more than this share of it is far from it.
+const FAR: f64 = 1e-4;
+
+fn is_far(single: f64, exact: f64) -> bool {
+    let is_same = single == exact || single.is_nan() && exact.is_nan();
+    let off = (single - exact).abs();
+    !is_same && (off.is_nan() || off > FAR * exact.abs().max(1e-30))
 }

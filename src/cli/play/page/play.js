@@ -377,7 +377,6 @@ const inspector = (() => {
   const base = (name) => name.split(/[\\/]/).at(-1);
   const place = (step) => (step.file ? `${base(step.file)}:${step.start.line}` : "");
   const told = (step) => (step.value ? list(step.value) : "");
-  const isFar = (step) => (step.exact ?? []).some((exact, index) => typeof exact !== typeof step.value[index] || Math.abs(step.value[index] - exact) > 1e-4 * Math.max(Math.abs(exact), 1e-30));
   const fates = { drawn: "drawn", discarded: "discarded", failed: "failed the depth or stencil test" };
   const row = (name, cells) => html("tr", {}, html("th", {}, name), cells.map((cell) => html("td", {}, cell)));
   const show = (index, isAsked = true) => {
@@ -392,7 +391,7 @@ const inspector = (() => {
       step.exact ? row("exact", step.exact.slice(0, 16).map(number)) : null,
       step.interval ? row("a GPU may have", step.interval.slice(0, 16).map(([low, high]) => `${number(low)} … ${number(high)}`)) : null)) : null;
     byId("step-now").replaceChildren(
-      html("div", {}, `step ${now + 1} of ${steps.length} · ${place(step)}${step.type ? ` · ${step.type}` : ""}${isFar(step) ? " · f32 is far from the exact value" : ""}${step.may_be_nan ? " · a GPU may have NaN" : ""}`),
+      html("div", {}, `step ${now + 1} of ${steps.length} · ${place(step)}${step.type ? ` · ${step.type}` : ""}${step.is_far ? " · f32 is far from the exact value" : ""}${step.may_be_nan ? " · a GPU may have NaN" : ""}`),
       html("code", {}, text(step)), ...(table ? [table] : []));
     const first = Math.max(0, now - WINDOW);
     const items = steps.slice(first, now + WINDOW + 1).map((one, index) => html("li", {},
@@ -468,7 +467,7 @@ const inspector = (() => {
       });
       if (!best) return null;
       const step = best;
-      return `${step.text}: ${step.type}\n${told(step)}${isFar(step) ? `\nexact ${list(step.exact)}` : ""}`;
+      return `${step.text}: ${step.type}\n${told(step)}${step.is_far ? `\nexact ${list(step.exact)}` : ""}`;
     },
   };
 })();
