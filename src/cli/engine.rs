@@ -11,7 +11,7 @@ use super::files;
 use super::rules::Rule;
 use super::trace::{self, Trace};
 use crate::engines::{self, Profile, Style};
-use crate::sources::{Disk, DiskIncludes, ProgramFiles, Settings};
+use crate::sources::{Disk, DiskIncludes, ProgramFiles, Settings, stages};
 use glisten_front::compiler::{Preparation, Prepared, Source, SourceSettings};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
@@ -188,7 +188,15 @@ impl Engines {
     /// Whether the engine of a file never takes it for a shader, whatever is in it.
     pub(super) fn is_part(&self, path: &Path) -> bool {
         let parts = self.settings(Some(path)).profile.and_then(|profile| profile.parts.as_deref());
-        parts.is_some_and(|parts| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(parts)))
+        parts.is_some_and(|parts| match parts.strip_suffix('/') {
+            Some(folder) => {
+                path.parent().is_some_and(|parent| parent.components().any(|one| one.as_os_str() == folder))
+            }
+            None => {
+                let has = |extension: &std::ffi::OsStr| extension.eq_ignore_ascii_case(parts);
+                stages::may_be_included(path) && path.extension().is_some_and(has)
+            }
+        })
     }
 }
 

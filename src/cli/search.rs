@@ -100,7 +100,7 @@ pub(super) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// Whether a search takes a file: its name tells its stage, or its engine does, or it contains several stages. `None` for a file
 /// that does not look like a shader.
 pub(super) fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>> {
-    if stages::may_be_included(path) && engines.is_part(path) {
+    if engines.is_part(path) {
         return None;
     }
     if let Some(stage) = stages::unread(path) {

@@ -71,7 +71,7 @@ struct Settings {
     before: Vec<String>,
     /// The version that sources of older ones get.
     least_version: Option<String>,
-    /// The extension of files that are never shaders, only included by some.
+    /// The extension of files that are never shaders, only included by some; or, with a slash, a folder of such files.
     parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     redefines: Option<bool>,
@@ -111,7 +111,7 @@ pub struct Profile {
     pub before: Vec<String>,
     /// The version that sources of older ones get.
     pub least_version: Option<String>,
-    /// The extension of files that are never shaders, only included by some.
+    /// The extension of files that are never shaders, only included by some; or, with a slash, a folder of such files.
     pub parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     pub redefines: Option<bool>,

@@ -38,6 +38,8 @@ pub struct Lookup {
     /// Whether the folders above a source, and paths from its own, come before the search folders that were given: what a pack
     /// has replaces what the game has.
     pub own_first: bool,
+    /// A file that marks a folder above a source whose files are there, too: what an overlay of a pack lacks, the pack has.
+    pub mark: Option<&'static str>,
     /// The namespace of a name that has none.
     pub namespace: Option<&'static str>,
     /// Whether a file is also found by its name in the folders below a search folder.
@@ -54,6 +56,7 @@ const PLAIN: Lookup = Lookup {
     from_here: &[],
     ancestors: &[],
     own_first: false,
+    mark: None,
     namespace: None,
     deep: false,
     drops_version: false,
@@ -73,9 +76,10 @@ pub static STYLES: &[Lookup] = &[
             "include/{path}",
             "{path}",
         ],
-        from_here: &["../include/{path}"],
+        from_here: &["../include/{path}", "include/{path}"],
         ancestors: &["assets", "shaders"],
         own_first: true,
+        mark: Some("pack.mcmeta"),
         namespace: Some("minecraft"),
         drops_version: true,
         ..PLAIN

@@ -45,7 +45,8 @@ pub fn done(old: &str, new: &str) -> Vec<String> {
     );
     let n_layouts = count(new, "layout").saturating_sub(count(old, "layout"));
     if n_layouts > 0 {
-        found.push(format!("{n_layouts} more declarations have a layout"));
+        let (plural, have) = if n_layouts == 1 { ("", "has") } else { ("s", "have") };
+        found.push(format!("{n_layouts} more declaration{plural} {have} a layout"));
     }
     static ADDED: &[(&str, &str)] = &[
         ("openglMain", "a new `main` converts clip-space z"),

@@ -102,7 +102,8 @@ pub fn find_host(name: &str) -> Option<&'static Host> {
 fn load(name: &'static str, text: &str) -> Host {
     // A test reads every file; here, one that cannot be read has no settings.
     let settings: Settings = toml::from_str(text).unwrap_or_default();
-    let target = Target::ALL.iter().find(|(word, _)| *word == settings.version);
+    let target = Target::ALL.iter().find(|(word, _)| *word == settings.version).map(|(_, target)| *target);
+    let target = if settings.version == "330" && settings.numbering.is_some() { Some(Target::Both330) } else { target };
     let numbering = settings.numbering.as_deref().map(|word| match word {
         "all" => Numbering::All,
         "locations" => Numbering::Locations,
@@ -117,12 +118,13 @@ fn load(name: &'static str, text: &str) -> Host {
         renamed: settings.renamed,
         extension: settings.extension,
         directive: settings.directive,
+        ..Dialect::default()
     });
     Host {
         name,
         about: settings.about,
         engine: settings.engine,
-        target: target.map_or(Target::Core330, |(_, target)| *target),
+        target: target.unwrap_or(Target::Core330),
         dialect,
         is_minecraft: settings.packs.as_deref() == Some("minecraft"),
         has_wgsl: settings.wgsl,

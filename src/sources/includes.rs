@@ -65,6 +65,10 @@ impl DiskIncludes {
             let absolute = std::path::absolute(from).unwrap_or_default();
             above.extend(absolute.ancestors().skip(1).filter(is_root).map(Path::to_owned));
         }
+        if let Some(mark) = self.lookup.mark {
+            let whole = |folder: &&Path| !folder.as_os_str().is_empty() && folder.join(mark).is_file();
+            above.extend(Path::new(from).ancestors().skip(1).filter(whole).map(Path::to_owned));
+        }
         above
     }
 

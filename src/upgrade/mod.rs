@@ -16,4 +16,7 @@ pub use plan::{Plan, Target, Text};
 pub use program::plan_in;
 pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
 pub use rewrite::rewrite;
-pub use vulkan::{Dialect, HostBlock, NewFile, NewTree, Note, Numbering, TreeProgram, to_vulkan, tree, with_version};
+pub use vulkan::{
+    Dialect, HostBlock, NewFile, NewTree, Note, Numbering, TreeProgram, moved_path, plain, to_vulkan, tree,
+    with_version,
+};

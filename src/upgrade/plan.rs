@@ -19,6 +19,8 @@ pub enum Target {
     Core150,
     /// `#version 330`.
     Core330,
+    /// `#version 330` that is read by the rules of Vulkan, too.
+    Both330,
     /// `#version 450`.
     Core450,
     /// `#version 460`.
@@ -45,6 +47,7 @@ impl Target {
         match self {
             Self::Core150 => "#version 150",
             Self::Core330 => "#version 330 core",
+            Self::Both330 => "#version 330",
             Self::Core450 => "#version 450 core",
             Self::Core460 => "#version 460 core",
             Self::Es300 => "#version 300 es",
@@ -56,7 +59,7 @@ impl Target {
     fn number(self) -> u16 {
         match self {
             Self::Core150 => 150,
-            Self::Core330 => 330,
+            Self::Core330 | Self::Both330 => 330,
             Self::Core450 | Self::Vulkan => 450,
             Self::Core460 => 460,
             Self::Es300 => 300,
@@ -71,6 +74,12 @@ impl Target {
     /// Whether inputs of fragment shaders may be `invariant` (up to GLSL 4.10; not in ES 3.00).
     pub(super) fn has_invariant_inputs(self) -> bool {
         self != Self::Es300 && self.number() < 420
+    }
+
+    /// Whether a word is one of the language, so that no name of a program can be that word.
+    fn takes(self, word: &str) -> bool {
+        let is_for_vulkan = matches!(self, Self::Vulkan | Self::Both330);
+        keywords::is_taken(word, self.language()) || is_for_vulkan && keywords::is_of_vulkan(word)
     }
 
     /// Whether a text of a version is too new to be rewritten.
@@ -166,7 +175,7 @@ impl Plan {
 
     /// Whether a word of the texts is a keyword of the target, so that no member has it as its name.
     pub(super) fn is_keyword(&self, word: &str) -> bool {
-        keywords::is_taken(word, self.target.language())
+        self.target.takes(word)
     }
 
     /// The new text of a word.
@@ -210,7 +219,7 @@ impl Planner<'_> {
             self.used.contains(name)
                 || self.plan.words.values().any(|other| other == name)
                 || FUNCTIONS.contains(&name)
-                || keywords::is_taken(name, self.plan.target.language())
+                || self.plan.target.takes(name)
         };
         let mut free = name.to_owned();
         while taken(&free) {
@@ -230,11 +239,10 @@ impl Planner<'_> {
 
     /// Names of the program that mean something else in the target.
     fn taken(&mut self, texts: &[Text<'_>]) {
-        let target = self.plan.target.language();
+        let target = self.plan.target;
         let is_function = |name: &str| FUNCTIONS.contains(&name) && texts.iter().all(|text| text.version < 130);
         let is_new_word = |name: &str| {
-            keywords::is_taken(name, target)
-                && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
+            target.takes(name) && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
         };
         let as_keywords = keyword_uses(texts);
         let names: Vec<&str> =

@@ -169,6 +169,73 @@ fn a_pack_for_minecraft() {
 }
 
 #[test]
+fn a_pack_for_an_older_game_brings_its_files_along() {
+    let folder = Folder::new(&[]);
+    let game = root().join("fixtures/port/older/game").to_string_lossy().into_owned();
+    let output = port(&folder, "older/pack", "minecraft-26.2", &["-I", &game, "-o", "new"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    has(&err(&output), &["3 programs: 3 ported"]);
+    let shaders = "new/assets/minecraft/shaders";
+    let vertex = read(&folder, &format!("{shaders}/core/torch.vsh"));
+    has(
+        &vertex,
+        &[
+            "#version 330\n\n#moj_import <minecraft:older/light.glsl>\n#moj_import <older/fog.glsl>\n#moj_import <older/matrix.glsl>\n",
+            // Functions of the host's own files could be those of the older ones.
+            "#moj_import <minecraft:blocks/projection.glsl>\n#moj_import <minecraft:blocks/light.glsl>\n",
+            "#moj_import <minecraft:dynamictransforms.glsl>\n",
+        ],
+    );
+    // `sampler` is a type of GLSL for Vulkan; lines go on by an extension.
+    let fragment = read(&folder, &format!("{shaders}/core/torch.fsh"));
+    has(
+        &fragment,
+        &["#extension GL_ARB_shading_language_420pack : enable\n", "vec4 flame(sampler2D sampler_, vec2 at)"],
+    );
+    has(&read(&folder, &format!("{shaders}/include/older/fog.glsl")), &["#version 330\n", "float fog_depth("]);
+    has(
+        &read(&folder, &format!("{shaders}/include/blocks/fog.glsl")),
+        &["layout(std140) uniform Fog {\n    vec4 FogColor;"],
+    );
+    // What would hide the host's files has gone, whether a program reads it or not.
+    for name in ["light", "projection"] {
+        assert!(!folder.path(&format!("{shaders}/include/{name}.glsl")).exists(), "{name}");
+        assert!(folder.path(&format!("{shaders}/include/older/{name}.glsl")).exists(), "{name}");
+    }
+    // A file in the folder of included ones is no program, and an overlay has what its pack has.
+    has(&read(&folder, &format!("{shaders}/include/parts/wave.vsh")), &["Position.y + HEIGHT"]);
+    has(&read(&folder, "new/newer/assets/minecraft/shaders/core/torch.vsh"), &["<minecraft:older/light.glsl>"]);
+    let names = ["assets/minecraft/shaders/core/torch", "newer/assets/minecraft/shaders/core/torch"];
+    for name in names {
+        assert!(folder.path(&format!("new/reflection/{name}.json")).exists(), "{name}");
+    }
+    let again = port(&folder, "older/pack", "minecraft-26.2", &["-I", &game, "-o", "new", "--check"]);
+    assert_eq!((code(&again), out(&again)), (0, String::new()), "{}", err(&again));
+    let second = folder.run(&["port", "new", "--for", "minecraft-26.2", "--check"]);
+    assert_eq!((code(&second), out(&second)), (0, String::new()), "{}", err(&second));
+    // Without the game, the reason says what is missing.
+    let alone = port(&folder, "older/pack", "minecraft-26.2", &["-o", "alone"]);
+    assert_eq!(code(&alone), 1);
+    has(&err(&alone), &["`torch` stays as it was", "`-I GAME` names the assets of the version"]);
+}
+
+#[test]
+fn names_that_are_types_for_vulkan_change() {
+    let folder = Folder::new(&[
+        ("a.frag", b"#version 150\nuniform sampler2D s;\nout vec4 c;\nvec4 at(sampler2D sampler) { return texture(sampler, vec2(0.5)); }\nvoid main() { c = at(s); }\n"),
+        ("in/b.frag", b"#version 450\nuniform sampler2D s;\nout vec4 c;\nvec4 at(sampler2D sampler) { return texture(sampler, vec2(0.5)); }\nvoid main() { c = at(s); }\n"),
+    ]);
+    assert_eq!(code(&folder.run(&["upgrade", "a.frag", "--to", "vulkan", "-o", "new"])), 0);
+    has(&read(&folder, "new/a.frag"), &["at(sampler2D sampler_) { return texture(sampler_, "]);
+    let said = complaint(&folder.path("new/a.frag"), "frag", &folder.path("new"));
+    assert!(said.is_none(), "{said:?}");
+    // A text of the newest version keeps its names.
+    let output = folder.run(&["port", "in", "--for", "minecraft-26.2", "-o", "out"]);
+    assert_eq!(code(&output), 1);
+    has(&err(&output), &["`sampler` is a type of GLSL for Vulkan, and no name; rename it"]);
+}
+
+#[test]
 fn what_cannot_be_ported_stays() {
     let folder = Folder::new(&[
         ("in/good.frag", b"#version 150\nuniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n"),

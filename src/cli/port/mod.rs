@@ -7,11 +7,13 @@
 //! | file | contents |
 //! | --- | --- |
 //! | `programs` | the programs of the folder, with new texts |
+//! | `older` | included files of an older host, which become files of the folder |
 //! | `extras` | reflection, WGSL, Rust, C, the passes of a pack |
 //! | `tree` | all files of the new folder, and how they differ from what is there |
 //! | `proof` | the pictures of the original and of the new program |
 
 mod extras;
+mod older;
 mod programs;
 mod proof;
 mod tree;
@@ -95,7 +97,8 @@ pub(super) fn run(args: &PortArgs, console: &Console) -> Outcome {
     let inputs = inputs::collect(std::slice::from_ref(&pack), &args.programs, &sources, true)?;
     inputs.tell_empty_folders(console);
     let mut session = Session::new(console, &sources, &BindingArgs::default(), &args.levels, 0)?;
-    let mut ported = programs::ported(&mut session, inputs.groups, host, &sources)?;
+    let mut ported = programs::ported(&mut session, inputs.groups, host, &sources, &pack)?;
+    let host = &ported.host.clone();
     if args.prove {
         proof::prove(&mut ported, host, &sources, &args.levels, console)?;
     }
@@ -119,7 +122,12 @@ fn apart(pack: &Path, output: &Path) -> Result<(), Failure> {
 /// Puts everything into the new folder.
 fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFolder) -> Result<Report, Failure> {
     let mut files = Vec::new();
+    let moved = ported.older_files.moved();
     for file in &ported.tree.files {
+        if let Some(old) = moved.get(&file.name) {
+            files.extend(tree::bring(&args.pack, host, ported, folder, (file, old)));
+            continue;
+        }
         let Some(place) = folder.place(&args.pack, Path::new(&file.name)) else { continue };
         let new = folder.place(&args.pack, Path::new(&file.new_name())).unwrap_or_else(|| place.clone());
         let old = folder.text(&place).unwrap_or_default();
@@ -137,6 +145,8 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
         });
         folder.replace(&place, &new, text.into_bytes());
     }
+    files.extend(tree::move_unread(&args.pack, ported, folder));
+    files.extend(tree::blocks(&args.pack, host, ported, folder));
     if host.is_minecraft {
         files.extend(extras::passes(folder));
     }

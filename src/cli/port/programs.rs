@@ -8,12 +8,14 @@ use super::super::exit::Failure;
 use super::super::inputs::Group;
 use super::super::session::{Session, Unit, compile_anywhere};
 use super::super::upgrade::{Upgraded, checker, plan, rewritten, words};
+use super::older::{Found, Older};
 use super::tree::NewFolder;
 use crate::port::{Host, Outcome, ProgramReport};
 use crate::upgrade::{Dialect, NewTree, Plan, Refused, TreeProgram, tree};
 use glisten_front::compiler::{Compiler, Prepared, Source};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -25,6 +27,8 @@ pub(super) struct Done {
     pub(super) files: Vec<PathBuf>,
     /// Its place in the tree, if it is there.
     pub(super) index: Option<usize>,
+    /// All files that it reads.
+    pub(super) reads: BTreeSet<String>,
     /// Whether it declares itself what the host has today.
     pub(super) is_older: bool,
     /// The new names of what was built in.
@@ -43,6 +47,10 @@ pub(super) struct Ported {
     pub(super) old: Compiler,
     /// The compiler of those that declare themselves what the host has today.
     pub(super) older: Compiler,
+    /// The host, which has some blocks elsewhere if included files of the pack would hide them.
+    pub(super) host: Host,
+    /// Included files of an older host.
+    pub(super) older_files: Older,
 }
 
 impl Ported {
@@ -63,18 +71,20 @@ pub(super) fn ported(
     groups: Vec<Group>,
     host: &Host,
     sources: &SourceArgs,
+    pack: &Path,
 ) -> Result<Ported, Failure> {
     let engines = session.engines().clone();
-    let dialect = host.dialect.clone();
-    let by = |compiler: &Compiler, group: Group, kind| {
-        compile_anywhere(&standing_in(compiler, dialect.as_ref(), kind), &engines, group)
-    };
+    let older_files = older_files(session, &groups, host, pack);
+    let mut host = older_files.host(host);
+    let readers = Readers { dialect: host.dialect.clone().map(Arc::new), older: older_files.clone() };
+    let by =
+        |compiler: &Compiler, group: Group, kind| compile_anywhere(&readers.compiler(compiler, kind), &engines, group);
     let units = session.compile_by(groups, |compiler, group| {
         let first = by(compiler, group.clone(), StandIn::Blocks);
         if is_twice(&first.0) { by(compiler, group, StandIn::Nothing) } else { first }
     });
-    let old = standing_in(session.compiler(), dialect.as_ref(), StandIn::Blocks);
-    let older = standing_in(session.compiler(), dialect.as_ref(), StandIn::Nothing);
+    let old = readers.compiler(session.compiler(), StandIn::Blocks);
+    let older = readers.compiler(session.compiler(), StandIn::Nothing);
     let words = words(&units);
     let (mut programs, mut trees) = (Vec::new(), Vec::new());
     for unit in &units {
@@ -84,7 +94,7 @@ pub(super) fn ported(
         let is_older = unit.batch.sources.files().any(|(_, file)| is_empty(file.name(), file.text()));
         let (old, kind) = if is_older { (&older, StandIn::Nothing) } else { (&old, StandIn::Blocks) };
         done.is_older = is_older;
-        match new_program(unit, (old, kind), host, sources, &words)? {
+        match new_program(unit, (old, kind), (&host, &readers), sources, &words)? {
             Ok((program, plan)) => {
                 done.index = Some(trees.len());
                 done.report.notes = plan.iter().flat_map(|plan| plan.notes.clone()).collect();
@@ -98,6 +108,7 @@ pub(super) fn ported(
         }
         programs.push(done);
     }
+    host.dialect.iter_mut().for_each(|dialect| dialect.moved = older_files.folders());
     let new = tree(&trees, host.dialect.as_ref());
     for done in &mut programs {
         let Some(index) = done.index else { continue };
@@ -120,7 +131,7 @@ pub(super) fn ported(
         Some(dialect) if dialect.coordinates => tree(&trees, Some(&Dialect { coordinates: false, ..dialect.clone() })),
         _ => new.clone(),
     };
-    Ok(Ported { programs, units: trees, tree: new, plain, old, older })
+    Ok(Ported { programs, units: trees, tree: new, plain, old, older, host, older_files })
 }
 
 /// A program before anything is done.
@@ -137,7 +148,9 @@ fn undone(unit: &Unit) -> Done {
     };
     let mut files: Vec<_> = inputs.iter().filter_map(|input| Some((input.stage, input.path.clone()?))).collect();
     files.sort();
-    Done { report, files: files.into_iter().map(|(_, path)| path).collect(), index: None, is_older: false, plan: None }
+    let reads = unit.batch.sources.files().map(|(_, file)| file.name().to_owned()).collect();
+    let files = files.into_iter().map(|(_, path)| path).collect();
+    Done { report, files, reads, index: None, is_older: false, plan: None }
 }
 
 /// A program with the names of its new language, or the result without one.
@@ -146,9 +159,9 @@ type New = Result<(TreeProgram, Option<Arc<Plan>>), (Outcome, Option<String>)>;
 fn new_program(
     unit: &Unit,
     (old, kind): (&Compiler, StandIn),
-    host: &Host,
+    (host, readers): (&Host, &Readers),
     args: &SourceArgs,
-    words: &std::collections::BTreeSet<String>,
+    words: &BTreeSet<String>,
 ) -> Result<New, Failure> {
     let is_for_vulkan = unit.batch.sources.files().any(|(_, file)| states_sets(file.text()));
     if is_for_vulkan {
@@ -156,7 +169,9 @@ fn new_program(
     }
     let unread = unit.unread.iter().flat_map(|batch| &batch.diagnostics);
     if let Some(error) = unread.chain(&unit.batch.diagnostics).find(|found| found.is_error()) {
-        return Ok(Err((Outcome::Refused, Some(told(error)))));
+        let because =
+            [Some(told(error)), lacking(unit, error, host)].into_iter().flatten().collect::<Vec<_>>().join("; ");
+        return Ok(Err((Outcome::Refused, Some(because))));
     }
     if unit.group.inputs.iter().any(|input| input.part.is_some()) {
         let because = "its file has several stages; `glisten upgrade` writes a file for each".to_owned();
@@ -167,7 +182,7 @@ fn new_program(
         Ok(plan) => {
             let plan = Arc::new(plan);
             let texts = rewritten(unit, &plan);
-            let compiler = standing_in(&checker(args, old, &plan)?, host.dialect.as_ref(), kind);
+            let compiler = readers.compiler(&checker(args, old, &plan)?, kind);
             let sources: Vec<Source> = texts.iter().map(Upgraded::source).collect();
             let compilation = compiler.compile(&sources);
             if let Some(error) = compilation.diagnostics.iter().find(|found| found.is_error()) {
@@ -188,6 +203,19 @@ fn new_program(
         }
         Err(refused) => Ok(Err((Outcome::Refused, Some(refused.to_string())))),
     }
+}
+
+/// The remedy for an error that comes from a file of the host that is not there.
+fn lacking(unit: &Unit, error: &Diagnostic, host: &Host) -> Option<String> {
+    static CODES: &[&str] = &["E0127", "E0302", "E0304", "E0403"];
+    let mut names = unit.batch.sources.files().map(|(_, file)| file.name());
+    let is_missing = error.code.id == "E0127" || names.any(|name| name.starts_with('<') && name.ends_with(".glsl>"));
+    let is_it = host.is_minecraft && is_missing && CODES.contains(&error.code.id);
+    is_it.then(|| {
+        "files of the game are not there, or are of another version: `-I GAME` names the assets of the version that the pack was made \
+         for"
+            .to_owned()
+    })
 }
 
 /// The message of an error, with its code.
@@ -221,33 +249,63 @@ fn is_twice(unit: &Unit) -> bool {
 /// The code of a name that is declared twice.
 const DECLARED_TWICE: &str = "E0302";
 
-/// A compiler that takes the blocks of the host for included files of the host that are not there.
-fn standing_in(compiler: &Compiler, dialect: Option<&Dialect>, kind: StandIn) -> Compiler {
-    let Some(dialect) = dialect.filter(|dialect| dialect.blocks.iter().any(|block| block.include.is_some())) else {
-        return compiler.clone();
-    };
-    let (dialect, own) = (Arc::new(dialect.clone()), compiler.includes());
-    compiler.clone().with_change(move |_, prepared| {
-        let inner = prepared.includes.clone().unwrap_or_else(|| Arc::clone(&own));
-        Prepared { includes: Some(Arc::new(StandIns { inner, dialect: Arc::clone(&dialect), kind })), ..prepared }
-    })
+/// The included files of a pack that are older than its host.
+fn older_files(session: &mut Session<'_>, groups: &[Group], host: &Host, pack: &Path) -> Older {
+    if !has_files(host.dialect.as_ref()) {
+        return Older::default();
+    }
+    let (engines, found) = (session.engines().clone(), Found::default());
+    session.compile_by(groups.to_vec(), |compiler, group| compile_anywhere(&found.noted(compiler), &engines, group));
+    Older::new(pack, host, &found)
+}
+
+/// Whether a host has files that sources include.
+fn has_files(dialect: Option<&Dialect>) -> bool {
+    dialect.is_some_and(|dialect| dialect.blocks.iter().any(|block| block.include.is_some()))
+}
+
+/// How included files of the host are read.
+struct Readers {
+    dialect: Option<Arc<Dialect>>,
+    older: Older,
+}
+
+impl Readers {
+    /// A compiler that finds older files at their new places, and takes the blocks of the host for its files that are not there.
+    fn compiler(&self, compiler: &Compiler, kind: StandIn) -> Compiler {
+        let Some(dialect) = self.dialect.clone().filter(|dialect| has_files(Some(dialect))) else {
+            return compiler.clone();
+        };
+        let (older, own) = (self.older.clone(), compiler.includes());
+        compiler.clone().with_change(move |_, prepared| {
+            let inner = prepared.includes.clone().unwrap_or_else(|| Arc::clone(&own));
+            let reader = StandIns { inner, dialect: Arc::clone(&dialect), older: older.clone(), kind };
+            Prepared { includes: Some(Arc::new(reader)), ..prepared }
+        })
+    }
 }
 
 struct StandIns {
     inner: Arc<dyn IncludeResolver + Send + Sync>,
     dialect: Arc<Dialect>,
+    older: Older,
     kind: StandIn,
 }
 
 impl IncludeResolver for StandIns {
     fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
-        let found = self.inner.resolve(path, form, from);
         let stand_in = || {
             let found = self.dialect.stand_in(path)?;
             let is_empty = self.kind == StandIn::Nothing;
             Some(if is_empty { Included { text: "".into(), ..found } } else { found })
         };
-        found.or_else(|error| stand_in().ok_or(error))
+        match self.inner.resolve(path, form, from) {
+            Ok(found) => {
+                let name = self.older.place(from, path, &found.name).unwrap_or(found.name);
+                Ok(Included { name, text: found.text })
+            }
+            Err(error) => stand_in().ok_or(error),
+        }
     }
 }
 

@@ -13,6 +13,7 @@ use glisten_front::hir::{Stage, Storage};
 use glisten_front::link::Program;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The resolver of a source's includes.
@@ -68,19 +69,36 @@ impl IncludeResolver for Replaced {
         match self.inner.resolve(path, form, from) {
             // An included file of the host is as the host has it today.
             Ok(found) if found.name.starts_with('<') => Ok(self.dialect.stand_in(path).unwrap_or(found)),
-            Ok(found) => {
-                let text = self.texts.get(&found.name).cloned().unwrap_or(found.text);
-                Ok(Included { text, name: found.name })
-            }
-            Err(error) => self.dialect.stand_in(path).ok_or(error),
+            Ok(found) => match self.texts.get(&found.name) {
+                Some(text) => Ok(Included { text: Arc::clone(text), name: found.name }),
+                // A new text names the host's file, and an older one is there.
+                None => {
+                    let lacks = self.dialect.block_of(path).is_some_and(|block| !block.is_in(&found.text));
+                    Ok(self.dialect.stand_in(path).filter(|_| lacks).unwrap_or(found))
+                }
+            },
+            Err(error) => self.dialect.stand_in(path).or_else(|| self.new_file(path)).ok_or(error),
         }
+    }
+}
+
+impl Replaced {
+    /// A file that has this name in the new tree alone.
+    fn new_file(&self, path: &str) -> Option<Included> {
+        let path = path.split_once(':').map_or(path, |(_, path)| path);
+        let (name, text) = self.texts.iter().find(|(name, _)| Path::new(name).ends_with(path))?;
+        Some(Included { name: name.clone(), text: Arc::clone(text) })
     }
 }
 
 /// The texts of the files of a program as a stage reads them, for OpenGL.
 fn texts_for(files: &[NewFile], stage: Stage) -> BTreeMap<String, Arc<str>> {
     let of_stage = files.iter().filter(|file| file.stage.is_none_or(|own| own == stage));
-    of_stage.map(|file| (file.name.clone(), for_opengl(&file.text, &file.old, stage).into())).collect()
+    let both = |file: &NewFile| {
+        let text: Arc<str> = for_opengl(&file.text, &file.old, stage).into();
+        [(file.new_name(), Arc::clone(&text)), (file.name.clone(), text)]
+    };
+    of_stage.flat_map(both).collect()
 }
 
 impl TreeProgram {

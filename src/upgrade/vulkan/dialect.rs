@@ -2,6 +2,7 @@
 //!
 //! *In:* nothing. *Out:* settings, as data. *Holds:* the default is GLSL 4.50 by GL_KHR_vulkan_glsl, with every number in the text.
 
+use crate::engines::code::{without_comments, words};
 use glisten_front::source::Included;
 use std::collections::BTreeMap;
 
@@ -30,6 +31,21 @@ pub struct HostBlock {
     pub members: Vec<(String, String)>,
 }
 
+impl HostBlock {
+    /// The declaration of the block.
+    pub fn declaration(&self) -> String {
+        let members: String = self.members.iter().map(|(ty, name)| format!("    {ty} {name};\n")).collect();
+        format!("layout(std140) uniform {} {{\n{members}}};\n", self.name)
+    }
+
+    /// Whether a text declares the block.
+    pub fn is_in(&self, text: &str) -> bool {
+        let code = without_comments(text);
+        let mut words = words(&code).map(|(_, word)| word).skip_while(|word| *word != "uniform");
+        words.any(|word| word == self.name)
+    }
+}
+
 /// The wishes of a host.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dialect {
@@ -47,6 +63,8 @@ pub struct Dialect {
     pub extension: Option<String>,
     /// The word of the directive that includes, if there is only one: `include`, `moj_import`.
     pub directive: Option<String>,
+    /// Included files that were moved, each with the folder between the old place and the file.
+    pub moved: BTreeMap<String, String>,
 }
 
 impl Default for Dialect {
@@ -59,19 +77,22 @@ impl Default for Dialect {
             renamed: BTreeMap::new(),
             extension: None,
             directive: None,
+            moved: BTreeMap::new(),
         }
     }
 }
 
 impl Dialect {
+    /// The block of the host's file with a path.
+    pub fn block_of(&self, path: &str) -> Option<&HostBlock> {
+        let is_named = |block: &&HostBlock| block.include.as_deref().is_some_and(|name| plain(name) == plain(path));
+        self.blocks.iter().find(is_named)
+    }
+
     /// The text of an included file of the host that is not there: its block alone.
     pub fn stand_in(&self, path: &str) -> Option<Included> {
-        let plain = |path: &str| path.strip_prefix("minecraft:").unwrap_or(path).to_owned();
-        let is_named = |block: &&HostBlock| block.include.as_deref().is_some_and(|name| plain(name) == plain(path));
-        let block = self.blocks.iter().find(is_named)?;
-        let members: String = block.members.iter().map(|(ty, name)| format!("    {ty} {name};\n")).collect();
-        let text = format!("layout(std140) uniform {} {{\n{members}}};\n", block.name);
-        Some(Included { name: format!("<{path}>"), text: text.into() })
+        let block = self.block_of(path)?;
+        Some(Included { name: format!("<{path}>"), text: block.declaration().into() })
     }
 
     /// The block that has a member, and the new name of it.
@@ -79,4 +100,9 @@ impl Dialect {
         let name = self.renamed.get(name).map_or(name, String::as_str);
         self.blocks.iter().position(|block| block.members.iter().any(|(_, member)| member == name))
     }
+}
+
+/// A path without the namespace of Minecraft.
+pub fn plain(path: &str) -> &str {
+    path.strip_prefix("minecraft:").unwrap_or(path)
 }

@@ -31,8 +31,8 @@ mod text;
 mod tree;
 mod unseen;
 
-pub use dialect::{Dialect, HostBlock, Numbering};
-pub use output::{NewFile, NewTree, Note, TreeProgram, with_version};
+pub use dialect::{Dialect, HostBlock, Numbering, plain};
+pub use output::{NewFile, NewTree, Note, TreeProgram, moved_path, with_version};
 pub use tree::tree;
 
 use glisten_front::compiler::{Compilation, Compiler, Source};

@@ -33,10 +33,20 @@ pub struct NewFile {
     pub readers: Vec<usize>,
     /// Whether it is a source of a program, and not only included.
     pub is_source: bool,
-    /// The paths in its includes that name files with a text for each stage.
-    pub(super) split_includes: Vec<String>,
+    /// The paths in its includes that name files with other names now.
+    pub(super) pointed: Vec<Pointed>,
     /// The stage of whoever includes it first.
     pub(super) first: Stage,
+}
+
+/// A path in an include whose file has another name now.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Pointed {
+    pub(super) path: String,
+    /// The folder that the file was moved to, next to the old one.
+    pub(super) folder: Option<String>,
+    /// Whether there is a file for each stage.
+    pub(super) is_split: bool,
 }
 
 impl NewFile {
@@ -48,19 +58,22 @@ impl NewFile {
         }
     }
 
-    /// Lets its includes name the files for its stage.
+    /// Lets its includes name the files that moved, and those for its stage.
     pub(super) fn point(&mut self) {
         let conditions = Conditions::new(&self.text);
         let mut edits = Vec::new();
         for one in conditions.list.iter().filter(|one| matches!(one.word(), "include" | "moj_import")) {
             let named = self
-                .split_includes
+                .pointed
                 .iter()
-                .find(|path| one.rest().get(1..).is_some_and(|rest| rest.starts_with(path.as_str())));
+                .find(|pointed| one.rest().get(1..).is_some_and(|rest| rest.starts_with(pointed.path.as_str())));
             let line = self.text.get(one.range.clone()).unwrap_or("");
-            if let Some((path, at)) = named.and_then(|path| Some((path, line.find(path.as_str())?))) {
+            if let Some((pointed, at)) = named.and_then(|named| Some((named, line.find(named.path.as_str())?))) {
                 let start = one.range.start + at;
-                edits.push((start..start + path.len(), of_stage(path, self.first)));
+                let moved = pointed.folder.as_deref().map(|folder| moved_path(&pointed.path, folder));
+                let path = moved.unwrap_or_else(|| pointed.path.clone());
+                let path = if pointed.is_split { of_stage(&path, self.first) } else { path };
+                edits.push((start..start + pointed.path.len(), path));
             }
         }
         self.text = applied(&self.text, edits);
@@ -76,6 +89,13 @@ pub fn with_version(old: &str, new: &str, target: Target) -> String {
     let end = range.start + old.get(range.clone()).map_or(0, |line| line.trim_end().len());
     let (before, after) = (new.get(..range.start).unwrap_or(""), new.get(end..).unwrap_or(""));
     format!("{before}{}{after}", target.version_line())
+}
+
+/// A path with a folder before its file: `minecraft:older/fog.glsl`.
+pub fn moved_path(path: &str, folder: &str) -> String {
+    let at = path.rfind(['/', ':']).map_or(0, |at| at + 1);
+    let (before, file) = path.split_at(at);
+    format!("{before}{folder}/{file}")
 }
 
 /// The name of a file for one stage: `fog.frag.glsl`.

@@ -98,7 +98,7 @@ impl Plan<'_> {
         }
         let new = applied(&file.text, edits);
         let new = if has_moved && without_empty(&file.text) == *file.text { without_empty(&new) } else { new };
-        Ok(self.with_extension(file, new))
+        Ok(self.with_extension(key, file, new))
     }
 
     fn coordinates(&self, key: &Key, file: &File, chunks: &Chunks<'_>) -> Result<Vec<Edit>, String> {
@@ -298,22 +298,48 @@ impl Plan<'_> {
         edits
     }
 
-    /// The text with the line that the host wants after `#version`, or the one that glslang wants before an include.
-    fn with_extension(&self, file: &File, text: String) -> String {
+    /// The text with the lines after `#version` that the host wants, or glslang for includes and for lines that go on.
+    fn with_extension(&self, key: &Key, file: &File, text: String) -> String {
         let is_source = !file.source_of.is_empty();
         let includes = || Conditions::new(&text).list.iter().any(|one| one.word() == "include");
         let for_includes = (self.dialect.numbering == Numbering::All && is_source && includes())
             .then_some("#extension GL_GOOGLE_include_directive : enable");
-        let Some(line) = self.dialect.extension.as_deref().filter(|_| is_source).or(for_includes) else { return text };
-        let name = line.split_whitespace().nth(1).unwrap_or(line);
-        if text.contains(name) {
-            return text;
-        }
-        let Some(version) = glisten_front::source::version_line(&text) else { return text };
-        let rest = text.get(version.start..);
-        let end = rest.and_then(|rest| rest.find('\n')).map_or(text.len(), |at| version.start + at + 1);
-        let (before, after) = text.split_at(end);
-        let gap = if before.ends_with('\n') { "" } else { "\n" };
-        format!("{before}{gap}{line}\n{after}")
+        let wanted = self.dialect.extension.as_deref().filter(|_| is_source).or(for_includes);
+        // glslang takes a backslash at the end of a line from 4.20 on (GLSL 4.20 §3.1).
+        let needs_joining = self.dialect.numbering != Numbering::All && is_source && self.continues_lines(key);
+        let for_lines = needs_joining.then_some("#extension GL_ARB_shading_language_420pack : enable");
+        let lines = wanted.into_iter().chain(for_lines);
+        lines.fold(text, |text, line| with_line(text, line))
     }
+
+    /// Whether a source, or a file that it includes, has a line that goes on in the next one.
+    fn continues_lines(&self, key: &Key) -> bool {
+        let (mut seen, mut open) = (BTreeSet::new(), vec![key.0.as_str()]);
+        while let Some(name) = open.pop().filter(|_| seen.len() < self.files.all.len() + 1) {
+            if !seen.insert(name) {
+                continue;
+            }
+            let texts = self.files.all.iter().filter(|((file, _), _)| file == name).map(|(_, file)| &file.text);
+            let goes_on = |text: &str| text.contains("\\\n") || text.contains("\\\r\n");
+            if texts.into_iter().any(|text| goes_on(&crate::engines::code::without_comments(text))) {
+                return true;
+            }
+            open.extend(self.files.includes.iter().filter(|((from, _), _)| from == name).map(|(_, to)| to.as_str()));
+        }
+        false
+    }
+}
+
+/// A text with a line after `#version`, if it has none of that name.
+fn with_line(text: String, line: &str) -> String {
+    let name = line.split_whitespace().nth(1).unwrap_or(line);
+    if text.contains(name) {
+        return text;
+    }
+    let Some(version) = glisten_front::source::version_line(&text) else { return text };
+    let rest = text.get(version.start..);
+    let end = rest.and_then(|rest| rest.find('\n')).map_or(text.len(), |at| version.start + at + 1);
+    let (before, after) = text.split_at(end);
+    let gap = if before.ends_with('\n') { "" } else { "\n" };
+    format!("{before}{gap}{line}\n{after}")
 }

@@ -12,7 +12,7 @@ use super::facts::{Fact, Facts, Refusal};
 use super::files::{File, Files};
 use super::layouts::{Layouts, loose};
 use super::numbers::Numbers;
-use super::output::{NewFile, NewTree, Note, TreeProgram};
+use super::output::{NewFile, NewTree, Note, Pointed, TreeProgram};
 use super::text::{Plan, foreign};
 use super::unseen::unseen;
 use super::{Compiled, Key};
@@ -20,6 +20,7 @@ use crate::upgrade::tokens::tokens;
 use glisten_front::builtin::{BuiltinVariable, functions};
 use glisten_front::compiler::Compilation;
 use glisten_front::hir::{ExprKind, Shader, Stage};
+use glisten_front::syntax::keywords;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Rewrites the programs of a tree for a host, or, without a dialect, only collects the texts that their compilers read.
@@ -94,6 +95,9 @@ fn refuse(shader: &Shader) -> Result<(), String> {
     if let Some(function) = known {
         return Err(format!("the function `{}` has the name of a built-in one; rename it", function.name));
     }
+    if let Some(name) = shader_names(shader).find(|name| keywords::is_of_vulkan(name)) {
+        return Err(format!("`{name}` is a type of GLSL for Vulkan, and no name; rename it"));
+    }
     let called = shader.exprs.iter().filter_map(|expr| match expr.kind {
         ExprKind::BuiltinCall(function, _) => Some(function.name()),
         _ => None,
@@ -108,6 +112,15 @@ fn refuse(shader: &Shader) -> Result<(), String> {
     Ok(())
 }
 
+/// The names that a shader declares.
+fn shader_names(shader: &Shader) -> impl Iterator<Item = &str> {
+    let globals = shader.globals.iter().map(|global| global.name.as_str());
+    let functions = shader.functions.iter().flat_map(|function| {
+        std::iter::once(function.name.as_str()).chain(function.locals.iter().map(|local| local.name.as_str()))
+    });
+    globals.chain(functions)
+}
+
 /// The new texts of programs, which are not checked.
 fn rewritten(
     programs: &[Compiled<'_>],
@@ -116,7 +129,8 @@ fn rewritten(
 ) -> Result<(Vec<NewFile>, Vec<Note>), Refusal> {
     let files = Files::new(programs, includes)?;
     let Some(dialect) = dialect else {
-        let all = files.all.iter().map(|(key, file)| new_file(&files, key, file, file.text.to_string()));
+        let moved = BTreeMap::new();
+        let all = files.all.iter().map(|(key, file)| new_file(&files, &moved, key, file, file.text.to_string()));
         return Ok((all.collect(), Vec::new()));
     };
     let mut numbers = Numbers::default();
@@ -156,13 +170,17 @@ fn rewritten(
     for (key, file) in &files.all {
         let reader = file.readers.first().map_or(0, |(unit, _)| *unit);
         let text = plan.rewritten(key, file).map_err(|reason| (reader, reason))?;
-        new.push(new_file(&files, key, file, text));
+        new.push(new_file(&files, &dialect.moved, key, file, text));
     }
     Ok((new, notes))
 }
 
-fn new_file(files: &Files, key: &Key, file: &File, text: String) -> NewFile {
-    let split = files.includes.iter().filter(|((from, _), to)| *from == key.0 && files.split.contains(*to));
+fn new_file(files: &Files, moved: &BTreeMap<String, String>, key: &Key, file: &File, text: String) -> NewFile {
+    let own = files.includes.iter().filter(|((from, _), _)| *from == key.0);
+    let pointed = own.filter_map(|((_, path), to)| {
+        let (folder, is_split) = (moved.get(to).cloned(), files.split.contains(to));
+        (is_split || folder.is_some()).then(|| Pointed { path: path.clone(), folder, is_split })
+    });
     let mut readers: Vec<usize> = file.readers.iter().map(|(unit, _)| *unit).collect();
     readers.dedup();
     NewFile {
@@ -172,7 +190,7 @@ fn new_file(files: &Files, key: &Key, file: &File, text: String) -> NewFile {
         text,
         readers,
         is_source: !file.source_of.is_empty(),
-        split_includes: split.map(|((_, path), _)| path.clone()).collect(),
+        pointed: pointed.collect(),
         first: file.readers.first().map_or(Stage::Vertex, |(_, stage)| *stage),
     }
 }

@@ -97,6 +97,56 @@ pub fn is_taken(word: &str, version: Version) -> bool {
     row.is_some_and(|row| row.kind_in(version, Extensions::empty()) != Ident)
 }
 
+/// Whether a word is a type of GLSL for Vulkan alone (GL_KHR_vulkan_glsl).
+pub fn is_of_vulkan(word: &str) -> bool {
+    VULKAN.binary_search(&word).is_ok()
+}
+
+/// The types that GL_KHR_vulkan_glsl adds, in order: textures and samplers apart, and attachments that are read.
+static VULKAN: &[&str] = &[
+    "isubpassInput",
+    "isubpassInputMS",
+    "itexture1D",
+    "itexture1DArray",
+    "itexture2D",
+    "itexture2DArray",
+    "itexture2DMS",
+    "itexture2DMSArray",
+    "itexture2DRect",
+    "itexture3D",
+    "itextureBuffer",
+    "itextureCube",
+    "itextureCubeArray",
+    "sampler",
+    "samplerShadow",
+    "subpassInput",
+    "subpassInputMS",
+    "texture1D",
+    "texture1DArray",
+    "texture2D",
+    "texture2DArray",
+    "texture2DMS",
+    "texture2DMSArray",
+    "texture2DRect",
+    "texture3D",
+    "textureBuffer",
+    "textureCube",
+    "textureCubeArray",
+    "usubpassInput",
+    "usubpassInputMS",
+    "utexture1D",
+    "utexture1DArray",
+    "utexture2D",
+    "utexture2DArray",
+    "utexture2DMS",
+    "utexture2DMSArray",
+    "utexture2DRect",
+    "utexture3D",
+    "utextureBuffer",
+    "utextureCube",
+    "utextureCubeArray",
+];
+
 /// The token kind of each word of the table in a language, by symbol.
 pub(super) fn kinds_in(version: Version, extensions: Extensions) -> Vec<TokenKind> {
     let kinds = || TABLE.iter().map(|row| row.kind_in(version, extensions)).collect();

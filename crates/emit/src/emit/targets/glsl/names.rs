@@ -15,53 +15,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Whether a name of a program is a word of a version.
 fn is_word(name: &str, version: GlslVersion) -> bool {
     keywords::is_taken(name, super::language(version, Span::default()))
-        || version == GlslVersion::Vulkan && VULKAN.binary_search(&name).is_ok()
+        || version == GlslVersion::Vulkan && keywords::is_of_vulkan(name)
 }
-
-/// The types that GL_KHR_vulkan_glsl adds, in order: textures and samplers apart, and attachments that are read.
-static VULKAN: &[&str] = &[
-    "isubpassInput",
-    "isubpassInputMS",
-    "itexture1D",
-    "itexture1DArray",
-    "itexture2D",
-    "itexture2DArray",
-    "itexture2DMS",
-    "itexture2DMSArray",
-    "itexture2DRect",
-    "itexture3D",
-    "itextureBuffer",
-    "itextureCube",
-    "itextureCubeArray",
-    "sampler",
-    "samplerShadow",
-    "subpassInput",
-    "subpassInputMS",
-    "texture1D",
-    "texture1DArray",
-    "texture2D",
-    "texture2DArray",
-    "texture2DMS",
-    "texture2DMSArray",
-    "texture2DRect",
-    "texture3D",
-    "textureBuffer",
-    "textureCube",
-    "textureCubeArray",
-    "usubpassInput",
-    "usubpassInputMS",
-    "utexture1D",
-    "utexture1DArray",
-    "utexture2D",
-    "utexture2DArray",
-    "utexture2DMS",
-    "utexture2DMSArray",
-    "utexture2DRect",
-    "utexture3D",
-    "utextureBuffer",
-    "utextureCube",
-    "utextureCubeArray",
-];
 
 /// The new names of a program, by the old ones.
 pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTreeMap<String, String> {

@@ -2,15 +2,20 @@
 //! many pictures are proved.
 //!
 //! ```sh
-//! cargo run --all-features --example ports -- GLISTEN FOLDER... [--for HOST] [--engine NAME] [--prove] [--list]
+//! cargo run --all-features --example ports -- GLISTEN FOLDER... [--for HOST] [--engine NAME] [--game NEW] [--prove] [--list]
 //! ```
 //!
-//! `GLISTEN` is the program. Each folder is a pack or the shaders of an engine; the table names the commit if it is a repository. Of the
-//! programs that glslang takes as OpenGL's, each stage of the new program is compiled by `glslangValidator -V` and judged by
+//! `GLISTEN` is the program. Each folder is a pack or the shaders of an engine; the table names the commit if it is a repository.
+//! `PACK=GAME` names the assets of the game that a pack of Minecraft was made for, and `--game` those of the game that it is ported to. Of
+//! the programs that glslang takes as OpenGL's, each stage of the new program is compiled by `glslangValidator -V` and judged by
 //! `spirv-val`. With `--list`, every program that is not accepted is printed with the reason.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a table")]
 
+mod minecraft;
+mod tools;
+
+use minecraft::Readable;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -18,9 +23,11 @@ use std::process::{Command, ExitCode};
 /// The requests of the command line.
 struct Arguments {
     glisten: PathBuf,
-    folders: Vec<PathBuf>,
+    /// Each with the assets of its game, if it is a pack.
+    folders: Vec<(PathBuf, Option<PathBuf>)>,
     host: String,
     engine: Option<String>,
+    game: Option<PathBuf>,
     proves: bool,
     lists: bool,
 }
@@ -32,6 +39,7 @@ fn arguments(mut words: impl Iterator<Item = String>) -> Option<Arguments> {
         folders: Vec::new(),
         host: "vulkan".to_owned(),
         engine: None,
+        game: None,
         proves: false,
         lists: false,
     };
@@ -39,9 +47,14 @@ fn arguments(mut words: impl Iterator<Item = String>) -> Option<Arguments> {
         match word.as_str() {
             "--for" => found.host = words.next()?,
             "--engine" => found.engine = Some(words.next()?),
+            "--game" => found.game = Some(words.next()?.into()),
             "--prove" => found.proves = true,
             "--list" => found.lists = true,
-            folder => found.folders.push(folder.into()),
+            folder => {
+                let (folder, game) =
+                    folder.split_once('=').map_or((folder, None), |(folder, game)| (folder, Some(game)));
+                found.folders.push((folder.into(), game.map(PathBuf::from)));
+            }
         }
     }
     (!found.folders.is_empty()).then_some(found)
@@ -63,7 +76,7 @@ struct Row {
 
 fn main() -> ExitCode {
     let Some(arguments) = arguments(std::env::args().skip(1)) else {
-        eprintln!("usage: ports GLISTEN FOLDER... [--for HOST] [--engine NAME] [--prove] [--list]");
+        eprintln!("usage: ports GLISTEN FOLDER... [--for HOST] [--engine NAME] [--game NEW] [--prove] [--list]");
         return ExitCode::from(2);
     };
     println!(
@@ -71,12 +84,12 @@ fn main() -> ExitCode {
     );
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     let mut exit = ExitCode::SUCCESS;
-    for folder in &arguments.folders {
-        match row(&arguments, folder) {
+    for (folder, game) in &arguments.folders {
+        match row(&arguments, folder, game.as_deref()) {
             Ok(row) => {
                 let name = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
                 let Row { programs, by_opengl, ported, accepted, valid, proved, inconclusive, failed } = row;
-                let commit = commit(folder);
+                let commit = tools::commit(folder);
                 println!(
                     "| {name} | {commit} | {programs} | {by_opengl} | {ported} | {accepted} | {valid} | {proved} | {inconclusive} | {failed} |"
                 );
@@ -90,13 +103,16 @@ fn main() -> ExitCode {
     exit
 }
 
-fn row(arguments: &Arguments, folder: &Path) -> Result<Row, String> {
+fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row, String> {
     let temporary = tempfile::tempdir().map_err(|error| error.to_string())?;
     let new = temporary.path().join("new");
     let mut command = Command::new(&arguments.glisten);
     command.arg("port").arg(folder).args(["--for", &arguments.host, "-q", "--format", "json", "-o"]).arg(&new);
     if let Some(engine) = &arguments.engine {
         command.args(["--engine", engine]);
+    }
+    if let Some(game) = game {
+        command.arg("-I").arg(game);
     }
     if arguments.proves {
         command.arg("--prove");
@@ -111,17 +127,25 @@ fn row(arguments: &Arguments, folder: &Path) -> Result<Row, String> {
         failed: figure("failed"),
         ..Row::default()
     };
+    let is_minecraft = arguments.host.starts_with("minecraft");
+    let at = |name: &str| temporary.path().join(name);
+    let readable = |folder: &Path, game: Option<&Path>, name: &str| match is_minecraft {
+        true => Readable::of_pack(folder, game, &at(name)),
+        false => Ok(Readable::as_it_is(folder)),
+    };
+    let old_tree = readable(folder, game, "old-tree").map_err(|error| error.to_string())?;
+    let new_tree = readable(&new, arguments.game.as_deref(), "new-tree").map_err(|error| error.to_string())?;
     for program in account["programs"].as_array().into_iter().flatten() {
         row.programs += 1;
         let names = program["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
         let names: Vec<&str> = names.collect();
-        let files: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
         let said = |text: &str| {
             if arguments.lists {
                 println!("  {}: {text}", program["name"].as_str().unwrap_or(""));
             }
         };
-        if !files.iter().all(|file| glslang(file, folder, &[]).is_ok()) {
+        if let Some(complaint) = names.iter().find_map(|name| tools::glslang(&old_tree, name, &[]).err()) {
+            said(&format!("the old text: {complaint}"));
             continue;
         }
         row.by_opengl += 1;
@@ -135,9 +159,11 @@ fn row(arguments: &Arguments, folder: &Path) -> Result<Row, String> {
         let place = module.to_string_lossy().into_owned();
         let (mut is_accepted, mut is_valid) = (true, true);
         for name in &names {
-            let given = if arguments.host.starts_with("minecraft") { &["--amb", "--aml"][..] } else { &[] };
+            // The game gives the numbers, and Vulkan's names to indices.
+            let names = ["-Dgl_VertexID=gl_VertexIndex", "-Dgl_InstanceID=gl_InstanceIndex"];
+            let given = if is_minecraft { &["--amb", "--aml", names[0], names[1]][..] } else { &[] };
             let vulkan = [&["-V", "--target-env", "vulkan1.1", "-o", &place], given].concat();
-            match glslang(&new.join(name), &new, &vulkan) {
+            match tools::glslang(&new_tree, name, &vulkan) {
                 Ok(()) => {
                     let judged = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(&module).output();
                     is_valid &= judged.is_ok_and(|output| output.status.success());
@@ -155,36 +181,4 @@ fn row(arguments: &Arguments, folder: &Path) -> Result<Row, String> {
         }
     }
     Ok(row)
-}
-
-/// The complaint of glslang about a file.
-fn glslang(file: &Path, folder: &Path, options: &[&str]) -> Result<(), String> {
-    let stage = match file.extension().and_then(|extension| extension.to_str()).unwrap_or("") {
-        "vert" | "vsh" | "vs" | "glslv" => "vert",
-        "frag" | "fsh" | "fs" | "glslf" => "frag",
-        _ => return Err("a file whose name tells no stage".to_owned()),
-    };
-    let mut command = Command::new("glslangValidator");
-    let text = std::fs::read_to_string(file).map_err(|error| error.to_string())?;
-    // glslang reads includes only if a text asks for them; what its host puts before a text comes first.
-    let wanted = "#extension GL_GOOGLE_include_directive : enable\n";
-    let at = text.find("#version").and_then(|at| Some(at + text.get(at..)?.find('\n')? + 1)).unwrap_or(0);
-    let (before, after) = text.split_at(at);
-    let copy = tempfile::Builder::new().suffix(&format!(".{stage}")).tempfile().map_err(|error| error.to_string())?;
-    std::fs::write(copy.path(), format!("{before}{wanted}{after}")).map_err(|error| error.to_string())?;
-    for folder in [file.parent().unwrap_or(folder), folder] {
-        command.arg(format!("-I{}", folder.display()));
-    }
-    let output =
-        command.args(["-S", stage]).args(options).arg(copy.path()).output().map_err(|error| error.to_string())?;
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    let first = || text.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason").to_owned();
-    output.status.success().then_some(()).ok_or_else(first)
-}
-
-/// The commit of a folder, if it is a repository.
-fn commit(folder: &Path) -> String {
-    let output = Command::new("git").arg("-C").arg(folder).args(["rev-parse", "--short", "HEAD"]).output();
-    let known = output.ok().filter(|output| output.status.success());
-    known.map_or_else(String::new, |output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
