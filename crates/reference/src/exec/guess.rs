@@ -6,7 +6,7 @@
 //! places: `x / 0.0` is an infinity.
 
 use super::code::{Code, Inner, Section};
-use super::inst::{Composite, Float1, Float2, Float3, FloatToInt, Inst, Lookup, TextureCall, Use};
+use super::inst::{Compare, Composite, Float1, Float2, Float3, FloatToInt, Inst, Lookup, TextureCall, Use};
 use super::machine::Machine;
 use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number, Source};
@@ -57,6 +57,8 @@ pub struct Guess {
 pub(super) const UNWRITTEN: &str = "a variable or a result that was never written";
 const NO_PLACE: &str = "a lookup at a coordinate that is no finite number";
 const SPLIT_LOOKUP: &str = "a lookup by derivatives that only a part of the quad runs";
+/// GLSL 4.60 §4.7.1: operations on a NaN need not know that it is one. Drivers differ in `!=`.
+const NAN_COMPARED: &str = "a comparison with NaN";
 const SPLIT_DERIVATIVE: &str = "a derivative that only a part of the quad runs";
 
 impl Guess {
@@ -165,6 +167,11 @@ impl<D: Domain> Machine<D> {
                 let fits = |x: f64| x > -1.0 && x < 4_294_967_296.0;
                 ("`uint` of a number that no `uint` has", lanes1(float(a), mask, |x| !fits(x)))
             }
+            Inst::Compare { a, b, .. } => {
+                let (a, b) = (float(a), float(b));
+                let has_nan = |lane: usize| a.at(lane).value().is_nan() || b.at(lane).value().is_nan();
+                (NAN_COMPARED, lanes_where(mask, has_nan))
+            }
             Inst::Int2 { op, a, b, .. } => {
                 op.undefined_name()?;
                 let (a, b) = (int(a), int(b));
@@ -269,7 +276,15 @@ impl<D: Domain> Machine<D> {
                 }
                 super::inst::Class::Int => {
                     let lanes = self.registers.ints.register(operand).spread();
-                    lanes.update(|lane, old| if is_replaced(lane) { D::Int::from_bits(numbers.int) } else { old });
+                    let int = match inst {
+                        // The two kinds differ for some numbers, so that a later comparison does not undo an earlier one.
+                        Inst::Compare { op: Compare::Equal | Compare::NotEqual, .. } => {
+                            D::Int::from_bool(numbers.int & 1 == 1)
+                        }
+                        Inst::Compare { .. } => D::Int::from_bool(numbers.int & 2 == 2),
+                        _ => D::Int::from_bits(numbers.int),
+                    };
+                    lanes.update(|lane, old| if is_replaced(lane) { int } else { old });
                 }
             }
         }
