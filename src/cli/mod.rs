@@ -195,7 +195,7 @@ pub fn run_supervised(arguments: impl IntoIterator<Item = OsString>) -> ExitCode
         Ok(parsed) => parsed,
         Err(exit) => return exit.into(),
     };
-    let resumes = matches!(command, Command::Test(_));
+    let resumes = matches!(command, Command::Test(_) | Command::Port(_));
     if command.draws_by_a_driver() {
         Supervised { resumes }.run(&console, &|| carry_out(&command, console)).into()
     } else {

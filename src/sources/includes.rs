@@ -22,6 +22,8 @@ const MAX_FILES: usize = 50_000;
 const MAX_NEARBY: usize = 2_000;
 /// How many folders above a source are searched for a missing include.
 const NEARBY: usize = 2;
+/// The largest number of places that are told of a file that is nowhere.
+const MAX_LOOKED: usize = 4;
 /// Folders in folders deeper than this are not searched: they are links in a circle.
 const DEEPEST: usize = 32;
 
@@ -240,10 +242,18 @@ impl IncludeResolver for DiskIncludes {
         if form == IncludeForm::Angled && path.starts_with("glisten/") {
             return Err(library::missing(path));
         }
-        let looked: Vec<String> = candidates.iter().map(|candidate| format!("`{}`", candidate.display())).collect();
-        Err(match looked.len() {
-            0 => format!("`<{path}>` is looked for along -I alone, and no folder is given"),
-            _ => format!("there is no {}", looked.join(" and no ")),
+        let mut looked: Vec<String> = Vec::new();
+        for shown in candidates.iter().map(|candidate| format!("`{}`", candidate.display())) {
+            if !looked.contains(&shown) {
+                looked.push(shown);
+            }
+        }
+        let more = looked.len().saturating_sub(MAX_LOOKED);
+        looked.truncate(MAX_LOOKED);
+        Err(match (looked.len(), more) {
+            (0, _) => format!("`<{path}>` is looked for along -I alone, and no folder is given"),
+            (_, 0) => format!("there is no {}", looked.join(" and no ")),
+            (_, more) => format!("there is no {}, and none at {more} more places", looked.join(" and no ")),
         })
     }
 }

@@ -7,6 +7,7 @@ use super::names::FUNCTIONS;
 use super::tokens::{closing, tokens};
 use glisten_front::Stage;
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
+use glisten_front::builtin::functions;
 use glisten_front::language::{Profile, Storage, Types, Version};
 use glisten_front::source::Span;
 use glisten_front::syntax::keywords;
@@ -156,17 +157,18 @@ impl Plan {
 
     /// The plan for the texts of a program; new names are none of these words.
     pub fn with_words(texts: &[Text<'_>], target: Target, words: &BTreeSet<String>) -> Self {
-        let mut used: BTreeSet<&str> = words.iter().map(String::as_str).collect();
+        let mut own: BTreeSet<&str> = BTreeSet::new();
         let mut by_stage: BTreeSet<(Stage, &str)> = BTreeSet::new();
         for text in texts {
             for token in tokens(text.text).iter().filter(|token| token.is_word()) {
-                used.insert(token.text);
+                own.insert(token.text);
                 by_stage.insert((text.stage, token.text));
             }
         }
         let plan =
             Self { target, words: BTreeMap::new(), declarations: Vec::new(), notes: Vec::new(), refused: Vec::new() };
-        let mut planner = Planner { plan, used, by_stage, structs: BTreeSet::new() };
+        let used = own.iter().copied().chain(words.iter().map(String::as_str)).collect();
+        let mut planner = Planner { plan, own, used, by_stage, structs: BTreeSet::new() };
         planner.taken(texts);
         planner.fixed(texts);
         planner.outputs(texts);
@@ -202,6 +204,9 @@ impl Plan {
 /// A plan in progress.
 struct Planner<'t> {
     plan: Plan,
+    /// The words of the program.
+    own: BTreeSet<&'t str>,
+    /// All words that no new name may be.
     used: BTreeSet<&'t str>,
     by_stage: BTreeSet<(Stage, &'t str)>,
     /// The structs that a stage has declared.
@@ -240,13 +245,16 @@ impl Planner<'_> {
     /// Names of the program that mean something else in the target.
     fn taken(&mut self, texts: &[Text<'_>]) {
         let target = self.plan.target;
-        let is_function = |name: &str| FUNCTIONS.contains(&name) && texts.iter().all(|text| text.version < 130);
+        let declared = declared_functions(texts);
+        let is_function = |name: &str| declared.contains(name) && texts.iter().all(|text| text.version < 130);
         let is_new_word = |name: &str| {
-            target.takes(name) && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
+            // A function of older versions has another name now.
+            target.takes(name)
+                && functions::named(name).is_empty()
+                && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
         };
         let as_keywords = keyword_uses(texts);
-        let names: Vec<&str> =
-            self.used.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
+        let names: Vec<&str> = self.own.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
         let names: Vec<&str> = names.into_iter().filter(|name| !as_keywords.contains(name)).collect();
         for name in names {
             let new = self.free(name);
@@ -259,13 +267,13 @@ impl Planner<'_> {
 
     /// Variables of the fixed-function pipeline.
     fn fixed(&mut self, texts: &[Text<'_>]) {
-        self.plan.refused.extend(REFUSED.iter().filter(|name| self.used.contains(*name)));
-        if self.used.contains("gl_BackColor") || self.used.contains("gl_BackSecondaryColor") {
+        self.plan.refused.extend(REFUSED.iter().filter(|name| self.own.contains(*name)));
+        if self.own.contains("gl_BackColor") || self.own.contains("gl_BackSecondaryColor") {
             let note =
                 "the fragment shader reads the front color alone; for two sides, let it choose by `gl_FrontFacing`";
             self.plan.notes.push(note.to_owned());
         }
-        if self.used.contains("gl_FrontColor") || self.used.contains("gl_FrontSecondaryColor") {
+        if self.own.contains("gl_FrontColor") || self.own.contains("gl_FrontSecondaryColor") {
             let note = "OpenGL clamps the colors of the vertex stage to [0, 1], and a varying is not clamped; add `clamp` \
                         where they may leave it";
             self.plan.notes.push(note.to_owned());
@@ -357,6 +365,23 @@ impl Planner<'_> {
             self.replace(stage, "gl_FragColor", &name);
         }
     }
+}
+
+/// The functions of later versions that the texts use otherwise than by calling them: they declare them, or something else of the name.
+fn declared_functions<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    let mut found = BTreeSet::new();
+    for text in texts {
+        let all = tokens(text.text);
+        for (index, token) in all.iter().enumerate().filter(|(_, token)| FUNCTIONS.contains(&token.text)) {
+            let before = index.checked_sub(1).and_then(|before| all.get(before));
+            let follows_a_word = before.is_some_and(|before| before.is_word() && before.text != "return");
+            let is_called = all.get(index + 1).is_some_and(|next| next.text == "(");
+            if follows_a_word || !is_called {
+                found.insert(token.text);
+            }
+        }
+    }
+    found
 }
 
 /// The words that a text uses as no name is used: before another word or a number (`precision mediump float`, `flat in`, `case 1`).

@@ -201,6 +201,11 @@ fn new_program(
                 .collect();
             Ok(Ok((TreeProgram { compiler: old.clone(), sources }, None)))
         }
+        Err(Refused::Wrong(compilation)) => {
+            let first = compilation.diagnostics.iter().find(|found| found.is_error());
+            let because = first.map_or("the sources have errors".to_owned(), told);
+            Ok(Err((Outcome::Refused, Some(because))))
+        }
         Err(refused) => Ok(Err((Outcome::Refused, Some(refused.to_string())))),
     }
 }

@@ -2,11 +2,12 @@
 //!
 //! *In:* ported programs. *Out:* for each `proved`, `inconclusive` or `failed`, with what was found. *Holds:* proved means:
 //! OpenGL's picture of the original and Vulkan's of the new program are within the envelope of the original. The new texts are read with OpenGL's
-//! coordinates, since glisten's own code for Vulkan turns them.
+//! coordinates, since glisten's own code for Vulkan turns them. A driver that crashes leaves its program inconclusive, and the rest goes on.
 
 use super::super::args::{LevelArgs, SourceArgs};
 use super::super::console::{ColorChoice, Console};
 use super::super::exit::{Exit, Failure};
+use super::super::journal::{self, Note};
 use super::super::new_scene;
 use super::super::upgrade::NewFiles;
 use super::programs::{Done, Ported};
@@ -19,12 +20,16 @@ use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_ATTRIBUTE, SCENE_UNSE
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::FileSource;
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
 /// The width and height of the pictures.
 const SIDE: u32 = 64;
+const PROVED: &str = "proved";
+const INCONCLUSIVE: &str = "inconclusive";
+const FAILED: &str = "failed";
 
 /// Proves the programs that are ported.
 pub(super) fn prove(
@@ -36,28 +41,70 @@ pub(super) fn prove(
 ) -> Result<(), Failure> {
     let machine = |error: &dyn std::fmt::Display| Failure::new(Exit::Machine, error.to_string());
     let gpu = Gpu::new(None).map_err(|error| machine(&error))?;
+    journal::note(&Note::Driver(gpu.adapter().driver.clone()));
+    let known = Known::read();
     let folder = tempfile::tempdir().map_err(|error| Failure::usage(format!("no temporary folder: {error}")))?;
     for index in 0..ported.programs.len() {
         let Some(one) = ported.programs.get(index).filter(|one| one.index.is_some()) else { continue };
-        let scene = folder.path().join(format!("{index}")).join("scene.toml");
-        let judged = fs::create_dir_all(scene.parent().unwrap_or(folder.path()))
-            .map_err(|error| error.to_string())
-            .and_then(|()| judged(one, ported, host.dialect.as_ref(), &scene, (sources, levels), &gpu));
-        let (proof, evidence) = match judged {
-            Ok((conclusion, evidence)) => match conclusion {
-                Conclusion::Holds => ("proved", evidence),
-                Conclusion::Inconclusive => ("inconclusive", evidence),
-                Conclusion::Fails => ("failed", evidence),
-            },
-            Err(reason) => ("inconclusive", reason),
+        let work = journal::drawing(&one.report.files.join("`, `"));
+        let (proof, evidence) = match known.of(index, &work) {
+            Some(known) => known,
+            None => {
+                let scene = folder.path().join(format!("{index}")).join("scene.toml");
+                let _work = journal::at_work(&work);
+                let judged = fs::create_dir_all(scene.parent().unwrap_or(folder.path()))
+                    .map_err(|error| error.to_string())
+                    .and_then(|()| judged(one, ported, host.dialect.as_ref(), &scene, (sources, levels), &gpu));
+                worded(judged)
+            }
         };
+        journal::note(&Note::Result(json!([index, proof, evidence])));
         if let Some(one) = ported.programs.get_mut(index) {
-            console.remark(&format!("{}: {proof}: {evidence}", one.report.name));
+            if !known.has(index) {
+                console.remark(&format!("{}: {proof}: {evidence}", one.report.name));
+            }
             one.report.proof = Some(proof.to_owned());
             one.report.evidence = Some(evidence);
         }
     }
     Ok(())
+}
+
+/// What earlier processes found before a driver crashed.
+struct Known(Vec<Note>);
+
+impl Known {
+    fn read() -> Self {
+        Self(journal::notes())
+    }
+
+    /// Whether an earlier process told the result.
+    fn has(&self, index: usize) -> bool {
+        self.0.iter().any(|note| matches!(note, Note::Result(row) if row.get(0) == Some(&json!(index))))
+    }
+
+    /// The result for a program.
+    fn of(&self, index: usize, at_work: &str) -> Option<(&'static str, String)> {
+        self.0.iter().find_map(|note| match note {
+            Note::Crash { work, what } if work == at_work => Some((INCONCLUSIVE, what.clone())),
+            Note::Result(row) => {
+                let (known, proof, evidence): (usize, String, String) = serde_json::from_value(row.clone()).ok()?;
+                let proof = [PROVED, INCONCLUSIVE, FAILED].into_iter().find(|word| *word == proof)?;
+                (known == index).then_some((proof, evidence))
+            }
+            _ => None,
+        })
+    }
+}
+
+/// The words of a verdict, and the evidence.
+fn worded(judged: Result<(Conclusion, String), String>) -> (&'static str, String) {
+    match judged {
+        Ok((Conclusion::Holds, evidence)) => (PROVED, evidence),
+        Ok((Conclusion::Inconclusive, evidence)) => (INCONCLUSIVE, evidence),
+        Ok((Conclusion::Fails, evidence)) => (FAILED, evidence),
+        Err(reason) => (INCONCLUSIVE, reason),
+    }
 }
 
 fn judged(

@@ -31,6 +31,13 @@ pub(super) fn names_frag_coord(chunks: &Chunks<'_>) -> bool {
     chunks.all.iter().any(|token| token.text == "gl_FragCoord")
 }
 
+/// The end of a redeclaration of the coordinates, which comes before any use.
+pub(super) fn redeclared(chunks: &Chunks<'_>) -> Option<usize> {
+    let is_it = |index: &usize| chunks.word(*index) == "vec4" && chunks.word(*index + 1) == "gl_FragCoord";
+    let name = (0..chunks.all.len()).find(is_it)? + 1;
+    (chunks.word(name + 1) == ";").then(|| chunks.place(name + 1).end)
+}
+
 /// The edits of words and calls. The new name of `gl_FragCoord` is given if it changes.
 pub(super) fn words(chunks: &Chunks<'_>, is_fragment: bool, frag_coord: Option<&str>) -> Vec<Edit> {
     let mut edits = Vec::new();
@@ -38,7 +45,10 @@ pub(super) fn words(chunks: &Chunks<'_>, is_fragment: bool, frag_coord: Option<&
         let range = token.range.clone();
         if let Some((_, new)) = NAMES.iter().find(|row| row.0 == token.text) {
             edits.push((range, (*new).to_owned()));
-        } else if let (Some(name), "gl_FragCoord") = (frag_coord, token.text) {
+        } else if let (Some(name), "gl_FragCoord") = (frag_coord, token.text)
+            // A redeclaration stays one: `in vec4 gl_FragCoord;`.
+            && index.checked_sub(1).is_none_or(|before| chunks.word(before) != "vec4")
+        {
             edits.push((range, name.to_owned()));
         } else if ALONG_Y.contains(&token.text)
             && is_fragment
@@ -67,7 +77,21 @@ pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<V
         "{gap}\n// Vulkan's depth: [0, w] in clip space.\nvoid main() {{\n    {name}();\n    \
          gl_Position.z = (gl_Position.z + gl_Position.w) * 0.5;\n{size}}}\n"
     );
-    Some(vec![(place, name.to_owned()), (end..end, text)])
+    let mut edits = vec![(place, name.to_owned()), (end..end, text)];
+    if !size.is_empty() {
+        edits.extend(point_size(chunks));
+    }
+    Some(edits)
+}
+
+/// The member that a redeclared `gl_PerVertex` lacks.
+fn point_size(chunks: &Chunks<'_>) -> Option<Edit> {
+    let is_block = |index: &usize| chunks.word(*index) == "gl_PerVertex" && chunks.word(*index + 1) == "{";
+    let open = (0..chunks.all.len()).find(is_block)? + 1;
+    let close = (open..chunks.all.len()).find(|index| chunks.word(*index) == "}")?;
+    let has_it = (open..close).any(|index| chunks.word(index) == "gl_PointSize");
+    let place = chunks.place(close).start;
+    (!has_it).then(|| (place..place, "    float gl_PointSize;\n".to_owned()))
 }
 
 /// The name in the definition of `main`.

@@ -290,8 +290,10 @@ impl<'a> Text<'a> {
             let is_new = removed.insert(range.start);
             let first = moves.first().map(|first| self.chunks.range(first.chunk));
             if let (Some(loose), Some(first)) = (loose, &first) {
-                later_struct |=
-                    loose.structs.iter().any(|name| self.struct_place(name).is_some_and(|at| at > first.end));
+                let is_later = |at: Option<usize>| at.is_some_and(|at| at > first.end);
+                let mut words = self.chunks.of(one.chunk).iter().filter(|token| token.is_word());
+                later_struct |= loose.structs.iter().any(|name| is_later(self.struct_place(name)))
+                    || words.any(|token| is_later(self.constant_place(token.text)));
             }
             let name = span(self.chunks.place(one.token));
             let mut above = if is_new && !is_call {
@@ -331,6 +333,15 @@ impl<'a> Text<'a> {
             *place = range.start;
         }
         Ok(moved)
+    }
+
+    /// The place of the definition of a constant in this text: `const int MAX = 4`, with or without a precision.
+    fn constant_place(&self, name: &str) -> Option<usize> {
+        let is_const = |at: usize, back: usize| at.checked_sub(back).is_some_and(|at| self.chunks.word(at) == "const");
+        let is_it = |at: &usize| {
+            self.chunks.word(*at) == name && self.chunks.word(at + 1) == "=" && (is_const(*at, 2) || is_const(*at, 3))
+        };
+        (0..self.chunks.all.len()).find(is_it).map(|at| self.chunks.place(at).start)
     }
 
     /// The place of the definition of a struct in this text.

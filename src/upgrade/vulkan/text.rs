@@ -187,11 +187,14 @@ impl Plan<'_> {
         });
         let place = moved.place.as_ref().map_or_else(|| first_code_of(&file.text), |(place, _)| *place);
         let place = if is_turned { place.min(self.first_turned_include(&file.text, key)) } else { place };
+        let after = coordinates::redeclared(chunks).filter(|_| is_turned).unwrap_or(0);
+        let (place, gap) = if after > place { (after, "\n") } else { (place, "") };
         let layout = match self.dialect.numbering {
             Numbering::All => format!("layout(std140, set = 0, binding = {})", self.numbers.of(layout.node)),
             _ => "layout(std140)".to_owned(),
         };
-        Some((place..place, format!("{layout} uniform {} {{\n{body}}};\n{turned}", free(self.names, &wanted))))
+        let name = free(self.names, &wanted);
+        Some((place..place, format!("{gap}{layout} uniform {name} {{\n{body}}};\n{turned}")))
     }
 
     /// Whether the block of a file with its own can have all members without their conditions, and so be the same for all stages: no
