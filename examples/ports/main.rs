@@ -166,7 +166,13 @@ fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row,
             match tools::glslang(&new_tree, name, &vulkan) {
                 Ok(()) => {
                     let judged = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(&module).output();
-                    is_valid &= judged.is_ok_and(|output| output.status.success());
+                    let complaint = match judged {
+                        Ok(output) if output.status.success() => None,
+                        Ok(output) => Some(String::from_utf8_lossy(&output.stderr).into_owned()),
+                        Err(error) => Some(error.to_string()),
+                    };
+                    complaint.iter().for_each(|text| said(&format!("spirv-val: {}", text.trim())));
+                    is_valid &= complaint.is_none();
                 }
                 Err(complaint) => {
                     said(&complaint);

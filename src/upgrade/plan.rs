@@ -79,8 +79,12 @@ impl Target {
 
     /// Whether a word is one of the language, so that no name of a program can be that word.
     fn takes(self, word: &str) -> bool {
-        let is_for_vulkan = matches!(self, Self::Vulkan | Self::Both330);
-        keywords::is_taken(word, self.language()) || is_for_vulkan && keywords::is_of_vulkan(word)
+        keywords::is_taken(word, self.language()) || self.is_for_vulkan() && keywords::is_of_vulkan(word)
+    }
+
+    /// Whether Vulkan's rules hold.
+    fn is_for_vulkan(self) -> bool {
+        matches!(self, Self::Vulkan | Self::Both330)
     }
 
     /// Whether a text of a version is too new to be rewritten.
@@ -245,8 +249,15 @@ impl Planner<'_> {
     /// Names of the program that mean something else in the target.
     fn taken(&mut self, texts: &[Text<'_>]) {
         let target = self.plan.target;
-        let declared = declared_functions(texts);
-        let is_function = |name: &str| declared.contains(name) && texts.iter().all(|text| text.version < 130);
+        let is_new_function = |name: &str| {
+            let is_old = FUNCTIONS.contains(&name) && texts.iter().all(|text| text.version < 130);
+            let has = |version| functions::named(name).iter().any(|row| row.availability.in_version(version));
+            let is_later =
+                || functions::is_known_for_vulkan(name) && !texts.iter().any(|text| has(version(text.version)));
+            is_old || target.is_for_vulkan() && is_later()
+        };
+        let declared = declared_functions(texts, &is_new_function);
+        let is_function = |name: &str| declared.contains(name);
         let is_new_word = |name: &str| {
             // A function of older versions has another name now.
             target.takes(name)
@@ -368,11 +379,11 @@ impl Planner<'_> {
 }
 
 /// The functions of later versions that the texts use otherwise than by calling them: they declare them, or something else of the name.
-fn declared_functions<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+fn declared_functions<'t>(texts: &[Text<'t>], is_new: &dyn Fn(&str) -> bool) -> BTreeSet<&'t str> {
     let mut found = BTreeSet::new();
     for text in texts {
         let all = tokens(text.text);
-        for (index, token) in all.iter().enumerate().filter(|(_, token)| FUNCTIONS.contains(&token.text)) {
+        for (index, token) in all.iter().enumerate().filter(|(_, token)| token.is_word() && is_new(token.text)) {
             let before = index.checked_sub(1).and_then(|before| all.get(before));
             let follows_a_word = before.is_some_and(|before| before.is_word() && before.text != "return");
             let is_called = all.get(index + 1).is_some_and(|next| next.text == "(");

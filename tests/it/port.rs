@@ -235,6 +235,64 @@ fn names_that_are_types_for_vulkan_change() {
     has(&err(&output), &["`sampler` is a type of GLSL for Vulkan, and no name; rename it"]);
 }
 
+/// What real trees showed: each program by itself was ported, and not among the others.
+#[test]
+fn programs_of_one_tree_do_not_refuse_each_other() {
+    let vertex = b"#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n";
+    let folder = Folder::new(&[
+        // Names that one program has are no names of another.
+        ("in/old.vert", b"#version 120\nvoid main() { gl_ClipVertex = gl_Vertex; gl_Position = ftransform(); }\n"),
+        ("in/plain.vert", vertex),
+        // A redeclared block lacks the size of points, which Vulkan wants.
+        (
+            "in/block.vert",
+            b"#version 410\nlayout(location = 0) in vec4 p;\nout gl_PerVertex { vec4 gl_Position; };\nvoid main() { gl_Position = p; }\n",
+        ),
+        ("in/place.vert", vertex),
+        (
+            "in/place.frag",
+            b"#version 150\nuniform vec4 tint;\nin vec4 gl_FragCoord;\nout vec4 c;\nvoid main() { c = tint * gl_FragCoord.y; }\n",
+        ),
+        // A constant after the first uniform; an input that nothing writes and nothing reads.
+        (
+            "in/bones.vert",
+            b"#version 330 core\nlayout(location = 0) in vec4 p;\nuniform mat4 m;\nconst int MAX = 4;\nuniform mat4 bones[MAX];\nvoid main() { gl_Position = m * bones[1] * p; }\n",
+        ),
+        ("in/bones.frag", b"#version 330 core\nin vec2 nobody;\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        // A function of its own, which later versions have built in; a call of `texture2D` stays one.
+        (
+            "in/own.frag",
+            b"#version 130\nuniform sampler2D s;\nout vec4 c;\nmat2 inverse(mat2 m) { return m; }\nvoid main() { c = texture2D(s, inverse(mat2(1.0))[0]); }\n",
+        ),
+        (
+            "in/rect.frag",
+            b"#version 150\nuniform sampler2DRect s;\nout vec4 c;\nvoid main() { c = texture(s, vec2(1.0)); }\n",
+        ),
+    ]);
+    let output = folder.run(&["port", "in", "--for", "vulkan", "-o", "out", "--format", "json"]);
+    let account: Value = serde_json::from_str(&out(&output)).expect("JSON");
+    let refused: Vec<&str> = account["programs"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter(|program| program["result"] == "refused")
+        .filter_map(|program| program["name"].as_str())
+        .collect();
+    assert_eq!(refused, ["old", "rect"], "{account:#}");
+    has(
+        &err(&output),
+        &["`s` is a rectangle texture, which Vulkan does not have", "`gl_ClipVertex` has no counterpart"],
+    );
+    has(&read(&folder, "out/own.frag"), &["mat2 inverse_(mat2 m)", "texture(s, inverse_(mat2(1.0))[0])"]);
+    has(&read(&folder, "out/block.vert"), &["float gl_PointSize;", "gl_PointSize = 1.0;"]);
+    let names = ["plain.vert", "block.vert", "place.vert", "place.frag", "bones.vert", "bones.frag", "own.frag"];
+    for name in names {
+        let stage = name.rsplit('.').next().unwrap_or("");
+        let said = complaint(&folder.path(&format!("out/{name}")), stage, &folder.path("out"));
+        assert!(said.is_none(), "{name}: {said:?}\n{}", read(&folder, &format!("out/{name}")));
+    }
+}
+
 #[test]
 fn what_cannot_be_ported_stays() {
     let folder = Folder::new(&[

@@ -19,7 +19,7 @@ use super::{Compiled, Key};
 use crate::upgrade::tokens::tokens;
 use glisten_front::builtin::{BuiltinVariable, functions};
 use glisten_front::compiler::Compilation;
-use glisten_front::hir::{ExprKind, Shader, Stage};
+use glisten_front::hir::{ExprKind, SamplerDim, Shader, Stage, Type, TypeId, Types};
 use glisten_front::syntax::keywords;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -73,7 +73,8 @@ fn sound<'a>(
 ) -> Result<&'a glisten_front::link::Program, String> {
     let Some(program) = compilation.program.as_ref().filter(|_| !compilation.diagnostics.has_errors()) else {
         let first = compilation.diagnostics.iter().find(|found| found.is_error());
-        return Err(first.map_or_else(|| "the sources have errors".to_owned(), |error| error.message.clone()));
+        let without_main = || "no source has a `main`: it is a part of other programs".to_owned();
+        return Err(first.map_or_else(without_main, |error| error.message.clone()));
     };
     if dialect.is_none() {
         return Ok(program);
@@ -85,15 +86,18 @@ fn sound<'a>(
     if sources.iter().any(|one| sources.iter().filter(|other| other.stage == one.stage).count() > 1) {
         return Err("several sources of one stage are not rewritten for Vulkan".to_owned());
     }
-    program.stages.iter().try_for_each(refuse)?;
+    program.stages.iter().try_for_each(|shader| refuse(shader, &program.types))?;
     Ok(program)
 }
 
 /// Refuses what no edit says in Vulkan's terms.
-fn refuse(shader: &Shader) -> Result<(), String> {
+fn refuse(shader: &Shader, types: &Types) -> Result<(), String> {
     let known = shader.functions.iter().find(|one| functions::is_known_for_vulkan(&one.name));
     if let Some(function) = known {
         return Err(format!("the function `{}` has the name of a built-in one; rename it", function.name));
+    }
+    if let Some(global) = shader.globals.iter().find(|global| is_rectangle(types, global.ty)) {
+        return Err(format!("`{}` is a rectangle texture, which Vulkan does not have", global.name));
     }
     if let Some(name) = shader_names(shader).find(|name| keywords::is_of_vulkan(name)) {
         return Err(format!("`{name}` is a type of GLSL for Vulkan, and no name; rename it"));
@@ -110,6 +114,15 @@ fn refuse(shader: &Shader) -> Result<(), String> {
         return Err("Vulkan has no `gl_DepthRange`".to_owned());
     }
     Ok(())
+}
+
+/// Whether a type is a sampler of rectangle textures, or an array of them.
+fn is_rectangle(types: &Types, ty: TypeId) -> bool {
+    match types.get(ty) {
+        Type::Array(element, _) => is_rectangle(types, element),
+        Type::Sampler(kind) => kind.dim == SamplerDim::Rect,
+        _ => false,
+    }
 }
 
 /// The names that a shader declares.
