@@ -264,6 +264,11 @@ fn programs_of_one_tree_do_not_refuse_each_other() {
             "in/own.frag",
             b"#version 130\nuniform sampler2D s;\nout vec4 c;\nmat2 inverse(mat2 m) { return m; }\nvoid main() { c = texture2D(s, inverse(mat2(1.0))[0]); }\n",
         ),
+        // Samplers in a struct.
+        (
+            "in/lit.frag",
+            b"#version 330 core\nstruct Material {\n    sampler2D diffuse;\n    float shininess;\n};\nuniform vec3 eye;\nuniform Material material;\nout vec4 c;\nvoid main() { c = texture(material.diffuse, eye.xy) * material.shininess; }\n",
+        ),
         (
             "in/rect.frag",
             b"#version 150\nuniform sampler2DRect s;\nout vec4 c;\nvoid main() { c = texture(s, vec2(1.0)); }\n",
@@ -284,8 +289,18 @@ fn programs_of_one_tree_do_not_refuse_each_other() {
         &["`s` is a rectangle texture, which Vulkan does not have", "`gl_ClipVertex` has no counterpart"],
     );
     has(&read(&folder, "out/own.frag"), &["mat2 inverse_(mat2 m)", "texture(s, inverse_(mat2(1.0))[0])"]);
+    has(
+        &read(&folder, "out/lit.frag"),
+        &[
+            "struct Material {\n    float shininess;\n};\n",
+            "layout(set = 1, binding = 0) uniform sampler2D material_diffuse;",
+            "texture(material_diffuse, eye.xy) * material.shininess",
+        ],
+    );
+    assert!(account["files"].to_string().contains("`material.diffuse` is `material_diffuse`"), "{account:#}");
     has(&read(&folder, "out/block.vert"), &["float gl_PointSize;", "gl_PointSize = 1.0;"]);
-    let names = ["plain.vert", "block.vert", "place.vert", "place.frag", "bones.vert", "bones.frag", "own.frag"];
+    let names =
+        ["plain.vert", "block.vert", "place.vert", "place.frag", "bones.vert", "bones.frag", "own.frag", "lit.frag"];
     for name in names {
         let stage = name.rsplit('.').next().unwrap_or("");
         let said = complaint(&folder.path(&format!("out/{name}")), stage, &folder.path("out"));

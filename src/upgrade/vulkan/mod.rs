@@ -10,6 +10,7 @@
 //! | `chunks`, `conditions` | a text cut into its declarations; its directives |
 //! | `files` | the texts of a tree, each once |
 //! | `facts`, `unseen` | what each declaration is; those that no program sees |
+//! | `samplers` | uniforms for samplers in structs |
 //! | `numbers`, `layouts` | locations and bindings; the blocks of the loose uniforms |
 //! | `declarations`, `coordinates` | the edits of declarations; of `gl_Position`, `gl_FragCoord`, `dFdy`, indices |
 //! | `text` | the new text of one file |
@@ -27,6 +28,7 @@ mod files;
 mod layouts;
 mod numbers;
 mod output;
+mod samplers;
 mod text;
 mod tree;
 mod unseen;

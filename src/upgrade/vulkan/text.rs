@@ -98,6 +98,7 @@ impl Plan<'_> {
         }
         let new = applied(&file.text, edits);
         let new = if has_moved && without_empty(&file.text) == *file.text { without_empty(&new) } else { new };
+        let new = if has_moved && !has_gaps(&file.text) { without_gaps(&new) } else { new };
         Ok(self.with_extension(key, file, new))
     }
 
@@ -331,6 +332,23 @@ impl Plan<'_> {
         }
         false
     }
+}
+
+/// Whether a text has blank lines one after the other.
+fn has_gaps(text: &str) -> bool {
+    let mut lines = text.lines().map(|line| line.trim().is_empty());
+    let mut before = false;
+    lines.any(|is_blank| std::mem::replace(&mut before, is_blank) && is_blank)
+}
+
+/// A text with one blank line in the place of several.
+fn without_gaps(text: &str) -> String {
+    let mut before = false;
+    let lines = text.split_inclusive('\n').filter(|line| {
+        let is_blank = line.trim().is_empty();
+        !(std::mem::replace(&mut before, is_blank) && is_blank)
+    });
+    lines.collect()
 }
 
 /// A text with a line after `#version`, if it has none of that name.

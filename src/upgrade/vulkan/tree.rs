@@ -13,6 +13,7 @@ use super::files::{File, Files};
 use super::layouts::{Layouts, loose};
 use super::numbers::Numbers;
 use super::output::{NewFile, NewTree, Note, Pointed, TreeProgram};
+use super::samplers;
 use super::text::{Plan, foreign};
 use super::unseen::unseen;
 use super::{Compiled, Key};
@@ -25,6 +26,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Rewrites the programs of a tree for a host, or, without a dialect, only collects the texts that their compilers read.
 pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
+    let (programs, split_notes) = without_samplers_in_structs(programs, dialect);
     let mut refused: Vec<Option<String>> = programs.iter().map(|_| None).collect();
     let (compilations, includes): (Vec<Compilation>, Vec<_>) = programs
         .iter()
@@ -52,7 +54,8 @@ pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
             }
         };
         if failed.is_empty() {
-            let (mut files, notes) = attempt.unwrap_or_default();
+            let (mut files, mut notes) = attempt.unwrap_or_default();
+            notes.extend(split_notes);
             files.iter_mut().for_each(NewFile::point);
             return NewTree { files, refused, notes };
         }
@@ -63,6 +66,27 @@ pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
             }
         }
     }
+}
+
+/// The programs with a uniform for each sampler in a struct, and what to say of that.
+fn without_samplers_in_structs(programs: &[TreeProgram], dialect: Option<&Dialect>) -> (Vec<TreeProgram>, Vec<Note>) {
+    if dialect.is_none() {
+        return (programs.to_vec(), Vec::new());
+    }
+    let mut notes = Vec::new();
+    let split = programs.iter().map(|unit| {
+        // Most programs have none, which their texts say.
+        if !unit.sources.iter().any(|source| source.text.contains("struct") && source.text.contains("sampler")) {
+            return unit.clone();
+        }
+        let compilation = unit.compiler.compile(&unit.sources);
+        let new = compilation.program.as_ref().and_then(|program| samplers::split(unit, program));
+        let Some((unit, found)) = new else { return unit.clone() };
+        notes.extend(found);
+        unit
+    });
+    let split = split.collect();
+    (split, notes)
 }
 
 /// The program, if edits say it in Vulkan's terms.

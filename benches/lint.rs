@@ -1,0 +1,118 @@
+//! Measures `glisten lint` over a folder: against `glslangValidator` on the same files, over ten thousand files, and against the least
+//! that a cache of findings would have to do.
+//!
+//! `cargo bench --bench lint -- [FOLDER]` takes the shaders of the folder (default: `fixtures`) that `glslangValidator` accepts without
+//! another file, or all if it is not installed. Processes run in turns; each figure is the median over the rounds, in milliseconds of the
+//! processor of all threads, and of the clock. A cache of findings has to read each file and what was found, and to hash both; its row is
+//! that, and nothing else.
+
+#![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
+
+mod spent;
+
+use sha2::{Digest, Sha256};
+use spent::{Spent, median, spent};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const ROUNDS: usize = 5;
+/// The files of the large folder.
+const MANY: usize = 10_000;
+/// The bytes of findings that a cache keeps for a file, at least.
+const ENTRY: usize = 512;
+
+fn main() {
+    let folder = std::env::args().skip(1).find(|word| !word.starts_with("--"));
+    let folder = PathBuf::from(folder.unwrap_or_else(|| format!("{}/fixtures", env!("CARGO_MANIFEST_DIR"))));
+    let has_glslang = Command::new("glslangValidator").arg("--version").stdout(Stdio::null()).status().is_ok();
+    let mut files = Vec::new();
+    shaders(&folder, &mut files);
+    files.retain(|file| !has_glslang || glslang(file));
+    assert!(!files.is_empty(), "no shader in {}", folder.display());
+    let temporary = tempfile::tempdir().expect("a temporary folder");
+    let [small, large] = ["small", "large"].map(|name| temporary.path().join(name));
+    let few = copied(&files, files.len(), &small);
+    let many = copied(&files, MANY, &large);
+    println!("| run | files | seconds | CPU seconds |\n| --- | --- | --- | --- |");
+    let own = row("glisten lint", few.len(), &|| lint(&small));
+    if has_glslang {
+        let each = row("glslangValidator, a process for each file", few.len(), &|| {
+            few.iter().for_each(|file| drop(glslang(file)));
+        });
+        let at_once = row("glslangValidator, one process", few.len(), &|| drop(glslang_of(&few)));
+        println!(
+            "\nof its CPU time, lint takes {:.2}; of that of one process, {:.2}\n",
+            own.cpu / each.cpu,
+            own.cpu / at_once.cpu
+        );
+        println!("| run | files | seconds | CPU seconds |\n| --- | --- | --- | --- |");
+    }
+    row("glisten lint", many.len(), &|| lint(&large));
+    row("reading and hashing files and findings, one thread", many.len(), &|| drop(cached(&many)));
+}
+
+/// Measures work, and prints the median of its rounds.
+fn row(name: &str, files: usize, work: &dyn Fn()) -> Spent {
+    let rounds: Vec<Spent> = (0..ROUNDS).map(|_| spent(work)).collect();
+    let time = median(rounds.into_iter());
+    println!("| {name} | {files} | {:.2} | {:.2} |", time.seconds, time.cpu);
+    time
+}
+
+/// The shaders in a folder whose names tell the stage to both.
+fn shaders(folder: &Path, found: &mut Vec<PathBuf>) {
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            shaders(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "vert" || extension == "frag") {
+            found.push(path);
+        }
+    }
+}
+
+/// Copies of files, each in a folder of its own, until there are so many.
+fn copied(files: &[PathBuf], count: usize, to: &Path) -> Vec<PathBuf> {
+    let copy = |(index, file): (usize, &PathBuf)| {
+        let folder = to.join(format!("{index}"));
+        fs::create_dir_all(&folder).expect("a folder");
+        let path = folder.join(file.file_name().expect("a file"));
+        fs::copy(file, &path).expect("copied");
+        path
+    };
+    files.iter().cycle().take(count).enumerate().map(copy).collect()
+}
+
+fn lint(folder: &Path) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+    command.args(["lint", "--quiet", "--format", "json"]).arg(folder).stdout(Stdio::null());
+    drop(command.status().expect("glisten runs"));
+}
+
+fn glslang(file: &Path) -> bool {
+    glslang_of(std::slice::from_ref(&file.to_path_buf()))
+}
+
+fn glslang_of(files: &[PathBuf]) -> bool {
+    let mut command = Command::new("glslangValidator");
+    let status = command.args(files).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status.is_ok_and(|status| status.success())
+}
+
+/// What a cache of findings does when it knows everything: reads each file and hashes it, reads an entry and hashes that.
+fn cached(files: &[PathBuf]) -> usize {
+    let entry = [b'x'; ENTRY];
+    let hash = |bytes: &[u8]| usize::from(Sha256::digest(bytes)[0]);
+    files
+        .iter()
+        .map(|file| {
+            let text = fs::read(file).expect("a file");
+            // An entry is a file, too: this one stands for it.
+            let found = fs::read(file).expect("a file");
+            hash(&text) + hash(&entry) + found.len().min(1)
+        })
+        .sum()
+}
