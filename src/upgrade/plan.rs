@@ -249,14 +249,8 @@ impl Planner<'_> {
     /// Names of the program that mean something else in the target.
     fn taken(&mut self, texts: &[Text<'_>]) {
         let target = self.plan.target;
-        let is_new_function = |name: &str| {
-            let is_old = FUNCTIONS.contains(&name) && texts.iter().all(|text| text.version < 130);
-            let has = |version| functions::named(name).iter().any(|row| row.availability.in_version(version));
-            let is_later =
-                || functions::is_known_for_vulkan(name) && !texts.iter().any(|text| has(version(text.version)));
-            is_old || target.is_for_vulkan() && is_later()
-        };
-        let declared = declared_functions(texts, &is_new_function);
+        let is_old = texts.iter().all(|text| text.version < 130);
+        let declared = declared_functions(texts, is_old, target.is_for_vulkan());
         let is_function = |name: &str| declared.contains(name);
         let is_new_word = |name: &str| {
             // A function of older versions has another name now.
@@ -378,16 +372,20 @@ impl Planner<'_> {
     }
 }
 
-/// The functions of later versions that the texts use otherwise than by calling them: they declare them, or something else of the name.
-fn declared_functions<'t>(texts: &[Text<'t>], is_new: &dyn Fn(&str) -> bool) -> BTreeSet<&'t str> {
+/// The names of built-in functions that the texts give to something else: to anything, if later versions have the function, and to functions
+/// of their own, if Vulkan's rules hold, by which no function has such a name.
+fn declared_functions<'t>(texts: &[Text<'t>], is_old: bool, is_for_vulkan: bool) -> BTreeSet<&'t str> {
     let mut found = BTreeSet::new();
     for text in texts {
         let all = tokens(text.text);
-        for (index, token) in all.iter().enumerate().filter(|(_, token)| token.is_word() && is_new(token.text)) {
+        for (index, token) in all.iter().enumerate().filter(|(_, token)| token.is_word()) {
             let before = index.checked_sub(1).and_then(|before| all.get(before));
-            let follows_a_word = before.is_some_and(|before| before.is_word() && before.text != "return");
-            let is_called = all.get(index + 1).is_some_and(|next| next.text == "(");
-            if follows_a_word || !is_called {
+            let follows_a_word =
+                before.is_some_and(|before| before.is_word() && !["return", "else"].contains(&before.text));
+            let has_arguments = all.get(index + 1).is_some_and(|next| next.text == "(");
+            let is_taken = is_old && FUNCTIONS.contains(&token.text) && (follows_a_word || !has_arguments);
+            let is_function = follows_a_word && has_arguments;
+            if is_taken || is_for_vulkan && is_function && functions::is_known_for_vulkan(token.text) {
                 found.insert(token.text);
             }
         }
