@@ -104,6 +104,7 @@ mod trace;
 mod unfinished;
 mod upgrade;
 mod variants;
+mod varyings;
 mod verify;
 mod watch;
 mod with;

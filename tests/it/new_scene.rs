@@ -304,6 +304,19 @@ fn a_vertex_shader_alone_shows_its_texture_coordinates() {
 }
 
 #[test]
+fn a_vertex_shader_alone_shows_its_varyings() {
+    let modern = "#version 330\nin vec4 position;\nuniform mat4 projMat;\nuniform mat4 modelViewMat;\nout vec3 n;\n\
+        flat out int kind;\nout mat2 m;\nnoperspective out float far[2];\nvoid main() { vec4 p = modelViewMat * position; \
+        gl_Position = projMat * p; n = p.xyz; kind = gl_VertexID % 3; m = mat2(p.x); far[0] = length(p); far[1] = 1.0; }\n";
+    draws(&[("modern.vert", modern)], &["modern.vert"]);
+    let es = "attribute vec4 position;\nvarying vec2 uv;\nvoid main() { gl_Position = position; uv = position.xy; }\n";
+    draws(&[("es.vert", &format!("#version 100\n{es}"))], &["es.vert"]);
+    let es = "#version 300 es\nin vec4 position;\nflat out ivec2 k;\nout vec2 uv;\n\
+        void main() { gl_Position = position; uv = position.xy; k = ivec2(1, 2); }\n";
+    draws(&[("es.vert", es)], &["es.vert"]);
+}
+
+#[test]
 fn attributes_without_a_position() {
     let vertex = "#version 150\nin vec2 texCoord;\nin vec3 weightColor;\nuniform sampler2D positions;\nout vec3 color;\n\
         void main() { color = weightColor; gl_Position = vec4(texCoord * 1.8 - 0.9, texture(positions, texCoord).x * 0.1, 1.0); }\n";

@@ -22,6 +22,7 @@ use super::fullscreen;
 use super::inputs::{Group, Input};
 use super::new_scene_model;
 use super::session::{Session, Unit};
+use super::varyings;
 use crate::engines::{Member, STYLES};
 use crate::scene::is_model_file;
 use crate::sources::{members, stages};
@@ -41,8 +42,8 @@ use values::alternatives;
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
 pub(super) struct NewSceneArgs {
-    /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, or the
-    /// fixed-function pipeline's; or a model (.obj, .gltf, .glb), which gets a camera and lights
+    /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, a vertex shader
+    /// alone a fragment shader that shows its varyings, and either the fixed-function pipeline's where that fits; or a model (.obj, .gltf, .glb), which gets a camera and lights
     #[arg(num_args = 1..=3, required = true, value_names = ["A.vert", "B.frag"])]
     files: Vec<String>,
     /// The scene file to create (default: standard output)
@@ -222,27 +223,33 @@ fn alone(
     if suits_pipeline(shader) {
         return Ok(Ok(vec![input]));
     }
-    if input.stage != Stage::Fragment {
-        let failure = Failure::usage(format!("`{}` is no fragment shader", input.name));
-        return Err(failure.help("name all shaders of the program"));
-    }
-    let Some(output) = &args.output else {
-        let failure =
-            Failure::usage("a fragment shader alone needs a vertex shader, which is written next to the scene");
-        return Err(failure.help("add `-o SCENE.toml`, or name the vertex shader, too"));
+    let (stage, ending) = match input.stage {
+        Stage::Fragment => (Stage::Vertex, "fullscreen.vert"),
+        Stage::Vertex => (Stage::Fragment, "varyings.frag"),
+        Stage::Geometry => {
+            let failure = Failure::usage(format!("`{}` is a geometry shader alone", input.name));
+            return Err(failure.help("name all shaders of the program"));
+        }
     };
-    let vertex = output.with_file_name(format!("{}_fullscreen.vert", input.stem()));
-    if vertex.exists() {
-        return Err(
-            Failure::usage(format!("`{}` exists already", vertex.display())).help("name it before the fragment shader")
-        );
+    let (own, other) = (input.stage.name(), stage.name());
+    let Some(output) = &args.output else {
+        let message = format!("a {own} shader alone needs a {other} shader, which is written next to the scene");
+        return Err(Failure::usage(message).help(format!("add `-o SCENE.toml`, or name the {other} shader, too")));
+    };
+    let path = output.with_file_name(format!("{}_{ending}", input.stem()));
+    if path.exists() {
+        let failure = Failure::usage(format!("`{}` exists already", path.display()));
+        return Err(failure.help(format!("name it with the {own} shader")));
     }
-    let text = fullscreen::vertex_shader(&program.types, shader)?;
-    files::write(&vertex, text.as_bytes())?;
-    console.remark(&format!("wrote {}", vertex.display()));
-    let name = vertex.to_string_lossy().into_owned();
-    let written = Input { name, path: Some(vertex), stage: Stage::Vertex, part: None };
-    Ok(Ok(vec![written, input]))
+    let text = match stage {
+        Stage::Vertex => fullscreen::vertex_shader(&program.types, shader)?,
+        _ => varyings::fragment_shader(&program.types, shader),
+    };
+    files::write(&path, text.as_bytes())?;
+    console.remark(&format!("wrote {}", path.display()));
+    let name = path.to_string_lossy().into_owned();
+    let written = Input { name, path: Some(path), stage, part: None };
+    Ok(Ok(if stage == Stage::Vertex { vec![written, input] } else { vec![input, written] }))
 }
 
 /// Whether the fixed-function pipeline completes a shader: a vertex shader of its time, or a fragment shader that reads nothing but the

@@ -158,7 +158,8 @@ fn allows_includes(line: &str) -> bool {
     let words = line.trim_start().strip_prefix('#').and_then(|line| line.trim_start().strip_prefix("extension"));
     words.is_some_and(|words| {
         let name = words.trim_start().split([' ', '\t', ':']).next();
-        matches!(name, Some("GL_ARB_shading_language_include" | "GL_GOOGLE_include_directive"))
+        // The last one is Minecraft's, for its own directive.
+        matches!(name, Some("GL_ARB_shading_language_include" | "GL_GOOGLE_include_directive" | "GL_MC_moj_import"))
     })
 }
 
@@ -208,6 +209,9 @@ mod tests {
         );
         let found = text(source, &[("SCALE".into(), "2.0".into())]);
         assert_eq!(found, whole);
+        for name in ["GL_GOOGLE_include_directive", "GL_MC_moj_import"] {
+            assert!(super::allows_includes(&format!("#extension {name} : require\n")), "{name}");
+        }
     }
 
     #[test]
