@@ -176,9 +176,9 @@ impl Older {
         let used =
             blocks.filter(|block| text.contains(&block.line)).filter_map(|block| Some((block, block.include.clone()?)));
         let own = used.filter(|(_, include)| include.contains(&format!("{BLOCKS}/")));
-        own.filter_map(move |(block, include)| {
+        own.map(move |(block, include)| {
             let text = format!("{}\n\n{}", host.target.version_line(), block.declaration());
-            Some((self.included(file, &include), text))
+            (self.included(file, &include), text)
         })
     }
 }

@@ -313,7 +313,7 @@ impl Plan<'_> {
         let needs_joining = self.dialect.numbering != Numbering::All && is_source && self.continues_lines(key);
         let for_lines = needs_joining.then_some("#extension GL_ARB_shading_language_420pack : enable");
         let lines = wanted.into_iter().chain(for_lines);
-        lines.fold(text, |text, line| with_line(text, line))
+        lines.fold(text, with_line)
     }
 
     /// Whether a source, or a file that it includes, has a line that goes on in the next one.
