@@ -384,7 +384,8 @@ fn declared_functions<'t>(texts: &[Text<'t>], is_old: bool, is_for_vulkan: bool)
                 before.is_some_and(|before| before.is_word() && !["return", "else"].contains(&before.text));
             let has_arguments = all.get(index + 1).is_some_and(|next| next.text == "(");
             let is_taken = is_old && FUNCTIONS.contains(&token.text) && (follows_a_word || !has_arguments);
-            let is_function = follows_a_word && has_arguments;
+            let ends = || closing(&all, index + 1).and_then(|end| all.get(end + 1));
+            let is_function = follows_a_word && has_arguments && ends().is_some_and(|next| next.text == "{");
             if is_taken || is_for_vulkan && is_function && functions::is_known_for_vulkan(token.text) {
                 found.insert(token.text);
             }

@@ -262,7 +262,7 @@ fn programs_of_one_tree_do_not_refuse_each_other() {
         // A function of its own, which later versions have built in; a call of `texture2D` stays one.
         (
             "in/own.frag",
-            b"#version 130\nuniform sampler2D s;\nout vec4 c;\nmat2 inverse(mat2 m) { return m; }\nvoid main() { c = texture2D(s, inverse(mat2(1.0))[0]); }\n",
+            b"#version 130\n#define UNIT normalize(vec2(1.0))\nuniform sampler2D s;\nout vec4 c;\nmat2 inverse(mat2 m) { return m; }\nvoid main() { c = texture2D(s, inverse(mat2(1.0))[0] * UNIT); }\n",
         ),
         // Samplers in a struct.
         (
@@ -288,7 +288,10 @@ fn programs_of_one_tree_do_not_refuse_each_other() {
         &err(&output),
         &["`s` is a rectangle texture, which Vulkan does not have", "`gl_ClipVertex` has no counterpart"],
     );
-    has(&read(&folder, "out/own.frag"), &["mat2 inverse_(mat2 m)", "texture(s, inverse_(mat2(1.0))[0])"]);
+    has(
+        &read(&folder, "out/own.frag"),
+        &["mat2 inverse_(mat2 m)", "texture(s, inverse_(mat2(1.0))[0] * UNIT)", "UNIT normalize(vec2(1.0))"],
+    );
     has(
         &read(&folder, "out/lit.frag"),
         &[
