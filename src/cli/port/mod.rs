@@ -7,11 +7,13 @@
 //! | file | contents |
 //! | --- | --- |
 //! | `programs` | the programs of the folder, with new texts |
+//! | `brought` | the files that come from an older host, at their new places |
 //! | `older` | included files of an older host, which become files of the folder |
 //! | `extras` | reflection, WGSL, Rust, C, the passes of a pack |
 //! | `tree` | all files of the new folder, and how they differ from what is there |
 //! | `proof` | the pictures of the original and of the new program |
 
+mod brought;
 mod extras;
 mod older;
 mod programs;
@@ -125,7 +127,7 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
     let moved = ported.older_files.moved();
     for file in &ported.tree.files {
         if let Some(old) = moved.get(&file.name) {
-            files.extend(tree::bring(&args.pack, host, ported, folder, (file, old)));
+            files.extend(brought::bring(&args.pack, host, ported, folder, (file, old)));
             continue;
         }
         let Some(place) = folder.place(&args.pack, Path::new(&file.name)) else { continue };
@@ -145,8 +147,8 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
         });
         folder.replace(&place, &new, text.into_bytes());
     }
-    files.extend(tree::move_unread(&args.pack, ported, folder));
-    files.extend(tree::blocks(&args.pack, host, ported, folder));
+    files.extend(brought::move_unread(&args.pack, ported, folder));
+    files.extend(brought::blocks(&args.pack, host, ported, folder));
     if host.is_minecraft {
         files.extend(extras::passes(folder));
     }
