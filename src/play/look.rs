@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 
 /// Decides which findings are told.
-pub trait Judge {
+pub trait Criteria {
     /// The levels of a file.
     fn levels_of(&mut self, name: &str) -> Levels;
 
@@ -43,16 +43,16 @@ pub struct Shown {
 }
 
 /// The answer for a scene file, with the scene if there is one.
-pub fn look(judge: &mut impl Judge, name: &str, loaded: Loaded, shown: Shown) -> (Value, Option<Scene>) {
+pub fn look(criteria: &mut impl Criteria, name: &str, loaded: Loaded, shown: Shown) -> (Value, Option<Scene>) {
     let Loaded { scene, sources, diagnostics, .. } = loaded;
     // Errors in the configuration of the scene are told even if the scene has none.
-    judge.levels_of(name);
+    criteria.levels_of(name);
     let programs = scene.as_ref().map(programs).unwrap_or_default();
     let mut found: Vec<_> = diagnostics.into_iter().collect();
     for program in &programs {
-        found.extend(lints(judge, program, &sources));
+        found.extend(lints(criteria, program, &sources));
     }
-    let findings = judge.findings(&sources, found);
+    let findings = criteria.findings(&sources, found);
     let findings: Value = serde_json::from_str(&write::json(&findings, None)).unwrap_or_default();
     let text = sources.files().next().map(|(_, file)| file.text().to_owned()).unwrap_or_default();
     let residual = scene.as_ref().filter(|_| shown.leaves_out).map(|scene| specialize_scene(scene, &sources, &[]));
@@ -60,7 +60,7 @@ pub fn look(judge: &mut impl Judge, name: &str, loaded: Loaded, shown: Shown) ->
         "findings": findings,
         "files": files(&sources),
         "controls": controls(&text),
-        "programs": translations(judge, &programs, residual.as_ref(), shown.target),
+        "programs": translations(criteria, &programs, residual.as_ref(), shown.target),
         "size": scene.as_ref().map(|scene| [scene.framebuffer.width, scene.framebuffer.height]),
     });
     (answer, scene)
@@ -77,10 +77,10 @@ fn programs(scene: &Scene) -> Vec<Arc<Program>> {
     programs
 }
 
-fn lints(judge: &mut impl Judge, program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
-    let levels: Vec<Levels> = sources.files().map(|(_, file)| judge.levels_of(file.name())).collect();
+fn lints(criteria: &mut impl Criteria, program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
+    let levels: Vec<Levels> = sources.files().map(|(_, file)| criteria.levels_of(file.name())).collect();
     let wanted = |code: &Code| levels.iter().any(|levels| levels.may_report(code));
-    judge.guarded(|| check_some(program, sources, wanted)).unwrap_or_default()
+    criteria.guarded(|| check_some(program, sources, wanted)).unwrap_or_default()
 }
 
 /// The texts that were read, the scene file first.
@@ -92,19 +92,19 @@ fn files(sources: &SourceMap) -> Vec<Value> {
 
 /// Each program in the language, with its reflection.
 fn translations(
-    judge: &impl Judge,
+    criteria: &impl Criteria,
     programs: &[Arc<Program>],
     residual: Option<&SpecializedScene>,
     target: Target,
 ) -> Vec<Value> {
     let of_residual = residual.map(|residual| self::programs(&residual.scene));
     let programs = of_residual.as_deref().unwrap_or(programs);
-    programs.iter().map(|program| translation(judge, program, target)).collect()
+    programs.iter().map(|program| translation(criteria, program, target)).collect()
 }
 
-fn translation(judge: &impl Judge, program: &Program, target: Target) -> Value {
+fn translation(criteria: &impl Criteria, program: &Program, target: Target) -> Value {
     let conventions = Conventions::default();
-    let made = judge.guarded(|| {
+    let made = criteria.guarded(|| {
         let optimized = optimize(program);
         let mut reflection = reflect(&optimized, &conventions);
         let stage = |stage| match emit(&optimized, stage, target, &conventions) {
@@ -129,7 +129,7 @@ pub fn told<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> String
 
 #[cfg(test)]
 mod tests {
-    use super::{Judge, Shown, look};
+    use super::{Criteria, Shown, look};
     use crate::scene::{self, MemoryFiles};
     use crate::{Compiler, Options};
     use glisten_emit::Target;
@@ -141,7 +141,7 @@ mod tests {
     /// Every finding at its own level.
     struct Plain;
 
-    impl Judge for Plain {
+    impl Criteria for Plain {
         fn levels_of(&mut self, _: &str) -> Levels {
             Levels::default()
         }

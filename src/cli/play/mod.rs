@@ -15,9 +15,9 @@
 //! the files; files change only by *Save*.
 
 mod access;
+mod criteria;
 mod export;
 mod files;
-mod judge;
 mod lanes;
 mod page;
 mod pictures;

@@ -3,12 +3,12 @@
 use super::super::batch::Batch;
 use super::super::guard;
 use super::super::session::Session;
-use crate::play::Judge;
+use crate::play::Criteria;
 use glisten_front::diagnostic::write::Finding;
 use glisten_front::diagnostic::{Diagnostic, Levels};
 use glisten_front::source::SourceMap;
 
-impl Judge for Session<'_> {
+impl Criteria for Session<'_> {
     fn levels_of(&mut self, name: &str) -> Levels {
         Session::levels_of(self, name)
     }
