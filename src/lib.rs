@@ -46,6 +46,9 @@ pub mod made;
 pub mod measure;
 #[cfg(feature = "cli")]
 mod page;
+#[cfg(feature = "reference")]
+#[doc(hidden)]
+pub mod play;
 #[cfg(feature = "cli")]
 pub mod port;
 #[cfg(feature = "cli")]

@@ -99,6 +99,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "account",
             "stability",
             "trace",
+            "play",
             "lsp",
             "cli",
             "main",

@@ -5,7 +5,7 @@
 //!  browser ──► server ──► access   the token, the origin, the folders
 //!                │
 //!                ├──► files        scenes, shaders; saving; what changed on disk
-//!                ├──► lanes ──► worker, a process of its own: look, draw, judge
+//!                ├──► lanes ──► worker, a process of its own: crate::play, pictures, judge
 //!                └──► page         HTML, with the editor
 //! ```
 //!
@@ -15,12 +15,10 @@
 //! the files; files change only by *Save*.
 
 mod access;
-mod controls;
+mod criteria;
 mod export;
 mod files;
-mod jobs;
 mod lanes;
-mod look;
 mod page;
 mod pictures;
 mod server;

@@ -6,6 +6,7 @@
 use super::super::scenes::{MachineArgs, open_gpu};
 use super::super::verify::Headline;
 use crate::page::raster;
+use crate::play::told;
 use crate::scene::Scene;
 use crate::verify::{self, Conclusion, OnGpu, Options, Runner, Verification};
 use glisten_front::source::SourceMap;
@@ -175,10 +176,4 @@ fn says(verification: &Verification) -> String {
         )
     });
     next.into_iter().chain(figures).collect::<Vec<_>>().join("\n")
-}
-
-/// The messages of diagnostics, a line each.
-pub(super) fn told<'a>(diagnostics: impl IntoIterator<Item = &'a glisten_front::diagnostic::Diagnostic>) -> String {
-    let lines: Vec<&str> = diagnostics.into_iter().map(|diagnostic| diagnostic.message.as_str()).collect();
-    lines.join("\n")
 }

@@ -10,9 +10,8 @@ use super::super::files::SceneFiles;
 use super::super::guard;
 use super::super::scenes::SceneArgs;
 use super::PlayArgs;
-use super::jobs::{Job, Wish};
-use super::look::{self, Shown};
-use super::pictures::{Pictures, told};
+use super::pictures::Pictures;
+use crate::play::{Job, Shown, Wish, look, told};
 use crate::scene::{self, Loaded};
 use glisten_emit::Target;
 use glisten_front::source::SourceMap;
@@ -76,7 +75,7 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, pictures: &mut Picture
     match job.wish {
         Wish::Look { target, leaves_out } => {
             let target = Target::from_word(&target).ok_or_else(|| format!("`{target}` is no language"))?;
-            Ok(look::look(&mut session, &job.scene, loaded, Shown { target, leaves_out }).0)
+            Ok(look(&mut session, &job.scene, loaded, Shown { target, leaves_out }).0)
         }
         Wish::Draw { gpu } => {
             let (scene, _) = drawable(loaded)?;

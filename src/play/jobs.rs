@@ -5,21 +5,21 @@ use std::collections::BTreeMap;
 
 /// A job: what is asked of a scene with these texts.
 #[derive(Debug, Deserialize)]
-pub(super) struct Job {
+pub struct Job {
     /// The scene file.
-    pub(super) scene: String,
+    pub scene: String,
     /// The texts that count instead of files.
     #[serde(default)]
-    pub(super) texts: BTreeMap<String, String>,
+    pub texts: BTreeMap<String, String>,
     /// The question.
     #[serde(flatten)]
-    pub(super) wish: Wish,
+    pub wish: Wish,
 }
 
 /// The question of a job.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ask", rename_all = "kebab-case")]
-pub(super) enum Wish {
+pub enum Wish {
     /// Findings, controls, reflection, and the programs in a language.
     Look {
         /// The word of the language: `wgsl`.

@@ -31,7 +31,7 @@ const COLORS: [&str; 9] =
 /// The kind of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Kind {
+pub enum Kind {
     /// A switch.
     Bool,
     /// A number without a fraction.
@@ -44,21 +44,21 @@ pub(super) enum Kind {
 
 /// A control.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub(super) struct Control {
+pub struct Control {
     /// The names of the tables and of the key: `camera`, `eye`.
-    pub(super) path: Vec<String>,
+    pub path: Vec<String>,
     /// The kind.
-    pub(super) kind: Kind,
+    pub kind: Kind,
     /// The numbers; 0 and 1 for a switch.
-    pub(super) values: Vec<f64>,
+    pub values: Vec<f64>,
     /// The place of each number in the text.
-    pub(super) places: Vec<[usize; 2]>,
+    pub places: Vec<[usize; 2]>,
     /// The ends of the sliders.
-    pub(super) range: [f64; 2],
+    pub range: [f64; 2],
 }
 
 /// The controls of a scene's text; none if it is not TOML.
-pub(super) fn controls(text: &str) -> Vec<Control> {
+pub fn controls(text: &str) -> Vec<Control> {
     let Ok(table) = DeTable::parse(text) else { return Vec::new() };
     let mut found = Found { units: Units::new(text), path: Vec::new(), controls: Vec::new() };
     found.table(table.get_ref());

@@ -1,0 +1,185 @@
+//! The texts that the page shows of a scene: findings, texts, controls, reflection, the programs in another language.
+//!
+//! *In:* a scene that was read. *Out:* one JSON object. *Holds:* the findings are those of `glisten lint` for the same programs, in
+//! the form of its `--format json`; each program of the scene is told once.
+
+use super::controls::controls;
+use crate::scene::{Loaded, Scene};
+use crate::specialize::{SpecializedScene, specialize_scene};
+use glisten_emit::{Conventions, Emitted, Target, emit, reflect};
+use glisten_front::diagnostic::write::{self, Finding};
+use glisten_front::diagnostic::{Code, Diagnostic, Levels};
+use glisten_front::link::Program;
+use glisten_front::lint::check_some;
+use glisten_front::source::SourceMap;
+use glisten_specialize::optimize;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// Decides which findings are told.
+pub trait Criteria {
+    /// The levels of a file.
+    fn levels_of(&mut self, name: &str) -> Levels;
+
+    /// The findings that are told of these diagnostics, in the order in which they are told.
+    fn findings(&mut self, sources: &SourceMap, found: Vec<Diagnostic>) -> Vec<Finding>;
+
+    /// Runs a job. A panic in it is returned as its message, where panics can be caught.
+    ///
+    /// # Errors
+    /// The message of a panic.
+    fn guarded<R>(&self, job: impl FnOnce() -> R) -> Result<R, String> {
+        Ok(job())
+    }
+}
+
+/// How the programs are shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// The language.
+    pub target: Target,
+    /// Whether they are without what the picture does not need.
+    pub leaves_out: bool,
+}
+
+/// The answer for a scene file, with the scene if there is one.
+pub fn look(criteria: &mut impl Criteria, name: &str, loaded: Loaded, shown: Shown) -> (Value, Option<Scene>) {
+    let Loaded { scene, sources, diagnostics, .. } = loaded;
+    // Errors in the configuration of the scene are told even if the scene has none.
+    criteria.levels_of(name);
+    let programs = scene.as_ref().map(programs).unwrap_or_default();
+    let mut found: Vec<_> = diagnostics.into_iter().collect();
+    for program in &programs {
+        found.extend(lints(criteria, program, &sources));
+    }
+    let findings = criteria.findings(&sources, found);
+    let findings: Value = serde_json::from_str(&write::json(&findings, None)).unwrap_or_default();
+    let text = sources.files().next().map(|(_, file)| file.text().to_owned()).unwrap_or_default();
+    let residual = scene.as_ref().filter(|_| shown.leaves_out).map(|scene| specialize_scene(scene, &sources, &[]));
+    let answer = json!({
+        "findings": findings,
+        "files": files(&sources),
+        "controls": controls(&text),
+        "programs": translations(criteria, &programs, residual.as_ref(), shown.target),
+        "size": scene.as_ref().map(|scene| [scene.framebuffer.width, scene.framebuffer.height]),
+    });
+    (answer, scene)
+}
+
+/// The programs of a scene, each once.
+fn programs(scene: &Scene) -> Vec<Arc<Program>> {
+    let mut programs: Vec<Arc<Program>> = Vec::new();
+    for draw in &scene.draws {
+        if !programs.iter().any(|program| Arc::ptr_eq(program, &draw.program)) {
+            programs.push(Arc::clone(&draw.program));
+        }
+    }
+    programs
+}
+
+fn lints(criteria: &mut impl Criteria, program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
+    let levels: Vec<Levels> = sources.files().map(|(_, file)| criteria.levels_of(file.name())).collect();
+    let wanted = |code: &Code| levels.iter().any(|levels| levels.may_report(code));
+    criteria.guarded(|| check_some(program, sources, wanted)).unwrap_or_default()
+}
+
+/// The texts that were read, the scene file first.
+fn files(sources: &SourceMap) -> Vec<Value> {
+    let file =
+        |(_, file): (_, &glisten_front::source::SourceFile)| json!({ "name": file.name(), "text": &**file.text() });
+    sources.files().map(file).collect()
+}
+
+/// Each program in the language, with its reflection.
+fn translations(
+    criteria: &impl Criteria,
+    programs: &[Arc<Program>],
+    residual: Option<&SpecializedScene>,
+    target: Target,
+) -> Vec<Value> {
+    let of_residual = residual.map(|residual| self::programs(&residual.scene));
+    let programs = of_residual.as_deref().unwrap_or(programs);
+    programs.iter().map(|program| translation(criteria, program, target)).collect()
+}
+
+fn translation(criteria: &impl Criteria, program: &Program, target: Target) -> Value {
+    let conventions = Conventions::default();
+    let made = criteria.guarded(|| {
+        let optimized = optimize(program);
+        let mut reflection = reflect(&optimized, &conventions);
+        let stage = |stage| match emit(&optimized, stage, target, &conventions) {
+            Ok(Emitted::Text(text)) => json!({ "stage": stage.name(), "text": text }),
+            Ok(Emitted::Words(words)) => json!({ "stage": stage.name(), "n_words": words.len() }),
+            Err(errors) => json!({ "stage": stage.name(), "error": told(&errors) }),
+        };
+        let stages: Vec<Value> = optimized.stages.iter().map(|shader| stage(shader.stage)).collect();
+        reflection.compact();
+        json!({ "name": program.name, "stages": stages, "reflection": reflection })
+    });
+    made.unwrap_or_else(
+        |panic| json!({ "name": program.name, "stages": [], "error": format!("internal error: {panic}") }),
+    )
+}
+
+/// The messages of diagnostics, a line each.
+pub fn told<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> String {
+    let lines: Vec<&str> = diagnostics.into_iter().map(|diagnostic| diagnostic.message.as_str()).collect();
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Criteria, Shown, look};
+    use crate::scene::{self, MemoryFiles};
+    use crate::{Compiler, Options};
+    use glisten_emit::Target;
+    use glisten_front::diagnostic::write::{self, Finding};
+    use glisten_front::diagnostic::{Diagnostic, Levels};
+    use glisten_front::source::SourceMap;
+    use serde_json::Value;
+
+    /// Every finding at its own level.
+    struct Plain;
+
+    impl Criteria for Plain {
+        fn levels_of(&mut self, _: &str) -> Levels {
+            Levels::default()
+        }
+
+        fn findings(&mut self, sources: &SourceMap, found: Vec<Diagnostic>) -> Vec<Finding> {
+            write::findings(sources, &found)
+        }
+    }
+
+    const SCENE: &str = "[framebuffer]\nwidth = 4\nheight = 2\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n\
+        [draw.uniforms]\ntint = [0.5, 0.25, 1.0]\n";
+    const VERTEX: &str = "#version 150\nvoid main() { gl_Position = vec4(0.0, 0.0, 0.0, 1.0); }\n";
+
+    fn looked(fragment: &str) -> Value {
+        let files = MemoryFiles::new([("s.toml", SCENE), ("a.vert", VERTEX), ("a.frag", fragment)]);
+        let loaded = scene::load("s.toml", &files, &Compiler::new(Options::default()));
+        look(&mut Plain, "s.toml", loaded, Shown { target: Target::Wgsl, leaves_out: false }).0
+    }
+
+    #[test]
+    fn a_scene_in_memory_is_shown() {
+        let answer =
+            looked("#version 150\nuniform vec3 tint;\nout vec4 color;\nvoid main() { color = vec4(tint, 1.0); }\n");
+        assert_eq!(answer["size"], serde_json::json!([4, 2]));
+        assert_eq!(answer["controls"][0]["kind"], "color");
+        assert_eq!(answer["files"].as_array().map(Vec::len), Some(3));
+        let text = answer["programs"][0]["stages"][1]["text"].as_str().unwrap_or_default();
+        assert!(text.contains("@fragment"), "{answer}");
+    }
+
+    #[test]
+    fn an_error_is_found_at_its_place() {
+        let answer = looked("#version 150\nout vec4 color;\nvoid main() { color = nothing; }\n");
+        let found = &answer["findings"][0];
+        assert_eq!(
+            (&found["severity"], &found["file"], &found["line"]),
+            (&"error".into(), &"a.frag".into(), &3.into())
+        );
+        assert_eq!(answer["programs"], serde_json::json!([]));
+    }
+}
