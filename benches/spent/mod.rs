@@ -17,7 +17,7 @@ pub(crate) struct Spent {
 }
 
 impl Spent {
-    /// What was not measured.
+    /// A time that was not measured.
     pub(crate) const UNKNOWN: Self = Self { seconds: f64::NAN, cpu: f64::NAN };
 
     /// This many times as long.

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Readable {
     /// Its sources, under the names that they have in the pack.
     pub(crate) root: PathBuf,
-    /// What they include.
+    /// The files that they include.
     pub(crate) includes: PathBuf,
 }
 

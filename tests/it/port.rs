@@ -235,7 +235,7 @@ fn names_that_are_types_for_vulkan_change() {
     has(&err(&output), &["`sampler` is a type of GLSL for Vulkan, and no name; rename it"]);
 }
 
-/// What real trees showed: each program by itself was ported, and not among the others.
+/// As real trees showed: each program by itself was ported, and not among the others.
 #[test]
 fn programs_of_one_tree_do_not_refuse_each_other() {
     let vertex = b"#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n";

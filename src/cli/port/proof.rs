@@ -70,7 +70,7 @@ pub(super) fn prove(
     Ok(())
 }
 
-/// What earlier processes found before a driver crashed.
+/// The results of earlier processes, before a driver crashed.
 struct Known(Vec<Note>);
 
 impl Known {
