@@ -2,9 +2,8 @@
 //! that a cache of findings would have to do.
 //!
 //! `cargo bench --bench lint -- [FOLDER]` takes the shaders of the folder (default: `fixtures`) that `glslangValidator` accepts without
-//! another file, or all if it is not installed. Processes run in turns; each figure is the median over the rounds, in milliseconds of the
-//! processor of all threads, and of the clock. A cache of findings has to read each file and what was found, and to hash both; its row is
-//! that, and nothing else.
+//! another file, or all if it is not installed. Each figure is the median of its rounds, in seconds on the clock and of all processors.
+//! A cache of findings has to read each file and what was found, and to hash both; its row is that, and nothing else.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 

@@ -80,19 +80,18 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     println!(
-        "| folder | commit | programs | by glslang as OpenGL | of these ported | by glslang as Vulkan | by spirv-val | proved | inconclusive | failed |"
+        "| folder | commit | game | programs | by glslang as OpenGL | of these ported | by glslang as Vulkan | by spirv-val | proved | inconclusive | failed |"
     );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
-    let mut exit = ExitCode::SUCCESS;
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    let (mut exit, mut all) = (ExitCode::SUCCESS, Row::default());
     for (folder, game) in &arguments.folders {
         match row(&arguments, folder, game.as_deref()) {
             Ok(row) => {
-                let name = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-                let Row { programs, by_opengl, ported, accepted, valid, proved, inconclusive, failed } = row;
-                let commit = tools::commit(folder);
-                println!(
-                    "| {name} | {commit} | {programs} | {by_opengl} | {ported} | {accepted} | {valid} | {proved} | {inconclusive} | {failed} |"
-                );
+                let name = folder.file_name().map(|name| name.to_string_lossy().replace('+', "/")).unwrap_or_default();
+                let game =
+                    game.as_deref().and_then(Path::file_name).map_or("–".into(), |name| name.to_string_lossy());
+                row.print(&name, &tools::commit(folder), &game, arguments.proves);
+                all.add(&row);
             }
             Err(reason) => {
                 eprintln!("{}: {reason}", folder.display());
@@ -100,7 +99,30 @@ fn main() -> ExitCode {
             }
         }
     }
+    all.print("all", "", "", arguments.proves);
     exit
+}
+
+impl Row {
+    fn print(&self, name: &str, commit: &str, game: &str, proves: bool) {
+        let Self { programs, by_opengl, ported, accepted, valid, .. } = self;
+        let proofs = [self.proved, self.inconclusive, self.failed];
+        let [proved, inconclusive, failed] = proofs.map(|n| if proves { n.to_string() } else { "–".to_owned() });
+        println!(
+            "| {name} | {commit} | {game} | {programs} | {by_opengl} | {ported} | {accepted} | {valid} | {proved} | {inconclusive} | {failed} |"
+        );
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.programs += other.programs;
+        self.by_opengl += other.by_opengl;
+        self.ported += other.ported;
+        self.accepted += other.accepted;
+        self.valid += other.valid;
+        self.proved += other.proved;
+        self.inconclusive += other.inconclusive;
+        self.failed += other.failed;
+    }
 }
 
 fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row, String> {

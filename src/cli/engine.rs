@@ -189,9 +189,7 @@ impl Engines {
     pub(super) fn is_part(&self, path: &Path) -> bool {
         let parts = self.settings(Some(path)).profile.and_then(|profile| profile.parts.as_deref());
         parts.is_some_and(|parts| match parts.strip_suffix('/') {
-            Some(folder) => {
-                path.parent().is_some_and(|parent| parent.components().any(|one| one.as_os_str() == folder))
-            }
+            Some(folder) => path.ancestors().skip(1).any(|parent| parent.ends_with(folder)),
             None => {
                 let has = |extension: &std::ffi::OsStr| extension.eq_ignore_ascii_case(parts);
                 stages::may_be_included(path) && path.extension().is_some_and(has)

@@ -6,6 +6,9 @@
 use glisten_front::hir::{ArraySize, Global, Interpolation, Scalar, Shader, Storage, Type, TypeId, Types};
 use std::fmt::Write;
 
+/// A name that no varying has.
+const SUM: &str = "sum_of_varyings";
+
 /// The text of the fragment shader.
 pub(super) fn fragment_shader(types: &Types, vertex: &Shader) -> String {
     let (is_es, is_old) = (vertex.version.is_es(), vertex.version.is_es() && vertex.version.number < 300);
@@ -31,7 +34,7 @@ pub(super) fn fragment_shader(types: &Types, vertex: &Shader) -> String {
         let (ty, sizes) = declared(types, global.ty);
         let _ = writeln!(text, "{qualifier} {ty} {}{sizes};", global.name);
         let channel = ["r", "g", "b"].get(index % 3).unwrap_or(&"r");
-        let _ = writeln!(sums, "    sum.{channel} += {number};");
+        let _ = writeln!(sums, "    {SUM}.{channel} += {number};");
     }
     let color = if is_old { "gl_FragColor" } else { "color_of_varyings" };
     if !is_old {
@@ -39,7 +42,7 @@ pub(super) fn fragment_shader(types: &Types, vertex: &Shader) -> String {
     }
     let _ = write!(
         text,
-        "\nvoid main() {{\n    vec3 sum = vec3(0.5);\n{sums}    {color} = vec4(0.5 + 0.5 * sum / (1.0 + abs(sum)), 1.0);\n}}\n"
+        "\nvoid main() {{\n    vec3 {SUM} = vec3(0.5);\n{sums}    {color} = vec4(0.5 + 0.5 * {SUM} / (1.0 + abs({SUM})), 1.0);\n}}\n"
     );
     text
 }

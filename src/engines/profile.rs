@@ -71,7 +71,8 @@ struct Settings {
     before: Vec<String>,
     /// The version that sources of older ones get.
     least_version: Option<String>,
-    /// The extension of files that are never shaders, only included by some; or, with a slash, a folder of such files.
+    /// The extension of files that are never shaders, only included by some; or, with a slash at the end, the end of the path to a folder of
+    /// such files.
     parts: Option<String>,
     /// Whether the engine's own preprocessor lets a macro be defined again.
     redefines: Option<bool>,

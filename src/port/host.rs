@@ -103,7 +103,11 @@ fn load(name: &'static str, text: &str) -> Host {
     // A test reads every file; here, one that cannot be read has no settings.
     let settings: Settings = toml::from_str(text).unwrap_or_default();
     let target = Target::ALL.iter().find(|(word, _)| *word == settings.version).map(|(_, target)| *target);
-    let target = if settings.version == "330" && settings.numbering.is_some() { Some(Target::Both330) } else { target };
+    // A host with wishes for Vulkan reads its texts by both rules.
+    let target = match target {
+        Some(Target::Core330) if settings.numbering.is_some() => Target::Both330,
+        other => other.unwrap_or(Target::Core330),
+    };
     let numbering = settings.numbering.as_deref().map(|word| match word {
         "all" => Numbering::All,
         "locations" => Numbering::Locations,
@@ -124,7 +128,7 @@ fn load(name: &'static str, text: &str) -> Host {
         name,
         about: settings.about,
         engine: settings.engine,
-        target: target.unwrap_or(Target::Core330),
+        target,
         dialect,
         is_minecraft: settings.packs.as_deref() == Some("minecraft"),
         has_wgsl: settings.wgsl,

@@ -17,6 +17,6 @@ pub use program::plan_in;
 pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
 pub use rewrite::rewrite;
 pub use vulkan::{
-    Dialect, HostBlock, NewFile, NewTree, Note, Numbering, TreeProgram, moved_path, plain, to_vulkan, tree,
+    Dialect, HostBlock, Includes, NewFile, NewTree, Note, Numbering, TreeProgram, moved_path, plain, to_vulkan, tree,
     with_version,
 };

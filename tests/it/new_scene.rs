@@ -305,9 +305,9 @@ fn a_vertex_shader_alone_shows_its_texture_coordinates() {
 
 #[test]
 fn a_vertex_shader_alone_shows_its_varyings() {
-    let modern = "#version 330\nin vec4 position;\nuniform mat4 projMat;\nuniform mat4 modelViewMat;\nout vec3 n;\n\
+    let modern = "#version 330\nin vec4 position;\nuniform mat4 projMat;\nuniform mat4 modelViewMat;\nout vec3 sum;\n\
         flat out int kind;\nout mat2 m;\nnoperspective out float far[2];\nvoid main() { vec4 p = modelViewMat * position; \
-        gl_Position = projMat * p; n = p.xyz; kind = gl_VertexID % 3; m = mat2(p.x); far[0] = length(p); far[1] = 1.0; }\n";
+        gl_Position = projMat * p; sum = p.xyz; kind = gl_VertexID % 3; m = mat2(p.x); far[0] = length(p); far[1] = 1.0; }\n";
     draws(&[("modern.vert", modern)], &["modern.vert"]);
     let es = "attribute vec4 position;\nvarying vec2 uv;\nvoid main() { gl_Position = position; uv = position.xy; }\n";
     draws(&[("es.vert", &format!("#version 100\n{es}"))], &["es.vert"]);

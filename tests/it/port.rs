@@ -220,6 +220,15 @@ fn a_pack_for_an_older_game_brings_its_files_along() {
 }
 
 #[test]
+fn a_pack_below_a_folder_of_includes_has_programs() {
+    let shader = "include/pack/assets/minecraft/shaders/core/a.fsh";
+    let folder = Folder::new(&[(shader, b"#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n")]);
+    let output = folder.run(&["port", "include/pack", "--for", "minecraft-26.2", "-o", "out"]);
+    assert_eq!(code(&output), 0);
+    has(&err(&output), &["1 program: 1 ported"]);
+}
+
+#[test]
 fn names_that_are_types_for_vulkan_change() {
     let folder = Folder::new(&[
         ("a.frag", b"#version 150\nuniform sampler2D s;\nout vec4 c;\nvec4 at(sampler2D sampler) { return texture(sampler, vec2(0.5)); }\nvoid main() { c = at(s); }\n"),

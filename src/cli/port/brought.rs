@@ -29,13 +29,14 @@ pub(super) fn bring(
     let text = with_version(&old, &file.text, host.target);
     let is_read = ported.programs.iter().any(|program| program.index.is_none() && program.reads.contains(&file.name));
     let first = match &own {
+        Some(own) if is_read => {
+            format!("copied; `{own}` stays for a program that was left as it was, and hides the host's file")
+        }
         Some(own) => {
-            if !is_read {
-                folder.remove(own);
-            }
+            folder.remove(own);
             moved_away(own)
         }
-        None => "brought along from the older host, which the new one has no more as it was".to_owned(),
+        None => "a file of the older host; the new one has another of this name".to_owned(),
     };
     folder.add(&new, text.clone().into_bytes());
     let done = std::iter::once(first).chain(done(&old, &text)).collect();

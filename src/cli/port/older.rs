@@ -7,10 +7,10 @@
 //! block. So the files that a pack includes of such a game become files of the pack, in a folder of their own; and a file of the pack that
 //! would hide the host's moves there, too.
 
+use super::super::files;
 use crate::port::Host;
 use crate::upgrade::{moved_path, plain};
-use glisten_front::compiler::{Compiler, Prepared};
-use glisten_front::source::{IncludeForm, IncludeResolver, Included};
+use glisten_front::source::Included;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -19,46 +19,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 const OLDER: &str = "older";
 /// The folder of the blocks of the host whose files older ones would hide.
 const BLOCKS: &str = "blocks";
-
-/// The includes that were found, by the including file and the path.
-#[derive(Clone, Default)]
-pub(super) struct Found(Arc<Mutex<BTreeMap<(String, String), Included>>>);
-
-impl Found {
-    /// A compiler that notes them.
-    pub(super) fn noted(&self, compiler: &Compiler) -> Compiler {
-        let (found, own) = (self.clone(), compiler.includes());
-        compiler.clone().with_change(move |_, prepared| {
-            let inner = prepared.includes.clone().unwrap_or_else(|| Arc::clone(&own));
-            Prepared { includes: Some(Arc::new(Noting { inner, found: found.clone() })), ..prepared }
-        })
-    }
-}
-
-impl Found {
-    /// The folders of included files that a pack has for the namespace of the game.
-    fn folders(&self, pack: &Path) -> BTreeSet<PathBuf> {
-        let found = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let own = found.keys().map(|(from, _)| Path::new(from)).filter(|from| from.starts_with(pack));
-        let folders = own.flat_map(|from| from.ancestors().take_while(|folder| folder.starts_with(pack)));
-        let shaders = folders.filter(|folder| folder.file_name().is_some_and(|name| name == "shaders"));
-        shaders.map(|folder| folder.join("include")).collect()
-    }
-}
-
-struct Noting {
-    inner: Arc<dyn IncludeResolver + Send + Sync>,
-    found: Found,
-}
-
-impl IncludeResolver for Noting {
-    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
-        let included = self.inner.resolve(path, form, from)?;
-        let mut found = self.found.0.lock().unwrap_or_else(PoisonError::into_inner);
-        found.insert((from.to_owned(), path.to_owned()), included.clone());
-        Ok(included)
-    }
-}
 
 /// The older files of a pack.
 #[derive(Clone, Default)]
@@ -76,29 +36,31 @@ pub(super) struct Older {
 
 impl Older {
     /// The older files among those that were found.
-    pub(super) fn new(pack: &Path, host: &Host, found: &Found) -> Self {
-        let (mut files, mut hidden, mut is_game_older) = (BTreeSet::new(), BTreeSet::new(), false);
-        for ((_, path), included) in &*found.0.lock().unwrap_or_else(PoisonError::into_inner) {
+    pub(super) fn new(pack: &Path, host: &Host, found: &BTreeMap<(String, String), Included>) -> Self {
+        let (mut older, mut hidden, mut is_game_older) = (BTreeSet::new(), BTreeSet::new(), false);
+        for ((_, path), included) in found {
             let block = host.dialect.as_ref().and_then(|dialect| dialect.block_of(path));
             if block.is_none_or(|block| block.is_in(&included.text)) {
                 continue;
             }
             is_game_older |= !Path::new(&included.name).starts_with(pack);
             hidden.insert(plain(path).to_owned());
-            files.insert(included.name.clone());
+            older.insert(included.name.clone());
         }
         // What nothing includes would hide the host's file, too.
-        let places: BTreeSet<PathBuf> = found.folders(pack);
+        let places = folders(pack, found.keys().map(|(from, _)| Path::new(from)));
         for block in host.dialect.iter().flat_map(|dialect| &dialect.blocks) {
             let Some(include) = block.include.as_deref().map(plain) else { continue };
             for path in places.iter().map(|folder| folder.join(include)).filter(|path| path.is_file()) {
-                if std::fs::read_to_string(&path).is_ok_and(|text| !block.is_in(&text)) {
+                let name = path.to_string_lossy().into_owned();
+                let bytes = files::read(&name, &path);
+                if bytes.is_ok_and(|bytes| !block.is_in(&String::from_utf8_lossy(&bytes))) {
                     hidden.insert(include.to_owned());
-                    files.insert(path.to_string_lossy().into_owned());
+                    older.insert(name);
                 }
             }
         }
-        let (files, hidden) = (Arc::new(files), Arc::new(hidden));
+        let (files, hidden) = (Arc::new(older), Arc::new(hidden));
         Self { pack: pack.to_owned(), files, is_game_older, hidden, moved: Arc::default() }
     }
 
@@ -183,20 +145,27 @@ impl Older {
     }
 }
 
+/// The folders of included files that a pack has next to the sources that include.
+fn folders<'a>(pack: &Path, sources: impl Iterator<Item = &'a Path>) -> BTreeSet<PathBuf> {
+    let own = sources.filter(|from| from.starts_with(pack));
+    let folders = own.flat_map(|from| from.ancestors().take_while(|folder| folder.starts_with(pack)));
+    let shaders = folders.filter(|folder| folder.file_name().is_some_and(|name| name == "shaders"));
+    shaders.map(|folder| folder.join("include")).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Found, Older};
+    use super::Older;
     use crate::port::find_host;
     use glisten_front::source::Included;
     use std::path::Path;
 
     fn older(files: &[(&str, &str, &str)]) -> Older {
-        let found = Found::default();
-        for (path, name, text) in files {
+        let found = files.iter().map(|(path, name, text)| {
             let included = Included { name: (*name).to_owned(), text: (*text).into() };
-            let from = "/p/assets/minecraft/shaders/core/a.vsh".to_owned();
-            found.0.lock().expect("a test").insert((from, (*path).to_owned()), included);
-        }
+            (("/p/assets/minecraft/shaders/core/a.vsh".to_owned(), (*path).to_owned()), included)
+        });
+        let found = found.collect();
         Older::new(Path::new("/p"), find_host("minecraft-26.2").expect("it is there"), &found)
     }
 

@@ -8,10 +8,10 @@ use super::super::exit::Failure;
 use super::super::inputs::Group;
 use super::super::session::{Session, Unit, compile_anywhere};
 use super::super::upgrade::{Upgraded, checker, plan, rewritten, words};
-use super::older::{Found, Older};
+use super::older::Older;
 use super::tree::NewFolder;
 use crate::port::{Host, Outcome, ProgramReport};
-use crate::upgrade::{Dialect, NewTree, Plan, Refused, TreeProgram, tree};
+use crate::upgrade::{Dialect, Includes, NewTree, Plan, Refused, TreeProgram, tree};
 use glisten_front::compiler::{Compiler, Prepared, Source};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
@@ -259,9 +259,9 @@ fn older_files(session: &mut Session<'_>, groups: &[Group], host: &Host, pack: &
     if !has_files(host.dialect.as_ref()) {
         return Older::default();
     }
-    let (engines, found) = (session.engines().clone(), Found::default());
+    let (engines, found) = (session.engines().clone(), Includes::default());
     session.compile_by(groups.to_vec(), |compiler, group| compile_anywhere(&found.noted(compiler), &engines, group));
-    Older::new(pack, host, &found)
+    Older::new(pack, host, &found.all())
 }
 
 /// Whether a host has files that sources include.

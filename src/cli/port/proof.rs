@@ -47,22 +47,23 @@ pub(super) fn prove(
     for index in 0..ported.programs.len() {
         let Some(one) = ported.programs.get(index).filter(|one| one.index.is_some()) else { continue };
         let work = journal::drawing(&one.report.files.join("`, `"));
-        let (proof, evidence) = match known.of(index, &work) {
-            Some(known) => known,
+        let (proof, evidence) = match known.told(index) {
+            Some(told) => told,
             None => {
-                let scene = folder.path().join(format!("{index}")).join("scene.toml");
-                let _work = journal::at_work(&work);
-                let judged = fs::create_dir_all(scene.parent().unwrap_or(folder.path()))
-                    .map_err(|error| error.to_string())
-                    .and_then(|()| judged(one, ported, host.dialect.as_ref(), &scene, (sources, levels), &gpu));
-                worded(judged)
+                let found = known.crash(&work).map(|what| (INCONCLUSIVE, what)).unwrap_or_else(|| {
+                    let scene = folder.path().join(format!("{index}")).join("scene.toml");
+                    let _work = journal::at_work(&work);
+                    let judged = fs::create_dir_all(scene.parent().unwrap_or(folder.path()))
+                        .map_err(|error| error.to_string())
+                        .and_then(|()| judged(one, ported, host.dialect.as_ref(), &scene, (sources, levels), &gpu));
+                    worded(judged)
+                });
+                journal::note(&Note::Result(json!([index, found.0, found.1])));
+                console.remark(&format!("{}: {}: {}", one.report.name, found.0, found.1));
+                found
             }
         };
-        journal::note(&Note::Result(json!([index, proof, evidence])));
         if let Some(one) = ported.programs.get_mut(index) {
-            if !known.has(index) {
-                console.remark(&format!("{}: {proof}: {evidence}", one.report.name));
-            }
             one.report.proof = Some(proof.to_owned());
             one.report.evidence = Some(evidence);
         }
@@ -78,20 +79,20 @@ impl Known {
         Self(journal::notes())
     }
 
-    /// Whether an earlier process told the result.
-    fn has(&self, index: usize) -> bool {
-        self.0.iter().any(|note| matches!(note, Note::Result(row) if row.get(0) == Some(&json!(index))))
+    /// The result for a program that an earlier process told.
+    fn told(&self, index: usize) -> Option<(&'static str, String)> {
+        self.0.iter().find_map(|note| {
+            let Note::Result(row) = note else { return None };
+            let (known, proof, evidence): (usize, String, String) = serde_json::from_value(row.clone()).ok()?;
+            let proof = [PROVED, INCONCLUSIVE, FAILED].into_iter().find(|word| *word == proof)?;
+            (known == index).then_some((proof, evidence))
+        })
     }
 
-    /// The result for a program.
-    fn of(&self, index: usize, at_work: &str) -> Option<(&'static str, String)> {
+    /// The sentence about a crash in a piece of work.
+    fn crash(&self, at_work: &str) -> Option<String> {
         self.0.iter().find_map(|note| match note {
-            Note::Crash { work, what } if work == at_work => Some((INCONCLUSIVE, what.clone())),
-            Note::Result(row) => {
-                let (known, proof, evidence): (usize, String, String) = serde_json::from_value(row.clone()).ok()?;
-                let proof = [PROVED, INCONCLUSIVE, FAILED].into_iter().find(|word| *word == proof)?;
-                (known == index).then_some((proof, evidence))
-            }
+            Note::Crash { work, what } if work == at_work => Some(what.clone()),
             _ => None,
         })
     }
@@ -213,4 +214,26 @@ fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Result<(Scen
     let first = loaded.diagnostics.iter().find(|found| found.is_error()).map(|error| error.message.clone());
     let scene = loaded.scene.ok_or_else(|| first.unwrap_or_else(|| "the scene does not load".to_owned()))?;
     Ok((scene, unset))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FAILED, Known, Note, PROVED};
+    use serde_json::json;
+
+    #[test]
+    fn results_before_a_crash_are_known_and_the_crash_is_one_of_its_program() {
+        let known = Known(vec![
+            Note::Begin("drawing `a`".to_owned()),
+            Note::Result(json!([0, PROVED, "4 pixels"])),
+            Note::Result(json!([2, FAILED, "1 outside"])),
+            Note::Result(json!([3, "a word of another command", ""])),
+            Note::Crash { work: "drawing `b`".to_owned(), what: "the driver crashed".to_owned() },
+        ]);
+        assert_eq!(known.told(0), Some((PROVED, "4 pixels".to_owned())));
+        assert_eq!(known.told(2), Some((FAILED, "1 outside".to_owned())));
+        assert_eq!((known.told(1), known.told(3)), (None, None));
+        assert_eq!(known.crash("drawing `b`").as_deref(), Some("the driver crashed"));
+        assert_eq!(known.crash("drawing `a`"), None);
+    }
 }

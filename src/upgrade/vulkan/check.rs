@@ -14,48 +14,12 @@ use glisten_front::link::Program;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// The resolver of a source's includes.
 type Resolver = Arc<dyn IncludeResolver + Send + Sync>;
 /// Texts by the names of their files.
 type Texts = Arc<BTreeMap<String, Arc<str>>>;
-
-/// The files that the includes of a program named.
-#[derive(Clone, Default)]
-pub(super) struct Includes(Arc<Mutex<BTreeMap<(String, String), String>>>);
-
-impl Includes {
-    /// For each file and path the name of the file that was found.
-    pub(super) fn all(&self) -> BTreeMap<(String, String), String> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-}
-
-/// A compiler that notes what includes name.
-pub(super) fn recorded(compiler: &Compiler) -> (Compiler, Includes) {
-    let includes = Includes::default();
-    let (noted, own) = (includes.clone(), compiler.includes());
-    let compiler = compiler.clone().with_change(move |_, prepared| {
-        let inner = prepared.includes.clone().unwrap_or_else(|| Arc::clone(&own));
-        Prepared { includes: Some(Arc::new(Recorder { inner, noted: noted.clone() })), ..prepared }
-    });
-    (compiler, includes)
-}
-
-struct Recorder {
-    inner: Resolver,
-    noted: Includes,
-}
-
-impl IncludeResolver for Recorder {
-    fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
-        let found = self.inner.resolve(path, form, from)?;
-        let mut noted = self.noted.0.lock().unwrap_or_else(PoisonError::into_inner);
-        noted.insert((from.to_owned(), path.to_owned()), found.name.clone());
-        Ok(found)
-    }
-}
 
 /// New texts of included files, by name.
 struct Replaced {

@@ -8,7 +8,7 @@
 //! | --- | --- |
 //! | `dialect` | what a host wants |
 //! | `chunks`, `conditions` | a text cut into its declarations; its directives |
-//! | `files` | the texts of a tree, each once |
+//! | `includes`, `files` | what includes name; the texts of a tree, each once |
 //! | `facts`, `unseen` | what each declaration is; those that no program sees |
 //! | `samplers` | uniforms for samplers in structs |
 //! | `numbers`, `layouts` | locations and bindings; the blocks of the loose uniforms |
@@ -25,6 +25,7 @@ mod declarations;
 mod dialect;
 mod facts;
 mod files;
+mod includes;
 mod layouts;
 mod numbers;
 mod output;
@@ -34,6 +35,7 @@ mod tree;
 mod unseen;
 
 pub use dialect::{Dialect, HostBlock, Numbering, plain};
+pub use includes::Includes;
 pub use output::{NewFile, NewTree, Note, TreeProgram, moved_path, with_version};
 pub use tree::tree;
 

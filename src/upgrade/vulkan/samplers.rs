@@ -23,7 +23,7 @@ struct Holder {
     has_others: bool,
 }
 
-/// The program with a uniform for each sampler, and what to say of it.
+/// The program with a uniform for each sampler, and what to say of it. Whoever calls this sees whether it compiles.
 pub(super) fn split(unit: &TreeProgram, program: &Program) -> Option<(TreeProgram, Vec<Note>)> {
     let holders = holders(program)?;
     let mut notes = Vec::new();
@@ -37,9 +37,7 @@ pub(super) fn split(unit: &TreeProgram, program: &Program) -> Option<(TreeProgra
         }));
         source.text = text.into();
     }
-    let new = TreeProgram { compiler: unit.compiler.clone(), sources };
-    let compilation = new.compiler.compile(&new.sources);
-    (compilation.program.is_some() && !compilation.diagnostics.has_errors()).then_some((new, notes))
+    Some((TreeProgram { compiler: unit.compiler.clone(), sources }, notes))
 }
 
 /// The uniforms that are structs with samplers; none if there is no such uniform, or one that cannot be split.

@@ -13,7 +13,7 @@ use super::files::{File, Files};
 use super::layouts::{Layout, Layouts, block_name};
 use super::numbers::Numbers;
 use super::{Compiled, Key};
-use crate::engines::code::is_name;
+use crate::engines::code::{is_name, without_comments};
 use glisten_front::builtin::functions;
 use glisten_front::hir::{Global, Shader, Stage, Storage};
 use std::collections::{BTreeMap, BTreeSet};
@@ -258,7 +258,7 @@ impl Plan<'_> {
         let (place, _) = moved.place.as_ref().filter(|_| !moved.known.is_empty())?;
         let blocks = moved.known.iter().filter_map(|index| self.dialect.blocks.get(*index));
         let conditions = Conditions::new(text);
-        let code = crate::engines::code::without_comments(text);
+        let code = without_comments(text);
         let has = |block: &HostBlock| match &block.include {
             Some(include) => {
                 let file = include.rsplit(':').next().unwrap_or(include);
@@ -318,17 +318,19 @@ impl Plan<'_> {
 
     /// Whether a source, or a file that it includes, has a line that goes on in the next one.
     fn continues_lines(&self, key: &Key) -> bool {
+        let goes_on = |text: &str| text.contains("\\\n") || text.contains("\\\r\n");
         let (mut seen, mut open) = (BTreeSet::new(), vec![key.0.as_str()]);
-        while let Some(name) = open.pop().filter(|_| seen.len() < self.files.all.len() + 1) {
+        while let Some(name) = open.pop() {
             if !seen.insert(name) {
                 continue;
             }
-            let texts = self.files.all.iter().filter(|((file, _), _)| file == name).map(|(_, file)| &file.text);
-            let goes_on = |text: &str| text.contains("\\\n") || text.contains("\\\r\n");
-            if texts.into_iter().any(|text| goes_on(&crate::engines::code::without_comments(text))) {
+            let name = name.to_owned();
+            let mut texts = self.files.all.range((name.clone(), None)..).take_while(|((file, _), _)| *file == name);
+            if texts.any(|(_, file)| goes_on(&without_comments(&file.text))) {
                 return true;
             }
-            open.extend(self.files.includes.iter().filter(|((from, _), _)| from == name).map(|(_, to)| to.as_str()));
+            let includes = self.files.includes.range((name.clone(), String::new())..);
+            open.extend(includes.take_while(|((from, _), _)| *from == name).map(|(_, to)| to.as_str()));
         }
         false
     }

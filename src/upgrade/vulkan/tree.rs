@@ -3,13 +3,14 @@
 //! *In:* programs that compile, and what their host wants. *Out:* new texts; for each program that is left out, why. *Holds:* a program
 //! that is left out does not change what others get. The new texts of all others compile.
 
-use super::check::{check, recorded};
+use super::check::check;
 use super::chunks::Chunks;
 use super::conditions::Conditions;
 use super::coordinates;
 use super::dialect::Dialect;
 use super::facts::{Fact, Facts, Refusal};
 use super::files::{File, Files};
+use super::includes::Includes;
 use super::layouts::{Layouts, loose};
 use super::numbers::Numbers;
 use super::output::{NewFile, NewTree, Note, Pointed, TreeProgram};
@@ -26,17 +27,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Rewrites the programs of a tree for a host, or, without a dialect, only collects the texts that their compilers read.
 pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
-    let (programs, split_notes) = without_samplers_in_structs(programs, dialect);
+    let read = programs.iter().map(Read::of).collect();
+    let (read, split_notes) = if dialect.is_some() { without_samplers_in_structs(read) } else { (read, Vec::new()) };
     let mut refused: Vec<Option<String>> = programs.iter().map(|_| None).collect();
-    let (compilations, includes): (Vec<Compilation>, Vec<_>) = programs
-        .iter()
-        .map(|program| {
-            let (compiler, includes) = recorded(&program.compiler);
-            (compiler.compile(&program.sources), includes)
-        })
-        .unzip();
     let mut left: Vec<Compiled<'_>> = Vec::new();
-    for (index, (unit, compilation)) in programs.iter().zip(&compilations).enumerate() {
+    for (index, Read { unit, compilation, .. }) in read.iter().enumerate() {
         match sound(unit, compilation, dialect) {
             Ok(program) => left.push(Compiled { index, unit, compilation, program }),
             Err(reason) => refused.get_mut(index).into_iter().for_each(|one| *one = Some(reason.clone())),
@@ -44,7 +39,7 @@ pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
     }
     loop {
         let all: BTreeMap<(String, String), String> =
-            left.iter().filter_map(|one| includes.get(one.index)).flat_map(super::check::Includes::all).collect();
+            left.iter().filter_map(|one| read.get(one.index)).flat_map(|one| one.includes.clone()).collect();
         let attempt = rewritten(&left, dialect, all);
         let failed: Vec<Refusal> = match &attempt {
             Err((index, reason)) => vec![(*index, reason.clone())],
@@ -68,22 +63,34 @@ pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
     }
 }
 
-/// The programs with a uniform for each sampler in a struct, and what to say of that.
-fn without_samplers_in_structs(programs: &[TreeProgram], dialect: Option<&Dialect>) -> (Vec<TreeProgram>, Vec<Note>) {
-    if dialect.is_none() {
-        return (programs.to_vec(), Vec::new());
+/// A program that was compiled, with the files that its includes name.
+struct Read {
+    unit: TreeProgram,
+    compilation: Compilation,
+    includes: BTreeMap<(String, String), String>,
+}
+
+impl Read {
+    fn of(unit: &TreeProgram) -> Self {
+        let includes = Includes::default();
+        let compilation = includes.noted(&unit.compiler).compile(&unit.sources);
+        let includes = includes.all().into_iter().map(|(named, found)| (named, found.name)).collect();
+        Self { unit: unit.clone(), compilation, includes }
     }
+}
+
+/// The programs with a uniform for each sampler in a struct, where they still compile with it, and what to say of that.
+fn without_samplers_in_structs(read: Vec<Read>) -> (Vec<Read>, Vec<Note>) {
     let mut notes = Vec::new();
-    let split = programs.iter().map(|unit| {
-        // Most programs have none, which their texts say.
-        if !unit.sources.iter().any(|source| source.text.contains("struct") && source.text.contains("sampler")) {
-            return unit.clone();
+    let split = read.into_iter().map(|one| {
+        let new = one.compilation.program.as_ref().and_then(|program| samplers::split(&one.unit, program));
+        let Some((unit, found)) = new else { return one };
+        let new = Read::of(&unit);
+        if new.compilation.program.is_none() || new.compilation.diagnostics.has_errors() {
+            return one;
         }
-        let compilation = unit.compiler.compile(&unit.sources);
-        let new = compilation.program.as_ref().and_then(|program| samplers::split(unit, program));
-        let Some((unit, found)) = new else { return unit.clone() };
         notes.extend(found);
-        unit
+        new
     });
     let split = split.collect();
     (split, notes)
