@@ -13,8 +13,8 @@ mod tokens;
 mod vulkan;
 
 pub use plan::{Plan, Target, Text};
-pub use program::plan_in;
 pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
+pub use program::{names_in, plan_in};
 pub use rewrite::rewrite;
 pub use vulkan::{
     Dialect, HostBlock, Includes, NewFile, NewTree, Note, Numbering, TreeProgram, moved_path, plain, to_vulkan, tree,

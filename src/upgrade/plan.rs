@@ -137,6 +137,8 @@ struct Declared {
 pub struct Plan {
     /// The language to write.
     pub target: Target,
+    /// Whether only names change: the texts are newer than the target, and have its words.
+    pub(super) has_names_only: bool,
     /// The new text of an old word in a stage.
     words: BTreeMap<(Stage, String), String>,
     declarations: Vec<Declared>,
@@ -161,22 +163,23 @@ impl Plan {
 
     /// The plan for the texts of a program; new names are none of these words.
     pub fn with_words(texts: &[Text<'_>], target: Target, words: &BTreeSet<String>) -> Self {
-        let mut own: BTreeSet<&str> = BTreeSet::new();
-        let mut by_stage: BTreeSet<(Stage, &str)> = BTreeSet::new();
-        for text in texts {
-            for token in tokens(text.text).iter().filter(|token| token.is_word()) {
-                own.insert(token.text);
-                by_stage.insert((text.stage, token.text));
-            }
-        }
-        let plan =
-            Self { target, words: BTreeMap::new(), declarations: Vec::new(), notes: Vec::new(), refused: Vec::new() };
-        let used = own.iter().copied().chain(words.iter().map(String::as_str)).collect();
-        let mut planner = Planner { plan, own, used, by_stage, structs: BTreeSet::new() };
+        let mut planner = Planner::new(texts, target, words);
         planner.taken(texts);
         planner.fixed(texts);
         planner.outputs(texts);
         planner.plan
+    }
+
+    /// The plan for texts that are newer than the target: the names that the target takes change, and nothing else.
+    pub fn of_names(texts: &[Text<'_>], target: Target, words: &BTreeSet<String>) -> Self {
+        let mut planner = Planner::new(texts, target, words);
+        planner.taken(texts);
+        Self { has_names_only: true, ..planner.plan }
+    }
+
+    /// Whether it changes nothing.
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.declarations.is_empty()
     }
 
     /// Whether a word of the texts is a keyword of the target, so that no member has it as its name.
@@ -217,7 +220,28 @@ struct Planner<'t> {
     structs: BTreeSet<(Stage, &'static str)>,
 }
 
-impl Planner<'_> {
+impl<'t> Planner<'t> {
+    fn new(texts: &[Text<'t>], target: Target, words: &'t BTreeSet<String>) -> Self {
+        let mut own: BTreeSet<&str> = BTreeSet::new();
+        let mut by_stage: BTreeSet<(Stage, &str)> = BTreeSet::new();
+        for text in texts {
+            for token in tokens(text.text).iter().filter(|token| token.is_word()) {
+                own.insert(token.text);
+                by_stage.insert((text.stage, token.text));
+            }
+        }
+        let plan = Plan {
+            target,
+            has_names_only: false,
+            words: BTreeMap::new(),
+            declarations: Vec::new(),
+            notes: Vec::new(),
+            refused: Vec::new(),
+        };
+        let used = own.iter().copied().chain(words.iter().map(String::as_str)).collect();
+        Self { plan, own, used, by_stage, structs: BTreeSet::new() }
+    }
+
     fn uses(&self, stage: Stage, word: &str) -> bool {
         self.by_stage.contains(&(stage, word))
     }

@@ -122,19 +122,34 @@ pub fn plan_in(
     target: Target,
     words: &BTreeSet<String>,
 ) -> Result<Plan, Refused> {
-    let others: Vec<Vec<Arc<str>>> = sources.iter().map(|(source, _)| other_texts(compiler, source)).collect();
+    if let Some((source, version)) = sources.iter().find(|(_, version)| target.is_older_than(*version)) {
+        return Err(Refused::Newer { name: source.name.clone(), version: *version, target });
+    }
+    let others = all_other_texts(compiler, sources);
+    let plan = Plan::with_words(&all_texts(sources, &others), target, words);
+    plan.refused.first().map_or(Ok(()), |name| Err(Refused::NoCounterpart(name)))?;
+    Ok(plan)
+}
+
+/// The plan for a program of a tree whose texts are newer than the target: only names that the target takes change.
+pub fn names_in(compiler: &Compiler, sources: &[(&Source, u16)], target: Target, words: &BTreeSet<String>) -> Plan {
+    let others = all_other_texts(compiler, sources);
+    Plan::of_names(&all_texts(sources, &others), target, words)
+}
+
+fn all_other_texts(compiler: &Compiler, sources: &[(&Source, u16)]) -> Vec<Vec<Arc<str>>> {
+    sources.iter().map(|(source, _)| other_texts(compiler, source)).collect()
+}
+
+/// The texts of sources, each with those that it reads.
+fn all_texts<'t>(sources: &[(&'t Source, u16)], others: &'t [Vec<Arc<str>>]) -> Vec<Text<'t>> {
     let mut texts = Vec::new();
-    for ((source, version), others) in sources.iter().zip(&others) {
+    for ((source, version), others) in sources.iter().zip(others) {
         let (stage, version) = (source.stage, *version);
-        if target.is_older_than(version) {
-            return Err(Refused::Newer { name: source.name.clone(), version, target });
-        }
         texts.push(Text { text: &source.text, stage, is_shader: true, version });
         texts.extend(others.iter().map(|text| Text { text, stage, is_shader: false, version }));
     }
-    let plan = Plan::with_words(&texts, target, words);
-    plan.refused.first().map_or(Ok(()), |name| Err(Refused::NoCounterpart(name)))?;
-    Ok(plan)
+    texts
 }
 
 /// The texts that a source reads besides its own: preludes and included files.

@@ -34,6 +34,9 @@ pub(super) type Edit = (Range<usize>, String);
 
 /// The new text of a source.
 pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
+    if plan.has_names_only {
+        return with_names(text, plan);
+    }
     let mut edits: Vec<Edit> = Vec::new();
     let code = without_comments(text.text);
     // Comments are not code; a macro may be used anywhere.
@@ -65,6 +68,20 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
         }
     }
     applied(text.text, edits)
+}
+
+/// The text with new names, and nothing else that is new.
+fn with_names(text: &Text<'_>, plan: &Plan) -> String {
+    let all = tokens(text.text);
+    let is_member =
+        |index: usize| index.checked_sub(1).and_then(|before| all.get(before)).is_some_and(|one| one.text == ".");
+    let words = all
+        .iter()
+        .enumerate()
+        .filter(|(index, token)| token.is_word() && (!is_member(*index) || plan.is_keyword(token.text)));
+    let edits =
+        words.filter_map(|(_, token)| Some((token.range.clone(), plan.word(text.stage, token.text)?.to_owned())));
+    applied(text.text, edits.collect())
 }
 
 /// The default precisions that ES lacks, for the types that a stage uses (GLSL ES 3.00 §4.5.4).

@@ -7,7 +7,7 @@ use super::super::args::SourceArgs;
 use super::super::exit::Failure;
 use super::super::inputs::Group;
 use super::super::session::{Session, Unit, compile_anywhere};
-use super::super::upgrade::{Upgraded, checker, plan, rewritten, words};
+use super::super::upgrade::{Upgraded, checker, plan, plan_of_newer, rewritten, words};
 use super::older::Older;
 use super::tree::NewFolder;
 use crate::port::{Host, Outcome, ProgramReport};
@@ -179,19 +179,13 @@ fn new_program(
     }
     let source = |text: &str, name: &str, stage| Source { name: name.to_owned(), text: text.into(), stage };
     match plan(unit, old, host.target, words) {
-        Ok(plan) => {
-            let plan = Arc::new(plan);
-            let texts = rewritten(unit, &plan);
-            let compiler = readers.compiler(&checker(args, old, &plan)?, kind);
-            let sources: Vec<Source> = texts.iter().map(Upgraded::source).collect();
-            let compilation = compiler.compile(&sources);
-            if let Some(error) = compilation.diagnostics.iter().find(|found| found.is_error()) {
-                return Ok(Err((Outcome::Refused, Some(format!("in the new language, {}", told(error))))));
-            }
-            Ok(Ok((TreeProgram { compiler, sources }, Some(plan))))
-        }
-        // A newer text has the words of the host's language already.
+        Ok(plan) => by_plan(unit, plan, (old, kind), readers, args),
+        // A newer text has the words of the host's language already, but may have taken some of them as names.
         Err(Refused::Newer { version, .. }) if host.dialect.is_some() && ![300, 310, 320].contains(&version) => {
+            let names = plan_of_newer(unit, old, host.target, words);
+            if !names.is_empty() {
+                return by_plan(unit, names, (old, kind), readers, args);
+            }
             let inputs = unit.group.inputs.iter();
             let sources = inputs
                 .filter_map(|input| {
@@ -208,6 +202,25 @@ fn new_program(
         }
         Err(refused) => Ok(Err((Outcome::Refused, Some(refused.to_string())))),
     }
+}
+
+/// The texts of a program by a plan, which compile.
+fn by_plan(
+    unit: &Unit,
+    plan: Plan,
+    (old, kind): (&Compiler, StandIn),
+    readers: &Readers,
+    args: &SourceArgs,
+) -> Result<New, Failure> {
+    let plan = Arc::new(plan);
+    let texts = rewritten(unit, &plan);
+    let compiler = readers.compiler(&checker(args, old, &plan)?, kind);
+    let sources: Vec<Source> = texts.iter().map(Upgraded::source).collect();
+    let compilation = compiler.compile(&sources);
+    if let Some(error) = compilation.diagnostics.iter().find(|found| found.is_error()) {
+        return Ok(Err((Outcome::Refused, Some(format!("in the new language, {}", told(error))))));
+    }
+    Ok(Ok((TreeProgram { compiler, sources }, Some(plan))))
 }
 
 /// The remedy for an error that comes from a file of the host that is not there.

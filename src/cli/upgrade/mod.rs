@@ -7,7 +7,7 @@
 mod programs;
 mod prove;
 
-pub(super) use programs::{checker, plan, rewritten, words};
+pub(super) use programs::{checker, plan, plan_of_newer, rewritten, words};
 pub(super) use prove::NewFiles;
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};

@@ -10,7 +10,7 @@ use super::super::files;
 use super::super::inputs::Input;
 use super::super::session::{Session, Unit};
 use super::Upgraded;
-use crate::upgrade::{Plan, Refused, Target, Text, completed, plan_in, rewrite};
+use crate::upgrade::{Plan, Refused, Target, Text, completed, names_in, plan_in, rewrite};
 use glisten_front::Stage;
 use glisten_front::compiler::{Compiler, Preparation, Prepared, Source, SourceSettings};
 use glisten_front::source::version_line;
@@ -47,13 +47,29 @@ pub(in super::super) fn plan(
     target: Target,
     words: &BTreeSet<String>,
 ) -> Result<Plan, Refused> {
+    plan_in(compiler, &with_versions(unit, &sources_of(unit)), target, words)
+}
+
+/// The plan for a program whose texts are newer than the target.
+pub(in super::super) fn plan_of_newer(
+    unit: &Unit,
+    compiler: &Compiler,
+    target: Target,
+    words: &BTreeSet<String>,
+) -> Plan {
+    names_in(compiler, &with_versions(unit, &sources_of(unit)), target, words)
+}
+
+fn sources_of(unit: &Unit) -> Vec<Source> {
     let source = |input: &Input| {
         let (name, text) = (input.name.clone(), text_of(unit, input).into());
         Source { name, text, stage: input.stage }
     };
-    let sources: Vec<Source> = unit.group.inputs.iter().map(source).collect();
-    let versions: Vec<(&Source, u16)> = sources.iter().map(|source| (source, version_of(unit, source.stage))).collect();
-    plan_in(compiler, &versions, target, words)
+    unit.group.inputs.iter().map(source).collect()
+}
+
+fn with_versions<'s>(unit: &Unit, sources: &'s [Source]) -> Vec<(&'s Source, u16)> {
+    sources.iter().map(|source| (source, version_of(unit, source.stage))).collect()
 }
 
 /// A refusal as a failure, with what helps.
