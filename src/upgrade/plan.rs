@@ -3,7 +3,7 @@
 //! *In:* all texts of a program, with those that they include. *Out:* the new name of each output, attribute, varying and
 //! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
 
-use super::names::FUNCTIONS;
+use super::names::{FUNCTIONS, lookup};
 use super::tokens::{closing, tokens};
 use glisten_front::Stage;
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
@@ -165,6 +165,7 @@ impl Plan {
     pub fn with_words(texts: &[Text<'_>], target: Target, words: &BTreeSet<String>) -> Self {
         let mut planner = Planner::new(texts, target, words);
         planner.taken(texts);
+        planner.variables(texts);
         planner.fixed(texts);
         planner.outputs(texts);
         planner.plan
@@ -294,6 +295,17 @@ impl<'t> Planner<'t> {
         }
     }
 
+    /// Variables of the program under the names of old lookups: they keep them where they may.
+    fn variables(&mut self, texts: &[Text<'_>]) {
+        for name in declared_variables(texts) {
+            let new = if self.plan.target.takes(name) { self.free(name) } else { name.to_owned() };
+            Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
+            if new != name {
+                self.plan.notes.push(format!("`{name}` is a type now, and the variable is called `{new}`"));
+            }
+        }
+    }
+
     /// Variables of the fixed-function pipeline.
     fn fixed(&mut self, texts: &[Text<'_>]) {
         self.plan.refused.extend(REFUSED.iter().filter(|name| self.own.contains(*name)));
@@ -414,6 +426,22 @@ fn declared_functions<'t>(texts: &[Text<'t>], is_old: bool, is_for_vulkan: bool)
                 found.insert(token.text);
             }
         }
+    }
+    found
+}
+
+/// The names of old lookups under which the texts declare variables: after a word, and not before arguments.
+fn declared_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    let mut found = BTreeSet::new();
+    for text in texts {
+        let all = tokens(text.text);
+        let pairs = all.iter().zip(all.iter().skip(1)).zip(all.iter().skip(2));
+        let declared = pairs.filter(|((before, token), after)| {
+            let is_type = before.is_word()
+                && !["return", "else", "define", "defined", "ifdef", "ifndef", "undef"].contains(&before.text);
+            is_type && lookup(token.text).is_some() && [";", ",", ")", "=", "["].contains(&after.text)
+        });
+        found.extend(declared.map(|((_, token), _)| token.text));
     }
     found
 }

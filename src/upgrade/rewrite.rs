@@ -166,6 +166,9 @@ fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str
     let Some(token) = all.get(index) else { return };
     let at = |index: Option<usize>| index.and_then(|index| all.get(index)).map(|token| token.text);
     let (before, after) = (at(index.checked_sub(1)), at(Some(index + 1)));
+    let old_lookup = lookup(token.text).filter(|_| !own.contains(&token.text));
+    // A variable has the name of an old function, and hides it, in its scope alone.
+    let is_call = old_lookup.is_some() && after == Some("(");
     // A member has any name that is no keyword.
     if before == Some(".") && !plan.is_keyword(token.text) {
         return;
@@ -186,11 +189,11 @@ fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str
     } else if token.text == "ftransform" && after == Some("(") {
         let end = closing(all, index + 1).and_then(|end| all.get(end)).map_or(range.end, |token| token.range.end);
         edits.extend(plan.word(stage, token.text).map(|new| (range.start..end, new.to_owned())));
-    } else if let Some(new) = plan.word(stage, token.text) {
+    } else if let Some(new) = plan.word(stage, token.text).filter(|_| !is_call) {
         edits.push((redeclaration(all, index).unwrap_or(range), new_text(all, index, new)));
     } else if let Some((_, new)) = WORDS.iter().find(|(old, _)| *old == token.text) {
         edits.push((range, (*new).to_owned()));
-    } else if let Some(new) = lookup(token.text).filter(|_| !own.contains(&token.text)) {
+    } else if let Some(new) = old_lookup {
         edits.push((range, if new.is_shadow && after == Some("(") { format!("vec4({}", new.name) } else { new.name }));
         if let (true, Some("("), Some(end)) = (new.is_shadow, after, closing(all, index + 1)) {
             edits.extend(all.get(end).map(|end| (end.range.end..end.range.end, ", 0.0, 0.0, 1.0)".to_owned())));
@@ -323,6 +326,17 @@ mod tests {
         let new = "#version 300 es // old\n#ifdef GL_ES\nprecision mediump float;\n#endif\nout mediump vec4 fragData[2];\n#ifdef A\n\
                    in vec2 p;\n#endif\nvoid main() { fragData[1] = fragData[0]; }\n";
         assert_eq!(upgraded(old, Stage::Fragment, Target::Es300), new);
+    }
+
+    #[test]
+    fn variables_named_as_old_lookups() {
+        let old = "vec4 f(sampler2D texture2D) { return texture3D(t, v); }\nvoid main() { vec4 shadow2D = texture2D(s, p), q[1] = shadow2D; \
+                   }\n";
+        let new = upgraded(old, Stage::Vertex, Target::Core330);
+        let body = "(sampler2D texture2D) { return texture(t, v); }\nvoid main() { vec4 shadow2D = texture(s, p), q[1] = shadow2D; }\n";
+        assert!(new.ends_with(body), "{new}");
+        let vulkan = upgraded(old, Stage::Vertex, Target::Vulkan);
+        assert!(vulkan.contains("f(sampler2D texture2D_) { return texture(t, v); }"), "{vulkan}");
     }
 
     #[test]
