@@ -47,7 +47,7 @@ fn complaint(output: &Output) -> String {
 
 /// The commit of a folder, if it is a repository.
 pub(crate) fn commit(folder: &Path) -> String {
-    let output = Command::new("git").arg("-C").arg(folder).args(["rev-parse", "--short", "HEAD"]).output();
+    let output = Command::new("git").arg("-C").arg(folder).args(["rev-parse", "--short=7", "HEAD"]).output();
     let known = output.ok().filter(|output| output.status.success());
     known.map_or_else(String::new, |output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
