@@ -1,9 +1,9 @@
-//! Measures `glisten lint` over a folder: against `glslangValidator` on the same files, over ten thousand files, and against the least
-//! that a cache of findings would have to do.
+//! Measures `glisten lint` over a folder: against `glslangValidator` on the same files, and over ten thousand files, without a cache, while
+//! one is filled, and from it.
 //!
 //! `cargo bench --bench lint -- [FOLDER]` takes the shaders of the folder (default: `fixtures`) that `glslangValidator` accepts without
 //! another file, or all if it is not installed. Each figure is the median of its rounds, in seconds on the clock and of all processors.
-//! A cache of findings has to read each file and what was found, and to hash both; its row is that, and nothing else.
+//! A cache of findings has to read each file and what was found, and to hash both; the last row is that, and nothing else.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -35,7 +35,10 @@ fn main() {
     let few = copied(&files, files.len(), &small);
     let many = copied(&files, MANY, &large);
     println!("| run | files | seconds | CPU seconds |\n| --- | --- | --- | --- |");
-    let own = row("glisten lint", few.len(), &|| lint(&small));
+    let own = row("glisten lint", few.len(), &|| lint(&small, None));
+    let kept = temporary.path().join("kept-of-few");
+    lint(&small, Some(&kept));
+    row("glisten lint, all from the cache", few.len(), &|| lint(&small, Some(&kept)));
     if has_glslang {
         let each = row("glslangValidator, a process for each file", few.len(), &|| {
             few.iter().for_each(|file| {
@@ -52,11 +55,18 @@ fn main() {
         );
         println!("| run | files | seconds | CPU seconds |\n| --- | --- | --- | --- |");
     }
-    row("glisten lint", many.len(), &|| lint(&large));
+    let plain = row("glisten lint", many.len(), &|| lint(&large, None));
+    let kept = temporary.path().join("kept");
+    row("glisten lint, nothing in the cache", many.len(), &|| {
+        let _ = fs::remove_dir_all(&kept);
+        lint(&large, Some(&kept));
+    });
+    let recalled = row("glisten lint, all from the cache", many.len(), &|| lint(&large, Some(&kept)));
     with_entries(&many);
     row("reading and hashing files and findings, one thread", many.len(), &|| {
         black_box(cached(&many));
     });
+    println!("\nfrom the cache, lint takes {:.2} of its CPU time", recalled.cpu / plain.cpu);
 }
 
 /// Measures work, and prints the median of its rounds.
@@ -93,9 +103,13 @@ fn copied(files: &[PathBuf], count: usize, to: &Path) -> Vec<PathBuf> {
     files.iter().cycle().take(count).enumerate().map(copy).collect()
 }
 
-fn lint(folder: &Path) {
+fn lint(folder: &Path, cache: Option<&Path>) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
     command.args(["lint", "--quiet", "--format", "json"]).arg(folder).stdout(Stdio::null());
+    match cache {
+        Some(cache) => command.arg("--cache").arg(cache),
+        None => command.arg("--no-cache"),
+    };
     let status = command.status().expect("glisten runs");
     assert!(status.code().is_some_and(|code| code < 2), "{status}");
 }

@@ -1,4 +1,4 @@
-//! `glisten cache`: how much the cache of `compile` holds, and how to empty it.
+//! `glisten cache`: how much the cache of `compile` and `lint` holds, and how to empty it.
 //!
 //! *Holds:* only a folder that glisten has marked as a cache is cleaned.
 
@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
-/// See what the cache of `compile` holds, or clean it
+/// See what the cache of `compile` and `lint` holds, or clean it
 #[derive(Args, Debug)]
 pub(super) struct CacheCommandArgs {
     #[command(subcommand)]

@@ -266,10 +266,19 @@ pub(super) struct Settings {
     pub(super) baseline: Option<PathBuf>,
 }
 
+impl Settings {
+    /// A text that differs if other findings come of a file.
+    pub(super) fn text_of(&self, file: &str) -> String {
+        format!("{:?} {:?} {:?}", self.levels, self.ranges, self.budgets.of(file))
+    }
+}
+
 /// The configurations of all folders so far, completed by the levels of the command line.
 pub(super) struct Configs {
     given: Levels,
     by_folder: BTreeMap<PathBuf, Arc<Settings>>,
+    /// Those of each `glisten.toml`.
+    by_file: BTreeMap<PathBuf, Arc<Settings>>,
     /// The errors in the configurations themselves.
     pub(super) errors: Vec<Batch>,
 }
@@ -277,7 +286,7 @@ pub(super) struct Configs {
 impl Configs {
     /// An empty set of configurations, with the levels of the command line.
     pub(super) fn new(given: Levels) -> Self {
-        Self { given, by_folder: BTreeMap::new(), errors: Vec::new() }
+        Self { given, by_folder: BTreeMap::new(), by_file: BTreeMap::new(), errors: Vec::new() }
     }
 
     /// The levels for the file called `name`.
@@ -289,32 +298,40 @@ impl Configs {
     pub(super) fn settings(&mut self, name: &str) -> &Arc<Settings> {
         let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !self.by_folder.contains_key(folder) {
-            let mut found = self.search(folder);
-            found.levels = self.given.over(&found.levels);
-            self.by_folder.insert(folder.to_owned(), Arc::new(found));
+            // Of no file, the settings are those of the command line.
+            let path = nearest(folder).unwrap_or_default();
+            let known = self.by_file.get(&path).map(Arc::clone);
+            let found = known.unwrap_or_else(|| {
+                let mut read = if path == Path::new("") { Settings::default() } else { self.read(&path) };
+                read.levels = self.given.over(&read.levels);
+                let read = Arc::new(read);
+                self.by_file.insert(path, Arc::clone(&read));
+                read
+            });
+            self.by_folder.insert(folder.to_owned(), found);
         }
         &self.by_folder[folder]
     }
 
-    fn search(&mut self, folder: &Path) -> Settings {
-        let Some(path) = nearest(folder) else { return Settings::default() };
+    /// The settings of a `glisten.toml`.
+    fn read(&mut self, path: &Path) -> Settings {
         let name = path.to_string_lossy().into_owned();
         let mut sources = SourceMap::default();
         let mut settings = Settings::default();
-        let diagnostics = match files::read(&name, &path) {
+        let diagnostics = match files::read(&name, path) {
             Ok(bytes) => {
                 let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
                 let base = sources.add(&name, Arc::clone(&text)).map_or(0, |id| sources.file(id).base());
                 let mut reader = Reader::new(&CONFIGURATION, base, Arc::clone(&text));
                 let Configuration { levels, budgets, ranges, baseline, .. } =
-                    Configuration::read(&mut reader, &text, &path);
+                    Configuration::read(&mut reader, &text, path);
                 settings = Settings { levels, budgets, ranges, baseline };
                 reader.diagnostics.into_iter().collect()
             }
             Err(error) => vec![error.diagnostic(&mut sources, &name)],
         };
         let batch = Batch { sources, diagnostics };
-        if !batch.diagnostics.is_empty() && !self.errors.iter().any(|other| other.diagnostics == batch.diagnostics) {
+        if !batch.diagnostics.is_empty() {
             self.errors.push(batch);
         }
         settings

@@ -3,6 +3,7 @@
 use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use super::baseline::BaselineArgs;
 use super::baselines::Baselines;
+use super::cache::CacheArgs;
 use super::config::Settings;
 use super::configurations::{Extent, Listed, explored};
 use super::console::Console;
@@ -13,10 +14,12 @@ use super::guard;
 use super::inputs::{self, Group, Inputs};
 use super::not_checked;
 use super::permutations;
+use super::recall::Recall;
 use super::scene_ranges::SceneRanges;
 use super::session::{Session, Unit, compile_anywhere};
 use super::settings::numbers;
 use super::strings;
+use super::trace;
 use super::witness::{self, Case, Shown};
 use crate::cost::{Assumptions, cost};
 use crate::scene::DiskFiles;
@@ -67,9 +70,29 @@ pub(super) struct LintArgs {
     baseline: BaselineArgs,
     #[command(flatten)]
     bindings: BindingArgs,
+    #[command(flatten)]
+    cache: CacheArgs,
     /// The number of threads (0: one per core)
     #[arg(short, long, default_value_t = 0, value_name = "N")]
     jobs: usize,
+}
+
+impl LintArgs {
+    /// Whether each program is checked once and as it is on the disk, so that what was found may be kept.
+    fn is_plain(&self) -> bool {
+        let is_once = !self.configurations && self.permutations.is_none();
+        is_once && !self.fixes.any() && self.witnesses.is_none()
+    }
+
+    /// The cache of findings, if there is one.
+    fn recall(&self, session: &Session<'_>, scenes: &SceneRanges) -> Result<Option<Recall>, Failure> {
+        if !self.is_plain() {
+            return Ok(None);
+        }
+        let options = format!("{:?} {scenes:?}", self.levels.levels()?);
+        let (engines, sources) = (session.engines(), &self.sources);
+        Recall::of_findings(&self.cache, engines, sources, &self.bindings, &options).map(Some)
+    }
 }
 
 /// Runs the command.
@@ -105,7 +128,11 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let mut baselines = Baselines::given(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
     let scenes = SceneRanges::read(&args.scene, session.compiler())?;
-    let (mut units, shown) = checked(&mut session, groups.clone(), &inputs, &scenes);
+    let recall = args.recall(&session, &scenes)?;
+    let (mut units, shown) = checked(&mut session, groups.clone(), &inputs, &scenes, recall.as_ref());
+    if let Some(recall) = &recall {
+        recall.close(console);
+    }
     if let Some(folder) = &args.witnesses {
         write_all(folder, &shown, console)?;
     }
@@ -131,7 +158,7 @@ pub(super) fn run(args: &LintArgs, console: &Console) -> Outcome {
     }
     let mut fixer = Fixer::new(args.fixes);
     while fixer.advance(&units) {
-        (units, _) = checked(&mut session, groups.clone(), &inputs, &scenes);
+        (units, _) = checked(&mut session, groups.clone(), &inputs, &scenes, None);
         baselines.apply(&mut units, None);
     }
     fixer.finish(console)?;
@@ -165,21 +192,40 @@ fn write_all(folder: &Path, shown: &[Shown], console: &Console) -> Result<(), Fa
     Ok(())
 }
 
-/// Compiles the groups, and adds the findings of the rules, those on numerics with what shows them.
+/// Compiles the groups, and adds the findings of the rules, those on numerics with what shows them. What a cache knows is taken from it.
 fn checked(
     session: &mut Session<'_>,
     groups: Vec<Group>,
     inputs: &Inputs,
     scenes: &SceneRanges,
+    recall: Option<&Recall>,
 ) -> (Vec<Unit>, Vec<Shown>) {
-    let mut units = session.compile(groups);
-    let (found, shown) = found(session, &units, &[], scenes);
+    let mut units = match recall {
+        Some(recall) => recalled(session, groups, recall),
+        None => session.compile(groups),
+    };
+    let (found, shown) = found(session, &units, &[], scenes, recall);
     for (unit, found) in units.iter_mut().zip(found) {
         session.add(&mut unit.batch, found);
     }
     certain(session, &mut units);
     not_checked::settle(session, &mut units, inputs);
     (units, shown)
+}
+
+/// Compiles the groups, or takes what was found from a cache. What the strings of a file lack depends on more than the file.
+fn recalled(session: &mut Session<'_>, groups: Vec<Group>, recall: &Recall) -> Vec<Unit> {
+    let engines = session.engines().clone();
+    session.compile_by(groups, |compiler, group| {
+        if group.inputs.iter().any(strings::is_in_string) {
+            return compile_anywhere(compiler, &engines, group);
+        }
+        recall.compile_by(group, "", |group| {
+            let compiled = compile_anywhere(compiler, &engines, group);
+            compiled.0.batch.sources.files().for_each(|(_, file)| trace::settings_of(file.name()));
+            compiled
+        })
+    })
 }
 
 /// Drops the findings of units that depend on what their strings leave open.
@@ -194,23 +240,25 @@ fn certain(session: &Session<'_>, units: &mut [Unit]) {
 
 /// The findings of the rules in units that these compilers have compiled.
 fn lints(session: &mut Session<'_>, units: &[Unit], compilers: &[Compiler]) -> Vec<Vec<Diagnostic>> {
-    found(session, units, compilers, &SceneRanges::default()).0
+    found(session, units, compilers, &SceneRanges::default(), None).0
 }
 
 /// By how much less inputs are tried for one of many configurations.
 const HASTE: u64 = 4;
 
 /// The findings of the rules in each unit, and what costs more than the project allows, in parallel. Rules that the levels of all
-/// its files turn off are not run. A unit without a compiler of its own has that of the session.
+/// its files turn off are not run. A unit without a compiler of its own has that of the session. What is found is kept in the cache,
+/// if there is one.
 fn found(
     session: &mut Session<'_>,
     units: &[Unit],
     compilers: &[Compiler],
     scenes: &SceneRanges,
+    recall: Option<&Recall>,
 ) -> (Vec<Vec<Diagnostic>>, Vec<Shown>) {
     let mut settings_of = |unit: &Unit| -> Vec<Arc<Settings>> {
         let files = unit.batch.sources.files().map(|(_, file)| file.name());
-        files.map(|name| session.settings_of(name)).collect()
+        if unit.kept.is_some() { Vec::new() } else { files.map(|name| session.settings_of(name)).collect() }
     };
     let settings: Vec<Vec<Arc<Settings>>> = units.iter().map(&mut settings_of).collect();
     let compiler = session.compiler();
@@ -236,9 +284,16 @@ fn found(
             };
             witness::settle(&case, wanted, found)
         };
-        unit.program.as_ref().map_or_else(Default::default, |program| {
+        if let Some(kept) = &unit.kept {
+            return (kept.notes.clone(), Vec::new());
+        }
+        let (found, trace) = trace::recorded(|| unit.program.as_ref().map(|program| guard::guarded(|| check(program))));
+        if let Some(recall) = recall.filter(|_| !matches!(found, Some(Err(_)))) {
+            let notes = found.as_ref().and_then(|found| found.as_ref().ok()).map_or(&[][..], |(notes, _)| notes);
+            recall.keep_found(unit, &trace, notes);
+        }
+        found.map_or_else(Default::default, |found| {
             let first = unit.batch.sources.files().next().map_or(0, |(_, file)| file.base());
-            let found = guard::guarded(|| check(program));
             found.unwrap_or_else(|panic| (vec![guard::diagnostic(&panic, Span::new(first, first))], Vec::new()))
         })
     };

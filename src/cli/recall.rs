@@ -16,6 +16,7 @@ use super::session::{Fresh, Unit, compile_group};
 use super::trace::{self, Trace};
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::general::INTERNAL;
 use std::fs;
 use std::path::Path;
 
@@ -24,6 +25,8 @@ pub(super) struct Recall {
     cache: Option<Cache>,
     engines: Engines,
     options: String,
+    /// Whether results with errors are kept, too.
+    keeps_errors: bool,
 }
 
 impl Recall {
@@ -38,10 +41,23 @@ impl Recall {
         bindings: &BindingArgs,
         plan: &OutputPlan,
     ) -> Result<Self, Failure> {
-        let preludes: Vec<Option<Digest>> =
-            sources.preludes.iter().map(|path| fs::read(path).ok().map(|bytes| Digest::of(&bytes))).collect();
-        let options = format!("{sources:?} {preludes:?} {bindings:?} {plan:?}");
-        Ok(Self { cache: Cache::open(args, engines.clone())?, engines: engines.clone(), options })
+        let options = format!("{} {plan:?}", compiler_options(sources, bindings));
+        Ok(Self { cache: Cache::open(args, engines.clone())?, engines: engines.clone(), options, keeps_errors: false })
+    }
+
+    /// The cache of `lint`, whose results have no outputs. `options` is all that findings depend on besides the compiler.
+    ///
+    /// # Errors
+    /// A size or an address that is none.
+    pub(super) fn of_findings(
+        args: &CacheArgs,
+        engines: &Engines,
+        sources: &SourceArgs,
+        bindings: &BindingArgs,
+        options: &str,
+    ) -> Result<Self, Failure> {
+        let options = format!("{} lint {options}", compiler_options(sources, bindings));
+        Ok(Self { cache: Cache::open(args, engines.clone())?, engines: engines.clone(), options, keeps_errors: true })
     }
 
     /// Takes a program from the cache, or compiles it. `variant` tells apart programs that differ in their compilers.
@@ -65,12 +81,23 @@ impl Recall {
         }
         let ((mut unit, dropped), trace) = trace::recorded(|| by(group));
         let diagnostics = unit.batch.diagnostics.clone();
-        unit.fresh = unit.program.is_some().then_some(Fresh { key, trace, diagnostics, dropped });
+        let is_whole = unit.unread.is_empty() && !diagnostics.iter().any(|one| *one.code == INTERNAL);
+        let is_kept = if self.keeps_errors { is_whole } else { unit.program.is_some() };
+        unit.fresh = is_kept.then_some(Fresh { key, trace, diagnostics, dropped });
         (unit, dropped)
     }
 
     /// Keeps what was made of a program, if it was compiled.
     pub(super) fn keep(&self, unit: &Unit, outputs: &[Output], notes: &[Diagnostic]) {
+        self.keep_all(unit, &Trace::default(), outputs, notes);
+    }
+
+    /// Keeps what was found in a program, if it was compiled, which depends on what `trace` has, too.
+    pub(super) fn keep_found(&self, unit: &Unit, trace: &Trace, notes: &[Diagnostic]) {
+        self.keep_all(unit, trace, &[], notes);
+    }
+
+    fn keep_all(&self, unit: &Unit, more: &Trace, outputs: &[Output], notes: &[Diagnostic]) {
         let (Some(cache), Some(fresh)) = (&self.cache, &unit.fresh) else { return };
         let kept = Kept {
             outputs: outputs.to_vec(),
@@ -79,8 +106,9 @@ impl Recall {
             notes: notes.to_vec(),
             dropped: fresh.dropped,
             asked: unit.asked.clone(),
+            read: unit.read.clone(),
         };
-        cache.keep(fresh.key, &fresh.trace, &kept);
+        cache.keep(fresh.key, &fresh.trace.with(more), &kept);
     }
 
     /// Tells what went wrong with the cache, and cleans it.
@@ -123,12 +151,20 @@ impl Recall {
     }
 }
 
+/// Everything that a compiler is told.
+fn compiler_options(sources: &SourceArgs, bindings: &BindingArgs) -> String {
+    let preludes: Vec<Option<Digest>> =
+        sources.preludes.iter().map(|path| fs::read(path).ok().map(|bytes| Digest::of(&bytes))).collect();
+    format!("{sources:?} {preludes:?} {bindings:?}")
+}
+
 /// A program as the cache has it.
 fn recalled(group: Group, mut kept: Kept) -> (Unit, usize) {
     let mut unit = Unit::new(group);
     unit.batch.sources = std::mem::take(&mut kept.sources);
     unit.batch.diagnostics = std::mem::take(&mut kept.diagnostics);
     unit.asked = std::mem::take(&mut kept.asked);
+    unit.read = std::mem::take(&mut kept.read);
     let dropped = kept.dropped;
     unit.kept = Some(kept);
     (unit, dropped)

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// The ranges of the files that scenes draw.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct SceneRanges(BTreeMap<PathBuf, BTreeMap<String, [f64; 2]>>);
 
 impl SceneRanges {

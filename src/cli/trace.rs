@@ -19,6 +19,8 @@ pub(super) enum Place {
     Kind(String),
     /// The rules of `glisten.toml` for a folder.
     Rules(String),
+    /// What `glisten.toml` has `lint` obey for a file.
+    Settings(String),
 }
 
 /// The state of a place.
@@ -32,8 +34,8 @@ pub(super) enum Found {
     File,
     /// The bytes of a file, or of several.
     Bytes(Digest),
-    /// The rules of a folder. What they are is looked up once for all programs.
-    Rules,
+    /// What `glisten.toml` says. It is looked up once for all programs.
+    Said,
 }
 
 impl Found {
@@ -68,6 +70,19 @@ impl Trace {
             (Place::File(name), Found::Bytes(_)) => Some(name.as_str()),
             _ => None,
         })
+    }
+
+    /// This trace, and what another piece of work depends on.
+    #[must_use]
+    pub(super) fn with(&self, other: &Self) -> Self {
+        let mut both = self.clone();
+        both.take(other);
+        both
+    }
+
+    fn take(&mut self, other: &Self) {
+        self.beyond |= other.beyond;
+        other.places.iter().for_each(|(place, found)| self.add(place.clone(), || found.clone()));
     }
 
     fn add(&mut self, place: Place, found: impl FnOnce() -> Found) {
@@ -114,15 +129,19 @@ pub(super) fn looked_for(path: &Path) {
 pub(super) fn again(trace: &Trace) {
     ACTIVE.with_borrow_mut(|active| {
         if let Some(own) = active.last_mut() {
-            own.beyond |= trace.beyond;
-            trace.places.iter().for_each(|(place, found)| own.add(place.clone(), || found.clone()));
+            own.take(trace);
         }
     });
 }
 
 /// Notes that the rules of a folder matter.
 pub(super) fn rules_of(folder: &Path) {
-    note(|| Place::Rules(folder.to_string_lossy().into_owned()), || Found::Rules);
+    note(|| Place::Rules(folder.to_string_lossy().into_owned()), || Found::Said);
+}
+
+/// Notes that it matters what `lint` obeys for a file.
+pub(super) fn settings_of(name: &str) {
+    note(|| Place::Settings(name.to_owned()), || Found::Said);
 }
 
 /// Notes that more matters than can be told.

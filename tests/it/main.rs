@@ -78,6 +78,7 @@ mod limits;
 mod lines;
 mod link;
 mod lint;
+mod lint_cache;
 mod lint_groups;
 mod lint_numerics;
 #[cfg(feature = "reference")]

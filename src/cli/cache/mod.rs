@@ -20,6 +20,7 @@ pub(super) use args::CacheArgs;
 pub(super) use result::Kept;
 pub(super) use store::{Kind, Store};
 
+use super::config::Configs;
 use super::console::Console;
 use super::digest::{Digest, Hasher};
 use super::engine::Engines;
@@ -27,6 +28,7 @@ use super::exit::Failure;
 use super::files;
 use super::trace::{Found, Place, Trace};
 use action::ActionResult;
+use glisten_front::diagnostic::Levels;
 use prost::Message;
 use remote::{Name, Remote};
 use std::collections::BTreeMap;
@@ -50,6 +52,8 @@ pub(super) struct Cache {
     /// The digest of this program.
     program: Digest,
     engines: Engines,
+    /// What `lint` obeys, without the levels of the command line.
+    configs: Mutex<Configs>,
     /// The state of each place, as far as it is known.
     places: Mutex<BTreeMap<Place, Found>>,
     /// Outputs that have been read or written.
@@ -85,6 +89,7 @@ impl Cache {
             is_limit_given,
             program,
             engines,
+            configs: Mutex::new(Configs::new(Levels::default())),
             places,
             outputs,
             failure,
@@ -223,6 +228,7 @@ impl Cache {
                 }
                 Place::Kind(name) => Found::at(Path::new(name)),
                 Place::Rules(folder) => self.rules(Path::new(folder)),
+                Place::Settings(name) => self.settings(name),
             };
             if let Ok(mut places) = self.places.lock() {
                 places.insert(place.clone(), found.clone());
@@ -233,9 +239,15 @@ impl Cache {
 
     fn resolved(&self, place: &Place, found: &Found) -> Found {
         match place {
-            Place::Rules(folder) => self.rules(Path::new(folder)),
+            Place::Rules(_) | Place::Settings(_) => self.now(place),
             _ => found.clone(),
         }
+    }
+
+    /// What `lint` obeys for a file. As with [`Self::rules`], paths do not matter.
+    fn settings(&self, name: &str) -> Found {
+        let mut configs = self.configs.lock().unwrap_or_else(PoisonError::into_inner);
+        Found::Bytes(Digest::of(configs.settings(name).text_of(name).as_bytes()))
     }
 
     /// The files behind the rules of a folder. Their paths do not matter, so that a project may be in any folder.

@@ -1,12 +1,12 @@
 //! [`Kept`]: what is kept of a program: its outputs and its diagnostics.
 //!
-//! *In:* the outputs, the diagnostics and their texts. *Out:* an [`ActionResult`] and back. *Holds:* the diagnostics are those
+//! *In:* the outputs, the diagnostics and their texts. Findings of `lint` are notes without outputs. *Out:* an [`ActionResult`] and back. *Holds:* the diagnostics are those
 //! before any level: levels of the command line and of `glisten.toml` apply to what is taken from a cache, too.
 
 use super::action::{ActionResult, OutputFile};
 use crate::cli::digest::Digest;
 use glisten_front::diagnostic::{Diagnostic, Saved};
-use glisten_front::source::SourceMap;
+use glisten_front::source::{FileId, SourceMap};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -29,6 +29,8 @@ pub(in crate::cli) struct Kept {
     pub(in crate::cli) dropped: usize,
     /// The watched macros that the result depends on.
     pub(in crate::cli) asked: BTreeSet<String>,
+    /// The files of each input.
+    pub(in crate::cli) read: Vec<Vec<FileId>>,
 }
 
 /// The text of a result.
@@ -39,6 +41,8 @@ struct Text {
     notes: usize,
     dropped: usize,
     asked: BTreeSet<String>,
+    /// The files of each input, by their places among those of `saved`.
+    read: Vec<Vec<usize>>,
 }
 
 impl Kept {
@@ -46,7 +50,11 @@ impl Kept {
     pub(super) fn written(&self) -> ActionResult {
         let files = self.outputs.iter().map(|(name, digest, bytes)| OutputFile::new(name, *digest, bytes));
         let saved = Saved::new(&self.sources, self.diagnostics.iter().chain(&self.notes));
-        let text = Text { saved, notes: self.notes.len(), dropped: self.dropped, asked: self.asked.clone() };
+        let ids: Vec<FileId> = self.sources.files().map(|(id, _)| id).collect();
+        let place = |id: &FileId| ids.iter().position(|other| other == id);
+        let read = self.read.iter().map(|files| files.iter().filter_map(place).collect()).collect();
+        let (notes, asked) = (self.notes.len(), self.asked.clone());
+        let text = Text { saved, notes, dropped: self.dropped, asked, read };
         // Only a map whose keys are no texts could fail.
         let stdout_raw = serde_json::to_vec(&text).unwrap_or_default();
         ActionResult { output_files: files.collect(), stdout_raw }
@@ -57,11 +65,15 @@ impl Kept {
         let text: Text = serde_json::from_slice(&result.stdout_raw).ok()?;
         let (sources, mut diagnostics) = text.saved.restore()?;
         let notes = diagnostics.split_off(diagnostics.len().checked_sub(text.notes)?);
+        let ids: Vec<FileId> = sources.files().map(|(id, _)| id).collect();
+        let files = |places: &Vec<usize>| places.iter().map(|place| ids.get(*place).copied()).collect();
+        let read: Option<Vec<Vec<FileId>>> = text.read.iter().map(files).collect();
         let mut outputs = Vec::new();
         for file in &result.output_files {
             let (digest, bytes) = file.digest()?;
             outputs.push((file.path.clone(), digest, output(digest, bytes)?));
         }
-        Some(Self { outputs, sources, diagnostics, notes, dropped: text.dropped, asked: text.asked })
+        let (dropped, asked) = (text.dropped, text.asked);
+        Some(Self { outputs, sources, diagnostics, notes, dropped, asked, read: read? })
     }
 }
