@@ -46,7 +46,7 @@ pub mod made;
 pub mod measure;
 #[cfg(feature = "cli")]
 mod page;
-#[cfg(feature = "reference")]
+#[cfg(feature = "stability")]
 #[doc(hidden)]
 pub mod play;
 #[cfg(feature = "cli")]
@@ -64,7 +64,7 @@ pub mod snapshot;
 pub mod specialize;
 #[cfg(feature = "stability")]
 pub mod stability;
-#[cfg(feature = "cli")]
+#[cfg(feature = "stability")]
 mod trace;
 #[cfg(feature = "reference")]
 pub mod unit_test;

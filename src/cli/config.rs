@@ -52,7 +52,7 @@ use glisten_front::source::SourceMap;
 use glisten_scene::is_allowed;
 use glisten_scene::tables::{CONFIGURATION, Reader};
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::de::DeTable;
@@ -140,11 +140,16 @@ impl Configuration {
 
     /// Reads the nearest configuration of a folder. Its errors are reported when its levels are read.
     fn nearest(folder: &Path) -> Option<(Self, PathBuf)> {
-        let path = nearest(folder)?;
-        let bytes = files::read(&path.to_string_lossy(), &path).ok()?;
+        let path = Nearest::default().of(folder)?;
+        Some((Self::at(&path)?, path))
+    }
+
+    /// Reads the configuration at `path`. Its errors are reported when its levels are read.
+    fn at(path: &Path) -> Option<Self> {
+        let bytes = files::read(&path.to_string_lossy(), path).ok()?;
         let text: Arc<str> = String::from_utf8_lossy(&bytes).into();
         let mut reader = Reader::new(&CONFIGURATION, 0, Arc::clone(&text));
-        Some((Self::read(&mut reader, &text, &path), path))
+        Some(Self::read(&mut reader, &text, path))
     }
 }
 
@@ -206,15 +211,39 @@ fn style(reader: &mut Reader, table: &DeTable<'_>) -> format::Options {
     format::Options { indent, width, braces_below }
 }
 
-/// The nearest configuration of a folder or of one above it.
-fn nearest(folder: &Path) -> Option<PathBuf> {
-    let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    absolute.ancestors().map(|above| above.join(NAME)).find(|path| path.is_file()).filter(|path| is_allowed(path))
+/// The nearest configurations of folders. Each folder is looked at once.
+#[derive(Debug, Default)]
+pub(super) struct Nearest(HashMap<PathBuf, Option<PathBuf>>);
+
+impl Nearest {
+    /// The nearest configuration of a folder: its own, or that of one above it.
+    pub(super) fn of(&mut self, folder: &Path) -> Option<PathBuf> {
+        if let Some(known) = self.0.get(folder) {
+            return known.clone();
+        }
+        let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        let found = self.of_absolute(&absolute);
+        self.0.insert(folder.to_owned(), found.clone());
+        found
+    }
+
+    fn of_absolute(&mut self, folder: &Path) -> Option<PathBuf> {
+        if let Some(known) = self.0.get(folder) {
+            return known.clone();
+        }
+        let own = folder.join(NAME);
+        let found = match own.is_file() {
+            true => Some(own).filter(|path| is_allowed(path)),
+            false => folder.parent().and_then(|above| self.of_absolute(above)),
+        };
+        self.0.insert(folder.to_owned(), found.clone());
+        found
+    }
 }
 
-/// The patterns that the nearest configuration excludes.
-pub(super) fn excluded(folder: &Path) -> Option<Gitignore> {
-    let (configuration, path) = Configuration::nearest(folder)?;
+/// The patterns that the configuration at `path` excludes.
+pub(super) fn excluded(path: &Path) -> Option<Gitignore> {
+    let configuration = Configuration::at(path)?;
     let mut patterns = GitignoreBuilder::new(path.parent()?);
     for pattern in &configuration.exclude {
         // A pattern that is wrong excludes nothing.
@@ -223,9 +252,9 @@ pub(super) fn excluded(folder: &Path) -> Option<Gitignore> {
     patterns.build().ok()
 }
 
-/// The rules of the nearest configuration for the sources of a folder.
-pub(super) fn rules(folder: &Path) -> Vec<Rule> {
-    Configuration::nearest(folder).map_or_else(Vec::new, |(configuration, _)| configuration.rules)
+/// The rules of the configuration at `path` for sources.
+pub(super) fn rules(path: &Path) -> Vec<Rule> {
+    Configuration::at(path).map_or_else(Vec::new, |configuration| configuration.rules)
 }
 
 /// The style of the nearest configuration for the sources of a folder.
@@ -276,9 +305,10 @@ impl Settings {
 /// The configurations of all folders so far, completed by the levels of the command line.
 pub(super) struct Configs {
     given: Levels,
-    by_folder: BTreeMap<PathBuf, Arc<Settings>>,
+    nearest: Nearest,
+    by_folder: HashMap<PathBuf, Arc<Settings>>,
     /// Those of each `glisten.toml`.
-    by_file: BTreeMap<PathBuf, Arc<Settings>>,
+    by_file: HashMap<PathBuf, Arc<Settings>>,
     /// The errors in the configurations themselves.
     pub(super) errors: Vec<Batch>,
 }
@@ -286,7 +316,8 @@ pub(super) struct Configs {
 impl Configs {
     /// An empty set of configurations, with the levels of the command line.
     pub(super) fn new(given: Levels) -> Self {
-        Self { given, by_folder: BTreeMap::new(), by_file: BTreeMap::new(), errors: Vec::new() }
+        let (by_folder, by_file) = (HashMap::new(), HashMap::new());
+        Self { given, nearest: Nearest::default(), by_folder, by_file, errors: Vec::new() }
     }
 
     /// The levels for the file called `name`.
@@ -299,7 +330,7 @@ impl Configs {
         let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !self.by_folder.contains_key(folder) {
             // Of no file, the settings are those of the command line.
-            let path = nearest(folder).unwrap_or_default();
+            let path = self.nearest.of(folder).unwrap_or_default();
             let known = self.by_file.get(&path).map(Arc::clone);
             let found = known.unwrap_or_else(|| {
                 let mut read = if path == Path::new("") { Settings::default() } else { self.read(&path) };

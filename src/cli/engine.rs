@@ -5,7 +5,7 @@
 //! same to each of them. Flags take precedence over tables, and those over the profile of the engine.
 
 use super::args::SourceArgs;
-use super::config;
+use super::config::{self, Nearest};
 use super::exit::{Exit, Failure};
 use super::files;
 use super::rules::Rule;
@@ -16,7 +16,7 @@ use glisten_front::compiler::{Preparation, Prepared, Source, SourceSettings};
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
 use glisten_front::source::Prelude;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -31,8 +31,7 @@ pub(super) struct Engines {
     draw: Arc<Settings>,
     /// The settings of sources about whose engine and version nothing else is said.
     fallback: Arc<Settings>,
-    /// The rules of each folder so far.
-    rules: Arc<Mutex<BTreeMap<PathBuf, Known>>>,
+    rules: Arc<Mutex<Rules>>,
     programs: ProgramFiles,
     disk: Files,
 }
@@ -53,8 +52,16 @@ impl std::fmt::Debug for Files {
     }
 }
 
-/// The rules of a folder, and what was read for them.
+/// Rules, and what was read for them.
 type Known = (Arc<Vec<Rule>>, Arc<Trace>);
+
+/// The rules of folders so far.
+#[derive(Debug, Default)]
+struct Rules {
+    nearest: Nearest,
+    /// Those of each `glisten.toml`.
+    by_file: HashMap<PathBuf, Known>,
+}
 
 /// The flags of the command line.
 #[derive(Debug, Default)]
@@ -122,11 +129,12 @@ impl Engines {
 
     fn known(&self, folder: &Path) -> Known {
         let mut known = self.rules.lock().unwrap_or_else(PoisonError::into_inner);
-        let read = || {
-            let (rules, trace) = trace::recorded(|| config::rules(folder));
+        let Some(file) = known.nearest.of(folder) else { return Known::default() };
+        let read = |file: &PathBuf| {
+            let (rules, trace) = trace::recorded(|| config::rules(file));
             (Arc::new(rules), Arc::new(trace))
         };
-        known.entry(folder.to_owned()).or_insert_with(read).clone()
+        known.by_file.entry(file).or_insert_with_key(read).clone()
     }
 
     /// The trace of reading the rules of a folder, or `None` if there is no rule.

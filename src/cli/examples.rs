@@ -51,6 +51,7 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
             ("glisten play shaders", "the scenes of a folder, in a browser; the address is printed"),
             ("glisten play scene.toml --open", "one scene, and a browser that shows it"),
             ("glisten play --export page.html scene.toml", "a page to hand on"),
+            ("glisten play shaders --export page.html --module play.wasm.gz", "a page that computes by itself"),
         ],
     ),
     (

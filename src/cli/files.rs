@@ -44,7 +44,7 @@ impl ReadError {
 pub(super) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
     let bytes = match path {
         Some(path) => read(name, path)?,
-        None => read_all(name, io::stdin().lock())?,
+        None => read_all(name, io::stdin().lock(), 0)?,
     };
     text_of(name, bytes)
 }
@@ -92,6 +92,8 @@ fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
         return Err(ReadError::new(&general::FILE_UNREADABLE, message));
     }
     let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;
+    // Room for all of it: otherwise a file is read in pieces.
+    let room = metadata.len().min(MAX_BYTES) as usize + 1;
     if metadata.is_dir() {
         return Err(ReadError::new(&general::FILE_IS_FOLDER, format!("`{name}` is a folder, not a file")));
     }
@@ -99,11 +101,11 @@ fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
         return Err(too_large(name));
     }
     let file = fs::File::open(path).map_err(|error| read_error(name, path, &error))?;
-    read_all(name, file)
+    read_all(name, file, room)
 }
 
-fn read_all(name: &str, reader: impl Read) -> Result<Vec<u8>, ReadError> {
-    let mut bytes = Vec::new();
+fn read_all(name: &str, reader: impl Read, room: usize) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::with_capacity(room);
     reader
         .take(MAX_BYTES + 1)
         .read_to_end(&mut bytes)

@@ -63,6 +63,7 @@ mod machine;
 mod made;
 mod man;
 mod memo;
+pub mod memory;
 mod new_scene;
 mod new_scene_model;
 mod not_checked;
@@ -88,6 +89,7 @@ mod scenes;
 mod search;
 mod session;
 mod settings;
+mod sizes;
 mod snapshots;
 mod specialize;
 mod stability;
@@ -146,6 +148,9 @@ struct GlobalArgs {
     /// Read only files in this folder, after links are followed: for sources and scenes from strangers
     #[arg(long, global = true, value_name = "DIR")]
     sandbox: Option<PathBuf>,
+    /// End when more memory would be needed, such as 512M or 2G (Linux)
+    #[arg(long, global = true, value_name = "SIZE", value_parser = sizes::parse)]
+    max_memory: Option<u64>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -216,6 +221,9 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
             let message = format!("`{}` cannot be the sandbox: {error}", folder.display());
             end(Err(Failure::usage(message)), &console)
         })?;
+    }
+    if let Some(bytes) = cli.global.max_memory {
+        memory::limit(bytes).map_err(|failure| end(Err(failure), &console))?;
     }
     Ok((cli.command, console))
 }

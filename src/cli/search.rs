@@ -4,14 +4,14 @@
 //! the reason. *Holds:* both are in the order of their names. What `.gitignore` or the `exclude` of a configuration names is in
 //! neither, nor is a `.glsl` file that is there to be included.
 
-use super::config;
+use super::config::{self, Nearest};
 use super::engine::Engines;
 use super::exit::Failure;
 use super::inputs;
 use crate::sources::stages;
 use ignore::WalkBuilder;
 use ignore::gitignore::Gitignore;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// A file that a search saw and did not take.
@@ -79,7 +79,7 @@ pub(super) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// The files in a folder that look like shaders, but for those that are excluded.
 pub(super) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let mut excludes: BTreeMap<PathBuf, Option<Gitignore>> = BTreeMap::new();
+    let mut excludes = Excludes::default();
     let mut walk = WalkBuilder::new(root);
     // Without a repository, `.gitignore` says as much about what is generated.
     walk.hidden(false).require_git(false).filter_entry(|entry| entry.depth() == 0 || !is_hidden_folder(entry));
@@ -87,7 +87,7 @@ pub(super) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     for entry in walk.build() {
         let entry =
             entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
-        if entry.file_type().is_some_and(|kind| kind.is_dir()) || is_excluded(entry.path(), &mut excludes) {
+        if entry.file_type().is_some_and(|kind| kind.is_dir()) || excludes.has(entry.path()) {
             continue;
         }
         let path = entry.into_path();
@@ -124,12 +124,21 @@ fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {
     entry.file_type().is_some_and(|kind| kind.is_dir()) && entry.file_name().to_string_lossy().starts_with('.')
 }
 
-/// Whether the nearest configuration excludes a file or a folder that it is in.
-fn is_excluded(path: &Path, excludes: &mut BTreeMap<PathBuf, Option<Gitignore>>) -> bool {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let patterns = excludes.entry(folder.to_owned()).or_insert_with(|| config::excluded(folder));
-    patterns.as_ref().is_some_and(|patterns| {
-        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
-    })
+/// What configurations exclude.
+#[derive(Default)]
+struct Excludes {
+    nearest: Nearest,
+    by_file: HashMap<PathBuf, Option<Gitignore>>,
+}
+
+impl Excludes {
+    /// Whether the nearest configuration excludes a file or a folder that it is in.
+    fn has(&mut self, path: &Path) -> bool {
+        let Some(file) = self.nearest.of(path.parent().unwrap_or(Path::new(""))) else { return false };
+        let patterns = self.by_file.entry(file).or_insert_with_key(|file| config::excluded(file));
+        patterns.as_ref().is_some_and(|patterns| {
+            let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+            absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
+        })
+    }
 }

@@ -9,6 +9,7 @@ use super::child::{Ended, Side, fork};
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::journal::{Journal, Note, State};
+use super::memory::{self, EXHAUSTED};
 
 /// A command that draws by a driver.
 pub(super) struct Supervised {
@@ -33,6 +34,7 @@ impl Supervised {
             match fork() {
                 Side::Alone => return work(),
                 Side::Child => {
+                    memory::in_a_copy();
                     let exit = work();
                     journal.note(&Note::Done(exit as u8));
                     return exit;
@@ -61,6 +63,7 @@ impl Supervised {
             (Ended::Signal(signal), Some(code)) if name_of(signal).is_some() => return Next::Exit(code),
             (Ended::Exited(code), _) if state.done.is_some() || state.work.is_none() => return Next::Exit(code),
             (Ended::Exited(code), _) if code == Exit::Interrupted as u8 => return Next::Exit(code),
+            (Ended::Exited(EXHAUSTED), _) => return Next::Exit(Exit::Content as u8),
             (Ended::Exited(code), _) => format!("ended the program (exit code {code})"),
             (Ended::Signal(KILLED), _) => return Next::Tell(killed(&state)),
             (Ended::Signal(signal), _) => match name_of(signal) {

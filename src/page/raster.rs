@@ -1,10 +1,10 @@
-//! Encodes pictures as PNG data URIs.
+//! Pictures and differences as data URIs.
 //!
-//! *Holds:* colors are clamped to [0, 1] and rounded to 8 bits, encoded as the scene says, as in `glisten render`;
-//! non-finite colors are magenta. Differences have a logarithmic scale of some [`Decades`]; pixels that only one picture covers
+//! *Holds:* colors are those of [`glisten_scene::picture::color_uri`]. Differences have a logarithmic scale of some [`Decades`]; pixels that only one picture covers
 //! are cyan.
 
-use glisten_scene::picture::{Effort, Encoding, Picture, png_rgb, visible_rgb};
+use glisten_scene::picture::Effort;
+pub(crate) use glisten_scene::picture::{color_uri, colors, data_uri};
 
 /// The differences between which the colors lie, in powers of ten: at the low one and below, a pixel is black.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,18 +42,6 @@ pub(crate) const SCALE: [[u8; 3]; 8] = [
     [252, 255, 164],
 ];
 
-/// The first attachment as a PNG data URI.
-pub(crate) fn color_uri(picture: &Picture, by: impl Into<Encoding>) -> String {
-    data_uri(&colors(picture, by), picture.width, picture.height, Effort::Fast)
-}
-
-/// The first attachment in 8 bits.
-pub(crate) fn colors(picture: &Picture, by: impl Into<Encoding>) -> Vec<[u8; 3]> {
-    let by = by.into();
-    let pixels = picture.attachments.first().map(Vec::as_slice).unwrap_or_default();
-    pixels.iter().map(|&pixel| visible_rgb(by.encode_pixel(pixel))).collect()
-}
-
 /// Differences as a PNG data URI.
 pub(crate) fn difference_uri(differences: &[Option<f64>], width: u32, height: u32, scale: Decades) -> String {
     let pixels = differences.iter().map(|difference| match difference {
@@ -73,44 +61,9 @@ pub(crate) fn scale_color(difference: f64, Decades { low, high }: Decades) -> [u
     std::array::from_fn(|i| (f64::from(low[i]) * (1.0 - mix) + f64::from(high[i]) * mix).round() as u8)
 }
 
-/// The PNG data URI of some pixels.
-pub(crate) fn data_uri(pixels: &[[u8; 3]], width: u32, height: u32, effort: Effort) -> String {
-    // Writing to memory fails only if the sizes disagree; an empty picture shows that better than no page at all.
-    let png = png_rgb(width, height, pixels, effort).unwrap_or_default();
-    format!("data:image/png;base64,{}", base64(&png))
-}
-
-/// Base64 (RFC 4648 §4).
-pub(crate) fn base64(bytes: &[u8]) -> String {
-    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let mut group = [0; 4];
-        group[1..=chunk.len()].copy_from_slice(chunk);
-        let word = u32::from_be_bytes(group);
-        for sextet in 0..4 {
-            if sextet <= chunk.len() {
-                text.push(char::from(ALPHABET[(word >> (18 - 6 * sextet) & 63) as usize]));
-            } else {
-                text.push('=');
-            }
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn base64_of_rfc_4648() {
-        let table =
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("foobar", "Zm9vYmFy")];
-        for (plain, encoded) in table {
-            assert_eq!(base64(plain.as_bytes()), encoded);
-        }
-    }
 
     #[test]
     fn the_scale_ends_where_it_says() {

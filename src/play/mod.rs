@@ -2,18 +2,22 @@
 //!
 //! ```text
 //!  a job ──► jobs
-//!  a scene that was read, Criteria ──► look ──► one JSON object
-//!                                         ▲
-//!  the text of the scene file ──► controls
+//!  job, scene that was read ──► answers ──┬─► look ◄── controls   findings, texts, translations
+//!                                         ├─► pictures             the reference's picture, a pixel
+//!                                         └─► crate::trace         what a pixel computed
 //! ```
 //!
 //! *In:* jobs, and scenes that were read. *Out:* answers as JSON. *Holds:* nothing here reads a file or starts a process; the levels
 //! of findings are those of [`Criteria`].
 
+mod answers;
 mod controls;
 mod jobs;
 mod look;
+mod pictures;
 
+pub use answers::{OwnLevels, answer, drawable};
 pub use controls::{Control, Kind, controls};
 pub use jobs::{Job, Wish};
 pub use look::{Criteria, Shown, look, told};
+pub use pictures::{Pictures, drawn};

@@ -4,10 +4,9 @@
 //! as what changed, line by line. *Holds:* all pictures are in the page; names and texts are escaped.
 
 use super::pending::{AllPending, Pending, PendingText, Refusal};
-use crate::page::raster::base64;
 use crate::page::words::grouped;
 use crate::page::{Page, Place, View, escape, viewer};
-use glisten_scene::picture::Image;
+use glisten_scene::picture::{Image, png_uri};
 use minijinja::{Value, context};
 use similar::{ChangeTag, TextDiff};
 use std::fs;
@@ -50,7 +49,7 @@ impl File {
     fn read(path: &Path) -> Option<Self> {
         let bytes = fs::read(path).ok()?;
         let image = Image::read(&bytes, MAX_SIDE, MAX_PIXELS).ok()?;
-        Some(Self { uri: format!("data:image/png;base64,{}", base64(&bytes)), image })
+        Some(Self { uri: png_uri(&bytes), image })
     }
 
     fn picture(&self) -> (String, [u32; 2]) {

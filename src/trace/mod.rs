@@ -3,9 +3,11 @@
 //! *In:* a [`Trace`](glisten_reference::trace::Trace) of the reference, and the texts of its scene. *Out:* a [`Told`](model::Told), whose
 //! JSON is the format of the command ([`model`]), and lines for people ([`lines()`]). *Holds:* nothing here prints.
 
+#[cfg(feature = "cli")]
 mod lines;
 mod model;
 mod numbers;
 
+#[cfg(feature = "cli")]
 pub(crate) use lines::{Shown, lines};
 pub(crate) use model::told;

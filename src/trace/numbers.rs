@@ -19,6 +19,7 @@ impl Serialize for Number {
 }
 
 /// A number of f32 as few digits as tell it from its neighbors.
+#[cfg(feature = "cli")]
 pub(super) fn short(number: f64) -> String {
     let number = number as f32;
     let size = number.abs();

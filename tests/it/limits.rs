@@ -307,3 +307,40 @@ fn a_scene_reads_nothing_outside_of_the_sandbox() {
     let (code, errors) = run("/dev/zero", false);
     assert!(code == Some(2) && errors.contains("larger than"), "{code:?} {errors}");
 }
+
+/// `--max-memory`: a large picture ends with a sentence, in this process and in one that draws by a driver; a small one is drawn.
+#[test]
+#[cfg(target_os = "linux")]
+fn memory_ends_where_the_flag_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+    write("a.vert", "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n");
+    write("a.frag", "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+    let render = |side: u32, backend: &str, memory: &str| {
+        let size = format!("width = {side}\nheight = {side}");
+        let Scene(scene) = scene(&size, THREE, "") else { panic!("it is a scene") };
+        write("s.toml", &scene);
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_glisten"));
+        command.current_dir(folder.path()).env("GLISTEN_ADAPTER", "software");
+        command.args(["render", "s.toml", "--backend", backend, "-o", "out.png", "--max-memory", memory]);
+        let output = command.output().expect("the program runs");
+        let left: Vec<_> = std::fs::read_dir(folder.path()).expect("it is there").flatten().collect();
+        let left = left.iter().filter(|one| one.file_name().to_string_lossy().starts_with(".glisten")).count();
+        assert_eq!(left, 0, "no half file is left");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    assert_eq!(render(8, "cpu", "1G").0, Some(0), "{:?}", render(8, "cpu", "1G"));
+    assert_eq!(render(8, "gpu", "4G").0, Some(0), "{:?}", render(8, "gpu", "4G"));
+    let message = "error: it would take more memory than `--max-memory` allows\n";
+    for (side, backend, memory) in [(8192, "cpu", "400M"), (8192, "gpu", "400M"), (8, "cpu", "1M")] {
+        let (code, errors) = render(side, backend, memory);
+        let others = ["gives no thread", "the device is out of memory"];
+        let is_told = errors.contains(message) || others.iter().any(|other| errors.contains(other));
+        assert!(
+            code != Some(0) && is_told && !errors.contains("crashed"),
+            "{side} {backend} {memory}: {code:?} {errors}"
+        );
+    }
+    let (code, errors) = render(8, "cpu", "much");
+    assert!(code == Some(2) && errors.contains("`much` is no size"), "{code:?} {errors}");
+}

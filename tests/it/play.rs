@@ -302,6 +302,65 @@ fn a_page_is_exported_whole() {
     assert!(!folder.path().join("other.html").exists());
 }
 
+/// What `glisten play --export FILE --module` says, and the page.
+fn exported_alone(folder: &Path, module: &Path, start: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+    command.current_dir(folder).args(["play", start, "--export", "alone.html", "--module"]).arg(module).args(more);
+    let ran = command.output().expect("the program runs");
+    let page = fs::read_to_string(folder.join("alone.html")).unwrap_or_default();
+    (ran.status.code(), String::from_utf8_lossy(&ran.stderr).into_owned(), page)
+}
+
+/// The data that the script of a page starts with.
+fn start_of(page: &str) -> Value {
+    let data = page.split_once("id=\"start\">").and_then(|(_, rest)| rest.split_once("</script>"));
+    serde_json::from_str(data.expect("the data").0).expect("JSON")
+}
+
+#[test]
+fn a_page_with_a_module_holds_what_its_scenes_read() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let module = path("any.wasm");
+    fs::write(&module, b"\0asm\x01\0\0\0").expect("it can be written");
+    fs::write(path("shaders/broken.toml"), SCENE.replace("a.frag", "none.frag")).expect("it can be written");
+    fs::write(path("shaders/part.glsl"), "#define SHADE shade\n").expect("it can be written");
+    let included = FRAGMENT.replace("uniform", "#include \"part.glsl\"\nuniform").replace("vec4(shade", "vec4(SHADE");
+    fs::write(path("shaders/a.frag"), included).expect("it can be written");
+    let (code, said, page) = exported_alone(folder.path(), &module, "shaders", &["-DMORE=1", "-I", "shaders"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(
+        said.contains("warning: `shaders/broken.toml` is not in the page") && said.contains("with a scene"),
+        "{said}"
+    );
+    let start = start_of(&page);
+    assert_eq!(start["list"]["scenes"], json!(["shaders/a.toml"]));
+    let files: Vec<&String> = start["files"].as_object().expect("files").keys().collect();
+    assert_eq!(files, ["shaders/a.frag", "shaders/a.toml", "shaders/a.vert", "shaders/part.glsl"]);
+    assert_eq!(start["request"], json!({ "defines": [["MORE", "1"]], "folders": ["shaders"], "options": [] }));
+    let card = start["gallery"][0]["picture"].as_str().expect("a picture");
+    assert!(card.starts_with("data:image/png;base64,"), "{card:.60}");
+    assert!(!page.contains("secret"), "only what scenes read is in it");
+    // What cannot be done is said, and nothing is written.
+    fs::remove_file(path("alone.html")).expect("it is there");
+    fs::write(path("text.wasm"), "module").expect("it can be written");
+    for (module, start, more, expected, reason) in [
+        ("text.wasm", "shaders", &[][..], 2, "is no WebAssembly module"),
+        ("none.wasm", "shaders", &[], 2, "integrations/web/make page"),
+        ("any.wasm", "shaders/broken.toml", &[], 1, "none.frag"),
+        ("any.wasm", "shaders", &["--engine", "iris"], 2, "knows no `--engine`"),
+    ] {
+        let (code, said, page) = exported_alone(folder.path(), &path(module), start, more);
+        assert!(
+            code == Some(expected) && said.contains(reason) && page.is_empty(),
+            "{module} {start}: {code:?} {said}"
+        );
+    }
+    fs::write(path("shaders/glisten.toml"), "[[source]]\ndefines = [\"A=1\"]\n").expect("it can be written");
+    let (code, said, _) = exported_alone(folder.path(), &module, "shaders/a.toml", &[]);
+    assert!(code == Some(1) && said.contains("`[[source]]` tables"), "{said}");
+}
+
 /// The browser and the module that drives it, if both are installed: Debian's `chromium`, and
 /// `npm install --prefix target/browser playwright-core`.
 fn browser() -> Option<(String, String)> {
@@ -324,14 +383,7 @@ fn the_page_works_in_a_browser() {
         return;
     };
     let folder = folder();
-    let camera = "[camera]\neye = [0.0, 0.0, 4.0]\ntarget = [0.0, 0.0, 0.0]\n\n";
-    let scene = SCENE.replace("[[draw]]", &format!("{camera}[[draw]]")).replace(
-        "vertex_count = 3\n",
-        "\n[draw.mesh]\nshape = \"cube\"\n\n[draw.matrices]\nmatrix = \"model_view_projection\"\n",
-    );
-    let vertex = "#version 150\nin vec3 position;\nuniform mat4 matrix;\nvoid main()\n{\n    gl_Position = matrix * vec4(position, 1.0);\n}\n";
-    fs::write(folder.path().join("shaders/a.toml"), scene).expect("it can be written");
-    fs::write(folder.path().join("shaders/a.vert"), vertex).expect("it can be written");
+    with_camera(folder.path());
     let page = folder.path().join("page.html");
     let mut export = Command::new(env!("CARGO_BIN_EXE_glisten"));
     export.current_dir(folder.path()).args(["play", "--export", "page.html", "shaders/a.toml"]);
@@ -366,4 +418,49 @@ fn the_page_works_in_a_browser() {
     assert!(saved.contains("shade = 1.0") && !saved.contains("eye = [0.0, 0.0, 4.0]"), "{saved}");
     let saved = fs::read_to_string(folder.path().join("shaders/a.frag")).expect("it is there");
     assert!(saved.contains("color.r = mix(color.r, 1.0, 0.5);"), "{saved}");
+}
+
+/// The scene of these tests with a cube that a camera looks at.
+fn with_camera(folder: &Path) {
+    let camera = "[camera]\neye = [0.0, 0.0, 4.0]\ntarget = [0.0, 0.0, 0.0]\n\n";
+    let scene = SCENE.replace("[[draw]]", &format!("{camera}[[draw]]")).replace(
+        "vertex_count = 3\n",
+        "\n[draw.mesh]\nshape = \"cube\"\n\n[draw.matrices]\nmatrix = \"model_view_projection\"\n",
+    );
+    let vertex = "#version 150\nin vec3 position;\nuniform mat4 matrix;\nvoid main()\n{\n    gl_Position = matrix * vec4(position, 1.0);\n}\n";
+    fs::write(folder.join("shaders/a.toml"), scene).expect("it can be written");
+    fs::write(folder.join("shaders/a.vert"), vertex).expect("it can be written");
+}
+
+#[test]
+fn the_page_computes_by_itself_in_a_browser() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let module = root.join("target/web/play.wasm.gz");
+    let Some((browser, driver)) = browser().filter(|_| module.is_file()) else {
+        let message =
+            "\nthe page with a module is not tried: `integrations/web/make page` builds it; it needs chromium, too";
+        writeln!(std::io::stderr(), "{message}").expect("standard error can be written to");
+        return;
+    };
+    let folder = folder();
+    with_camera(folder.path());
+    let second = fs::read_to_string(folder.path().join("shaders/a.toml")).expect("it is there");
+    fs::write(folder.path().join("shaders/b.toml"), second.replace("shade = 0.25", "shade = 0.75")).expect("written");
+    let (code, said, _) = exported_alone(folder.path(), &module, "shaders", &[]);
+    assert_eq!(code, Some(0), "{said}");
+    let script = root.join("tests/it/play_alone.mjs");
+    let page = folder.path().join("alone.html");
+    let ran = Command::new("node").arg(script).arg(page).args([browser, driver]).output().expect("node runs");
+    let errors = String::from_utf8_lossy(&ran.stderr);
+    let seen: Value = serde_json::from_slice(&ran.stdout).unwrap_or_else(|error| panic!("{error}: {errors}"));
+    assert_eq!((&seen["errors"], &seen["asked"]), (&json!([]), &json!([])), "{seen:#}");
+    assert_eq!((&seen["cards"], &seen["judge"]), (&json!(2), &json!(false)), "{seen:#}");
+    assert_eq!(seen["files"].as_array().map(Vec::len), Some(3), "{seen:#}");
+    for key in ["reflection", "fixed", "slider", "turned", "alive"] {
+        assert_eq!(seen[key], json!(true), "{key}: {seen:#}");
+    }
+    assert_eq!(seen["linked"], json!({ "same": true, "text": true, "scene": "shaders/a.toml" }), "{seen:#}");
+    assert!(seen["inspected"].as_str().is_some_and(|text| text.contains("fragment")), "{seen:#}");
+    assert!(seen["milliseconds"].as_f64().is_some_and(|time| time < 5000.0), "{seen:#}");
+    assert!(seen["width"].as_u64().is_some_and(|width| width <= 360), "no sideways scrolling: {seen:#}");
 }

@@ -1,11 +1,13 @@
-// Makes the page's editor: one script, with the licences of all that is in it.
+// Makes the scripts of the page of `glisten play`: the editor, with the licences of all that is in it, and the worker of a page that
+// has glisten as a module.
 
 import { build } from "esbuild";
 import { existsSync, readFileSync } from "node:fs";
 
-const out = "../../../src/cli/play/page/editor.js";
-const options = { entryPoints: ["editor.mjs"], bundle: true, minify: true, format: "iife", globalName: "Editor", target: "es2022", metafile: true };
-const tried = await build({ ...options, write: false });
+const out = "../../../src/cli/play/page";
+const common = { bundle: true, minify: true, format: "iife", target: "es2022", metafile: true };
+const editor = { ...common, entryPoints: ["editor.mjs"], globalName: "Editor" };
+const tried = await build({ ...editor, write: false });
 const packages = new Set();
 for (const file of Object.keys(tried.metafile.inputs)) {
   const found = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(file);
@@ -20,5 +22,6 @@ for (const name of [...packages].sort()) {
   texts.set(text, [...(texts.get(text) ?? []), name]);
 }
 const banner = [...texts].map(([text, names]) => `/*!\n${names.join(", ")}\n\n${text}\n*/`).join("\n");
-await build({ ...options, banner: { js: banner }, outfile: out });
+await build({ ...editor, banner: { js: banner }, outfile: `${out}/editor.js` });
+await build({ ...common, entryPoints: ["worker.mjs"], outfile: `${out}/worker.js` });
 console.log(`${packages.size} packages, ${texts.size} licences`);

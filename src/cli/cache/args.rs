@@ -3,6 +3,7 @@
 //! *In:* flags, and the environment where a flag is not given. *Out:* a folder, a limit, an address.
 
 use crate::cli::exit::Failure;
+use crate::cli::sizes;
 use clap::Args;
 use std::env;
 use std::path::PathBuf;
@@ -18,7 +19,7 @@ pub(in crate::cli) struct CacheArgs {
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
     /// The size that the cache is kept below, such as 500M or 2G (default: `GLISTEN_CACHE_LIMIT`, or 1G)
-    #[arg(long, value_name = "SIZE", value_parser = parse_size)]
+    #[arg(long, value_name = "SIZE", value_parser = sizes::parse)]
     cache_limit: Option<u64>,
     /// Keep results on this server, too: `http://host:port`, by Bazel's HTTP protocol (default: `GLISTEN_REMOTE_CACHE`)
     #[arg(long, value_name = "URL")]
@@ -55,43 +56,9 @@ impl CacheArgs {
             return Ok(limit);
         }
         match env::var("GLISTEN_CACHE_LIMIT").ok().filter(|value| !value.is_empty()) {
-            Some(text) => parse_size(&text)
+            Some(text) => sizes::parse(&text)
                 .map_err(|why| Failure::usage(format!("GLISTEN_CACHE_LIMIT of the environment: {why}"))),
             None => Ok(LIMIT),
-        }
-    }
-}
-
-/// A size in bytes, with a unit of 1024: `500M`.
-fn parse_size(text: &str) -> Result<u64, String> {
-    let digits = text.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(text.len());
-    let (number, unit) = text.split_at(digits);
-    let shift = match unit.to_ascii_uppercase().trim_end_matches('B').trim_end_matches('I') {
-        "" => 0,
-        "K" => 10,
-        "M" => 20,
-        "G" => 30,
-        "T" => 40,
-        _ => return Err(format!("`{text}` is no size; write a number with K, M or G")),
-    };
-    let number: Option<u64> = number.parse().ok();
-    number
-        .and_then(|number| number.checked_mul(1 << shift))
-        .ok_or_else(|| format!("`{text}` is no size; write a number with K, M or G"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::parse_size;
-
-    #[test]
-    fn sizes_have_units() {
-        for (text, bytes) in [("0", 0), ("12", 12), ("4k", 4096), ("5M", 5 << 20), ("2GiB", 2 << 30), ("1TB", 1 << 40)]
-        {
-            assert_eq!(parse_size(text), Ok(bytes), "{text}");
-        }
-        for text in ["", "M", "1X", "-1", "1.5G", "99999999999G"] {
-            assert!(parse_size(text).is_err(), "{text}");
         }
     }
 }

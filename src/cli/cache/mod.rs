@@ -31,7 +31,7 @@ use action::ActionResult;
 use glisten_front::diagnostic::Levels;
 use prost::Message;
 use remote::{Name, Remote};
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -55,9 +55,9 @@ pub(super) struct Cache {
     /// What `lint` obeys, without the levels of the command line.
     configs: Mutex<Configs>,
     /// The state of each place, as far as it is known.
-    places: Mutex<BTreeMap<Place, Found>>,
+    places: Mutex<HashMap<Place, Found>>,
     /// Outputs that have been read or written.
-    outputs: Mutex<BTreeMap<Digest, Arc<[u8]>>>,
+    outputs: Mutex<HashMap<Digest, Arc<[u8]>>>,
     failure: Mutex<Option<String>>,
     hits: AtomicUsize,
     misses: AtomicUsize,

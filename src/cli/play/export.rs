@@ -9,9 +9,9 @@ use super::super::files;
 use super::super::progress::Progress;
 use super::super::scenes::SceneArgs;
 use super::PlayArgs;
+use super::driver::{Driver, timed};
 use super::page::page;
-use super::pictures::Pictures;
-use crate::play::{Shown, look, told};
+use crate::play::{Pictures, Shown, look, told};
 use crate::scene;
 use glisten_emit::Target;
 use serde_json::{Map, Value, json};
@@ -36,7 +36,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
     let (mut pictures, drawn) = of
         .within_time(move || {
             let mut pictures = Pictures::default();
-            let drawn = pictures.reference(&by_reference);
+            let drawn = timed(|| pictures.reference(&by_reference));
             Ok((pictures, drawn))
         })
         .map_err(failure)?;
@@ -45,7 +45,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
     progress.say("judging");
     let machine = args.machine.clone();
     // A machine without a GPU has the reference's picture alone, and the page says why.
-    let judged = of.within_time(move || Ok(pictures.compare(&scene, &sources, &machine)));
+    let judged = of.within_time(move || Ok(Driver::default().judge(&scene, &sources, &machine, &mut pictures)));
     let judged = match judged {
         Ok(judged) => judged.unwrap_or_else(|error| json!({ "error": error })),
         Err(error) => return Err(failure(error)),

@@ -5,22 +5,23 @@
 //!  browser ──► server ──► access   the token, the origin, the folders
 //!                │
 //!                ├──► files        scenes, shaders; saving; what changed on disk
-//!                ├──► lanes ──► worker, a process of its own: crate::play, pictures, judge
+//!                ├──► lanes ──► worker, a process of its own: crate::play, driver
 //!                └──► page         HTML, with the editor
 //! ```
 //!
 //! *In:* a folder or a scene. *Out:* the page's address on the first line of standard output, then answers; or one file
-//! (`export`). *Holds:* whatever a program or a driver does, the server lives: workers are killed when a newer job comes, when
+//! (`export`, `alone`). *Holds:* whatever a program or a driver does, the server lives: workers are killed when a newer job comes, when
 //! the time is over, and when they crash. What the page shows is computed from the texts in the page, which count instead of
 //! the files; files change only by *Save*.
 
 mod access;
+mod alone;
 mod criteria;
+mod driver;
 mod export;
 mod files;
 mod lanes;
 mod page;
-mod pictures;
 mod server;
 mod worker;
 
@@ -47,6 +48,9 @@ pub(super) struct PlayArgs {
     /// Write one page that shows the scene and needs no server
     #[arg(long, value_name = "FILE.html", conflicts_with_all = ["open", "port"])]
     export: Option<PathBuf>,
+    /// With `--export`: the page computes by itself, by this module of `integrations/web/make page`; a folder gives all its scenes
+    #[arg(long, value_name = "FILE.wasm", requires = "export")]
+    module: Option<PathBuf>,
     /// Answer the jobs of a server
     #[arg(long, hide = true)]
     worker: bool,
@@ -66,8 +70,9 @@ pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     if !std::path::Path::new(&args.start).exists() {
         return Err(Failure::usage(format!("`{}` does not exist", args.start)));
     }
-    match &args.export {
-        Some(output) => export::run(args, output, console),
-        None => server::run(args, console),
+    match (&args.export, &args.module) {
+        (Some(output), Some(module)) => alone::run(args, output, module, console),
+        (Some(output), None) => export::run(args, output, console),
+        (None, _) => server::run(args, console),
     }
 }

@@ -9,13 +9,11 @@ use super::super::exit::{Exit, Failure, Outcome};
 use super::super::files::SceneFiles;
 use super::super::guard;
 use super::super::scenes::SceneArgs;
+use super::super::session::Session;
 use super::PlayArgs;
-use super::pictures::Pictures;
-use crate::play::{Job, Shown, Wish, look, told};
-use crate::scene::{self, Loaded};
-use glisten_emit::Target;
-use glisten_front::source::SourceMap;
-use glisten_reference::trace::{Place, trace};
+use super::driver::{Driver, timed};
+use crate::play::{Job, Pictures, Wish, drawable};
+use crate::scene;
 use serde_json::{Value, json};
 use std::io::BufRead;
 use std::path::Path;
@@ -23,9 +21,9 @@ use std::sync::mpsc;
 
 /// Runs the worker.
 pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
-    let mut pictures = Pictures::default();
+    let mut kept = Kept::default();
     for line in lines()? {
-        let answer = match guard::guarded(|| answer(args, console, &line, &mut pictures)) {
+        let answer = match guard::guarded(|| answer(args, console, &line, &mut kept)) {
             Ok(Ok(answer)) => json!({ "ok": answer }),
             Ok(Err(error)) => json!({ "error": error }),
             Err(panic) => json!({ "error": format!("internal error: {panic}; please report it with the scene") }),
@@ -56,14 +54,22 @@ fn end() {
     std::process::exit(0);
 }
 
-fn answer(args: &PlayArgs, console: &Console, line: &str, pictures: &mut Pictures) -> Result<Value, String> {
+/// What a worker keeps from job to job.
+#[derive(Default)]
+struct Kept {
+    driver: Driver,
+    pictures: Pictures,
+}
+
+fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Result<Value, String> {
     let job: Job = serde_json::from_str(line).map_err(|error| format!("the job is not understood: {error}"))?;
+    let Kept { driver, pictures } = kept;
     if let Wish::Pixel { x, y } = job.wish {
         return Ok(pictures.pixel(x, y));
     }
     buffers::clear();
-    for (name, text) in job.texts {
-        buffers::put(Path::new(&name), text.into_bytes());
+    for (name, text) in &job.texts {
+        buffers::put(Path::new(name), text.clone().into_bytes());
     }
     let of = SceneArgs::of(&job.scene, &args.machine, &args.sources, &args.levels);
     let failed = |failure| match failure {
@@ -71,42 +77,17 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, pictures: &mut Picture
         Failure::OutputClosed => String::new(),
     };
     let mut session = of.session(console).map_err(failed)?;
-    let loaded = scene::load(&job.scene, &SceneFiles, session.compiler());
+    let load = |session: &mut Session<'_>| scene::load(&job.scene, &SceneFiles, session.compiler());
     match job.wish {
-        Wish::Look { target, leaves_out } => {
-            let target = Target::from_word(&target).ok_or_else(|| format!("`{target}` is no language"))?;
-            Ok(look(&mut session, &job.scene, loaded, Shown { target, leaves_out }).0)
-        }
-        Wish::Draw { gpu } => {
-            let (scene, _) = drawable(loaded)?;
-            if gpu { pictures.driver(&scene, &args.machine) } else { pictures.reference(&scene) }
+        Wish::Draw { gpu: true } => {
+            let (scene, _) = drawable(load(&mut session))?;
+            timed(|| driver.draw(&scene, &args.machine, pictures))
         }
         Wish::Judge => {
-            let (scene, sources) = drawable(loaded)?;
-            pictures.compare(&scene, &sources, &args.machine)
+            let (scene, sources) = drawable(load(&mut session))?;
+            driver.judge(&scene, &sources, &args.machine, pictures)
         }
-        Wish::Trace { x, y } => {
-            let (scene, sources) = drawable(loaded)?;
-            followed(&job.scene, &scene, &sources, [x, y])
-        }
-        Wish::Pixel { .. } => Ok(Value::Null),
-    }
-}
-
-/// The values that the fragments of a pixel computed, as `glisten trace` tells them.
-fn followed(name: &str, scene: &scene::Scene, sources: &SourceMap, pixel: [u32; 2]) -> Result<Value, String> {
-    let place = Place::Pixel(pixel);
-    let found = trace(scene, place).map_err(|errors| told(errors.iter().take(1)))?;
-    serde_json::to_value(crate::trace::told(name, scene, sources, place, &found)).map_err(|error| error.to_string())
-}
-
-fn drawable(loaded: Loaded) -> Result<(scene::Scene, SourceMap), String> {
-    let Loaded { scene, sources, diagnostics, .. } = loaded;
-    match scene {
-        Some(scene) => Ok((scene, sources)),
-        None => {
-            let diagnostics: Vec<_> = diagnostics.into_iter().filter(|diagnostic| diagnostic.is_error()).collect();
-            Err(told(diagnostics.iter().take(1)))
-        }
+        Wish::Draw { gpu: false } => timed(|| crate::play::answer(&job, &mut session, pictures, load)),
+        _ => crate::play::answer(&job, &mut session, pictures, load),
     }
 }

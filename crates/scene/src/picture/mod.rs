@@ -14,6 +14,7 @@ mod npy;
 mod png;
 mod tone;
 mod transfer;
+mod uri;
 
 pub use self::png::{Effort, png_rgb};
 pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
@@ -22,6 +23,7 @@ pub use image::{Image, ImageError};
 pub use interval::Interval;
 pub use tone::{Encoding, Tone};
 pub use transfer::Transfer;
+pub use uri::{color_uri, colors, data_uri, png_uri};
 
 /// The contents of a framebuffer, top row first, x fastest.
 #[derive(Clone, Debug, PartialEq)]

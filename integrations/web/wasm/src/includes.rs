@@ -41,9 +41,23 @@ impl Asked {
         angled: bool,
         from: &str,
     ) -> Answer {
+        self.resolve_in(&[], files, answers, path, angled, from)
+    }
+
+    /// Looks for a file next to the including one, then in folders, then from the root.
+    pub(crate) fn resolve_in(
+        &self,
+        folders: &[String],
+        files: &BTreeMap<String, String>,
+        answers: &[Found],
+        path: &str,
+        angled: bool,
+        from: &str,
+    ) -> Answer {
         let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
         let near = if angled || path.starts_with('/') { None } else { Some(joined(folder, path)) };
-        let candidates = near.into_iter().chain([joined("", path), path.to_owned()]);
+        let along = folders.iter().map(|folder| joined(folder, path));
+        let candidates = near.into_iter().chain(along).chain([joined("", path), path.to_owned()]);
         for name in candidates {
             if let Some(text) = files.get(&name) {
                 return Answer::Found { name, text: text.clone() };

@@ -7,6 +7,8 @@
 mod fault;
 mod fixes;
 mod includes;
+#[cfg(feature = "play")]
+mod play;
 mod program;
 mod reply;
 mod request;
@@ -74,6 +76,8 @@ fn answered(bytes: &[u8]) -> Result<Reply, Error> {
         "versions" => Ok(texts::versions()),
         #[cfg(feature = "reference")]
         "render" => scene::render(&request, blob),
+        #[cfg(feature = "play")]
+        "play" => play::play(&request, blob),
         other => {
             let _ = blob;
             Err(Error::argument(format!("this module has no call `{other}`")))

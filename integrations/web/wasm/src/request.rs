@@ -1,5 +1,7 @@
 //! [`Request`]: what the host asks for.
 
+#[cfg(feature = "reference")]
+use crate::includes::joined;
 use crate::includes::{Asked, Found};
 use glisten_binding::{Error, Settings, Source, stage_of_name, stage_of_word};
 use serde::Deserialize;
@@ -43,6 +45,12 @@ pub(crate) struct Request {
     pub(crate) path: String,
     pub(crate) files: BTreeMap<String, (usize, usize)>,
     pub(crate) floats: bool,
+    /// The folders in which includes are searched.
+    #[cfg(feature = "play")]
+    pub(crate) folders: Vec<String>,
+    /// A job of the page.
+    #[cfg(feature = "play")]
+    pub(crate) job: serde_json::Value,
 }
 
 /// The style of formatted texts.
@@ -80,6 +88,17 @@ impl Request {
         settings.includes.ask =
             Some(Arc::new(move |path, angled, from| noted.resolve(&files, &answers, path, angled, from)));
         Ok((settings, asked))
+    }
+
+    /// The files, by their paths without `.` and `..`.
+    #[cfg(feature = "reference")]
+    pub(crate) fn files(&self, blob: &[u8]) -> Result<BTreeMap<String, Vec<u8>>, Error> {
+        let bytes_of = |(name, (offset, length)): (&String, &(usize, usize))| {
+            let bytes = blob.get(*offset..offset.saturating_add(*length));
+            let bytes = bytes.ok_or_else(|| Error::argument(format!("the bytes of `{name}` are cut off")))?;
+            Ok((joined("", name), bytes.to_vec()))
+        };
+        self.files.iter().map(bytes_of).collect()
     }
 
     /// The sources with their stages.

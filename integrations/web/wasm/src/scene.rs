@@ -4,7 +4,6 @@ use crate::includes::joined;
 use crate::reply::Reply;
 use crate::request::Request;
 use glisten_binding::{Error, FileError, Files, Format, Precision, Scenery};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Answers `render`: the pixels of each attachment as bytes, or as doubles.
@@ -15,12 +14,7 @@ pub(crate) fn render(request: &Request, blob: &[u8]) -> Result<Reply, Error> {
         "f32" => Precision::F32,
         other => return Err(Error::argument(format!("`{other}` is no precision: f64, f32"))),
     };
-    let bytes_of = |(name, (offset, length)): (&String, &(usize, usize))| {
-        let bytes = blob.get(*offset..offset.saturating_add(*length));
-        let bytes = bytes.ok_or_else(|| Error::argument(format!("the bytes of `{name}` are cut off")))?;
-        Ok((joined("", name), bytes.to_vec()))
-    };
-    let files = request.files.iter().map(bytes_of).collect::<Result<BTreeMap<_, _>, Error>>()?;
+    let files = request.files(blob)?;
     let read = move |path: &str| files.get(&joined("", path)).cloned().ok_or(FileError::Missing);
     let scene = Scenery::load(&settings, &request.path, &Files::Host(Arc::new(read)))?;
     let mut reply = Reply::default();

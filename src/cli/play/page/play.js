@@ -1,7 +1,8 @@
 
 // ---- The page of `glisten play`: it holds the texts, asks for everything else, and shows the answers.
 const start = JSON.parse(byId("start").textContent);
-const isLive = start.mode === "server";
+const isServed = start.mode === "server";
+const isLive = isServed || start.mode === "module";
 const KINDS = { toml: "toml" };
 const kindOf = (name) => KINDS[name.split(".").at(-1)] ?? "glsl";
 const docs = new Map(); // name -> { text, saved, isWritable }
@@ -27,7 +28,8 @@ const request = async (method, path, body) => {
   return { status: response.status, ...answer };
 };
 const changedTexts = () => Object.fromEntries([...docs].filter(([, doc]) => doc.text !== doc.saved).map(([name, doc]) => [name, doc.text]));
-const ask = (job) => request("POST", "/api/ask", { scene, texts: changedTexts(), ...job });
+const askAny = start.mode === "module" ? makeModule(start) : (job) => request("POST", "/api/ask", job);
+const ask = (job) => askAny({ scene, texts: changedTexts(), ...job });
 
 // Runs a question so that at most one is under way and the newest always runs; `patience` is how long (ms) a running one may take
 // when a newer one waits. The server ends the older one.
@@ -92,7 +94,8 @@ const showFiles = () => {
   }));
   const changed = [...docs.values()].filter((doc) => doc.text !== doc.saved && doc.isWritable);
   byId("save").disabled = changed.length === 0;
-  byId("save").textContent = changed.length > 1 ? `Save ${changed.length} files` : "Save";
+  const verb = isServed ? "Save" : "Download";
+  byId("save").textContent = changed.length > 1 ? `${verb} ${changed.length} files` : verb;
 };
 
 // Applies the edits of a fix, which are in characters from 1, to all its files.
@@ -508,6 +511,7 @@ const turn = (image, event) => {
 // ---- Scenes, saving, changes on disk.
 const choose = (name, text) => {
   const changed = [...docs.values()].some((doc) => doc.text !== doc.saved);
+  if (!isServed && location.hash) history.replaceState(null, "", location.pathname + location.search);
   if (changed && !confirm("Changes that are not saved will be gone. Go on?")) return false;
   docs.clear(); findings = []; controls = []; programs = []; stage = null;
   edition += 1;
@@ -545,6 +549,46 @@ const save = async () => {
   say("saved");
   showFiles();
 };
+// Without a server, the files go to the folder of downloads.
+const download = () => {
+  for (const [name, doc] of docs) {
+    if (doc.text === doc.saved || !doc.isWritable) continue;
+    const link = html("a", { href: URL.createObjectURL(new Blob([doc.text], { type: "text/plain" })), download: name.split(/[\\/]/).at(-1) });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  }
+};
+const share = async () => {
+  try {
+    history.replaceState(null, "", `#${await packed({ scene, texts: changedTexts() })}`);
+    const isCopied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
+    say(`the address of this page holds its texts now${isCopied ? "; it is copied" : ""}`);
+  } catch (error) { say(`no link: ${error.message}`, true); }
+};
+// Opens the scene and the texts of a link. Only files that the page holds have texts.
+const openLink = async (text) => {
+  const state = await unpacked(text);
+  if (!start.list.scenes.includes(state.scene)) throw new Error(`this page has no scene ${state.scene}`);
+  docs.clear();
+  scene = state.scene;
+  const held = new Map(Object.keys(start.files).map((name) => [plainName(name), start.files[name].text]));
+  for (const [name, own] of Object.entries(state.texts)) {
+    const saved = held.get(plainName(name));
+    if (saved !== undefined) docs.set(name, { text: own, saved, isWritable: true });
+  }
+  shown = null;
+  edition += 1;
+  look(); draw();
+};
+const showGallery = () => {
+  const base = (name) => name.split(/[\\/]/).at(-1).replace(/\.toml$/, "");
+  byId("gallery").hidden = start.gallery.length < 2;
+  byId("cards").replaceChildren(...start.gallery.map(({ scene: name, picture }) => html("button", { title: name, click: () => {
+    if (choose(name) === false) return;
+    byId("scenes").value = name;
+    byId("gallery").open = false;
+  } }, html("img", { src: picture, alt: "", loading: "lazy" }), html("span", {}, base(name)))));
+};
 const watch = async () => {
   let number = 0;
   for (;;) {
@@ -561,21 +605,38 @@ const watch = async () => {
 byId("target").replaceChildren(...start.targets.map(({ word, name }) => html("option", { value: word }, name)));
 if (isLive) {
   byId("save").hidden = false;
-  byId("save").addEventListener("click", save);
+  byId("save").addEventListener("click", isServed ? save : download);
   byId("scenes").addEventListener("change", () => chosen(byId("scenes").value));
   byId("target").addEventListener("change", look);
   byId("leaves-out").addEventListener("change", look);
   byId("judge").addEventListener("click", judge);
   all("input[name=by]").forEach((radio) => radio.addEventListener("change", draw));
-  addEventListener("keydown", (event) => { if ((event.ctrlKey || event.metaKey) && event.key === "s") { event.preventDefault(); save(); } });
+  addEventListener("keydown", (event) => { if ((event.ctrlKey || event.metaKey) && event.key === "s") { event.preventDefault(); (isServed ? save : download)(); } });
   addEventListener("beforeunload", (event) => { if ([...docs.values()].some((doc) => doc.saved !== null && doc.text !== doc.saved)) event.preventDefault(); });
   scene = start.scene;
   showScenes(start.list);
   if (!scene) scene = start.list.scenes[0] ?? null;
-  if (scene) { byId("scenes").value = scene; choose(scene); }
-  else if (byId("scenes").options.length) chosen(byId("scenes").value);
-  else say("this folder has neither a scene nor a shader", true);
-  watch();
+  if (isServed) {
+    if (scene) { byId("scenes").value = scene; choose(scene); }
+    else if (byId("scenes").options.length) chosen(byId("scenes").value);
+    else say("this folder has neither a scene nor a shader", true);
+    watch();
+  } else {
+    // No driver draws here.
+    byId("judge").hidden = byId("by").hidden = true;
+    byId("share").hidden = false;
+    byId("share").addEventListener("click", share);
+    showGallery();
+    const begin = async () => {
+      const link = location.hash.slice(1);
+      byId("gallery").open = !link && start.gallery.length > 1;
+      try { if (link) await openLink(link); else choose(scene); }
+      catch (error) { choose(start.scene); say(`the link cannot be opened: ${error.message}`, true); }
+      byId("scenes").value = scene;
+    };
+    addEventListener("hashchange", begin);
+    begin();
+  }
 } else {
   scene = start.scene;
   byId("choose-scene").hidden = byId("judge").hidden = byId("by").hidden = byId("inspector").hidden = true;

@@ -9,6 +9,7 @@
 mod functions;
 #[cfg(test)]
 mod tests;
+mod words;
 
 use super::{Element, WIDTH};
 use astro_float_num::{BigFloat, RoundingMode, Sign};
@@ -117,7 +118,7 @@ impl Big {
     /// The number for `astro-float`, if it is finite.
     fn wide(self) -> BigFloat {
         match self.class {
-            Class::Finite => BigFloat::from_words(&self.words, self.sign(), self.exponent),
+            Class::Finite => BigFloat::from_words(&words::of_machine(&self.words), self.sign(), self.exponent),
             _ => BigFloat::from_f64(0.0, BITS),
         }
     }
@@ -139,6 +140,7 @@ impl Big {
             // Below the range of exponents, where the mantissa may not be normalized either.
             return Self { negative, ..Self::default() };
         }
+        let given = words::of_64_bits(given);
         let (rest, kept) = given.split_at(given.len().saturating_sub(WORDS));
         let mut words = [0; WORDS];
         words[WORDS - kept.len()..].copy_from_slice(kept);

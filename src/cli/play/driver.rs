@@ -1,61 +1,39 @@
-//! Draws scenes for the page, and keeps the last pictures for questions about single pixels.
+//! [`Driver`]: draws scenes for the page by the driver of this machine, and judges what it draws.
 //!
-//! *In:* scenes. *Out:* pictures as PNG data URIs, the verdict on the driver's picture with what was judged, the numbers of a
-//! pixel. *Holds:* colors are encoded as `glisten render` does.
+//! *In:* scenes. *Out:* pictures as data URIs, the verdict on the driver's picture with what was judged. *Holds:* the pictures are kept
+//! for questions about single pixels ([`crate::play::Pictures`]).
 
 use super::super::scenes::{MachineArgs, open_gpu};
 use super::super::verify::Headline;
-use crate::page::raster;
-use crate::play::told;
+use crate::play::{Pictures, drawn};
 use crate::scene::Scene;
 use crate::verify::{self, Conclusion, OnGpu, Options, Runner, Verification};
 use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Via};
-use glisten_reference::{LineRule, Precision, RenderOptions};
-use glisten_scene::picture::{Encoding, Picture};
+use glisten_scene::picture::{Encoding, Picture, color_uri};
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// The pictures that were drawn last.
+/// The driver, opened when it is needed first.
 #[derive(Default)]
-pub(super) struct Pictures {
-    gpu: Option<Gpu>,
-    reference: Option<Picture>,
-    driver: Option<Picture>,
-    /// For each pixel the difference as a share of its bound.
-    shares: Vec<f64>,
-}
+pub(super) struct Driver(Option<Gpu>);
 
-impl Pictures {
-    /// Draws by the reference, in f64.
+impl Driver {
+    /// Draws from SPIR-V.
     ///
     /// # Errors
     /// The reason why it cannot be drawn.
-    pub(super) fn reference(&mut self, scene: &Scene) -> Result<Value, String> {
-        let start = Instant::now();
-        let options = RenderOptions {
-            precision: Precision::F64,
-            lines: LineRule::OpenGl,
-            mark_edges: false,
-            ..RenderOptions::default()
-        };
-        let picture = glisten_reference::render(scene, &options).map_err(|errors| told(&errors))?;
-        let drawn = drawn(&picture, scene, start, "the reference, in f64");
-        (self.reference, self.driver, self.shares) = (Some(picture), None, Vec::new());
-        Ok(drawn)
-    }
-
-    /// Draws by a driver, from SPIR-V.
-    ///
-    /// # Errors
-    /// The reason why it cannot be drawn.
-    pub(super) fn driver(&mut self, scene: &Scene, machine: &MachineArgs) -> Result<Value, String> {
+    pub(super) fn draw(
+        &mut self,
+        scene: &Scene,
+        machine: &MachineArgs,
+        pictures: &mut Pictures,
+    ) -> Result<Value, String> {
         let gpu = self.gpu(machine)?;
         let name = gpu.adapter().to_string();
-        let start = Instant::now();
         let picture = OnGpu::new(gpu, Via::Spirv).draw(scene).map_err(|failure| failure.to_string())?.picture;
-        let drawn = drawn(&picture, scene, start, &name);
-        self.driver = Some(picture);
+        let drawn = drawn(&picture, scene, &name);
+        pictures.take_driver(picture);
         Ok(drawn)
     }
 
@@ -63,11 +41,12 @@ impl Pictures {
     ///
     /// # Errors
     /// The reason why it cannot be drawn.
-    pub(super) fn compare(
+    pub(super) fn judge(
         &mut self,
         scene: &Scene,
         sources: &SourceMap,
         machine: &MachineArgs,
+        pictures: &mut Pictures,
     ) -> Result<Value, String> {
         let gpu = self.gpu(machine)?;
         let name = gpu.adapter().to_string();
@@ -76,58 +55,36 @@ impl Pictures {
         let options = Options { sources: Some(sources), ..Options::default() };
         let verification = verify::verify(scene, &runners, &options).map_err(|failure| failure.to_string())?;
         let answer = judged(&verification, scene, &name);
-        self.driver = verification.runs.first().map(|run| run.picture.clone());
-        self.shares = verification.shares;
-        self.reference = Some(verification.reference);
+        let driver = verification.runs.first().map(|run| run.picture.clone());
+        pictures.take_judged(verification.reference, driver, verification.shares);
         Ok(answer)
     }
 
-    /// The numbers of a pixel.
-    pub(super) fn pixel(&self, x: u32, y: u32) -> Value {
-        let value = |picture: &Option<Picture>| picture.as_ref().and_then(|picture| pixel(picture, x, y));
-        let share = self.reference.as_ref().and_then(|picture| {
-            let index = index(picture, x, y)?;
-            self.shares.get(index).copied().filter(|share| share.is_finite())
-        });
-        json!({ "x": x, "y": y, "reference": value(&self.reference), "driver": value(&self.driver), "share": share })
-    }
-
     fn gpu(&mut self, machine: &MachineArgs) -> Result<&Gpu, String> {
-        if self.gpu.is_none() {
+        if self.0.is_none() {
             let gpu = open_gpu(machine.adapter()).map_err(|error| error.to_string())?;
-            self.gpu = Some(gpu.with_timeout(machine.time_limit()));
+            self.0 = Some(gpu.with_timeout(machine.time_limit()));
         }
-        self.gpu.as_ref().ok_or_else(|| "there is no GPU".to_owned())
+        self.0.as_ref().ok_or_else(|| "there is no GPU".to_owned())
     }
 }
 
-fn index(picture: &Picture, x: u32, y: u32) -> Option<usize> {
-    (x < picture.width && y < picture.height).then(|| y as usize * picture.width as usize + x as usize)
-}
-
-/// The numbers of a covered pixel, as text, so that those that are not finite can be told.
-fn pixel(picture: &Picture, x: u32, y: u32) -> Option<Value> {
-    let index = index(picture, x, y)?;
-    let values = picture.attachments.first()?.get(index)?;
-    let texts: Vec<String> = values.iter().map(|value| format!("{value:.7}")).collect();
-    Some(json!({ "values": texts, "is_covered": picture.covered.get(index) }))
-}
-
-fn drawn(picture: &Picture, scene: &Scene, start: Instant, by: &str) -> Value {
-    let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-    json!({
-        "picture": raster::color_uri(picture, scene.framebuffer.encode),
-        "width": picture.width,
-        "height": picture.height,
-        "milliseconds": milliseconds,
-        "by": by,
-        "is_empty": !picture.covered.contains(&true),
-    })
+/// A picture with the time that drawing it took.
+///
+/// # Errors
+/// Those of drawing.
+pub(super) fn timed(draw: impl FnOnce() -> Result<Value, String>) -> Result<Value, String> {
+    let start = Instant::now();
+    let mut drawn = draw()?;
+    if let Some(drawn) = drawn.as_object_mut() {
+        drawn.insert("milliseconds".to_owned(), (start.elapsed().as_secs_f64() * 1e3).into());
+    }
+    Ok(drawn)
 }
 
 fn judged(verification: &Verification, scene: &Scene, by: &str) -> Value {
     let encode = scene.framebuffer.encode;
-    let uri = |picture: &Picture, by: Encoding| raster::color_uri(picture, by);
+    let uri = |picture: &Picture, by: Encoding| color_uri(picture, by);
     let word = match verification.conclusion() {
         Conclusion::Holds => "holds",
         Conclusion::Inconclusive => "inconclusive",

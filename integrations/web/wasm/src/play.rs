@@ -1,0 +1,47 @@
+//! `play`: the answers of the page of `glisten play`, for files that the page holds.
+//!
+//! *Holds:* the last pictures stay in the instance, for questions about single pixels.
+
+use crate::includes::{Asked, joined};
+use crate::reply::Reply;
+use crate::request::Request;
+use glisten::play::{Job, OwnLevels, Pictures, answer};
+use glisten::scene::{self, FileError, FileSource};
+use glisten_binding::Error;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+thread_local! {
+    static PICTURES: RefCell<Pictures> = RefCell::default();
+}
+
+/// The files of the page; texts that were changed there count instead.
+struct Held(Arc<BTreeMap<String, Vec<u8>>>);
+
+impl FileSource for Held {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        self.0.get(&joined("", path)).cloned().ok_or(FileError::Missing)
+    }
+}
+
+/// Answers a job of the page.
+pub(crate) fn play(request: &Request, blob: &[u8]) -> Result<Reply, Error> {
+    let job: Job = serde_json::from_value(request.job.clone())
+        .map_err(|error| Error::argument(format!("the job is not understood: {error}")))?;
+    let mut files = request.files(blob)?;
+    files.extend(job.texts.iter().map(|(name, text)| (joined("", name), text.clone().into_bytes())));
+    let held = Held(Arc::new(files));
+    let (mut settings, _) = request.settings()?;
+    let texts: BTreeMap<String, String> =
+        held.0.iter().map(|(name, bytes)| (name.clone(), String::from_utf8_lossy(bytes).into_owned())).collect();
+    let (asked, folders) = (Asked::new(false), request.folders.clone());
+    settings.includes.ask =
+        Some(Arc::new(move |path, angled, from| asked.resolve_in(&folders, &texts, &[], path, angled, from)));
+    let compiler = settings.compiler().without_levels();
+    let load = |_: &mut OwnLevels| scene::load(&job.scene, &held, &compiler);
+    let answered = PICTURES.with_borrow_mut(|pictures| answer(&job, &mut OwnLevels, pictures, load));
+    let mut reply = Reply::default();
+    reply.set("answer", answered.map_err(Error::content)?);
+    Ok(reply)
+}
