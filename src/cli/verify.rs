@@ -1,12 +1,9 @@
 //! `glisten verify`: draws a scene on the GPU and with the CPU reference, and judges each pixel.
 
 mod folder;
-mod headline;
 mod told;
 
 #[cfg(feature = "play")]
-pub(super) use headline::Headline;
-
 use super::args::WithContractArgs;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};

@@ -47,6 +47,7 @@ pub fn answer<C: Criteria>(
         }
         Wish::Draw { gpu: false } => pictures.reference(&drawable(load(criteria))?.0),
         Wish::Draw { gpu: true } | Wish::Judge => Err("there is no driver here".to_owned()),
+        Wish::Plan | Wish::Show { .. } | Wish::JudgeShown { .. } => Err("only a page draws by a browser".to_owned()),
         Wish::Pixel { x, y } => Ok(pictures.pixel(*x, *y)),
         Wish::Trace { x, y } => {
             let (scene, sources) = drawable(load(criteria))?;

@@ -37,6 +37,18 @@ pub enum Wish {
     },
     /// The pictures of reference and driver, and the verdict on the latter.
     Judge,
+    /// The calls of WebGPU that draw the scene.
+    Plan,
+    /// The picture of what the browser drew.
+    Show {
+        /// Who drew it.
+        by: String,
+    },
+    /// The verdict on what the browser drew.
+    JudgeShown {
+        /// Who drew it.
+        by: String,
+    },
     /// The values of a pixel of the last pictures.
     Pixel {
         /// From the left.

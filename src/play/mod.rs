@@ -5,19 +5,26 @@
 //!  job, scene that was read ──► answers ──┬─► look ◄── controls   findings, texts, translations
 //!                                         ├─► pictures             the reference's picture, a pixel
 //!                                         └─► crate::trace         what a pixel computed
+//!  scene ──► browser: a plan for WebGPU; what it read back ──► verdict
 //! ```
 //!
 //! *In:* jobs, and scenes that were read. *Out:* answers as JSON. *Holds:* nothing here reads a file or starts a process; the levels
 //! of findings are those of [`Criteria`].
 
 mod answers;
+#[cfg(feature = "plan")]
+mod browser;
 mod controls;
 mod jobs;
 mod look;
 mod pictures;
+mod verdict;
 
 pub use answers::{OwnLevels, answer, drawable};
+#[cfg(feature = "plan")]
+pub use browser::{judge, plan, show};
 pub use controls::{Control, Kind, controls};
 pub use jobs::{Job, Wish};
 pub use look::{Criteria, Shown, look, told};
 pub use pictures::{Pictures, drawn};
+pub use verdict::judged;

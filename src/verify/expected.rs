@@ -4,6 +4,7 @@
 //! *Holds:* the reference draws once. It draws again with known faults excused only if a picture needs an excuse. A few
 //! simulated GPUs draw as well; many do only where a picture is suspect by the few.
 
+use super::clock::Clock;
 use super::{Failure, Options};
 use crate::scene::Scene;
 use glisten_reference::domain::Gpu;
@@ -13,7 +14,6 @@ use glisten_scene::compare::evidence::Ruler;
 use glisten_scene::compare::population::{MIN_MEMBERS, MIN_PIXELS, MIN_SHARE};
 use glisten_scene::compare::{Class, Compared, Comparison, Criterion, Gauge, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
-use std::time::Instant;
 
 /// The seed of the population.
 const SEED: u64 = 1;
@@ -56,9 +56,9 @@ impl<'a> Expected<'a> {
     /// # Errors
     /// The reference cannot draw it.
     pub fn new(scene: &'a Scene, options: &'a Options<'a>) -> Result<Self, Failure> {
-        let start = Instant::now();
+        let clock = Clock::start();
         let picture = options.reference.render(scene, &options.reference_options(Faults::NONE))?;
-        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+        let milliseconds = clock.milliseconds();
         Ok(Self {
             scene,
             options,

@@ -33,9 +33,12 @@
 //! *Holds:* a difference is excused by a known fault of a driver only if the specifications do not explain it, and it is
 //! counted under the fault's name. Files are written only to [`Options::failures`], and only if the verification fails.
 
+mod clock;
 mod expected;
 mod explain;
 mod files;
+#[cfg(feature = "stability")]
+mod headline;
 mod maps;
 mod runner;
 mod undefined;
@@ -44,6 +47,10 @@ mod weakness;
 
 pub use expected::Expected;
 pub use files::write_pictures;
+#[cfg(feature = "stability")]
+pub(crate) use headline::Headline;
+#[cfg(feature = "cli")]
+pub(crate) use headline::is_empty;
 pub use maps::{DIFFERENCE_LEGEND, EVIDENCE_LEGEND, difference, evidence};
 #[cfg(feature = "gpu")]
 pub use runner::OnGpu;

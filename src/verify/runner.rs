@@ -2,6 +2,7 @@
 //!
 //! *In:* a [`Scene`]. *Out:* a [`Picture`], or a [`Failure`].
 
+use super::clock::Clock;
 use crate::scene::Scene;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_reference::{Contribution, LineRule, Precision, RenderOptions, Undefined};
@@ -9,7 +10,6 @@ use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::fmt;
 use std::ops::Range;
-use std::time::Instant;
 
 /// The result of a runner.
 #[derive(Clone, Debug)]
@@ -179,9 +179,9 @@ impl Runner for Cpu {
     }
 
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
-        let start = Instant::now();
+        let clock = Clock::start();
         let picture = glisten_reference::render(scene, &self.options)?;
-        Ok(Drawn { picture, milliseconds: start.elapsed().as_secs_f64() * 1e3 })
+        Ok(Drawn { picture, milliseconds: clock.milliseconds() })
     }
 }
 
@@ -250,11 +250,11 @@ impl Runner for OnOpenGl<'_> {
     }
 
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
-        let start = Instant::now();
+        let clock = Clock::start();
         let picture = self.0.render(scene).map_err(|error| match error.is_environment() {
             true => Failure::Machine(error.to_string()),
             false => Failure::Refused(error.to_string()),
         })?;
-        Ok(Drawn { picture, milliseconds: start.elapsed().as_secs_f64() * 1e3 })
+        Ok(Drawn { picture, milliseconds: clock.milliseconds() })
     }
 }

@@ -107,3 +107,13 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+impl From<glisten_plan::Error> for Error {
+    fn from(error: glisten_plan::Error) -> Self {
+        match error {
+            glisten_plan::Error::Unsupported(what) => Self::Unsupported(what),
+            glisten_plan::Error::Emit(diagnostics) => Self::Emit(diagnostics),
+            glisten_plan::Error::Refused(message) => Self::Refused(message),
+        }
+    }
+}

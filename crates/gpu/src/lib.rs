@@ -3,13 +3,11 @@
 //! *In:* a [`Scene`](glisten_scene::Scene). *Out:* a [`Picture`], and times.
 //!
 //! ```text
-//!  Scene ──► assembly    vertex numbers: strips, fans and loops made lists, the provoking vertex first
-//!        ──► vertices    attribute bytes, expanded to the declared types
-//!        ──► uniforms    the bytes of the loose block and of every uniform block
-//!        ──► textures    texels and samplers (1D as 2D, buffers 4096 wide, depth by drawing)
-//!        ──► prepare     emitted modules, or others in their place (foreign), layouts, bind groups, pipelines
-//!        ──► frame       attachments, passes, read-back ──► Picture
-//!        ──► timing      repeated draws under timestamp queries
+//!  Scene ──► glisten_plan   vertex numbers, bytes of attributes and uniforms, layouts, states
+//!        ──► textures       texels and samplers on the device; depth by drawing
+//!        ──► prepare        emitted modules, or others in their place (foreign), layouts, bind groups, pipelines
+//!        ──► frame          attachments, passes, read-back ──► Picture
+//!        ──► timing         repeated draws under timestamp queries
 //! ```
 //!
 //! *Holds:* whatever a scene contains, the result is a picture or an [`Error`]: error scopes catch wgpu's errors, and
@@ -20,8 +18,6 @@
 //!
 //! *Not done here:* judging the picture ([`compare`](glisten_scene::compare)), multisampling, geometry shaders.
 
-mod assembly;
-mod beyond;
 mod device;
 #[cfg(feature = "edited-modules")]
 mod edited;
@@ -32,15 +28,8 @@ mod limits;
 mod multisample_upload;
 mod prepare;
 mod shadow_upload;
-mod sprites;
-mod states;
-mod texels;
-mod texture_extent;
 mod textures;
 mod timing;
-mod uniforms;
-mod vertices;
-mod visibility;
 
 #[cfg(test)]
 mod tests;

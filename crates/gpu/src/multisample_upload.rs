@@ -4,9 +4,9 @@
 //! with a sample mask that lets only its own sample through. *Holds:* a texture may have more samples than the scene's, as
 //! with `glTexImage2DMultisample`; a shader that asks for those gets an undefined value.
 
-use super::texels::{texel_bytes, texel_format};
 use super::{Error, Gpu};
 use glisten_front::hir::{SamplerType, Scalar};
+use glisten_plan::texels::{texel_bytes, texel_format};
 use glisten_scene::{Texture, TextureLevel};
 
 /// The samples of a texture on the device: WebGPU has textures of one sample and of four.

@@ -6,17 +6,17 @@
 //! silently bind the wrong resource; it is rejected here.
 
 use super::device::feature_of;
-use super::states::{blend, color_format, depth_stencil, primitive_state};
 use super::textures::{self, Bound};
-use super::vertices::{self, Rows};
-use super::visibility::Visibility;
-use super::{Error, Foreign, Gpu, Via, assembly, beyond, multisample_upload, sprites, uniforms};
+use super::{Error, Foreign, Gpu, Via, multisample_upload};
 use glisten_emit::{self as emit, Conventions, Emitted, FloatWidth, Target};
-use glisten_front::diagnostic::Diagnostic;
-use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
-use glisten_front::hir::{SamplerDim, SamplerType, Stage, Type};
+use glisten_front::hir::{SamplerDim, Stage, Type};
 use glisten_front::link::{Program, SlotBinding};
-use glisten_scene::{Draw, Format, Framebuffer, Scene, State};
+use glisten_plan::bindings::{Binding, GROUPS, What, bindings, conventions, refuse_levels, targets};
+use glisten_plan::states::{depth_stencil, primitive_state};
+use glisten_plan::vertices::{self, Rows};
+use glisten_plan::visibility::Visibility;
+use glisten_plan::{assembly, beyond, slots, sprites, uniforms};
+use glisten_scene::{Draw, Framebuffer, Scene, State};
 use std::sync::Arc;
 
 /// A scene on the device.
@@ -69,9 +69,6 @@ struct Made {
     pipeline: wgpu::RenderPipeline,
     layouts: Vec<wgpu::BindGroupLayout>,
 }
-
-/// Group 0 holds the uniform buffers, group 1 the textures and samplers.
-const GROUPS: usize = 2;
 
 impl Gpu {
     /// Emits every program of a scene and puts everything on the device.
@@ -388,7 +385,7 @@ impl Gpu {
         bindings: &[Binding],
         layouts: &[wgpu::BindGroupLayout],
     ) -> Result<Vec<wgpu::BindGroup>, Error> {
-        let texels: Vec<u32> = draw.textures.iter().map(|texture| textures::texels(texture.as_deref())).collect();
+        let texels: Vec<u32> = draw.textures.iter().map(|texture| slots::texels(texture.as_deref())).collect();
         let mut buffers: Vec<(SlotBinding, wgpu::Buffer)> =
             uniforms::pack(&draw.program, &draw.uniforms, framebuffer.height, &texels)
                 .into_iter()
@@ -433,16 +430,6 @@ impl Gpu {
     }
 }
 
-/// The conventions for emission.
-fn conventions(draw: &Draw, target: Target) -> Conventions {
-    Conventions {
-        point_sprites: sprites::applies(draw, target),
-        clip_distances: Some(draw.state.clip_distances),
-        program_point_size: draw.state.program_point_size,
-        ..Conventions::default()
-    }
-}
-
 /// Reports multisample textures that WebGPU cannot hold.
 fn refuse_samples(draw: &Draw) -> Result<(), Error> {
     for (slot, texture) in draw.program.interface.samplers.iter().zip(&draw.textures) {
@@ -454,100 +441,4 @@ fn refuse_samples(draw: &Draw) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-/// Rejects comparisons at explicit levels of detail, which are compiled only for depth textures of one level.
-fn refuse_levels(draw: &Draw) -> Result<(), Error> {
-    let deep = draw
-        .textures
-        .iter()
-        .flatten()
-        .any(|texture| texture.kind.shadow && texture.levels.len() > 1 && texture.filter.uses_levels());
-    match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
-        Some(span) => {
-            let message = "no target compares depth in a level of detail of the shader's choice, and this depth texture has several";
-            Err(Error::Emit(vec![Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message)]))
-        }
-        None => Ok(()),
-    }
-}
-
-/// The color targets. An attachment without an output keeps its clear color.
-fn targets(framebuffer: &Framebuffer, draw: &Draw) -> Vec<Option<wgpu::ColorTargetState>> {
-    let floats = matches!(framebuffer.format, Format::Rgba32Float | Format::Rgba16Float | Format::Rgba8Unorm);
-    (0..framebuffer.attachments)
-        .map(|location| {
-            let written = draw.program.writes_color(location);
-            Some(wgpu::ColorTargetState {
-                format: color_format(framebuffer.format),
-                blend: draw.state.blend.filter(|_| floats).map(blend),
-                write_mask: if written { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() },
-            })
-        })
-        .collect()
-}
-
-/// A binding of the layout.
-struct Binding {
-    slot: SlotBinding,
-    what: What,
-}
-
-/// The kind of a bound resource.
-#[derive(Clone, Copy)]
-enum What {
-    Uniforms,
-    Texture(SamplerType),
-    Sampler(SamplerType),
-}
-
-impl What {
-    fn layout(self) -> wgpu::BindingType {
-        match self {
-            Self::Uniforms => wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            Self::Texture(kind) => textures::texture_binding(kind),
-            Self::Sampler(kind) => textures::sampler_binding(kind),
-        }
-    }
-}
-
-/// Everything that the interface reflects, by binding. Bindings must count from 0 without gaps in each group.
-fn bindings(program: &Program, sprites: bool) -> Result<Vec<Binding>, Error> {
-    let interface = &program.interface;
-    let mut all: Vec<Binding> = Vec::new();
-    all.extend(interface.loose.iter().map(|&(slot, _)| Binding { slot, what: What::Uniforms }));
-    for block in &interface.blocks {
-        for element in 0..block.array_size.unwrap_or(1) {
-            let slot = SlotBinding { binding: block.slot.binding + element, ..block.slot };
-            all.push(Binding { slot, what: What::Uniforms });
-        }
-    }
-    if sprites {
-        all.push(Binding { slot: sprites::slot(program), what: What::Uniforms });
-    }
-    for sampler in &interface.samplers {
-        let Type::Sampler(kind) = program.types.get(sampler.ty) else { continue };
-        all.push(Binding { slot: sampler.texture, what: What::Texture(kind) });
-        if sampler.sampler != sampler.texture {
-            all.push(Binding { slot: sampler.sampler, what: What::Sampler(kind) });
-        }
-    }
-    all.sort_by_key(|binding| binding.slot);
-    let mut next = [0; GROUPS];
-    for binding in &all {
-        match next.get_mut(binding.slot.group as usize) {
-            Some(next) if *next == binding.slot.binding => *next += 1,
-            _ => {
-                return Err(Error::Refused(format!(
-                    "the bindings of program `{}` are not dense at group {}, binding {}",
-                    program.name, binding.slot.group, binding.slot.binding
-                )));
-            }
-        }
-    }
-    Ok(all)
 }

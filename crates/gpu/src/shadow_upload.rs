@@ -4,7 +4,7 @@
 //! is drawn once with a fragment shader that reads R and writes it as the depth. Depths are clamped to [0, 1].
 
 use super::Gpu;
-use super::texture_extent::extent;
+use glisten_plan::texture_extent::extent;
 use glisten_scene::{Texels, Texture};
 
 const BLIT: &str = "

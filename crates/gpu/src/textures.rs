@@ -5,12 +5,12 @@
 //! [`BUFFER_WIDTH`](glisten_emit::BUFFER_WIDTH) texels wide; shadow samplers get a depth texture. A slot without a
 //! texture (an inactive one) gets a single black texel, so that every binding of the layout is filled.
 
-use super::states::{address_mode, compare, filter_mode};
-use super::texels::{texel_bytes, texel_format};
-use super::texture_extent::extent;
 use super::{Error, Gpu, multisample_upload, shadow_upload};
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar};
-use glisten_scene::{Compare, Filter, Sampling, Texels, Texture, TextureLevel, Wrap};
+use glisten_plan::slots::{black_texel, sampler, view_dimension};
+use glisten_plan::texels::{texel_bytes, texel_format};
+use glisten_plan::texture_extent::extent;
+use glisten_scene::Texture;
 
 /// The resources of a sampler slot.
 pub(super) struct Bound {
@@ -18,41 +18,6 @@ pub(super) struct Bound {
     pub(super) view: wgpu::TextureView,
     /// The sampler.
     pub(super) sampler: wgpu::Sampler,
-}
-
-/// The binding type of a sampler type's texture.
-pub(super) fn texture_binding(kind: SamplerType) -> wgpu::BindingType {
-    let multisampled = kind.dim == SamplerDim::Multisample;
-    let sample_type = match kind.texel {
-        _ if kind.shadow => wgpu::TextureSampleType::Depth,
-        Scalar::Int => wgpu::TextureSampleType::Sint,
-        Scalar::Uint => wgpu::TextureSampleType::Uint,
-        Scalar::Bool | Scalar::Float => {
-            wgpu::TextureSampleType::Float { filterable: !multisampled && kind.dim != SamplerDim::Buffer }
-        }
-    };
-    wgpu::BindingType::Texture { sample_type, view_dimension: view_dimension(kind), multisampled }
-}
-
-/// The binding type of a sampler type's sampler.
-pub(super) fn sampler_binding(kind: SamplerType) -> wgpu::BindingType {
-    wgpu::BindingType::Sampler(if kind.shadow {
-        wgpu::SamplerBindingType::Comparison
-    } else {
-        wgpu::SamplerBindingType::Filtering
-    })
-}
-
-fn view_dimension(kind: SamplerType) -> wgpu::TextureViewDimension {
-    match (kind.dim, kind.arrayed) {
-        (SamplerDim::D3, _) => wgpu::TextureViewDimension::D3,
-        // Texels cannot be loaded from a cube, and integer texels are only loaded.
-        (SamplerDim::Cube, _) if kind.texel != Scalar::Float => wgpu::TextureViewDimension::D2Array,
-        (SamplerDim::Cube, false) => wgpu::TextureViewDimension::Cube,
-        (SamplerDim::Cube, true) => wgpu::TextureViewDimension::CubeArray,
-        (_, false) => wgpu::TextureViewDimension::D2,
-        (_, true) => wgpu::TextureViewDimension::D2Array,
-    }
 }
 
 /// Uploads a texture, or a black texel if there is none.
@@ -75,47 +40,7 @@ pub(super) fn bind(gpu: &Gpu, kind: SamplerType, texture: Option<&Texture>) -> R
     } else {
         color_view(gpu, kind, texture)
     };
-    Ok(Bound { view, sampler: sampler(gpu, kind, texture) })
-}
-
-fn black_texel(kind: SamplerType) -> Texture {
-    let depth = match (kind.dim, kind.arrayed) {
-        (SamplerDim::Cube, _) => 6,
-        _ => 1,
-    };
-    let texels = Texels::Float(vec![[0.0; 4]; depth as usize]);
-    Texture {
-        kind,
-        levels: vec![TextureLevel { width: 1, height: 1, depth, texels }],
-        filter: Filter::Nearest,
-        wrap: Wrap::ClampToEdge,
-        compare: Compare::Always,
-        sampling: Sampling::default(),
-    }
-}
-
-fn sampler(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::Sampler {
-    let wrap = address_mode(texture.wrap);
-    let filter = filter_mode(texture.filter);
-    let blended = texture.filter.blends_levels();
-    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-        label: None,
-        address_mode_u: wrap,
-        address_mode_v: wrap,
-        address_mode_w: wrap,
-        mag_filter: if texture.sampling.magnifies_linearly(texture.filter) {
-            wgpu::FilterMode::Linear
-        } else {
-            wgpu::FilterMode::Nearest
-        },
-        min_filter: filter,
-        mipmap_filter: if blended { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest },
-        lod_min_clamp: 0.0,
-        // OpenGL's NEAREST and LINEAR never leave the base level, whatever level is requested.
-        lod_max_clamp: if texture.filter.uses_levels() { 1000.0 } else { 0.0 },
-        compare: kind.shadow.then(|| compare(texture.compare)),
-        ..wgpu::SamplerDescriptor::default()
-    })
+    Ok(Bound { view, sampler: gpu.device.create_sampler(&sampler(kind, texture)) })
 }
 
 fn color_view(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::TextureView {
@@ -149,10 +74,4 @@ fn color_view(gpu: &Gpu, kind: SamplerType, texture: &Texture) -> wgpu::TextureV
         dimension: Some(view_dimension(kind)),
         ..wgpu::TextureViewDescriptor::default()
     })
-}
-
-/// The number of texels of the base level; 0 without a texture.
-pub(super) fn texels(texture: Option<&Texture>) -> u32 {
-    let level = texture.and_then(|texture| texture.levels.first());
-    level.map_or(0, |level| level.width.saturating_mul(level.height).saturating_mul(level.depth.max(1)))
 }

@@ -68,6 +68,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, module: &Path, console: &Conso
     let count = held.scenes.len();
     let start = json!({
         "mode": "module",
+        "version": env!("CARGO_PKG_VERSION"),
         "module": module,
         "worker": WORKER,
         "scene": held.scenes.first(),

@@ -5,8 +5,8 @@
 
 use super::super::console::Console;
 use super::super::exit::{Exit, Failure, Outcome};
-use super::headline::Headline;
 use super::{Judged, Run, VerifyArgs, VerifyFormat, examine, worst_of};
+use crate::verify::Headline;
 use crate::verify::{Conclusion, mark};
 use glisten_front::diagnostic::write::escaped_xml;
 use serde_json::Value;

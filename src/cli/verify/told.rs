@@ -3,9 +3,9 @@
 //!
 //! *In:* a [`Verification`] and its runs. *Out:* text.
 
-use super::headline::{Headline, is_empty};
 use super::{Run, Skip, worst_of};
 use crate::verify::{Conclusion, Verification, mark};
+use crate::verify::{Headline, is_empty};
 use glisten_scene::compare::Verdict;
 
 /// The text for people.

@@ -1,11 +1,11 @@
 //! `play`: the answers of the page of `glisten play`, for files that the page holds.
 //!
-//! *Holds:* the last pictures stay in the instance, for questions about single pixels.
+//! *Holds:* the last pictures stay in the instance, for questions about single pixels. What the browser draws by WebGPU comes as planes of bytes.
 
 use crate::includes::{Asked, joined};
 use crate::reply::Reply;
 use crate::request::Request;
-use glisten::play::{Job, OwnLevels, Pictures, answer};
+use glisten::play::{self, Job, OwnLevels, Pictures, Wish, answer};
 use glisten::scene::{self, FileError, FileSource};
 use glisten_binding::Error;
 use std::cell::RefCell;
@@ -39,9 +39,18 @@ pub(crate) fn play(request: &Request, blob: &[u8]) -> Result<Reply, Error> {
     settings.includes.ask =
         Some(Arc::new(move |path, angled, from| asked.resolve_in(&folders, &texts, &[], path, angled, from)));
     let compiler = settings.compiler().without_levels();
-    let load = |_: &mut OwnLevels| scene::load(&job.scene, &held, &compiler);
-    let answered = PICTURES.with_borrow_mut(|pictures| answer(&job, &mut OwnLevels, pictures, load));
+    let loaded = || scene::load(&job.scene, &held, &compiler);
     let mut reply = Reply::default();
+    let answered = PICTURES.with_borrow_mut(|pictures| match &job.wish {
+        Wish::Plan => play::plan(loaded()).map(|plan| {
+            let bytes = reply.bytes(&plan.bytes);
+            reply.set("bytes_of_answer", bytes);
+            plan.calls
+        }),
+        Wish::Show { by } => play::show(loaded(), request.planes(blob), by, pictures),
+        Wish::JudgeShown { by } => play::judge(loaded(), request.planes(blob), by, pictures),
+        _ => answer(&job, &mut OwnLevels, pictures, |_| loaded()),
+    });
     reply.set("answer", answered.map_err(Error::content)?);
     Ok(reply)
 }

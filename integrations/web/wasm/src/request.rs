@@ -48,6 +48,9 @@ pub(crate) struct Request {
     /// The folders in which includes are searched.
     #[cfg(feature = "play")]
     pub(crate) folders: Vec<String>,
+    /// What the browser read back, as offsets and lengths in the bytes of the request.
+    #[cfg(feature = "play")]
+    planes: Vec<(usize, usize)>,
     /// A job of the page.
     #[cfg(feature = "play")]
     pub(crate) job: serde_json::Value,
@@ -99,6 +102,13 @@ impl Request {
             Ok((joined("", name), bytes.to_vec()))
         };
         self.files.iter().map(bytes_of).collect()
+    }
+
+    /// What the browser read back. What is cut off is missing.
+    #[cfg(feature = "play")]
+    pub(crate) fn planes(&self, blob: &[u8]) -> Vec<Vec<u8>> {
+        let of = |(offset, length): &(usize, usize)| blob.get(*offset..offset.saturating_add(*length));
+        self.planes.iter().map(|place| of(place).unwrap_or_default().to_vec()).collect()
     }
 
     /// The sources with their stages.

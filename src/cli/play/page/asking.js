@@ -22,11 +22,11 @@ const makeLane = (begun, milliseconds) => {
   };
   const begin = ({ script, first }) => {
     worker = new Worker(script);
-    worker.onmessage = ({ data: { number, ok, error } }) => settle(number, error === undefined ? { status: 200, ok } : { status: 200, error });
+    worker.onmessage = ({ data: { number, ok, bytes, error } }) => settle(number, error === undefined ? { status: 200, ok, bytes } : { status: 200, error });
     worker.onerror = (event) => end({ status: 500, error: event.message ?? "the worker ended" });
     worker.postMessage(first);
   };
-  return async (job, endsOlder) => {
+  return async (job, endsOlder, planes = []) => {
     const start = await begun;
     if (endsOlder && waiting.size) end({ status: 409, error: "a newer question came" });
     if (!worker) begin(start);
@@ -34,7 +34,7 @@ const makeLane = (begun, milliseconds) => {
     return new Promise((resolve) => {
       const timer = setTimeout(() => end({ status: 200, error: `it took longer than ${milliseconds / 1000} s` }), milliseconds);
       waiting.set(number, { resolve, timer });
-      worker.postMessage({ number, job });
+      worker.postMessage({ number, job, planes });
     });
   };
 };
@@ -58,11 +58,42 @@ const makeModule = ({ module, worker, files, request, seconds }) => {
     return { script: URL.createObjectURL(new Blob([worker], { type: "text/javascript" })), first: { compiled, files: held, request } };
   })();
   const [looks, draws] = [makeLane(begun, seconds * 1000), makeLane(begun, seconds * 1000)];
-  return async (job) => {
-    const answer = await (job.ask === "look" ? looks(job, true) : draws(job, job.ask !== "pixel" && job.ask !== "trace"));
+  // The judgement draws the scene as some thirty GPUs would.
+  const judgements = makeLane(begun, seconds * 10000);
+  let gpu = null;
+  const opened = async () => {
+    if (!gpu || (await gpu)?.isLost) gpu = openGpu().catch(() => null);
+    return gpu;
+  };
+  const byGpu = async (job, lane, ask) => {
+    const gpu = await opened();
+    if (!gpu) return { status: 200, error: "this browser has no WebGPU" };
+    const planned = await draws({ ...job, ask: "plan" }, true);
+    if (!planned.ok) return planned;
+    try {
+      const from = performance.now();
+      const planes = await drawByWebGpu(gpu, planned.ok, planned.bytes);
+      const milliseconds = performance.now() - from;
+      const answer = await lane({ ...job, ask, by: `${gpu.name}, by WebGPU` }, lane === judgements, planes);
+      if (answer.ok) answer.ok.milliseconds = milliseconds;
+      return answer;
+    } catch (error) {
+      return { status: 200, error: error.message };
+    }
+  };
+  // A pixel is told by who drew it last.
+  let last = draws;
+  const ask = async (job) => {
+    if (job.ask === "draw" || job.ask === "judge") {
+      last = job.ask === "judge" ? judgements : draws;
+      if (job.ask === "judge") return byGpu(job, judgements, "judge-shown");
+      if (job.gpu) return byGpu(job, draws, "show");
+    }
+    const answer = await (job.ask === "look" ? looks(job, true) : job.ask === "pixel" ? last(job, false) : draws(job, job.ask !== "trace"));
     for (const file of answer.ok?.files ?? []) file.is_writable = own.has(plainName(file.name));
     return answer;
   };
+  return { ask, hasGpu: async () => (await opened()) !== null };
 };
 
 // The state of the page in its address: the scene, and the texts that differ from those that it came with.

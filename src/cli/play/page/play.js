@@ -28,7 +28,8 @@ const request = async (method, path, body) => {
   return { status: response.status, ...answer };
 };
 const changedTexts = () => Object.fromEntries([...docs].filter(([, doc]) => doc.text !== doc.saved).map(([name, doc]) => [name, doc.text]));
-const askAny = start.mode === "module" ? makeModule(start) : (job) => request("POST", "/api/ask", job);
+const computing = start.mode === "module" ? makeModule(start) : null;
+const askAny = computing?.ask ?? ((job) => request("POST", "/api/ask", job));
 const ask = (job) => askAny({ scene, texts: changedTexts(), ...job });
 
 // Runs a question so that at most one is under way and the newest always runs; `patience` is how long (ms) a running one may take
@@ -311,12 +312,18 @@ const showJudged = (judged) => {
   byId("says").hidden = false;
   byId("says").textContent = judged.says;
   byId("drawn").textContent = "";
+  byId("report").hidden = isServed || !isLive;
+  byId("report").onclick = () => {
+    const { verdict, says, by } = judged;
+    const report = { scene, verdict, says, by, browser: navigator.userAgent, glisten: start.version, texts: changedTexts() };
+    offer("verdict.json", JSON.stringify(report, null, 2));
+  };
 };
 const draw = isLive ? latest(async () => {
   const by = document.querySelector("input[name=by]:checked").value;
   const answer = await ask({ ask: "draw", gpu: by === "gpu" });
   if (answer.ok) {
-    byId("verdict").hidden = byId("says").hidden = true;
+    byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
     showDrawn(answer.ok);
   } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn: ${answer.error}`;
 }, 600) : () => {};
@@ -550,13 +557,13 @@ const save = async () => {
   showFiles();
 };
 // Without a server, the files go to the folder of downloads.
+const offer = (name, text) => {
+  const link = html("a", { href: URL.createObjectURL(new Blob([text], { type: "text/plain" })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+};
 const download = () => {
-  for (const [name, doc] of docs) {
-    if (doc.text === doc.saved || !doc.isWritable) continue;
-    const link = html("a", { href: URL.createObjectURL(new Blob([doc.text], { type: "text/plain" })), download: name.split(/[\\/]/).at(-1) });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-  }
+  for (const [name, doc] of docs) if (doc.text !== doc.saved && doc.isWritable) offer(name.split(/[\\/]/).at(-1), doc.text);
 };
 const share = async () => {
   try {
@@ -587,7 +594,7 @@ const showGallery = () => {
     if (choose(name) === false) return;
     byId("scenes").value = name;
     byId("gallery").open = false;
-  } }, html("img", { src: picture, alt: "", loading: "lazy" }), html("span", {}, base(name)))));
+  } }, html("img", { src: picture, alt: "", loading: "lazy" }), html("span", {}, base(name).replaceAll("_", " ")))));
 };
 const watch = async () => {
   let number = 0;
@@ -622,8 +629,9 @@ if (isLive) {
     else say("this folder has neither a scene nor a shader", true);
     watch();
   } else {
-    // No driver draws here.
+    // What draws here is the reference, and WebGPU where the browser has it.
     byId("judge").hidden = byId("by").hidden = true;
+    computing.hasGpu().then((has) => { byId("judge").hidden = byId("by").hidden = !has; });
     byId("share").hidden = false;
     byId("share").addEventListener("click", share);
     showGallery();

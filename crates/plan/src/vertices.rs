@@ -8,17 +8,18 @@
 use glisten_front::hir::{Scalar, ScalarValue, Type, TypeId, Types};
 use glisten_front::link::Attribute;
 use glisten_scene::{AttributeData, Draw};
+use wgpu_types as wgpu;
 
 /// One vertex buffer.
-pub(super) struct Rows {
+pub struct Rows {
     /// The bytes of all rows.
-    pub(super) bytes: Vec<u8>,
+    pub bytes: Vec<u8>,
     /// The stride of a row in bytes.
-    pub(super) stride: u64,
+    pub stride: u64,
     /// Whether there is a row per vertex or per instance.
-    pub(super) step: wgpu::VertexStepMode,
+    pub step: wgpu::VertexStepMode,
     /// The columns of a row.
-    pub(super) columns: Vec<wgpu::VertexAttribute>,
+    pub columns: Vec<wgpu::VertexAttribute>,
 }
 
 /// A column: the data for one location.
@@ -31,7 +32,7 @@ struct Column<'a> {
 }
 
 /// The buffers of a draw; empty if its program has no attributes.
-pub(super) fn rows(draw: &Draw) -> Vec<Rows> {
+pub fn rows(draw: &Draw) -> Vec<Rows> {
     let program = &draw.program;
     let columns = columns(&program.interface.attributes, &draw.attributes, &program.types);
     let (instanced, plain): (Vec<_>, Vec<_>) =
@@ -51,7 +52,7 @@ pub(super) fn rows(draw: &Draw) -> Vec<Rows> {
 }
 
 /// The buffers of points that are drawn as instances: a row per point, in the order of the draw.
-pub(super) fn rows_of_points(draw: &Draw) -> Vec<Rows> {
+pub fn rows_of_points(draw: &Draw) -> Vec<Rows> {
     let program = &draw.program;
     let columns = columns(&program.interface.attributes, &draw.attributes, &program.types);
     if columns.is_empty() {

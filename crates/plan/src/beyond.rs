@@ -2,7 +2,7 @@
 //!
 //! *In:* a draw. *Out:* an error that names the feature. *Holds:* a driver never gets a program that makes it run out of memory.
 
-use super::Error;
+use crate::Error;
 use glisten_front::link::Program;
 use glisten_scene::Draw;
 
@@ -10,7 +10,7 @@ use glisten_scene::Draw;
 const LONGEST: u64 = 1 << 20;
 
 /// Refuses what the adapter lacks.
-pub(super) fn refuse(draw: &Draw) -> Result<(), Error> {
+pub fn refuse(draw: &Draw) -> Result<(), Error> {
     refuse_length(&draw.program)?;
     let biased = draw.textures.iter().flatten().any(|texture| texture.sampling.lod_bias != 0.0);
     if biased {

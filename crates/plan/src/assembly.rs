@@ -12,12 +12,7 @@ use glisten_scene::Primitive;
 ///
 /// The order does not depend on whether the program has a flat varying: a program that loses its last one draws the same
 /// bits. Incomplete primitives at the end are dropped, as in OpenGL.
-pub(super) fn list(
-    primitive: Primitive,
-    count: u32,
-    indices: Option<&[u32]>,
-    provoking_last: bool,
-) -> Option<Vec<u32>> {
+pub fn list(primitive: Primitive, count: u32, indices: Option<&[u32]>, provoking_last: bool) -> Option<Vec<u32>> {
     let as_is = match primitive {
         Primitive::Points => true,
         Primitive::Lines | Primitive::Triangles => !provoking_last,

@@ -2,9 +2,10 @@
 
 use glisten_front::hir::Scalar;
 use glisten_scene::Texels;
+use wgpu_types as wgpu;
 
 /// The format of the texels of a sampler.
-pub(super) fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
+pub fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
     match texel {
         Scalar::Int => wgpu::TextureFormat::Rgba32Sint,
         Scalar::Uint => wgpu::TextureFormat::Rgba32Uint,
@@ -13,7 +14,7 @@ pub(super) fn texel_format(texel: Scalar) -> wgpu::TextureFormat {
 }
 
 /// The texels as RGBA with 4 bytes per channel, converted if the data's type differs from the sampler's.
-pub(super) fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
+pub fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
     let bytes = |values: &mut dyn Iterator<Item = f64>| -> Vec<u8> {
         values
             .flat_map(|value| match texel {

@@ -10,16 +10,16 @@ use glisten_scene::values::{LeafShape, bits};
 
 /// The bytes of one uniform buffer.
 #[derive(Debug, PartialEq)]
-pub(super) struct UniformBytes {
+pub struct UniformBytes {
     /// The binding.
-    pub(super) slot: SlotBinding,
+    pub slot: SlotBinding,
     /// The bytes, a multiple of 16 and at least 16.
-    pub(super) bytes: Vec<u8>,
+    pub bytes: Vec<u8>,
 }
 
 /// All uniform buffers of a program, by binding. `framebuffer_height` is in pixels; `texels` are the numbers of
 /// texels of the textures in the interface's sampler slots, in order.
-pub(super) fn pack(
+pub fn pack(
     program: &Program,
     values: &[Vec<ScalarValue>],
     framebuffer_height: u32,

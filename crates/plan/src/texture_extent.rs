@@ -3,9 +3,10 @@
 use glisten_emit::BUFFER_WIDTH;
 use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::TextureLevel;
+use wgpu_types as wgpu;
 
 /// The size of a level on the device.
-pub(super) fn extent(kind: SamplerType, level: Option<&TextureLevel>) -> wgpu::Extent3d {
+pub fn extent(kind: SamplerType, level: Option<&TextureLevel>) -> wgpu::Extent3d {
     let (width, height, depth) = level.map_or((1, 1, 1), |level| (level.width, level.height, level.depth));
     if kind.dim == SamplerDim::Buffer {
         let texels = width.saturating_mul(height).max(1);

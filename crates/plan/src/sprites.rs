@@ -9,12 +9,13 @@ use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::Stage;
 use glisten_front::link::{Program, SlotBinding};
 use glisten_scene::{Draw, Framebuffer, Primitive};
+use wgpu_types as wgpu;
 
 /// The number of vertices of an instance.
-pub(super) const CORNERS: u32 = 4;
+pub const CORNERS: u32 = 4;
 
 /// Whether the points of a draw are drawn as quads.
-pub(super) fn applies(draw: &Draw, target: Target) -> bool {
+pub fn applies(draw: &Draw, target: Target) -> bool {
     let divided = draw.attributes.iter().flatten().any(|data| data.divisor > 0);
     target == Target::Wgsl
         && draw.state.primitive == Primitive::Points
@@ -31,22 +32,22 @@ fn uses(program: &Program, stage: Stage, builtin: BuiltinVariable) -> bool {
 }
 
 /// The number of points.
-pub(super) fn count(draw: &Draw) -> u32 {
+pub fn count(draw: &Draw) -> u32 {
     draw.indices.as_ref().map_or(draw.vertex_count, |indices| indices.len() as u32)
 }
 
 /// The binding of the buffer with the viewport's size.
-pub(super) fn slot(program: &Program) -> SlotBinding {
+pub fn slot(program: &Program) -> SlotBinding {
     viewport_slot(&program.interface)
 }
 
 /// The bytes of that buffer.
-pub(super) fn viewport(framebuffer: &Framebuffer) -> Vec<u8> {
+pub fn viewport(framebuffer: &Framebuffer) -> Vec<u8> {
     let size = [framebuffer.width as f32, framebuffer.height as f32, 0.0, 0.0];
     size.into_iter().flat_map(f32::to_ne_bytes).collect()
 }
 
 /// The primitive state: points are never culled.
-pub(super) fn primitive_state() -> wgpu::PrimitiveState {
+pub fn primitive_state() -> wgpu::PrimitiveState {
     wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..wgpu::PrimitiveState::default() }
 }

@@ -1,9 +1,10 @@
 //! Tables from OpenGL's fixed-function state to wgpu's.
 
 use glisten_scene::{BlendFactor, Compare, Cull, Filter, Format, Primitive, State, Wrap};
+use wgpu_types as wgpu;
 
 /// The texture format of a color attachment.
-pub(super) fn color_format(format: Format) -> wgpu::TextureFormat {
+pub fn color_format(format: Format) -> wgpu::TextureFormat {
     match format {
         Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
@@ -14,7 +15,7 @@ pub(super) fn color_format(format: Format) -> wgpu::TextureFormat {
 }
 
 /// The number of bytes of a pixel.
-pub(super) fn pixel_size(format: Format) -> u32 {
+pub fn pixel_size(format: Format) -> u32 {
     match format {
         Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint => 16,
         Format::Rgba16Float => 8,
@@ -23,7 +24,7 @@ pub(super) fn pixel_size(format: Format) -> u32 {
 }
 
 /// The list topology that strips, fans and loops are expanded to.
-pub(super) fn topology(primitive: Primitive) -> wgpu::PrimitiveTopology {
+pub fn topology(primitive: Primitive) -> wgpu::PrimitiveTopology {
     match primitive {
         Primitive::Points => wgpu::PrimitiveTopology::PointList,
         Primitive::Lines
@@ -40,7 +41,7 @@ pub(super) fn topology(primitive: Primitive) -> wgpu::PrimitiveTopology {
 }
 
 /// Culling and front faces. The picture is upright, so counterclockwise stays counterclockwise.
-pub(super) fn primitive_state(state: &State) -> wgpu::PrimitiveState {
+pub fn primitive_state(state: &State) -> wgpu::PrimitiveState {
     wgpu::PrimitiveState {
         topology: topology(state.primitive),
         front_face: if state.front_ccw { wgpu::FrontFace::Ccw } else { wgpu::FrontFace::Cw },
@@ -54,7 +55,7 @@ pub(super) fn primitive_state(state: &State) -> wgpu::PrimitiveState {
 }
 
 /// The comparison function.
-pub(super) fn compare(function: Compare) -> wgpu::CompareFunction {
+pub fn compare(function: Compare) -> wgpu::CompareFunction {
     match function {
         Compare::Never => wgpu::CompareFunction::Never,
         Compare::Less => wgpu::CompareFunction::Less,
@@ -68,7 +69,7 @@ pub(super) fn compare(function: Compare) -> wgpu::CompareFunction {
 }
 
 /// The depth test, and a stencil that becomes 1 wherever a fragment is written, which is the coverage.
-pub(super) fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
+pub fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
     let mark = wgpu::StencilFaceState {
         compare: wgpu::CompareFunction::Always,
         fail_op: wgpu::StencilOperation::Keep,
@@ -86,7 +87,7 @@ pub(super) fn depth_stencil(state: &State) -> wgpu::DepthStencilState {
 }
 
 /// Blend factors, the same for color and alpha.
-pub(super) fn blend(factors: (BlendFactor, BlendFactor)) -> wgpu::BlendState {
+pub fn blend(factors: (BlendFactor, BlendFactor)) -> wgpu::BlendState {
     let component = wgpu::BlendComponent {
         src_factor: factor(factors.0),
         dst_factor: factor(factors.1),
@@ -112,7 +113,7 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
 }
 
 /// The address mode of a wrap mode.
-pub(super) fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
+pub fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
     match wrap {
         Wrap::Repeat => wgpu::AddressMode::Repeat,
         Wrap::ClampToEdge => wgpu::AddressMode::ClampToEdge,
@@ -121,6 +122,6 @@ pub(super) fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
 }
 
 /// The filter within a level.
-pub(super) fn filter_mode(filter: Filter) -> wgpu::FilterMode {
+pub fn filter_mode(filter: Filter) -> wgpu::FilterMode {
     if filter.is_linear() { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest }
 }

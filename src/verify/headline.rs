@@ -6,16 +6,16 @@ use crate::verify::{Conclusion, UndefinedAt, Verification};
 use glisten_scene::compare::{Contributed, Verdict};
 
 /// The next step, and the reason.
-pub(in crate::cli) struct Headline {
+pub(crate) struct Headline {
     /// The sentence.
-    pub(in crate::cli) text: String,
+    pub(crate) text: String,
     /// The file, line and column that it is about.
-    pub(in crate::cli) place: Option<(String, u32, u32)>,
+    pub(crate) place: Option<(String, u32, u32)>,
 }
 
 impl Headline {
     /// The sentence for the worst verdict of a verification; `None` if it holds.
-    pub(in crate::cli) fn of(verification: &Verification, worst: &Verdict) -> Option<Self> {
+    pub(crate) fn of(verification: &Verification, worst: &Verdict) -> Option<Self> {
         match verification.conclusion() {
             Conclusion::Holds => None,
             Conclusion::Inconclusive => Some(inconclusive(verification, worst)),
@@ -130,7 +130,7 @@ fn fails(verdict: &Verdict) -> Headline {
 }
 
 /// Whether there is nothing that figures could be about.
-pub(super) fn is_empty(verdict: &Verdict) -> bool {
+pub(crate) fn is_empty(verdict: &Verdict) -> bool {
     verdict.covered == 0 && verdict.undecided == 0 && verdict.edge_pixels == 0 && !verdict.needs_excuse()
 }
 

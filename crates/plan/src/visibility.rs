@@ -7,15 +7,16 @@
 use glisten_emit::{Conventions, reflect};
 use glisten_front::link::{Program, SlotBinding};
 use std::collections::BTreeMap;
+use wgpu_types as wgpu;
 
 /// The stages that see the bindings of a program.
-pub(super) struct Visibility {
+pub struct Visibility {
     stages: BTreeMap<(u32, u32), wgpu::ShaderStages>,
 }
 
 impl Visibility {
     /// The visibility in emitted code.
-    pub(super) fn of(program: &Program, conventions: &Conventions) -> Self {
+    pub fn of(program: &Program, conventions: &Conventions) -> Self {
         let reflection = reflect(program, conventions);
         let mut stages = BTreeMap::new();
         if let Some(loose) = &reflection.loose_block {
@@ -35,12 +36,12 @@ impl Visibility {
     }
 
     /// The visibility in code that is not glisten's: both stages may see everything.
-    pub(super) fn of_any_code() -> Self {
+    pub fn of_any_code() -> Self {
         Self { stages: BTreeMap::new() }
     }
 
     /// The stages that see a binding. Those that the reflection does not list, all stages see.
-    pub(super) fn stages(&self, slot: SlotBinding) -> wgpu::ShaderStages {
+    pub fn stages(&self, slot: SlotBinding) -> wgpu::ShaderStages {
         let all = wgpu::ShaderStages::VERTEX_FRAGMENT;
         self.stages.get(&(slot.group, slot.binding)).copied().unwrap_or(all)
     }
@@ -58,6 +59,7 @@ fn flags(names: &[String]) -> wgpu::ShaderStages {
 #[cfg(test)]
 mod tests {
     use super::Visibility;
+    use super::wgpu;
     use glisten_emit::Conventions;
     use glisten_front::hir::Stage;
     use glisten_front::{Compiler, Source};

@@ -1,0 +1,113 @@
+//! What a browser draws of a scene by WebGPU, and the verdict on what it drew.
+//!
+//! *In:* a scene that was read; the bytes that the browser read back. *Out:* a [`Plan`]; a picture; a verdict. *Holds:* the picture is judged
+//! by what WGSL and WebGPU let any GPU do, since nobody knows which one drew.
+
+use super::answers::drawable;
+use super::look::told;
+use super::verdict::judged;
+use super::{Pictures, drawn};
+use crate::scene::{Loaded, Scene};
+use crate::verify::{self, Drawn, Failure, Options, Runner};
+use glisten_front::source::SourceMap;
+use glisten_plan::Plan;
+use glisten_plan::pixels::picture;
+use glisten_reference::domain::Profile;
+
+use glisten_scene::picture::Picture;
+use serde_json::Value;
+
+/// A picture that was drawn elsewhere.
+struct Given(Picture);
+
+impl Runner for Given {
+    fn name(&self) -> &'static str {
+        "webgpu"
+    }
+
+    fn draw(&self, _: &Scene) -> Result<Drawn, Failure> {
+        Ok(Drawn { picture: self.0.clone(), milliseconds: 0.0 })
+    }
+}
+
+/// The calls of WebGPU that draw a scene.
+///
+/// # Errors
+/// The scene has errors, or WebGPU lacks something that it needs.
+pub fn plan(loaded: Loaded) -> Result<Plan, String> {
+    let (scene, _) = drawable(loaded)?;
+    let scene = glisten_reference::expand(&scene).map_err(|errors| told(&errors))?;
+    Plan::of(&scene).map_err(|error| error.to_string())
+}
+
+/// What the browser drew: the planes of its attachments and of the stencil.
+///
+/// # Errors
+/// The scene has errors.
+pub fn show(loaded: Loaded, planes: Vec<Vec<u8>>, by: &str, pictures: &mut Pictures) -> Result<Value, String> {
+    let (scene, _) = drawable(loaded)?;
+    let picture = picture(&scene.framebuffer, planes);
+    let shown = drawn(&picture, &scene, by);
+    pictures.take_driver(picture);
+    Ok(shown)
+}
+
+/// The verdict on what the browser drew.
+///
+/// # Errors
+/// The scene has errors, or the reference cannot draw it.
+pub fn judge(loaded: Loaded, planes: Vec<Vec<u8>>, by: &str, pictures: &mut Pictures) -> Result<Value, String> {
+    let (scene, sources) = drawable(loaded)?;
+    let answer = verified(&scene, &sources, picture(&scene.framebuffer, planes))?;
+    let told = judged(&answer, &scene, by);
+    let driver = answer.runs.first().map(|run| run.picture.clone());
+    pictures.take_judged(answer.reference, driver, answer.shares);
+    Ok(told)
+}
+
+fn verified(scene: &Scene, sources: &SourceMap, picture: Picture) -> Result<verify::Verification, String> {
+    let options = Options { profile: Profile::WGSL, sources: Some(sources), ..Options::default() };
+    verify::verify(scene, &[&Given(picture)], &options).map_err(|failure| failure.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{judge, plan, show};
+    use crate::play::Pictures;
+    use crate::scene::{self, Loaded, MemoryFiles};
+    use crate::{Compiler, Options};
+
+    const SCENE: &str = "[framebuffer]\nwidth = 4\nheight = 2\nformat = \"rgba8unorm\"\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+        vertex_count = 3\n[draw.uniforms]\ntint = [0.2, 0.4, 1.0]\n";
+    const VERTEX: &str = "#version 150\nvoid main() {\n    vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0;\n\
+        gl_Position = vec4(at, 0.0, 1.0);\n}\n";
+    const FRAGMENT: &str =
+        "#version 150\nuniform vec3 tint;\nout vec4 color;\nvoid main() { color = vec4(tint, 1.0); }\n";
+
+    fn loaded() -> Loaded {
+        let files = MemoryFiles::new([("s.toml", SCENE), ("a.vert", VERTEX), ("a.frag", FRAGMENT)]);
+        scene::load("s.toml", &files, &Compiler::new(Options::default()))
+    }
+
+    /// What a GPU would read back.
+    fn planes(pixel: [u8; 4]) -> Vec<Vec<u8>> {
+        vec![pixel.repeat(8), vec![1; 8]]
+    }
+
+    #[test]
+    fn a_right_picture_holds_and_a_wrong_one_fails() {
+        let calls = plan(loaded()).expect("a plan").calls;
+        assert!(calls["draws"][0]["fragment"].as_str().is_some_and(|text| text.contains("@fragment")), "{calls}");
+        let mut pictures = Pictures::default();
+        let shown = show(loaded(), planes([51, 102, 255, 255]), "a GPU", &mut pictures).expect("a picture");
+        assert_eq!((&shown["by"], &shown["is_empty"]), (&"a GPU".into(), &false.into()));
+        let verdict = judge(loaded(), planes([51, 102, 255, 255]), "a GPU", &mut pictures).expect("a verdict");
+        assert_eq!(verdict["verdict"], "holds", "{}", verdict["says"]);
+        assert_eq!(pictures.pixel(0, 0)["driver"]["values"][0], "0.2000000");
+        let verdict = judge(loaded(), planes([51, 104, 255, 255]), "a GPU", &mut pictures).expect("a verdict");
+        assert_eq!(verdict["verdict"], "fails", "{}", verdict["says"]);
+        // What was cut off is not covered.
+        let verdict = judge(loaded(), Vec::new(), "a GPU", &mut pictures).expect("a verdict");
+        assert_eq!(verdict["verdict"], "fails", "{}", verdict["says"]);
+    }
+}
