@@ -256,7 +256,9 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
         Ended::Well(_) => Answer::Good,
         Ended::Badly(text) => {
             let line = text.lines().find(|line| !line.contains("inconclusive")).unwrap_or_default();
-            Answer::Bad(line.to_owned())
+            // A program that only its engine completes has no scene.
+            let is_scene = line.starts_with("scene: ");
+            if is_scene { Answer::Without(line.to_owned()) } else { Answer::Bad(line.to_owned()) }
         }
         Ended::Late => Answer::Without("drawing takes too long".to_owned()),
         Ended::Missing => Answer::Open,

@@ -20,6 +20,8 @@ pub(crate) struct Row {
     tint: Share,
     spirv: Share,
     picture: Share,
+    /// Pictures of which nobody could decide more: nothing is covered, or the language leaves them undefined.
+    undefined: usize,
     open: usize,
     slowest: Duration,
     /// Disagreements: the class, the file and what is said.
@@ -52,8 +54,8 @@ impl Share {
 
 /// The head of the table.
 pub(crate) const HEAD: &str = "| repository | commit | texts | programs | accepted | glslang or Mesa accepts | of these | not read | WGSL by naga \
-    | by Tint | SPIR-V by spirv-val | same picture | inconclusive | slowest |\n\
-    | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
+    | by Tint | SPIR-V by spirv-val | same picture | empty or undefined | inconclusive | slowest |\n\
+    | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
 
 /// The codes for features, and for extensions, that glisten does not read.
 const UNREAD: [&str; 2] = ["E0001", "E0125"];
@@ -76,7 +78,9 @@ impl Row {
         let files: Vec<&str> = checked.files.iter().map(|(name, _)| name.as_str()).collect();
         let files = files.join(", ");
         if let Answer::Without(why) = &checked.picture {
-            self.open += usize::from(why.contains("inconclusive") || why.contains("too long"));
+            let is_undefined = why.contains("nothing is covered") || why.contains("undefined by the language");
+            self.undefined += usize::from(is_undefined);
+            self.open += usize::from(!is_undefined && (why.contains("inconclusive") || why.contains("too long")));
             self.found.push(("not drawn", files.clone(), why.clone()));
         }
         if accepted && !elsewhere {
@@ -124,6 +128,7 @@ impl Row {
         self.tint.plus(other.tint);
         self.spirv.plus(other.spirv);
         self.picture.plus(other.picture);
+        self.undefined += other.undefined;
         self.open += other.open;
         self.slowest = self.slowest.max(other.slowest);
     }
@@ -135,12 +140,12 @@ impl Row {
             all => format!("{:.1} %", 100.0 * share.good as f64 / all as f64),
         };
         let of_these = percent(Share { good: self.both, all: self.elsewhere });
-        let Self { texts, programs, accepted, elsewhere, unread, open, .. } = self;
+        let Self { texts, programs, accepted, elsewhere, unread, undefined, open, .. } = self;
         let [naga, tint, spirv, picture] = [self.naga, self.tint, self.spirv, self.picture].map(Share::shown);
         let slowest = format!("{:.2} s", self.slowest.as_secs_f64());
         format!(
             "| {name} | {commit} | {texts} | {programs} | {accepted} | {elsewhere} | {of_these} | {unread} | {naga} | {tint} | {spirv} \
-             | {picture} | {open} | {slowest} |"
+             | {picture} | {undefined} | {open} | {slowest} |"
         )
     }
 

@@ -3,7 +3,7 @@
 //! *In:* files. *Out:* lines on standard output; 0 if all is well, 1 if not, 3 if the machine lacks a driver.
 
 use glisten::scene::{DiskFiles, load};
-use glisten::verify::{Conclusion, OnGpu, OnOpenGl, Options, Runner, verify};
+use glisten::verify::{Conclusion, OnGpu, OnOpenGl, Options, Runner, Verification, verify};
 use glisten::{Compiler, Gl, Gpu, Stage};
 use glisten_gpu::Via;
 use std::process::ExitCode;
@@ -25,6 +25,22 @@ pub(crate) fn accept(files: &[String]) -> ExitCode {
             ExitCode::from(if error.is_environment() { 3 } else { 1 })
         }
     }
+}
+
+/// Why a picture is inconclusive. Of what is empty, or undefined by the language, nobody could say more.
+fn reason(verification: &Verification) -> String {
+    let verdict = verification.runs.first().map(|run| &run.verdict);
+    let [covered, undefined] = verdict.map_or([0; 2], |verdict| [verdict.covered, verdict.evidence.undefined]);
+    if covered == 0 {
+        return "nothing is covered".to_owned();
+    }
+    if let Some(first) = verification.undefined.first().filter(|_| 20 * undefined > covered) {
+        return format!("undefined by the language: {}, line {}", first.what, first.line);
+    }
+    let Some(weakness) = &verification.weakness else { return "the envelope is wide".to_owned() };
+    let from = weakness.contributions.first();
+    let from = from.map(|one| format!(", by `{}` in line {}", one.operation, one.line));
+    format!("{} of {covered} pixels are {}{}", weakness.pixels, weakness.class, from.unwrap_or_default())
 }
 
 /// Whether the pictures of a scene by Vulkan and by OpenGL agree with the reference.
@@ -49,8 +65,7 @@ pub(crate) fn draw(scene: &str) -> ExitCode {
                 let conclusion = verification.conclusion();
                 worst = worst.max(conclusion);
                 if conclusion == Conclusion::Inconclusive {
-                    let covered = verification.runs.first().map_or(0, |run| run.verdict.covered);
-                    println!("{}: inconclusive, {covered} pixels are covered", runner.name());
+                    println!("{}: inconclusive: {}", runner.name(), reason(&verification));
                 } else if conclusion == Conclusion::Fails {
                     println!("{}", verification.to_string().lines().next().unwrap_or_default());
                 }

@@ -21,7 +21,8 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     ("crates/scene", &["glisten-front"], &["naga", "wgpu", "clap"]),
     ("crates/reference", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
     ("crates/specialize", &["glisten-front"], &["naga", "wgpu", "clap", "png", "toml", "rayon", "tempfile"]),
-    ("crates/gpu", &["glisten-front", "glisten-emit", "glisten-scene"], &["clap"]),
+    ("crates/plan", &["glisten-front", "glisten-emit", "glisten-scene"], &["wgpu", "clap", "png", "toml", "rayon"]),
+    ("crates/gpu", &["glisten-front", "glisten-emit", "glisten-scene", "glisten-plan"], &["clap"]),
     ("crates/gl", &["glisten-front", "glisten-scene"], &["naga", "wgpu", "clap"]),
     (
         "crates/fuzz",

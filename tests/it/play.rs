@@ -454,10 +454,17 @@ fn the_page_computes_by_itself_in_a_browser() {
     let errors = String::from_utf8_lossy(&ran.stderr);
     let seen: Value = serde_json::from_slice(&ran.stdout).unwrap_or_else(|error| panic!("{error}: {errors}"));
     assert_eq!((&seen["errors"], &seen["asked"]), (&json!([]), &json!([])), "{seen:#}");
-    assert_eq!((&seen["cards"], &seen["judge"]), (&json!(2), &json!(false)), "{seen:#}");
+    assert_eq!(seen["cards"], json!(2), "{seen:#}");
     assert_eq!(seen["files"].as_array().map(Vec::len), Some(3), "{seen:#}");
     for key in ["reflection", "fixed", "slider", "turned", "alive"] {
         assert_eq!(seen[key], json!(true), "{key}: {seen:#}");
+    }
+    if seen["byGpu"].is_null() {
+        let message = "\nWebGPU is not tried: this browser has no adapter for it";
+        writeln!(std::io::stderr(), "{message}").expect("standard error can be written to");
+    } else {
+        assert!(seen["byGpu"].as_str().is_some_and(|text| text.contains("by WebGPU")), "{seen:#}");
+        assert_eq!((&seen["verdict"][0], &seen["faulty"][0]), (&json!("holds"), &json!("fails")), "{seen:#}");
     }
     assert_eq!(seen["linked"], json!({ "same": true, "text": true, "scene": "shaders/a.toml" }), "{seen:#}");
     assert!(seen["inspected"].as_str().is_some_and(|text| text.contains("fragment")), "{seen:#}");

@@ -4,7 +4,8 @@
 
 const [exported, executablePath, module, shots] = process.argv.slice(2);
 const { chromium } = await import(module);
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+// SwiftShader draws by WebGPU without a GPU.
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"] });
 const seen = { errors: [], asked: [] };
 const limit = { timeout: 240000 };
 const opened = async (address, viewport = { width: 1300, height: 900 }) => {
@@ -28,7 +29,6 @@ try {
   seen.files = await page.locator("#files button").allTextContents();
   await page.waitForFunction(() => document.querySelector("#translation .cm-content")?.textContent.includes("@fragment"), null, limit);
   seen.reflection = (await page.textContent("#reflection")).includes("shade");
-  seen.judge = await page.locator("#judge").isVisible();
   seen.drawn = await page.textContent("#drawn");
   seen.milliseconds = number(seen.drawn);
 
@@ -65,6 +65,30 @@ try {
   await page.waitForSelector("#stepper:not([hidden])", limit);
   seen.inspected = await page.textContent("#inspected");
   if (shots) await page.screenshot({ path: `${shots}/page.png` });
+
+  // The browser draws by WebGPU, and its picture is judged; a fault in its code is found.
+  await page.waitForFunction(async () => (await navigator.gpu?.requestAdapter()) === null || !document.querySelector("#judge").hidden, null, limit);
+  if (await page.locator("#judge").isVisible()) {
+    const verdict = async () => {
+      await page.click("#judge");
+      await page.waitForFunction(() => !document.querySelector("#judge").disabled, null, limit);
+      return [await page.textContent("#verdict"), await page.textContent("#says"), await page.textContent("#drawn")];
+    };
+    await page.locator("#by label", { hasText: "GPU" }).click();
+    await page.waitForFunction(() => /by WebGPU|Not drawn/.test(document.querySelector("#drawn").textContent), null, limit);
+    seen.byGpu = await page.textContent("#drawn");
+    seen.verdict = await verdict();
+    if (shots) await page.screenshot({ path: `${shots}/judged.png` });
+    await page.evaluate(() => {
+      const create = GPUDevice.prototype.createShaderModule;
+      window.heal = () => { GPUDevice.prototype.createShaderModule = create; };
+      GPUDevice.prototype.createShaderModule = function (given) { return create.call(this, { ...given, code: given.code.replace(/0\.5f?/, "0.52") }); };
+    });
+    seen.faulty = await verdict();
+    await page.evaluate(() => window.heal());
+    await page.locator("#by label", { hasText: "reference" }).click();
+    await page.waitForFunction(() => /by the reference/.test(document.querySelector("#drawn").textContent), null, limit);
+  }
 
   // A link holds scene and texts.
   before = await picture(page);

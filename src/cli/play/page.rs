@@ -13,7 +13,13 @@ use serde_json::{Value, json};
 const PLAY: Page = Page {
     templates: &[("play.html", include_str!("page/play.html"))],
     styles: &[include_str!("page/play.css")],
-    scripts: &[include_str!("page/editor.js"), "\n", include_str!("page/webgpu.js"), include_str!("page/asking.js"), include_str!("page/play.js")],
+    scripts: &[
+        include_str!("page/editor.js"),
+        "\n",
+        include_str!("page/webgpu.js"),
+        include_str!("page/asking.js"),
+        include_str!("page/play.js"),
+    ],
 };
 
 /// The page with what its script starts with: `mode` and what belongs to it.

@@ -82,6 +82,11 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn planes() -> Planes {
         Planes::Weights
     }
+    /// The steps of window positions between which varyings are interpolated; none if they are the domain's numbers.
+    #[inline(always)]
+    fn positions() -> Option<FixedPoint> {
+        None
+    }
     /// The steps of the weights of linear filtering; none if they are the domain's numbers.
     #[inline(always)]
     fn weights() -> Option<FixedPoint> {

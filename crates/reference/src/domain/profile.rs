@@ -27,6 +27,9 @@ pub struct Profile {
     pub float_weights: bool,
     /// Whether a level of detail is one for each quad, by a logarithm that is a straight line between powers of two.
     pub straight_levels: bool,
+    /// Whether varyings are interpolated between the positions of f32, and not between those of `subpixel_bits` (Vulkan 1.0
+    /// §24.1 has coordinates of that precision, and SwiftShader interpolates between them).
+    pub exact_positions: bool,
     /// Whether derivatives are differences in the quad, and determinants sums of products. WGSL states no accuracy.
     pub limits_differences: bool,
 }
@@ -42,6 +45,7 @@ impl Profile {
         fine_derivatives: false,
         float_weights: false,
         straight_levels: false,
+        exact_positions: false,
         limits_differences: true,
     };
 
@@ -60,6 +64,7 @@ impl Profile {
         fine_derivatives: true,
         float_weights: true,
         straight_levels: true,
+        exact_positions: true,
         limits_differences: true,
     };
 
@@ -81,6 +86,11 @@ impl Profile {
     /// The largest error of a level of detail, and of the weight between levels.
     pub fn level_weight(&self) -> f64 {
         step(self.mipmap_bits)
+    }
+
+    /// By how much the window position of a vertex may be off where varyings are interpolated, in each direction, in pixels.
+    pub fn displacement(&self) -> f64 {
+        if self.exact_positions { 0.0 } else { step(self.subpixel_bits) }
     }
 
     /// Half the width of the band around an edge in which coverage may differ, in pixels: snapping moves both ends of
@@ -125,5 +135,6 @@ mod tests {
         assert_eq!(Profile::LLVMPIPE.filter_weight(), 1.0 / 256.0);
         assert_eq!(Profile::VULKAN.level_weight(), 1.0 / 16.0);
         assert_eq!(Profile::LLVMPIPE.edge_band(), 1.0 / 128.0);
+        assert_eq!([Profile::LLVMPIPE, Profile::WGSL].map(|profile| profile.displacement()), [0.0, 1.0 / 16.0]);
     }
 }

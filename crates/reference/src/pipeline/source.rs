@@ -154,6 +154,11 @@ impl<'v, D: Domain> Source<'v, D> {
         };
         let window = corners.map(|vertex| vertices.window.get(vertex as usize).copied().unwrap_or_default());
         let places = window.map(|[x, y, _, _]| [x, y]);
+        let places = match D::positions() {
+            Some(steps) => places.map(|place| place.map(|at| D::Float::from_f64(steps.nearest(at.value())))),
+            None => places,
+        };
+        let displaced = vertices.profile.displacement();
         let kind = Kind::<D>::of(&prim.corners, places);
         let is_point = matches!(kind, Kind::Point);
         let size = vertices.size.get(corners[0] as usize).copied().unwrap_or(1.0).max(1.0);
@@ -162,7 +167,10 @@ impl<'v, D: Domain> Source<'v, D> {
             kind,
             plain: D::HAS_INTERVALS.then(|| Plain {
                 kind: Kind::of(&prim.corners, places.map(|place| place.map(Number::value))),
-                slack: Slack::new(&prim.corners, places.map(|p| p.map(|c: D::Float| (c.value(), c.error())))),
+                slack: Slack::new(
+                    &prim.corners,
+                    places.map(|p| p.map(|c: D::Float| (c.value(), c.error() + displaced))),
+                ),
             }),
             quotients: corners.map(|vertex| vertices.quotients_of(vertex)),
             values: corners.map(|vertex| vertices.floats_of(vertex)),

@@ -39,6 +39,8 @@ pub struct Gpu {
     /// The row and the column of the quad whose derivatives are those of all four fragments, if they are coarse.
     pub(super) corner: Option<Corner>,
     pub(super) planes: Planes,
+    /// The steps of window positions between which varyings are interpolated; none if they are floats.
+    pub(super) positions: Option<FixedPoint>,
     /// The steps of filter weights; none if they are floats.
     pub(super) weights: Option<FixedPoint>,
     /// The level of detail of textures.
@@ -79,6 +81,7 @@ enum Choice {
     Functions,
     WeightsDown = 1 << 16,
     LevelsDown,
+    Positions,
 }
 
 /// A function with an error of its own.
@@ -168,6 +171,7 @@ impl Gpu {
         passes_nan: false,
         corner: None,
         planes: Planes::Weights,
+        positions: None,
         weights: None,
         levels: Levels::EXACT,
         typical: true,
@@ -240,7 +244,17 @@ impl Gpu {
         if !self.typical {
             return self;
         }
+        let bits = u32::from(profile.subpixel_bits);
+        let positions = match self.pick(Choice::Positions, 4) {
+            // The first GPUs are drawn by no chance.
+            _ if self.is_strict() => None,
+            0 => None,
+            1 => Some(FixedPoint { bits: bits.max(8), down: false }),
+            2 => Some(FixedPoint { bits, down: false }),
+            _ => Some(FixedPoint { bits, down: true }),
+        };
         Self {
+            positions: positions.filter(|_| !profile.exact_positions),
             corner: self.corner.filter(|_| !profile.fine_derivatives),
             weights: self.weights.filter(|_| !profile.float_weights),
             levels: if profile.straight_levels { Levels::LLVMPIPE } else { self.levels },

@@ -234,6 +234,9 @@ impl super::Domain for Simulated {
     fn planes() -> Planes {
         Current::current().planes
     }
+    fn positions() -> Option<FixedPoint> {
+        Current::current().positions
+    }
     fn weights() -> Option<FixedPoint> {
         Current::current().weights
     }
