@@ -124,7 +124,7 @@ fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {
     entry.file_type().is_some_and(|kind| kind.is_dir()) && entry.file_name().to_string_lossy().starts_with('.')
 }
 
-/// What configurations exclude.
+/// The patterns that configurations exclude.
 #[derive(Default)]
 struct Excludes {
     nearest: Nearest,

@@ -19,7 +19,7 @@ pub(super) enum Place {
     Kind(String),
     /// The rules of `glisten.toml` for a folder.
     Rules(String),
-    /// What `glisten.toml` has `lint` obey for a file.
+    /// The settings of `lint` for a file, by `glisten.toml`.
     Settings(String),
 }
 
@@ -34,7 +34,7 @@ pub(super) enum Found {
     File,
     /// The bytes of a file, or of several.
     Bytes(Digest),
-    /// What `glisten.toml` says. It is looked up once for all programs.
+    /// The content of `glisten.toml`. It is looked up once for all programs.
     Said,
 }
 

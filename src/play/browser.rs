@@ -1,12 +1,13 @@
-//! What a browser draws of a scene by WebGPU, and the verdict on what it drew.
+//! Scenes that a browser draws by WebGPU, and the verdict on what it drew.
 //!
 //! *In:* a scene that was read; the bytes that the browser read back. *Out:* a [`Plan`]; a picture; a verdict. *Holds:* the picture is judged
-//! by what WGSL and WebGPU let any GPU do, since nobody knows which one drew.
+//! by what WGSL and WebGPU let any GPU do, since nobody knows which one drew, but for the precision of window positions, which a page can
+//! measure.
 
 use super::answers::drawable;
 use super::look::told;
 use super::verdict::judged;
-use super::{Pictures, drawn};
+use super::{Pictures, Positions, drawn};
 use crate::scene::{Loaded, Scene};
 use crate::verify::{self, Drawn, Failure, Options, Runner};
 use glisten_front::source::SourceMap;
@@ -40,7 +41,7 @@ pub fn plan(loaded: Loaded) -> Result<Plan, String> {
     Plan::of(&scene).map_err(|error| error.to_string())
 }
 
-/// What the browser drew: the planes of its attachments and of the stencil.
+/// The picture that the browser drew, from the planes of its attachments and of the stencil.
 ///
 /// # Errors
 /// The scene has errors.
@@ -56,24 +57,39 @@ pub fn show(loaded: Loaded, planes: Vec<Vec<u8>>, by: &str, pictures: &mut Pictu
 ///
 /// # Errors
 /// The scene has errors, or the reference cannot draw it.
-pub fn judge(loaded: Loaded, planes: Vec<Vec<u8>>, by: &str, pictures: &mut Pictures) -> Result<Value, String> {
+pub fn compare(
+    loaded: Loaded,
+    planes: Vec<Vec<u8>>,
+    (by, positions): (&str, Option<Positions>),
+    pictures: &mut Pictures,
+) -> Result<Value, String> {
     let (scene, sources) = drawable(loaded)?;
-    let answer = verified(&scene, &sources, picture(&scene.framebuffer, planes))?;
+    let profile = positions.map_or(Profile::WGSL, |Positions { bits, exact }| Profile {
+        // No GPU conforms with less, and more is nothing that a page could tell.
+        subpixel_bits: bits.clamp(4, 8),
+        exact_positions: exact,
+        ..Profile::WGSL
+    });
+    let answer = verified(&scene, (&sources, profile), picture(&scene.framebuffer, planes))?;
     let told = judged(&answer, &scene, by);
     let driver = answer.runs.first().map(|run| run.picture.clone());
     pictures.take_judged(answer.reference, driver, answer.shares);
     Ok(told)
 }
 
-fn verified(scene: &Scene, sources: &SourceMap, picture: Picture) -> Result<verify::Verification, String> {
-    let options = Options { profile: Profile::WGSL, sources: Some(sources), ..Options::default() };
+fn verified(
+    scene: &Scene,
+    (sources, profile): (&SourceMap, Profile),
+    picture: Picture,
+) -> Result<verify::Verification, String> {
+    let options = Options { profile, sources: Some(sources), ..Options::default() };
     verify::verify(scene, &[&Given(picture)], &options).map_err(|failure| failure.to_string())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{judge, plan, show};
-    use crate::play::Pictures;
+    use super::{compare, plan, show};
+    use crate::play::{Pictures, Positions};
     use crate::scene::{self, Loaded, MemoryFiles};
     use crate::{Compiler, Options};
 
@@ -89,7 +105,7 @@ mod tests {
         scene::load("s.toml", &files, &Compiler::new(Options::default()))
     }
 
-    /// What a GPU would read back.
+    /// The planes that a GPU would give back.
     fn planes(pixel: [u8; 4]) -> Vec<Vec<u8>> {
         vec![pixel.repeat(8), vec![1; 8]]
     }
@@ -101,13 +117,17 @@ mod tests {
         let mut pictures = Pictures::default();
         let shown = show(loaded(), planes([51, 102, 255, 255]), "a GPU", &mut pictures).expect("a picture");
         assert_eq!((&shown["by"], &shown["is_empty"]), (&"a GPU".into(), &false.into()));
-        let verdict = judge(loaded(), planes([51, 102, 255, 255]), "a GPU", &mut pictures).expect("a verdict");
+        let verdict =
+            compare(loaded(), planes([51, 102, 255, 255]), ("a GPU", None), &mut pictures).expect("a verdict");
         assert_eq!(verdict["verdict"], "holds", "{}", verdict["says"]);
         assert_eq!(pictures.pixel(0, 0)["driver"]["values"][0], "0.2000000");
-        let verdict = judge(loaded(), planes([51, 104, 255, 255]), "a GPU", &mut pictures).expect("a verdict");
+        let verdict =
+            compare(loaded(), planes([51, 104, 255, 255]), ("a GPU", None), &mut pictures).expect("a verdict");
         assert_eq!(verdict["verdict"], "fails", "{}", verdict["says"]);
         // What was cut off is not covered.
-        let verdict = judge(loaded(), Vec::new(), "a GPU", &mut pictures).expect("a verdict");
+        let verdict =
+            compare(loaded(), Vec::new(), ("a GPU", Some(Positions { bits: 8, exact: false })), &mut pictures)
+                .expect("a verdict");
         assert_eq!(verdict["verdict"], "fails", "{}", verdict["says"]);
     }
 }

@@ -48,6 +48,9 @@ pub enum Wish {
     JudgeShown {
         /// Who drew it.
         by: String,
+        /// Its window positions, measured.
+        #[serde(default)]
+        positions: Option<Positions>,
     },
     /// The values of a pixel of the last pictures.
     Pixel {
@@ -63,6 +66,15 @@ pub enum Wish {
         /// From the top.
         y: u32,
     },
+}
+
+/// The window positions between which a GPU interpolates, as a page measured them.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub struct Positions {
+    /// The bits of their fraction.
+    pub bits: u8,
+    /// Whether they are floats. Then the bits are those of edges.
+    pub exact: bool,
 }
 
 fn wgsl() -> String {

@@ -22,9 +22,9 @@ mod verdict;
 
 pub use answers::{OwnLevels, answer, drawable};
 #[cfg(feature = "plan")]
-pub use browser::{judge, plan, show};
+pub use browser::{compare, plan, show};
 pub use controls::{Control, Kind, controls};
-pub use jobs::{Job, Wish};
+pub use jobs::{Job, Positions, Wish};
 pub use look::{Criteria, Shown, look, told};
 pub use pictures::{Pictures, drawn};
 pub use verdict::judged;

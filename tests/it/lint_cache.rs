@@ -23,7 +23,7 @@ fn tree() -> Folder {
 
 const RULES: &[&str] = &["--warn", "correctness", "--warn", "numerics", "-DTIMES=2.0"];
 
-/// What a run tells: its exit code, its output, its messages but for the line on the cache, and that line.
+/// The outcome of a run: its exit code, its output, its messages but for the line on the cache, and that line.
 fn lint(folder: &Folder, more: &[&str]) -> (i32, String, String, String) {
     let run = folder.run(&[&["lint", "."], RULES, more].concat());
     let (messages, cache): (Vec<String>, Vec<String>) =
@@ -31,7 +31,7 @@ fn lint(folder: &Folder, more: &[&str]) -> (i32, String, String, String) {
     (code(&run), out(&run), messages.join("\n"), cache.join("\n"))
 }
 
-/// The same with the cache; the line on it is for the caller.
+/// Runs with the cache, compares with a run without it, and returns the line on the cache.
 fn cached(folder: &Folder, more: &[&str]) -> String {
     let (exit, told, messages, cache) = lint(folder, &[more, &["--cache", "kept"]].concat());
     let (plain_exit, plain, plain_messages, _) = lint(folder, more);

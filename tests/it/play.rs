@@ -302,7 +302,7 @@ fn a_page_is_exported_whole() {
     assert!(!folder.path().join("other.html").exists());
 }
 
-/// What `glisten play --export FILE --module` says, and the page.
+/// The exit code and the messages of `glisten play --export FILE --module`, and the page.
 fn exported_alone(folder: &Path, module: &Path, start: &str, more: &[&str]) -> (Option<i32>, String, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
     command.current_dir(folder).args(["play", start, "--export", "alone.html", "--module"]).arg(module).args(more);

@@ -1,4 +1,4 @@
-//! What a host of WebGPU does to draw a scene, without a device.
+//! The calls of WebGPU that draw a scene, without a device.
 //!
 //! *In:* a [`Scene`](glisten_scene::Scene). *Out:* layouts, bytes and states; all of them as one [`Plan`]; a picture from what was read back.
 //!
@@ -29,6 +29,7 @@ pub mod texture_extent;
 pub mod uniforms;
 pub mod vertices;
 pub mod visibility;
+mod words;
 
 pub use error::Error;
 pub use plan::Plan;

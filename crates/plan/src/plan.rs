@@ -9,12 +9,12 @@ use crate::texels::{texel_bytes, texel_format};
 use crate::texture_extent::extent;
 use crate::vertices::{self, Rows};
 use crate::visibility::Visibility;
+use crate::words::{dimension, format, word};
 use crate::{Error, assembly, beyond, slots, sprites, uniforms};
 use glisten_emit::{Emitted, Target, emit};
 use glisten_front::hir::{SamplerDim, SamplerType, Stage};
 use glisten_front::link::SlotBinding;
 use glisten_scene::{Draw, Framebuffer, Scene, Texels, Texture};
-use serde::Serialize;
 use serde_json::{Value, json};
 use wgpu_types as wgpu;
 
@@ -23,7 +23,7 @@ use wgpu_types as wgpu;
 pub struct Plan {
     /// The dictionaries.
     pub calls: Value,
-    /// What they refer to.
+    /// The bytes that they refer to.
     pub bytes: Vec<u8>,
 }
 
@@ -40,7 +40,7 @@ impl Plan {
         let calls = json!({
             "width": framebuffer.width,
             "height": framebuffer.height,
-            "format": word(color_format(framebuffer.format)),
+            "format": format(color_format(framebuffer.format)),
             "pixelSize": crate::states::pixel_size(framebuffer.format),
             "attachments": framebuffer.attachments,
             "clear": framebuffer.clear,
@@ -74,12 +74,6 @@ impl Bytes {
         self.known.push((key, place.clone()));
         place
     }
-}
-
-/// A word of the specification.
-fn word(value: impl Serialize) -> Value {
-    // Their names are texts, which always can be written.
-    serde_json::to_value(value).unwrap_or_default()
 }
 
 fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes) -> Result<Value, Error> {
@@ -127,7 +121,7 @@ fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes) -> Result<
         "primitive": {
             "topology": word(primitive.topology),
             "frontFace": word(primitive.front_face),
-            "cullMode": primitive.cull_mode.map_or("none".into(), word),
+            "cullMode": primitive.cull_mode.map_or("none".to_owned(), word),
         },
         "depthStencil": depth(&depth_stencil(state)),
         "targets": bindings::targets(framebuffer, draw).into_iter().flatten().map(|target| color(&target)).collect::<Vec<_>>(),
@@ -138,7 +132,7 @@ fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes) -> Result<
 fn vertex_buffer(rows: &Rows, bytes: &mut Bytes) -> Value {
     let attribute = |column: &wgpu::VertexAttribute| {
         json!({
-            "format": word(column.format),
+            "format": format(column.format),
             "offset": column.offset,
             "shaderLocation": column.shader_location,
         })
@@ -161,7 +155,7 @@ fn depth(state: &wgpu::DepthStencilState) -> Value {
         })
     };
     json!({
-        "format": word(state.format),
+        "format": format(state.format),
         "depthWriteEnabled": state.depth_write_enabled,
         "depthCompare": state.depth_compare.map(word),
         "stencilFront": face(&state.stencil.front),
@@ -179,7 +173,7 @@ fn color(target: &wgpu::ColorTargetState) -> Value {
             "operation": word(component.operation),
         })
     };
-    let mut dictionary = json!({ "format": word(target.format), "writeMask": target.write_mask.bits() });
+    let mut dictionary = json!({ "format": format(target.format), "writeMask": target.write_mask.bits() });
     if let (Some(blend), Some(dictionary)) = (&target.blend, dictionary.as_object_mut()) {
         dictionary
             .insert("blend".into(), json!({ "color": component(&blend.color), "alpha": component(&blend.alpha) }));
@@ -187,7 +181,7 @@ fn color(target: &wgpu::ColorTargetState) -> Value {
     dictionary
 }
 
-/// What is bound in a draw.
+/// The resources of a draw.
 struct Resources<'a> {
     draw: &'a Draw,
     buffers: Vec<(SlotBinding, Vec<u8>)>,
@@ -251,7 +245,7 @@ fn texture_layout(layout: &wgpu::BindingType) -> Value {
         wgpu::TextureSampleType::Sint => "sint",
         wgpu::TextureSampleType::Uint => "uint",
     };
-    json!({ "sampleType": sample_type, "viewDimension": word(view_dimension), "multisampled": multisampled })
+    json!({ "sampleType": sample_type, "viewDimension": dimension(*view_dimension), "multisampled": multisampled })
 }
 
 /// A texture with its levels. Depths are a float a texel: a host draws them, since they cannot be copied.
@@ -289,9 +283,9 @@ fn texture_data(kind: SamplerType, texture: Option<&Texture>, bytes: &mut Bytes)
     };
     let levels: Vec<Value> = texture.levels.iter().enumerate().map(level).collect();
     Ok(json!({
-        "format": word(format),
+        "format": self::format(format),
         "dimension": if kind.dim == SamplerDim::D3 { "3d" } else { "2d" },
-        "viewDimension": word(slots::view_dimension(kind)),
+        "viewDimension": dimension(slots::view_dimension(kind)),
         "size": sizes(extent(kind, texture.levels.first())),
         "isDepth": kind.shadow,
         "levels": levels,
@@ -324,7 +318,7 @@ fn sampler(sampler: &wgpu::SamplerDescriptor<Option<&'static str>>) -> Value {
         "lodMaxClamp": sampler.lod_max_clamp,
     });
     if let (Some(compare), Some(dictionary)) = (sampler.compare, dictionary.as_object_mut()) {
-        dictionary.insert("compare".into(), word(compare));
+        dictionary.insert("compare".into(), word(compare).into());
     }
     dictionary
 }

@@ -52,7 +52,7 @@ pub(super) struct Cache {
     /// The digest of this program.
     program: Digest,
     engines: Engines,
-    /// What `lint` obeys, without the levels of the command line.
+    /// The settings of `lint`, without the levels of the command line.
     configs: Mutex<Configs>,
     /// The state of each place, as far as it is known.
     places: Mutex<HashMap<Place, Found>>,
@@ -244,7 +244,7 @@ impl Cache {
         }
     }
 
-    /// What `lint` obeys for a file. As with [`Self::rules`], paths do not matter.
+    /// The settings of `lint` for a file. As with [`Self::rules`], paths do not matter.
     fn settings(&self, name: &str) -> Found {
         let mut configs = self.configs.lock().unwrap_or_else(PoisonError::into_inner);
         Found::Bytes(Digest::of(configs.settings(name).text_of(name).as_bytes()))

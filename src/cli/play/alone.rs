@@ -28,7 +28,7 @@ const SIDE: u32 = 200;
 /// The first bytes of a WebAssembly module (WebAssembly Core Specification §5.5.16), and of gzip (RFC 1952 §2.3.1).
 const MODULE: &[u8] = b"\0asm";
 const PACKED: &[u8] = b"\x1f\x8b";
-/// What answers in the page.
+/// The script that answers in the page.
 const WORKER: &str = include_str!("page/worker.js");
 
 /// The scenes of a page, and what they read.
@@ -100,7 +100,7 @@ fn refuse_what_a_page_has_not(args: &PlayArgs) -> Result<(), Failure> {
     }
 }
 
-/// What every request of the page says.
+/// The part that all requests of the page share.
 fn request(args: &PlayArgs) -> Value {
     let sources = &args.sources;
     let folders: Vec<String> =

@@ -39,7 +39,7 @@ impl Driver {
     ///
     /// # Errors
     /// The reason why it cannot be drawn.
-    pub(super) fn judge(
+    pub(super) fn compare(
         &mut self,
         scene: &Scene,
         sources: &SourceMap,

@@ -45,7 +45,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
     progress.say("judging");
     let machine = args.machine.clone();
     // A machine without a GPU has the reference's picture alone, and the page says why.
-    let judged = of.within_time(move || Ok(Driver::default().judge(&scene, &sources, &machine, &mut pictures)));
+    let judged = of.within_time(move || Ok(Driver::default().compare(&scene, &sources, &machine, &mut pictures)));
     let judged = match judged {
         Ok(judged) => judged.unwrap_or_else(|error| json!({ "error": error })),
         Err(error) => return Err(failure(error)),

@@ -54,7 +54,7 @@ fn end() {
     std::process::exit(0);
 }
 
-/// What a worker keeps from job to job.
+/// The state of a worker from job to job.
 #[derive(Default)]
 struct Kept {
     driver: Driver,
@@ -85,7 +85,7 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Re
         }
         Wish::Judge => {
             let (scene, sources) = drawable(load(&mut session))?;
-            driver.judge(&scene, &sources, &args.machine, pictures)
+            driver.compare(&scene, &sources, &args.machine, pictures)
         }
         Wish::Draw { gpu: false } => timed(|| crate::play::answer(&job, &mut session, pictures, load)),
         _ => crate::play::answer(&job, &mut session, pictures, load),

@@ -48,7 +48,7 @@ pub(crate) fn play(request: &Request, blob: &[u8]) -> Result<Reply, Error> {
             plan.calls
         }),
         Wish::Show { by } => play::show(loaded(), request.planes(blob), by, pictures),
-        Wish::JudgeShown { by } => play::judge(loaded(), request.planes(blob), by, pictures),
+        Wish::JudgeShown { by, positions } => play::compare(loaded(), request.planes(blob), (by, *positions), pictures),
         _ => answer(&job, &mut OwnLevels, pictures, |_| loaded()),
     });
     reply.set("answer", answered.map_err(Error::content)?);

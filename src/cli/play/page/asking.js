@@ -74,7 +74,10 @@ const makeModule = ({ module, worker, files, request, seconds }) => {
       const from = performance.now();
       const planes = await drawByWebGpu(gpu, planned.ok, planned.bytes);
       const milliseconds = performance.now() - from;
-      const answer = await lane({ ...job, ask, by: `${gpu.name}, by WebGPU` }, lane === judgements, planes);
+      gpu.positions ??= await measurePositions(gpu);
+      const { bits, exact } = gpu.positions;
+      const by = `${gpu.name}, by WebGPU, which interpolates between positions ${exact ? "of floats" : `of ${bits} bits`}`;
+      const answer = await lane({ ...job, ask, by, positions: gpu.positions }, lane === judgements, planes);
       if (answer.ok) answer.ok.milliseconds = milliseconds;
       return answer;
     } catch (error) {

@@ -25,6 +25,52 @@ const openGpu = async () => {
   return gpu;
 };
 
+// The window positions between which a GPU interpolates, measured: each triangle's vertices have their own position as a varying, whose value
+// at the center of a pixel is that center, but for what the positions lost. No limit of WebGPU tells it.
+const PROBE = `
+struct Out { @builtin(position) place: vec4<f32>, @location(0) at: vec2<f32> }
+@vertex fn corner(@location(0) at: vec2<f32>) -> Out {
+    return Out(vec4<f32>(at.x / 32.0 - 1.0, 1.0 - at.y / 32.0, 0.0, 1.0), at);
+}
+@fragment fn shift(in: Out) -> @location(0) vec4<f32> {
+    return vec4<f32>(abs(in.at - in.place.xy), 1.0, 1.0);
+}`;
+const measurePositions = async (gpu) => {
+  const { device } = gpu;
+  const [side, cell] = [64, 8];
+  // A sequence without a pattern at any power of two.
+  let state = 1;
+  const random = () => { state = (state * 48271) % 2147483647; return state / 2147483647; };
+  const corners = [];
+  for (let y = 0; y < side; y += cell) for (let x = 0; x < side; x += cell) for (const [u, v] of [[0, 0], [7, 0], [0, 7]]) corners.push(x + u + random(), y + v + random());
+  const vertices = device.createBuffer({ size: corners.length * 4, usage: GPUBufferUsage.VERTEX | GPUBufferUsage.COPY_DST });
+  device.queue.writeBuffer(vertices, 0, new Float32Array(corners));
+  const module = device.createShaderModule({ code: PROBE });
+  const pipeline = device.createRenderPipeline({
+    layout: "auto", fragment: { module, targets: [{ format: "rgba32float" }] },
+    vertex: { module, buffers: [{ arrayStride: 8, attributes: [{ format: "float32x2", offset: 0, shaderLocation: 0 }] }] },
+  });
+  const texture = device.createTexture({ format: "rgba32float", size: [side, side], usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+  const reader = device.createBuffer({ size: side * side * 16, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+  const encoder = device.createCommandEncoder();
+  const pass = encoder.beginRenderPass({ colorAttachments: [{ view: texture.createView(), clearValue: { r: 0, g: 0, b: 0, a: 0 }, loadOp: "clear", storeOp: "store" }] });
+  pass.setPipeline(pipeline);
+  pass.setVertexBuffer(0, vertices);
+  pass.draw(corners.length / 2);
+  pass.end();
+  encoder.copyTextureToBuffer({ texture }, { buffer: reader, bytesPerRow: side * 16, rowsPerImage: side }, [side, side]);
+  device.queue.submit([encoder.finish()]);
+  await reader.mapAsync(GPUMapMode.READ);
+  const found = new Float32Array(reader.getMappedRange());
+  let most = 0;
+  for (let at = 0; at < found.length; at += 4) if (found[at + 3] === 1) most = Math.max(most, found[at], found[at + 1]);
+  reader.destroy();
+  // Floats have no steps; what their edges have is not measured, and conforming ones have at least four bits.
+  if (most < 2 ** -11) return { bits: 4, exact: true };
+  // The nearest step is off by half of it.
+  return { bits: Math.max(4, Math.min(8, Math.floor(-Math.log2(2 * most)))), exact: false };
+};
+
 // Copies bytes of rows that need not be at multiples of 256, and reads them back so.
 const ROW = 256;
 const padded = (length) => Math.ceil(length / ROW) * ROW;
