@@ -13,7 +13,6 @@
 //! ```
 //!
 //! *Holds:* nothing here opens a device or draws. `glisten-gpu` does, by wgpu; a page does, by its browser.
-#![warn(missing_docs)]
 
 pub mod assembly;
 pub mod beyond;
