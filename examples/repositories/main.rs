@@ -93,7 +93,7 @@ fn measure(arguments: &Arguments) -> Result<(), String> {
         if kind != repository.kind {
             kind = &repository.kind;
             of_kind += 1;
-            lines.push(format!("| **{kind}** | | | | | | | | | | | | | |"));
+            lines.push(format!("| **{kind}** | | | | | | | | | | | | | | |"));
         }
         let row = one(repository, arguments)?;
         let line = row.line(&repository.shown(), &repository.commit);

@@ -38,6 +38,9 @@ fn reason(verification: &Verification) -> String {
         return format!("undefined by the language: {}, line {}", first.what, first.line);
     }
     let Some(weakness) = &verification.weakness else { return "the envelope is wide".to_owned() };
+    if weakness.class == "undefined" {
+        return format!("undefined by the language: {} of {covered} pixels", weakness.pixels);
+    }
     let from = weakness.contributions.first();
     let from = from.map(|one| format!(", by `{}` in line {}", one.operation, one.line));
     format!("{} of {covered} pixels are {}{}", weakness.pixels, weakness.class, from.unwrap_or_default())
