@@ -273,6 +273,33 @@ fn a_profile_allows_what_its_devices_may_do() {
     );
 }
 
+/// GPUs that interpolate between window positions of few bits are inside of what a profile allows that has such, and outside of one that
+/// has none.
+#[test]
+fn varyings_between_positions_of_few_bits_are_allowed_where_the_profile_has_them() {
+    let scene = square("void main() { color = vec4(place, sin(9.0 * place.x), 1.0); }", "rgba32float");
+    let exact = Profile { exact_positions: true, ..Profile::WGSL };
+    let of = |precision, profile| glisten_reference::RenderOptions { profile, ..as_on_vulkan(precision, Faults::NONE) };
+    let envelope = |profile| {
+        let drawn =
+            glisten_reference::render(&scene, &of(Precision::Envelope, profile)).expect("the reference draws it");
+        drawn.intervals.expect("it has envelopes").remove(0)
+    };
+    let [allowed, narrow] = [Profile::WGSL, exact].map(envelope);
+    let mut beyond = 0;
+    for number in 0..16 {
+        let options = of(Precision::F32, Profile::WGSL);
+        let drawn = glisten_reference::simulate(&scene, &options, (1, number)).expect("it is drawn");
+        let inner = (16..48).flat_map(|row| (16..48).map(move |column| row * 64 + column));
+        for (pixel, channel) in inner.flat_map(|pixel| (0..4).map(move |channel| (pixel, channel))) {
+            let value = drawn.attachments[0][pixel][channel];
+            assert!(allowed[pixel][channel].contains(value), "GPU {number}, pixel {pixel}: {value}");
+            beyond += usize::from(!narrow[pixel][channel].contains(value));
+        }
+    }
+    assert!(beyond > 1000, "{beyond} numbers of GPUs that round positions are beyond those of others");
+}
+
 /// An error that both fragments of a derivative share does not count: the difference is as narrow as the rounding of its operands.
 #[test]
 fn fragments_of_a_derivative_lie_on_one_plane() {

@@ -4,8 +4,9 @@
 //! is drawn once with a fragment shader that reads R and writes it as the depth. Depths are clamped to [0, 1].
 
 use super::Gpu;
+use glisten_plan::texels::depths;
 use glisten_plan::texture_extent::extent;
-use glisten_scene::{Texels, Texture};
+use glisten_scene::Texture;
 
 const BLIT: &str = "
 @group(0) @binding(0) var source: texture_2d<f32>;
@@ -62,14 +63,6 @@ pub(super) fn upload(gpu: &Gpu, texture: &Texture, dimension: wgpu::TextureViewD
         dimension: Some(dimension),
         ..wgpu::TextureViewDescriptor::default()
     })
-}
-
-fn depths(texels: &Texels) -> Vec<f32> {
-    match texels {
-        Texels::Float(texels) => texels.iter().map(|texel| texel[0]).collect(),
-        Texels::Int(texels) => texels.iter().map(|texel| texel[0] as f32).collect(),
-        Texels::Uint(texels) => texels.iter().map(|texel| texel[0] as f32).collect(),
-    }
 }
 
 fn pipeline(gpu: &Gpu, format: wgpu::TextureFormat) -> wgpu::RenderPipeline {

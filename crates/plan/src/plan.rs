@@ -5,7 +5,7 @@
 
 use crate::bindings::{self, Binding, What, bindings, conventions};
 use crate::states::{color_format, depth_stencil, primitive_state};
-use crate::texels::{texel_bytes, texel_format};
+use crate::texels::{depths, texel_bytes, texel_format};
 use crate::texture_extent::extent;
 use crate::vertices::{self, Rows};
 use crate::visibility::Visibility;
@@ -14,7 +14,7 @@ use crate::{Error, assembly, beyond, slots, sprites, uniforms};
 use glisten_emit::{Emitted, Target, emit};
 use glisten_front::hir::{SamplerDim, SamplerType, Stage};
 use glisten_front::link::SlotBinding;
-use glisten_scene::{Draw, Framebuffer, Scene, Texels, Texture};
+use glisten_scene::{Draw, Framebuffer, Scene, Texture};
 use serde_json::{Value, json};
 use wgpu_types as wgpu;
 
@@ -271,7 +271,7 @@ fn texture_data(kind: SamplerType, texture: Option<&Texture>, bytes: &mut Bytes)
         let n_texels = size.width as usize * size.height as usize * size.depth_or_array_layers as usize;
         let part = || {
             let (mut part, size) = match kind.shadow {
-                true => (depths(&level.texels), 4),
+                true => (depths(&level.texels).iter().flat_map(|depth| depth.to_ne_bytes()).collect(), 4),
                 false => (texel_bytes(&level.texels, kind.texel), 16),
             };
             part.resize(n_texels * size, 0);
@@ -294,16 +294,6 @@ fn texture_data(kind: SamplerType, texture: Option<&Texture>, bytes: &mut Bytes)
 
 fn sizes(size: wgpu::Extent3d) -> [u32; 3] {
     [size.width, size.height, size.depth_or_array_layers]
-}
-
-/// The depths of a texture, which are in its first channel.
-fn depths(texels: &Texels) -> Vec<u8> {
-    let depths: Vec<f32> = match texels {
-        Texels::Float(texels) => texels.iter().map(|texel| texel[0]).collect(),
-        Texels::Int(texels) => texels.iter().map(|texel| texel[0] as f32).collect(),
-        Texels::Uint(texels) => texels.iter().map(|texel| texel[0] as f32).collect(),
-    };
-    depths.iter().flat_map(|depth| depth.to_ne_bytes()).collect()
 }
 
 fn sampler(sampler: &wgpu::SamplerDescriptor<Option<&'static str>>) -> Value {

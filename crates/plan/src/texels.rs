@@ -32,3 +32,12 @@ pub fn texel_bytes(texels: &Texels, texel: Scalar) -> Vec<u8> {
         (Texels::Uint(texels), _) => bytes(&mut texels.iter().flatten().map(|&value| f64::from(value))),
     }
 }
+
+/// The depths of a texture, which are in its first channel.
+pub fn depths(texels: &Texels) -> Vec<f32> {
+    match texels {
+        Texels::Float(texels) => texels.iter().map(|texel| texel[0]).collect(),
+        Texels::Int(texels) => texels.iter().map(|texel| texel[0] as f32).collect(),
+        Texels::Uint(texels) => texels.iter().map(|texel| texel[0] as f32).collect(),
+    }
+}

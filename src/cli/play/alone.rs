@@ -2,7 +2,7 @@
 //!
 //! *In:* a scene or a folder of scenes, the module that `integrations/web/make page` builds. *Out:* an HTML file with the module, and with all
 //! files that the scenes read. *Holds:* a scene that the page could not read as the command line does is left out, and told: the page
-//! knows no engine and no prelude. What is drawn there is drawn by the reference.
+//! knows no engine and no prelude. The page draws by the reference and by the browser's WebGPU.
 
 use super::super::console::Console;
 use super::super::exit::{Exit, Failure, Outcome};

@@ -27,8 +27,8 @@ pub struct Profile {
     pub float_weights: bool,
     /// Whether a level of detail is one for each quad, by a logarithm that is a straight line between powers of two.
     pub straight_levels: bool,
-    /// Whether varyings are interpolated between the positions of f32, and not between those of `subpixel_bits` (Vulkan 1.0
-    /// §24.1 has coordinates of that precision, and SwiftShader interpolates between them).
+    /// Whether varyings are interpolated between the positions of f32, and not between those of `subpixel_bits`. Vulkan 1.0
+    /// (Limits) gives window coordinates that precision, and SwiftShader interpolates between them.
     pub exact_positions: bool,
     /// Whether derivatives are differences in the quad, and determinants sums of products. WGSL states no accuracy.
     pub limits_differences: bool,

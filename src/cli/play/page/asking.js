@@ -58,7 +58,7 @@ const makeModule = ({ module, worker, files, request, seconds }) => {
     return { script: URL.createObjectURL(new Blob([worker], { type: "text/javascript" })), first: { compiled, files: held, request } };
   })();
   const [looks, draws] = [makeLane(begun, seconds * 1000), makeLane(begun, seconds * 1000)];
-  // The judgement draws the scene as some thirty GPUs would.
+  // A verdict takes longer: the scene is drawn as many simulated GPUs would.
   const judgements = makeLane(begun, seconds * 10000);
   let gpu = null;
   const opened = async () => {
