@@ -17,7 +17,7 @@ thread_local! {
 }
 
 /// The files of the page; texts that were changed there count instead.
-struct Held(Arc<BTreeMap<String, Vec<u8>>>);
+struct Held(BTreeMap<String, Vec<u8>>);
 
 impl FileSource for Held {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
@@ -31,7 +31,7 @@ pub(crate) fn play(request: &Request, blob: &[u8]) -> Result<Reply, Error> {
         .map_err(|error| Error::argument(format!("the job is not understood: {error}")))?;
     let mut files = request.files(blob)?;
     files.extend(job.texts.iter().map(|(name, text)| (joined("", name), text.clone().into_bytes())));
-    let held = Held(Arc::new(files));
+    let held = Held(files);
     let (mut settings, _) = request.settings()?;
     let texts: BTreeMap<String, String> =
         held.0.iter().map(|(name, bytes)| (name.clone(), String::from_utf8_lossy(bytes).into_owned())).collect();
