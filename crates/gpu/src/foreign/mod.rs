@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!  bytes ──► read        limits, then naga's front end for WGSL or SPIR-V, then spirv-val ──► Foreign
+//!              blocks    locations of the members of blocks, which naga reads
 //!        ──► interface   locations, types, interpolation, bindings, block offsets, of this and of the emitted module
 //!        ──► differs     which part of the interface is another one
 //! ```
@@ -13,6 +14,7 @@
 //! accepts it. That is all that can be checked: a valid module may still do what Vulkan leaves undefined, such as reading
 //! beyond an array. WGSL has no such parts.
 
+mod blocks;
 mod differs;
 mod interface;
 mod read;

@@ -2,7 +2,7 @@
 //!
 //! *In:* bytes, or emitted code. *Out:* the code as it will run, and naga's module, from which the interface is read.
 
-use super::spirv;
+use super::{blocks, spirv};
 use crate::Via;
 use glisten_emit::Emitted;
 use glisten_front::hir::Stage;
@@ -69,7 +69,8 @@ fn front_end(code: &Emitted) -> Result<Module, String> {
                 strict_capabilities: false,
                 block_ctx_dump_prefix: None,
             };
-            let parsed = spv::Frontend::new(words.iter().copied(), &options).parse();
+            let words = blocks::with_locations(words);
+            let parsed = spv::Frontend::new(words.into_iter(), &options).parse();
             parsed.map_err(|error| {
                 format!("naga, which reads the interface, cannot read it: {}", short(&error.to_string()))
             })

@@ -95,3 +95,49 @@ fn deep_nesting_is_an_error_and_no_crash() {
         assert!(read::parse(&Emitted::Text(text)).is_err());
     }
 }
+
+/// An instruction of SPIR-V.
+fn instruction(opcode: u32, operands: &[u32]) -> Vec<u32> {
+    let first = (operands.len() as u32 + 1) << 16 | opcode;
+    std::iter::once(first).chain(operands.iter().copied()).collect()
+}
+
+/// A vertex stage that writes `layout(location = 2) out Data { mat2 m; float a[2]; vec3 b; }`, as glslang writes one: the
+/// variable has the location.
+fn with_block() -> Vec<u32> {
+    let float = 1.0_f32.to_bits();
+    let instructions: [&[u32]; 21] = [
+        &[17, 1],                                        // OpCapability Shader
+        &[14, 0, 1],                                     // OpMemoryModel Logical GLSL450
+        &[15, 0, 1, u32::from_le_bytes(*b"main"), 0, 2], // OpEntryPoint Vertex %1 "main" %2
+        &[71, 2, 30, 2],                                 // OpDecorate %2 Location 2
+        &[71, 3, 2],                                     // OpDecorate %3 Block
+        &[19, 4],                                        // OpTypeVoid
+        &[33, 5, 4],                                     // OpTypeFunction
+        &[22, 6, 32],                                    // OpTypeFloat
+        &[23, 7, 6, 2],                                  // OpTypeVector
+        &[24, 8, 7, 2],                                  // OpTypeMatrix
+        &[21, 9, 32, 0],                                 // OpTypeInt
+        &[43, 9, 10, 2],                                 // OpConstant
+        &[28, 11, 6, 10],                                // OpTypeArray
+        &[23, 12, 6, 3],                                 // OpTypeVector
+        &[30, 3, 8, 11, 12],                             // OpTypeStruct
+        &[32, 13, 3, 3],                                 // OpTypePointer Output
+        &[59, 13, 2, 3],                                 // OpVariable Output
+        &[43, 6, 14, float],                             // OpConstant
+        &[54, 4, 1, 0, 5],                               // OpFunction
+        &[248, 15],                                      // OpLabel
+        &[253],                                          // OpReturn
+    ];
+    let body = instructions.iter().flat_map(|all| all.split_first().map(|(op, rest)| instruction(*op, rest)));
+    let end = instruction(56, &[]);
+    [0x0723_0203, 0x0001_0000, 0, 16, 0].into_iter().chain(body.flatten()).chain(end).collect()
+}
+
+#[test]
+fn members_of_a_block_have_the_locations_after_that_of_its_variable() {
+    let module = read::parse(&Emitted::Words(with_block())).expect("naga reads it");
+    let interface = Interface::of(&module, Stage::Vertex).expect("it has the stage");
+    let outputs: Vec<(u32, u8)> = interface.outputs.iter().map(|(at, slot)| (*at, slot.components)).collect();
+    assert_eq!(outputs, [(2, 2), (3, 2), (4, 1), (5, 1), (6, 3)]);
+}
