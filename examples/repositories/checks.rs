@@ -4,6 +4,7 @@
 //! compilers of others run as programs of their own, with a limit of time, so that one that fails costs one answer.
 
 use crate::scenery;
+use crate::tasks::AS_DEVICE;
 use crate::tools::{Ended, run};
 use glisten::cli::survey::{Surveyed, covering};
 use glisten::emit::{Conventions, Emitted, Target, emit};
@@ -11,7 +12,7 @@ use glisten::{Compiler, Program, Source, Stage};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::{SourceMap, version_line};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
@@ -52,6 +53,8 @@ pub(crate) struct Checked {
     pub(crate) spirv: Answer,
     /// The pictures of Vulkan and OpenGL agree with the reference.
     pub(crate) picture: Answer,
+    /// The pictures were judged by what is known of the device, since nothing else could.
+    pub(crate) as_device: bool,
     /// The time of glisten.
     pub(crate) time: Duration,
 }
@@ -85,7 +88,7 @@ impl Checked {
         if let Some(program) = program {
             checked.translate(program, folder);
             if draws {
-                checked.picture = picture(program, &written, folder);
+                (checked.picture, checked.as_device) = picture(program, &written, folder);
             }
         }
         checked
@@ -219,20 +222,40 @@ fn highest_precision(file: &str) {
     }
 }
 
-/// Draws a program that has no scene.
-fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
+/// Draws a program that has no scene. Also says whether what is known of the device was needed to judge it.
+fn picture(program: &Program, written: &[String], folder: &Path) -> (Answer, bool) {
+    match scene_of(program, written, folder) {
+        Ok(scene) => match run(again("--draw").arg(scene), folder, LIMIT) {
+            Ended::Well(text) if text.contains("inconclusive") => (Answer::Without(text.trim().to_owned()), false),
+            Ended::Well(text) => (Answer::Good, text.contains(AS_DEVICE)),
+            Ended::Badly(text) => {
+                let says_more = |line: &&str| !line.contains("inconclusive") && !line.contains(AS_DEVICE);
+                let line = text.lines().find(says_more).unwrap_or_default();
+                // A program that only its engine completes has no scene.
+                let is_scene = line.starts_with("scene: ");
+                (if is_scene { Answer::Without(line.to_owned()) } else { Answer::Bad(line.to_owned()) }, false)
+            }
+            Ended::Late => (Answer::Without("drawing takes too long".to_owned()), false),
+            Ended::Missing => (Answer::Open, false),
+        },
+        Err(answer) => (answer, false),
+    }
+}
+
+/// Writes the scene of a program. The error is the answer to all questions about its picture.
+fn scene_of(program: &Program, written: &[String], folder: &Path) -> Result<PathBuf, Answer> {
     let has = |stage: Stage| program.stage(stage).is_some();
     if has(Stage::Geometry) || !has(Stage::Fragment) {
-        return Answer::Without("no pair".to_owned());
+        return Err(Answer::Without("no pair".to_owned()));
     }
     let mut files: Vec<(&str, String)> = Vec::new();
     let mut whole = None;
     if !has(Stage::Vertex) {
         let text = match covering(program) {
             Ok(text) => text,
-            Err(why) => return Answer::Without(why),
+            Err(why) => return Err(Answer::Without(why)),
         };
-        let Some(file) = write(Stage::Vertex, &text, folder) else { return Answer::Open };
+        let Some(file) = write(Stage::Vertex, &text, folder) else { return Err(Answer::Open) };
         files.push(("vertex", file));
         let fragment = program.stage(Stage::Fragment).and_then(|shader| shader.texts.first().cloned());
         let source = |stage, text: Arc<str>| Source { name: format!("a.{}", ending(stage)), text, stage };
@@ -249,18 +272,7 @@ fn picture(program: &Program, written: &[String], folder: &Path) -> Answer {
     }
     let scene = folder.join("a.toml");
     if let Err(error) = std::fs::write(&scene, scenery::scene(program, &files)) {
-        return Answer::Without(error.to_string());
+        return Err(Answer::Without(error.to_string()));
     }
-    match run(again("--draw").arg(&scene), folder, LIMIT) {
-        Ended::Well(text) if text.contains("inconclusive") => Answer::Without(text.trim().to_owned()),
-        Ended::Well(_) => Answer::Good,
-        Ended::Badly(text) => {
-            let line = text.lines().find(|line| !line.contains("inconclusive")).unwrap_or_default();
-            // A program that only its engine completes has no scene.
-            let is_scene = line.starts_with("scene: ");
-            if is_scene { Answer::Without(line.to_owned()) } else { Answer::Bad(line.to_owned()) }
-        }
-        Ended::Late => Answer::Without("drawing takes too long".to_owned()),
-        Ended::Missing => Answer::Open,
-    }
+    Ok(scene)
 }

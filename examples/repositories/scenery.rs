@@ -107,12 +107,22 @@ fn attributes(text: &mut String, program: &Program) {
         let is_position = Some(attribute.location) == position;
         let is_matrix = matches!(program.types.get(attribute.ty), Type::Matrix(..));
         let rows = sphere.iter().enumerate().flat_map(|(number, place)| {
-            let row = if is_matrix { identity(size) } else { row(&attribute.name, is_position, number, *place) };
+            let row = match is_matrix {
+                true => identity(size),
+                // A sphere without depth would cover itself at one depth.
+                false if is_position && size == 2 => flat(*place),
+                false => row(&attribute.name, is_position, number, *place),
+            };
             (0..size).map(move |index| row.get(index).copied().unwrap_or(f64::from(index == 3)))
         });
         let values: Vec<String> = rows.map(|value| if integer { whole(value) } else { decimal(value) }).collect();
         let _ = writeln!(text, "{} = {{ size = {size}, values = [{}] }}", quoted(&attribute.name), values.join(","));
     }
+}
+
+/// The vertex of a rectangle.
+fn flat(place: Place) -> Vec<f64> {
+    place.map(|part| 1.6 * part - 0.8).to_vec()
 }
 
 fn identity(size: usize) -> Vec<f64> {
@@ -241,6 +251,10 @@ fn number_of(name: &str, scalar: Scalar, index: usize) -> f64 {
         (&["far"], 100.0),
         (&["shin", "power", "exponent"], 8.0),
     ];
+    if has(name, &["near"]) && has(name, &["far"]) {
+        // Both planes in one vector.
+        return [0.1, 100.0][index % 2];
+    }
     let known = BY_NAME.iter().find(|(words, _)| has(name, words)).map(|(_, value)| *value);
     let scale = if has(name, &["pos", "eye"]) { 3.0 } else { 0.8 };
     known.unwrap_or_else(|| 0.2 + scale * chance(name, index))

@@ -20,6 +20,8 @@ pub(crate) struct Row {
     tint: Share,
     spirv: Share,
     picture: Share,
+    /// Of the pictures that are the same, those judged by what is known of the device.
+    as_device: usize,
     /// Pictures of which nobody could decide more: nothing is covered, or the language leaves them undefined.
     undefined: usize,
     open: usize,
@@ -54,8 +56,8 @@ impl Share {
 
 /// The head of the table.
 pub(crate) const HEAD: &str = "| repository | commit | texts | programs | accepted | glslang or Mesa accepts | of these | not read | WGSL by naga \
-    | by Tint | SPIR-V by spirv-val | same picture | empty or undefined | inconclusive | slowest |\n\
-    | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
+    | by Tint | SPIR-V by spirv-val | same picture | as the device | empty or undefined | inconclusive | slowest |\n\
+    | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |";
 
 /// The codes for features, and for extensions, that glisten does not read.
 const UNREAD: [&str; 2] = ["E0001", "E0125"];
@@ -74,6 +76,7 @@ impl Row {
         self.tint.add(&checked.tint);
         self.spirv.add(&checked.spirv);
         self.picture.add(&checked.picture);
+        self.as_device += usize::from(checked.as_device);
         self.slowest = self.slowest.max(checked.time);
         let files: Vec<&str> = checked.files.iter().map(|(name, _)| name.as_str()).collect();
         let files = files.join(", ");
@@ -128,6 +131,7 @@ impl Row {
         self.tint.plus(other.tint);
         self.spirv.plus(other.spirv);
         self.picture.plus(other.picture);
+        self.as_device += other.as_device;
         self.undefined += other.undefined;
         self.open += other.open;
         self.slowest = self.slowest.max(other.slowest);
@@ -140,12 +144,12 @@ impl Row {
             all => format!("{:.1} %", 100.0 * share.good as f64 / all as f64),
         };
         let of_these = percent(Share { good: self.both, all: self.elsewhere });
-        let Self { texts, programs, accepted, elsewhere, unread, undefined, open, .. } = self;
+        let Self { texts, programs, accepted, elsewhere, unread, as_device, undefined, open, .. } = self;
         let [naga, tint, spirv, picture] = [self.naga, self.tint, self.spirv, self.picture].map(Share::shown);
         let slowest = format!("{:.2} s", self.slowest.as_secs_f64());
         format!(
             "| {name} | {commit} | {texts} | {programs} | {accepted} | {elsewhere} | {of_these} | {unread} | {naga} | {tint} | {spirv} \
-             | {picture} | {undefined} | {open} | {slowest} |"
+             | {picture} | {as_device} | {undefined} | {open} | {slowest} |"
         )
     }
 

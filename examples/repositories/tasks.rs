@@ -46,6 +46,9 @@ fn reason(verification: &Verification) -> String {
     format!("{} of {covered} pixels are {}{}", weakness.pixels, weakness.class, from.unwrap_or_default())
 }
 
+/// Says that a picture was judged by what is known of the device (`verify --as-device`).
+pub(crate) const AS_DEVICE: &str = "judged by what is known of the device";
+
 /// Whether the pictures of a scene by Vulkan and by OpenGL agree with the reference.
 pub(crate) fn draw(scene: &str) -> ExitCode {
     let loaded = load(scene, &DiskFiles, &Compiler::new(Default::default()));
@@ -60,13 +63,16 @@ pub(crate) fn draw(scene: &str) -> ExitCode {
         (_, Err(error)) => return lacking(&error.to_string()),
     };
     let (spirv, gl) = (OnGpu::new(&gpu, Via::Spirv), OnOpenGl(&gl));
-    let options = Options::default();
+    let options = Options { as_device: true, ..Options::default() };
     let mut worst = Conclusion::Holds;
     for runner in [&spirv as &dyn Runner, &gl] {
         match verify(&scene, &[runner], &options) {
             Ok(verification) => {
                 let conclusion = verification.conclusion();
                 worst = worst.max(conclusion);
+                if verification.runs.iter().any(|run| run.verdict.as_device > 0) {
+                    println!("{}: {AS_DEVICE}", runner.name());
+                }
                 if conclusion == Conclusion::Inconclusive {
                     println!("{}: inconclusive: {}", runner.name(), reason(&verification));
                 } else if conclusion == Conclusion::Fails {
