@@ -10,8 +10,9 @@ use super::disk::Disk;
 use crate::engines::{Lookup, Style};
 use crate::library::{self, Embedded};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, blanked, version_line};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::DirEntry;
+use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -110,6 +111,34 @@ impl DiskIncludes {
         self.lookup.deep.then(|| self.below.get_or_init(|| files_below(&self.folders)).get(name)).flatten()
     }
 
+    /// The place of a source's `#version` line, and the version that it has, if a file that it imports has a higher one. Only for a
+    /// style that ignores the `#version` lines of included files: the engine takes the highest number of all.
+    pub(crate) fn lifted_version(&self, source: &str, from: &str) -> Option<(Range<usize>, String)> {
+        let line = version_line(source).filter(|_| self.lookup.drops_version)?;
+        let (own, profile) = version_of(source.get(line.clone())?)?;
+        let highest = self.highest_version(source, from);
+        (highest > own && profile != "es").then(|| (line, format!("{highest} {profile}").trim().to_owned()))
+    }
+
+    /// The highest version of the files that a text includes, and of those that these include; 0 if none has one.
+    fn highest_version(&self, source: &str, from: &str) -> u16 {
+        let mut open: Vec<(PathBuf, IncludeForm, String)> = named_files(source, from);
+        let mut seen: BTreeSet<PathBuf> = BTreeSet::new();
+        let mut highest = 0;
+        while let Some((path, form, from)) = open.pop() {
+            let candidates = self.candidates(&path.to_string_lossy(), form, &from);
+            let Some(found) = candidates.into_iter().find(|path| path.is_file()) else { continue };
+            if seen.len() >= MAX_NEARBY || !seen.insert(found.clone()) {
+                continue;
+            }
+            let Ok(text) = self.disk.text(&found) else { continue };
+            let line = version_line(&text).and_then(|line| version_of(text.get(line)?));
+            highest = highest.max(line.map_or(0, |(number, _)| number));
+            open.extend(named_files(&text, &found.to_string_lossy()));
+        }
+        highest
+    }
+
     /// The text of a file, as the style reads it.
     fn read(&self, path: &Path) -> Result<Included, String> {
         let name = path.to_string_lossy().into_owned();
@@ -119,6 +148,24 @@ impl DiskIncludes {
         let text = version.map_or(text.clone(), |line| blanked(&text, &[line]));
         Ok(Included { name, text })
     }
+}
+
+/// The number and the profile of a `#version` line.
+fn version_of(line: &str) -> Option<(u16, &str)> {
+    let mut words = line.trim_start_matches('#').trim_start().strip_prefix("version")?.split_whitespace();
+    Some((words.next()?.parse().ok()?, words.next().unwrap_or("")))
+}
+
+/// The files that the directives of a text name, with the name of the text. Conditions are not looked at.
+fn named_files(text: &str, from: &str) -> Vec<(PathBuf, IncludeForm, String)> {
+    let named = |line: &str| {
+        let rest = line.trim_start().strip_prefix('#')?.trim_start();
+        let rest = rest.strip_prefix("moj_import").or(rest.strip_prefix("include"))?.trim_start();
+        let (form, end) = if rest.starts_with('<') { (IncludeForm::Angled, '>') } else { (IncludeForm::Quoted, '"') };
+        let name = rest.get(1..)?.split(end).next()?;
+        Some((PathBuf::from(name), form, from.to_owned()))
+    };
+    text.lines().filter_map(named).collect()
 }
 
 /// The files below folders, by their names; of several, the first in order. Hidden folders are left out.

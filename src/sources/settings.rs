@@ -96,6 +96,12 @@ impl Settings {
             prepared.text = Some(blanked(own, &[line]));
             version.clone_from(&profile.least_version);
         }
+        let includes = DiskIncludes::new(Arc::clone(&disk), self.folders, style.unwrap_or(Style::Quote), roots);
+        let own = prepared.text.as_ref().unwrap_or(&source.text);
+        if let Some((line, lifted)) = includes.lifted_version(own, &source.name) {
+            prepared.text = Some(blanked(own, &[line]));
+            version = Some(lifted);
+        }
         let text = prepared.text.as_ref().unwrap_or(&source.text);
         let addition = |profile: &Profile| profile.addition(text, source.stage, &header(profile, source, path, &*disk));
         let mut added = self.profile.map(addition).unwrap_or_default();
@@ -117,7 +123,6 @@ impl Settings {
             unrolls: self.profile.and_then(|profile| profile.unrolls).unwrap_or(false),
         };
         prepared.problems = added.problems;
-        let includes = DiskIncludes::new(disk, self.folders, style.unwrap_or(Style::Quote), roots);
         prepared.includes = Some(Arc::new(includes));
     }
 }
