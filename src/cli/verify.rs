@@ -69,6 +69,9 @@ pub(super) struct VerifyArgs {
     /// On llvmpipe, judge by what is known of its arithmetic where nothing else judges: noise of `fract(sin(x) * 43758.5)`
     #[arg(long)]
     as_device: bool,
+    /// Judge every pixel, however long that takes. Otherwise blocks of pixels stand for a picture whose loops take long
+    #[arg(long)]
+    whole: bool,
     /// Excuse no pixel because of known faults of the driver
     #[arg(long)]
     no_known_faults: bool,
@@ -216,6 +219,8 @@ struct Report<'a> {
     holds: bool,
     /// The share of the covered pixels that is judged, at an edge, or excused.
     evidence_share: f64,
+    /// The share of the picture that was judged: 1, unless blocks of pixels stand for it.
+    share: f64,
     /// Why too little was judged; null unless the verdict is inconclusive for that reason.
     weakness: Option<&'a Weakness>,
     /// The places in the picture that the language leaves undefined.
@@ -307,6 +312,7 @@ fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit
         verdict: verification.conclusion(),
         holds,
         evidence_share: worse.verdict.share_judged(&verification.demands),
+        share: verification.share,
         weakness: verification.weakness.as_ref(),
         undefined: &verification.undefined,
         adapter: &facts.name,
@@ -390,6 +396,7 @@ fn compare(
         allow_inconclusive: args.allow_inconclusive,
         width: args.width,
         likely_margin: args.likely_margin,
+        most_work: (!args.whole).then_some(verify::MOST_WORK),
         as_device: args.as_device,
         sources: Some(sources),
         profile: args.profile.of(&gpu),

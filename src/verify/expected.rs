@@ -5,11 +5,11 @@
 //! simulated GPUs draw as well; many do only where a picture is suspect by the few.
 
 use super::clock::Clock;
-use super::{Failure, Options};
+use super::{Failure, Options, part};
 use crate::scene::Scene;
 use glisten_reference::domain::Gpu;
 use glisten_reference::domain::faults::Faults;
-use glisten_reference::{Undefined, faults_of, hides_undefined};
+use glisten_reference::{RenderOptions, Sample, Undefined, faults_of, hides_undefined};
 use glisten_scene::compare::evidence::Ruler;
 use glisten_scene::compare::population::{MIN_MEMBERS, MIN_PIXELS, MIN_SHARE};
 use glisten_scene::compare::{Class, Compared, Comparison, Criterion, Gauge, Population, Verdict, Written};
@@ -37,6 +37,8 @@ const PART: f64 = 0.5;
 pub struct Expected<'a> {
     scene: &'a Scene,
     options: &'a Options<'a>,
+    /// The part of the picture that is judged.
+    sample: Sample,
     picture: Picture,
     milliseconds: f64,
     written: Written,
@@ -57,11 +59,15 @@ impl<'a> Expected<'a> {
     /// The reference cannot draw it.
     pub fn new(scene: &'a Scene, options: &'a Options<'a>) -> Result<Self, Failure> {
         let clock = Clock::start();
-        let picture = options.reference.render(scene, &options.reference_options(Faults::NONE))?;
+        let sample = part::part(scene, options)?;
+        let drawn = RenderOptions { sample, ..options.reference_options(Faults::NONE) };
+        let mut picture = options.reference.render(scene, &drawn)?;
+        part::keep_only(&mut picture, sample);
         let milliseconds = clock.milliseconds();
         Ok(Self {
             scene,
             options,
+            sample,
             picture,
             milliseconds,
             written: Written::of(scene),
@@ -71,6 +77,16 @@ impl<'a> Expected<'a> {
             device: None,
             excused: None,
         })
+    }
+
+    /// The part of the picture that is judged.
+    pub fn sample(&self) -> Sample {
+        self.sample
+    }
+
+    /// The options with which the reference draws.
+    fn drawn_by(&self, faults: Faults) -> RenderOptions {
+        RenderOptions { sample: self.sample, ..self.options.reference_options(faults) }
     }
 
     /// The channels that the scene's programs write.
@@ -106,6 +122,7 @@ impl<'a> Expected<'a> {
     /// # Errors
     /// The reference cannot draw the scene with a fault excused.
     pub fn compared(&mut self, picture: &Picture) -> Result<Compared, Failure> {
+        let picture = &*part::only(picture, self.sample, &self.picture);
         let Options { criterion, excuse_known_faults, .. } = *self.options;
         let is_by_envelope = criterion == Criterion::Envelope;
         let mut compared = self.comparison(&[]).compare(picture, &self.picture);
@@ -157,7 +174,7 @@ impl<'a> Expected<'a> {
 
     /// Looks for what the language leaves undefined. Returns whether there is something.
     fn find_undefined(&mut self) -> Result<bool, Failure> {
-        let found = self.options.reference.undefined(self.scene, &self.options.reference_options(Faults::NONE))?;
+        let found = self.options.reference.undefined(self.scene, &self.drawn_by(Faults::NONE))?;
         let is_there = found.is_some();
         self.undefined = Some(found);
         Ok(is_there)
@@ -169,7 +186,7 @@ impl<'a> Expected<'a> {
         let is_open = |class: &Option<Class>| matches!(class, Some(Class::Weak | Class::Unlimited | Class::Undecided));
         let places: Vec<bool> = classes.iter().map(is_open).collect();
         let count = places.iter().filter(|place| **place).count();
-        let options = self.options.reference_options(Faults::NONE);
+        let options = self.drawn_by(Faults::NONE);
         for number in 0..Gpu::LLVMPIPES {
             let drawn = self.options.reference.as_llvmpipe(self.scene, &options, number, &places)?;
             let ruler = Ruler::new(&self.picture, &self.written, self.options.width);
@@ -220,7 +237,7 @@ impl<'a> Expected<'a> {
 
     fn grown(&self, population: Population, members: u32) -> Result<Population, Failure> {
         let missing = population.members..members.max(population.members);
-        let options = self.options.reference_options(Faults::NONE);
+        let options = self.drawn_by(Faults::NONE);
         self.options.reference.populate(population, self.scene, &options, missing)
     }
 
@@ -274,7 +291,7 @@ impl<'a> Expected<'a> {
         let one = known.iter().map(|known| (known.name, Faults::only(known.fault)));
         let named = one.chain((known.len() > 1).then(|| ("several", Faults::all())));
         let (names, options): (Vec<_>, Vec<_>) =
-            named.map(|(name, faults)| (name, self.options.reference_options(faults))).unzip();
+            named.map(|(name, faults)| (name, self.drawn_by(faults))).unzip();
         Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())
     }
 }

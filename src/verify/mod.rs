@@ -40,6 +40,7 @@ mod files;
 #[cfg(feature = "stability")]
 mod headline;
 mod maps;
+mod part;
 mod runner;
 mod undefined;
 mod verification;
@@ -56,6 +57,7 @@ pub use maps::{DIFFERENCE_LEGEND, EVIDENCE_LEGEND, difference, evidence};
 pub use runner::OnGpu;
 #[cfg(feature = "gl")]
 pub use runner::OnOpenGl;
+pub use part::MOST_WORK;
 pub use runner::{Channel, Cpu, Drawn, Failure, Reference, Runner, ThisThread};
 pub use undefined::UndefinedAt;
 pub use verification::{Verification, mark};
@@ -93,6 +95,9 @@ pub struct Options<'a> {
     pub width: Option<f64>,
     /// By how many of its widths the hull of what simulated GPUs drew is widened for what is likely. Default: 4.
     pub likely_margin: f64,
+    /// The operations of the fragment stages up to which the whole picture is judged. Of a scene with more, blocks of 8 by 8 pixels
+    /// that take no more stand for the picture. Default: [`MOST_WORK`]; `None` for all of any picture.
+    pub most_work: Option<u64>,
     /// Whether a picture of llvmpipe is judged by what is known of its arithmetic where nothing else judges.
     pub as_device: bool,
     /// The texts of the scene (`Loaded::sources`), for the origin of the worst pixel's envelope.
@@ -115,6 +120,7 @@ impl Default for Options<'_> {
             profile: Profile::default(),
             width: None,
             likely_margin: MARGIN,
+            most_work: Some(MOST_WORK),
             as_device: false,
             sources: None,
             failures: None,
@@ -184,7 +190,9 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
     }
     let mut shares = vec![0.0; expected.picture().covered.len()];
     let (reference, criterion) = (expected.picture(), options.criterion);
-    let of_run = |run: &usize| compare::shares(&runs[*run].picture, reference, criterion);
+    let sample = expected.sample();
+    let of_run =
+        |run: &usize| compare::shares(&part::only(&runs[*run].picture, sample, reference), reference, criterion);
     for these in distinct.par_iter().map(of_run).collect::<Vec<_>>() {
         shares.iter_mut().zip(these).for_each(|(most, share): (&mut f64, f64)| *most = share.max(*most));
     }
@@ -195,6 +203,7 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         Conclusion::Holds | Conclusion::Fails => None,
     };
     let undefined = UndefinedAt::all(expected.undefined(), options.sources);
+    let share = sample.share([scene.framebuffer.width, scene.framebuffer.height]);
     let (reference, reference_milliseconds) = expected.into_picture();
     let mut verification = Verification {
         reference,
@@ -203,6 +212,7 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         skipped,
         shares,
         classes,
+        share,
         note,
         weakness,
         undefined,

@@ -5,7 +5,7 @@
 use super::clock::Clock;
 use crate::scene::Scene;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_reference::{Contribution, LineRule, Precision, RenderOptions, Undefined};
+use glisten_reference::{Contribution, LineRule, Precision, RenderOptions, Undefined, Work};
 use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::fmt;
@@ -77,6 +77,14 @@ pub trait Reference {
     /// One of the pictures is missing.
     fn render_all(&self, scene: &Scene, options: &[RenderOptions]) -> Result<Vec<Picture>, Failure> {
         options.iter().map(|options| self.render(scene, options)).collect()
+    }
+
+    /// Counts what the draws of a scene execute like [`glisten_reference::work`].
+    ///
+    /// # Errors
+    /// The scene cannot be drawn.
+    fn work(&self, scene: &Scene, options: &RenderOptions) -> Result<Vec<Work>, Failure> {
+        Ok(glisten_reference::work(scene, options)?)
     }
 
     /// Adds the pictures of the simulated GPUs with these numbers like [`glisten_reference::populate`].

@@ -27,6 +27,8 @@ pub struct Verification {
     pub shares: Vec<f64>,
     /// For each pixel, the class that says least, of all runs.
     pub classes: Vec<Option<Class>>,
+    /// The share of the picture that was judged: 1, unless a sample stands for it ([`Options::most_work`](super::Options::most_work)).
+    pub share: f64,
     /// The origin of the worst pixel's envelope, if [`Options::sources`](super::Options::sources) is set and the pixel is wrong.
     pub note: Option<Diagnostic>,
     /// Why too little was judged, if that is so.

@@ -14,6 +14,7 @@ mod pass_through;
 mod pipeline;
 mod population;
 mod raster;
+mod sample;
 #[cfg(any(test, feature = "stability"))]
 pub mod stability;
 mod texture;
@@ -26,6 +27,7 @@ pub use counts::{Counts, counts};
 pub use exec::Step;
 pub use expand::{expand, has_geometry_stage};
 pub use population::{as_llvmpipe, populate, simulate};
+pub use sample::Sample;
 pub use undefined::{Undefined, UndefinedPlace, hides_undefined, undefined};
 pub use work::{Work, work};
 
@@ -84,6 +86,8 @@ pub struct RenderOptions {
     pub positions: Positions,
     /// The freedom of the device where the specifications leave it open.
     pub profile: Profile,
+    /// The part of the picture that is drawn, with the pixels around it. Elsewhere nothing is covered.
+    pub sample: Sample,
 }
 
 impl Default for RenderOptions {
@@ -95,6 +99,7 @@ impl Default for RenderOptions {
             faults: Faults::NONE,
             positions: Positions::Shared,
             profile: Profile::default(),
+            sample: Sample::ALL,
         }
     }
 }

@@ -117,6 +117,8 @@ pub(super) fn render_studied<D: Domain>(
     options: &RenderOptions,
     study: Study<'_, D>,
 ) -> Result<Picture, Vec<Diagnostic>> {
+    let sample = options.sample.drawn([scene.framebuffer.width, scene.framebuffer.height]);
+    let study = Study { pixels: study.pixels.or(sample.as_ref()), ..study };
     let mut surface = Surface::new::<D>(scene.framebuffer);
     let mut target = Target::<D>::new(&mut surface);
     let surfaces = if D::HAS_INTERVALS { same_surface::surfaces(scene) } else { Vec::new() };
