@@ -42,6 +42,8 @@ use fixed::Fixed;
 use found::Compiled;
 use glisten_emit::{Conventions, Target};
 use glisten_front::compiler::{Compiler, Options};
+#[cfg(feature = "cli")]
+use glisten_front::compiler::Compilation;
 use glisten_front::diagnostic::write::human;
 use programs::{Given, Named};
 use std::collections::BTreeSet;
@@ -333,13 +335,38 @@ impl Build {
         if !errors.is_empty() {
             return Err(BuildError::Shaders { text: errors, read: reads.files() });
         }
-        let mut text = rust::opening();
-        for module in &modules {
-            // Writing to a string cannot fail.
-            let _ = write!(text, "\n{module}");
-        }
+        let text = joined(&modules);
         Ok(Built { module: PathBuf::new(), text, read: reads.files(), warnings: found.warnings })
     }
+}
+
+/// The file of all modules.
+fn joined(modules: &[String]) -> String {
+    let mut text = rust::opening();
+    for module in modules {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "\n{module}");
+    }
+    text
+}
+
+/// The module for wgpu of programs that are compiled already, as WGSL. The names of their files are relative to `root`.
+///
+/// # Errors
+/// What WGSL cannot represent, as `glisten compile` prints it.
+#[cfg(feature = "cli")]
+pub(crate) fn wgpu_module(programs: &[(String, Compilation)], root: &Path) -> Result<String, String> {
+    let targets = vec![Target::Wgsl];
+    let choices = rust::Choices { targets, wgpu: true, root: Some(root.to_owned()), ..rust::Choices::default() };
+    let (mut modules, mut errors) = (Vec::new(), String::new());
+    for (name, Compilation { program, sources, .. }) in programs {
+        let Some(program) = program else { continue };
+        match rust::module(name, program, sources, &Conventions::default(), &choices) {
+            Ok(module) => modules.push(module),
+            Err(found) => errors.push_str(&human(sources, &found, false)),
+        }
+    }
+    if errors.is_empty() { Ok(joined(&modules)) } else { Err(errors) }
 }
 
 /// Names of which each may be given once.

@@ -8,6 +8,7 @@
 //! | `host` | what programs are ported to, as data |
 //! | `done` | what was done to a text |
 //! | `minecraft` | the files of a pack that describe passes |
+//! | `reflection` | the reflection of texts with numbers of their own |
 //! | `header` | the reflection as a header of C |
 //! | `report` | the account, as JSON and as a page |
 
@@ -15,10 +16,12 @@ mod done;
 mod header;
 mod host;
 mod minecraft;
+mod reflection;
 mod report;
 
 pub use done::done;
 pub use header::header;
 pub use host::{HOSTS, Host, find_host, host_names};
 pub use minecraft::{PostEffect, post_effect};
+pub use reflection::{reflection, renumbered};
 pub use report::{FileReport, Outcome, ProgramReport, Report, page};

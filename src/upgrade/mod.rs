@@ -17,6 +17,6 @@ pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
 pub use program::{names_in, plan_in};
 pub use rewrite::rewrite;
 pub use vulkan::{
-    Dialect, HostBlock, Includes, NewFile, NewTree, Note, Numbering, TreeProgram, moved_path, plain, to_vulkan, tree,
-    with_version,
+    Dialect, HostBlock, Includes, NewFile, NewTree, Note, Numbering, TreeProgram, converts_depth, moved_path, plain,
+    to_vulkan, tree, with_version,
 };

@@ -42,7 +42,7 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
     // Comments are not code; a macro may be used anywhere.
     let all = tokens(text.text);
     let lines = directive_lines(&code);
-    edits.extend(extension_lines(&code));
+    edits.extend(extension_lines(text.text, &code));
     let is_dropped: Vec<Range<usize>> = edits.iter().map(|(range, _)| range.clone()).collect();
     let version = version_line(text.text);
     let is_left = |token: &Token<'_>| {
@@ -62,9 +62,10 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
         if plan.target == Target::Es300 {
             declarations.splice(0..0, precisions(text.stage, &all));
         }
-        let place = first_code(&code, &lines);
         if !declarations.is_empty() {
-            edits.push((place..place, declarations.iter().map(|line| format!("{line}\n")).collect()));
+            let (place, gap) = above_comment(text.text, &code, first_code(&code, &lines));
+            let lines: String = declarations.iter().map(|line| format!("{line}\n")).collect();
+            edits.push((place..place, lines + gap));
         }
     }
     applied(text.text, edits)
@@ -95,8 +96,9 @@ fn precisions(stage: Stage, all: &[Token<'_>]) -> Vec<String> {
     float.into_iter().chain(samplers).filter(|ty| !is_set(ty)).map(|ty| format!("precision highp {ty};")).collect()
 }
 
-/// The text with its replacements, which do not overlap.
+/// The text with its replacements, which do not overlap. New lines end as those of the text.
 pub(super) fn applied(text: &str, mut edits: Vec<Edit>) -> String {
+    let has_returns = ends_lines_with_returns(text);
     // Insertions come before what is replaced, and a whole declaration before its words.
     edits.sort_by_key(|(range, _)| (range.start, !range.is_empty(), Reverse(range.end)));
     let (mut new, mut at) = (String::new(), 0);
@@ -105,11 +107,18 @@ pub(super) fn applied(text: &str, mut edits: Vec<Edit>) -> String {
             continue;
         }
         new.push_str(text.get(at..range.start).unwrap_or(""));
+        let with = if has_returns { with.replace("\r\n", "\n").replace('\n', "\r\n") } else { with };
         new.push_str(&with);
         at = range.end;
     }
     new.push_str(text.get(at..).unwrap_or(""));
     new
+}
+
+/// Whether all lines of a text end with a carriage return and a line feed.
+pub(super) fn ends_lines_with_returns(text: &str) -> bool {
+    let feeds = text.matches('\n').count();
+    feeds > 0 && text.matches("\r\n").count() == feeds
 }
 
 /// The functions and macros that a text defines under names that were built in.
@@ -236,7 +245,7 @@ fn directive_lines(code: &str) -> Vec<(Range<usize>, Option<&str>)> {
 }
 
 /// `#extension` lines for what is built in now.
-fn extension_lines(code: &str) -> Vec<Edit> {
+fn extension_lines(text: &str, code: &str) -> Vec<Edit> {
     let is_built_in = |line: &str| {
         let name = line.strip_prefix("extension")?.trim_start().split([':', ' ', '\t']).next()?;
         Some(BUILT_IN.contains(&name))
@@ -244,10 +253,14 @@ fn extension_lines(code: &str) -> Vec<Edit> {
     directive_lines(code)
         .into_iter()
         .filter(|(_, line)| line.and_then(is_built_in).unwrap_or(false))
-        .map(|(range, _)| {
-            (range.start..range.start + code.get(range).map_or(0, |line| line.trim_end().len()), String::new())
-        })
+        .map(|(range, _)| (range.start..range.start + removable(text, code, &range), String::new()))
         .collect()
+}
+
+/// The length of a line of code that is taken away: with its end, unless a comment follows.
+fn removable(text: &str, code: &str, range: &Range<usize>) -> usize {
+    let [line, alone] = [text, code].map(|text| text.get(range.clone()).unwrap_or("").trim_end());
+    if line.len() == alone.len() { range.len() } else { alone.len() }
 }
 
 /// Sets the version.
@@ -265,10 +278,35 @@ fn version_edit(text: &Text<'_>, target: Target, version: Option<Range<usize>>, 
     }
 }
 
-/// The start of the first line with code of a text.
-pub(super) fn first_code_of(text: &str) -> usize {
+/// The place for new declarations of a text, and the text between them and what follows.
+pub(super) fn place_of_declarations(text: &str) -> (usize, &'static str) {
     let code = without_comments(text);
-    first_code(&code, &directive_lines(&code))
+    above_comment(text, &code, first_code(&code, &directive_lines(&code)))
+}
+
+/// The longest comment in lines that explains a declaration. A longer one is about the file.
+const LONGEST_COMMENT: usize = 6;
+
+/// The place of new lines above a line of code: above the comment that explains this line, too, with a blank line between.
+fn above_comment(text: &str, code: &str, place: usize) -> (usize, &'static str) {
+    let start = comment_above(text, code, place);
+    if start < place { (start, "\n") } else { (place, "") }
+}
+
+/// The start of the comment that explains a line of code: it is directly above, and neither long nor a license.
+pub(super) fn comment_above(text: &str, code: &str, place: usize) -> usize {
+    let (mut start, mut n_lines) = (place, 0);
+    while let Some(before) = start.checked_sub(1).and_then(|end| text.get(..end)) {
+        let line = before.rfind('\n').map_or(0, |at| at + 1)..start;
+        let is_blank = |text: &str| text.get(line.clone()).is_none_or(|line| line.trim().is_empty());
+        if is_blank(text) || !is_blank(code) {
+            break;
+        }
+        (start, n_lines) = (line.start, n_lines + 1);
+    }
+    let comment = text.get(start..place).unwrap_or("").to_ascii_lowercase();
+    let is_about_file = n_lines > LONGEST_COMMENT || ["copyright", "license", "licence"].iter().any(|word| comment.contains(word));
+    if is_about_file { place } else { start }
 }
 
 /// The start of the first line with code, outside of conditional groups, or of the group that it is in.

@@ -25,6 +25,7 @@ use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, comments};
 use layout::Layouts;
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 
 /// The parts of a module that are chosen.
 #[derive(Clone, Debug)]
@@ -36,6 +37,8 @@ pub(super) struct Choices {
     pub(super) wgpu: bool,
     /// The attributes that step by instance.
     pub(super) instanced: Vec<String>,
+    /// The folder that the names of files are relative to.
+    pub(super) root: Option<PathBuf>,
 }
 
 impl Default for Choices {
@@ -46,6 +49,7 @@ impl Default for Choices {
             glam: false,
             wgpu: false,
             instanced: Vec::new(),
+            root: None,
         }
     }
 }
@@ -86,7 +90,7 @@ pub(super) fn module(
         body.push_str(&wgpu::text(&reflection, &layouts, &vertices));
     }
     let mut text = String::new();
-    let files: Vec<String> = program.stages.iter().filter_map(|shader| file_of(shader, sources)).collect();
+    let files: Vec<String> = program.stages.iter().filter_map(|shader| file_of(shader, sources, choices)).collect();
     let _ = writeln!(text, "/// The program of {}.", files.join(" and "));
     let leading = program.stages.first().and_then(|shader| leading(shader, sources)).unwrap_or_default();
     leading.iter().for_each(|line| text.push_str(&doc_line(line)));
@@ -115,9 +119,11 @@ fn code(stage: Stage, target: Target, emitted: Emitted) -> String {
 }
 
 /// The file of a stage, as code in a comment.
-fn file_of(shader: &glisten_front::hir::Shader, sources: &SourceMap) -> Option<String> {
+fn file_of(shader: &glisten_front::hir::Shader, sources: &SourceMap, choices: &Choices) -> Option<String> {
     let main = shader.main.and_then(|main| shader.functions.get(main.index()))?;
-    let name = sources.file(sources.file_of(main.span)?).name();
+    let name = Path::new(sources.file(sources.file_of(main.span)?).name());
+    let root = choices.root.as_deref().unwrap_or(Path::new(""));
+    let name = name.strip_prefix(root).unwrap_or(name).to_string_lossy();
     Some(format!("`{}`", name.replace('\\', "/")))
 }
 

@@ -14,7 +14,6 @@ use std::path::{Path, PathBuf};
 /// Puts an included file of an older host to its new place.
 pub(super) fn bring(
     pack: &Path,
-    host: &Host,
     ported: &Ported,
     folder: &mut NewFolder,
     (file, old_name): (&NewFile, &str),
@@ -26,7 +25,7 @@ pub(super) fn bring(
     let old = own.as_ref().and_then(|own| folder.text(own));
     let old = old.or_else(|| on_disk().map(|bytes| String::from_utf8_lossy(&bytes).into_owned()));
     let old = old.unwrap_or_else(|| file.old.clone());
-    let text = with_version(&old, &file.text, host.target);
+    let text = with_version(&old, &file.text);
     let is_read = ported.programs.iter().any(|program| program.index.is_none() && program.reads.contains(&file.name));
     let first = match &own {
         Some(own) if is_read => {

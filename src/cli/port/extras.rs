@@ -1,70 +1,101 @@
 //! The files that a host needs next to the sources: reflection, WGSL, a module of Rust, headers of C; the passes of a pack of Minecraft.
 //!
-//! *In:* ported programs. *Out:* files of the new folder. *Holds:* what is emitted comes from the new texts, as they are written.
+//! *In:* ported programs. *Out:* files of the new folder. *Holds:* the files of a program agree with each other in every number, and with
+//! the new texts, if the host reads those.
 
 use super::super::exit::{Exit, Failure};
 use super::programs::{Done, Ported};
 use super::tree::{NewFolder, folder_and_stem};
-use crate::build::Build;
-use crate::port::{FileReport, Host, done, header, post_effect};
+use crate::build;
+use crate::port::{FileReport, Host, done, header, post_effect, reflection, renumbered};
+use crate::upgrade::Dialect;
 use glisten_emit::{Conventions, Emitted, Target, emit, reflect};
-use glisten_front::Stage;
-use glisten_front::link::Program;
+use glisten_front::{Compilation, Program, Stage};
 use std::path::Path;
 
-/// Adds the files that the host needs.
-pub(super) fn add(host: &Host, ported: &Ported, folder: &mut NewFolder, pack: &Path) -> Result<(), Failure> {
-    let conventions = Conventions::default();
-    let mut pairs = Vec::new();
-    for one in &ported.programs {
-        let Some(program) = read_back(host, ported, one) else { continue };
+/// Adds the files that the host needs. Returns sentences for the programs at some places.
+pub(super) fn add(
+    host: &Host,
+    ported: &Ported,
+    folder: &mut NewFolder,
+    pack: &Path,
+) -> Result<Vec<(usize, String)>, Failure> {
+    let (mut pairs, mut notes) = (Vec::new(), Vec::new());
+    for (index, one) in ported.programs.iter().enumerate() {
+        let Some(compilation) = described(host, ported, one) else { continue };
+        let Some(program) = &compilation.program else { continue };
         let Some(first) = one.files.first().and_then(|path| folder.place(pack, path)) else { continue };
         let (place, stem) = folder_and_stem(&first);
         let name = |kind: &str, extension: &str| {
             let path = Path::new(kind).join(&place).join(format!("{stem}.{extension}"));
             path.to_string_lossy().replace('\\', "/")
         };
-        let mut reflection = reflect(&program, &conventions);
-        reflection.compact();
-        let json = serde_json::to_string_pretty(&reflection).unwrap_or_default() + "\n";
-        folder.add(&name("reflection", "json"), json.into_bytes());
+        let mut new =
+            if host.has_header { reflection(program) } else { reflect(program, &Conventions::default()) };
         if host.has_header {
-            folder.add(&name("include", "h"), header(&stem, &program, &reflect(&program, &conventions)).into_bytes());
+            folder.add(&name("include", "h"), header(&stem, program, &new).into_bytes());
         }
+        new.compact();
+        let json = serde_json::to_string_pretty(&new).unwrap_or_default() + "\n";
+        folder.add(&name("reflection", "json"), json.into_bytes());
         if host.has_wgsl {
-            for shader in &program.stages {
-                let extension = if shader.stage == Stage::Vertex { "vert.wgsl" } else { "frag.wgsl" };
-                if let Ok(Emitted::Text(text)) = emit(&program, shader.stage, Target::Wgsl, &conventions) {
-                    folder.add(&name("wgsl", extension), text.into_bytes());
-                }
-            }
+            notes.extend(other_numbers(ported, one, program).map(|note| (index, note)));
+            wgsl(program, &name, folder);
         }
-        if let [vertex, fragment] = one.files.as_slice() {
+        if host.has_rust && one.files.len() == 2 {
             let module =
                 first.rsplit_once('.').map_or(first.as_str(), |(stem, _)| stem).replace(['/', '.', '-', ' '], "_");
-            pairs.push((module, vertex.clone(), fragment.clone()));
+            pairs.push((module, compilation));
         }
     }
-    if host.has_rust && !pairs.is_empty() {
-        let named = |build: Build, (name, vertex, fragment): &(String, _, _)| {
-            build.named_program(name.clone(), vertex, fragment)
-        };
-        let build = pairs.iter().fold(Build::new().without_spirv().wgpu(), named);
-        let built = build.text().map_err(|error| Failure::new(Exit::Content, error.to_string()))?;
-        folder.add("shaders.rs", built.text.into_bytes());
+    if !pairs.is_empty() {
+        let root = std::path::absolute(pack).unwrap_or_else(|_| pack.to_owned());
+        let text = build::wgpu_module(&pairs, &root).map_err(|errors| Failure::new(Exit::Content, errors))?;
+        folder.add("shaders.rs", text.into_bytes());
     }
-    Ok(())
+    Ok(notes)
 }
 
-/// The program of the new texts.
-fn read_back(host: &Host, ported: &Ported, one: &Done) -> Option<Program> {
-    let index = one.index.filter(|index| ported.plain.refused.get(*index).is_some_and(Option::is_none))?;
-    let unit = ported.units.get(index)?;
-    let (compiler, sources) = match &host.dialect {
-        Some(dialect) => unit.read_back(index, &ported.plain, dialect),
-        None => (unit.compiler.clone(), unit.sources.clone()),
-    };
-    compiler.compile(&sources).program
+/// Adds the WGSL of a program.
+fn wgsl(program: &Program, name: &dyn Fn(&str, &str) -> String, folder: &mut NewFolder) {
+    for shader in &program.stages {
+        let extension = if shader.stage == Stage::Vertex { "vert.wgsl" } else { "frag.wgsl" };
+        if let Ok(Emitted::Text(text)) = emit(program, shader.stage, Target::Wgsl, &Conventions::default()) {
+            folder.add(&name("wgsl", extension), text.into_bytes());
+        }
+    }
+}
+
+/// The program that the host's files describe: the texts with their numbers for a host that reads them, and the program before numbers
+/// were written for one that gets WGSL, of which all files then have the same numbers.
+fn described(host: &Host, ported: &Ported, one: &Done) -> Option<Compilation> {
+    let unit = ported.units.get(one.index?)?;
+    match &host.dialect {
+        Some(_) if host.has_wgsl => Some(unit.compiler.compile(&unit.sources)),
+        Some(dialect) if host.has_header => of_texts(ported, one, dialect),
+        Some(dialect) => {
+            let index = one.index.filter(|index| ported.plain.refused.get(*index).is_some_and(Option::is_none))?;
+            let (compiler, sources) = unit.read_back(index, &ported.plain, dialect);
+            Some(compiler.compile(&sources))
+        }
+        None => Some(unit.compiler.compile(&unit.sources)),
+    }
+}
+
+/// The program of the new texts, as they are written.
+fn of_texts(ported: &Ported, one: &Done, dialect: &Dialect) -> Option<Compilation> {
+    let index = one.index?;
+    let (compiler, sources) = ported.units.get(index)?.read_back(index, &ported.tree, dialect);
+    Some(compiler.compile(&sources))
+}
+
+/// What the WGSL of a program numbers otherwise than its new texts.
+fn other_numbers(ported: &Ported, one: &Done, code: &Program) -> Option<String> {
+    let compilation = of_texts(ported, one, ported.host.dialect.as_ref()?)?;
+    let names: Vec<String> =
+        renumbered(code, &compilation.program?).into_iter().map(|name| format!("`{name}`")).collect();
+    let others = "in GLSL, whose files other programs share, than in WGSL, `shaders.rs` and the reflection";
+    (!names.is_empty()).then(|| format!("other numbers {others}: {}", names.join(", ")))
 }
 
 /// The passes of a pack, by the blocks of its shaders.

@@ -127,13 +127,13 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
     let moved = ported.older_files.moved();
     for file in &ported.tree.files {
         if let Some(old) = moved.get(&file.name) {
-            files.extend(brought::bring(&args.pack, host, ported, folder, (file, old)));
+            files.extend(brought::bring(&args.pack, ported, folder, (file, old)));
             continue;
         }
         let Some(place) = folder.place(&args.pack, Path::new(&file.name)) else { continue };
         let new = folder.place(&args.pack, Path::new(&file.new_name())).unwrap_or_else(|| place.clone());
         let old = folder.text(&place).unwrap_or_default();
-        let text = with_version(&old, &file.text, host.target);
+        let text = with_version(&old, &file.text);
         if old == text && new == place {
             continue;
         }
@@ -154,12 +154,16 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
     }
     files.sort_by(|a, b| (&a.file, &a.new).cmp(&(&b.file, &b.new)));
     let copied = folder.copied();
-    extras::add(host, ported, folder, &args.pack)?;
+    let notes = extras::add(host, ported, folder, &args.pack)?;
+    let mut programs = ported.reports(&args.pack, folder);
+    for (index, note) in notes {
+        programs.get_mut(index).into_iter().for_each(|program| program.notes.push(note.clone()));
+    }
     let pack = args
         .pack
         .file_name()
         .map_or_else(|| args.pack.display().to_string(), |name| name.to_string_lossy().into_owned());
-    Ok(Report { pack, host: host.name.to_owned(), programs: ported.reports(&args.pack, folder), files, copied })
+    Ok(Report { pack, host: host.name.to_owned(), programs, files, copied })
 }
 
 /// Writes the folder and tells the account.

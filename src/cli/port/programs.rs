@@ -11,7 +11,7 @@ use super::super::upgrade::{Upgraded, checker, plan, plan_of_newer, rewritten, w
 use super::older::Older;
 use super::tree::NewFolder;
 use crate::port::{Host, Outcome, ProgramReport};
-use crate::upgrade::{Dialect, Includes, NewTree, Plan, Refused, TreeProgram, tree};
+use crate::upgrade::{Dialect, Includes, NewTree, Plan, Refused, TreeProgram, converts_depth, tree};
 use glisten_front::compiler::{Compiler, Prepared, Source};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
@@ -163,7 +163,7 @@ fn new_program(
     args: &SourceArgs,
     words: &BTreeSet<String>,
 ) -> Result<New, Failure> {
-    let is_for_vulkan = unit.batch.sources.files().any(|(_, file)| states_sets(file.text()));
+    let is_for_vulkan = unit.batch.sources.files().any(|(_, file)| states_sets(file.text()) || converts_depth(file.text()));
     if is_for_vulkan {
         return Ok(Err((Outcome::Already, None)));
     }

@@ -235,7 +235,7 @@ fn write(
     }
     for file in changed {
         let old = std::fs::read_to_string(&file.name).unwrap_or_default();
-        let text = with_version(&old, &file.text, args.to.into());
+        let text = with_version(&old, &file.text);
         let place = match &args.output {
             Some(folder) => places.of_part(file).map(|part| folder.join(part)),
             None => args.in_place.then(|| PathBuf::from(file.new_name())),

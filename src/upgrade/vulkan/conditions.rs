@@ -106,8 +106,28 @@ pub(super) fn between(from: &[Open], to: &[Open]) -> Vec<String> {
         return lines;
     }
     lines.extend(from.iter().skip(same).map(|_| "#endif".to_owned()));
-    lines.extend(to.iter().skip(same).flat_map(|open| open.heads.iter().cloned()));
+    for open in to.iter().skip(same) {
+        match negated(&open.heads) {
+            Some(head) => lines.push(head),
+            None => lines.extend(open.heads.iter().cloned()),
+        }
+    }
     lines
+}
+
+/// `#ifndef A` in place of `#ifdef A`, nothing, and `#else`.
+fn negated(heads: &[String]) -> Option<String> {
+    let [first, last] = heads else { return None };
+    let (first, last) = (first.trim(), last.trim());
+    if !last.strip_prefix('#')?.trim_start().starts_with("else") || first.contains("//") || first.contains("/*") {
+        return None;
+    }
+    let (word, rest) = first.strip_prefix('#')?.trim_start().split_once(char::is_whitespace)?;
+    match word {
+        "ifdef" => Some(format!("#ifndef {}", rest.trim())),
+        "ifndef" => Some(format!("#ifdef {}", rest.trim())),
+        _ => None,
+    }
 }
 
 /// Takes away conditions around nothing, which a text has only because declarations left it.
@@ -128,6 +148,11 @@ pub(super) fn without_empty(text: &str) -> String {
         } else if is(line, &["endif"]) {
             if let Some(Some(start)) = open.pop() {
                 lines.drain(start..=at);
+                let is_blank = |line: Option<&&str>| line.is_some_and(|line| line.trim().is_empty());
+                let before = start.checked_sub(1);
+                if before.is_none_or(|before| is_blank(lines.get(before))) && is_blank(lines.get(start)) {
+                    lines.remove(start);
+                }
                 at = start;
                 continue;
             }
@@ -155,6 +180,10 @@ mod tests {
         assert_eq!(at("w\n"), []);
         assert_eq!(between(&at("x\n"), &at("z\n"))[1..], ["#else", "#if 1"]);
         assert_eq!(between(&at("z\n"), &[]), ["#endif", "#endif"]);
+        let text = "#ifdef A\nx\n#else\ny\n#endif\n";
+        let conditions = Conditions::new(text);
+        let y = conditions.at(text.find('y').expect("there"));
+        assert_eq!(between(&[], &y), ["#ifndef A"]);
     }
 
     #[test]

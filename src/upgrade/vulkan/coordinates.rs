@@ -6,6 +6,7 @@
 use super::super::rewrite::Edit;
 use super::super::tokens::closing;
 use super::chunks::Chunks;
+use super::style::{has_braces_below, indent_of};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Shader, Stage};
 
@@ -15,6 +16,14 @@ static NAMES: &[(&str, &str)] = &[("gl_VertexID", "gl_VertexIndex"), ("gl_Instan
 /// The old name of a name of Vulkan.
 pub(super) fn old_name(name: &str) -> Option<&'static str> {
     NAMES.iter().find(|row| row.1 == name).map(|row| row.0)
+}
+
+/// The beginning of the comment above a `main` that converts the depth.
+const MARK: &str = "// Vulkan's depth";
+
+/// Whether a text converts the depth itself: it is for Vulkan already.
+pub fn converts_depth(text: &str) -> bool {
+    text.contains(MARK)
 }
 
 /// Functions along y.
@@ -66,19 +75,20 @@ pub(super) fn words(chunks: &Chunks<'_>, is_fragment: bool, frag_coord: Option<&
 /// The new `main` of a vertex shader, which calls the old one, and the edit that renames that.
 pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<Vec<Edit>> {
     let place = chunks.place(main_of(chunks)?);
-    let size = if shader.globals.iter().any(|one| one.builtin == Some(BuiltinVariable::PointSize) && one.written) {
-        ""
-    } else {
-        "    gl_PointSize = 1.0;\n"
-    };
-    let gap = if chunks.text.ends_with('\n') { "" } else { "\n" };
+    let has_size = shader.globals.iter().any(|one| one.builtin == Some(BuiltinVariable::PointSize) && one.written);
+    let indent = indent_of(chunks.text);
+    let size = if has_size { String::new() } else { format!("{indent}gl_PointSize = 1.0;\n") };
+    let what = if has_size { "" } else { "; a size for points" };
+    // A text without a line's end after its last brace stays one.
+    let (gap, tail) = if chunks.text.ends_with('\n') { ("", "\n") } else { ("\n", "") };
+    let open = if has_braces_below(chunks.text) { "\n{" } else { " {" };
     let end = chunks.text.len();
     let text = format!(
-        "{gap}\n// Vulkan's depth: [0, w] in clip space.\nvoid main() {{\n    {name}();\n    \
-         gl_Position.z = (gl_Position.z + gl_Position.w) * 0.5;\n{size}}}\n"
+        "{gap}\n{MARK}: [0, w] in clip space{what}.\nvoid main(){open}\n{indent}{name}();\n{indent}\
+         gl_Position.z = (gl_Position.z + gl_Position.w) * 0.5;\n{size}}}{tail}"
     );
     let mut edits = vec![(place, name.to_owned()), (end..end, text)];
-    if !size.is_empty() {
+    if !has_size {
         edits.extend(point_size(chunks));
     }
     Some(edits)

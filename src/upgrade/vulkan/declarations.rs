@@ -2,14 +2,14 @@
 //!
 //! *In:* a text with the facts about its declarations. *Out:* edits; or the reason why a declaration cannot be rewritten.
 
-use super::super::rewrite::Edit;
+use super::super::rewrite::{Edit, comment_above};
 use super::super::tokens::closing;
 use super::chunks::{Chunk, Chunks};
 use super::conditions::{Conditions, Open};
 use super::dialect::{Dialect, Numbering};
 use super::facts::{Fact, Loose, Numbered};
 use super::numbers::{Numbers, Space};
-use glisten_front::source::{SourceMap, Span, comments};
+use crate::engines::code::without_comments;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -49,8 +49,24 @@ pub(super) struct Line {
     pub(super) above: Vec<String>,
     /// The type, the name and the sizes of arrays.
     pub(super) code: String,
-    pub(super) behind: String,
+    /// The comment behind it.
+    pub(super) behind: Option<String>,
+    /// The value that it begins with in OpenGL.
+    pub(super) initializer: Option<String>,
     pub(super) conditions: Vec<Open>,
+}
+
+impl Line {
+    /// The comment behind it, with the value that it begins with in OpenGL.
+    pub(super) fn comment(&self) -> Option<String> {
+        match (&self.behind, &self.initializer) {
+            (None, None) => None,
+            (Some(comment), None) => Some(comment.clone()),
+            (None, Some(value)) => Some(format!("// initially {value}")),
+            (Some(comment), Some(value)) if comment.starts_with("//") => Some(format!("{comment} (initially {value})")),
+            (Some(comment), Some(value)) => Some(format!("{comment} // initially {value}")),
+        }
+    }
 }
 
 /// The loose uniforms of a text, and the edits that take them away.
@@ -136,7 +152,7 @@ impl<'a> Text<'a> {
                         let start = self.chunks.place(call.start).start;
                         edits.push((start..start, format!("layout({}) ", words.join(", "))));
                     } else if is_first {
-                        edits.push(self.with_layout(one.chunk, &words));
+                        edits.extend(self.with_layout(one.chunk, &words));
                     } else {
                         edits.extend(self.split(one, &words));
                     }
@@ -179,14 +195,14 @@ impl<'a> Text<'a> {
     }
 
     /// The first declaration of a chunk with a layout: merged into the one that is there, or before it.
-    fn with_layout(&self, chunk: &Chunk, words: &[String]) -> Edit {
+    fn with_layout(&self, chunk: &Chunk, words: &[String]) -> Option<Edit> {
         let tokens = self.chunks.of(chunk);
         let brace = tokens.iter().position(|token| token.text == "{").unwrap_or(tokens.len());
         let start = self.chunks.range(chunk).start;
         let found = tokens.iter().take(brace).position(|token| token.text == "layout");
         let end = found.and_then(|at| closing(&self.chunks.all, chunk.tokens.start + at + 1));
         let (Some(at), Some(end)) = (found, end) else {
-            return (start..start, format!("layout({}) ", words.join(", ")));
+            return Some((start..start, format!("layout({}) ", words.join(", "))));
         };
         let inner = self.chunks.place(chunk.tokens.start + at + 1).end..self.chunks.place(end).start;
         let mut replaced = vec!["std140", "shared", "packed", "std430"];
@@ -203,7 +219,9 @@ impl<'a> Text<'a> {
             !id.is_empty() && !replaced.contains(&word.as_str())
         });
         let all: Vec<&str> = words.iter().map(String::as_str).chain(kept).collect();
-        (inner, all.join(", "))
+        let plain = |text: &str| text.split_whitespace().collect::<String>();
+        let is_same = plain(old) == plain(&all.join(","));
+        (!is_same).then(|| (inner, all.join(", ")))
     }
 
     /// A later name of a declaration: `in vec4 a, b;` becomes two declarations.
@@ -263,11 +281,7 @@ impl<'a> Text<'a> {
     /// The loose uniforms of the text.
     pub(super) fn moved(&self) -> Result<Moved, String> {
         let mut moved = Moved::default();
-        let mut map = SourceMap::default();
-        let base = map.add(self.name, self.chunks.text).map_or(0, |file| map.file(file).base());
-        let span = |range: Range<usize>| {
-            Span::new(base.saturating_add(range.start as u32), base.saturating_add(range.end as u32))
-        };
+        let code = without_comments(self.chunks.text);
         let mut moves: Vec<&Declared<'_>> = Vec::new();
         let mut removed: BTreeSet<usize> = BTreeSet::new();
         let (mut later_struct, mut after) = (false, None);
@@ -295,21 +309,14 @@ impl<'a> Text<'a> {
                 later_struct |= loose.structs.iter().any(|name| is_later(self.struct_place(name)))
                     || words.any(|token| is_later(self.constant_place(token.text)));
             }
-            let name = span(self.chunks.place(one.token));
-            let mut above = if is_new && !is_call {
-                comments::above_but_not_leading(&map, span(range.clone()))
-            } else {
-                Vec::new()
-            };
-            above.retain(|line| line.starts_with("//"));
-            let end = Span::new(name.start, base.saturating_add(range.end as u32));
-            let behind = if is_new { comments::behind(&map, end) } else { None };
+            let above = if is_new && !is_call { self.above(&code, range.start) } else { Vec::new() };
             let (code, rest) = self.member(one, loose)?;
             let n_above = above.len();
             if loose.is_some() {
                 let conditions = self.conditions.at(range.start);
-                let behind = behind.map_or_else(String::new, |text| format!("  {text}"));
-                moved.lines.push(Line { place: one.place, above, code, behind, conditions });
+                let behind = if is_call { None } else { self.behind(one, is_new) };
+                let initializer = if is_call { None } else { self.initializer(one.token) };
+                moved.lines.push(Line { place: one.place, above, code, behind, initializer, conditions });
             }
             moves.push(one);
             if is_new {
@@ -332,7 +339,91 @@ impl<'a> Text<'a> {
         {
             *place = range.start;
         }
+        let place = moved.place.as_ref().map(|(place, _)| *place);
+        self.close_gaps(&mut moved.edits, place);
         Ok(moved)
+    }
+
+    /// Takes away a blank line after lines that are taken away below another blank line, except at the block's place.
+    fn close_gaps(&self, edits: &mut [Edit], block: Option<usize>) {
+        let text = self.chunks.text;
+        let is_blank_before = |at: usize| {
+            let line = text.get(..at).and_then(|before| before.strip_suffix('\n'));
+            line.is_none_or(|before| before.rsplit('\n').next().is_some_and(|line| line.trim().is_empty()))
+        };
+        edits.sort_by_key(|(range, _)| range.start);
+        let mut group = 0;
+        for index in 0..edits.len() {
+            let [start, end] = [group, index].map(|at| edits.get(at).map_or(0..0, |(range, _)| range.clone()));
+            let next = edits.get(index + 1).map(|(range, _)| range.start);
+            if next == Some(end.end) {
+                continue;
+            }
+            group = index + 1;
+            let has_block = block.is_some_and(|place| (start.start..=end.end).contains(&place));
+            let line = text.get(end.end..).and_then(|rest| rest.split_inclusive('\n').next()).unwrap_or("x");
+            let is_whole = text.get(..end.end).is_some_and(|before| before.ends_with('\n'));
+            let is_gap = is_whole && line.trim().is_empty() && is_blank_before(start.start);
+            if let Some((range, rest)) = edits.get_mut(index).filter(|_| is_gap && !has_block)
+                && rest.is_empty()
+            {
+                range.end += line.len();
+            }
+        }
+    }
+
+    /// The lines of the comment that explains a declaration, without the declaration's indentation.
+    fn above(&self, code: &str, start: usize) -> Vec<String> {
+        let text = self.chunks.text;
+        let line = self.line_start(start);
+        let indent = text.get(line..start).unwrap_or("");
+        if !indent.trim().is_empty() {
+            return Vec::new();
+        }
+        let comment = text.get(comment_above(text, code, line)..line).unwrap_or("");
+        let line = |line: &str| line.strip_prefix(indent).unwrap_or(line.trim_start()).trim_end().to_owned();
+        comment.lines().map(line).collect()
+    }
+
+    /// The comment behind a declarator, to the end of its line. Several declarators on one line have one comment, which is the first's.
+    fn behind(&self, one: &Declared<'_>, is_first: bool) -> Option<String> {
+        let whole = self.chunks.range(one.chunk);
+        let is_on_one_line = self.chunks.text.get(whole.clone()).is_some_and(|text| !text.contains('\n'));
+        let end = if is_on_one_line { whole.end } else { self.declarator_end(one.token) };
+        if is_on_one_line && !is_first {
+            return None;
+        }
+        let comment = self.chunks.text.get(end..)?.lines().next()?.trim();
+        is_line_comment(comment).then(|| comment.to_owned())
+    }
+
+    /// The tokens after the name of a declarator, outside of parentheses, up to its comma or semicolon.
+    fn after_name(&self, name: usize) -> impl Iterator<Item = (usize, bool)> {
+        let mut depth = 0_usize;
+        let all = (name + 1..self.chunks.all.len()).map(move |index| {
+            match self.chunks.word(index) {
+                "[" | "(" | "{" => depth += 1,
+                "]" | ")" | "}" => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            (index, depth == 0)
+        });
+        all.take_while(|(index, is_outside)| !(*is_outside && matches!(self.chunks.word(*index), "," | ";")))
+    }
+
+    /// The end of the comma or semicolon after a declarator.
+    fn declarator_end(&self, name: usize) -> usize {
+        let last = self.after_name(name).last().map_or(name, |(index, _)| index);
+        self.chunks.place(last + 1).end
+    }
+
+    /// The value that a declarator gives, on one line and without comments.
+    fn initializer(&self, name: usize) -> Option<String> {
+        let equals = self.after_name(name).find(|(index, is_outside)| *is_outside && self.chunks.word(*index) == "=")?;
+        let last = self.after_name(name).last()?.0;
+        let range = self.chunks.place(equals.0).end..self.chunks.place(last).end;
+        let value = without_comments(self.chunks.text.get(range)?);
+        Some(value.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
     /// The place of the definition of a constant in this text: `const int MAX = 4`, with or without a precision.
@@ -433,18 +524,10 @@ impl<'a> Text<'a> {
 
     /// A name with the sizes of its arrays, as they are written, and without its initializer.
     fn declarator(&self, name: usize) -> String {
-        let mut depth = 0_usize;
-        let mut end = self.chunks.place(name).end;
-        for index in name + 1..self.chunks.all.len() {
-            match self.chunks.word(index) {
-                "[" | "(" => depth += 1,
-                "]" | ")" => depth = depth.saturating_sub(1),
-                "," | ";" | "=" if depth == 0 => break,
-                _ => {}
-            }
-            end = self.chunks.place(index).end;
-        }
-        self.chunks.text.get(self.chunks.place(name).start..end).unwrap_or("").to_owned()
+        let start = self.chunks.place(name);
+        let sizes = self.after_name(name).take_while(|(index, is_outside)| !(*is_outside && self.chunks.word(*index) == "="));
+        let end = sizes.last().map_or(start.end, |(index, _)| self.chunks.place(index).end);
+        self.chunks.text.get(start.start..end).unwrap_or("").to_owned()
     }
 
     /// The lines of a declaration and of the comment above it, if nothing else is on them; otherwise the declaration alone.
@@ -454,7 +537,7 @@ impl<'a> Text<'a> {
         let end = text.get(range.end..).and_then(|rest| rest.find('\n')).map_or(text.len(), |at| range.end + at + 1);
         let before = text.get(start..range.start).unwrap_or("").trim();
         let after = text.get(range.end..end).unwrap_or("").trim();
-        if !before.is_empty() || !(after.is_empty() || after.starts_with("//")) {
+        if !before.is_empty() || !(after.is_empty() || is_line_comment(after)) {
             return range;
         }
         let above = (0..n_above).fold(start, |at, _| self.line_start(at.saturating_sub(1)));
@@ -464,4 +547,10 @@ impl<'a> Text<'a> {
     fn line_start(&self, offset: usize) -> usize {
         self.chunks.text.get(..offset).and_then(|before| before.rfind('\n')).map_or(0, |at| at + 1)
     }
+}
+
+/// Whether a text is one comment that ends with its line.
+pub(super) fn is_line_comment(text: &str) -> bool {
+    let is_block = text.starts_with("/*") && text.find("*/").is_some_and(|end| end + 2 == text.len());
+    (text.starts_with("//") || is_block) && !text.ends_with('\\')
 }

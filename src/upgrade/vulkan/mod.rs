@@ -13,6 +13,7 @@
 //! | `samplers` | uniforms for samplers in structs |
 //! | `numbers`, `layouts` | locations and bindings; the blocks of the loose uniforms |
 //! | `declarations`, `coordinates` | the edits of declarations; of `gl_Position`, `gl_FragCoord`, `dFdy`, indices |
+//! | `style` | indentation, braces, columns of comments |
 //! | `text` | the new text of one file |
 //! | `tree`, `output` | all of them, in order; the result |
 //! | `check` | the new texts, read as OpenGL's |
@@ -30,10 +31,12 @@ mod layouts;
 mod numbers;
 mod output;
 mod samplers;
+mod style;
 mod text;
 mod tree;
 mod unseen;
 
+pub use coordinates::converts_depth;
 pub use dialect::{Dialect, HostBlock, Numbering, plain};
 pub use includes::Includes;
 pub use output::{NewFile, NewTree, Note, TreeProgram, moved_path, with_version};

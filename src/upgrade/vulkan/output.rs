@@ -3,7 +3,6 @@
 //! *In:* nothing. *Out:* the types that others read. *Holds:* an included file that each stage reads as another text gets a name for each.
 
 use super::conditions::Conditions;
-use crate::upgrade::plan::Target;
 use crate::upgrade::rewrite::applied;
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::hir::Stage;
@@ -80,15 +79,16 @@ impl NewFile {
     }
 }
 
-/// The new text of an included file with its `#version` line: an engine that ignores that line reads blanks instead.
-pub fn with_version(old: &str, new: &str, target: Target) -> String {
+/// The new text of an included file with its old `#version` line: an engine that ignores that line reads blanks instead.
+pub fn with_version(old: &str, new: &str) -> String {
     let line = version_line(old).filter(|_| version_line(new).is_none());
     let blank =
         line.filter(|range| new.get(range.clone()).is_some_and(|text| text.trim().is_empty() && !text.is_empty()));
     let Some(range) = blank else { return new.to_owned() };
     let end = range.start + old.get(range.clone()).map_or(0, |line| line.trim_end().len());
-    let (before, after) = (new.get(..range.start).unwrap_or(""), new.get(end..).unwrap_or(""));
-    format!("{before}{}{after}", target.version_line())
+    let [before, line, after] =
+        [new.get(..range.start), old.get(range.start..end), new.get(end..)].map(Option::unwrap_or_default);
+    format!("{before}{line}{after}")
 }
 
 /// A path with a folder before its file: `minecraft:older/fog.glsl`.

@@ -6,9 +6,11 @@
 //! `uniform Material material;` with a `sampler2D diffuse` is `uniform sampler2D material_diffuse;` after it, and the struct has what is
 //! left. A struct of samplers alone goes.
 
-use super::super::rewrite::{Edit, applied};
+use super::super::rewrite::{Edit, applied, comment_above};
 use super::super::tokens::{Token, tokens};
+use super::declarations::is_line_comment;
 use super::output::{Note, TreeProgram};
+use crate::engines::code::without_comments;
 use glisten_front::hir::{Storage, Type};
 use glisten_front::link::Program;
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,7 +96,8 @@ fn split_text(text: &str, holders: &[Holder]) -> Option<(String, Names)> {
     let (mut edits, mut names): (Vec<Edit>, Names) = (Vec::new(), Vec::new());
     let structures: BTreeMap<&str, &Holder> =
         holders.iter().map(|holder| (holder.structure.as_str(), holder)).collect();
-    let mut types: BTreeMap<(&str, String), String> = BTreeMap::new();
+    let code = without_comments(text);
+    let mut types: BTreeMap<(&str, String), (String, Comments<'_>)> = BTreeMap::new();
     for (structure, holder) in &structures {
         let Some(open) = (0..all.len()).find(|at| word(*at) == "struct" && word(at + 1) == *structure) else {
             continue;
@@ -111,8 +114,10 @@ fn split_text(text: &str, holders: &[Holder]) -> Option<(String, Names)> {
                     return None;
                 }
                 let ty: Vec<&str> = (start..end - 1).map(word).collect();
-                types.insert((structure, name.to_owned()), ty.join(" "));
-                edits.push((whole(text, all.get(start)?.range.start..all.get(end)?.range.end), String::new()));
+                let range = all.get(start)?.range.start..all.get(end)?.range.end;
+                let comments = Comments::of(text, &code, range);
+                edits.push((comments.range.clone(), String::new()));
+                types.insert((structure, name.to_owned()), (ty.join(" "), comments));
             }
             start = end + 1;
         }
@@ -140,7 +145,9 @@ fn split_text(text: &str, holders: &[Holder]) -> Option<(String, Names)> {
         let mut lines = Vec::new();
         for member in &holder.samplers {
             let new = free(format!("{}_{member}", holder.name));
-            lines.push(format!("uniform {} {new};", types.get(&(holder.structure.as_str(), member.clone()))?));
+            let (ty, comments) = types.get(&(holder.structure.as_str(), member.clone()))?;
+            lines.extend(comments.above.iter().map(|line| (*line).to_owned()));
+            lines.push(format!("uniform {ty} {new};{}", comments.behind));
             for index in (0..all.len()).filter(|index| word(*index) == holder.name && word(index + 1) == ".") {
                 let is_member_of_other = index.checked_sub(1).is_some_and(|before| word(before) == ".");
                 if word(index + 2) == member && !is_member_of_other {
@@ -150,9 +157,42 @@ fn split_text(text: &str, holders: &[Holder]) -> Option<(String, Names)> {
             names.push((start, format!("{}.{member}", holder.name), new));
         }
         let lines = lines.join("\n");
+        // The comment behind the struct stays with it.
+        let line = text.get(end..).unwrap_or("").lines().next().unwrap_or("");
+        let end = if holder.has_others && is_line_comment(line.trim()) { end + line.len() } else { end };
         edits.push(if holder.has_others { (end..end, format!("\n{lines}")) } else { (start..end, lines) });
     }
     Some((applied(text, edits), names))
+}
+
+/// A member with the comments that go with it.
+struct Comments<'t> {
+    /// The member with its whole lines, if nothing else is on them.
+    range: Range<usize>,
+    above: Vec<&'t str>,
+    /// The comment behind it, with white space in front.
+    behind: String,
+}
+
+impl<'t> Comments<'t> {
+    fn of(text: &'t str, code: &str, range: Range<usize>) -> Self {
+        let plain = Comments { range: whole(text, range.clone()), above: Vec::new(), behind: String::new() };
+        let start = text.get(..range.start).and_then(|before| before.rfind('\n')).map_or(0, |at| at + 1);
+        let rest = text.get(range.end..).unwrap_or("");
+        let line = rest.find('\n').map_or(rest.len(), |at| at + 1);
+        let behind = rest.get(..line).unwrap_or("").trim();
+        let is_alone = text.get(start..range.start).is_some_and(|text| text.trim().is_empty());
+        if !is_alone || !(behind.is_empty() || is_line_comment(behind)) {
+            return plain;
+        }
+        let above = comment_above(text, code, start);
+        let comment = text.get(above..start).unwrap_or("");
+        Comments {
+            range: above..range.end + line,
+            above: comment.lines().map(str::trim).collect(),
+            behind: if behind.is_empty() { String::new() } else { format!(" {behind}") },
+        }
+    }
 }
 
 /// A place with its whole lines, if nothing else is on them.

@@ -2,7 +2,7 @@
 //!
 //! *In:* the file, what is known about all declarations, the blocks. *Out:* the text, or the reason why there is none.
 
-use super::super::rewrite::{Edit, applied, first_code_of};
+use super::super::rewrite::{Edit, applied, place_of_declarations};
 use super::chunks::Chunks;
 use super::conditions::{Conditions, Directive, Open, between, without_empty};
 use super::coordinates;
@@ -12,6 +12,8 @@ use super::facts::Fact;
 use super::files::{File, Files};
 use super::layouts::{Layout, Layouts, block_name};
 use super::numbers::Numbers;
+use super::output::Note;
+use super::style::{self, indent_of};
 use super::{Compiled, Key};
 use crate::engines::code::{is_name, without_comments};
 use glisten_front::builtin::functions;
@@ -65,14 +67,16 @@ pub(super) fn foreign(
     let line = |(name, (offset, plain)): (&String, &(u32, Option<String>))| {
         let is_free = !names.contains(name.as_str()) && functions::named(name).is_empty();
         let ty = plain.as_ref().filter(|_| is_free)?;
-        Some((*offset, format!("{ty} {name}")))
+        // `vec4[2]` with the name before its sizes.
+        let (element, sizes) = ty.split_at(ty.find('[').unwrap_or(ty.len()));
+        Some((*offset, format!("{element} {name}{sizes}")))
     };
     others.map(line).collect()
 }
 
 impl Plan<'_> {
-    /// The new text of a file.
-    pub(super) fn rewritten(&self, key: &Key, file: &File) -> Result<String, String> {
+    /// The new text of a file, and what to say of it.
+    pub(super) fn rewritten(&self, key: &Key, file: &File) -> Result<(String, Vec<Note>), String> {
         let none = BTreeMap::new();
         let (chunks, conditions) = (Chunks::new(&file.text), Conditions::new(&file.text));
         let text = Text {
@@ -90,6 +94,7 @@ impl Plan<'_> {
         edits.extend(self.host_blocks(&file.text, &moved));
         edits.extend(text.layouts()?);
         let has_moved = !moved.edits.is_empty();
+        let notes = self.notes(key, file, &moved);
         edits.extend(moved.edits);
         edits.extend(self.renamed(&chunks));
         edits.extend(self.directives(&file.text, &conditions));
@@ -98,8 +103,19 @@ impl Plan<'_> {
         }
         let new = applied(&file.text, edits);
         let new = if has_moved && without_empty(&file.text) == *file.text { without_empty(&new) } else { new };
-        let new = if has_moved && !has_gaps(&file.text) { without_gaps(&new) } else { new };
-        Ok(self.with_extension(key, file, new))
+        Ok((self.with_extension(key, file, new), notes))
+    }
+
+    /// The values that uniforms begin with in OpenGL alone.
+    fn notes(&self, key: &Key, file: &File, moved: &Moved) -> Vec<Note> {
+        let with_value = moved.lines.iter().filter_map(|line| Some((line, line.initializer.as_deref()?)));
+        let note = |(line, value): (&Line, &str)| {
+            let name = self.name_at(key, line.place).unwrap_or("");
+            let number = file.text.get(..line.place).map_or(0, |before| before.matches('\n').count()) as u32 + 1;
+            let text = format!("`{name}` begins with `{value}` in OpenGL; a member of a block has the value that the host sets");
+            Note { file: key.0.clone(), line: number, text }
+        };
+        with_value.map(note).collect()
     }
 
     fn coordinates(&self, key: &Key, file: &File, chunks: &Chunks<'_>) -> Result<Vec<Edit>, String> {
@@ -159,6 +175,7 @@ impl Plan<'_> {
             };
             members.push((at, self.lines(line, at), open));
         }
+        style::align_comments(&file.text, &moved.lines, &mut members);
         if let (true, Some(unit), Some(stage)) = (is_whole, owner, stage) {
             let compiled = self.programs.iter().find(|one| one.index == unit)?;
             let own: BTreeSet<&str> = moved.lines.iter().filter_map(|line| self.name_at(key, line.place)).collect();
@@ -174,11 +191,11 @@ impl Plan<'_> {
         if owner.is_some() || !self.dialect.offsets {
             members.sort_by_key(|(at, _, _)| *at);
         }
-        let mut body = String::new();
+        let (mut body, indent) = (String::new(), indent_of(&file.text));
         let mut open: Vec<Open> = Vec::new();
         for (_, lines, conditions) in &members {
             between(&open, conditions).iter().for_each(|line| body.push_str(&format!("{line}\n")));
-            lines.iter().for_each(|line| body.push_str(&format!("    {line}\n")));
+            lines.iter().for_each(|line| body.push_str(&format!("{indent}{line}\n")));
             open.clone_from(conditions);
         }
         between(&open, &[]).iter().for_each(|line| body.push_str(&format!("{line}\n")));
@@ -186,16 +203,18 @@ impl Plan<'_> {
             let name = free(self.names, "fragCoord");
             format!("vec4 {name} = vec4(gl_FragCoord.x, {height} - gl_FragCoord.y, gl_FragCoord.zw);\n")
         });
-        let place = moved.place.as_ref().map_or_else(|| first_code_of(&file.text), |(place, _)| *place);
-        let place = if is_turned { place.min(self.first_turned_include(&file.text, key)) } else { place };
+        let first = || place_of_declarations(&file.text);
+        let (place, below) = moved.place.as_ref().map_or_else(first, |(place, _)| (*place, ""));
+        let include = self.first_turned_include(&file.text, key);
+        let (place, below) = if is_turned && include < place { (include, "") } else { (place, below) };
         let after = coordinates::redeclared(chunks).filter(|_| is_turned).unwrap_or(0);
-        let (place, gap) = if after > place { (after, "\n") } else { (place, "") };
+        let (place, gap, below) = if after > place { (after, "\n", "") } else { (place, "", below) };
         let layout = match self.dialect.numbering {
             Numbering::All => format!("layout(std140, set = 0, binding = {})", self.numbers.of(layout.node)),
             _ => "layout(std140)".to_owned(),
         };
         let name = free(self.names, &wanted);
-        Some((place..place, format!("{gap}{layout} uniform {name} {{\n{body}}};\n{turned}")))
+        Some((place..place, format!("{gap}{layout} uniform {name} {{\n{body}}};\n{turned}{below}")))
     }
 
     /// Whether the block of a file with its own can have all members without their conditions, and so be the same for all stages: no
@@ -248,8 +267,10 @@ impl Plan<'_> {
         if self.dialect.offsets { format!("layout(offset = {at}) {code};") } else { format!("{code};") }
     }
 
+    /// The lines of a member, the comment above it first.
     fn lines(&self, line: &Line, at: u32) -> Vec<String> {
-        let code = format!("{}{}", self.member(at, &line.code), line.behind);
+        let behind = line.comment().map_or_else(String::new, |comment| format!("  {comment}"));
+        let code = format!("{}{behind}", self.member(at, &line.code));
         line.above.iter().cloned().chain([code]).collect()
     }
 
@@ -334,23 +355,6 @@ impl Plan<'_> {
         }
         false
     }
-}
-
-/// Whether a text has blank lines one after the other.
-fn has_gaps(text: &str) -> bool {
-    let mut lines = text.lines().map(|line| line.trim().is_empty());
-    let mut before = false;
-    lines.any(|is_blank| std::mem::replace(&mut before, is_blank) && is_blank)
-}
-
-/// A text with one blank line in the place of several.
-fn without_gaps(text: &str) -> String {
-    let mut before = false;
-    let lines = text.split_inclusive('\n').filter(|line| {
-        let is_blank = line.trim().is_empty();
-        !(std::mem::replace(&mut before, is_blank) && is_blank)
-    });
-    lines.collect()
 }
 
 /// A text with a line after `#version`, if it has none of that name.

@@ -180,7 +180,7 @@ fn rewritten(
     let mut numbers = Numbers::default();
     let mut facts = Facts::new(programs, &files, dialect, &mut numbers)?;
     let qualifiers = qualifiers(&files);
-    let notes = add_unseen(&files, &mut facts, &qualifiers, &mut numbers);
+    let mut notes = add_unseen(&files, &mut facts, &qualifiers, &mut numbers);
     let mut known: BTreeSet<String> = BTreeSet::new();
     for fact in facts.all.values_mut().flat_map(BTreeMap::values_mut) {
         if let Fact::Loose(loose) = &*fact
@@ -213,7 +213,8 @@ fn rewritten(
     let mut new = Vec::new();
     for (key, file) in &files.all {
         let reader = file.readers.first().map_or(0, |(unit, _)| *unit);
-        let text = plan.rewritten(key, file).map_err(|reason| (reader, reason))?;
+        let (text, found) = plan.rewritten(key, file).map_err(|reason| (reader, reason))?;
+        notes.extend(found);
         new.push(new_file(&files, &dialect.moved, key, file, text));
     }
     Ok((new, notes))
