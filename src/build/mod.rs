@@ -41,9 +41,9 @@ use files::Reads;
 use fixed::Fixed;
 use found::Compiled;
 use glisten_emit::{Conventions, Target};
-use glisten_front::compiler::{Compiler, Options};
 #[cfg(feature = "cli")]
 use glisten_front::compiler::Compilation;
+use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::write::human;
 use programs::{Given, Named};
 use std::collections::BTreeSet;

@@ -9,7 +9,7 @@ use super::scenes::{DrawError, MachineArgs, told};
 use crate::scene::Scene;
 use crate::verify::{self, Channel, Drawn, OnGpu, Reference, Runner, ThisThread};
 use glisten_gpu::{Foreign, Gpu, Via};
-use glisten_reference::{Contribution, RenderOptions, Undefined, Work};
+use glisten_reference::{Contribution, RenderOptions, Undefined};
 use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::ops::Range;
@@ -36,7 +36,7 @@ impl Reference for TimedReference<'_> {
         Ok(picture)
     }
 
-    fn work(&self, scene: &Scene, options: &RenderOptions) -> Result<Vec<Work>, verify::Failure> {
+    fn work(&self, scene: &Scene, options: &RenderOptions) -> Result<u64, verify::Failure> {
         let (scene, options) = (scene.clone(), *options);
         Ok(self.machine.within_time(move || Ok(ThisThread.work(&scene, &options)?))?)
     }

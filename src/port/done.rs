@@ -43,7 +43,8 @@ pub fn done(old: &str, new: &str) -> Vec<String> {
     found.extend(
         WORDS.iter().filter(|(word, _)| count(old, word) > count(new, word)).map(|(_, text)| (*text).to_owned()),
     );
-    let n_layouts = count(new, "layout").saturating_sub(count(old, "layout"));
+    let n_new_blocks = blocks(new).len().saturating_sub(blocks(old).len());
+    let n_layouts = layouts(new).saturating_sub(layouts(old) + n_new_blocks);
     if n_layouts > 0 {
         let (plural, have) = if n_layouts == 1 { ("", "has") } else { ("s", "have") };
         found.push(format!("{n_layouts} more declaration{plural} {have} a layout"));
@@ -56,13 +57,42 @@ pub fn done(old: &str, new: &str) -> Vec<String> {
         ADDED.iter().filter(|(word, _)| count(new, word) > count(old, word)).map(|(_, text)| (*text).to_owned()),
     );
     if found.is_empty() && old != new {
-        found.push("words were replaced".to_owned());
+        found.push(replaced(old, new));
     }
     found
 }
 
+/// The layouts outside of braces.
+fn layouts(text: &str) -> usize {
+    let code = crate::engines::code::without_comments(text);
+    let (mut depth, mut outside) = (0_usize, String::new());
+    for letter in code.chars() {
+        match letter {
+            '{' => depth += 1,
+            '}' => depth = depth.saturating_sub(1),
+            _ if depth == 0 => outside.push(letter),
+            _ => {}
+        }
+    }
+    crate::engines::code::words(&outside).filter(|(_, word)| *word == "layout").count()
+}
+
+/// How many words a sentence names.
+const MOST_WORDS: usize = 6;
+
+/// The words that others replace.
+fn replaced(old: &str, new: &str) -> String {
+    let [before, after] = [old, new].map(crate::engines::code::without_comments);
+    let [before, after] = [&before, &after].map(|text| crate::engines::code::words(text).map(|(_, word)| word));
+    let pairs: BTreeSet<(&str, &str)> = before.zip(after).filter(|(before, after)| before != after).collect();
+    if pairs.is_empty() || pairs.len() > MOST_WORDS {
+        return "the text changed in other places".to_owned();
+    }
+    pairs.iter().map(|(before, after)| format!("`{before}` is `{after}`")).collect::<Vec<_>>().join(", ")
+}
+
 /// The uniform blocks of a text: the name of each, and its members with their types.
-pub(super) fn blocks(text: &str) -> Vec<(String, Vec<(String, String)>)> {
+pub fn blocks(text: &str) -> Vec<(String, Vec<(String, String)>)> {
     let code = crate::engines::code::without_comments(text);
     let mut found = Vec::new();
     let mut rest: &str = &code;

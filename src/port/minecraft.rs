@@ -17,8 +17,12 @@ pub struct PostEffect {
 }
 
 /// The passes of a file. `shader` gives the new text of a fragment or vertex shader by its name: `minecraft:post/blur` and whether it is
-/// the fragment shader. `None` if the file describes no passes, or is as the game wants it.
-pub fn post_effect(text: &str, shader: &dyn Fn(&str, bool) -> Option<String>) -> Option<PostEffect> {
+/// the fragment shader. `of_game` tells the names of the game's own blocks. `None` if the file describes no passes, or is as the game wants it.
+pub fn post_effect(
+    text: &str,
+    shader: &dyn Fn(&str, bool) -> Option<String>,
+    of_game: &dyn Fn(&str) -> bool,
+) -> Option<PostEffect> {
     let effect: Value = serde_json::from_str(text).ok()?;
     let passes = effect.get("passes")?.as_array()?;
     let list = Json(text).member(Json(text).value(0)?, "passes")?;
@@ -32,17 +36,32 @@ pub fn post_effect(text: &str, shader: &dyn Fn(&str, bool) -> Option<String>) ->
             edits
                 .push((range, format!("\"vertex_shader\": {0}, \"fragment_shader\": {0}", Value::from(name.as_str()))));
         }
-        let Some(old) = pass.get("uniforms").and_then(Value::as_array) else { continue };
-        let Some(range) = Json(text).member(place, "uniforms") else { continue };
+        let old = match pass.get("uniforms") {
+            None => &[][..],
+            Some(Value::Array(old)) => old,
+            Some(_) => continue,
+        };
         let named = |key: &str| value(key).or(program.clone());
         let texts: Vec<String> = [("vertex_shader", false), ("fragment_shader", true)]
             .into_iter()
             .filter_map(|(key, is_fragment)| shader(&named(key)?, is_fragment))
             .collect();
-        let (new, lost) = by_blocks(old, &texts);
+        let ByBlocks { new, lost, unset } = by_blocks(old, &texts, of_game);
         let told = |name: String| format!("no block of the pass has the uniform `{name}`; its value is left out");
         notes.extend(lost.into_iter().map(told));
-        edits.push((range.clone(), written(text, range.start, &new)));
+        let names: Vec<String> = unset.iter().map(|name| format!("`{name}`")).collect();
+        if !names.is_empty() {
+            notes.push(format!(
+                "a pass has no value for {}, which {} 0",
+                names.join(", "),
+                if names.len() == 1 { "is" } else { "are" }
+            ));
+        }
+        if let Some(range) = Json(text).member(place.clone(), "uniforms") {
+            edits.push((range.clone(), written(text, range.start, &new)));
+        } else if !new.is_empty() {
+            edits.extend(added(text, place, &new));
+        }
     }
     edits.sort_by_key(|(range, _)| range.start);
     let mut new = text.to_owned();
@@ -135,25 +154,44 @@ impl Json<'_> {
     }
 }
 
-/// The values of a pass by the blocks of its shaders, each member in its order; and the names that no block has.
-fn by_blocks(old: &[Value], texts: &[String]) -> (Map<String, Value>, Vec<String>) {
+/// The member `uniforms` for a pass that has none, after its last member.
+fn added(text: &str, pass: Range<usize>, blocks: &Map<String, Value>) -> Option<(Range<usize>, String)> {
+    let last = Json(text).elements(pass).pop()?;
+    let key = text.get(..last.start)?.rfind('\n').map_or(0, |at| at + 1);
+    let line = text.get(key..)?;
+    let indent = line.get(..line.len() - line.trim_start().len()).unwrap_or("");
+    Some((last.end..last.end, format!(",\n{indent}\"uniforms\": {}", written(text, last.start, blocks))))
+}
+
+/// The values of a pass by blocks.
+struct ByBlocks {
+    /// For each block its members, in their order.
+    new: Map<String, Value>,
+    /// The names that no block has.
+    lost: Vec<String>,
+    /// The members that have no value.
+    unset: Vec<String>,
+}
+
+/// The values of a pass by the blocks of its shaders that are not the game's.
+fn by_blocks(old: &[Value], texts: &[String], of_game: &dyn Fn(&str) -> bool) -> ByBlocks {
     let name_of = |one: &Value| one.get("name").and_then(Value::as_str).map(str::to_owned);
-    let mut left: Vec<String> = old.iter().filter_map(name_of).collect();
-    let mut new = Map::new();
+    let mut found = ByBlocks { new: Map::new(), lost: old.iter().filter_map(name_of).collect(), unset: Vec::new() };
     for (block, members) in texts.iter().flat_map(|text| blocks(text)) {
-        let has = |name: &str| old.iter().any(|one| name_of(one).as_deref() == Some(name));
-        if new.contains_key(&block) || !members.iter().any(|(_, name)| has(name)) {
+        if of_game(&block) || found.new.contains_key(&block) {
             continue;
         }
         let value = |(ty, name): &(String, String)| {
-            let found = old.iter().find(|one| name_of(one).as_deref() == Some(name.as_str()));
-            let values = found.and_then(|one| one.get("value").or(one.get("values")).cloned());
-            left.retain(|other| other != name);
+            let given = old.iter().find(|one| name_of(one).as_deref() == Some(name.as_str()));
+            let values = given.and_then(|one| one.get("value").or(one.get("values")).cloned());
+            found.lost.retain(|other| other != name);
+            found.unset.extend(values.is_none().then(|| name.clone()));
             json!({ "name": name, "type": game_type(ty), "value": value_of(ty, values) })
         };
-        new.insert(block, Value::Array(members.iter().map(value).collect()));
+        let members: Vec<Value> = members.iter().map(value).collect();
+        found.new.insert(block, Value::Array(members));
     }
-    (new, left)
+    found
 }
 
 /// A type as the game names it.
@@ -200,14 +238,14 @@ mod tests {
             let text = "layout(std140) uniform FragmentUniforms {\n    vec2 Dir;\n    float Radius;\n};\n";
             (name == "minecraft:post/blur" && is_fragment).then(|| text.to_owned())
         };
-        let new = post_effect(&old.to_string(), &shader).expect("it changes");
+        let new = post_effect(&old.to_string(), &shader, &|_| false).expect("it changes");
         let value: Value = serde_json::from_str(&new.text).expect("JSON");
         let block = &value["passes"][0]["uniforms"]["FragmentUniforms"];
         assert_eq!(block[0], json!({ "name": "Dir", "type": "vec2", "value": [1.0, 0.0] }));
         assert_eq!(block[1], json!({ "name": "Radius", "type": "float", "value": 4.0 }));
         assert!(new.notes.iter().any(|note| note.contains("`Gone`")), "{:?}", new.notes);
         let kept = "{ \"passes\": [\n    { \"program\": \"minecraft:post/blur\",\n      \"uniforms\": [{ \"name\": \"Radius\", \"values\": [1.0] }] }\n  ], \"z\": 1, \"a\": 2 }\n";
-        let edited = post_effect(kept, &shader).expect("it changes").text;
+        let edited = post_effect(kept, &shader, &|_| false).expect("it changes").text;
         assert!(
             edited
                 .starts_with("{ \"passes\": [\n    { \"vertex_shader\": \"minecraft:post/blur\", \"fragment_shader\""),
@@ -216,7 +254,7 @@ mod tests {
         assert!(edited.ends_with("\n  ], \"z\": 1, \"a\": 2 }\n"), "{edited}");
         assert!(serde_json::from_str::<Value>(&edited).is_ok(), "{edited}");
         // The new text is as the game wants it.
-        assert_eq!(post_effect(&new.text, &shader), None);
-        assert_eq!(post_effect("{}", &shader), None);
+        assert_eq!(post_effect(&new.text, &shader, &|_| false), None);
+        assert_eq!(post_effect("{}", &shader, &|_| false), None);
     }
 }

@@ -19,7 +19,7 @@ mod minecraft;
 mod reflection;
 mod report;
 
-pub use done::done;
+pub use done::{blocks, done};
 pub use header::header;
 pub use host::{HOSTS, Host, find_host, host_names};
 pub use minecraft::{PostEffect, post_effect};

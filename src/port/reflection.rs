@@ -33,11 +33,8 @@ pub fn reflection(program: &Program) -> Reflection {
     new.loose_block = None;
     let heights = new.uniforms.iter().filter(|uniform| uniform.name.starts_with(HEIGHT) && uniform.ty == "float");
     let height = heights.max_by_key(|uniform| uniform.name.len());
-    new.conventions.framebuffer_height = height.map(|uniform| HiddenSlot {
-        group: uniform.group,
-        binding: uniform.binding,
-        offset: uniform.offset,
-    });
+    new.conventions.framebuffer_height =
+        height.map(|uniform| HiddenSlot { group: uniform.group, binding: uniform.binding, offset: uniform.offset });
     new
 }
 

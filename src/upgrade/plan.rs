@@ -275,7 +275,9 @@ impl<'t> Planner<'t> {
     fn taken(&mut self, texts: &[Text<'_>]) {
         let target = self.plan.target;
         let is_old = texts.iter().all(|text| text.version < 130);
-        let declared = declared_functions(texts, is_old, target.is_for_vulkan());
+        // ES 3.00 lets nobody define a built-in function again (§6.1).
+        let keeps_own = target.is_for_vulkan() || target == Target::Es300;
+        let declared = declared_functions(texts, is_old, keeps_own);
         let is_function = |name: &str| declared.contains(name);
         let is_new_word = |name: &str| {
             // A function of older versions has another name now.
@@ -289,9 +291,9 @@ impl<'t> Planner<'t> {
         for name in names {
             let new = self.free(name);
             Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
-            self.plan
-                .notes
-                .push(format!("`{name}` means something else now, and is called `{new}`; the host may name it, too"));
+            let is_called = texts.iter().any(|text| defines_function(text.text, name));
+            let host = if is_called { "" } else { "; the host may name it, too" };
+            self.plan.notes.push(format!("`{name}` means something else now, and is called `{new}`{host}"));
         }
     }
 
@@ -410,7 +412,7 @@ impl<'t> Planner<'t> {
 
 /// The names of built-in functions that the texts give to something else: to anything, if later versions have the function, and to functions
 /// of their own, if Vulkan's rules hold, by which no function has such a name.
-fn declared_functions<'t>(texts: &[Text<'t>], is_old: bool, is_for_vulkan: bool) -> BTreeSet<&'t str> {
+fn declared_functions<'t>(texts: &[Text<'t>], is_old: bool, keeps_own: bool) -> BTreeSet<&'t str> {
     let mut found = BTreeSet::new();
     for text in texts {
         let all = tokens(text.text);
@@ -422,7 +424,7 @@ fn declared_functions<'t>(texts: &[Text<'t>], is_old: bool, is_for_vulkan: bool)
             let is_taken = is_old && FUNCTIONS.contains(&token.text) && (follows_a_word || !has_arguments);
             let ends = || closing(&all, index + 1).and_then(|end| all.get(end + 1));
             let is_function = follows_a_word && has_arguments && ends().is_some_and(|next| next.text == "{");
-            if is_taken || is_for_vulkan && is_function && functions::is_known_for_vulkan(token.text) {
+            if is_taken || keeps_own && is_function && functions::is_known_for_vulkan(token.text) {
                 found.insert(token.text);
             }
         }
@@ -499,6 +501,14 @@ fn largest_index(texts: &[Text<'_>], name: &str) -> Option<u32> {
         }
     }
     Some(largest)
+}
+
+/// Whether a text defines or declares a function with a name: a word, the name, a parenthesis.
+fn defines_function(text: &str, name: &str) -> bool {
+    let all = tokens(text);
+    all.windows(3).any(|words| {
+        matches!(words, [ty, own, open] if own.text == name && open.text == "(" && ty.is_word() && ty.text != "return")
+    })
 }
 
 #[cfg(test)]

@@ -305,7 +305,8 @@ pub(super) fn comment_above(text: &str, code: &str, place: usize) -> usize {
         (start, n_lines) = (line.start, n_lines + 1);
     }
     let comment = text.get(start..place).unwrap_or("").to_ascii_lowercase();
-    let is_about_file = n_lines > LONGEST_COMMENT || ["copyright", "license", "licence"].iter().any(|word| comment.contains(word));
+    let is_about_file =
+        n_lines > LONGEST_COMMENT || ["copyright", "license", "licence"].iter().any(|word| comment.contains(word));
     if is_about_file { place } else { start }
 }
 

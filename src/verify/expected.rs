@@ -290,8 +290,7 @@ impl<'a> Expected<'a> {
         let known = faults_of(self.scene);
         let one = known.iter().map(|known| (known.name, Faults::only(known.fault)));
         let named = one.chain((known.len() > 1).then(|| ("several", Faults::all())));
-        let (names, options): (Vec<_>, Vec<_>) =
-            named.map(|(name, faults)| (name, self.drawn_by(faults))).unzip();
+        let (names, options): (Vec<_>, Vec<_>) = named.map(|(name, faults)| (name, self.drawn_by(faults))).unzip();
         Ok(names.into_iter().zip(self.options.reference.render_all(self.scene, &options)?).collect())
     }
 }

@@ -53,11 +53,11 @@ pub(crate) use headline::Headline;
 #[cfg(feature = "cli")]
 pub(crate) use headline::is_empty;
 pub use maps::{DIFFERENCE_LEGEND, EVIDENCE_LEGEND, difference, evidence};
+pub use part::MOST_WORK;
 #[cfg(feature = "gpu")]
 pub use runner::OnGpu;
 #[cfg(feature = "gl")]
 pub use runner::OnOpenGl;
-pub use part::MOST_WORK;
 pub use runner::{Channel, Cpu, Drawn, Failure, Reference, Runner, ThisThread};
 pub use undefined::UndefinedAt;
 pub use verification::{Verification, mark};
@@ -95,8 +95,8 @@ pub struct Options<'a> {
     pub width: Option<f64>,
     /// By how many of its widths the hull of what simulated GPUs drew is widened for what is likely. Default: 4.
     pub likely_margin: f64,
-    /// The operations of the fragment stages up to which the whole picture is judged. Of a scene with more, blocks of 8 by 8 pixels
-    /// that take no more stand for the picture. Default: [`MOST_WORK`]; `None` for all of any picture.
+    /// The instructions of the fragment stages, each for 64 fragments, that the envelope of a whole picture may take. Of a scene with
+    /// more, blocks of 8 by 8 pixels that take no more stand for the picture. Default: [`MOST_WORK`]; `None` for all of any picture.
     pub most_work: Option<u64>,
     /// Whether a picture of llvmpipe is judged by what is known of its arithmetic where nothing else judges.
     pub as_device: bool,

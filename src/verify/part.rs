@@ -11,8 +11,9 @@ use glisten_reference::{RenderOptions, Sample};
 use glisten_scene::picture::Picture;
 use std::borrow::Cow;
 
-/// The operations of the fragment stages up to which all of a picture is judged, if nobody says another number.
-pub const MOST_WORK: u64 = 60_000_000;
+/// The instructions of the fragment stages, each for 64 fragments, up to which all of a picture is judged, if nobody says another number:
+/// those of the envelope ([`glisten_reference::envelope_work`]), which take up to half a microsecond each.
+pub const MOST_WORK: u64 = 25_000_000;
 /// The numbers of blocks on which the work is measured.
 const TRIAL: std::ops::RangeInclusive<usize> = 2..=16;
 /// The smallest number of blocks that stands for a picture: 256 pixels.
@@ -27,7 +28,7 @@ pub(super) fn part(scene: &Scene, options: &Options<'_>) -> Result<Sample, Failu
     };
     let trial = Sample::of((blocks / 64).clamp(*TRIAL.start(), *TRIAL.end()), size);
     let drawn = RenderOptions { sample: trial, ..options.reference_options(Faults::NONE) };
-    let work: u64 = options.reference.work(scene, &drawn)?.iter().map(|work| work.fragment_operations).sum();
+    let work = options.reference.work(scene, &drawn)?;
     let all = work as f64 / trial.drawn_share(size).max(f64::MIN_POSITIVE);
     if all <= most as f64 {
         return Ok(Sample::ALL);
@@ -74,4 +75,73 @@ pub(super) fn only<'p>(picture: &'p Picture, sample: Sample, reference: &Picture
         }
     }
     Cow::Owned(part)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::{MemoryFiles, Scene, load};
+    use crate::verify::{Cpu, Drawn, Failure, Options, Runner, verify};
+    use glisten_front::{Compiler, Options as CompilerOptions};
+    use glisten_reference::Precision;
+
+    fn scene() -> Scene {
+        let files = MemoryFiles::new([
+            (
+                "a.toml",
+                "[framebuffer]\nwidth = 64\nheight = 64\nformat = \"rgba32float\"\n[[draw]]\nvertex = \"a.vert\"\nfragment = \
+                 \"a.frag\"\nprimitive = \"triangles\"\nvertex_count = 3\n",
+            ),
+            (
+                "a.vert",
+                "#version 150\nvoid main() { gl_Position = vec4(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 * 4 - 1, 0, 1); }",
+            ),
+            (
+                "a.frag",
+                "#version 150\nout vec4 c;\nvoid main() {\n    vec2 p = gl_FragCoord.xy / 64.0;\n    float s = 0.0;\n    for (int i = 0; \
+                 i < 20; ++i)\n        s += 0.02 * p.x * p.y;\n    c = vec4(s, p, 1.0);\n}",
+            ),
+        ]);
+        load("a.toml", &files, &Compiler::new(CompilerOptions::default())).scene.expect("the scene is valid")
+    }
+
+    /// Draws as the reference does, and changes one pixel.
+    struct Faulty(usize);
+
+    impl Runner for Faulty {
+        fn name(&self) -> &'static str {
+            "faulty"
+        }
+
+        fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
+            let mut drawn = Cpu::new(Precision::F32).draw(scene)?;
+            drawn.picture.attachments[0][self.0][0] += 0.1;
+            Ok(drawn)
+        }
+    }
+
+    #[test]
+    fn blocks_stand_for_a_picture_that_takes_long() {
+        let scene = scene();
+        let of = |most_work| Options { most_work, ..Options::default() };
+        let judged =
+            |most_work, runner: &dyn Runner| verify(&scene, &[runner], &of(most_work)).expect("it can be drawn");
+        let cpu = Cpu::new(Precision::F32);
+        let whole = judged(None, &cpu);
+        assert_eq!((whole.share, whole.runs[0].verdict.covered), (1.0, 64 * 64));
+        assert_eq!(judged(Options::default().most_work, &cpu).share, 1.0);
+        let part = judged(Some(1500), &cpu);
+        assert!(part.holds() && part.share < 0.5, "{}", part.share);
+        let covered = part.runs[0].verdict.covered;
+        assert_eq!(covered as f64, part.share * 4096.0);
+        assert_eq!((covered % 64, part.share), (0, judged(Some(1500), &cpu).share));
+        assert_eq!(judged(Some(1), &cpu).runs[0].verdict.covered, 4 * 64);
+        // A fault shows if its block is judged.
+        let blocks: Vec<bool> = (0..64)
+            .map(|block| 8 * 64 * (block / 8) + 8 * (block % 8) + 65)
+            .map(|pixel| judged(Some(1500), &Faulty(pixel)).fails())
+            .collect();
+        let found = blocks.iter().filter(|found| **found).count();
+        assert_eq!(found as u64 * 64, covered);
+        assert!(judged(None, &Faulty(65)).fails());
+    }
 }

@@ -5,7 +5,7 @@
 use super::clock::Clock;
 use crate::scene::Scene;
 use glisten_front::diagnostic::Diagnostic;
-use glisten_reference::{Contribution, LineRule, Precision, RenderOptions, Undefined, Work};
+use glisten_reference::{Contribution, LineRule, Precision, RenderOptions, Undefined};
 use glisten_scene::compare::Population;
 use glisten_scene::picture::Picture;
 use std::fmt;
@@ -79,12 +79,12 @@ pub trait Reference {
         options.iter().map(|options| self.render(scene, options)).collect()
     }
 
-    /// Counts what the draws of a scene execute like [`glisten_reference::work`].
+    /// Counts the work of the envelope like [`glisten_reference::envelope_work`].
     ///
     /// # Errors
     /// The scene cannot be drawn.
-    fn work(&self, scene: &Scene, options: &RenderOptions) -> Result<Vec<Work>, Failure> {
-        Ok(glisten_reference::work(scene, options)?)
+    fn work(&self, scene: &Scene, options: &RenderOptions) -> Result<u64, Failure> {
+        Ok(glisten_reference::envelope_work(scene, options)?)
     }
 
     /// Adds the pictures of the simulated GPUs with these numbers like [`glisten_reference::populate`].

@@ -118,6 +118,7 @@ mod permutations;
 #[cfg(feature = "play")]
 mod play;
 mod port;
+mod port_style;
 mod print;
 #[cfg(feature = "gpu")]
 mod random;

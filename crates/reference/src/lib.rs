@@ -29,7 +29,7 @@ pub use expand::{expand, has_geometry_stage};
 pub use population::{as_llvmpipe, populate, simulate};
 pub use sample::Sample;
 pub use undefined::{Undefined, UndefinedPlace, hides_undefined, undefined};
-pub use work::{Work, work};
+pub use work::{Work, envelope_work, work};
 
 use domain::faults::{self, Fault, Faults, KnownFault};
 use domain::{Envelope, F32, F64, Profile};

@@ -6,12 +6,14 @@
 //! in one invocation: of arithmetic on floats, of a built-in function, of a comparison, or of a lookup. Copies, masks,
 //! arithmetic on integers and helper invocations do not count.
 
-use crate::domain::F32;
+use crate::RenderOptions;
+use crate::domain::{Envelope, F32};
 use crate::exec::{Event, Kind, Observer, Order, What};
-use crate::{RenderOptions, pipeline};
+use crate::pipeline::{self, Study};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
 use glisten_scene::Scene;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The operations that a draw executes.
@@ -55,6 +57,18 @@ impl Observer<F32> for Counter {
         }
         work.texture_lookups += self.lookups;
     }
+}
+
+/// The instructions that the fragment stages execute in the domain of envelopes, each for 64 fragments: the work of a verdict, which
+/// follows undecided conditions both ways.
+///
+/// # Errors
+/// As [`render`](crate::render).
+pub fn envelope_work(scene: &Scene, options: &RenderOptions) -> Result<u64, Vec<Diagnostic>> {
+    let executed = AtomicU64::new(0);
+    let study = Study { executed: Some(&executed), ..Study::NONE };
+    pipeline::render_studied::<Envelope>(scene, options, study)?;
+    Ok(executed.into_inner())
 }
 
 /// Counts what each draw of a scene executes.

@@ -6,9 +6,9 @@
 use super::super::exit::{Exit, Failure};
 use super::programs::{Done, Ported};
 use super::tree::{NewFolder, folder_and_stem};
-use crate::build;
 use crate::port::{FileReport, Host, done, header, post_effect, reflection, renumbered};
 use crate::upgrade::Dialect;
+use crate::{build, port};
 use glisten_emit::{Conventions, Emitted, Target, emit, reflect};
 use glisten_front::{Compilation, Program, Stage};
 use std::path::Path;
@@ -30,8 +30,7 @@ pub(super) fn add(
             let path = Path::new(kind).join(&place).join(format!("{stem}.{extension}"));
             path.to_string_lossy().replace('\\', "/")
         };
-        let mut new =
-            if host.has_header { reflection(program) } else { reflect(program, &Conventions::default()) };
+        let mut new = if host.has_header { reflection(program) } else { reflect(program, &Conventions::default()) };
         if host.has_header {
             folder.add(&name("include", "h"), header(&stem, program, &new).into_bytes());
         }
@@ -99,7 +98,8 @@ fn other_numbers(ported: &Ported, one: &Done, code: &Program) -> Option<String> 
 }
 
 /// The passes of a pack, by the blocks of its shaders.
-pub(super) fn passes(folder: &mut NewFolder) -> Vec<FileReport> {
+pub(super) fn passes(host: &Host, folder: &mut NewFolder) -> Vec<FileReport> {
+    let of_game = |name: &str| host.dialect.iter().flat_map(|dialect| &dialect.blocks).any(|block| block.name == name);
     let names: Vec<String> = folder
         .names()
         .filter(|name| name.contains("/post_effect/") && name.ends_with(".json"))
@@ -115,7 +115,7 @@ pub(super) fn passes(folder: &mut NewFolder) -> Vec<FileReport> {
             let found = folder.names().find(|name| name.ends_with(&own)).map(str::to_owned);
             folder.text(&found?)
         };
-        let Some(new) = post_effect(&old, &shader) else { continue };
+        let Some(new) = post_effect(&old, &shader, &of_game) else { continue };
         let mut done = done(&old, &old);
         done.push("the values of uniforms are by blocks".to_owned());
         reports.push(FileReport {
@@ -128,4 +128,20 @@ pub(super) fn passes(folder: &mut NewFolder) -> Vec<FileReport> {
         folder.replace(&name, &name, new.text.into_bytes());
     }
     reports
+}
+
+/// Notes the uniforms in new blocks of which no pass and no game has a value.
+pub(super) fn note_unfilled(folder: &NewFolder, files: &mut [FileReport]) {
+    let is_pass = |name: &&str| name.contains("/post_effect/") && name.ends_with(".json");
+    let passes: String = folder.names().filter(is_pass).filter_map(|name| folder.text(name)).collect();
+    for file in files.iter_mut().filter(|file| file.file.contains("/shaders/")) {
+        let old = port::blocks(&file.texts.0);
+        let new = port::blocks(&file.texts.1).into_iter().filter(|(name, _)| !old.iter().any(|(own, _)| own == name));
+        let is_filled = |name: &str| passes.contains(&format!("\"{name}\""));
+        let members = new.flat_map(|(_, members)| members).filter(|(_, name)| !is_filled(name));
+        let names: Vec<String> = members.map(|(_, name)| format!("`{name}`")).collect();
+        if !names.is_empty() {
+            file.notes.push(format!("neither the game nor a pass has a value for {}", names.join(", ")));
+        }
+    }
 }

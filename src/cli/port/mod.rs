@@ -31,6 +31,7 @@ use crate::upgrade::with_version;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use programs::Ported;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use tree::NewFolder;
 
@@ -150,7 +151,8 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
     files.extend(brought::move_unread(&args.pack, ported, folder));
     files.extend(brought::blocks(&args.pack, host, ported, folder));
     if host.is_minecraft {
-        files.extend(extras::passes(folder));
+        files.extend(extras::passes(host, folder));
+        extras::note_unfilled(folder, &mut files);
     }
     files.sort_by(|a, b| (&a.file, &a.new).cmp(&(&b.file, &b.new)));
     let copied = folder.copied();
@@ -182,8 +184,11 @@ fn finish(args: &PortArgs, report: &Report, mut folder: NewFolder, console: &Con
             }
         }
         (None, _) => {
-            for file in &report.files {
-                console.output(&format!("{}\n", args.pack.join(&file.file).display()))?;
+            let refused = report.programs.iter().filter(|program| program.result == Result_::Refused);
+            let changed = report.files.iter().map(|file| &file.file);
+            let names: BTreeSet<&String> = changed.chain(refused.flat_map(|program| &program.files)).collect();
+            for name in names {
+                console.output(&format!("{}\n", args.pack.join(name).display()))?;
                 exit = Exit::Content;
             }
         }
@@ -207,7 +212,9 @@ fn finish(args: &PortArgs, report: &Report, mut folder: NewFolder, console: &Con
         console.remark(&format!("note: `{}` stays as it was: {because}", program.name));
     }
     console.remark(&report.summary());
-    let is_wrong = report.count(Result_::Refused) > 0 || report.proofs("failed") > 0;
+    // A check of a new folder asks whether it is as a port would write it now.
+    let is_refused = report.count(Result_::Refused) > 0 && !args.check;
+    let is_wrong = is_refused || report.proofs("failed") > 0;
     Ok(exit.max(if is_wrong { Exit::Content } else { Exit::Ok }))
 }
 

@@ -163,7 +163,8 @@ fn new_program(
     args: &SourceArgs,
     words: &BTreeSet<String>,
 ) -> Result<New, Failure> {
-    let is_for_vulkan = unit.batch.sources.files().any(|(_, file)| states_sets(file.text()) || converts_depth(file.text()));
+    let is_for_vulkan =
+        unit.batch.sources.files().any(|(_, file)| states_sets(file.text()) || converts_depth(file.text()));
     if is_for_vulkan {
         return Ok(Err((Outcome::Already, None)));
     }

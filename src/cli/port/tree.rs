@@ -1,12 +1,12 @@
 //! [`NewFolder`]: the files of the new folder.
 //!
 //! *In:* the old folder, what replaces its files, what comes besides. *Out:* bytes by name; which of them differ from a folder on disk.
-//! *Holds:* hidden files and folders are left out, and so is the account of an earlier port.
+//! *Holds:* hidden folders, such as that of a repository, are left out, and so is the account of an earlier port.
 
 use super::super::exit::Failure;
 use super::super::files;
 use super::ACCOUNT;
-use ignore::WalkBuilder;
+use ignore::{DirEntry, WalkBuilder};
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
@@ -24,7 +24,15 @@ impl NewFolder {
     /// A file or folder that cannot be read.
     pub(super) fn read(root: &Path) -> Result<Self, Failure> {
         let mut new = Self::default();
-        let walk = WalkBuilder::new(root).git_ignore(false).ignore(false).require_git(false).build();
+        let mut walk = WalkBuilder::new(root);
+        let is_kept = |entry: &DirEntry| {
+            let name = entry.file_name().to_string_lossy();
+            // A folder, or the file that stands for one in a work tree.
+            let is_hidden = name.starts_with('.') && entry.file_type().is_some_and(|kind| kind.is_dir());
+            entry.depth() == 0 || !is_hidden && name != ".git"
+        };
+        walk.hidden(false).git_ignore(false).ignore(false).require_git(false).filter_entry(is_kept);
+        let walk = walk.build();
         for entry in walk {
             let entry = entry
                 .map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;

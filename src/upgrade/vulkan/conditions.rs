@@ -22,6 +22,11 @@ pub(super) struct Directive {
 }
 
 impl Directive {
+    /// Whether it includes a file, in the words of any engine.
+    pub(super) fn is_include(&self) -> bool {
+        matches!(self.word(), "include" | "moj_import" | "stk_include")
+    }
+
     /// The word after `#`.
     pub(super) fn word(&self) -> &str {
         let code = self.code.trim_start().trim_start_matches('#').trim_start();

@@ -17,7 +17,7 @@ use std::ops::Range;
 static QUALIFIERS: &[&str] = &["uniform", "lowp", "mediump", "highp", "const", "in", "out"];
 
 /// Qualifiers of a varying, which a variable of one stage does not have.
-static OF_VARYINGS: &[&str] = &["out", "flat", "smooth", "noperspective", "centroid", "sample", "invariant"];
+static OF_VARYINGS: &[&str] = &["in", "out", "flat", "smooth", "noperspective", "centroid", "sample", "invariant"];
 
 /// A text that is rewritten, with what is known about it.
 pub(super) struct Text<'a> {
@@ -261,11 +261,20 @@ impl<'a> Text<'a> {
         self.chunks.at(*place).map(|(_, token)| token)
     }
 
-    /// An output that no stage declares as its input is a variable of its own stage.
+    /// A variable between stages that the other stage does not have is a variable of its own stage: without its qualifiers, and in a
+    /// declaration of its own.
     fn kept_inside(&self, one: &Declared<'_>, is_first: bool) -> Vec<Edit> {
-        let has_others = self.facts.range(self.chunks.range(one.chunk)).any(|(_, fact)| *fact != Fact::Inside);
-        if !is_first || has_others || self.chunks.of(one.chunk).iter().any(|token| token.text == "{") {
+        if self.chunks.of(one.chunk).iter().any(|token| token.text == "{") {
             return Vec::new();
+        }
+        if !is_first {
+            let comma = one.token.checked_sub(1).filter(|at| self.chunks.word(*at) == ",");
+            let words = self.head(one.chunk).unwrap_or_default();
+            let plain: Vec<&str> = words.split(' ').filter(|word| !OF_VARYINGS.contains(word)).collect();
+            return comma
+                .map(|comma| (self.chunks.place(comma), format!("; {}", plain.join(" "))))
+                .into_iter()
+                .collect();
         }
         let tokens =
             (one.chunk.tokens.start..one.token).filter(|index| OF_VARYINGS.contains(&self.chunks.word(*index)));
@@ -419,7 +428,8 @@ impl<'a> Text<'a> {
 
     /// The value that a declarator gives, on one line and without comments.
     fn initializer(&self, name: usize) -> Option<String> {
-        let equals = self.after_name(name).find(|(index, is_outside)| *is_outside && self.chunks.word(*index) == "=")?;
+        let equals =
+            self.after_name(name).find(|(index, is_outside)| *is_outside && self.chunks.word(*index) == "=")?;
         let last = self.after_name(name).last()?.0;
         let range = self.chunks.place(equals.0).end..self.chunks.place(last).end;
         let value = without_comments(self.chunks.text.get(range)?);
@@ -525,7 +535,8 @@ impl<'a> Text<'a> {
     /// A name with the sizes of its arrays, as they are written, and without its initializer.
     fn declarator(&self, name: usize) -> String {
         let start = self.chunks.place(name);
-        let sizes = self.after_name(name).take_while(|(index, is_outside)| !(*is_outside && self.chunks.word(*index) == "="));
+        let sizes =
+            self.after_name(name).take_while(|(index, is_outside)| !(*is_outside && self.chunks.word(*index) == "="));
         let end = sizes.last().map_or(start.end, |(index, _)| self.chunks.place(index).end);
         self.chunks.text.get(start.start..end).unwrap_or("").to_owned()
     }

@@ -197,16 +197,8 @@ fn fact(
         return Ok(Fact::Numbered(Numbered { index: dual.then_some(row.index), ..numbered(space, node) }));
     }
     let Some((name, first, size, row)) = varying(compiled, id, global.storage) else {
-        if global.storage == Storage::Out || global.block.is_some() {
-            return Ok(Fact::Inside);
-        }
-        // An input that nothing writes, and that is not read: it needs a location, and any will do.
-        let size = match program.types.get(global.ty) {
-            Type::Scalar(_) | Type::Vector(..) => 1,
-            _ => program.types.flat_len(global.ty).max(1),
-        };
-        let node = numbers.node(unit, Space::Varying, &global.name, size, None);
-        return Ok(Fact::Numbered(numbered(Space::Varying, node)));
+        // Nothing reads it, or nothing writes it and it is not read. Vulkan wants both ends of what is declared.
+        return Ok(Fact::Inside);
     };
     let node = numbers.node(unit, Space::Varying, &name, size, Some(first));
     let plus = row.location - first;

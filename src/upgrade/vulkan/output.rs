@@ -61,7 +61,7 @@ impl NewFile {
     pub(super) fn point(&mut self) {
         let conditions = Conditions::new(&self.text);
         let mut edits = Vec::new();
-        for one in conditions.list.iter().filter(|one| matches!(one.word(), "include" | "moj_import")) {
+        for one in conditions.list.iter().filter(|one| one.is_include()) {
             let named = self
                 .pointed
                 .iter()

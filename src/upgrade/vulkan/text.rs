@@ -112,7 +112,9 @@ impl Plan<'_> {
         let note = |(line, value): (&Line, &str)| {
             let name = self.name_at(key, line.place).unwrap_or("");
             let number = file.text.get(..line.place).map_or(0, |before| before.matches('\n').count()) as u32 + 1;
-            let text = format!("`{name}` begins with `{value}` in OpenGL; a member of a block has the value that the host sets");
+            let text = format!(
+                "`{name}` begins with `{value}` in OpenGL; a member of a block has the value that the host sets"
+            );
             Note { file: key.0.clone(), line: number, text }
         };
         with_value.map(note).collect()
@@ -252,7 +254,7 @@ impl Plan<'_> {
         }
         let _ = key;
         let conditions = Conditions::new(text);
-        let first = conditions.list.iter().find(|one| matches!(one.word(), "include" | "moj_import"));
+        let first = conditions.list.iter().find(|one| one.is_include());
         first.map_or(text.len(), |one| one.range.start)
     }
 
@@ -283,7 +285,7 @@ impl Plan<'_> {
         let has = |block: &HostBlock| match &block.include {
             Some(include) => {
                 let file = include.rsplit(':').next().unwrap_or(include);
-                let is_include = |one: &Directive| matches!(one.word(), "include" | "moj_import");
+                let is_include = |one: &Directive| one.is_include();
                 conditions.list.iter().any(|one| is_include(one) && one.rest().contains(file))
             }
             None => code.contains(&format!("uniform {} {{", block.name)),
@@ -333,7 +335,10 @@ impl Plan<'_> {
         // glslang takes a backslash at the end of a line from 4.20 on (GLSL 4.20 §3.1).
         let needs_joining = self.dialect.numbering != Numbering::All && is_source && self.continues_lines(key);
         let for_lines = needs_joining.then_some("#extension GL_ARB_shading_language_420pack : enable");
-        let lines = wanted.into_iter().chain(for_lines);
+        // Components of a location are in the language from 4.40 on.
+        let has_components = self.dialect.numbering == Numbering::Locations && text.contains("component = ");
+        let for_components = has_components.then_some("#extension GL_ARB_enhanced_layouts : require");
+        let lines = wanted.into_iter().chain(for_lines).chain(for_components);
         lines.fold(text, with_line)
     }
 

@@ -91,7 +91,8 @@ pub fn blanked(text: &str, ranges: &[Range<usize>]) -> Arc<str> {
 /// number, which some build replaces, is none.
 pub fn version_line(text: &str) -> Option<Range<usize>> {
     let bytes = text.as_bytes();
-    let (mut at, mut first_on_line) = (0, true);
+    let mark = '\u{feff}';
+    let (mut at, mut first_on_line) = (if text.starts_with(mark) { mark.len_utf8() } else { 0 }, true);
     while let Some(&byte) = bytes.get(at) {
         let rest = text.get(at..).unwrap_or("");
         if rest.starts_with("//") {

@@ -46,6 +46,8 @@ pub struct Machine<D: Domain> {
     pub(super) budget: u64,
     /// While exploring, the budget after it was exceeded.
     pub(super) allowance: u64,
+    /// The instructions that were executed since somebody asked, each for all lanes; without those of integers.
+    pub(super) executed: u64,
     pub(super) budget_exceeded: bool,
     /// The loop that exceeded it.
     pub(super) runaway: Span,
@@ -126,6 +128,7 @@ impl<D: Domain> Machine<D> {
             loop_budget: LOOP_BUDGET,
             budget: LOOP_BUDGET,
             allowance: 0,
+            executed: 0,
             budget_exceeded: false,
             runaway: Span::default(),
             observer,
@@ -139,6 +142,11 @@ impl<D: Domain> Machine<D> {
             machine.registers.splat(*class, *register, *from);
         }
         machine
+    }
+
+    /// The instructions that were executed since the last call, each for all lanes; without those of integers.
+    pub fn take_executed(&mut self) -> u64 {
+        std::mem::take(&mut self.executed)
     }
 
     /// Replaces [`LOOP_BUDGET`].

@@ -75,6 +75,7 @@ use plan::Plan;
 use rayon::prelude::*;
 pub(super) use reach::reach;
 use smallvec::SmallVec;
+use std::sync::atomic::Ordering;
 use std::sync::{Mutex, OnceLock};
 use surface::{BIN, Surface};
 use target::Target;
@@ -339,6 +340,9 @@ fn draw_prims<D: Domain>(
         watch.begin(&mut machine);
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);
+        if let Some(total) = watch.study.executed {
+            total.fetch_add(machine.take_executed(), Ordering::Relaxed);
+        }
         if let Some(found) = machine.endless_loop() {
             endless.get_or_init(|| found);
         }

@@ -7,6 +7,7 @@ use crate::exec::{Code, Exactly, Fate, Form, Guess, Invoked, Machine, Observer, 
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Draw;
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
 /// Makes an observer for a piece of the drawing.
@@ -35,6 +36,8 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) jitter: Option<u64>,
     /// The varyings that the fragment stage gets exact.
     pub(crate) exact_inputs: &'a [GlobalId],
+    /// Counts the instructions of the fragment stage.
+    pub(crate) executed: Option<&'a AtomicU64>,
     /// Sees the values of varyings at a pixel.
     pub(crate) probe: Option<&'a Probe>,
     /// The purpose for which the stages are compiled.
@@ -56,6 +59,7 @@ impl<D: Domain> Study<'_, D> {
         pixels: None,
         jitter: None,
         exact_inputs: &[],
+        executed: None,
         probe: None,
         form: Form::Fast,
         gpu: None,
