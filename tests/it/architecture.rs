@@ -59,6 +59,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "dynamic",
             "dependence",
             "picture",
+            "profile",
             "compare",
             "fixed",
             "model",

@@ -95,6 +95,7 @@ mod lsp_edits;
 mod lsp_shown;
 mod lsp_strings;
 #[cfg(feature = "cli")]
+mod made_textures;
 mod models;
 #[cfg(feature = "gpu")]
 mod multisample;

@@ -19,6 +19,7 @@ mod load;
 mod model;
 pub mod picture;
 mod portrait;
+pub mod profile;
 pub mod random;
 mod reads;
 pub mod roles;

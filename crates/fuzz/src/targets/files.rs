@@ -1,7 +1,8 @@
-//! Models and pictures.
+//! Models, pictures and profiles of lamps.
 
 use glisten::scene::{MemoryFiles, load};
 use glisten_scene::picture::Image;
+use glisten_scene::profile::Profile;
 
 use super::front::compiler;
 use super::no_internal_error;
@@ -35,5 +36,14 @@ pub(super) fn image(input: &[u8]) {
     if let Ok(image) = Image::read(input, 4096, 1 << 20) {
         let pixels = u64::from(image.width) * u64::from(image.height);
         assert!(image.pixels.len() as u64 == pixels && pixels <= 1 << 20, "{} pixels of {pixels}", image.pixels.len());
+    }
+}
+
+/// IES LM-63.
+pub(super) fn ies(input: &[u8]) {
+    if let Ok(profile) = Profile::parse(input) {
+        let candela = (-10..=190).map(|angle| profile.candela(f64::from(angle)));
+        assert!(candela.into_iter().all(|candela| candela.is_finite() && candela >= 0.0), "candela are finite");
+        assert!(profile.lumen().is_finite(), "so is all of the light");
     }
 }

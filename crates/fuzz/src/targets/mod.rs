@@ -91,6 +91,12 @@ pub(crate) const ALL: &[Target] = &[
         begins: Kind::Files("gltf"),
     },
     Target { name: "glb", promise: "a model has a scene or is refused", check: files::glb, begins: Kind::Files("glb") },
+    Target {
+        name: "ies",
+        promise: "the profile of a lamp is finite, or refused",
+        check: files::ies,
+        begins: Kind::Files("ies"),
+    },
     Target { name: "image", promise: "a picture is read or refused", check: files::image, begins: Kind::Pictures },
 ];
 

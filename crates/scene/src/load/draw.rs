@@ -1,6 +1,7 @@
 //! Loads a `[[draw]]` table as a [`Draw`].
 
 use super::attributes::{load_attributes, scalar_of};
+use super::depths::{self, Caster};
 use super::fixed::{self, GENERATED, load_pipeline, load_switches};
 use super::lights::{LIGHT_SPACES, LightSpace};
 use super::material::{load_colors, load_material, macros};
@@ -92,13 +93,15 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let attributes = load_attributes(&mut loader.reader, table, &program, given_mesh, (place, &reaching, instances));
     let space = loader.reader.choice_at(table, "light_space", LightSpace::World, LIGHT_SPACES);
     let is_seen = around.camera.is_some() || table.contains_key("camera") || table.contains_key("mesh");
-    let context = Context { program: &program, view: &view, lighting: &around.lighting, space, conventional, is_seen };
+    let maps = depths::load_maps(&mut loader.reader, table);
+    let lighting = &around.lighting;
+    let context = Context { program: &program, view: &view, lighting, space, conventional, is_seen, maps: &maps };
     let mut fixed = load_fixed(&mut loader.reader, table, (&program, &view), around);
     let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), fixed.as_mut(), place);
     let generated = generated.map(|made| (made.stage, made.pipeline));
     let fixed = fixed.map(|state| Arc::new(FixedDraw { state, switches, generated }));
     let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
-    let textures = load_textures(loader, table, own_material, &program, conventional, place);
+    let textures = load_textures(loader, table, own_material, &program, (conventional, &maps), place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
     // Whatever else is wrong was reported before a mesh or a program that cannot be drawn with ends the draw.
     possible?;
@@ -106,6 +109,7 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
         Some(mesh) => Some(mesh?),
         None => None,
     };
+    loader.casters.push(mesh.as_ref().map(|mesh| Caster::new(mesh, view.model(), state.primitive)));
     if let Some(mesh) = mesh.as_mut().filter(|_| state.primitive == Primitive::TrianglesAdjacency) {
         mesh.geometry.indices = mesh.geometry.with_adjacency();
     }

@@ -38,7 +38,7 @@ impl View {
         let mut view =
             Self { model: DMat4::IDENTITY, view: DMat4::IDENTITY, projection: DMat4::IDENTITY, eye: DVec3::ZERO };
         if let Some(camera) = own.or(scene_camera) {
-            view.look(reader, camera, framebuffer);
+            view.look(reader, camera, f64::from(framebuffer.width) / f64::from(framebuffer.height));
         }
         if let Some(transform) = reader.table_at(draw, "transform") {
             view.model = load_transform(reader, transform);
@@ -46,12 +46,20 @@ impl View {
         view
     }
 
-    fn look(&mut self, reader: &mut Reader, camera: &DeTable<'_>, framebuffer: &Framebuffer) {
+    /// The matrix from world space to the clip space of a camera.
+    pub(super) fn of_camera(reader: &mut Reader, camera: &DeTable<'_>, aspect: f64) -> DMat4 {
+        let [view, projection] = [DMat4::IDENTITY; 2];
+        let mut seen = Self { model: DMat4::IDENTITY, view, projection, eye: DVec3::ZERO };
+        seen.look(reader, camera, aspect);
+        seen.projection * seen.view
+    }
+
+    fn look(&mut self, reader: &mut Reader, camera: &DeTable<'_>, aspect: f64) {
         reader.check_keys(camera, "a camera", CAMERA_KEYS);
         self.eye = DVec3::from(reader.reals(camera, "eye", [0.0, 0.0, 3.0]));
         let target = DVec3::from(reader.reals(camera, "target", [0.0; 3]));
         let up = DVec3::from(reader.reals(camera, "up", [0.0, 1.0, 0.0]));
-        let aspect = reader.real(camera, "aspect", f64::from(framebuffer.width) / f64::from(framebuffer.height));
+        let aspect = reader.real(camera, "aspect", aspect);
         let near = reader.real(camera, "near", 0.1);
         let far = reader.real(camera, "far", 100.0);
         self.view = look_at(self.eye, target, up);
@@ -61,6 +69,11 @@ impl View {
         } else {
             perspective(reader.real(camera, "fovy", 45.0).to_radians(), aspect, near, far)
         };
+    }
+
+    /// The matrix from object space to world space.
+    pub(super) fn model(&self) -> DMat4 {
+        self.model
     }
 
     /// The matrix from object space to eye space.

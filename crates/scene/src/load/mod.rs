@@ -6,7 +6,9 @@
 
 mod attributes;
 mod combine;
+mod depths;
 mod draw;
+mod fibers;
 mod fixed;
 mod imported;
 mod lights;
@@ -18,6 +20,7 @@ mod missing;
 mod names;
 mod paste;
 mod patterns;
+mod profiles;
 mod sources;
 mod textures;
 mod uniforms;
@@ -101,6 +104,8 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
         programs: Vec::new(),
         models: BTreeMap::new(),
         shared: None,
+        casters: Vec::new(),
+        waiting: Vec::new(),
         io_error: false,
     };
     let scene = loader.scene();
@@ -178,6 +183,10 @@ struct Loader<'a> {
     models: BTreeMap<String, Option<Arc<Model>>>,
     /// The textures of imported draws, which share them, and how many texels they have.
     shared: Option<(SharedTextures, u64)>,
+    /// The meshes of the draws so far, in their places, for maps of depths.
+    casters: Vec<Option<depths::Caster>>,
+    /// The maps of depths that the draws so far ask for.
+    waiting: Vec<depths::Waiting>,
     io_error: bool,
 }
 
@@ -229,6 +238,7 @@ impl Loader<'_> {
             }
         }
         if complete {
+            depths::fill(self, &mut draws);
             self.warn_unlit(table, &draws);
             let pairs: Vec<(&Node<'_>, &Draw)> = nodes.iter().chain(&made).copied().zip(&draws).collect();
             warn_unread(&mut self.reader, table, (&pairs, n_own), self.library);

@@ -6,7 +6,7 @@
 //! that their ends are exact and match the library's coordinate `lutCoordinate`. Pictures (`checker`, `tile`, `sky`)
 //! contain the color at each texel's center and repeat. The formulas are in `docs/scenes.md`.
 
-use super::Loader;
+use super::{Loader, fibers};
 use crate::model::{Texels, TextureLevel, Wrap};
 use crate::tables::{Node, list};
 use glisten_front::diagnostic::codes::scenes::{SCENE_WRONG_KIND, SCENE_WRONG_VALUE};
@@ -144,6 +144,15 @@ const PATTERNS: &[Pattern] = &[
             let [all, grazing, ..] = cosines(x, y, |[.., all, grazing]| [all, grazing, 0.0, 0.0]);
             [all, grazing, mean_albedo(y), 1.0]
         },
+    },
+    Pattern {
+        name: "sheen_albedo",
+        keys: &[],
+        size: (LTC, LTC),
+        is_table: true,
+        from: BLACK,
+        to: WHITE,
+        formula: |_, x, y| opaque([fibers::albedo(x * x, y); 3]),
     },
 ];
 

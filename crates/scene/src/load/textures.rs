@@ -1,11 +1,12 @@
 //! Loads `[draw.textures]` as [`Texture`]s.
 
 use super::Loader;
+use super::depths::{self, DepthMap, Waiting};
 use super::material::TEXTURES;
 use super::mipmaps::chain;
 use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::paste::{self, Lines};
-use super::patterns;
+use super::{patterns, profiles};
 use crate::geometry::gltf_image;
 use crate::model::{Compare, Filter, Sampling, Texels, Texture, TextureLevel, Wrap};
 use crate::picture::{Image, Transfer};
@@ -36,6 +37,8 @@ const KEYS: &[&str] = &[
     "image",
     "flip",
     "pattern",
+    "depths",
+    "ies",
     "samples",
     "decode",
     "lod_bias",
@@ -59,7 +62,7 @@ pub(super) fn load_textures(
     draw: &DeTable<'_>,
     material: Option<&DeTable<'_>>,
     program: &Program,
-    conventional: bool,
+    (conventional, maps): (bool, &[DepthMap]),
     place: Span,
 ) -> Vec<Option<Arc<Texture>>> {
     let slots = &program.interface.samplers;
@@ -94,6 +97,9 @@ pub(super) fn load_textures(
             {
                 *flag = true;
                 *slot = shared_texture(loader, node, name_text, kind);
+                if let Some(map) = maps.iter().find(|map| map.name == name_text) {
+                    loader.waiting.push(Waiting::new(loader.casters.len(), index, map));
+                }
             }
         }
     }
@@ -192,19 +198,30 @@ fn load_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: Samp
     let table = loader.reader.table(node, name)?;
     let span = loader.reader.span_of(node);
     let pattern = patterns::find(table);
-    let keys = if table.contains_key("pattern") { [KEYS, patterns::KEYS].concat() } else { KEYS.to_vec() };
+    let more = match () {
+        () if table.contains_key("pattern") => patterns::KEYS,
+        () if table.contains_key("ies") => profiles::KEYS,
+        () => &[],
+    };
+    let keys = [KEYS, more].concat();
     loader.reader.check_keys(table, "a texture", &keys);
     check_origin(loader, table)?;
     check_kind(loader, table, name, kind)?;
     let filter = loader.reader.choice_at(table, "filter", Filter::Nearest, FILTERS);
-    let is_rect = kind.dim == SamplerDim::Rect;
-    let default_wrap = if is_rect { Wrap::ClampToEdge } else { pattern.map_or(Wrap::Repeat, |pattern| pattern.wrap()) };
+    let clamps = kind.dim == SamplerDim::Rect || table.contains_key("ies");
+    let own_wrap = if clamps { Wrap::ClampToEdge } else { Wrap::Repeat };
+    let default_wrap = pattern.map_or(own_wrap, |pattern| pattern.wrap());
     let wrap = loader.reader.choice_at(table, "wrap", default_wrap, Wrap::NAMES);
     let compare = loader.reader.choice_at(table, "compare", Compare::Lequal, Compare::NAMES);
     let sampling = load_sampling(loader, table, name, kind, filter)?;
     let mipmaps = loader.reader.flag(table, "mipmaps", false);
     check_state(loader, table, name, kind, (filter, wrap, mipmaps))?;
     let level = match (table.get("file"), table.get("pattern")) {
+        _ if table.contains_key("ies") => profiles::load(loader, table, name, kind)?,
+        _ if table.contains_key("depths") => {
+            let levels = depths::blank(loader, table, name, kind, mipmaps)?;
+            return Some(Texture { kind, levels, filter, wrap, compare, sampling });
+        }
         (Some(file), _) => load_image(loader, table, file, name, kind)?,
         (None, Some(pattern)) => patterns::load(loader, table, pattern, name, kind)?,
         (None, None) if kind.dim == SamplerDim::Multisample => {
@@ -249,9 +266,9 @@ fn load_sampling(
     None
 }
 
-/// Checks that the texels come from exactly one of three origins.
+/// Checks that the texels come from exactly one origin.
 fn check_origin(loader: &mut Loader<'_>, table: &DeTable<'_>) -> Option<()> {
-    let origins = ["values", "file", "pattern"].map(|key| table.get_key_value(key));
+    let origins = ["values", "file", "pattern", "depths", "ies"].map(|key| table.get_key_value(key));
     let mut given = origins.into_iter().flatten();
     if let (Some((first, _)), Some((second, _))) = (given.next(), given.next()) {
         let span = loader.reader.span_of(second);

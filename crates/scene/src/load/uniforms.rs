@@ -2,6 +2,7 @@
 //!
 //! *Holds:* a uniform that is not listed keeps its initializer, or is 0 (GLSL 1.50 §4.3.5).
 
+use super::depths::DepthMap;
 use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
@@ -45,6 +46,8 @@ pub(super) struct Context<'a> {
     pub(super) conventional: bool,
     /// Whether there is a camera or a mesh, so that matrices follow from something.
     pub(super) is_seen: bool,
+    /// The maps of depths among its textures.
+    pub(super) maps: &'a [DepthMap],
 }
 
 /// The value of each root of the program, in order, flat. The draw's own tables take precedence over the scene's
@@ -71,6 +74,7 @@ pub(super) fn load_uniforms(
         }
     }
     load_matrices(reader, draw, view, (&mut values, &mut own));
+    load_maps(reader, context.maps, &mut values);
     load_named(reader, draw, (&mut values, &mut own));
     own.derive(&mut values);
     let asks_for_material = context.conventional && material.is_none();
@@ -116,6 +120,22 @@ fn load_matrices<'p>(
         let scalars: Vec<ScalarValue> = numbers.into_iter().map(ScalarValue::Float).collect();
         values.store(&target, &scalars);
         own.keep(target, scalars);
+    }
+}
+
+/// The matrices of maps of depths.
+fn load_maps(reader: &mut Reader, maps: &[DepthMap], values: &mut Values<'_>) {
+    for map in maps {
+        let Some((name, span)) = &map.matrix else { continue };
+        let Some(target) = values.find(reader, name, *span) else { continue };
+        if values.program.types.get(target.leaf.ty) == Type::Matrix(4, 4) && target.leaf.array_size.is_none() {
+            let scalars: Vec<ScalarValue> = map.to_map().into_iter().map(ScalarValue::Float).collect();
+            values.store(&target, &scalars);
+        } else {
+            let message = format!("`{name}` is not a mat4, and a matrix leads from world space to a map");
+            reader.error(&SCENE_WRONG_KIND, *span, message, "not for this uniform");
+            values.mark(&target);
+        }
     }
 }
 
