@@ -10,15 +10,16 @@
 #include "safe.glsl"
 
 // The part of the light that a slice through the eye's direction lets in, weighted by the cosine to the normal.
-//   low, high  the angles of the two horizons to the eye, in radians, limited to a right angle from the normal
+//   low, high  the angles of the two horizons from the eye's direction, in radians: low before it, high after it; limited to a right
+//   angle from the normal. The eye sees the point, so a horizon may hide the normal's direction, but not the eye's
 //   n  that of the normal in the slice, limited to [-pi / 2, pi / 2]
 // bound: 6e-7 abs
 float aoSlice(float low, float high, float n)
 {
     float right = radians(90.0);
     float m = clamp(n, -right, right);
-    float a = clamp(low, m - right, m);
-    float b = clamp(high, m, m + right);
+    float a = clamp(low, m - right, 0.0);
+    float b = clamp(high, 0.0, m + right);
     float s = sin(m);
     return 0.5 * (sin(a) * sin(a - m) + a * s + sin(b) * sin(b - m) + b * s);
 }

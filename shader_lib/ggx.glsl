@@ -79,7 +79,7 @@ float ggxFactor(vec3 N, vec3 L, vec3 V, float alpha)
     return d > 0.0 ? safeFinite(D * (0.5 * NL / d)) : 0.0;
 }
 
-// The same for a brushed surface.
+// The same for a brushed surface. 0 for an eye straight below it, which has no grazing direction.
 //   N, T  unit normal and unit tangent    L, V  unit vectors    alpha  along T and across it, each limited to [2^-20, 1]
 // bound: 2e-6 size, dozens of roundings
 float ggxFactor(vec3 N, vec3 T, vec3 L, vec3 V, vec2 alpha)
@@ -91,8 +91,13 @@ float ggxFactor(vec3 N, vec3 T, vec3 L, vec3 V, vec2 alpha)
     float NV = safeUnit(dot(N, V));
     vec3 B = cross(N, T);
     // The stretched directions, of which Smith's function is the length; their heights are the cosines.
-    float l = sqrt(NL * NL + dot(a * vec2(dot(T, L), dot(B, L)), a * vec2(dot(T, L), dot(B, L))));
-    float v = sqrt(NV * NV + dot(a * vec2(dot(T, V), dot(B, V)), a * vec2(dot(T, V), dot(B, V))));
+    vec2 light = a * vec2(dot(T, L), dot(B, L));
+    vec2 eye = vec2(dot(T, V), dot(B, V));
+    if (!(NV > 0.0))
+        eye = safeNormalize(vec3(eye, 0.0)).xy;
+    eye *= a;
+    float l = sqrt(NL * NL + dot(light, light));
+    float v = sqrt(NV * NV + dot(eye, eye));
     float d = NL * v + NV * l;
     float D = radians(180.0) * ggxDistribution(N, T, halfVector(L, V), a);
     return d > 0.0 ? safeFinite(D * (0.5 * NL / d)) : 0.0;

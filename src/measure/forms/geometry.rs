@@ -123,6 +123,13 @@ pub(super) static FORMS: &[Form] = forms! {
     "outline" "outlineDirection(vec4,vec4)" [Clip, Four] outline_direction;
     "outline" "outlinePosition(vec4,vec3,float,float,float)" [Clip, Point, Unit, Unit, Gain] outline_on_any_picture;
     "outline" "outlinePosition(vec4,vec3,float,float)" [Clip, Point, Unit, Unit] outline;
+    "outline" "outlinePixels(float,float)" [White, Size] |a| Some(Answer::relative([a.f() / (a.f() / 2.0)]).conditioned(2.0));
+    "outline" "outlineThinned(float,float,float,float)" [Distance, Gain, White, Unit] |a| {
+        let (distance, width, start, least) = (a.f(), a.f(), a.f(), a.f());
+        // The model's size on the screen, relative to that at the start.
+        let size = (1.0 / distance.max(start)) / (1.0 / start);
+        Some(Answer::relative([(width * size).max(least.min(width))]).conditioned(4.0))
+    };
     "interpolation" "barycentric(vec2,vec2,vec2,vec2)" [Two, Two, Two, Two] barycentric;
     "interpolation" "interpolateLinear(vec2,vec4,vec4,vec4)" [Barycentric, Four, Four, Four] |a| {
         let [u, v] = a.v2();

@@ -98,7 +98,7 @@ fn tube(m: Matrix, a: V, b: V, radius: f64) -> f64 {
 }
 
 /// A value with a condition number by moving its arguments.
-fn moved(a: &Args<'_>, value: impl Fn(&Args<'_>) -> f64) -> Option<Answer> {
+pub(super) fn moved(a: &Args<'_>, value: impl Fn(&Args<'_>) -> f64) -> Option<Answer> {
     const STEP: f64 = 1e-7;
     let found = value(a);
     let slope = (0..6_usize).fold(0.0, |most: f64, turn| {
@@ -127,7 +127,7 @@ fn angle(n: V, v: V) -> f64 {
 }
 
 /// The test table at the root of a cosine, and how uncertain that is near the horizon.
-fn reflected(n: V, v: V) -> (Vec<f64>, f64) {
+pub(super) fn reflected(n: V, v: V) -> (Vec<f64>, f64) {
     let cos = dot(n, v);
     let x = cos.max(0.0).sqrt();
     (looked_up(x), 64.0 + 64.0 / cos.abs().sqrt().max(1e-9))

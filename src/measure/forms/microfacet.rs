@@ -2,7 +2,7 @@
 //! the equations of their papers.
 
 use super::{Form, InputKind, cross, dot, forms, half, lit};
-use crate::measure::vector::{V, add, scale, sub};
+use crate::measure::vector::{V, add, mul, scale, sub};
 use crate::measure::{Answer, Args};
 use std::f64::consts::PI;
 
@@ -144,11 +144,20 @@ fn brushed(a: &Args<'_>) -> Option<Answer> {
         let z = dot(n, u).max(f64::MIN_POSITIVE);
         ((1.0 + ((x * dot(t, u)).powi(2) + (y * dot(b, u)).powi(2)) / (z * z)).sqrt() - 1.0) / 2.0
     };
+    // An eye below the surface counts as grazing: at a right angle to the normal, in the plane of both.
+    let is_below = dot(n, v) <= 0.0;
+    let flat = dot(t, v).hypot(dot(b, v));
+    if is_below && flat < 1e-6 {
+        return None;
+    }
+    let long = if is_below { flat } else { 1.0 };
     let hidden = |nv: f64| {
-        let across = (x * dot(t, v)).powi(2) + (y * dot(b, v)).powi(2);
+        let across = ((x * dot(t, v)).powi(2) + (y * dot(b, v)).powi(2)) / (long * long);
         if nv > 1e-9 { nv * lambda(v) } else { ((across + nv * nv).sqrt() - nv) / 2.0 }
     };
-    specular(|h, blur| stretched(n, t, h, alpha, blur), (n, l, v), (lambda(l), hidden), x.min(y))
+    let answer = specular(|h, blur| stretched(n, t, h, alpha, blur), (n, l, v), (lambda(l), hidden), x.min(y))?;
+    let condition = answer.condition / long;
+    Some(answer.conditioned(condition))
 }
 
 fn beckmann(a: &Args<'_>) -> Option<Answer> {
@@ -159,7 +168,11 @@ fn beckmann(a: &Args<'_>) -> Option<Answer> {
 }
 
 fn sheen(a: &Args<'_>) -> Option<Answer> {
-    let (n, l, v, alpha) = (a.d(), a.d(), a.d(), a.f());
+    fibers((a.d(), a.d(), a.d()), a.f())
+}
+
+/// Estevez and Kulla's density with the visibility of Neubelt and Pettineo.
+fn fibers((n, l, v): (V, V, V), alpha: f64) -> Option<Answer> {
     let (h, blur) = half(l, v)?;
     lit(n, l, || {
         let (nl, nv) = (dot(n, l), dot(n, v).max(0.0));
@@ -169,6 +182,20 @@ fn sheen(a: &Args<'_>) -> Option<Answer> {
         let answer = Answer::new([density.value * seen], density.most);
         Some(answer.conditioned(condition.max(f64::MIN_POSITIVE)))
     })
+}
+
+/// The extension of glTF: the base loses what the fibers return.
+fn covered(a: &Args<'_>) -> Option<Answer> {
+    let (base, n, l, v) = (a.v(), a.d(), a.d(), a.d());
+    let (roughness, color, light) = (a.f(), a.v(), a.v());
+    let alone = fibers((n, l, v), roughness * roughness)?;
+    let factor = alone.values.first().copied()?;
+    let (table, condition) = super::ltc::reflected(n, v);
+    let left = 1.0 - color.iter().fold(0.0, |most: f64, k| most.max(*k)) * table.first()?;
+    let value = add(scale(left, base), scale(factor, mul(color, light)));
+    let brightest = base.iter().chain(&light).fold(1.0, |most: f64, x| most.max(*x));
+    let scale = brightest * alone.scale.max(1.0);
+    Some(Answer::new(value, scale).conditioned(condition + alone.condition).jumping(alone.jump))
 }
 
 /// Schlick 1994 (15), for each channel.
@@ -298,6 +325,11 @@ pub(super) static FORMS: &[Form] = forms! {
         told(charlie(n, h, a.f(), 2.0), 0.0)
     };
     "sheen" "sheenFactor(vec3,vec3,vec3,float)" [Lighting, Alpha] sheen;
+    "sheen" "sheenAlbedo(sampler2D,vec3,vec3,float)" [Direction, Direction, Unit] |a| {
+        let (table, condition) = super::ltc::reflected(a.d(), a.d());
+        Some(Answer::new([*table.first()?], 1.0).conditioned(condition))
+    };
+    "sheen" "sheen(sampler2D,vec3,vec3,vec3,vec3,float,vec3,vec3)" [Intensity, Lighting, Unit, Color, Intensity] covered;
     "clearcoat" "clearcoatWeight(vec3,vec3,float)" [Direction, Direction, Unit]
         |a| Some(Answer::new([schlick(dot(a.d(), a.d()).abs(), [0.04; 3], [1.0; 3])[0] * a.f()], 1.0).conditioned(5.0));
     "clearcoat" "clearcoat(vec3,vec3,vec3,vec3,float,float,vec3)" [Intensity, Lighting, Unit, Alpha, Intensity] coated;

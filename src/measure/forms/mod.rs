@@ -10,6 +10,7 @@ mod ltc;
 mod microfacet;
 mod models;
 mod naive;
+mod shadows;
 mod shapes;
 mod sources;
 mod today;
@@ -32,6 +33,7 @@ pub(super) static ALL: &[&[Form]] = &[
     sources::FORMS,
     ltc::FORMS,
     today::FORMS,
+    shadows::FORMS,
     shapes::FORMS,
     naive::FORMS,
 ];

@@ -5,14 +5,14 @@ use crate::measure::vector::{V, unit};
 use crate::measure::{Answer, Args, looked_up};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Jimenez et al. (7): one side of a slice.
+/// Jimenez et al. (7): one side of a slice, the integral of cos(x - n) |sin x| from the eye's direction to the horizon.
 fn side(h: f64, n: f64) -> f64 {
     0.25 * (n.cos() - (2.0 * h - n).cos() + 2.0 * h * n.sin())
 }
 
 fn slice(a: &Args<'_>) -> Option<Answer> {
-    let (low, high, n) = (a.f(), a.f(), a.f());
-    let value = side(low.clamp(n - FRAC_PI_2, n), n) + side(high.clamp(n, n + FRAC_PI_2), n);
+    let (low, high, n) = (a.f(), a.f(), a.f().clamp(-FRAC_PI_2, FRAC_PI_2));
+    let value = side(low.clamp(n - FRAC_PI_2, 0.0), n) + side(high.clamp(0.0, n + FRAC_PI_2), n);
     Some(Answer::new([value], 1.0).conditioned(8.0))
 }
 
@@ -41,12 +41,12 @@ fn lit_sphere(a: &Args<'_>) -> Option<Answer> {
     (flat > 1e-4).then(|| Answer::new(place, 1.0).conditioned(8.0 / flat))
 }
 
-fn tap(a: &Args<'_>) -> Option<Answer> {
-    let (index, count, turn) = (a.f().trunc(), a.f().trunc(), a.f());
+/// Vogel's spiral: the root of the index outwards, the golden angle around.
+pub(super) fn spiral(index: f64, count: f64, turn: f64) -> [f64; 2] {
     let golden = (index as u32).wrapping_mul(1_640_531_527) >> 8;
     let radius = ((index + 0.5) / count).min(1.0).sqrt();
     let (sin, cos) = (TAU * (f64::from(golden) / 16_777_216.0 + turn)).sin_cos();
-    Some(Answer::new([radius * cos, radius * sin], 1.0).conditioned(16.0))
+    [radius * cos, radius * sin]
 }
 
 fn cascade(a: &Args<'_>) -> Option<Answer> {
@@ -108,7 +108,8 @@ pub(super) static FORMS: &[Form] = forms! {
         Some(Answer::new([(1.0 - off).powi(2)], 1.0).conditioned(8.0 + 8.0 / width))
     };
     "matcap" "matcapCoordinate(vec3,vec3)" [Direction, Direction] lit_sphere;
-    "shadow" "shadowTap(int,int,float)" [Octaves, Octaves, Signed] tap;
+    "shadow" "shadowTap(int,int,float)" [Octaves, Octaves, Signed]
+        |a| Some(Answer::new(spiral(a.f().trunc(), a.f().trunc(), a.f()), 1.0).conditioned(16.0));
     "shadow" "shadowPenumbra(float,float,float)" [White, White, Gain] |a| {
         let (receiver, blocker, size) = (a.f(), a.f(), a.f());
         Some(Answer::new([(receiver - blocker).max(0.0) / blocker * size], 1.0).conditioned(4.0 + 8.0 * receiver / blocker * size))
