@@ -48,6 +48,7 @@ fn bound(k: f64) -> f64 {
 #[test]
 fn moments_leak_where_casters_overlap_and_a_cut_takes_it_away() {
     let text = scenes().iter().find(|scene| scene.name == "shadows").expect("it is there").text;
+    let docs = include_str!("../../../docs/library.md");
     let mut told = Vec::new();
     for k in [1.0_f32, 4.0, 9.0] {
         let (far, receiver) = (0.8, 0.85);
@@ -59,6 +60,8 @@ fn moments_leak_where_casters_overlap_and_a_cut_takes_it_away() {
         let [_, cut] = leak(near, far, receiver, 0.5);
         let left = ((open - 0.5) / 0.5).max(0.0);
         assert!((cut - left).abs() < 2e-3, "{k}: {cut} for {left}");
+        let row = format!("| {k} | {exact} | {open:.2} | {cut:.2} |");
+        assert!(docs.contains(&row), "docs/library.md lacks {row}");
         told.push((open, cut));
     }
     let [one, four, nine] = told[..] else { panic!("three casters") };
