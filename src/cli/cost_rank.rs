@@ -11,15 +11,13 @@ use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::progress::Progress;
 use super::scenes::{gpu_failure, open_gpu};
-use crate::cost::{Assumptions, Ranges, cost, ranks, spearman};
+use crate::cost::{Assumptions, cost, ranks, spearman};
 use crate::library;
 use crate::scene::{self, DiskFiles, Draw, FileError, FileSource, Scene};
 use glisten_front::Compiler;
-use glisten_front::hir::ScalarValue;
 use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Prepared, Via};
 use glisten_reference::{Counts, RenderOptions, Step, counts};
-use glisten_scene::values::{LeafShape, of_leaf};
 use glisten_specialize::optimize;
 use serde::Serialize;
 use serde_json::json;
@@ -153,19 +151,7 @@ fn row(gpu: &Gpu, scene: Scene, iterations: u64) -> Result<Row, String> {
 fn of_draw(draw: &Draw, counts: &Counts, iterations: u64) -> Spent {
     let of = |name: &str| counts.iter().filter(|(step, _)| step.name == name).map(|(_, count)| *count).sum::<u64>();
     let program = optimize(&draw.program);
-    let mut ranges = Ranges::default();
-    for leaf in &draw.program.interface.uniforms {
-        let Some(shape) = LeafShape::of(&draw.program.types, leaf) else { continue };
-        for value in of_leaf(&draw.uniforms, leaf, shape) {
-            let number = match *value {
-                ScalarValue::Bool(value) => f64::from(u8::from(value)),
-                ScalarValue::Int(value) => f64::from(value),
-                ScalarValue::Uint(value) => f64::from(value),
-                ScalarValue::Float(value) => f64::from(value),
-            };
-            ranges.add(&leaf.name, [number, number]);
-        }
-    }
+    let ranges = crate::gallery::ranges(draw);
     let cost = cost(&program, &SourceMap::default(), &Assumptions { iterations, ranges });
     let interpolated = INTERPOLATED * u64::from(cost.varyings.components);
     let entries = u64::from(draw.vertex_count).saturating_mul(u64::from(draw.instances));

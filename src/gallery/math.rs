@@ -22,7 +22,7 @@ const SYMBOLS: &[(&str, &str, &str)] = &[
 ];
 
 /// Commands that are set upright, as words.
-const FUNCTIONS: &[&str] = &["max", "min", "cos"];
+const FUNCTIONS: &[&str] = &["max", "min", "cos", "sin"];
 
 /// Commands for space: name, and width in em.
 const SPACES: &[(&str, &str)] = &[(",", "0.17em"), (";", "0.28em"), ("quad", "1em")];

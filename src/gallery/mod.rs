@@ -8,6 +8,7 @@
 //!  library ──► entry     the scene and its [gallery] table
 //!          ──► tile      a picture of twice the size, averaged; PNG
 //!          ──► difference    of two pictures that should be alike; PNG
+//!          ──► figures   the errors of its functions, and the cost of a fragment
 //!          ──► page      equations (math), sources, the template
 //! ```
 //!
@@ -15,12 +16,14 @@
 
 mod difference;
 mod entry;
+mod figures;
 mod math;
 mod page;
 mod tile;
 
 pub use difference::Difference;
 pub use entry::{Entry, entries};
+pub(crate) use figures::ranges;
 pub use page::{Drawing, page};
 pub use tile::{Tile, contact_sheet};
 

@@ -6,6 +6,7 @@
 
 use super::difference::Difference;
 use super::entry::Entry;
+use super::figures::{Figures, ROWS, Shown};
 use super::math::mathml;
 use super::tile::Tile;
 use crate::library;
@@ -93,6 +94,9 @@ const CHAPTERS: &[Chapter] = &[
     },
 ];
 
+/// The chapter whose cards have figures.
+const MEASURED: &str = "today";
+
 /// The page for pictures that `by` drew, one per entry.
 ///
 /// # Errors
@@ -154,7 +158,32 @@ fn card(entries: &[Entry], entry: &Entry, drawing: &Drawing) -> Result<Value, St
         height,
         formulas => Value::from_safe_string(formulas),
         sources,
+        figures => figures(entry)?,
     })
+}
+
+/// The figures of a scene of today.
+fn figures(entry: &Entry) -> Result<Option<Value>, String> {
+    if entry.meta.chapter != MEASURED {
+        return Ok(None);
+    }
+    let Figures { functions, fragment } = Figures::of(entry)?;
+    let rows: Vec<Value> = functions.iter().map(row).collect();
+    Ok(Some(context! {
+        worst => functions.first().map(row),
+        rows,
+        inputs => ROWS,
+        arithmetic => fragment.arithmetic,
+        special => fragment.special,
+        lookups => fragment.lookups,
+        weight => fragment.weight(),
+    }))
+}
+
+/// A function with its figures.
+fn row(shown: &Shown) -> Value {
+    let error = if shown.error == 0.0 { "0".to_owned() } else { format!("{:.1e}", shown.error) };
+    context! { name => &shown.name, error, bound => &shown.bound, weight => shown.weight }
 }
 
 /// The difference to another picture, with the name and the title of its scene.

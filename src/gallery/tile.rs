@@ -41,13 +41,15 @@ impl Tile {
         box_filter(picture.width / n, picture.height / n, picture.width, picture.height, color)
     }
 
-    /// The tile scaled to `side` pixels in width and height; each pixel is the mean of the area that it covers.
+    /// The tile with `side` pixels along its longer side; each pixel is the mean of the area that it covers.
     fn resized(&self, side: u32) -> Self {
         let color = |x: u32, y: u32| {
             let pixel = self.pixels.get(y as usize * self.width as usize + x as usize);
             shown(pixel.copied().unwrap_or(NOT_FINITE))
         };
-        box_filter(side, side, self.width, self.height, color)
+        let longer = u64::from(self.width.max(self.height).max(1));
+        let scaled = |length: u32| (u64::from(side) * u64::from(length) / longer).clamp(1, u64::from(side)) as u32;
+        box_filter(scaled(self.width), scaled(self.height), self.width, self.height, color)
     }
 
     /// The tile as a PNG file.
@@ -113,7 +115,7 @@ fn spans(count: u32, from: u32) -> Vec<Vec<(u32, f64)>> {
         .collect()
 }
 
-/// All tiles on one sheet with `columns` columns, each `side` pixels wide, `gap` apart.
+/// All tiles on one sheet with `columns` columns, each in the middle of a square of `side` pixels, `gap` apart.
 pub fn contact_sheet(tiles: &[&Tile], columns: u32, side: u32, gap: u32) -> Tile {
     let columns = columns.max(1);
     let rows = (tiles.len() as u32).div_ceil(columns);
@@ -123,7 +125,8 @@ pub fn contact_sheet(tiles: &[&Tile], columns: u32, side: u32, gap: u32) -> Tile
         let index = index as u32;
         let (left, top) = (gap + index % columns * (side + gap), gap + index / columns * (side + gap));
         let small = tile.resized(side);
-        for (row, line) in (top..).zip(small.pixels.chunks(side as usize)) {
+        let (left, top) = (left + (side - small.width) / 2, top + (side - small.height) / 2);
+        for (row, line) in (top..).zip(small.pixels.chunks(small.width.max(1) as usize)) {
             let start = row as usize * width as usize + left as usize;
             if let Some(place) = pixels.get_mut(start..start + line.len()) {
                 place.copy_from_slice(line);
@@ -175,6 +178,14 @@ mod tests {
             [at(1, 1), at(4, 2), at(2, 5), at(5, 5), at(0, 0)],
             [colors[0], colors[1], colors[2], GROUND, GROUND]
         );
+    }
+
+    #[test]
+    fn a_sheet_keeps_the_shape_of_a_tile() {
+        let wide = Tile { width: 8, height: 4, pixels: vec![[1, 2, 3]; 32] };
+        let sheet = contact_sheet(&[&wide], 1, 4, 1);
+        let row = |y: usize| sheet.pixels[y * 6 + 1];
+        assert_eq!([row(1), row(2), row(3), row(4)], [GROUND, [1, 2, 3], [1, 2, 3], GROUND]);
     }
 
     #[test]
