@@ -16,6 +16,7 @@ mod numbers;
 mod numerics;
 mod regions;
 mod sections;
+mod threejs;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};

@@ -39,7 +39,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("faults", Source::Tables(known_faults)),
     ("fitted", Source::Tables(fitted_constants)),
     ("library", Source::Output(&["lib", "list"])),
-    ("library-errors", Source::Measured(&["lib", "measure", "--backend", "gpu"])),
+    ("library-errors", Source::Measured(&["lib", "measure"])),
     ("library-stability", Source::Examined(super::numerics::equations)),
     ("lint-rules", Source::Tables(lint_rules)),
     ("operations", Source::Tables(builtin::operations_markdown)),
@@ -48,6 +48,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("programs", Source::Tables(programs)),
     ("specialize-draw", Source::Bench("specialize", "draw")),
     ("specialize-make", Source::Bench("specialize", "make")),
+    ("threejs", Source::Examined(super::threejs::table)),
 ];
 
 /// Commands whose output depends on the machine.
