@@ -1,12 +1,13 @@
 //! [`Figures`]: how exact the functions are that a scene shows, and what a fragment of it costs.
 //!
-//! *In:* an entry. *Out:* for each function that its shaders call from its modules, the error that `glisten lib measure` finds and the bound
+//! *In:* an entry. *Out:* for each function that it shows, the error that `glisten lib measure` finds and the bound
 //! that its comment states; and the operations of its dearest fragment, as `glisten cost` counts them. *Holds:* the same figures on every
 //! run. Functions that read uniforms have no error of their own.
 
 use super::entry::Entry;
+use super::page::source;
 use crate::cost::{Assumptions, Counts, Ranges, cost};
-use crate::library::{self, FunctionEntry};
+use crate::library::{self, FunctionEntry, Module};
 use crate::measure::{Form, Trial, forms};
 use crate::scene::{Draw, Scene};
 use glisten_front::hir::ScalarValue;
@@ -50,23 +51,25 @@ impl Figures {
     }
 }
 
-/// The functions of an entry's modules that its shaders call by name.
+/// The functions of an entry's modules that the other texts call by name which it shows.
 fn called(entry: &Entry) -> Vec<(FunctionEntry, &'static Form)> {
-    let shaders: Vec<&str> =
-        entry.meta.sources.iter().filter_map(|name| library::shader(name.strip_prefix("programs/")?)).collect();
-    let is_called = |name: &str| shaders.iter().any(|text| calls(text, name));
-    let modules = entry.meta.sources.iter().filter_map(|name| {
-        let name = name.strip_suffix(".glsl")?;
-        library::modules().iter().find(|module| module.name == name)
-    });
-    let functions = modules.flat_map(|module| {
-        let with_form = move |function: FunctionEntry| {
+    let texts: Vec<(&str, &str)> =
+        entry.meta.sources.iter().filter_map(|name| Some((name.as_str(), source(name)?))).collect();
+    let mut found = Vec::new();
+    for (own, _) in &texts {
+        let Some(module) = own.strip_suffix(".glsl").and_then(module) else { continue };
+        for function in library::entry(module).functions {
+            let is_called = texts.iter().any(|(name, text)| name != own && calls(text, &function.name));
             let is_form = |form: &&Form| form.module == module.name && form.signature == function.signature;
-            forms().find(is_form).map(|form| (function, form))
-        };
-        library::entry(module).functions.into_iter().filter_map(with_form)
-    });
-    functions.filter(|(function, _)| is_called(&function.name)).collect()
+            found.extend(forms().find(is_form).filter(|_| is_called).map(|form| (function, form)));
+        }
+    }
+    found
+}
+
+/// The module of a name.
+fn module(name: &str) -> Option<&'static Module> {
+    library::modules().iter().find(|module| module.name == name)
 }
 
 /// Whether a text calls a function.
@@ -139,6 +142,7 @@ mod tests {
         for entry in today {
             let figures = Figures::of(entry).expect("its functions can be measured");
             assert!(figures.fragment.weight() > 10, "{}: {:?}", entry.name, figures.fragment);
+            assert!(!figures.functions.is_empty(), "{}", entry.name);
             for shown in &figures.functions {
                 assert!(shown.error.is_finite() && !shown.bound.is_empty(), "{}: {shown:?}", entry.name);
             }

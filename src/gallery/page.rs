@@ -183,7 +183,10 @@ fn figures(entry: &Entry) -> Result<Option<Value>, String> {
 /// A function with its figures.
 fn row(shown: &Shown) -> Value {
     let error = if shown.error == 0.0 { "0".to_owned() } else { format!("{:.1e}", shown.error) };
-    context! { name => &shown.name, error, bound => &shown.bound, weight => shown.weight }
+    // The number of a bound that is less than the error.
+    let number = shown.bound.split_whitespace().next().and_then(|text| Some((text, text.parse::<f64>().ok()?)));
+    let beyond = number.filter(|(_, bound)| *bound < shown.error).map(|(text, _)| text);
+    context! { name => &shown.name, error, beyond, bound => &shown.bound, weight => shown.weight }
 }
 
 /// The difference to another picture, with the name and the title of its scene.
@@ -200,7 +203,7 @@ fn difference(entries: &[Entry], entry: &Entry, difference: &Difference) -> Valu
 }
 
 /// The text of a module, or of a program's shader.
-fn source(name: &str) -> Option<&'static str> {
+pub(super) fn source(name: &str) -> Option<&'static str> {
     match name.strip_prefix("programs/") {
         Some(file) => library::shader(file),
         None => {

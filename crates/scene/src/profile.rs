@@ -252,7 +252,7 @@ mod tests {
             ("300 200.5 0", "300 -1 0", "line 9: candela is 0 to"),
             ("300 200.5 0", "300 200.5", "line 9: the file ends where candela should be"),
             ("300 200.5 0", "300 200.5 0 7", "line 9: `7` comes after the last candela"),
-            ("3 1 1 2", "3 2 1 2", "line 9: a horizontal angle is 0 to 360"),
+            ("3 1 1 2", "3 2 1 2", "line 9: the file ends where candela should be"),
         ] {
             let broken = GOOD.replace(from, to);
             assert!(error(&broken).starts_with(expected), "{from} -> {to}: {}", error(&broken));

@@ -221,8 +221,8 @@ impl Depths {
     fn draw(&mut self, corners: [DVec4; 3]) {
         let [a, b, c] = corners.map(|corner| DVec3::new(corner.x, corner.y, corner.w));
         let matrix = DMat3::from_cols(a, b, c);
-        // Seen from its edge.
-        if !(matrix.determinant().abs() > 0.0) {
+        // Seen from its edge, or not finite.
+        if !matrix.determinant().is_normal() {
             return;
         }
         let inverse = matrix.inverse();
@@ -242,7 +242,7 @@ impl Depths {
 
     /// The columns or the rows that a triangle can cover: all where it reaches behind the camera.
     fn range(&self, corners: [DVec4; 3], side: fn(DVec4) -> f64, count: u32) -> Range<u32> {
-        if corners.iter().any(|corner| !(corner.w > 0.0)) {
+        if corners.iter().any(|corner| corner.w <= 0.0 || corner.w.is_nan()) {
             return 0..count;
         }
         let places = corners.map(|corner| (0.5 + 0.5 * side(corner) / corner.w) * f64::from(count));
@@ -264,6 +264,7 @@ fn center(at: u32, of: u32) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::matrices::perspective;
     use super::*;
 
     fn corner(x: f64, y: f64, z: f64, w: f64) -> DVec4 {
@@ -286,7 +287,7 @@ mod tests {
     #[test]
     fn what_reaches_behind_the_camera_needs_no_cut() {
         let (near, far) = (0.5, 20.0);
-        let to_clip = DMat4::perspective_rh_gl(1.0, 1.0, near, far);
+        let to_clip = perspective(1.0, 1.0, near, far);
         let floor = [DVec3::new(-90.0, -1.0, 30.0), DVec3::new(90.0, -1.0, 30.0), DVec3::new(0.0, -1.0, -60.0)];
         let mut depths = Depths::new(16, 16);
         depths.draw(floor.map(|p| to_clip * p.extend(1.0)));

@@ -134,7 +134,7 @@ fn look_at(eye: DVec3, target: DVec3, up: DVec3) -> DMat4 {
 }
 
 /// `gluPerspective`, `fovy` in radians.
-fn perspective(fovy: f64, aspect: f64, near: f64, far: f64) -> DMat4 {
+pub(super) fn perspective(fovy: f64, aspect: f64, near: f64, far: f64) -> DMat4 {
     let f = 1.0 / (fovy / 2.0).tan();
     DMat4::from_cols_array(&[
         f / aspect,
