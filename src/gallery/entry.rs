@@ -106,3 +106,14 @@ impl Entry {
 pub(super) const fn supersampling() -> u32 {
     SUPERSAMPLING
 }
+
+/// The text of a module, or of a program's shader.
+pub(super) fn source(name: &str) -> Option<&'static str> {
+    match name.strip_prefix("programs/") {
+        Some(file) => library::shader(file),
+        None => {
+            let module = name.strip_suffix(".glsl")?;
+            library::modules().iter().find(|known| known.name == module).map(|module| module.text)
+        }
+    }
+}

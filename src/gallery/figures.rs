@@ -4,8 +4,7 @@
 //! that its comment states; and the operations of its dearest fragment, as `glisten cost` counts them. *Holds:* the same figures on every
 //! run. Functions that read uniforms have no error of their own.
 
-use super::entry::Entry;
-use super::page::source;
+use super::entry::{Entry, source};
 use crate::cost::{Assumptions, Counts, Ranges, cost};
 use crate::library::{self, FunctionEntry, Module};
 use crate::measure::{Form, Trial, forms};

@@ -5,11 +5,10 @@
 //! *Holds:* the pictures are files next to the page; nothing else is loaded.
 
 use super::difference::Difference;
-use super::entry::Entry;
+use super::entry::{Entry, source};
 use super::figures::{Figures, ROWS, Shown};
 use super::math::mathml;
 use super::tile::Tile;
-use crate::library;
 use crate::made::Made;
 use crate::page::highlight::{Language, html};
 use crate::page::{Page, Place, View, inline_code, viewer};
@@ -199,17 +198,6 @@ fn difference(entries: &[Entry], entry: &Entry, difference: &Difference) -> Valu
         name => other.map(|other| other.name),
         other => other.map(Entry::file_name),
         title => other.map(|other| &other.meta.title),
-    }
-}
-
-/// The text of a module, or of a program's shader.
-pub(super) fn source(name: &str) -> Option<&'static str> {
-    match name.strip_prefix("programs/") {
-        Some(file) => library::shader(file),
-        None => {
-            let module = name.strip_suffix(".glsl")?;
-            library::modules().iter().find(|known| known.name == module).map(|module| module.text)
-        }
     }
 }
 

@@ -232,6 +232,11 @@ fn new_text(all: &[Token<'_>], index: usize, new: &str) -> String {
     if redeclaration(all, index).is_some() { String::new() } else { new.to_owned() }
 }
 
+/// The text after the `#` of a line that is a directive. A byte order mark may be in front of the first line.
+pub(super) fn directive(line: &str) -> Option<&str> {
+    line.trim_start_matches('\u{feff}').trim_start().strip_prefix('#')
+}
+
 /// The lines of a text without comments, and whether each is a directive.
 fn directive_lines(code: &str) -> Vec<(Range<usize>, Option<&str>)> {
     let mut at = 0;
@@ -239,7 +244,7 @@ fn directive_lines(code: &str) -> Vec<(Range<usize>, Option<&str>)> {
         .map(|line| {
             let range = at..at + line.len();
             at = range.end;
-            (range, line.trim_start().strip_prefix('#').map(str::trim))
+            (range, directive(line).map(str::trim))
         })
         .collect()
 }
@@ -293,7 +298,8 @@ fn above_comment(text: &str, code: &str, place: usize) -> (usize, &'static str) 
     if start < place { (start, "\n") } else { (place, "") }
 }
 
-/// The start of the comment that explains a line of code: it is directly above, and neither long nor a license.
+/// The start of the comment that explains a line of code: it is directly above, and neither at the top of the file, nor long, nor a
+/// license.
 pub(super) fn comment_above(text: &str, code: &str, place: usize) -> usize {
     let (mut start, mut n_lines) = (place, 0);
     while let Some(before) = start.checked_sub(1).and_then(|end| text.get(..end)) {
@@ -305,8 +311,8 @@ pub(super) fn comment_above(text: &str, code: &str, place: usize) -> usize {
         (start, n_lines) = (line.start, n_lines + 1);
     }
     let comment = text.get(start..place).unwrap_or("").to_ascii_lowercase();
-    let is_about_file =
-        n_lines > LONGEST_COMMENT || ["copyright", "license", "licence"].iter().any(|word| comment.contains(word));
+    let is_license = ["copyright", "license", "licence"].iter().any(|word| comment.contains(word));
+    let is_about_file = start == 0 || n_lines > LONGEST_COMMENT || is_license;
     if is_about_file { place } else { start }
 }
 

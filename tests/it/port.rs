@@ -192,7 +192,7 @@ fn a_pack_for_an_older_game_brings_its_files_along() {
         &fragment,
         &["#extension GL_ARB_shading_language_420pack : enable\n", "vec4 flame(sampler2D sampler_, vec2 at)"],
     );
-    has(&read(&folder, &format!("{shaders}/include/older/fog.glsl")), &["#version 330\n", "float fog_depth("]);
+    has(&read(&folder, &format!("{shaders}/include/older/fog.glsl")), &["#version 150\n", "float fog_depth("]);
     has(
         &read(&folder, &format!("{shaders}/include/blocks/fog.glsl")),
         &["layout(std140) uniform Fog {\n    vec4 FogColor;"],
@@ -363,4 +363,14 @@ fn pictures_prove_a_port() {
         assert_eq!(account["summary"]["failed"], 0, "{account:#}");
         assert!(account["summary"]["proved"].as_u64() >= Some(1), "{account:#}");
     }
+}
+
+/// `examples/port` keeps what the command writes.
+#[test]
+fn the_example_is_as_the_command_writes_it() {
+    let folder = Folder::new(&[]);
+    let example = root().join("examples/port");
+    let [shaders, ported] = ["shaders", "ported"].map(|name| example.join(name).to_string_lossy().into_owned());
+    let output = folder.run(&["port", &shaders, "--for", "wgpu", "-o", &ported, "--check"]);
+    assert_eq!((code(&output), out(&output)), (0, String::new()), "{}", err(&output));
 }

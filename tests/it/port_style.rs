@@ -42,7 +42,7 @@ fn comments_go_with_what_they_explain() {
     );
     has(
         &fragment(&text),
-        "uniform FragmentUniforms {\n    /* of the surface */\n    layout(offset = 0) vec4 tint;  // multiplied\n    \
+        "uniform Uniforms {\n    /* of the surface */\n    layout(offset = 0) vec4 tint;     // multiplied\n    \
          layout(offset = 16) vec4 offset;  // added\n};\n\n// from the vertex stage\nlayout(location = 0) in vec2 uv;\n",
     );
     // A block comment behind a declaration goes, too, and a license stays at the top.
@@ -177,7 +177,7 @@ fn a_pack_says_what_nobody_fills() {
     ];
     let folder = ported(&files, "minecraft-26.2");
     let passes: Value = serde_json::from_str(&read(&folder, "assets/minecraft/post_effect/a.json")).expect("JSON");
-    assert_eq!(passes["passes"][0]["uniforms"]["FragmentUniforms"][0]["value"], 0.0, "{passes}");
+    assert_eq!(passes["passes"][0]["uniforms"]["Uniforms"][1]["value"], 0.0, "{passes}");
     let account = read(&folder, "port.json");
     has(&account, "a pass has no value for `HistorySize`, `Gain`, which are 0");
     has(&account, "neither the game nor a pass has a value for `FogShape`");

@@ -88,7 +88,7 @@ fn of_texts(ported: &Ported, one: &Done, dialect: &Dialect) -> Option<Compilatio
     Some(compiler.compile(&sources))
 }
 
-/// What the WGSL of a program numbers otherwise than its new texts.
+/// The names that the WGSL of a program numbers otherwise than its new texts.
 fn other_numbers(ported: &Ported, one: &Done, code: &Program) -> Option<String> {
     let compilation = of_texts(ported, one, ported.host.dialect.as_ref()?)?;
     let names: Vec<String> =

@@ -3,6 +3,7 @@
 //! *In:* the tokens of a text. *Out:* one chunk for each declaration, function definition and struct, in order. *Holds:* tokens of
 //! directives belong to no chunk; one that has directives inside says so.
 
+use super::super::rewrite::directive;
 use super::super::tokens::{Token, tokens};
 use std::ops::Range;
 
@@ -100,7 +101,7 @@ fn directives(text: &str) -> Vec<Range<usize>> {
     for line in code.split_inclusive('\n') {
         let range = at..at + line.len();
         at = range.end;
-        if goes_on || line.trim_start().starts_with('#') {
+        if goes_on || directive(line).is_some() {
             goes_on = line.trim_end().ends_with('\\');
             found.push(range);
         }
