@@ -358,10 +358,32 @@ fn joined(modules: &[String]) -> String {
 pub(crate) fn wgpu_module(programs: &[(String, Compilation)], root: &Path) -> Result<String, String> {
     let targets = vec![Target::Wgsl];
     let choices = rust::Choices { targets, wgpu: true, root: Some(root.to_owned()), ..rust::Choices::default() };
+    module_of(programs, &choices)
+}
+
+/// The structs of the uniforms and of the vertices of programs that are compiled already, as Rust without code of shaders.
+///
+/// # Errors
+/// Those of programs, as `glisten compile` prints them.
+#[cfg(feature = "cli")]
+pub(crate) fn rust_structs(programs: &[(String, Compilation)]) -> Result<String, String> {
+    module_of(programs, &rust::Choices { targets: Vec::new(), ..rust::Choices::default() })
+}
+
+/// The structs of the uniforms of a program that is compiled already, as a header of C; `None` if it has errors.
+#[cfg(feature = "cli")]
+pub(crate) fn c_structs(name: &str, compilation: &Compilation) -> Option<String> {
+    let program = compilation.program.as_ref()?;
+    Some(rust::header(name, program, &compilation.sources, &Conventions::default()))
+}
+
+/// The file with a module for each program.
+#[cfg(feature = "cli")]
+fn module_of(programs: &[(String, Compilation)], choices: &rust::Choices) -> Result<String, String> {
     let (mut modules, mut errors) = (Vec::new(), String::new());
     for (name, Compilation { program, sources, .. }) in programs {
         let Some(program) = program else { continue };
-        match rust::module(name, program, sources, &Conventions::default(), &choices) {
+        match rust::module(name, program, sources, &Conventions::default(), choices) {
             Ok(module) => modules.push(module),
             Err(found) => errors.push_str(&human(sources, &found, false)),
         }

@@ -4,19 +4,17 @@
 use super::args::ResultFormat;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
-use super::files;
 use super::journal;
+use super::library_export::{ExportArgs, export};
 use super::scenes::{gpu_failure, open_gpu};
 use crate::evaluate::EvaluateError;
-use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, flat, modules, shader, shader_files};
+use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, modules};
 use crate::measure::{Figures, Form, Trial, forms};
 use clap::{Args, Subcommand, ValueEnum};
 use glisten_front::diagnostic::did_you_mean;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
 use serde::Serialize;
-use std::borrow::Cow;
-use std::path::{Path, PathBuf};
 
 /// Use the library of lighting models
 #[derive(Args, Debug)]
@@ -45,14 +43,7 @@ enum LibCommand {
         format: ResultFormat,
     },
     /// Write all modules, and the programs made of them, as files that include each other
-    Export {
-        /// Write the text of a module in place of its include: each file is whole, for hosts without includes
-        #[arg(long)]
-        flat: bool,
-        /// The output folder
-        #[arg(value_name = "DIR")]
-        folder: PathBuf,
-    },
+    Export(ExportArgs),
     /// Measure every function against its closed form in f64
     Measure {
         /// The modules to measure (default: all)
@@ -94,9 +85,7 @@ pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
         LibCommand::List { format: ResultFormat::Human } => list(),
         LibCommand::List { format: ResultFormat::Json } => lines(&entries().iter().map(summary).collect::<Vec<_>>()),
         LibCommand::Show { name, source, format } => show(&find(name)?, *source, *format)?,
-        LibCommand::Export { flat, folder } => {
-            return export(folder, if *flat { Includes::Replaced } else { Includes::Kept }, console);
-        }
+        LibCommand::Export(args) => return export(args, console),
         LibCommand::Measure { modules, rows, backend, adapter, format } => {
             let gpu = match backend {
                 MeasureBackends::Cpu => None,
@@ -245,47 +234,6 @@ fn wrapped(text: &str, indent: &str) -> String {
         lines.push(line);
     }
     lines.join("\n")
-}
-
-/// The includes in exported files.
-#[derive(Clone, Copy, Debug)]
-enum Includes {
-    /// Each names another exported file.
-    Kept,
-    /// Each is the text of the module.
-    Replaced,
-}
-
-fn export(folder: &Path, includes: Includes, console: &Console) -> Outcome {
-    files::make_folder(folder)?;
-    for module in modules() {
-        let text = match includes {
-            Includes::Kept => Cow::Borrowed(module.text),
-            Includes::Replaced => Cow::Owned(flat(module.text)),
-        };
-        files::write(&folder.join(format!("{}.glsl", module.name)), text.as_bytes())?;
-    }
-    let programs = folder.join("programs");
-    files::make_folder(&programs)?;
-    for (file, text) in shader_files().filter_map(|file| Some((file, shader(file)?))) {
-        let text = match includes {
-            Includes::Kept => from_disk(text),
-            Includes::Replaced => flat(text),
-        };
-        files::write(&programs.join(file), text.as_bytes())?;
-    }
-    let counts = (modules().len(), shader_files().count());
-    console.remark(&format!("wrote {} modules and {} shaders to {}", counts.0, counts.1, folder.display()));
-    Ok(Exit::Ok)
-}
-
-/// The text of a program's shader with paths to the modules in place of their include names, one folder up.
-fn from_disk(text: &str) -> String {
-    let line = |line: &str| match line.strip_prefix("#include <glisten/").and_then(|rest| rest.strip_suffix('>')) {
-        Some(file) => format!("#include \"../{file}\"\n"),
-        None => format!("{line}\n"),
-    };
-    text.lines().map(line).collect()
 }
 
 /// The figures of a function: in f64, in f32, on the GPU.

@@ -42,6 +42,7 @@ mod inputs;
 mod interrupt;
 mod journal;
 mod library;
+mod library_export;
 mod lint;
 mod lint_rules;
 mod lone;

@@ -84,7 +84,8 @@ pub fn entries() -> Vec<Entry> {
     modules().iter().map(entry).collect()
 }
 
-fn signature(types: &Types, function: &Function) -> String {
+/// The name and the types of the parameters.
+pub(super) fn signature(types: &Types, function: &Function) -> String {
     let names: Vec<String> = function.params().iter().map(|param| types.name(param.ty)).collect();
     format!("{}({})", function.name, names.join(","))
 }

@@ -15,6 +15,8 @@ mod programs;
 #[cfg(feature = "reference")]
 mod reads;
 mod scenes;
+#[cfg(feature = "cli")]
+mod wgsl;
 
 pub use catalogue::{Entry, FunctionEntry, entries, entry};
 pub(crate) use cost::own as own_cost;
@@ -24,6 +26,8 @@ pub(crate) use flat::flat;
 pub use header::Header;
 pub use programs::{LibraryProgram, programs, shader, shader_files};
 pub use scenes::{LibraryScene, scenes};
+#[cfg(feature = "cli")]
+pub(crate) use wgsl::{Overloads, wgsl};
 
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 

@@ -6,6 +6,8 @@
 //! *Holds:* the text needs no crate unless a choice asks for one, compiles without warnings, and asserts the offset of every
 //! field when it is compiled.
 
+#[cfg(feature = "cli")]
+mod c;
 mod defaults;
 mod fields;
 mod indent;
@@ -16,6 +18,8 @@ mod types;
 mod vertex;
 mod wgpu;
 
+#[cfg(feature = "cli")]
+pub(super) use c::header;
 pub(super) use names::module_name;
 
 use glisten_emit::{self as emit, Conventions, Emitted, Target};

@@ -15,7 +15,7 @@ use crate::width::in_width;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
-use glisten_front::hir::Stage;
+use glisten_front::hir::{FunctionId, Stage};
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -50,7 +50,7 @@ pub fn emit_with_sources(
         let emitted = targets::glsl::write(program, stage, conventions, sources)?;
         return Ok(with_header(emitted, program, &[stage], target, sources));
     }
-    emit_stages(program, &[stage], target, conventions, sources, false)
+    emit_stages(program, &[stage], target, conventions, sources, Extent::Stage)
 }
 
 /// Writes all stages of a program as one module, with the entry points `vs_main` and `fs_main`. What the stages share is in it
@@ -71,7 +71,33 @@ pub fn emit_single_file(
         return Err(vec![refused.help("choose WGSL, MSL or HLSL, or write one file for each stage")]);
     }
     let stages: Vec<Stage> = program.stages.iter().map(|shader| shader.stage).collect();
-    emit_stages(program, &stages, target, conventions, sources, true)
+    emit_stages(program, &stages, target, conventions, sources, Extent::SingleFile)
+}
+
+/// Writes functions of a stage in WGSL, with what they call and use and without an entry point, for hosts that write their own. The
+/// `main` of the stage is empty.
+///
+/// # Errors
+/// What WGSL cannot represent, functions that read what only an entry point gets among it; and internal errors.
+pub fn emit_functions(
+    program: &Program,
+    stage: Stage,
+    functions: &[FunctionId],
+    conventions: &Conventions,
+    sources: Option<&SourceMap>,
+) -> Result<Emitted, Vec<Diagnostic>> {
+    emit_stages(program, &[stage], Target::Wgsl, conventions, sources, Extent::Functions(functions))
+}
+
+/// How much of a program is in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Extent<'f> {
+    /// A stage.
+    Stage,
+    /// All stages, with entry points of different names.
+    SingleFile,
+    /// Functions of a stage.
+    Functions(&'f [FunctionId]),
 }
 
 /// Writes these stages as one module.
@@ -81,14 +107,17 @@ fn emit_stages(
     target: Target,
     conventions: &Conventions,
     sources: Option<&SourceMap>,
-    is_single: bool,
+    extent: Extent<'_>,
 ) -> Result<Emitted, Vec<Diagnostic>> {
     let slots = Slots::of(&program.interface);
     let mut modules = Vec::with_capacity(stages.len());
     let mut deep = false;
     for &stage in stages {
         let floats = width_of(stage, target, conventions)?;
-        let module = crate::lower::lower(program, stage, target, conventions)?;
+        let module = match extent {
+            Extent::Functions(wanted) => crate::lower::lower_functions(program, stage, target, conventions, wanted)?,
+            Extent::Stage | Extent::SingleFile => crate::lower::lower(program, stage, target, conventions)?,
+        };
         deep |= program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
         if let Some(found) = targets::limit(target, &module, &slots) {
             return Err(vec![found]);
@@ -107,6 +136,7 @@ fn emit_stages(
             module = merged(module, next?.0);
             info = validate(&module)?;
         }
+        let is_single = extent == Extent::SingleFile;
         if is_single {
             name_entry_points(&mut module);
         }

@@ -67,8 +67,8 @@ pub(super) struct Facts {
 }
 
 impl Facts {
-    /// Collects the facts about a shader.
-    pub(super) fn of(shader: &Shader) -> Self {
+    /// Collects the facts about a shader. `wanted` is reached as if `main` called it.
+    pub(super) fn of(shader: &Shader, wanted: &[FunctionId]) -> Self {
         let mut facts = Self {
             natures: Vec::new(),
             functions: Vec::new(),
@@ -85,6 +85,7 @@ impl Facts {
         }
         if let Some(main) = shader.main.and_then(|main| facts.functions.get_mut(main.index())) {
             main.calls.extend(initializer_calls(shader));
+            main.calls.extend(wanted);
         }
         facts.natures = natures(shader, &constants);
         facts.order = order(shader, &facts.functions);

@@ -56,7 +56,7 @@ use crate::target::{Conventions, Target};
 use facts::Facts;
 use glisten_front::diagnostic::codes::{general, targets};
 use glisten_front::diagnostic::{Advice, Diagnostic};
-use glisten_front::hir::{FunctionId, GlobalId, Shader, Stage, Types};
+use glisten_front::hir::{FunctionId, Global, GlobalId, Shader, Stage, Storage, Types};
 use glisten_front::link::{Interface, Program};
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -75,6 +75,49 @@ pub(crate) fn lower(
     target: Target,
     conventions: &Conventions,
 ) -> Result<naga::Module, Vec<Diagnostic>> {
+    lower_with(program, stage, target, conventions, &[])
+}
+
+/// Lowers functions of one stage, whose `main` is empty, to a module without an entry point.
+///
+/// # Errors
+/// Those of [`lower`], and that the functions read what only an entry point gets.
+pub(crate) fn lower_functions(
+    program: &Program,
+    stage: Stage,
+    target: Target,
+    conventions: &Conventions,
+    wanted: &[FunctionId],
+) -> Result<naga::Module, Vec<Diagnostic>> {
+    let mut module = lower_with(program, stage, target, conventions, wanted)?;
+    let is_idle = |statement: &naga::Statement| matches!(statement, naga::Statement::Return { value: None });
+    if !module.entry_points.iter().flat_map(|entry| &entry.function.body).all(is_idle) {
+        return Err(vec![*without_an_entry_point(program, stage)]);
+    }
+    module.entry_points.clear();
+    Ok(module)
+}
+
+fn without_an_entry_point(program: &Program, stage: Stage) -> Box<Diagnostic> {
+    let globals = program.stage(stage).into_iter().flat_map(|shader| &shader.globals);
+    let is_set = |global: &&Global| match global.storage {
+        Storage::In | Storage::Out => true,
+        Storage::Private => global.initializer.is_some() && global.value.is_none(),
+        _ => false,
+    };
+    let span = globals.filter(|global| global.used).find(is_set).map_or(Span::default(), |global| global.span);
+    let message = "functions without an entry point use what only an entry point sets";
+    lacking(span, message, "pass it to the functions as a parameter")
+}
+
+/// Lowers `main`, and functions that it need not call.
+fn lower_with(
+    program: &Program,
+    stage: Stage,
+    target: Target,
+    conventions: &Conventions,
+    wanted: &[FunctionId],
+) -> Result<naga::Module, Vec<Diagnostic>> {
     let Some(shader) = program.stage(stage) else {
         let message = format!("the program `{}` has no {} stage", program.name, stage.name());
         return Err(vec![Diagnostic::new(&general::INTERNAL, Span::default(), message)]);
@@ -85,7 +128,7 @@ pub(crate) fn lower(
     }
     let chosen = crate::select::select(&program.types, shader).map_err(|diagnostic| vec![*diagnostic])?;
     let shader = chosen.as_ref();
-    let mut facts = Facts::of(shader);
+    let mut facts = Facts::of(shader, wanted);
     facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);
     let nesting = facts.functions.iter().map(|function| function.depth).max().unwrap_or(0);
     // A statement and its contents take several stack frames; an expression takes one or two.
