@@ -68,7 +68,7 @@ fn structure(prefix: &str, one: &Struct) -> String {
     let mut checks = format!("static_assert(sizeof({name}) == {}, \"the size of {name}\");\n", one.size);
     for field in &one.fields {
         let own = field_name(field);
-        let _ = writeln!(text, "{}    {};", comment(&field.doc, "    "), declared(prefix, &own, &field.ty));
+        let _ = writeln!(text, "{}    {};", comment(about(field), "    "), declared(prefix, &own, &field.ty));
         let _ = writeln!(checks, "static_assert(offsetof({name}, {own}) == {}, \"{name}.{own}\");", field.offset);
     }
     let _ = write!(text, "}} {name};\n\n{checks}\n");
@@ -77,6 +77,12 @@ fn structure(prefix: &str, one: &Struct) -> String {
 
 fn field_name(field: &Field) -> String {
     if KEYWORDS.contains(&field.name.as_str()) { format!("{}_", field.name) } else { field.name.clone() }
+}
+
+/// The documentation of a field without its name, if that is the name in GLSL.
+fn about(field: &Field) -> &str {
+    let name = format!("/// `{}`\n", field.name);
+    field.doc.strip_prefix(&name).map_or(field.doc.as_str(), |rest| rest.strip_prefix("///\n").unwrap_or(rest))
 }
 
 /// A field with its type.

@@ -5,6 +5,8 @@
 mod command;
 mod energy;
 mod evaluator;
+#[cfg(feature = "cli")]
+mod exports;
 mod furnace;
 mod laws;
 mod ltc;

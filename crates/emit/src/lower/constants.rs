@@ -8,7 +8,9 @@ use super::function::Ctx;
 use super::slots::{GlobalSlot, LocalSlot};
 use super::{Lower, Try, for_each_operand, internal};
 use crate::target::Target;
-use glisten_front::hir::{ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Type, TypeId, Value, VarRef};
+use glisten_front::hir::{
+    ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Storage, Type, TypeId, Value, VarRef,
+};
 use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal};
 
 /// Whether a float has a literal. The largest float has none: its shortest decimal spelling is a little larger than
@@ -284,6 +286,25 @@ impl Lower<'_> {
         let variable = self.module.global_variables.append(variable, naga::Span::UNDEFINED);
         self.hidden.push((bits, variable));
         variable
+    }
+
+    /// Declares the constants of the texts, in their order. What is indexed by a variable is declared where it is used.
+    pub(super) fn declare_constants(&mut self) -> Try<()> {
+        let shader = self.shader;
+        for (id, global) in
+            shader.globals().filter(|(_, global)| global.storage == Storage::Const && global.builtin.is_none())
+        {
+            let is_indexed = self.facts.indexed.get(id.index()).copied().unwrap_or(false);
+            let value = global.value.as_ref().filter(|value| is_constant(value) && self.has_value(value.ty));
+            let (Some(value), false) = (value, is_indexed) else { continue };
+            let (ty, init) = (self.value_type(value.ty)?, self.global_constant(value)?);
+            let constant = naga::Constant { name: Some(global.name.clone()), ty, init };
+            let constant = self.module.constants.append(constant, naga::Span::UNDEFINED);
+            if let Some(slot) = self.globals.get_mut(id.index()) {
+                *slot = GlobalSlot::Constant(constant);
+            }
+        }
+        Ok(())
     }
 
     /// A finite constant as an expression of the module.

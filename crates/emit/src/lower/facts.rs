@@ -103,6 +103,13 @@ impl Facts {
         self.natures.get(id.index()).copied().unwrap_or_default()
     }
 
+    /// Takes all uniforms for used.
+    pub(super) fn use_all_uniforms(&mut self, shader: &Shader) {
+        for (index, _) in shader.globals.iter().enumerate().filter(|(_, global)| global.storage == Storage::Uniform) {
+            set(&mut self.used, index);
+        }
+    }
+
     fn mark_globals(&mut self, shader: &Shader) {
         for &function in &self.order {
             let Some(known) = self.functions.get(function.index()) else { continue };

@@ -75,10 +75,11 @@ pub(crate) fn lower(
     target: Target,
     conventions: &Conventions,
 ) -> Result<naga::Module, Vec<Diagnostic>> {
-    lower_with(program, stage, target, conventions, &[])
+    lower_with(program, stage, target, conventions, None)
 }
 
-/// Lowers functions of one stage, whose `main` is empty, to a module without an entry point.
+/// Lowers functions of one stage, whose `main` is empty, to a module without an entry point, with all constants and uniforms of the
+/// texts.
 ///
 /// # Errors
 /// Those of [`lower`], and that the functions read what only an entry point gets.
@@ -89,7 +90,7 @@ pub(crate) fn lower_functions(
     conventions: &Conventions,
     wanted: &[FunctionId],
 ) -> Result<naga::Module, Vec<Diagnostic>> {
-    let mut module = lower_with(program, stage, target, conventions, wanted)?;
+    let mut module = lower_with(program, stage, target, conventions, Some(wanted))?;
     let is_idle = |statement: &naga::Statement| matches!(statement, naga::Statement::Return { value: None });
     if !module.entry_points.iter().flat_map(|entry| &entry.function.body).all(is_idle) {
         return Err(vec![*without_an_entry_point(program, stage)]);
@@ -110,13 +111,13 @@ fn without_an_entry_point(program: &Program, stage: Stage) -> Box<Diagnostic> {
     lacking(span, message, "pass it to the functions as a parameter")
 }
 
-/// Lowers `main`, and functions that it need not call.
+/// Lowers `main`; with functions that it need not call, these and all constants and uniforms.
 fn lower_with(
     program: &Program,
     stage: Stage,
     target: Target,
     conventions: &Conventions,
-    wanted: &[FunctionId],
+    wanted: Option<&[FunctionId]>,
 ) -> Result<naga::Module, Vec<Diagnostic>> {
     let Some(shader) = program.stage(stage) else {
         let message = format!("the program `{}` has no {} stage", program.name, stage.name());
@@ -128,12 +129,15 @@ fn lower_with(
     }
     let chosen = crate::select::select(&program.types, shader).map_err(|diagnostic| vec![*diagnostic])?;
     let shader = chosen.as_ref();
-    let mut facts = Facts::of(shader, wanted);
+    let mut facts = Facts::of(shader, wanted.unwrap_or_default());
+    if wanted.is_some() {
+        facts.use_all_uniforms(shader);
+    }
     facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);
     let nesting = facts.functions.iter().map(|function| function.depth).max().unwrap_or(0);
     // A statement and its contents take several stack frames; an expression takes one or two.
     glisten_front::stack::with_stack(shader.expr_depth.saturating_add(nesting.saturating_mul(4)), || {
-        Lower::new(program, shader, target, conventions, facts).run()
+        Lower::new(program, shader, target, conventions, facts).run(wanted.is_some())
     })
 }
 
@@ -203,8 +207,10 @@ impl<'a> Lower<'a> {
         }
     }
 
-    fn run(mut self) -> Result<naga::Module, Vec<Diagnostic>> {
-        if let Err(diagnostic) = self.declare_globals() {
+    /// Lowers all functions that are reached, and the constants that none of them reads if these are asked for.
+    fn run(mut self, has_all_constants: bool) -> Result<naga::Module, Vec<Diagnostic>> {
+        let constants = if has_all_constants { self.declare_constants() } else { Ok(()) };
+        if let Err(diagnostic) = constants.and_then(|()| self.declare_globals()) {
             self.diagnostics.push(*diagnostic);
             return Err(self.diagnostics);
         }
