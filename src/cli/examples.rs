@@ -159,6 +159,8 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
             ("glisten lib list", "the modules of the library"),
             ("glisten lib show phong", "what a module computes"),
             ("glisten lib export shaders/glisten", "the texts of all modules"),
+            ("glisten lib export --wgsl src/shaders", "the modules as WGSL, for shaders that are written in it"),
+            ("glisten lib export --rust -D GLISTEN_LIGHTS=16 src", "the structs of the uniforms, with 16 lights"),
         ],
     ),
     (

@@ -81,7 +81,19 @@ fn wgsl_has_the_constants_and_the_uniforms_of_a_module() {
     assert!(scene.contains("light: array<Light, 16>,") && scene.contains("    range: f32,"), "{scene}");
 }
 
-/// Three functions by the reference, and by the exported texts on a GPU: one of its name alone, two overloads, one with a sampler.
+/// Files of WGSL as one, in which everything is once.
+fn joined(texts: &[String]) -> String {
+    let directive = "diagnostic(off, derivative_uniformity);";
+    let mut parts = vec![directive];
+    for part in texts.iter().flat_map(|text| text.split("\n\n")).map(str::trim) {
+        if !parts.contains(&part) {
+            parts.push(part);
+        }
+    }
+    parts.join("\n\n") + "\n"
+}
+
+/// Four functions by the reference, and by the exported texts on a GPU: one of its name alone, two overloads, one with a sampler.
 #[test]
 fn exported_wgsl_computes_what_the_modules_do() {
     let folder = Folder::new(&[
@@ -108,7 +120,9 @@ fn exported_wgsl_computes_what_the_modules_do() {
     let compiled = text(&folder.path("out"), "a.frag.wgsl");
     let bindings: String =
         compiled.lines().filter(|line| line.starts_with("@group")).map(|line| format!("{line}\n")).collect();
-    let library = text(exported(&["--wgsl"]).path(), "glisten.wgsl");
+    let files = exported(&["--wgsl"]);
+    let library =
+        joined(&["blinn_phong", "lut", "sdf", "srgb"].map(|name| text(files.path(), &format!("{name}.wgsl"))));
     let main = "@fragment\nfn main(@location(0) q: vec2<f32>) -> @location(0) vec4<f32> {\n    \
                 let N = safeNormalize(vec3(q - 0.5, 0.6));\n    \
                 return vec4(blinnPhongFactor(N, vec3(0.0, 0.6, 0.8), vec3(0.0, 0.0, 1.0), 20.0),\n        \

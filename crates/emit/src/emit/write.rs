@@ -225,3 +225,51 @@ fn failed(target: Target, message: &str) -> Diagnostic {
         internal_error(Span::default(), message)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::emit_functions;
+    use crate::{Conventions, Emitted};
+    use glisten_front::diagnostic::Diagnostic;
+    use glisten_front::{Compiler, Options, Source, Stage};
+
+    /// All functions of a text but `main`.
+    fn functions(body: &str) -> Result<String, Vec<Diagnostic>> {
+        let text = format!("#version 150\n{body}\nvoid main() {{}}\n");
+        let source = Source { name: "a.frag".to_owned(), text: text.into(), stage: Stage::Fragment };
+        let program = Compiler::new(Options::default()).compile(&[source]).program.expect("it compiles");
+        let shader = program.stage(Stage::Fragment).expect("it is there");
+        let wanted: Vec<_> = shader.functions().map(|(id, _)| id).filter(|id| Some(*id) != shader.main).collect();
+        emit_functions(&program, Stage::Fragment, &wanted, &Conventions::default(), None).map(|emitted| match emitted {
+            Emitted::Text(text) => text,
+            Emitted::Words(_) => String::new(),
+        })
+    }
+
+    #[test]
+    fn functions_alone_have_no_entry_point_and_what_nobody_reads() {
+        let text = functions(
+            "uniform float k;\nuniform vec3 unread;\nconst int N = 3;\nfloat once(float x) { return k * x; }\n\
+             float twice(float x) { return once(once(x)); }",
+        );
+        let text = text.expect("WGSL has it");
+        for part in ["fn once(x: f32) -> f32 {", "fn twice(", "const N: i32 = 3;", "unread: vec3<f32>,"] {
+            assert!(text.contains(part), "{part} in {text}");
+        }
+        assert!(!text.contains("fn main") && !text.contains("@fragment"), "{text}");
+        naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+    }
+
+    #[test]
+    fn functions_that_need_an_entry_point_are_refused() {
+        for body in [
+            "float row() { return gl_FragCoord.y; }",
+            "in vec2 st;\nfloat along() { return st.x; }",
+            "uniform float k;\nfloat twice = 2.0 * k;\nfloat f() { return twice; }",
+            "out vec4 color;\nvoid write() { color = vec4(1.0); }",
+        ] {
+            let errors = functions(body).expect_err(body);
+            assert!(errors.iter().any(|error| error.message.contains("without an entry point")), "{body}: {errors:?}");
+        }
+    }
+}

@@ -91,24 +91,21 @@ pub(crate) fn lower_functions(
     wanted: &[FunctionId],
 ) -> Result<naga::Module, Vec<Diagnostic>> {
     let mut module = lower_with(program, stage, target, conventions, Some(wanted))?;
-    let is_idle = |statement: &naga::Statement| matches!(statement, naga::Statement::Return { value: None });
-    if !module.entry_points.iter().flat_map(|entry| &entry.function.body).all(is_idle) {
-        return Err(vec![*without_an_entry_point(program, stage)]);
-    }
     module.entry_points.clear();
     Ok(module)
 }
 
-fn without_an_entry_point(program: &Program, stage: Stage) -> Box<Diagnostic> {
-    let globals = program.stage(stage).into_iter().flat_map(|shader| &shader.globals);
-    let is_set = |global: &&Global| match global.storage {
+/// The diagnostic for functions that use what only an entry point sets.
+fn without_an_entry_point(shader: &Shader, facts: &Facts) -> Option<Box<Diagnostic>> {
+    let is_used = |id: GlobalId| facts.used.get(id.index()).copied().unwrap_or(false);
+    let is_set = |global: &Global| match global.storage {
         Storage::In | Storage::Out => true,
         Storage::Private => global.initializer.is_some() && global.value.is_none(),
-        _ => false,
+        Storage::Const | Storage::Uniform => false,
     };
-    let span = globals.filter(|global| global.used).find(is_set).map_or(Span::default(), |global| global.span);
-    let message = "functions without an entry point use what only an entry point sets";
-    lacking(span, message, "pass it to the functions as a parameter")
+    let (_, global) = shader.globals().find(|(id, global)| is_used(*id) && is_set(global))?;
+    let message = format!("functions without an entry point use `{}`, which only an entry point sets", global.name);
+    Some(lacking(global.span, message, "pass it to the functions as a parameter"))
 }
 
 /// Lowers `main`; with functions that it need not call, these and all constants and uniforms.
@@ -131,6 +128,9 @@ fn lower_with(
     let shader = chosen.as_ref();
     let mut facts = Facts::of(shader, wanted.unwrap_or_default());
     if wanted.is_some() {
+        if let Some(refused) = without_an_entry_point(shader, &facts) {
+            return Err(vec![*refused]);
+        }
         facts.use_all_uniforms(shader);
     }
     facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);
