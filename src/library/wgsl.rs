@@ -5,7 +5,7 @@
 //! parameters behind it: `sdfBox(vec2,vec2)` is `sdfBox_vec2_vec2`. What is overloaded in one module has these names in all texts.
 
 use super::catalogue::{entries, signature};
-use super::{Embedded, Module, SHOWN};
+use super::{Embedded, Module, SHOWN, is_embedded};
 use glisten_emit::{Conventions, Emitted, emit_functions};
 use glisten_front::diagnostic::write::human;
 use glisten_front::hir::{Function, FunctionId, Shader, Stage, Types};
@@ -83,13 +83,15 @@ fn with_names(mut program: Program, overloads: &Overloads) -> Program {
     program
 }
 
-/// The functions that stand in the texts of these modules.
+/// The functions of these modules: all but those of others that they include. A name that a macro makes is in no module's text.
 fn own<'s>(shader: &'s Shader, modules: &[Module], sources: &SourceMap) -> Vec<(FunctionId, &'s Function)> {
     let files: BTreeSet<String> = modules.iter().map(|module| format!("{SHOWN}{}.glsl", module.name)).collect();
     let is_own = |function: &Function| {
-        sources.file_of(function.span).is_some_and(|file| files.contains(sources.file(file).name()))
+        let file = sources.file_of(function.span).map_or("", |file| sources.file(file).name());
+        !is_embedded(file) || files.contains(file)
     };
-    shader.functions().filter(|(_, function)| function.body.is_some() && is_own(function)).collect()
+    let has_text = |id: FunctionId, function: &Function| Some(id) != shader.main && function.body.is_some();
+    shader.functions().filter(|(id, function)| has_text(*id, function) && is_own(function)).collect()
 }
 
 /// Refuses a text in which a function is not there or has another name.
