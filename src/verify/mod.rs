@@ -95,8 +95,8 @@ pub struct Options<'a> {
     pub width: Option<f64>,
     /// By how many of its widths the hull of what simulated GPUs drew is widened for what is likely. Default: 4.
     pub likely_margin: f64,
-    /// The instructions of the fragment stages, each for 64 fragments, that the envelope of a whole picture may take. Of a scene with
-    /// more, blocks of 8 by 8 pixels that take no more stand for the picture. Default: [`MOST_WORK`]; `None` for all of any picture.
+    /// The work that the envelope of a whole picture may take, as [`glisten_reference::envelope_work`] counts it. Of a scene with more,
+    /// blocks of 8 by 8 pixels that take no more stand for the picture. Default: [`MOST_WORK`]; `None` for all of any picture.
     pub most_work: Option<u64>,
     /// Whether a picture of llvmpipe is judged by what is known of its arithmetic where nothing else judges.
     pub as_device: bool,

@@ -11,11 +11,11 @@ use glisten_reference::{RenderOptions, Sample};
 use glisten_scene::picture::Picture;
 use std::borrow::Cow;
 
-/// The instructions of the fragment stages, each for 64 fragments, up to which all of a picture is judged, if nobody says another number:
-/// those of the envelope ([`glisten_reference::envelope_work`]), which take up to half a microsecond each.
-pub const MOST_WORK: u64 = 25_000_000;
+/// The work of an envelope up to which all of a picture is judged, if nobody says another number, in the units of
+/// [`glisten_reference::envelope_work`], which take some 0.2 microseconds each.
+pub const MOST_WORK: u64 = 50_000_000;
 /// The numbers of blocks on which the work is measured.
-const TRIAL: std::ops::RangeInclusive<usize> = 2..=16;
+const TRIAL: std::ops::RangeInclusive<usize> = 2..=8;
 /// The smallest number of blocks that stands for a picture: 256 pixels.
 const FEWEST: usize = 4;
 

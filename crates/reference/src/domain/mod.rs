@@ -40,10 +40,10 @@ mod wide;
 
 #[cfg(any(test, feature = "stability"))]
 pub use big::{BITS as EXACT_BITS, Big};
-pub(crate) use envelope::evaluate;
 pub use envelope::{EnvelopeBlock, EnvelopeFloat, EnvelopeInt};
 #[cfg(test)]
 pub(crate) use envelope::{binary, unary};
+pub(crate) use envelope::{evaluate, take_redone};
 pub use integer::Integer;
 pub use lanes::{Block, Element, LANES, Lanes, Source, WIDTH};
 pub use number::{Answers, Corner, ErrorPart, Number, NumberBlock};

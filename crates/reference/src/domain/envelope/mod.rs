@@ -36,6 +36,7 @@ mod text_tests;
 mod vector;
 
 pub use block::EnvelopeBlock;
+pub(crate) use block::take_redone;
 pub(crate) use formula::evaluate;
 #[cfg(test)]
 pub(crate) use formula::{binary, unary};

@@ -24,7 +24,19 @@ mod tests;
 use super::EnvelopeFloat;
 use crate::domain::{Block, Element, WIDTH};
 use lane::LaneBounds;
+use std::cell::Cell;
 use std::hint::black_box;
+
+thread_local! {
+    /// How often special lanes of a block were computed again on this thread.
+    static REDONE: Cell<u64> = const { Cell::new(0) };
+}
+
+/// How often special lanes of a block were computed again on this thread since the last call: each time takes as long as an instruction
+/// without special lanes.
+pub(crate) fn take_redone() -> u64 {
+    REDONE.take()
+}
 
 /// A number in each of eight lanes. Vectors of four never cross a cache line.
 #[repr(align(32))]
@@ -130,6 +142,7 @@ impl EnvelopeBlock {
     #[cold]
     #[inline(never)]
     fn redone(mut self, special: Special, forced: u8, exact: impl Fn(usize) -> EnvelopeFloat) -> Self {
+        REDONE.set(REDONE.get() + 1);
         for (lane, special) in special.iter().enumerate() {
             if *special != 0 || forced >> lane & 1 == 1 {
                 self.set(lane, exact(lane));
