@@ -21,6 +21,8 @@ use std::time::{Duration, Instant};
 const MAX_FILES: usize = 50_000;
 /// The largest number of files near a source among which a missing include is looked for, in each folder above it.
 const MAX_NEARBY: usize = 2_000;
+/// The largest number of imported files whose versions are read for a source.
+const MAX_IMPORTED: usize = 2_000;
 /// How many folders above a source are searched for a missing include.
 const NEARBY: usize = 2;
 /// The largest number of places that are told of a file that is nowhere.
@@ -111,6 +113,16 @@ impl DiskIncludes {
         self.lookup.deep.then(|| self.below.get_or_init(|| files_below(&self.folders)).get(name)).flatten()
     }
 
+    /// The first of some candidates that is there. All that were looked for in vain are told to the disk.
+    fn first_there<'c>(&self, candidates: &'c [PathBuf]) -> Option<&'c PathBuf> {
+        // A chunk may have the name of a folder next to its file.
+        let several = self.lookup.patterns.len() > 1;
+        candidates.iter().find(|candidate| {
+            self.disk.looked_for(candidate);
+            if several { candidate.is_file() } else { candidate.exists() }
+        })
+    }
+
     /// The place of a source's `#version` line, and the version that it has, if a file that it imports has a higher one. Only for a
     /// style that ignores the `#version` lines of included files: the engine takes the highest number of all.
     pub(crate) fn lifted_version(&self, source: &str, from: &str) -> Option<(Range<usize>, String)> {
@@ -122,13 +134,13 @@ impl DiskIncludes {
 
     /// The highest version of the files that a text includes, and of those that these include; 0 if none has one.
     fn highest_version(&self, source: &str, from: &str) -> u16 {
-        let mut open: Vec<(PathBuf, IncludeForm, String)> = named_files(source, from);
+        let mut open: Vec<(String, IncludeForm, String)> = named_files(source, from);
         let mut seen: BTreeSet<PathBuf> = BTreeSet::new();
         let mut highest = 0;
         while let Some((path, form, from)) = open.pop() {
-            let candidates = self.candidates(&path.to_string_lossy(), form, &from);
-            let Some(found) = candidates.into_iter().find(|path| path.is_file()) else { continue };
-            if seen.len() >= MAX_NEARBY || !seen.insert(found.clone()) {
+            let candidates = self.candidates(&path, form, &from);
+            let Some(found) = self.first_there(&candidates).cloned() else { continue };
+            if seen.len() >= MAX_IMPORTED || !seen.insert(found.clone()) {
                 continue;
             }
             let Ok(text) = self.disk.text(&found) else { continue };
@@ -157,13 +169,13 @@ fn version_of(line: &str) -> Option<(u16, &str)> {
 }
 
 /// The files that the directives of a text name, with the name of the text. Conditions are not looked at.
-fn named_files(text: &str, from: &str) -> Vec<(PathBuf, IncludeForm, String)> {
+fn named_files(text: &str, from: &str) -> Vec<(String, IncludeForm, String)> {
     let named = |line: &str| {
         let rest = line.trim_start().strip_prefix('#')?.trim_start();
         let rest = rest.strip_prefix("moj_import").or(rest.strip_prefix("include"))?.trim_start();
         let (form, end) = if rest.starts_with('<') { (IncludeForm::Angled, '>') } else { (IncludeForm::Quoted, '"') };
         let name = rest.get(1..)?.split(end).next()?;
-        Some((PathBuf::from(name), form, from.to_owned()))
+        Some((name.to_owned(), form, from.to_owned()))
     };
     text.lines().filter_map(named).collect()
 }
@@ -274,13 +286,7 @@ impl IncludeResolver for DiskIncludes {
             return Ok(module);
         }
         let candidates = self.candidates(path, form, from);
-        // A chunk may have the name of a folder next to its file.
-        let several = self.lookup.patterns.len() > 1;
-        let found = candidates.iter().find(|candidate| {
-            self.disk.looked_for(candidate);
-            if several { candidate.is_file() } else { candidate.exists() }
-        });
-        if let Some(found) = found.or_else(|| self.deep(path)) {
+        if let Some(found) = self.first_there(&candidates).or_else(|| self.deep(path)) {
             return self.read(found);
         }
         if let Some(module) = Embedded::find(path, form, from) {

@@ -207,7 +207,7 @@ impl Plan<'_> {
         });
         let first = || place_of_declarations(&file.text);
         let (place, below) = moved.place.as_ref().map_or_else(first, |(place, _)| (*place, ""));
-        let include = self.first_turned_include(&file.text, key);
+        let include = self.first_turned_include(&file.text);
         let (place, below) = if is_turned && include < place { (include, "") } else { (place, below) };
         let after = coordinates::redeclared(chunks).filter(|_| is_turned).unwrap_or(0);
         let (place, gap, below) = if after > place { (after, "\n", "") } else { (place, "", below) };
@@ -248,11 +248,10 @@ impl Plan<'_> {
     }
 
     /// The place of the first include that may name the turned coordinates, or the end.
-    fn first_turned_include(&self, text: &str, key: &Key) -> usize {
+    fn first_turned_include(&self, text: &str) -> usize {
         if self.turned_parts.is_empty() {
             return text.len();
         }
-        let _ = key;
         let conditions = Conditions::new(text);
         let first = conditions.list.iter().find(|one| one.is_include());
         first.map_or(text.len(), |one| one.range.start)
