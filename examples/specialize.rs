@@ -4,15 +4,27 @@
 //! and lines of GLSL of all draws before and after, the operations that the reference counts, whether the reference draws
 //! the same bytes in f32, and whether `verify` holds for the residual against the original on the first software adapter.
 //! It exits with 1 if a picture changes.
+//!
+//! `--survey FOLDER...` takes all scenes below the folders, each in a process of its own, and prints how many have the same
+//! bytes, how many residuals are smaller and larger, and each exception. A residual counts as wrong on a GPU if `verify` fails for
+//! it and not for the original, by SPIR-V, WGSL or OpenGL. `repositories --keep DIR` leaves such scenes in `DIR`.
 
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
+#[path = "repositories/tools.rs"]
+mod tools;
+
 use glisten::scene::{DiskFiles, Scene, load};
 use glisten::specialize::{Account, SpecializedScene, account, specialize_scene};
-use glisten::verify::{Drawn, Failure, OnGpu, Options, Runner, verify};
-use glisten::{Compiler, Gpu, Precision, RenderOptions, render};
+use glisten::verify::{Conclusion, Drawn, Failure, OnGpu, OnOpenGl, Options, Runner, verify};
+use glisten::{Compiler, Gl, Gpu, Precision, RenderOptions, render};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
+use std::time::Duration;
+
+/// How long one scene of a survey may take.
+const LIMIT: Duration = Duration::from_secs(60);
 
 /// Draws the residual in the place of the original.
 struct Instead<'a> {
@@ -32,8 +44,11 @@ impl Runner for Instead<'_> {
 
 fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
     let folders: Vec<String> = std::env::args().skip(1).collect();
-    if folders.is_empty() {
-        return Err("name a folder of scenes".into());
+    match folders.split_first() {
+        None => return Err("name a folder of scenes".into()),
+        Some((word, folders)) if word == "--survey" => return survey(folders),
+        Some((word, [scene])) if word == "--one" => return one(scene),
+        Some(_) => {}
     }
     let gpu = Gpu::new(Some("software"))?;
     println!(
@@ -59,6 +74,98 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
         println!("| `{name}` | {} |", row(&scene, &specialized, &account, (same, holds)));
     }
     Ok(if all_hold { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// What became of all scenes below the folders.
+fn survey(folders: &[String]) -> Result<ExitCode, Box<dyn std::error::Error>> {
+    let mut scenes = Vec::new();
+    for folder in folders {
+        below(Path::new(folder), &mut scenes)?;
+    }
+    scenes.sort();
+    let (own, work) = (std::env::current_exe()?, tempfile::tempdir()?);
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for scene in &scenes {
+        let ended = tools::run(Command::new(&own).arg("--one").arg(scene), work.path(), LIMIT);
+        let facts = ended.text().lines().filter_map(|line| Some(line.strip_prefix("= ")?.to_owned()));
+        let mut found: Vec<String> = facts.collect();
+        if !ended.is_well() {
+            found.push(format!("not done: {}", ended.text().lines().last().unwrap_or_default()));
+        }
+        for what in found {
+            let (class, detail) = what.split_once(": ").unwrap_or((&what, ""));
+            if !detail.is_empty() {
+                println!("{class}\t{}\t{detail}", scene.display());
+            }
+            *counts.entry(class.to_owned()).or_default() += 1;
+        }
+    }
+    println!("{} scenes", scenes.len());
+    counts.iter().for_each(|(class, count)| println!("{count:6} {class}"));
+    Ok(if counts.contains_key("differs") { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}
+
+/// All scene files below a folder.
+fn below(folder: &Path, found: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            below(&path, found)?;
+        } else if path.extension().is_some_and(|extension| extension == "toml") {
+            found.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Prints what becomes of one scene, a line for each fact.
+fn one(path: &str) -> Result<ExitCode, Box<dyn std::error::Error>> {
+    let loaded = load(path, &DiskFiles, &Compiler::new(Default::default()));
+    let Some(scene) = loaded.scene else {
+        println!("= not a scene");
+        return Ok(ExitCode::SUCCESS);
+    };
+    let specialized = specialize_scene(&scene, &loaded.sources, &[]);
+    let names = vec![[const { String::new() }; 3]; scene.draws.len()];
+    let account = account("", &scene, &specialized, &names).map_err(told)?;
+    let size = |before: bool| -> u64 {
+        account.draws.iter().map(|draw| if before { draw.before } else { draw.after }.spirv_instructions).sum()
+    };
+    println!("= {}", size_class(size(true), size(false)));
+    let same = bytes(&scene)? == bytes(&specialized.scene)?;
+    println!("= {}", if same { "the same bytes" } else { "differs: by the reference in f32" });
+    let (gpu, gl) = (Gpu::new(Some("software"))?, Gl::new()?);
+    let [spirv, wgsl] = OnGpu::both(&gpu);
+    let gl = OnOpenGl(&gl);
+    for runner in [&spirv as &dyn Runner, &wgsl, &gl] {
+        let conclusion =
+            |runner: &dyn Runner| verify(&scene, &[runner], &Options::default()).map(|one| one.conclusion());
+        let residual = conclusion(&Instead { runner, scene: &specialized.scene });
+        println!(
+            "= {}",
+            match residual {
+                Ok(Conclusion::Holds) => format!("holds by {}", runner.name()),
+                Ok(Conclusion::Inconclusive) => format!("inconclusive by {}", runner.name()),
+                Ok(Conclusion::Fails) if matches!(conclusion(runner), Ok(Conclusion::Fails)) => {
+                    format!("fails as the original does by {}", runner.name())
+                }
+                Ok(Conclusion::Fails) => format!("differs: beyond the original's envelope by {}", runner.name()),
+                Err(_) if conclusion(runner).is_err() =>
+                    format!("not drawn, nor is the original, by {}", runner.name()),
+                Err(failure) => format!("differs: not drawn by {}, but the original is: {failure}", runner.name()),
+            }
+        );
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Whether a residual is smaller than its original, in SPIR-V instructions.
+fn size_class(before: u64, after: u64) -> String {
+    match after.cmp(&before) {
+        std::cmp::Ordering::Less => "smaller".to_owned(),
+        std::cmp::Ordering::Equal => "as large as before".to_owned(),
+        std::cmp::Ordering::Greater => format!("larger: {before} to {after}"),
+    }
 }
 
 /// The scene files of the folders, in order.

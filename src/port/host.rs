@@ -118,6 +118,8 @@ fn load(name: &'static str, text: &str) -> Host {
         numbering,
         offsets: settings.offsets,
         coordinates: settings.coordinates,
+        // WebGPU has none.
+        geometry: !settings.wgsl,
         blocks: settings.block.iter().map(|one| block(one, directive.as_deref())).collect(),
         renamed: settings.renamed,
         extension: settings.extension,

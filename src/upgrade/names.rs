@@ -3,6 +3,8 @@
 //! *In:* an old name. *Out:* the name of today. *Holds:* the names of the fixed-function pipeline come from the table of the
 //! front end.
 
+use std::collections::BTreeSet;
+
 /// Lookups in textures: the old names without what says the dimension, and the new ones. An old name is `texture` or `shadow`,
 /// one of [`DIMENSIONS`], and one of these endings (end of GLSL 1.50 §8.7, ARB_shader_texture_lod, EXT_shader_texture_lod,
 /// EXT_gpu_shader4, EXT_texture_array).
@@ -88,9 +90,19 @@ pub(super) static BUILT_IN: &[&str] = &[
 pub(super) static FUNCTIONS: &[&str] =
     &["texture", "textureProj", "textureLod", "textureGrad", "textureSize", "texelFetch"];
 
+/// A name that is not among others.
+pub(super) fn free(names: &BTreeSet<String>, wanted: &str) -> String {
+    let mut name = wanted.to_owned();
+    while names.contains(&name) {
+        name.push('0');
+    }
+    name
+}
+
 #[cfg(test)]
 mod tests {
     use super::lookup;
+    use std::collections::BTreeSet;
 
     #[test]
     fn lookups_have_one_name() {

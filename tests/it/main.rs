@@ -30,6 +30,7 @@ mod cost;
 #[cfg(all(feature = "cli", target_os = "linux"))]
 mod crash;
 mod cycles;
+mod dependencies;
 mod diagnostics;
 #[cfg(feature = "reference")]
 mod drawing;

@@ -376,3 +376,41 @@ fn the_example_is_as_the_command_writes_it() {
     let names: Vec<&str> = printed.lines().filter_map(|line| line.rsplit('/').next()).collect();
     assert_eq!(names, ["port.html", "port.json"], "{}", err(&output));
 }
+
+#[test]
+fn a_geometry_stage_converts_the_depth_and_has_locations_of_its_own() {
+    let folder = Folder::new(&[]);
+    let output = port(&folder, "geometry", "vulkan", &["-o", "new"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = |stage: &str| read(&folder, &format!("new/normals.{stage}"));
+    let (vertex, geometry) = (text("vert"), text("geom"));
+    has(&vertex, &["layout(location = 0) out Vertex {", "layout(location = 3) out float weight;", "void main()\n"]);
+    assert!(!vertex.contains("gl_Position.z"), "{vertex}");
+    has(
+        &geometry,
+        &[
+            "layout(location = 0) in Vertex {",
+            "layout(location = 3) in float weight[];",
+            "layout(location = 0) out vec3 tint;",
+            "// Vulkan's depth: [0, w] in clip space.\nvoid emitVulkanVertex()\n{\n    gl_Position.z = (gl_Position.z + gl_Position.w) * \
+             0.5;\n    EmitVertex();\n}\n\n// One line.\nvoid line(int i)\n",
+            "    emitVulkanVertex();\n    EndPrimitive();\n",
+        ],
+    );
+    // glslang links the three stages.
+    let mut command = Command::new("glslangValidator");
+    command.args(["-V", "-l", "--target-env", "vulkan1.1"]);
+    ["vert", "geom", "frag"].iter().for_each(|stage| {
+        command.arg(folder.path(&format!("new/normals.{stage}")));
+    });
+    match command.current_dir(folder.path("new")).output() {
+        Ok(output) => assert!(output.status.success(), "{}\n{geometry}", String::from_utf8_lossy(&output.stdout)),
+        Err(_) => missing("glslangValidator", "Debian has it in the package glslang-tools"),
+    }
+    let again = port(&folder, "geometry", "vulkan", &["-o", "new", "--check"]);
+    assert_eq!((code(&again), out(&again)), (0, String::new()), "{}", err(&again));
+    // WebGPU has no geometry stages.
+    let output = port(&folder, "geometry", "wgpu", &["-o", "other"]);
+    assert_eq!(code(&output), 1);
+    has(&err(&output), &["the host has no geometry stages"]);
+}

@@ -185,3 +185,12 @@ fn a_pack_says_what_nobody_fills() {
     let again = folder.run(&["port", "in", "--for", "minecraft-26.2", "-o", "out"]);
     has(&err(&again), "wrote 0 files");
 }
+
+#[test]
+fn a_struct_without_a_name_gets_that_of_its_variable() {
+    let text = "#version 330\nuniform struct {\n    vec4 color; // of the lamp\n    float power;\n} light;\nout vec4 c;\n\nvoid main() {\n    \
+                c = light.color * light.power;\n}\n";
+    let new = fragment(text);
+    has(&new, "struct Light {\n    vec4 color; // of the lamp\n    float power;\n};\n");
+    has(&new, "layout(offset = 0) Light light;");
+}

@@ -59,8 +59,8 @@ impl Observer<F32> for Counter {
     }
 }
 
-/// The instructions that the fragment stages execute in the domain of envelopes, each for 64 fragments, and the blocks of lanes that need
-/// special care, such as those without a bound: the work of a verdict, which follows undecided conditions both ways.
+/// What the fragment stages cost in the domain of envelopes, in additions for 64 fragments: the work of a verdict, which follows undecided
+/// conditions both ways, on registers of their own, and computes lanes without a bound again.
 ///
 /// # Errors
 /// As [`render`](crate::render).

@@ -3,10 +3,11 @@
 //! *In:* a text, and the stages that read it. *Out:* edits. *Holds:* the conventions are the defaults of `glisten compile`: z in
 //! [0, w], the window's origin at the upper left without a flip, y up.
 
-use super::super::rewrite::Edit;
+use super::super::rewrite::{Edit, comment_above};
 use super::super::tokens::closing;
 use super::chunks::Chunks;
 use super::style::{has_braces_below, indent_of};
+use crate::engines::code::without_comments;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Shader, Stage};
 
@@ -92,6 +93,35 @@ pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<V
         edits.extend(point_size(chunks));
     }
     Some(edits)
+}
+
+/// The edits of a geometry shader: each vertex is emitted by a function that converts the depth. Parts of several sources cannot have
+/// one each.
+pub(super) fn emissions(chunks: &Chunks<'_>, name: &str, is_source: bool) -> Result<Vec<Edit>, String> {
+    let words = || chunks.all.iter().filter(|token| token.text.starts_with("Emit"));
+    if words().any(|token| token.text == "EmitStreamVertex") {
+        return Err("`EmitStreamVertex` is not rewritten for Vulkan".to_owned());
+    }
+    let calls: Vec<Edit> = words()
+        .filter(|token| token.text == "EmitVertex")
+        .map(|token| (token.range.clone(), name.to_owned()))
+        .collect();
+    let Some(first) = chunks.list.iter().find(|chunk| chunk.is_function) else { return Ok(Vec::new()) };
+    if calls.is_empty() {
+        return Ok(Vec::new());
+    }
+    if !is_source {
+        return Err("`EmitVertex` is called in an included file; call it in the source".to_owned());
+    }
+    let at = chunks.range(first).start;
+    let line = chunks.text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+    let place = comment_above(chunks.text, &without_comments(chunks.text), line);
+    let (indent, open) = (indent_of(chunks.text), if has_braces_below(chunks.text) { "\n{" } else { " {" });
+    let text = format!(
+        "{MARK}: [0, w] in clip space.\nvoid {name}(){open}\n{indent}gl_Position.z = (gl_Position.z + gl_Position.w) * \
+         0.5;\n{indent}EmitVertex();\n}}\n\n"
+    );
+    Ok(std::iter::once((place..place, text)).chain(calls).collect())
 }
 
 /// The member that a redeclared `gl_PerVertex` lacks.

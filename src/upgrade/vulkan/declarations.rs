@@ -2,6 +2,7 @@
 //!
 //! *In:* a text with the facts about its declarations. *Out:* edits; or the reason why a declaration cannot be rewritten.
 
+use super::super::names::free;
 use super::super::rewrite::{Edit, comment_above};
 use super::super::tokens::closing;
 use super::chunks::{Chunk, Chunks};
@@ -27,6 +28,8 @@ pub(super) struct Text<'a> {
     pub(super) facts: &'a BTreeMap<usize, Fact>,
     /// Macros that stand for qualifiers.
     pub(super) qualifiers: &'a BTreeSet<String>,
+    /// The names in all texts.
+    pub(super) names: &'a BTreeSet<String>,
     pub(super) dialect: &'a Dialect,
     pub(super) numbers: &'a Numbers,
 }
@@ -501,17 +504,30 @@ impl<'a> Text<'a> {
         if let Some(at) = tokens.iter().position(|token| token.text == "struct") {
             let index = chunk.tokens.start + at;
             let end = self.braces_end(index).unwrap_or(index);
-            let (start, end) = (self.chunks.place(index).start, self.chunks.place(end).end);
+            let (word, end) = (self.chunks.place(index), self.chunks.place(end).end);
+            let text = |from: usize| self.chunks.text.get(from..end).unwrap_or("");
             let name = self.chunks.word(index + 1);
             if name == "{" {
-                return Err("a uniform has a struct without a name; name it".to_owned());
+                let name = self.struct_name(chunk);
+                return Ok((name.clone(), format!("struct {name}{};\n", text(word.end))));
             }
-            let text = self.chunks.text.get(start..end).unwrap_or("");
-            return Ok((name.to_owned(), format!("{text};\n")));
+            return Ok((name.to_owned(), format!("{};\n", text(word.start))));
         }
         let head = self.head(chunk).unwrap_or_default();
         let words = head.split(' ').filter(|word| !QUALIFIERS.contains(word) && !self.qualifiers.contains(*word));
         Ok((words.collect::<Vec<_>>().join(" "), String::new()))
+    }
+
+    /// A name for the struct of a declaration that has none: that of its variable, as structs are written.
+    fn struct_name(&self, chunk: &Chunk) -> String {
+        let (place, _) = self.facts.range(self.chunks.range(chunk)).next().unzip();
+        let rest = place.and_then(|place| self.chunks.text.get(*place..)).unwrap_or("");
+        let variable = rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
+        let mut letters = variable.chars();
+        let first = letters.next().map_or('S', |first| first.to_ascii_uppercase());
+        let wanted: String = std::iter::once(first).chain(letters).collect();
+        // `Light` for `light`. A variable that is written like this already has its name.
+        free(self.names, &if wanted == variable { format!("{wanted}Struct") } else { wanted })
     }
 
     /// The token that closes the braces after a token.

@@ -55,6 +55,8 @@ pub struct Dialect {
     pub offsets: bool,
     /// Whether clip-space z, `gl_FragCoord`, `dFdy` and the names of indices change.
     pub coordinates: bool,
+    /// Whether the host has geometry stages.
+    pub geometry: bool,
     /// The blocks that the host has.
     pub blocks: Vec<HostBlock>,
     /// Names that the host has changed, and their new ones.
@@ -73,6 +75,7 @@ impl Default for Dialect {
             numbering: Numbering::All,
             offsets: true,
             coordinates: true,
+            geometry: true,
             blocks: Vec::new(),
             renamed: BTreeMap::new(),
             extension: None,

@@ -9,7 +9,7 @@ use super::files::{Files, stages_of_texts};
 use super::numbers::{Numbers, Space};
 use super::{Compiled, Key};
 use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
-use glisten_front::link::{Varying, std140};
+use glisten_front::link::{Program, Varying, std140};
 use glisten_front::source::SourceMap;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -196,6 +196,16 @@ fn fact(
         let node = numbers.node(unit, space, &name, size, Some(row.location));
         return Ok(Fact::Numbered(Numbered { index: dual.then_some(row.index), ..numbered(space, node) }));
     }
+    if let Some(name) = geometry_input(program, shader, global) {
+        let vertex =
+            program.stage(Stage::Vertex).and_then(|vertex| vertex.globals.iter().find(|one| is_out(one, name)));
+        let size = vertex.map_or(1, |one| program.types.locations(one.ty));
+        let node = numbers.node(unit, Space::GeometryInput, name, size, None);
+        return Ok(Fact::Numbered(numbered(Space::GeometryInput, node)));
+    }
+    if is_before_geometry(program, shader, global) {
+        return Ok(Fact::Inside);
+    }
     let Some((name, first, size, row)) = varying(compiled, id, global.storage) else {
         // Nothing reads it, or nothing writes it and it is not read. Vulkan wants both ends of what is declared.
         return Ok(Fact::Inside);
@@ -203,6 +213,27 @@ fn fact(
     let node = numbers.node(unit, Space::Varying, &name, size, Some(first));
     let plus = row.location - first;
     Ok(Fact::Numbered(Numbered { plus, component: row.component, ..numbered(Space::Varying, node) }))
+}
+
+/// Whether a varying is between the vertex and the geometry stage.
+fn is_before_geometry(program: &Program, shader: &Shader, global: &Global) -> bool {
+    program.stage(Stage::Geometry).is_some()
+        && matches!((shader.stage, global.storage), (Stage::Vertex, Storage::Out) | (Stage::Geometry, Storage::In))
+}
+
+fn is_out(global: &Global, name: &str) -> bool {
+    global.storage == Storage::Out && global.builtin.is_none() && global.match_name() == name
+}
+
+/// The name by which the vertex and the geometry stage match, of a variable that both have.
+fn geometry_input<'a>(program: &Program, shader: &Shader, global: &'a Global) -> Option<&'a str> {
+    let name = global.match_name();
+    let is_in = |one: &Global| one.storage == Storage::In && one.builtin.is_none() && one.match_name() == name;
+    let has = |stage, is_it: &dyn Fn(&Global) -> bool| {
+        program.stage(stage).is_some_and(|shader| shader.globals.iter().any(is_it))
+    };
+    let is_whole = has(Stage::Geometry, &is_in) && has(Stage::Vertex, &|one| is_out(one, name));
+    (is_before_geometry(program, shader, global) && is_whole).then_some(name)
 }
 
 /// The second color of dual-source blending has the location of the first: it is numbered with it.
@@ -216,8 +247,9 @@ fn second_output(unit: usize, location: u32, name: &str, numbers: &mut Numbers) 
 /// A varying with those that share locations with it: their name, their first location and number of them; and its first row.
 fn varying<'a>(compiled: &'a Compiled<'_>, id: GlobalId, storage: Storage) -> Option<(String, u32, u32, &'a Varying)> {
     let rows = &compiled.program.interface.varyings;
+    let last = if compiled.program.stage(Stage::Geometry).is_some() { Stage::Geometry } else { Stage::Vertex };
     let name_of = |row: &Varying| {
-        let (end, of) = row.to.map(|end| (end, Stage::Fragment)).or(row.from.map(|end| (end, Stage::Vertex)))?;
+        let (end, of) = row.to.map(|end| (end, Stage::Fragment)).or(row.from.map(|end| (end, last)))?;
         Some(compiled.program.stage(of)?.global(end.global).match_name().to_owned())
     };
     let end = |row: &&Varying| if storage == Storage::In { row.to } else { row.from };

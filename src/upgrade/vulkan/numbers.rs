@@ -10,6 +10,8 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Space {
     Attribute,
+    /// Between the vertex and the geometry stage.
+    GeometryInput,
     Varying,
     Output,
     Buffer,

@@ -2,6 +2,7 @@
 //!
 //! *In:* the file, what is known about all declarations, the blocks. *Out:* the text, or the reason why there is none.
 
+use super::super::names::free;
 use super::super::rewrite::{Edit, applied, place_of_declarations};
 use super::chunks::Chunks;
 use super::conditions::{Conditions, Directive, Open, between, without_empty};
@@ -41,15 +42,6 @@ pub(super) struct Plan<'a> {
     pub(super) whole: &'a BTreeSet<usize>,
 }
 
-/// A name that occurs in no text.
-fn free(names: &BTreeSet<String>, wanted: &str) -> String {
-    let mut name = wanted.to_owned();
-    while names.contains(&name) {
-        name.push('0');
-    }
-    name
-}
-
 /// Whether a stage can have the members that only the other one declares: `None`, if a name means something else here, or a struct is
 /// missing; otherwise their lines.
 pub(super) fn foreign(
@@ -85,6 +77,7 @@ impl Plan<'_> {
             conditions: &conditions,
             facts: self.facts.get(key).unwrap_or(&none),
             qualifiers: self.qualifiers,
+            names: self.names,
             dialect: self.dialect,
             numbers: self.numbers,
         };
@@ -124,6 +117,21 @@ impl Plan<'_> {
         let is_turned = self.turned.contains(key) || self.turned_parts.contains(key);
         let name = is_turned.then(|| free(self.names, "fragCoord"));
         let mut edits = coordinates::words(chunks, file.is_read_by(Stage::Fragment), name.as_deref());
+        if file.is_read_by(Stage::Geometry) {
+            let name = free(self.names, "emitVulkanVertex");
+            edits.extend(coordinates::emissions(chunks, &name, !file.source_of.is_empty())?);
+        }
+        let before_geometry = |unit: &usize| {
+            let program = self.programs.iter().find(|one| one.index == *unit);
+            program.is_some_and(|one| one.program.stage(Stage::Geometry).is_some())
+        };
+        let vertex_units = || file.readers.iter().filter(|(_, stage)| *stage == Stage::Vertex).map(|(unit, _)| unit);
+        let n_before = vertex_units().filter(|unit| before_geometry(unit)).count();
+        if n_before > 0 {
+            let what = "is before a geometry stage in one program and not in another, and only the last stage converts the depth";
+            let is_mixed = n_before < vertex_units().count() && coordinates::main_of(chunks).is_some();
+            return if is_mixed { Err(format!("`{}` {what}", key.0)) } else { Ok(edits) };
+        }
         let vertex = file.readers.iter().find(|(_, stage)| *stage == Stage::Vertex);
         let has_main = coordinates::main_of(chunks).is_some();
         let is_source = !file.source_of.is_empty();

@@ -107,11 +107,9 @@ fn sound<'a>(
         let without_main = || "no source has a `main`: it is a part of other programs".to_owned();
         return Err(first.map_or_else(without_main, |error| error.message.clone()));
     };
-    if dialect.is_none() {
-        return Ok(program);
-    }
-    if program.stage(Stage::Geometry).is_some() {
-        return Err("a geometry stage is not rewritten for Vulkan".to_owned());
+    let Some(dialect) = dialect else { return Ok(program) };
+    if program.stage(Stage::Geometry).is_some() && !dialect.geometry {
+        return Err("the host has no geometry stages".to_owned());
     }
     let sources = &unit.sources;
     if sources.iter().any(|one| sources.iter().filter(|other| other.stage == one.stage).count() > 1) {

@@ -102,6 +102,7 @@ fn declared(
         ("uniform", _) => Space::Texture,
         (_, Some(_)) if stages.len() > 1 => return None,
         ("in", Some(Stage::Vertex)) => Space::Attribute,
+        ("in", Some(Stage::Geometry)) => Space::GeometryInput,
         ("out", Some(Stage::Fragment)) => return None,
         _ => Space::Varying,
     };

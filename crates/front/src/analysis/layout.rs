@@ -5,7 +5,7 @@ use super::features::remedy;
 use super::qualifiers::Qualifiers;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::qualifiers;
-use crate::diagnostic::{Advice, Applicability, Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Severity, did_you_mean};
 use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
 use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
@@ -46,6 +46,8 @@ pub(super) enum LayoutSubject {
     Uniform,
     /// `gl_FragDepth`.
     FragDepth,
+    /// A struct without a variable.
+    Struct,
     /// Any other declaration, with its description.
     Other(&'static str),
 }
@@ -68,6 +70,7 @@ impl LayoutSubject {
             Self::VaryingMember => "a member of an input or output block",
             Self::Uniform => "a uniform outside a block",
             Self::FragDepth => "`gl_FragDepth`",
+            Self::Struct => "a struct",
             Self::Other(name) => name,
         }
     }
@@ -238,6 +241,10 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(&NOT_SUPPORTED_YET, id.name.span, message));
             return None;
         }
+        if subject == LayoutSubject::Struct && matches!(row.effect, Effect::Block(_) | Effect::Matrix(_)) {
+            self.report_layout_of_struct(spelling, id.name.span);
+            return None;
+        }
         if !row.subjects.contains(&subject) {
             let subjects: Vec<_> = named().take(1).flat_map(|row| row.subjects).map(|subject| subject.name()).collect();
             self.report(
@@ -259,6 +266,18 @@ impl Analyzer<'_> {
         let help = row.value.then(|| Advice::write(Applicability::Unsafe, format!("{} = 0", row.name)));
         self.report(Diagnostic::new(&qualifiers::LAYOUT_VALUE, id.name.span, message).maybe_help(help));
         None
+    }
+
+    /// `layout(std140) struct S { .. };`
+    fn report_layout_of_struct(&mut self, spelling: &str, span: Span) {
+        let message = format!("`{spelling}` before a struct has no effect");
+        let mut finding = Diagnostic::new(&qualifiers::LAYOUT_OF_STRUCT, span, message)
+            .here("ignored")
+            .help(format!("it belongs before the block that has the struct: `layout({spelling}) uniform`"));
+        if self.strict {
+            finding.severity = Severity::Error;
+        }
+        self.report(finding);
     }
 
     /// Whether the language has a layout identifier; if not, that is reported.

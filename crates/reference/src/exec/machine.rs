@@ -10,7 +10,7 @@ use super::observe::Observer;
 use super::registers::{Register, Registers};
 use super::streams::Streams;
 use super::ways::{Ways, couples};
-use crate::domain::{Domain, Integer, Lanes, Number, Profile};
+use crate::domain::{Domain, Integer, Lanes, Number, Profile, take_redone};
 use glisten_front::hir::{GlobalId, ScalarValue, Stage};
 use glisten_front::source::Span;
 use glisten_scene::Texture;
@@ -46,7 +46,7 @@ pub struct Machine<D: Domain> {
     pub(super) budget: u64,
     /// While exploring, the budget after it was exceeded.
     pub(super) allowance: u64,
-    /// The instructions that were executed since somebody asked, each for all lanes; without those of integers.
+    /// The [cost](super::cost) of what was executed since somebody asked.
     pub(super) executed: u64,
     pub(super) budget_exceeded: bool,
     /// The loop that exceeded it.
@@ -144,9 +144,9 @@ impl<D: Domain> Machine<D> {
         machine
     }
 
-    /// The instructions that were executed since the last call, each for all lanes; without those of integers.
+    /// The cost of what was executed since the last call on this thread, in additions of floats with bounds for 64 lanes; 0 in other domains.
     pub fn take_executed(&mut self) -> u64 {
-        std::mem::take(&mut self.executed)
+        std::mem::take(&mut self.executed) + take_redone()
     }
 
     /// Replaces [`LOOP_BUDGET`].

@@ -45,6 +45,7 @@ mod compile;
 mod composite;
 mod compute;
 mod corrected_run;
+mod cost;
 mod count;
 mod emitting;
 mod exactly;

@@ -105,6 +105,11 @@ impl<T: Element> Register<T> {
 }
 
 impl<T: Element> File<T> {
+    /// The number of registers.
+    pub(super) fn len(&self) -> usize {
+        self.registers.len()
+    }
+
     /// Joins some lanes of every register with others.
     pub(super) fn join_lanes(&mut self, from: usize, into: usize, count: usize, hull: impl Fn(T, T) -> T) {
         for register in self.registers.iter_mut().filter(|register| register.filled == Filled::Lanes) {

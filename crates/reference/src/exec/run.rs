@@ -139,9 +139,8 @@ impl<D: Domain> Machine<D> {
                     }
                 }
                 ref pure => {
-                    // Integers cost nothing next to floats with bounds.
-                    self.executed += u64::from(!matches!(pure, Inst::Int1 { .. } | Inst::Int2 { .. }));
                     if D::HAS_INTERVALS {
+                        self.executed += pure.cost();
                         self.registers.compute_apart(pure, section);
                     } else {
                         self.registers.compute(pure, section);

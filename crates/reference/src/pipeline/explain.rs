@@ -89,6 +89,7 @@ fn of_draw(
         let mut patch = before.clone();
         let draw = shading.draw;
         let mut machine = Machine::with(purpose, shading.profile, code, &draw.uniforms, &draw.textures);
+        machine.take_executed();
         patch.draw(|bin| draw_bin(shading, bin, &list, &mut machine));
         (patch, machine.take_executed())
     };

@@ -54,7 +54,7 @@ mod watch;
 mod worlds;
 
 use super::RenderOptions;
-use super::domain::{Domain, take_redone};
+use super::domain::Domain;
 use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece, hashed};
 use super::raster::Shape;
 use assembly::Prim;
@@ -338,11 +338,11 @@ fn draw_prims<D: Domain>(
         }
         let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.profile));
         watch.begin(&mut machine);
-        take_redone();
+        machine.take_executed();
         draw_bin(shading, bin, list, &mut machine);
         watch.end(&mut machine, Piece::Fragments, index);
         if let Some(total) = watch.study.executed {
-            total.fetch_add(machine.take_executed() + take_redone(), Ordering::Relaxed);
+            total.fetch_add(machine.take_executed(), Ordering::Relaxed);
         }
         if let Some(found) = machine.endless_loop() {
             endless.get_or_init(|| found);

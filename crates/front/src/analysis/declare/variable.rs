@@ -33,7 +33,10 @@ impl Analyzer<'_> {
             if let (Some(span), Storage::In) = (record.invariant, storage) {
                 self.require_here(Feature::InvariantInputs, span);
             }
-            self.layout(&record, self.layout_subject(storage, base));
+            match (storage, self.types.get(base)) {
+                (Storage::Private, Type::Struct(_)) => self.layout(&record, LayoutSubject::Struct),
+                _ => self.layout(&record, self.layout_subject(storage, base)),
+            };
         }
         for declarator in &declaration.declarators {
             let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());

@@ -242,17 +242,23 @@ impl Analyzer<'_> {
     }
 
     /// Records the largest constant index of an array that has no size yet; it determines the size (§4.1.9).
-    fn note_array_index(&mut self, base: ExprId, index: u32, at: Span) {
-        let key = match self.expr_at(base).kind {
-            ExprKind::Var(VarRef::Global(id)) => ArrayKey::Global(id),
-            ExprKind::Var(VarRef::Local(id)) => ArrayKey::Local(id),
+    pub(super) fn note_array_index(&mut self, base: ExprId, index: u32, at: Span) {
+        if let Some(key) = self.array_key(base) {
+            self.uses.note_element(key, index, at);
+        }
+    }
+
+    /// The array that an expression names, if it may lack a size.
+    pub(super) fn array_key(&self, base: ExprId) -> Option<ArrayKey> {
+        match self.expr_at(base).kind {
+            ExprKind::Var(VarRef::Global(id)) => Some(ArrayKey::Global(id)),
+            ExprKind::Var(VarRef::Local(id)) => Some(ArrayKey::Local(id)),
             ExprKind::Member(inner, member) => match self.shader.root_variable(inner) {
-                Some(VarRef::Global(id)) => ArrayKey::Member(id, member),
-                _ => return,
+                Some(VarRef::Global(id)) => Some(ArrayKey::Member(id, member)),
+                _ => None,
             },
-            _ => return,
-        };
-        self.uses.note_element(key, index, at);
+            _ => None,
+        }
     }
 
     /// `a.length()`

@@ -2,9 +2,10 @@
 
 use super::super::context::Analyzer;
 use super::Purpose;
+use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
-use crate::hir::{ArraySize, ExprId, ExprKind, IncDec, Scalar, Type, TypeId};
+use crate::hir::{ArraySize, ExprId, ExprKind, IncDec, Scalar, Type, TypeId, VarRef};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
@@ -32,6 +33,9 @@ impl Analyzer<'_> {
 
     fn assign_plainly(&mut self, target: ExprId, value: ExprId, span: Span) -> ExprId {
         let ty = self.ty(target);
+        if self.assigns_clip_distances(target, value) {
+            return self.push(ExprKind::Assign(None, target, value), ty, span);
+        }
         if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
             let at = self.span(target);
             self.report(
@@ -52,6 +56,57 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         self.push(ExprKind::Assign(None, target, value), ty, span)
+    }
+
+    /// Whether this is `gl_ClipDistance = gl_in[0].gl_ClipDistance` where one of both has no size yet, as passed on by many
+    /// geometry shaders. Arrays without a size cannot be assigned (§4.1.9), but drivers take it, so it is a warning.
+    fn assigns_clip_distances(&mut self, target: ExprId, value: ExprId) -> bool {
+        if self.strict || !self.is_clip_distance(target) || !self.is_clip_distance(value) {
+            return false;
+        }
+        let size = |analyzer: &Self, of| match analyzer.types.get(analyzer.ty(of)) {
+            Type::Array(_, size) => Some(size),
+            _ => None,
+        };
+        let (at, from) = (self.span(target), self.span(value));
+        let known = match (size(self, target), size(self, value)) {
+            (Some(ArraySize::Unsized), Some(ArraySize::Sized(known))) => Some((target, known, from)),
+            (Some(ArraySize::Sized(known)), Some(ArraySize::Unsized)) => Some((value, known, at)),
+            (Some(ArraySize::Unsized), Some(ArraySize::Unsized)) => None,
+            _ => return false,
+        };
+        if let Some((open, known, at)) = known {
+            self.note_array_index(open, known.saturating_sub(1), at);
+        } else if let (Some(target), Some(value)) = (self.array_key(target), self.array_key(value)) {
+            self.uses.note_assigned_array(target, value);
+        }
+        self.report(
+            Diagnostic::new(
+                &types::UNSIZED_CLIP_DISTANCES,
+                at,
+                "clip distances without a size are assigned as a whole",
+            )
+            .here("as many as the shader indexes by constants, or one")
+            .help("declare it with a size: `out float gl_ClipDistance[2];`"),
+        );
+        true
+    }
+
+    /// Whether an expression is `gl_ClipDistance`, of this vertex or of one of `gl_in`.
+    fn is_clip_distance(&self, id: ExprId) -> bool {
+        match self.expr_at(id).kind {
+            ExprKind::Var(VarRef::Global(global)) => {
+                self.shader.global(global).builtin == Some(BuiltinVariable::ClipDistance)
+            }
+            ExprKind::Member(base, member) => match self.types.get(self.ty(base)) {
+                Type::Struct(structure) => {
+                    let member = self.types.structure(structure).members.get(member as usize);
+                    member.is_some_and(|member| member.name == BuiltinVariable::ClipDistance.name())
+                }
+                _ => false,
+            },
+            _ => false,
+        }
     }
 
     /// `a op= b` is `a = a op b`: both the operation and the assignment must be valid.

@@ -28,6 +28,11 @@ codes! {
          in a geometry shader."
         bad Vertex("layout(std140) uniform vec4 a; void main() { gl_Position = a; }"),
         good Vertex("layout(std140) uniform B { vec4 a; }; void main() { gl_Position = a; }");
+    LAYOUT_OF_STRUCT = "W0601" "layout-of-struct" Warning "GLSL 1.50 §4.3.8"
+        "A struct has no layout of its own: that of the block decides in which it stands. Drivers ignore one before a \
+         struct that declares no variable, so this is a warning; `--strict` makes it an error."
+        bad Fragment("layout(std140) struct S { vec4 a; }; uniform S s; out vec4 c; void main() { c = s.a; }"),
+        good Fragment("struct S { vec4 a; }; layout(std140) uniform B { S s; }; out vec4 c; void main() { c = s.a; }");
     LAYOUT_VALUE = "E0606" "layout-value" Error "GLSL 1.50 §4.3.8"
         "Some layout identifiers take a value, a non-negative integer literal; the others take none."
         bad Geometry("layout(points) in; layout(points, max_vertices) out; void main() {}"),

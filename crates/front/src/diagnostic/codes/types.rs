@@ -1,6 +1,6 @@
 //! Codes for types, expressions and constants (`E04xx`).
 
-use super::Example::{Fragment, Vertex};
+use super::Example::{Fragment, Geometry, Vertex};
 
 codes! {
     MISMATCH = "E0401" "type-mismatch" Error "GLSL 1.50 §5.8, §4.1.10"
@@ -74,6 +74,14 @@ codes! {
          parameters and return types must always have one."
         bad Vertex("float a[]; uniform int i; void main() { gl_Position = vec4(a[i]); }"),
         good Vertex("float a[4]; uniform int i; void main() { gl_Position = vec4(a[i]); }");
+    UNSIZED_CLIP_DISTANCES = "W0401" "unsized-clip-distances" Warning "GLSL 1.50 §4.1.9, §7.1"
+        "`gl_ClipDistance` has the size that its redeclaration or its constant indices give it, and an array without a \
+         size cannot be assigned. Drivers take it where a geometry shader passes the clip distances on, so this is a \
+         warning: as many are copied as the shader indexes, one if it indexes none. `--strict` makes it an error."
+        bad Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { \
+            gl_Position = gl_in[0].gl_Position; gl_ClipDistance = gl_in[0].gl_ClipDistance; EmitVertex(); }"),
+        good Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { \
+            gl_Position = gl_in[0].gl_Position; gl_ClipDistance[0] = gl_in[0].gl_ClipDistance[0]; EmitVertex(); }");
     VOID_VALUE = "E0415" "void-value" Error "GLSL 1.50 §4.1.1"
         "`void` is only for functions that return nothing; such a call is not a value."
         bad Vertex("void f() {} void main() { float a = float(f()); gl_Position = vec4(a); }"),

@@ -29,15 +29,15 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     }
     for (cause, mut calls) in groups {
         calls.sort_by_key(|&call| fragment.expr(call).span.start);
-        report(fragment, cause, &calls, findings);
+        report(&program.types, fragment, cause, &calls, findings);
     }
 }
 
 /// One finding for a condition: at the first call, with labels at the condition and at further calls.
-fn report(fragment: &Shader, cause: Cause, calls: &[ExprId], findings: &mut Findings<'_>) {
+fn report(types: &Types, fragment: &Shader, cause: Cause, calls: &[ExprId], findings: &mut Findings<'_>) {
     let span = |id: ExprId| fragment.expr(id).span;
     let Some((&first, more)) = calls.split_first() else { return };
-    let ExprKind::BuiltinCall(function, _) = &fragment.expr(first).kind else { return };
+    let ExprKind::BuiltinCall(function, arguments) = &fragment.expr(first).kind else { return };
     let message = format!("`{}` takes implicit derivatives in non-uniform control flow", function.name());
     let mut finding = findings.at(span(first), message).here("the level of detail is undefined here");
     finding = finding.label(span(cause.condition), "this may differ between fragments");
@@ -49,6 +49,10 @@ fn report(fragment: &Shader, cause: Cause, calls: &[ExprId], findings: &mut Find
     }
     if more.len() > MAX_LABELS {
         finding = finding.note(format!("and in {} more places under the same condition", more.len() - MAX_LABELS));
+    }
+    let is_lookup = |&id: &ExprId| matches!(types.get(fragment.expr(id).ty), Type::Sampler(_));
+    if arguments.first().is_some_and(is_lookup) {
+        finding = finding.note("a texture of one level, without mipmaps, is not affected");
     }
     findings.push(finding.help("compute it before the branch, or use the form with `Lod` or `Grad`"));
 }

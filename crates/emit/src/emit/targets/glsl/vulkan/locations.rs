@@ -2,7 +2,7 @@
 //! interface, between the vertex and the geometry stage in the order in which the vertex stage declares them.
 
 use super::Layouts;
-use glisten_front::hir::{ArraySize, Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
+use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Types};
 use glisten_front::link::{Program, Varying};
 
 /// Gives every varying of a stage its location.
@@ -33,7 +33,7 @@ pub(super) fn assign(types: &Types, shader: &mut Shader, program: &Program, layo
             place(shader, id, row.location, (row.component > 0).then_some(row.component), layouts);
         } else if shader.global(id).block.is_some() {
             place(shader, id, next, None, layouts);
-            next = next.saturating_add(locations(types, shader.global(id).ty));
+            next = next.saturating_add(types.locations(shader.global(id).ty));
         } else {
             keep_inside(shader, id);
         }
@@ -70,7 +70,7 @@ fn in_order(types: &Types, shader: &Shader) -> Vec<(GlobalId, u32)> {
     outputs
         .map(|(id, global)| {
             let location = next;
-            next = next.saturating_add(locations(types, global.ty));
+            next = next.saturating_add(types.locations(global.ty));
             (id, location)
         })
         .collect()
@@ -86,7 +86,7 @@ fn inputs(types: &Types, shader: &mut Shader, program: &Program, layouts: &mut L
             if is_varying(shader.global(id), Storage::In) {
                 let ty = shader.global(id).ty;
                 place(shader, id, next, None, layouts);
-                next = next.saturating_add(locations(types, types.element(ty).unwrap_or(ty)));
+                next = next.saturating_add(types.locations(types.element(ty).unwrap_or(ty)));
             }
         }
         return;
@@ -97,19 +97,5 @@ fn inputs(types: &Types, shader: &mut Shader, program: &Program, layouts: &mut L
         if let Some((id, _)) = to {
             place(shader, id, location, None, layouts);
         }
-    }
-}
-
-/// The number of locations of a type (GLSL 4.50 §4.4.1): one for a scalar or a vector, one for each column.
-fn locations(types: &Types, ty: TypeId) -> u32 {
-    match types.get(ty) {
-        Type::Matrix(columns, _) => u32::from(columns),
-        Type::Array(element, ArraySize::Sized(size)) => size.saturating_mul(locations(types, element)),
-        Type::Array(element, ArraySize::Unsized) => locations(types, element),
-        Type::Struct(id) => {
-            let members = types.structure(id).members.iter();
-            members.fold(0, |sum: u32, member| sum.saturating_add(locations(types, member.ty)))
-        }
-        Type::Scalar(_) | Type::Vector(..) | Type::Sampler(_) | Type::Void | Type::Error => 1,
     }
 }
