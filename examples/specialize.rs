@@ -137,24 +137,26 @@ fn one(path: &str) -> Result<ExitCode, Box<dyn std::error::Error>> {
     let (gpu, gl) = (Gpu::new(Some("software"))?, Gl::new()?);
     let [spirv, wgsl] = OnGpu::both(&gpu);
     let gl = OnOpenGl(&gl);
-    for runner in [&spirv as &dyn Runner, &wgsl, &gl] {
-        let conclusion =
-            |runner: &dyn Runner| verify(&scene, &[runner], &Options::default()).map(|one| one.conclusion());
-        let residual = conclusion(&Instead { runner, scene: &specialized.scene });
-        println!(
-            "= {}",
-            match residual {
-                Ok(Conclusion::Holds) => format!("holds by {}", runner.name()),
-                Ok(Conclusion::Inconclusive) => format!("inconclusive by {}", runner.name()),
-                Ok(Conclusion::Fails) if matches!(conclusion(runner), Ok(Conclusion::Fails)) => {
-                    format!("fails as the original does by {}", runner.name())
+    let runners: [&dyn Runner; 3] = [&spirv, &wgsl, &gl];
+    let residuals = runners.map(|runner| Instead { runner, scene: &specialized.scene });
+    let residuals = residuals.each_ref().map(|runner| runner as &dyn Runner);
+    match verify(&scene, &residuals, &Options::default()) {
+        Ok(all) => all.runs.iter().zip(runners).for_each(|(run, runner)| {
+            let fails = || verify(&scene, &[runner], &Options::default()).is_ok_and(|one| one.fails());
+            println!(
+                "= {}",
+                match run.verdict.conclusion(&all.demands) {
+                    Conclusion::Holds => format!("holds by {}", runner.name()),
+                    Conclusion::Inconclusive => format!("inconclusive by {}", runner.name()),
+                    Conclusion::Fails if fails() => format!("fails as the original does by {}", runner.name()),
+                    Conclusion::Fails => format!("differs: beyond the original's envelope by {}", runner.name()),
                 }
-                Ok(Conclusion::Fails) => format!("differs: beyond the original's envelope by {}", runner.name()),
-                Err(_) if conclusion(runner).is_err() =>
-                    format!("not drawn, nor is the original, by {}", runner.name()),
-                Err(failure) => format!("differs: not drawn by {}, but the original is: {failure}", runner.name()),
-            }
-        );
+            );
+        }),
+        Err(_) if verify(&scene, &runners, &Options::default()).is_err() => {
+            println!("= not drawn, nor is the original")
+        }
+        Err(failure) => println!("= differs: not drawn, but the original is: {failure}"),
     }
     Ok(ExitCode::SUCCESS)
 }

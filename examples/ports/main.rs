@@ -159,14 +159,14 @@ fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row,
     let new_tree = readable(&new, arguments.game.as_deref(), "new-tree").map_err(|error| error.to_string())?;
     for program in account["programs"].as_array().into_iter().flatten() {
         row.programs += 1;
-        let names = program["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
-        let names: Vec<&str> = names.collect();
+        let words = |key: &str| program[key].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let files: Vec<(&str, &str)> = words("files").zip(words("stages")).collect();
         let said = |text: &str| {
             if arguments.lists {
                 println!("  {}: {text}", program["name"].as_str().unwrap_or(""));
             }
         };
-        if let Some(complaint) = names.iter().find_map(|name| tools::glslang(&old_tree, name, &[]).err()) {
+        if let Some(complaint) = files.iter().find_map(|file| tools::glslang(&old_tree, *file, &[]).err()) {
             said(&format!("the old text: {complaint}"));
             continue;
         }
@@ -180,12 +180,12 @@ fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row,
         let module = temporary.path().join("module.spv");
         let place = module.to_string_lossy().into_owned();
         let (mut is_accepted, mut is_valid) = (true, true);
-        for name in &names {
+        for file in &files {
             // The game gives the numbers, and Vulkan's names to indices.
             let names = ["-Dgl_VertexID=gl_VertexIndex", "-Dgl_InstanceID=gl_InstanceIndex"];
             let given = if is_minecraft { &["--amb", "--aml", names[0], names[1]][..] } else { &[] };
             let vulkan = [&["-V", "--target-env", "vulkan1.1", "-o", &place], given].concat();
-            match tools::glslang(&new_tree, name, &vulkan) {
+            match tools::glslang(&new_tree, *file, &vulkan) {
                 Ok(()) => {
                     let judged = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(&module).output();
                     let complaint = match judged {

@@ -7,12 +7,12 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 /// The complaint of glslang about a file of a tree.
-pub(crate) fn glslang(tree: &Readable, name: &str, options: &[&str]) -> Result<(), String> {
+pub(crate) fn glslang(tree: &Readable, (name, stage): (&str, &str), options: &[&str]) -> Result<(), String> {
     let file = tree.root.join(name);
-    let stage = match file.extension().and_then(|extension| extension.to_str()).unwrap_or("") {
-        "vert" | "vsh" | "vs" | "glslv" => "vert",
-        "frag" | "fsh" | "fs" | "glslf" => "frag",
-        _ => return Err("a file whose name tells no stage".to_owned()),
+    let stage = match stage {
+        "vertex" => "vert",
+        "geometry" => "geom",
+        _ => "frag",
     };
     let mut command = Command::new("glslangValidator");
     let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;

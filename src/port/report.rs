@@ -31,6 +31,8 @@ pub struct ProgramReport {
     pub name: String,
     /// Its files.
     pub files: Vec<String>,
+    /// The stage of each file: `vertex`, `geometry` or `fragment`.
+    pub stages: Vec<&'static str>,
     /// The result.
     pub result: Outcome,
     /// Why it stays as it was.

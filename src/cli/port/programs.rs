@@ -140,6 +140,7 @@ fn undone(unit: &Unit) -> Done {
     let report = ProgramReport {
         name: unit.group.name.clone(),
         files: inputs.iter().map(|input| input.name.clone()).collect(),
+        stages: inputs.iter().map(|input| input.stage.name()).collect(),
         result: Outcome::Refused,
         because: None,
         proof: None,

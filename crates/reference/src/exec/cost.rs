@@ -8,7 +8,7 @@ use super::machine::Machine;
 use crate::domain::Domain;
 
 /// Of a function that each lane calls by itself.
-const CALL: u64 = 20;
+const CALL: u64 = 15;
 
 impl Inst {
     /// The time of the instruction. Integers cost nothing next to floats with bounds.
@@ -27,9 +27,9 @@ impl Inst {
 }
 
 impl<D: Domain> Machine<D> {
-    /// Counts work on some lanes of all registers, which takes so many additions for a register and 64 lanes.
-    pub(super) fn count_registers(&mut self, lanes: usize, additions: u64) {
+    /// Counts work on some lanes of all registers, which takes so many halves of an addition for a register and 64 lanes.
+    pub(super) fn count_registers(&mut self, lanes: usize, halves: u64) {
         let registers = self.registers.floats.len() + self.registers.ints.len();
-        self.executed += (registers * lanes) as u64 * additions / 64;
+        self.executed += (registers * lanes) as u64 * halves / 128;
     }
 }

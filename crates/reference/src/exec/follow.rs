@@ -70,7 +70,7 @@ impl<D: Domain> Machine<D> {
             return truth;
         }
         self.give_up_hopeless(mask);
-        self.count_registers(64 - self.ways.free() * self.ways.group, 2);
+        self.count_registers(64 - self.ways.free() * self.ways.group, 1);
         loop {
             let (truth, undecided) = find(self, *mask);
             if self.needed(undecided) <= self.ways.free() {
@@ -121,7 +121,7 @@ impl<D: Domain> Machine<D> {
         self.registers.floats.copy_lanes(from, to, size);
         self.registers.ints.copy_lanes(from, to, size);
         self.streams.copy(from, to, size);
-        self.count_registers(size, 2);
+        self.count_registers(size, 1);
     }
 
     /// Merges ways of the fragment that has most of those that can be; if there are none, gives up the largest.
@@ -152,7 +152,7 @@ impl<D: Domain> Machine<D> {
                 self.registers.floats.join_lanes(last * size, into * size, size, D::Float::joined);
                 self.registers.ints.join_lanes(last * size, into * size, size, D::Int::joined);
                 self.streams.join(last * size, into * size, size);
-                self.count_registers(size, 6);
+                self.count_registers(size, 3);
                 self.undecided |= (self.undecided >> (last * size) & self.ways.members()) << (into * size);
                 self.release(last, mask);
                 merged = true;

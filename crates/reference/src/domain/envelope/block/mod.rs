@@ -32,10 +32,9 @@ thread_local! {
     static REDONE: Cell<u64> = const { Cell::new(0) };
 }
 
-/// How often special lanes of a block were computed again on this thread since the last call: each time costs two
-/// additions without special lanes.
+/// What computing special lanes of blocks again has cost on this thread since the last call: half an addition of 64 lanes each time.
 pub(crate) fn take_redone() -> u64 {
-    2 * REDONE.take()
+    REDONE.take() / 2
 }
 
 /// A number in each of eight lanes. Vectors of four never cross a cache line.
