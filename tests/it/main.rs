@@ -168,6 +168,7 @@ mod stability_page;
 #[cfg(feature = "gpu")]
 mod study;
 mod support;
+mod tangents;
 mod targets;
 #[cfg(feature = "cli")]
 mod trace;
