@@ -15,7 +15,7 @@ use std::collections::HashMap;
 const MAX_FAN: u32 = 512;
 const MAX_CROWD: u32 = 4096;
 
-/// What a corner is for MikkTSpace: position, normal, texture coordinate.
+/// A corner as MikkTSpace sees it: position, normal, texture coordinate.
 type Corner = ([f32; 3], [f32; 3], [f32; 2]);
 
 /// Triangles with the tangents of their corners.
