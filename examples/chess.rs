@@ -195,7 +195,7 @@ fn pictures(data: &mut Data) -> Result<Value, String> {
         _ => 0.0_f64,
     };
     let normals = data.picture(32, |x, y| {
-        let [a, b] = [0.45 * bevel(x), -0.45 * bevel(y)];
+        let [a, b] = [0.9 * bevel(x), -0.9 * bevel(y)];
         let length = (a * a + b * b + 1.0).sqrt();
         [a, b, 1.0].map(|value| (127.5 + 127.5 * value / length).round() as u8)
     })?;
@@ -215,7 +215,7 @@ fn materials() -> Value {
         {"name": "brass", "pbrMetallicRoughness": {"baseColorFactor": [0.91, 0.68, 0.33, 1.0], "metallicFactor": 1.0, "roughnessFactor": 0.24}},
         {
             "name": "ivory",
-            "pbrMetallicRoughness": {"baseColorFactor": [0.83, 0.77, 0.64, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.5},
+            "pbrMetallicRoughness": {"baseColorFactor": [0.7, 0.6, 0.42, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.5},
             "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.8, "clearcoatRoughnessFactor": 0.15}}
         },
         {"name": "ebony", "pbrMetallicRoughness": {"baseColorFactor": [0.03, 0.022, 0.02, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.32}}
