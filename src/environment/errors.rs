@@ -97,6 +97,18 @@ mod tests {
     use crate::environment::coefficients;
     use glisten_scene::picture::Image;
 
+    /// In a white room nothing is lost by the split: the two factors are those of the integral.
+    #[test]
+    fn a_white_room_has_no_errors() {
+        let image = Image { width: 32, height: 16, pixels: vec![[1.0; 4]; 512] };
+        let panorama = Panorama::new(&image).expect("twice as wide");
+        let maps = Prefiltered::new(&panorama, 5, 3, 64);
+        let split = SplitSum::new().expect("the pattern");
+        for deviation in errors(&panorama, &maps, &coefficients(&panorama), &split) {
+            assert!(deviation.most < 3e-3, "{deviation:?}");
+        }
+    }
+
     /// A sky that is brighter on one side, with a lamp.
     #[test]
     fn the_maps_are_near_to_the_integrals() {
