@@ -13,6 +13,7 @@ use crate::made::Made;
 use crate::page::highlight::{Language, html};
 use crate::page::{Page, Place, View, inline_code, viewer};
 use minijinja::{Value, context};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 const PAGE: Page = Page {
@@ -103,12 +104,16 @@ const MEASURED: &str = "today";
 /// What is wrong with an entry's text, or the message of the template engine. Both are errors in the library, which
 /// its tests would find.
 pub fn page(entries: &[Entry], drawings: &[Drawing], by: &str, made: &Made) -> Result<String, String> {
+    // Each entry is measured for itself.
+    let measured: Vec<Result<Option<Value>, String>> = entries.par_iter().map(figures).collect();
+    let measured: Vec<Option<Value>> = measured.into_iter().collect::<Result<_, _>>()?;
     let mut chapters = Vec::new();
     let mut shown = BTreeMap::new();
     for chapter in CHAPTERS {
         let mut cards = Vec::new();
-        for (entry, drawing) in entries.iter().zip(drawings).filter(|(entry, _)| entry.meta.chapter == chapter.id) {
-            cards.push(card(entries, entry, drawing, &mut shown)?);
+        let own = entries.iter().zip(drawings).zip(&measured);
+        for ((entry, drawing), figures) in own.filter(|((entry, _), _)| entry.meta.chapter == chapter.id) {
+            cards.push(card(entries, (entry, figures.as_ref()), drawing, &mut shown)?);
         }
         chapters.push(context! {
             id => chapter.id, title => chapter.title, of => chapter.of, about => chapter.about, cards,
@@ -136,7 +141,7 @@ fn places() -> [View; 3] {
 /// The card of an entry. `shown` has the texts that cards before it show, with their titles: each is in the page once.
 fn card<'e>(
     entries: &[Entry],
-    entry: &'e Entry,
+    (entry, figures): (&'e Entry, Option<&Value>),
     drawing: &Drawing,
     shown: &mut BTreeMap<&'e str, &'e str>,
 ) -> Result<Value, String> {
@@ -168,7 +173,7 @@ fn card<'e>(
         height,
         formulas => Value::from_safe_string(formulas),
         sources,
-        figures => figures(entry)?,
+        figures,
     })
 }
 
