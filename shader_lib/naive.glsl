@@ -86,6 +86,13 @@ vec3 naiveHemisphere(vec3 N, vec3 A, vec3 sky, vec3 ground)
 // Heitz et al. 2016: the integral of an edge as its arc cosine.
 float naiveEdge(vec3 a, vec3 b) { return acos(dot(a, b)) * normalize(cross(a, b)).z; }
 
+// Cigolle et al. 2014: a direction on the unfolded octahedron.
+vec2 naiveOctahedron(vec3 d)
+{
+    vec2 p = d.xz / (abs(d.x) + abs(d.y) + abs(d.z));
+    return 0.5 + 0.5 * (d.y < 0.0 ? (1.0 - abs(p.yx)) * sign(p) : p);
+}
+
 // The coordinate of the article's half-range lookup.
 float naiveHalfRange(vec3 N, vec3 L) { return 0.5 * dot(N, L) + 0.5; }
 

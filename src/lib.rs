@@ -32,6 +32,8 @@ pub mod account;
 pub mod cli;
 #[cfg(feature = "cli")]
 mod embedded;
+#[cfg(feature = "cli")]
+mod environment;
 #[cfg(feature = "reference")]
 pub mod evaluate;
 #[doc(hidden)]

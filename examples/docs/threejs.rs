@@ -35,6 +35,12 @@ static ROWS: &[Row] = &[
     ("`HemisphereLight`", "`hemisphere`", "`[[light]] kind = \"hemisphere\"`", &["hemisphere"]),
     ("`LightProbe`", "`irradiance`", "none", &["irradiance"]),
     (
+        "`scene.environment`, `PMREMGenerator`",
+        "`environment`, by `glisten lib prefilter`",
+        "none",
+        &["environmentSpecular", "environmentRadiance"],
+    ),
+    (
         "`SpotLight.penumbra`, `.distance`",
         "`punctual`",
         "`cone`, `range` of a light",

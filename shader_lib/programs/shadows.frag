@@ -22,7 +22,7 @@ uniform float bias = 0.002;
 uniform float cut = 0.0;
 out vec4 color;
 
-const int TAPS = 32;
+const int TAPS = 24;
 
 // The mean of moments over a disk, from a level of the map that is filtered already.
 vec2 moments(vec2 at, float turn)

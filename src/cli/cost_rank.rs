@@ -13,7 +13,7 @@ use super::progress::Progress;
 use super::scenes::{gpu_failure, open_gpu};
 use crate::cost::{Assumptions, cost, ranks, spearman};
 use crate::library;
-use crate::scene::{self, DiskFiles, Draw, FileError, FileSource, Scene};
+use crate::scene::{self, DiskFiles, Draw, FileSource, Scene};
 use glisten_front::Compiler;
 use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Prepared, Via};
@@ -71,17 +71,6 @@ struct Row {
     milliseconds: f64,
 }
 
-/// The scenes of the library as files.
-struct LibraryScenes;
-
-impl FileSource for LibraryScenes {
-    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        let name = path.strip_suffix(".toml").unwrap_or(path);
-        let found = library::scenes().iter().find(|scene| scene.name == name);
-        found.map(|scene| scene.text.as_bytes().to_vec()).ok_or(FileError::Missing)
-    }
-}
-
 /// How to measure.
 pub(super) struct Measuring<'a> {
     pub(super) adapter: Option<&'a str>,
@@ -102,7 +91,7 @@ pub(super) fn run(args: &Measuring<'_>, files: &[PathBuf], compiler: &Compiler, 
     let mut rows = Vec::new();
     for name in names {
         progress.say(&name);
-        let source: &dyn FileSource = if files.is_empty() { &LibraryScenes } else { &DiskFiles };
+        let source: &dyn FileSource = if files.is_empty() { &library::SceneFiles } else { &DiskFiles };
         let loaded = scene::load(&name, source, compiler);
         let Some(scene) = loaded.scene else {
             let first = loaded.diagnostics.iter().find(|found| found.is_error()).map(|found| found.message.clone());

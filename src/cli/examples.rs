@@ -161,6 +161,7 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
             ("glisten lib export shaders/glisten", "the texts of all modules"),
             ("glisten lib export --wgsl src/shaders", "the modules as WGSL, for shaders that are written in it"),
             ("glisten lib export --rust -D GLISTEN_LIGHTS=16 src", "the structs of the uniforms, with 16 lights"),
+            ("glisten lib prefilter room.hdr -o maps", "the light of a panorama, for the module `environment`"),
         ],
     ),
     (

@@ -17,6 +17,7 @@ use glisten_front::source::SourceMap;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
+use rayon::prelude::*;
 use std::path::PathBuf;
 
 /// The number of columns of the contact sheet.
@@ -84,12 +85,15 @@ pub(super) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
     }
     drop(progress);
     let page = gallery::page(&entries, &drawings, &backend.name(), &made()).map_err(internal)?;
-    for (entry, drawing) in entries.iter().zip(&drawings) {
-        files::write(&args.output.join(entry.file_name()), &drawing.tile.png().map_err(internal)?)?;
-        if let Some(difference) = &drawing.difference {
-            let path = args.output.join(entry.difference_name());
-            files::write(&path, &difference.tile.png().map_err(internal)?)?;
-        }
+    let pictures = entries.iter().zip(&drawings).flat_map(|(entry, drawing)| {
+        let difference = drawing.difference.as_ref().map(|difference| (entry.difference_name(), &difference.tile));
+        std::iter::once((entry.file_name(), &drawing.tile)).chain(difference)
+    });
+    let pictures: Vec<(String, &Tile)> = pictures.collect();
+    // Packing takes long, and each picture is for itself.
+    let packed: Vec<Result<Vec<u8>, String>> = pictures.par_iter().map(|(_, tile)| tile.png()).collect();
+    for ((name, _), bytes) in pictures.iter().zip(packed) {
+        files::write(&args.output.join(name), &bytes.map_err(internal)?)?;
     }
     let tiles: Vec<&Tile> = drawings.iter().map(|drawing| &drawing.tile).collect();
     let sheet = gallery::contact_sheet(&tiles, COLUMNS, SIDE, GAP).png().map_err(internal)?;

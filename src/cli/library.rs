@@ -1,11 +1,12 @@
 //! `glisten lib`: the library of lighting models as a list, as one page per module, as files, and as a table of its
-//! errors.
+//! errors; panoramas for it.
 
 use super::args::ResultFormat;
 use super::console::Console;
 use super::exit::{Exit, Failure, Outcome};
 use super::journal;
 use super::library_export::{ExportArgs, export};
+use super::library_prefilter::{PrefilterArgs, prefilter};
 use super::scenes::{gpu_failure, open_gpu};
 use crate::evaluate::EvaluateError;
 use crate::library::{Cost, Entry, FunctionEntry, Header, entries, entry, modules};
@@ -44,6 +45,8 @@ enum LibCommand {
     },
     /// Write all modules, and the programs made of them, as files that include each other
     Export(ExportArgs),
+    /// Prefilter a panorama for the module `environment`
+    Prefilter(PrefilterArgs),
     /// Measure every function against its closed form in f64
     Measure {
         /// The modules to measure (default: all)
@@ -86,6 +89,7 @@ pub(super) fn run(args: &LibArgs, console: &Console) -> Outcome {
         LibCommand::List { format: ResultFormat::Json } => lines(&entries().iter().map(summary).collect::<Vec<_>>()),
         LibCommand::Show { name, source, format } => show(&find(name)?, *source, *format)?,
         LibCommand::Export(args) => return export(args, console),
+        LibCommand::Prefilter(args) => return prefilter(args, console),
         LibCommand::Measure { modules, rows, backend, adapter, format } => {
             let gpu = match backend {
                 MeasureBackends::Cpu => None,

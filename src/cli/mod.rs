@@ -43,6 +43,7 @@ mod interrupt;
 mod journal;
 mod library;
 mod library_export;
+mod library_prefilter;
 mod lint;
 mod lint_rules;
 mod lone;

@@ -1,7 +1,7 @@
 //! [`Entry`]: a scene of the library, with its texts for the gallery.
 
-use crate::library::{self, Embedded, LibraryScene};
-use crate::scene::{self, MemoryFiles, Scene};
+use crate::library::{self, Embedded, LibraryScene, SceneFiles};
+use crate::scene::{self, Scene};
 use glisten_front::compiler::{Compiler, Options};
 use serde::Deserialize;
 
@@ -53,9 +53,8 @@ pub fn entries() -> Result<Vec<Entry>, String> {
 fn entry(file: &LibraryScene) -> Result<Entry, String> {
     let wrong = |what: &str| format!("the scene `{}` of the library: {what}", file.name);
     let path = format!("<glisten>/scenes/{}.toml", file.name);
-    let files = MemoryFiles::new([(path.as_str(), file.text)]);
     let compiler = Compiler::new(Options::default()).with_includes(Embedded);
-    let loaded = scene::load(&path, &files, &compiler);
+    let loaded = scene::load(&path, &SceneFiles, &compiler);
     let Some(scene) = loaded.scene else {
         let first = loaded.diagnostics.iter().next().map_or("it does not load", |finding| &finding.message);
         return Err(wrong(first));

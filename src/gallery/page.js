@@ -28,3 +28,11 @@ for (const link of all("a.picture")) {
 }
 dialog.querySelector(".close").addEventListener("click", () => dialog.close());
 dialog.addEventListener("click", (event) => { if (event.target === dialog) dialog.close(); });
+
+// A text that several cards show is in the page once. The others get a copy when they are opened; without this script they have a link.
+for (const again of all("details[data-source]")) {
+  again.addEventListener("toggle", () => {
+    const text = byId(again.dataset.source)?.querySelector("pre");
+    if (text) again.querySelector("p").replaceWith(text.cloneNode(true));
+  }, { once: true });
+}

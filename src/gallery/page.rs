@@ -13,6 +13,8 @@ use crate::made::Made;
 use crate::page::highlight::{Language, html};
 use crate::page::{Page, Place, View, inline_code, viewer};
 use minijinja::{Value, context};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 const PAGE: Page = Page {
     templates: &[("gallery.html", include_str!("page.html"))],
@@ -102,11 +104,16 @@ const MEASURED: &str = "today";
 /// What is wrong with an entry's text, or the message of the template engine. Both are errors in the library, which
 /// its tests would find.
 pub fn page(entries: &[Entry], drawings: &[Drawing], by: &str, made: &Made) -> Result<String, String> {
+    // Each entry is measured for itself.
+    let measured: Vec<Result<Option<Value>, String>> = entries.par_iter().map(figures).collect();
+    let measured: Vec<Option<Value>> = measured.into_iter().collect::<Result<_, _>>()?;
     let mut chapters = Vec::new();
+    let mut shown = BTreeMap::new();
     for chapter in CHAPTERS {
         let mut cards = Vec::new();
-        for (entry, drawing) in entries.iter().zip(drawings).filter(|(entry, _)| entry.meta.chapter == chapter.id) {
-            cards.push(card(entries, entry, drawing)?);
+        let own = entries.iter().zip(drawings).zip(&measured);
+        for ((entry, drawing), figures) in own.filter(|((entry, _), _)| entry.meta.chapter == chapter.id) {
+            cards.push(card(entries, (entry, figures.as_ref()), drawing, &mut shown)?);
         }
         chapters.push(context! {
             id => chapter.id, title => chapter.title, of => chapter.of, about => chapter.about, cards,
@@ -131,7 +138,13 @@ fn places() -> [View; 3] {
     [(Place::First, "picture"), (Place::Second, "other picture"), (Place::Third, "difference")].map(empty)
 }
 
-fn card(entries: &[Entry], entry: &Entry, drawing: &Drawing) -> Result<Value, String> {
+/// The card of an entry. `shown` has the texts that cards before it show, with their titles: each is in the page once.
+fn card<'e>(
+    entries: &[Entry],
+    (entry, figures): (&'e Entry, Option<&Value>),
+    drawing: &Drawing,
+    shown: &mut BTreeMap<&'e str, &'e str>,
+) -> Result<Value, String> {
     let wrong = |what: String| format!("the scene `{}`: {what}", entry.name);
     let mut formulas = String::new();
     for tex in &entry.meta.equation {
@@ -140,7 +153,10 @@ fn card(entries: &[Entry], entry: &Entry, drawing: &Drawing) -> Result<Value, St
     let mut sources = Vec::new();
     for name in &entry.meta.sources {
         let text = source(name).ok_or_else(|| wrong(format!("the library has no `{name}`")))?;
-        sources.push(context! { name, text => Value::from_safe_string(html(text, Language::Glsl)) });
+        let first = shown.get(name.as_str()).copied();
+        let text = first.is_none().then(|| Value::from_safe_string(html(text, Language::Glsl)));
+        shown.entry(name.as_str()).or_insert(&entry.meta.title);
+        sources.push(context! { name, text, first, is_shared => true });
     }
     let scene = format!("{}.toml", entry.name);
     sources.push(context! { name => scene, text => Value::from_safe_string(html(entry.text, Language::Toml)) });
@@ -157,7 +173,7 @@ fn card(entries: &[Entry], entry: &Entry, drawing: &Drawing) -> Result<Value, St
         height,
         formulas => Value::from_safe_string(formulas),
         sources,
-        figures => figures(entry)?,
+        figures,
     })
 }
 

@@ -5,6 +5,7 @@
 
 use super::entry::supersampling;
 use glisten_scene::picture::{Effort, Encoding, NOT_FINITE, Picture, Transfer, png_rgb};
+use rayon::prelude::*;
 
 /// The background of the sheet.
 const GROUND: [u8; 3] = [24, 25, 30];
@@ -77,26 +78,25 @@ fn box_filter(
     height: u32,
     from_width: u32,
     from_height: u32,
-    color: impl Fn(u32, u32) -> [f64; 3],
+    color: impl Fn(u32, u32) -> [f64; 3] + Sync,
 ) -> Tile {
     let columns = spans(width, from_width);
     let rows = spans(height, from_height);
-    let mut pixels = Vec::with_capacity(width as usize * height as usize);
-    for row in &rows {
-        for column in &columns {
-            let (mut sum, mut area) = ([0.0; 3], 0.0);
-            for (y, high) in row {
-                for (x, wide) in column {
-                    let weight = high * wide;
-                    area += weight;
-                    for (total, channel) in sum.iter_mut().zip(color(*x, *y)) {
-                        *total += weight * channel;
-                    }
+    let pixel = |row: &[(u32, f64)], column: &[(u32, f64)]| {
+        let (mut sum, mut area) = ([0.0; 3], 0.0);
+        for (y, high) in row {
+            for (x, wide) in column {
+                let weight = high * wide;
+                area += weight;
+                for (total, channel) in sum.iter_mut().zip(color(*x, *y)) {
+                    *total += weight * channel;
                 }
             }
-            pixels.push(sum.map(|total| (255.0 * Transfer::Srgb.encode(total / area)).round() as u8));
         }
-    }
+        sum.map(|total| (255.0 * Transfer::Srgb.encode(total / area)).round() as u8)
+    };
+    let row = |row: &Vec<(u32, f64)>| columns.iter().map(|column| pixel(row, column)).collect::<Vec<[u8; 3]>>();
+    let pixels = rows.par_iter().map(row).collect::<Vec<_>>().concat();
     Tile { width, height, pixels }
 }
 

@@ -25,7 +25,9 @@ pub use cost::{Cost, cost};
 pub(crate) use flat::flat;
 pub use header::Header;
 pub use programs::{LibraryProgram, programs, shader, shader_files};
-pub use scenes::{LibraryScene, scenes};
+#[cfg(feature = "reference")]
+pub use scenes::SceneFiles;
+pub use scenes::{LibraryScene, scene_files, scenes};
 #[cfg(feature = "cli")]
 pub(crate) use wgsl::{Overloads, wgsl};
 
@@ -64,6 +66,7 @@ static MODULES: &[Module] = &[
     module!("color"),
     module!("dissolve"),
     module!("energy"),
+    module!("environment"),
     module!("fog"),
     module!("fresnel"),
     module!("ggx"),

@@ -66,6 +66,7 @@ static SHADERS: &[(&str, &str)] = &[
     shader!("standard.vert"),
     shader!("standard_vertex.frag"),
     shader!("standard_vertex.vert"),
+    shader!("studio.frag"),
     shader!("surface.vert"),
     shader!("texspec.frag"),
     shader!("texspec.vert"),
@@ -156,6 +157,7 @@ static PROGRAMS: &[LibraryProgram] = &[
         "standard_vertex.frag",
         "(101) with any lights and any models, at each vertex",
     ),
+    program("studio", "surface.vert", "studio.frag", "microfacets under a prefiltered panorama"),
     program("texspec", "texspec.vert", "texspec.frag", "article: a highlight by texture"),
     program("threshold", "surface.vert", "threshold.frag", "textbook, (101) with (83) and (91), at each fragment"),
     program(

@@ -1,8 +1,8 @@
 //! The scenes of the library, which `glisten gallery` draws: files in `shader_lib/scenes`.
 //!
-//! *In:* the embedded files. *Out:* [`scenes`], in the order of the gallery.
+//! *In:* the embedded files. *Out:* [`scenes`], in the order of the gallery; [`scene_files`], what they name.
 //!
-//! *Holds:* a scene refers only to programs of the library and to generated textures, so it needs no other files.
+//! *Holds:* a scene refers only to programs of the library, to generated textures, and to files in its folder that are embedded, too.
 
 /// A scene of the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +64,8 @@ static SCENES: &[LibraryScene] = &[
     scene!("edge_knot"),
     scene!("hemi_knot"),
     scene!("metals"),
+    scene!("chess"),
+    scene!("studio"),
     scene!("moon"),
     scene!("velvet"),
     scene!("lacquer"),
@@ -82,6 +84,33 @@ static SCENES: &[LibraryScene] = &[
     scene!("tones"),
 ];
 
+/// The files that scenes name.
+static FILES: &[(&str, &[u8])] = &[
+    ("chess.glb", include_bytes!("../../shader_lib/scenes/chess.glb")),
+    ("studio.exr", include_bytes!("../../shader_lib/scenes/studio.exr")),
+];
+
+/// The files next to the scenes that they name, by their names: models and pictures.
+pub fn scene_files() -> &'static [(&'static str, &'static [u8])] {
+    FILES
+}
+
+/// The scenes and the files that they name, as files of a folder: `studio.toml`, `<glisten>/scenes/studio.exr`.
+#[cfg(feature = "reference")]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SceneFiles;
+
+#[cfg(feature = "reference")]
+impl glisten_scene::FileSource for SceneFiles {
+    fn read(&self, path: &str) -> Result<Vec<u8>, glisten_scene::FileError> {
+        let name = path.strip_prefix("<glisten>/scenes/").unwrap_or(path);
+        let scene = name.strip_suffix(".toml").and_then(|name| SCENES.iter().find(|scene| scene.name == name));
+        let file = || FILES.iter().find(|(known, _)| *known == name).map(|(_, bytes)| bytes.to_vec());
+        let found = scene.map(|scene| scene.text.as_bytes().to_vec()).or_else(file);
+        found.ok_or(glisten_scene::FileError::Missing)
+    }
+}
+
 /// All scenes, in the order in which the two documents discuss what they show.
 pub fn scenes() -> &'static [LibraryScene] {
     SCENES
@@ -89,7 +118,7 @@ pub fn scenes() -> &'static [LibraryScene] {
 
 #[cfg(test)]
 mod tests {
-    use super::scenes;
+    use super::{scene_files, scenes};
     use std::path::Path;
 
     #[test]
@@ -97,10 +126,11 @@ mod tests {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shader_lib/scenes");
         let mut files: Vec<String> = std::fs::read_dir(folder)
             .expect("the folder is there")
-            .filter_map(|entry| entry.ok()?.file_name().to_str()?.strip_suffix(".toml").map(str::to_owned))
+            .filter_map(|entry| entry.ok()?.file_name().to_str().map(str::to_owned))
             .collect();
         files.sort();
-        let mut embedded: Vec<&str> = scenes().iter().map(|scene| scene.name).collect();
+        let mut embedded: Vec<String> = scenes().iter().map(|scene| format!("{}.toml", scene.name)).collect();
+        embedded.extend(scene_files().iter().map(|(name, _)| (*name).to_owned()));
         embedded.sort_unstable();
         assert_eq!(files, embedded);
     }

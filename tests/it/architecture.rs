@@ -86,6 +86,7 @@ static ORDER: &[(&str, &[&str])] = &[
             "verify",
             "evaluate",
             "measure",
+            "environment",
             "shader_test",
             "unit_test",
             "specialize",

@@ -255,3 +255,39 @@ fn the_picture_is_that_of_the_equation() {
         assert!((found - wanted).abs() < 0.6 / 255.0, "{found} {wanted}");
     }
 }
+
+/// A file of lights, or of a camera: other files and draws have the meshes.
+#[test]
+fn a_file_may_have_no_meshes() {
+    let nothing = r#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{}]}"#;
+    let lamps = nothing.replacen(
+        "[{}]}",
+        r#"[{"translation": [0, 0, 5], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 4}]}}}"#,
+        1,
+    );
+    let squares = squares(&[PAINT], "", "");
+    let both = |text: &str| {
+        let files = [("a.toml", text), ("a.gltf", squares.as_str()), ("lamps.gltf", &lamps), ("none.gltf", nothing)];
+        load("a.toml", &MemoryFiles::new(files), &compiler())
+    };
+    let loaded = both("[[scene]]\ngltf = \"lamps.gltf\"\n[[scene]]\ngltf = \"a.gltf\"\n");
+    assert!(loaded.diagnostics.is_empty(), "{:?}", told(&loaded));
+    let draws = loaded.scene.expect("it loads").draws;
+    assert_eq!((draws.len(), value(&draws[0], "lights"), value(&draws[0], "eye")), (1, vec![1.0], vec![0.0, 0.0, 3.0]));
+    near(&value(&draws[0], "light[0].position"), &[0.0, 0.0, 5.0]);
+    let own = "[camera]\neye = [0, 0, 3]\n[[scene]]\ngltf = \"lamps.gltf\"\n[[draw]]\nprogram = \"standard\"\nmesh = { shape = \"quad\" }\n\
+        material = { diffuse = [1, 1, 1] }\n";
+    let loaded = both(own);
+    assert!(loaded.diagnostics.is_empty(), "{:?}", told(&loaded));
+    assert_eq!(value(&loaded.scene.expect("it loads").draws[0], "lights"), [1.0]);
+    // Without a camera, the first file with meshes is framed.
+    let loaded = both("[[scene]]\ngltf = \"lamps.gltf\"\n[[scene]]\ngltf = \"a.gltf\"\ncamera = false\n");
+    assert!(value(&loaded.scene.expect("it loads").draws[0], "eye")[2] > 2.0);
+    let (code, _, text) = the_error(&both("[[scene]]\ngltf = \"none.gltf\"\n"));
+    assert!(code == "E0911" && text.contains("it has no meshes, no lights and no cameras"), "{text}");
+    let as_mesh =
+        "[[draw]]\nprogram = \"standard\"\nmesh = { file = \"lamps.gltf\" }\nmaterial = { diffuse = [1, 1, 1] }\n";
+    let (code, _, text) = the_error(&both(as_mesh));
+    assert!(code == "E0911" && text.contains("`lamps.gltf`: it has no meshes"), "{text}");
+}

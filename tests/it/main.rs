@@ -169,6 +169,7 @@ mod stability_page;
 #[cfg(feature = "gpu")]
 mod study;
 mod support;
+mod tangents;
 mod targets;
 #[cfg(feature = "cli")]
 mod trace;

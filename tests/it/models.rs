@@ -29,7 +29,7 @@ fn drawn(file: &str, bytes: &[u8], keys: &str) -> Draw {
 }
 
 /// The rows of an attribute.
-fn rows(draw: &Draw, name: &str) -> Vec<Vec<f32>> {
+pub(crate) fn rows(draw: &Draw, name: &str) -> Vec<Vec<f32>> {
     let index =
         draw.program.interface.attributes.iter().position(|attribute| attribute.name == name).expect("declared");
     let data = draw.attributes[index].as_ref().expect("it has data");

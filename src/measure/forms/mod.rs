@@ -13,6 +13,7 @@ mod naive;
 mod shadows;
 mod shapes;
 mod sources;
+mod surroundings;
 mod today;
 mod tone;
 
@@ -32,6 +33,7 @@ pub(super) static ALL: &[&[Form]] = &[
     looks::FORMS,
     sources::FORMS,
     ltc::FORMS,
+    surroundings::FORMS,
     today::FORMS,
     shadows::FORMS,
     shapes::FORMS,

@@ -2,7 +2,7 @@
 //! elsewhere.
 
 use super::geometry::{barycentric, interpolated, segment};
-use super::{Form, InputKind, cosine_power, cross, dot, forms, half, norm};
+use super::{Form, InputKind, cosine_power, cross, dot, forms, half, norm, surroundings};
 use crate::measure::vector::{add, mul, scale, sub};
 use crate::measure::{Answer, Args};
 
@@ -24,6 +24,7 @@ fn blinn(a: &Args<'_>, unlimited: bool) -> Option<Answer> {
 }
 
 pub(super) static FORMS: &[Form] = forms! {
+    "naive" "naiveOctahedron(vec3)" [Direction] |a| Some(surroundings::octahedron(a.d()));
     "naive" "naiveLambertUnclamped(vec3,vec3,vec3,vec3)" [Direction, Direction, Color, Intensity]
         |a| Some(Answer::new(scale(dot(a.d(), a.d()), mul(a.v(), a.v())), 4.0));
     "naive" "naiveLambert(vec3,vec3,vec3,vec3)" [Direction, Direction, Color, Intensity]

@@ -6,8 +6,8 @@
 
 use super::{Bound, BoundUnit, Figures, FunctionFound};
 use crate::evaluate::EvaluateError;
-use crate::library::{self, Embedded, LibraryScene};
-use crate::scene::{self, MemoryFiles, Scene};
+use crate::library::{self, Embedded, LibraryScene, SceneFiles};
+use crate::scene::{self, Scene};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_reference::stability::{changes_of, inputs_at, pictures_of};
 use serde::Deserialize;
@@ -96,9 +96,8 @@ impl Drawn {
 
     fn scene(&self, cases: usize) -> Result<Scene, EvaluateError> {
         let path = format!("<glisten>/scenes/{}.toml", self.file.name);
-        let files = MemoryFiles::new([(path.as_str(), self.file.text)]);
         let compiler = Compiler::new(Options::default()).with_includes(Embedded);
-        let loaded = scene::load(&path, &files, &compiler);
+        let loaded = scene::load(&path, &SceneFiles, &compiler);
         let Some(mut scene) = loaded.scene else {
             let all: Vec<_> = loaded.diagnostics.iter().cloned().collect();
             return Err(EvaluateError::told(&all));

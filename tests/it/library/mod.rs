@@ -11,6 +11,8 @@ mod furnace;
 mod laws;
 mod ltc;
 mod occlusion;
+#[cfg(feature = "cli")]
+mod prefilter;
 mod registers;
 mod seeds;
 mod shadows;

@@ -43,7 +43,8 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
-    /// The numbers for a role and how many a vertex has; `None` if there are none. Tangents follow from texture coordinates.
+    /// The numbers for a role and how many a vertex has; `None` if there are none. Tangents are
+    /// those of the file, or what [`Geometry::complete_tangents`] has found.
     pub(crate) fn data(&self, role: AttributeRole) -> Option<(u32, Vec<f32>)> {
         let flat = |rows: &mut dyn Iterator<Item = f64>| rows.map(|value| value as f32).collect::<Vec<f32>>();
         let (size, values) = match role {
@@ -51,7 +52,7 @@ impl Geometry {
             AttributeRole::Normal => (3, flat(&mut self.normals.iter().flatten().copied())),
             AttributeRole::Texcoord => (2, flat(&mut self.texcoords.iter().flatten().copied())),
             AttributeRole::Color => (4, flat(&mut self.colors.iter().flatten().copied())),
-            AttributeRole::Tangent => (4, flat(&mut self.tangents().iter().flatten().copied())),
+            AttributeRole::Tangent => (4, flat(&mut self.tangents.iter().flatten().copied())),
             AttributeRole::Bitangent => (3, flat(&mut self.bitangents().iter().flatten().copied())),
         };
         (values.len() == self.positions.len() * size as usize && !values.is_empty()).then_some((size, values))

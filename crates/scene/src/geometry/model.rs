@@ -21,6 +21,8 @@ pub(crate) struct Model {
     pub(crate) camera: Option<ModelCamera>,
     /// Sentences on whatever was left out.
     pub(crate) remarks: Vec<String>,
+    /// Why there are no parts, if there are none: a scene may take its lights and cameras alone.
+    pub(crate) nothing: Option<&'static str>,
 }
 
 /// Triangles of one material.

@@ -57,6 +57,8 @@ impl Soup {
     pub(crate) fn geometry(&self, kind: Normals) -> Geometry {
         let own = |corner: Corner| if kind.from_file { self.own_normal(corner) } else { None };
         let computed = if kind.from_file && self.has_normals() { Vec::new() } else { normals::compute(self, kind) };
+        // Tangents of a file belong to its normals (glTF 2.0 §3.7.2.1).
+        let tangents = if computed.is_empty() && kind.from_file { self.tangents.as_slice() } else { &[] };
         let mut vertices: HashMap<Key, u32> = HashMap::new();
         let mut geometry = Geometry::default();
         for (index, triangle) in self.triangles.iter().enumerate() {
@@ -80,7 +82,7 @@ impl Soup {
                     geometry.normals.push(normal.to_array());
                     geometry.texcoords.push(texcoord.unwrap_or([0.0; 2]));
                     geometry.colors.extend(self.colors.get(row));
-                    geometry.tangents.extend(self.tangents.get(row));
+                    geometry.tangents.extend(tangents.get(row));
                 }
                 geometry.indices.push(vertex);
             }

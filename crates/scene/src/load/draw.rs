@@ -80,8 +80,12 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let switches = load_switches(&mut loader.reader, table);
     let (files, generated) = load_stages(loader, table, place, (around, switches));
     let conventional = files.iter().any(|(_, name, _)| library_file(name).is_some());
-    let mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
+    let mut mesh = table.get("mesh").map(|node| load_mesh(loader, node, conventional));
     let program = load_program(loader, table, files, around, (switches, generated.as_ref()))?;
+    if let Some(Some(mesh)) = &mut mesh {
+        let given = table.get("attributes").and_then(|node| node.get_ref().as_table());
+        mesh.complete_tangents(&program, &|name| given.is_some_and(|given| given.contains_key(name)));
+    }
     let possible = check_program(&mut loader.reader, &program, framebuffer, place)
         .and_then(|()| check_primitive(&mut loader.reader, table, &program, &state, place));
     let view = View::load(&mut loader.reader, table, around.camera, framebuffer);

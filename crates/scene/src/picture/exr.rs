@@ -22,6 +22,26 @@ pub(super) fn write(width: u32, height: u32, pixels: &[[f64; 4]]) -> std::result
     Ok(bytes.into_inner())
 }
 
+/// The bytes of a file of red, green and blue in 16-bit floats, compressed. `pixels` has `width * height` colors, top row first.
+///
+/// # Errors
+/// A side is 0, or there are too few colors.
+pub fn exr_of_colors(width: u32, height: u32, pixels: &[[f32; 3]]) -> std::result::Result<Vec<u8>, ImageError> {
+    let size = Vec2(width as usize, height as usize);
+    if pixels.len() != size.area() || size.area() == 0 {
+        return Err(ImageError(format!("it has {} colors for {width} by {height} pixels", pixels.len())));
+    }
+    let color = |at: Vec2<usize>| {
+        let [red, green, blue] = pixels.get(at.flat_index_for_size(size)).copied().unwrap_or_default();
+        (f16::from_f32(red), f16::from_f32(green), f16::from_f32(blue))
+    };
+    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
+    let image = exr::prelude::Image::from_encoded_channels(size, encoding, SpecificChannels::rgb(color));
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).map_err(message)?;
+    Ok(bytes.into_inner())
+}
+
 /// Reads the first layer with red, green and blue. Pixels outside its data window are black.
 pub(super) fn read(bytes: &[u8], size: Size) -> std::result::Result<Image, ImageError> {
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(message)?;

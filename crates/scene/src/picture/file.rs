@@ -6,7 +6,7 @@
 //! clamped to [0, 1] and rounded, encoded by an [`Encoding`] if one is asked for. Nothing here touches the file system.
 
 use super::image::{Image, ImageError, Size};
-use super::{Encoding, Picture, byte, exr, jpeg, npy, png};
+use super::{Encoding, Picture, byte, exr, hdr, jpeg, npy, png};
 use std::path::Path;
 
 /// The format of a picture file.
@@ -33,7 +33,7 @@ impl ImageFormat {
 
     /// Whether [`Image::read`] knows the format of these bytes.
     pub(crate) fn can_read(bytes: &[u8]) -> bool {
-        Self::of_bytes(bytes).is_some() || jpeg::is_jpeg(bytes)
+        Self::of_bytes(bytes).is_some() || jpeg::is_jpeg(bytes) || hdr::is_hdr(bytes)
     }
 
     /// The format for the first bytes of a file.
@@ -45,7 +45,7 @@ impl ImageFormat {
 }
 
 impl Image {
-    /// Reads a PNG of any color type and bit depth, a JPEG, an OpenEXR or a NumPy file. The integers of a PNG and a JPEG become
+    /// Reads a PNG of any color type and bit depth, a JPEG, an OpenEXR, a Radiance HDR or a NumPy file. The integers of a PNG and a JPEG become
     /// numbers in [0, 1], without gamma.
     ///
     /// # Errors
@@ -57,7 +57,8 @@ impl Image {
             Some(ImageFormat::Exr) => exr::read(bytes, allowed),
             Some(ImageFormat::Npy) => npy::read(bytes, allowed),
             None if jpeg::is_jpeg(bytes) => jpeg::read(bytes, allowed),
-            None => Err(ImageError("it is none of PNG, JPEG, OpenEXR and NumPy".to_owned())),
+            None if hdr::is_hdr(bytes) => hdr::read(bytes, allowed),
+            None => Err(ImageError("it is none of PNG, JPEG, OpenEXR, Radiance HDR and NumPy".to_owned())),
         }
     }
 }

@@ -7,6 +7,7 @@
 mod eight_bits;
 mod exr;
 mod file;
+mod hdr;
 mod image;
 mod interval;
 mod jpeg;
@@ -16,6 +17,7 @@ mod tone;
 mod transfer;
 mod uri;
 
+pub use self::exr::exr_of_colors;
 pub use self::png::{Effort, png_rgb};
 pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
 pub use file::ImageFormat;

@@ -38,6 +38,9 @@ pub enum PortraitError {
 pub fn portrait(path: &str, name: &str, files: &dyn FileSource) -> Result<Portrait, PortraitError> {
     let bytes = files.read(path).map_err(PortraitError::File)?;
     let model = Model::read(path, &bytes, files).map_err(PortraitError::Model)?;
+    if let Some(nothing) = model.nothing {
+        return Err(PortraitError::Model(nothing.to_owned()));
+    }
     let mut remarks = model.remarks.clone();
     let shown = looks::shown(&model, path, name, files, &mut remarks);
     let framing =

@@ -63,12 +63,10 @@ pub(super) fn read(path: &str, bytes: &[u8], files: &dyn FileSource) -> Result<M
         camera = camera.or_else(|| model_camera(&root, found.camera?, world));
     }
     let (parts, mut remarks) = builder.finish();
-    if parts.is_empty() {
-        let why = if root.meshes.is_empty() { "it has no meshes" } else { "its scene has no triangles" };
-        return Err(why.to_owned());
-    }
+    let why = if root.meshes.is_empty() { "it has no meshes" } else { "its scene has no triangles" };
+    let nothing = parts.is_empty().then_some(why);
     let looks = looks::of(&root, &mut remarks);
-    Ok(Model { parts, looks, camera, remarks, ..Model::default() })
+    Ok(Model { parts, looks, camera, remarks, nothing, ..Model::default() })
 }
 
 /// The image of a number in a file.

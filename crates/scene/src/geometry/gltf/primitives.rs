@@ -159,9 +159,12 @@ impl<'a> Builder<'a> {
             );
             *normal = (cofactors * DVec3::from(*normal) * matrix.determinant().signum()).to_array();
         }
-        for (row, [x, y, z, _]) in soup.tangents.iter_mut().enumerate() {
-            let tangent = linear(row) * DVec3::new(*x, *y, *z);
+        for (row, [x, y, z, w]) in soup.tangents.iter_mut().enumerate() {
+            let matrix = linear(row);
+            let tangent = matrix * DVec3::new(*x, *y, *z);
             [*x, *y, *z] = tangent.normalize_or_zero().to_array();
+            // The cross product of what is mirrored points the other way.
+            *w *= if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
         }
         if soup.positions.iter().flatten().any(|value| !(*value as f32).is_finite()) {
             return Err("its positions are not finite in world space".to_owned());

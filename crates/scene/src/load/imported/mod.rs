@@ -76,6 +76,9 @@ pub(super) fn write<'t, 'i>(
     };
     let sources: Vec<Option<Source<'t, 'i>>> = nodes.iter().map(|node| source(loader, node)).collect();
     let sources: Vec<Source<'t, 'i>> = sources.into_iter().collect::<Option<_>>()?;
+    // What is placed, of all files: cameras see all of it.
+    let points: Vec<DVec3> = sources.iter().flat_map(Source::points).collect();
+    let first = sources.iter().position(|source| source.model.nothing.is_none());
     let has_lamps = |source: &Source<'_, '_>| !source.contents.lamps.is_empty() && takes_lights(source.table);
     let portrait = wants.lights && !sources.iter().any(has_lamps);
     let mut wants_camera = wants.camera;
@@ -84,15 +87,22 @@ pub(super) fn write<'t, 'i>(
         let camera = choose_camera(&mut loader.reader, source)?;
         let camera = camera.filter(|_| wants_camera);
         wants_camera &= camera.is_none();
-        written.push((source, camera, index == 0 && portrait));
+        written.push((source, camera, Some(index) == first));
     }
-    // Without any camera, one frames the first file.
+    // Without any camera, one frames the first file with meshes.
     let frames = wants_camera;
-    let written = written
-        .into_iter()
-        .enumerate()
-        .map(|(index, (source, camera, portrait))| write_one(loader, source, camera, (portrait, frames && index == 0)));
+    let written = written.into_iter().map(|(source, camera, leads)| {
+        write_one(loader, source, (camera, &points), (leads && portrait, leads && frames))
+    });
     written.collect()
+}
+
+impl Source<'_, '_> {
+    /// The points of its meshes in the scene.
+    fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
+        let points = self.model.parts.iter().flat_map(|part| &part.soup.positions);
+        points.map(|point| self.transform.transform_point3((*point).into()))
+    }
 }
 
 fn takes_lights(table: &DeTable<'_>) -> bool {
@@ -136,6 +146,11 @@ fn source<'t, 'i>(loader: &mut Loader<'_>, node: &'t Node<'i>) -> Option<Source<
             return None;
         }
     };
+    if let Some(nothing) = model.nothing.filter(|_| contents.lamps.is_empty() && contents.cameras.is_empty()) {
+        let message = format!("`{path}`: {nothing}, no lights and no cameras");
+        loader.reader.error(&SCENE_BAD_ASSET, span, message, "not a scene that can be read");
+        return None;
+    }
     for remark in model.remarks.iter().chain(&contents.remarks) {
         let diagnostic = Diagnostic::new(&MODEL_SIMPLIFIED, span, format!("`{path}`: {remark}"));
         loader.reader.diagnostics.push_beside(diagnostic);
@@ -185,7 +200,7 @@ fn choose_camera(reader: &mut Reader, source: &Source<'_, '_>) -> Option<Option<
 fn write_one<'t, 'i>(
     loader: &mut Loader<'_>,
     source: &Source<'t, 'i>,
-    camera: Option<ModelCamera>,
+    (camera, seen): (Option<ModelCamera>, &[DVec3]),
     (portrait, frames): (bool, bool),
 ) -> Option<Written<'t, 'i>> {
     let place = loader.reader.span(source.place.clone());
@@ -196,14 +211,10 @@ fn write_one<'t, 'i>(
         loader.reader.error(&SCENE_BAD_ASSET, place, message, "too many");
         return None;
     }
-    let points = || -> Vec<DVec3> {
-        let points = source.model.parts.iter().flat_map(|part| &part.soup.positions);
-        points.map(|point| source.transform.transform_point3((*point).into())).collect()
-    };
     let mut text = String::new();
-    let framing = if portrait || frames { Framing::of_points(&points()) } else { None };
+    let framing = if portrait || frames { Framing::of_points(&source.points().collect::<Vec<_>>()) } else { None };
     if let Some(camera) = camera {
-        text::camera(&mut text, &camera, source.transform, &points());
+        text::camera(&mut text, &camera, source.transform, seen);
     } else if let Some(framing) = framing.as_ref().filter(|_| frames) {
         text::framing(&mut text, framing);
     }

@@ -12,7 +12,7 @@ fn scale_of(transform: DMat4) -> f64 {
     transform.determinant().abs().cbrt()
 }
 
-/// `[camera]` for a camera of the file; one without a far plane sees all points.
+/// `[camera]` for a camera of the file; one without a far plane sees all of these points.
 pub(super) fn camera(text: &mut String, camera: &ModelCamera, transform: DMat4, points: &[DVec3]) {
     let scale = scale_of(transform);
     let eye = transform.transform_point3(camera.eye);
@@ -20,7 +20,9 @@ pub(super) fn camera(text: &mut String, camera: &ModelCamera, transform: DMat4, 
     let up = transform.transform_vector3(camera.up).normalize_or(camera.up);
     let near = camera.near * scale;
     let deepest = points.iter().map(|point| (*point - eye).dot(forward)).fold(near, f64::max);
-    let far = camera.far.map_or((deepest * 1.1).max(near * 2.0), |far| far * scale);
+    // Where no file has anything to see, the draws of the scene are somewhere.
+    let infinite = if points.is_empty() { near * 1e4 } else { (deepest * 1.1).max(near * 2.0) };
+    let far = camera.far.map_or(infinite, |far| far * scale);
     let projection = match camera.projection {
         Projection::Orthographic(half) => Projection::Orthographic(half * scale),
         other => other,

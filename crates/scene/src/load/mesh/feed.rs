@@ -28,6 +28,22 @@ impl Mesh {
         }
     }
 
+    /// Finds the mesh's tangents if the program gets them, or bitangents, from it. `is_given` says which attributes have other data.
+    pub(in super::super) fn complete_tangents(&mut self, program: &Program, is_given: &dyn Fn(&str) -> bool) {
+        let names_it = |attribute: &Attribute| self.named.iter().any(|named| named.attribute == attribute.name);
+        let given: Vec<bool> = program
+            .interface
+            .attributes
+            .iter()
+            .map(|attribute| is_given(&attribute.name) || names_it(attribute))
+            .collect();
+        let implied = self.implied(program, &given).into_iter().map(|(_, role)| role);
+        let mut fed = implied.chain(self.named.iter().map(|named| named.role));
+        if fed.any(|role| matches!(role, AttributeRole::Tangent | AttributeRole::Bitangent)) {
+            self.geometry.complete_tangents();
+        }
+    }
+
     /// The attributes whose names say their role, by their place in the program. `given` says which have data.
     pub(in super::super) fn implied(&self, program: &Program, given: &[bool]) -> Vec<(usize, AttributeRole)> {
         let attributes = &program.interface.attributes;

@@ -28,6 +28,11 @@ pub(super) fn load(loader: &mut Loader<'_>, table: &DeTable<'_>, node: &Node<'_>
     let span = loader.reader.span_of(node);
     let name = loader.reader.text(node, "file")?.to_owned();
     let (path, model) = loader.model(&name, span)?;
+    if let Some(nothing) = model.nothing {
+        let message = format!("`{path}`: {nothing}");
+        loader.reader.error(&SCENE_BAD_ASSET, span, message, "not a mesh that can be read");
+        return None;
+    }
     let look = match table.get("material") {
         Some(node) => Some(find_look(loader, node, &path, &model)?),
         None => None,
