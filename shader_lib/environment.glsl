@@ -1,7 +1,7 @@
 // name: environment
 // kind: ambient
-// equation: I = (F_0 A + B) L(R, roughness), L(R) the integral of L D (N.L) over that of D (N.L) for N = V = R; (s, t) = 1/2 + (x, z) / (2 (|x| + |y| + |z|))
-// source: Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013; Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 2014
+// equation: I = (F_0 A + B) L((1 - s) N + s R), s = (1 - alpha) (sqrt(1 - alpha) + alpha), L(R) the integral of L D (N.L) over that of D (N.L) for N = V = R
+// source: Karis, Real Shading in Unreal Engine 4, SIGGRAPH 2013; Lagarde and de Rousiers, Moving Frostbite to PBR, SIGGRAPH 2014; Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 2014
 // stability: the lower half of the octahedron is folded by sums instead of 1 - |s|, with a sign at 0 as well
 //
 // Light from all around as a smooth or a rough surface mirrors it: the split sum, whose first factor is a map that `glisten lib
@@ -62,14 +62,26 @@ vec3 environmentRadiance(sampler2D map, vec3 d, float roughness)
     return (1.0 - t) * smoother + t * environmentTexel(map, place, int(low) + 1);
 }
 
+// The direction from which a rough surface mirrors most: between the normal and the mirror direction, at which a lobe would be cut by
+// the surface. Not of unit length.
+//   N, V  unit vectors    roughness  the root of alpha, limited to [0, 1]
+// bound: 1e-6 abs
+vec3 environmentDominant(vec3 N, vec3 V, float roughness)
+{
+    float r = safeUnit(roughness);
+    float rest = (1.0 - r) * (1.0 + r);
+    float s = rest * (sqrt(rest) + r * r);
+    return safeFinite((1.0 - s) * N + s * (2.0 * dot(N, V) * N - V));
+}
+
 // The light of everything around that a surface of microfacets mirrors towards the eye.
 //   map  of `glisten lib prefilter`    table  `ltc_albedo`, of any filter    N, V  unit vectors
 //   roughness  the root of alpha, limited to [0, 1]    Kspec  reflectance at normal incidence
 // bound: 4e-6 color, the mirror direction and the steep ends of the tables
 vec3 environmentSpecular(sampler2D map, sampler2D table, vec3 N, vec3 V, float roughness, vec3 Kspec)
 {
-    vec3 R = safeFinite(2.0 * dot(N, V) * N - V);
-    return safeLimit(ltcAlbedo(table, N, V, roughness, Kspec) * environmentRadiance(map, R, roughness));
+    vec3 seen = environmentRadiance(map, environmentDominant(N, V, roughness), roughness);
+    return safeLimit(ltcAlbedo(table, N, V, roughness, Kspec) * seen);
 }
 
 #endif

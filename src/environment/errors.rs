@@ -61,6 +61,7 @@ pub(crate) fn errors(
             let axes = frame(*normal);
             let eye = placed(&axes, [(1.0 - cosine * cosine).sqrt(), 0.0, *cosine]);
             let mirror = add(scale(2.0 * cosine, *normal), scale(-1.0, eye));
+            let mirror = dominant(*normal, mirror, roughness);
             let white = split.white(*cosine, roughness);
             (maps.radiance(mirror, roughness).map(|channel| white * channel), integral(panorama, &lobe, &axes))
         });
@@ -70,6 +71,13 @@ pub(crate) fn errors(
         directions.par_iter().map(|(normal, _)| (irradiance(coefficients, *normal), lambert(panorama, *normal)));
     found.push(told("irradiance", None, pairs.collect()));
     found
+}
+
+/// The direction from which a rough surface mirrors most, between the normal and the mirror direction.
+fn dominant(normal: V, mirror: V, roughness: f64) -> V {
+    let smooth = 1.0 - roughness * roughness;
+    let share = smooth * (smooth.sqrt() + roughness * roughness);
+    add(scale(share, mirror), scale(1.0 - share, normal))
 }
 
 /// The sum of a panorama's radiance over rays of a frame.

@@ -1,8 +1,8 @@
 //! Closed forms of light from all around: the octahedron as its faces, each with its own map to the square.
 
 use super::ltc::reflected;
-use super::{Form, InputKind, dot, forms};
-use crate::measure::vector::{V, scale, sub};
+use super::{Form, InputKind, dot, forms, norm};
+use crate::measure::vector::{V, add, scale, sub};
 use crate::measure::{Answer, Args, looked_up};
 
 /// The place of a direction: where its ray meets the octahedron |x| + |y| + |z| = 1. The lower faces are turned over about the edges of
@@ -31,18 +31,26 @@ fn radiance(d: V) -> Vec<f64> {
     looked_up(place(d)[0])
 }
 
-/// The direction that mirrors the eye.
-fn mirror(n: V, v: V) -> V {
-    sub(scale(2.0 * dot(n, v), n), v)
+/// Between the normal and the direction that mirrors the eye.
+fn dominant(n: V, v: V, roughness: f64) -> V {
+    let alpha = roughness * roughness;
+    let share = (1.0 - alpha).powf(1.5) + alpha * (1.0 - alpha);
+    let mirror = sub(scale(2.0 * dot(n, v), n), v);
+    add(n, scale(share, sub(mirror, n)))
 }
 
 fn specular(a: &Args<'_>) -> Option<Answer> {
-    let (n, v, _, f0) = (a.d(), a.d(), a.f(), a.v());
-    let r = mirror(n, v);
+    let (n, v, roughness, f0) = (a.d(), a.d(), a.f(), a.v());
+    let r = dominant(n, v, roughness);
+    // Eyes below the surface have directions of nearly no length.
+    let length = norm(r);
+    if length < 1e-2 {
+        return None;
+    }
     let (m, condition) = reflected(n, v);
     let light = radiance(r);
     let values: Vec<f64> = f0.iter().zip(&light).map(|(f0, light)| (f0 * m[0] + (1.0 - f0) * m[1]) * light).collect();
-    Some(Answer::new(values, 1.0).conditioned(256.0 + condition).jumping(cut(r) / 4.0))
+    Some(Answer::new(values, 1.0).conditioned((256.0 + condition) / length).jumping(cut(r) / 4.0))
 }
 
 pub(super) static FORMS: &[Form] = forms! {
@@ -53,5 +61,7 @@ pub(super) static FORMS: &[Form] = forms! {
         let d = a.d();
         Some(Answer::new(radiance(d), 1.0).conditioned(128.0).jumping(cut(d)))
     };
+    "environment" "environmentDominant(vec3,vec3,float)" [Direction, Direction, Unit]
+        |a| Some(Answer::new(dominant(a.d(), a.d(), a.f()), 1.0).conditioned(8.0));
     "environment" "environmentSpecular(sampler2D,sampler2D,vec3,vec3,float,vec3)" [Direction, Direction, Unit, Color] specular;
 };

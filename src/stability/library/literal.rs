@@ -91,6 +91,10 @@ static LITERAL: &[(&str, &str)] = &[
     ),
     ("shadowDistance(float,vec2)", "range.x * range.y / (range.y - depth * (range.y - range.x))"),
     ("environmentPlace(vec3)", "naiveOctahedron(d)"),
+    (
+        "environmentDominant(vec3,vec3,float)",
+        "mix(N, naiveMirror(N, V), (1.0 - roughness * roughness) * (sqrt(1.0 - roughness * roughness) + roughness * roughness))",
+    ),
     ("srgbEncode(float)", "linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055"),
     ("srgbDecode(float)", "encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4)"),
     ("fresnelSchlick(float,vec3,vec3)", "F0 + (F90 - F0) * pow(1.0 - cosine, 5.0)"),

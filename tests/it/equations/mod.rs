@@ -82,7 +82,7 @@ const SHOWN: &[(&str, Shown)] = &[
     ("hemi_knot", Shown::Points(&[2])),
     ("metals", Shown::Direct(&[0, 4, 8])),
     ("chess", Shown::ByValue(&["ggxFactor(vec3,vec3,vec3,float)", "fresnelSchlick(float,vec3,vec3)"])),
-    ("studio", Shown::ByValue(&["environmentRadiance(sampler2D,vec3,float)", "mirrorDirection(vec3,vec3)"])),
+    ("studio", Shown::ByValue(&["environmentRadiance(sampler2D,vec3,float)", "environmentDominant(vec3,vec3,float)"])),
     ("moon", Shown::Points(&[1])),
     ("velvet", Shown::Points(&[0])),
     ("lacquer", Shown::ByValue(&["clearcoatWeight(vec3,vec3,float)"])),
