@@ -76,7 +76,7 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
     Ok(if all_hold { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// What became of all scenes below the folders.
+/// Counts the results of all scenes below the folders.
 fn survey(folders: &[String]) -> Result<ExitCode, Box<dyn std::error::Error>> {
     let mut scenes = Vec::new();
     for folder in folders {
@@ -118,7 +118,7 @@ fn below(folder: &Path, found: &mut Vec<PathBuf>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Prints what becomes of one scene, a line for each fact.
+/// Prints the results of one scene, a line for each.
 fn one(path: &str) -> Result<ExitCode, Box<dyn std::error::Error>> {
     let loaded = load(path, &DiskFiles, &Compiler::new(Default::default()));
     let Some(scene) = loaded.scene else {

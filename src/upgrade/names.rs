@@ -102,7 +102,6 @@ pub(super) fn free(names: &BTreeSet<String>, wanted: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::lookup;
-    use std::collections::BTreeSet;
 
     #[test]
     fn lookups_have_one_name() {

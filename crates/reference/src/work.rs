@@ -59,7 +59,7 @@ impl Observer<F32> for Counter {
     }
 }
 
-/// What the fragment stages cost in the domain of envelopes, in additions for 64 fragments: the work of a verdict, which follows undecided
+/// The cost of the fragment stages in the domain of envelopes, in additions for 64 fragments: the work of a verdict, which follows undecided
 /// conditions both ways, on registers of their own, and computes lanes without a bound again.
 ///
 /// # Errors

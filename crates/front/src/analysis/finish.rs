@@ -39,7 +39,6 @@ impl Analyzer<'_> {
 
     /// Gives each array without a size the size that its uses require.
     fn size_arrays(&mut self) {
-        self.uses.join_assigned_arrays();
         for index in 0..self.shader.globals.len() {
             let id = GlobalId::new(index);
             let global = self.shader.global(id);
@@ -129,7 +128,6 @@ impl Analyzer<'_> {
                     }
                     _ => continue,
                 },
-                ExprKind::Assign(_, target, _) => self.ty(target),
                 _ => continue,
             };
             if let Some(expr) = self.shader.exprs.get_mut(index) {

@@ -273,7 +273,7 @@ impl Analyzer<'_> {
         let message = format!("`{spelling}` before a struct has no effect");
         let mut finding = Diagnostic::new(&qualifiers::LAYOUT_OF_STRUCT, span, message)
             .here("ignored")
-            .help(format!("it belongs before the block that has the struct: `layout({spelling}) uniform`"));
+            .help("it belongs before the block that has the struct");
         if self.strict {
             finding.severity = Severity::Error;
         }

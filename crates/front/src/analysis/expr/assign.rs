@@ -5,10 +5,13 @@ use super::Purpose;
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
-use crate::hir::{ArraySize, ExprId, ExprKind, IncDec, Scalar, Type, TypeId, VarRef};
+use crate::hir::{ArraySize, ExprId, ExprKind, IncDec, Scalar, ScalarValue, Type, TypeId, VarRef};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast;
+
+/// As many as a driver has to have (`gl_MaxClipDistances`, §7.4).
+const MOST_CLIP_DISTANCES: u32 = 8;
 
 impl Analyzer<'_> {
     /// `a = b`, `a op= b`
@@ -33,8 +36,8 @@ impl Analyzer<'_> {
 
     fn assign_plainly(&mut self, target: ExprId, value: ExprId, span: Span) -> ExprId {
         let ty = self.ty(target);
-        if self.assigns_clip_distances(target, value) {
-            return self.push(ExprKind::Assign(None, target, value), ty, span);
+        if let Some(assigned) = self.assign_clip_distances(target, value, span) {
+            return assigned;
         }
         if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
             let at = self.span(target);
@@ -58,38 +61,78 @@ impl Analyzer<'_> {
         self.push(ExprKind::Assign(None, target, value), ty, span)
     }
 
-    /// Whether this is `gl_ClipDistance = gl_in[0].gl_ClipDistance` where one of both has no size yet, as passed on by many
-    /// geometry shaders. Arrays without a size cannot be assigned (§4.1.9), but drivers take it, so it is a warning.
-    fn assigns_clip_distances(&mut self, target: ExprId, value: ExprId) -> bool {
+    /// `gl_ClipDistance = gl_in[0].gl_ClipDistance` where one of both has no size, as many geometry shaders pass them on, element by
+    /// element. Arrays without a size cannot be assigned (§4.1.9), but drivers take it, so it is a warning.
+    fn assign_clip_distances(&mut self, target: ExprId, value: ExprId, span: Span) -> Option<ExprId> {
         if self.strict || !self.is_clip_distance(target) || !self.is_clip_distance(value) {
-            return false;
+            return None;
         }
-        let size = |analyzer: &Self, of| match analyzer.types.get(analyzer.ty(of)) {
-            Type::Array(_, size) => Some(size),
+        let size = |id: ExprId| match self.types.get(self.ty(id)) {
+            Type::Array(_, ArraySize::Sized(size)) => Some(size),
             _ => None,
         };
-        let (at, from) = (self.span(target), self.span(value));
-        let known = match (size(self, target), size(self, value)) {
-            (Some(ArraySize::Unsized), Some(ArraySize::Sized(known))) => Some((target, known, from)),
-            (Some(ArraySize::Sized(known)), Some(ArraySize::Unsized)) => Some((value, known, at)),
-            (Some(ArraySize::Unsized), Some(ArraySize::Unsized)) => None,
-            _ => return false,
-        };
-        if let Some((open, known, at)) = known {
-            self.note_array_index(open, known.saturating_sub(1), at);
-        } else if let (Some(target), Some(value)) = (self.array_key(target), self.array_key(value)) {
-            self.uses.note_assigned_array(target, value);
+        let sizes = [size(target), size(value)];
+        if sizes.iter().all(Option::is_some) || !self.can_be_copied(value) {
+            return None;
         }
+        let used =
+            |id: ExprId| self.array_key(id).and_then(|key| self.uses.largest_index(key)).map(|(index, _)| index + 1);
+        let known = sizes.into_iter().flatten().next();
+        let size = known.or_else(|| used(target).max(used(value))).unwrap_or(1).min(MOST_CLIP_DISTANCES);
+        let at = self.span(target);
         self.report(
             Diagnostic::new(
                 &types::UNSIZED_CLIP_DISTANCES,
                 at,
                 "clip distances without a size are assigned as a whole",
             )
-            .here("as many as the shader indexes by constants, or one")
-            .help("declare it with a size: `out float gl_ClipDistance[2];`"),
+            .here("as many as the shader has indexed by constants, or one")
+            .help("declare both with a size"),
         );
-        true
+        for (id, size_of) in [(target, sizes[0]), (value, sizes[1])] {
+            if size_of.is_none() {
+                self.note_array_index(id, size.saturating_sub(1), at);
+            }
+        }
+        let mut all: Option<ExprId> = None;
+        for number in 0..size {
+            let [to, from] = [target, value].map(|id| {
+                let array = self.copied(id);
+                let index = self.push(ExprKind::Literal(ScalarValue::Int(number as i32)), TypeId::INT, span);
+                self.push(ExprKind::Index(array, index), TypeId::FLOAT, span)
+            });
+            let one = self.push(ExprKind::Assign(None, to, from), TypeId::FLOAT, span);
+            all = Some(all.map_or(one, |all| self.push(ExprKind::Comma(all, one), TypeId::FLOAT, span)));
+        }
+        all
+    }
+
+    /// Whether an expression has no effects, and is made of what [`copied`](Self::copied) copies.
+    fn can_be_copied(&self, id: ExprId) -> bool {
+        let kind = &self.expr_at(id).kind;
+        let is_plain = matches!(
+            kind,
+            ExprKind::Var(_)
+                | ExprKind::Literal(_)
+                | ExprKind::Member(..)
+                | ExprKind::Index(..)
+                | ExprKind::Convert(_)
+                | ExprKind::Binary(..)
+        );
+        is_plain && kind.children().into_iter().all(|child| self.can_be_copied(child))
+    }
+
+    /// A copy of an expression.
+    fn copied(&mut self, id: ExprId) -> ExprId {
+        let (ty, span) = (self.ty(id), self.span(id));
+        let kind = match self.expr_at(id).kind.clone() {
+            ExprKind::Member(base, member) => ExprKind::Member(self.copied(base), member),
+            ExprKind::Index(base, index) => ExprKind::Index(self.copied(base), self.copied(index)),
+            ExprKind::Convert(inner) => ExprKind::Convert(self.copied(inner)),
+            ExprKind::Binary(operator, a, b) => ExprKind::Binary(operator, self.copied(a), self.copied(b)),
+            kind => kind,
+        };
+        self.push(kind, ty, span)
     }
 
     /// Whether an expression is `gl_ClipDistance`, of this vertex or of one of `gl_in`.

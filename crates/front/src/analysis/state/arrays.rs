@@ -1,6 +1,6 @@
 //! Which elements of arrays without a size the shader uses (§4.1.9).
 //!
-//! *In:* constant indices and assignments of whole arrays, as the traversal meets them. *Out:* the largest for each array, and its position.
+//! *In:* constant indices, as the traversal meets them. *Out:* the largest for each array, and its position.
 
 use crate::hir::{GlobalId, LocalId};
 use crate::source::Span;
@@ -23,8 +23,6 @@ pub(in crate::analysis) struct ArrayUses {
     globals: FxHashMap<ArrayKey, (u32, Span)>,
     /// The same map for the locals of the current function.
     locals: FxHashMap<LocalId, (u32, Span)>,
-    /// Pairs of which one is assigned to the other as a whole: both have one size. Each pair is here once.
-    assigned: Vec<(ArrayKey, ArrayKey)>,
 }
 
 impl ArrayUses {
@@ -36,27 +34,6 @@ impl ArrayUses {
         };
         if entry.0 < index {
             *entry = (index, at);
-        }
-    }
-
-    /// Notes that one array is assigned to the other as a whole.
-    pub(in crate::analysis) fn note_assigned(&mut self, target: ArrayKey, value: ArrayKey) {
-        if target != value && !self.assigned.contains(&(target, value)) {
-            self.assigned.push((target, value));
-        }
-    }
-
-    /// Gives all arrays that are assigned to each other the largest index of any of them.
-    pub(in crate::analysis) fn join_assigned(&mut self) {
-        // The largest index takes at most one step in each round.
-        for _ in 0..self.assigned.len() {
-            for (one, other) in self.assigned.clone() {
-                for (from, to) in [(one, other), (other, one)] {
-                    if let Some((index, at)) = self.largest(from) {
-                        self.note(to, index, at);
-                    }
-                }
-            }
         }
     }
 

@@ -31,16 +31,6 @@ impl Uses {
         self.arrays.note(array, index, span);
     }
 
-    /// Notes that one array is assigned to the other as a whole: they have one size.
-    pub(in crate::analysis) fn note_assigned_array(&mut self, target: ArrayKey, value: ArrayKey) {
-        self.arrays.note_assigned(target, value);
-    }
-
-    /// Gives arrays that are assigned to each other one size.
-    pub(in crate::analysis) fn join_assigned_arrays(&mut self) {
-        self.arrays.join_assigned();
-    }
-
     /// The first use of a global.
     pub(in crate::analysis) fn first(&self, global: GlobalId) -> Option<Span> {
         self.globals.get(&global).copied()

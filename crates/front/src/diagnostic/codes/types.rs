@@ -77,7 +77,7 @@ codes! {
     UNSIZED_CLIP_DISTANCES = "W0401" "unsized-clip-distances" Warning "GLSL 1.50 §4.1.9, §7.1"
         "`gl_ClipDistance` has the size that its redeclaration or its constant indices give it, and an array without a \
          size cannot be assigned. Drivers take it where a geometry shader passes the clip distances on, so this is a \
-         warning: as many are copied as the shader indexes, one if it indexes none. `--strict` makes it an error."
+         warning: as many are copied as the shader has indexed by then, one if it has indexed none. `--strict` makes it an error."
         bad Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { \
             gl_Position = gl_in[0].gl_Position; gl_ClipDistance = gl_in[0].gl_ClipDistance; EmitVertex(); }"),
         good Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { \

@@ -32,7 +32,7 @@ thread_local! {
     static REDONE: Cell<u64> = const { Cell::new(0) };
 }
 
-/// What computing special lanes of blocks again has cost on this thread since the last call: half an addition of 64 lanes each time.
+/// The cost of computing special lanes of blocks again on this thread since the last call: half an addition of 64 lanes each time.
 pub(crate) fn take_redone() -> u64 {
     REDONE.take() / 2
 }
