@@ -1,7 +1,7 @@
 //! Environment maps for the module `environment`: light from all around, prefiltered for the microfacets of `ggx`.
 //!
 //! *In:* a panorama. *Out:* [`Prefiltered`], the radiance for each direction and roughness; nine coefficients of its irradiance
-//! ([`coefficients`]); and how far all of it is from integrals over the panorama ([`errors`]).
+//! ([`coefficients`]); and how far all of it is from integrals over the panorama ([`errors()`]).
 //!
 //! ```text
 //!  image ──► panorama   the light of each direction, and means over parts of it
