@@ -12,6 +12,8 @@ use crate::syntax::ast;
 
 /// As many as a driver has to have (`gl_MaxClipDistances`, §7.4).
 const MOST_CLIP_DISTANCES: u32 = 8;
+/// How deep an index of `gl_in` may be that is copied for each clip distance.
+const DEEPEST_COPY: u32 = 16;
 
 impl Analyzer<'_> {
     /// `a = b`, `a op= b`
@@ -72,11 +74,12 @@ impl Analyzer<'_> {
             _ => None,
         };
         let sizes = [size(target), size(value)];
-        if sizes.iter().all(Option::is_some) || !self.can_be_copied(value) {
+        if sizes.iter().all(Option::is_some) || !self.can_be_copied(value, DEEPEST_COPY) {
             return None;
         }
-        let used =
-            |id: ExprId| self.array_key(id).and_then(|key| self.uses.largest_index(key)).map(|(index, _)| index + 1);
+        let used = |id: ExprId| {
+            self.array_key(id).and_then(|key| self.uses.largest_index(key)).map(|(index, _)| index.saturating_add(1))
+        };
         let known = sizes.into_iter().flatten().next();
         let size = known.or_else(|| used(target).max(used(value))).unwrap_or(1).min(MOST_CLIP_DISTANCES);
         let at = self.span(target);
@@ -107,8 +110,8 @@ impl Analyzer<'_> {
         all
     }
 
-    /// Whether an expression has no effects, and is made of what [`copied`](Self::copied) copies.
-    fn can_be_copied(&self, id: ExprId) -> bool {
+    /// Whether an expression has no effects, is made of what [`copied`](Self::copied) copies, and is not deeper than this.
+    fn can_be_copied(&self, id: ExprId, depth: u32) -> bool {
         let kind = &self.expr_at(id).kind;
         let is_plain = matches!(
             kind,
@@ -119,7 +122,7 @@ impl Analyzer<'_> {
                 | ExprKind::Convert(_)
                 | ExprKind::Binary(..)
         );
-        is_plain && kind.children().into_iter().all(|child| self.can_be_copied(child))
+        is_plain && depth > 0 && kind.children().into_iter().all(|child| self.can_be_copied(child, depth - 1))
     }
 
     /// A copy of an expression.
