@@ -28,9 +28,15 @@ pub(super) fn part(scene: &Scene, options: &Options<'_>) -> Result<Sample, Failu
     let Some(most) = options.most_work.filter(|_| has_loops(scene) && blocks > FEWEST) else {
         return Ok(Sample::ALL);
     };
-    let mut all = 0.0;
+    let (mut all, mut drawn_blocks) = (0.0, 0);
     for count in TRIALS {
-        let trial = Sample::of((blocks / 64).clamp(TRIALS[0], count), size);
+        let count = (blocks / 64).clamp(TRIALS[0], count);
+        // A small picture has the same trial again.
+        if count == drawn_blocks {
+            break;
+        }
+        drawn_blocks = count;
+        let trial = Sample::of(count, size);
         let drawn = RenderOptions { sample: trial, ..options.reference_options(Faults::NONE) };
         let work = options.reference.work(scene, &drawn)?;
         all = work as f64 / trial.drawn_share(size).max(f64::MIN_POSITIVE);

@@ -526,7 +526,7 @@ impl<'a> Text<'a> {
         let mut letters = variable.chars();
         let first = letters.next().map_or('S', |first| first.to_ascii_uppercase());
         let wanted: String = std::iter::once(first).chain(letters).collect();
-        // `Light` for `light`. A variable that is written like this already has its name.
+        // `Light` for `light`, but `LightStruct` for `Light`.
         free(self.names, &if wanted == variable { format!("{wanted}Struct") } else { wanted })
     }
 

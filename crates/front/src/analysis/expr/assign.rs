@@ -63,7 +63,7 @@ impl Analyzer<'_> {
         self.push(ExprKind::Assign(None, target, value), ty, span)
     }
 
-    /// `gl_ClipDistance = gl_in[0].gl_ClipDistance` where one of both has no size, as many geometry shaders pass them on, element by
+    /// `gl_ClipDistance = gl_in[0].gl_ClipDistance` where one of the two has no size, as many geometry shaders write it: copied element by
     /// element. Arrays without a size cannot be assigned (§4.1.9), but drivers take it, so it is a warning.
     fn assign_clip_distances(&mut self, target: ExprId, value: ExprId, span: Span) -> Option<ExprId> {
         if self.strict || !self.is_clip_distance(target) || !self.is_clip_distance(value) {
