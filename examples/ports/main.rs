@@ -160,7 +160,7 @@ fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row,
     for program in account["programs"].as_array().into_iter().flatten() {
         row.programs += 1;
         let words = |key: &str| program[key].as_array().into_iter().flatten().filter_map(Value::as_str);
-        let files: Vec<(&str, &str)> = words("files").zip(words("stages")).collect();
+        let [files, new_files] = ["files", "new"].map(|key| words(key).zip(words("stages")).collect::<Vec<_>>());
         let said = |text: &str| {
             if arguments.lists {
                 println!("  {}: {text}", program["name"].as_str().unwrap_or(""));
@@ -180,7 +180,7 @@ fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row,
         let module = temporary.path().join("module.spv");
         let place = module.to_string_lossy().into_owned();
         let (mut is_accepted, mut is_valid) = (true, true);
-        for file in &files {
+        for file in &new_files {
             // The game gives the numbers, and Vulkan's names to indices.
             let names = ["-Dgl_VertexID=gl_VertexIndex", "-Dgl_InstanceID=gl_InstanceIndex"];
             let given = if is_minecraft { &["--amb", "--aml", names[0], names[1]][..] } else { &[] };

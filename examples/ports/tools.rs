@@ -25,6 +25,11 @@ pub(crate) fn glslang(tree: &Readable, (name, stage): (&str, &str), options: &[&
     let folders =
         [Some(tree.includes.as_path()), file.parent()].map(|folder| folder.map(|path| format!("-I{}", path.display())));
     command.args(folders.iter().flatten()).args(["-S", stage]);
+    // A file with several stages is told which one it is, by the macro of RetroArch and of most others.
+    let chosen = if stage == "vert" { "VERTEX" } else { "FRAGMENT" };
+    if text.contains("VERTEX") && text.contains("FRAGMENT") {
+        command.arg(format!("-D{chosen}=1"));
+    }
     if options.is_empty() {
         // Without code to write, glslang reads no included files, but its preprocessor does.
         let output = command.arg("-E").arg(copy.path()).output().map_err(|error| error.to_string())?;

@@ -64,14 +64,20 @@ impl PartOf {
         self.string = self.string.map(|(host, _)| (host, filling));
     }
 
-    /// The macros that select a stage in a file.
-    pub(super) fn defines(&self, file: &str, stage: Stage) -> Vec<(String, String)> {
+    /// The macros that select a stage in a file, and those that select the others.
+    pub(super) fn macros(&self, file: &str, stage: Stage) -> (Vec<String>, Vec<String>) {
         if self.string.is_some() {
-            return Vec::new();
+            return Default::default();
         }
         let members = combined::members(file);
-        let part = members.get(self.index).and_then(|member| member.part(stage));
-        part.map(|part| part.defines.clone()).unwrap_or_default()
+        let parts = members.get(self.index).map(|member| member.parts.as_slice()).unwrap_or_default();
+        let of = |is_own: bool| {
+            let parts = parts.iter().filter(move |part| (part.stage == stage) == is_own);
+            parts.flat_map(|part| &part.defines).map(|(name, _)| name.clone()).collect::<Vec<_>>()
+        };
+        let (set, others) = (of(true), of(false));
+        let unset = others.into_iter().filter(|name| !set.contains(name)).collect();
+        (set, unset)
     }
 
     /// The text of a stage, where the file has several programs; otherwise the whole text, which is taken apart later.

@@ -29,8 +29,10 @@ pub enum Outcome {
 pub struct ProgramReport {
     /// Its name.
     pub name: String,
-    /// Its files.
+    /// Its files in the old tree.
     pub files: Vec<String>,
+    /// Its files in the new tree.
+    pub new: Vec<String>,
     /// The stage of each file: `vertex`, `geometry` or `fragment`.
     pub stages: Vec<&'static str>,
     /// The result.

@@ -9,6 +9,7 @@ mod names;
 mod plan;
 mod program;
 mod rewrite;
+mod selected;
 mod tokens;
 mod vulkan;
 
@@ -16,6 +17,7 @@ pub use plan::{Plan, Target, Text};
 pub use program::{Refused, Upgraded, completed, plan_of, upgrade};
 pub use program::{names_in, plan_in};
 pub use rewrite::rewrite;
+pub use selected::{Macros, selected};
 pub use vulkan::{
     Dialect, HostBlock, Includes, NewFile, NewTree, Note, Numbering, TreeProgram, converts_depth, moved_path, plain,
     to_vulkan, tree, with_version,

@@ -9,6 +9,7 @@ use glisten_front::Stage;
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
 use glisten_front::builtin::functions;
 use glisten_front::language::{Profile, Storage, Types, Version};
+use glisten_front::link::Program;
 use glisten_front::source::Span;
 use glisten_front::syntax::keywords;
 use std::collections::{BTreeMap, BTreeSet};
@@ -125,6 +126,9 @@ pub struct Text<'t> {
 /// Names without a counterpart: clipping by a vertex, and the inputs of EXT_geometry_shader4.
 static REFUSED: &[&str] = &["gl_ClipVertex", "gl_PositionIn", "gl_VerticesIn"];
 
+/// The old outputs of fragment shaders.
+const OUTPUTS: [&str; 2] = ["gl_FragColor", "gl_FragData"];
+
 /// A declaration that a stage gets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Declared {
@@ -169,6 +173,24 @@ impl Plan {
         planner.fixed(texts);
         planner.outputs(texts);
         planner.plan
+    }
+
+    /// The same plan without the output that stands for `gl_FragColor`, if a program by the plan does not write it and declares
+    /// others: then the name stands only in a branch for older versions.
+    pub fn without_spare_output(&self, program: &Program) -> Option<Self> {
+        let stage = Stage::Fragment;
+        let new = self.word(stage, OUTPUTS[0])?;
+        let new = new.split('[').next().unwrap_or(new);
+        let globals = program.stage(stage).map(|shader| shader.globals.as_slice()).unwrap_or_default();
+        let outputs = || globals.iter().filter(|global| global.storage == Storage::Out && global.builtin.is_none());
+        let is_spare = outputs().any(|global| global.name == new && !global.used);
+        if !is_spare || outputs().all(|global| global.name == new) {
+            return None;
+        }
+        let mut plan = self.clone();
+        plan.words.retain(|(_, old), _| !OUTPUTS.contains(&old.as_str()));
+        plan.declarations.retain(|declared| declared.stage != stage || !declared.line.starts_with("out "));
+        Some(plan)
     }
 
     /// The plan for texts that are newer than the target: the names that the target takes change, and nothing else.
@@ -286,9 +308,10 @@ impl<'t> Planner<'t> {
                 && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
         };
         let as_keywords = keyword_uses(texts);
+        let as_layouts = if target.is_for_vulkan() { layout_macros(texts) } else { BTreeSet::new() };
         let names: Vec<&str> = self.own.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
         let names: Vec<&str> = names.into_iter().filter(|name| !as_keywords.contains(name)).collect();
-        for name in names {
+        for name in names.into_iter().chain(as_layouts) {
             let new = self.free(name);
             Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
             let is_called = texts.iter().any(|text| defines_function(text.text, name));
@@ -444,6 +467,20 @@ fn declared_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
             is_type && lookup(token.text).is_some() && [";", ",", ")", "=", "["].contains(&after.text)
         });
         found.extend(declared.map(|((_, token), _)| token.text));
+    }
+    found
+}
+
+/// Macros that would replace the words of the layouts that Vulkan wants.
+fn layout_macros<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    static WORDS: &[&str] = &["set", "binding", "location", "component", "index", "offset", "std140"];
+    let mut found = BTreeSet::new();
+    for text in texts {
+        let all = tokens(text.text);
+        let words = all
+            .windows(3)
+            .filter(|words| matches!(words, [sign, word, _] if sign.text == "#" && word.text == "define"));
+        found.extend(words.filter_map(|words| words.last()).map(|name| name.text).filter(|name| WORDS.contains(name)));
     }
     found
 }

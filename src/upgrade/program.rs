@@ -86,14 +86,23 @@ pub fn upgrade(compiler: &Compiler, sources: &[Source], target: Target) -> Resul
     let version =
         |source: &Source| program.and_then(|program| program.stage(source.stage)).map_or(110, |one| one.version.number);
     let versions: Vec<(&Source, u16)> = sources.iter().map(|source| (source, version(source))).collect();
-    let plan = Arc::new(plan_of(compiler, &versions, target)?);
-    let new = |(source, version): &(&Source, u16)| {
-        let text = Text { text: &source.text, stage: source.stage, is_shader: true, version: *version };
-        Source { text: rewrite(&text, &plan).into(), ..(*source).clone() }
+    let mut plan = Arc::new(plan_of(compiler, &versions, target)?);
+    let by = |plan: &Arc<Plan>| {
+        let new = |(source, version): &(&Source, u16)| {
+            let text = Text { text: &source.text, stage: source.stage, is_shader: true, version: *version };
+            Source { text: rewrite(&text, plan).into(), ..(*source).clone() }
+        };
+        let new: Vec<Source> = versions.iter().map(new).collect();
+        let preparation = Upgrading { compiler: compiler.clone(), plan: Arc::clone(plan) };
+        let checker = compiler.clone().with_preparation(preparation);
+        let compilation = checker.compile(&new);
+        (new, checker, compilation)
     };
-    let new: Vec<Source> = versions.iter().map(new).collect();
-    let checker = compiler.clone().with_preparation(Upgrading { compiler: compiler.clone(), plan: Arc::clone(&plan) });
-    let compilation = checker.compile(&new);
+    let (mut new, mut checker, mut compilation) = by(&plan);
+    if let Some(without) = compilation.program.as_ref().and_then(|program| plan.without_spare_output(program)) {
+        plan = Arc::new(without);
+        (new, checker, compilation) = by(&plan);
+    }
     if compilation.diagnostics.has_errors() {
         return Err(Refused::NotValid(Box::new(compilation)));
     }

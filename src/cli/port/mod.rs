@@ -31,7 +31,7 @@ use crate::upgrade::with_version;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use programs::Ported;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use tree::NewFolder;
 
@@ -125,15 +125,21 @@ fn apart(pack: &Path, output: &Path) -> Result<(), Failure> {
 /// Puts everything into the new folder.
 fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFolder) -> Result<Report, Failure> {
     let mut files = Vec::new();
+    // The texts of files with several stages, which become a file for each.
+    let mut wholes: BTreeMap<String, String> = BTreeMap::new();
     let moved = ported.older_files.moved();
     for file in &ported.tree.files {
         if let Some(old) = moved.get(&file.name) {
             files.extend(brought::bring(&args.pack, ported, folder, (file, old)));
             continue;
         }
-        let Some(place) = folder.place(&args.pack, Path::new(&file.name)) else { continue };
+        let whole = ported.whole(&file.name).unwrap_or(&file.name);
+        let Some(place) = folder.place(&args.pack, Path::new(whole)) else { continue };
         let new = folder.place(&args.pack, Path::new(&file.new_name())).unwrap_or_else(|| place.clone());
-        let old = folder.text(&place).unwrap_or_default();
+        let old = wholes.get(&place).cloned().or_else(|| folder.text(&place)).unwrap_or_default();
+        if *whole != file.name {
+            wholes.insert(place.clone(), old.clone());
+        }
         let text = with_version(&old, &file.text);
         if old == text && new == place {
             continue;
@@ -146,7 +152,11 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
             notes: notes.map(|note| format!("line {}: {}", note.line, note.text)).collect(),
             texts: (old, text.clone()),
         });
-        folder.replace(&place, &new, text.into_bytes());
+        if *whole != file.name && ported.is_kept(whole) {
+            folder.add(&new, text.into_bytes());
+        } else {
+            folder.replace(&place, &new, text.into_bytes());
+        }
     }
     files.extend(brought::move_unread(&args.pack, ported, folder));
     files.extend(brought::blocks(&args.pack, host, ported, folder));

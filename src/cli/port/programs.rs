@@ -5,9 +5,9 @@
 
 use super::super::args::SourceArgs;
 use super::super::exit::Failure;
-use super::super::inputs::Group;
+use super::super::inputs::{Group, Input};
 use super::super::session::{Session, Unit, compile_anywhere};
-use super::super::upgrade::{Upgraded, checker, plan, plan_of_newer, rewritten, words};
+use super::super::upgrade::{ByPlan, Upgraded, checker, plan, plan_of_newer, words};
 use super::older::Older;
 use super::tree::NewFolder;
 use crate::port::{Host, Outcome, ProgramReport};
@@ -54,12 +54,25 @@ pub(super) struct Ported {
 }
 
 impl Ported {
+    /// The file with several stages that a new file is one of.
+    pub(super) fn whole(&self, new: &str) -> Option<&String> {
+        let mut pairs = self.programs.iter().flat_map(|one| one.report.new.iter().zip(&one.report.files));
+        pairs.find(|(name, old)| *name == new && name != old).map(|(_, old)| old)
+    }
+
+    /// Whether a program of a file with several stays as it was.
+    pub(super) fn is_kept(&self, whole: &str) -> bool {
+        let stays =
+            |one: &Done| one.report.files.iter().zip(&one.report.new).any(|(old, new)| old == whole && old == new);
+        self.programs.iter().any(stays)
+    }
+
     /// The rows of the account.
     pub(super) fn reports(&self, pack: &Path, folder: &NewFolder) -> Vec<ProgramReport> {
         let place = |name: &String| folder.place(pack, Path::new(name)).unwrap_or_else(|| name.clone());
         let report = |one: &Done| {
-            let files = one.report.files.iter().map(place).collect();
-            ProgramReport { files, ..one.report.clone() }
+            let [files, new] = [&one.report.files, &one.report.new].map(|names| names.iter().map(place).collect());
+            ProgramReport { files, new, ..one.report.clone() }
         };
         self.programs.iter().map(report).collect()
     }
@@ -97,6 +110,7 @@ pub(super) fn ported(
         match new_program(unit, (old, kind), (&host, &readers), sources, &words)? {
             Ok((program, plan)) => {
                 done.index = Some(trees.len());
+                done.report.new = program.sources.iter().map(|source| source.name.clone()).collect();
                 done.report.notes = plan.iter().flat_map(|plan| plan.notes.clone()).collect();
                 done.plan = plan;
                 trees.push(program);
@@ -124,6 +138,7 @@ pub(super) fn ported(
         };
         if refused.is_some() {
             done.index = None;
+            done.report.new = done.report.files.clone();
         }
         done.report.because = refused;
     }
@@ -140,6 +155,7 @@ fn undone(unit: &Unit) -> Done {
     let report = ProgramReport {
         name: unit.group.name.clone(),
         files: inputs.iter().map(|input| input.name.clone()).collect(),
+        new: inputs.iter().map(|input| input.name.clone()).collect(),
         stages: inputs.iter().map(|input| input.stage.name()).collect(),
         result: Outcome::Refused,
         because: None,
@@ -149,6 +165,7 @@ fn undone(unit: &Unit) -> Done {
     };
     let mut files: Vec<_> = inputs.iter().filter_map(|input| Some((input.stage, input.path.clone()?))).collect();
     files.sort();
+    files.dedup_by(|(_, a), (_, b)| a == b);
     let reads = unit.batch.sources.files().map(|(_, file)| file.name().to_owned()).collect();
     let files = files.into_iter().map(|(_, path)| path).collect();
     Done { report, files, reads, index: None, is_older: false, plan: None }
@@ -175,8 +192,8 @@ fn new_program(
             [Some(told(error)), lacking(unit, error, host)].into_iter().flatten().collect::<Vec<_>>().join("; ");
         return Ok(Err((Outcome::Refused, Some(because))));
     }
-    if unit.group.inputs.iter().any(|input| input.part.is_some()) {
-        let because = "its file has several stages; `glisten upgrade` writes a file for each".to_owned();
+    let has_parts = unit.group.inputs.iter().any(|input| input.part.is_some());
+    if let Some(because) = unit.group.inputs.iter().find_map(part_refusal) {
         return Ok(Err((Outcome::Refused, Some(because))));
     }
     let source = |text: &str, name: &str, stage| Source { name: name.to_owned(), text: text.into(), stage };
@@ -185,7 +202,7 @@ fn new_program(
         // A newer text has the words of the host's language already, but may have taken some of them as names.
         Err(Refused::Newer { version, .. }) if host.dialect.is_some() && ![300, 310, 320].contains(&version) => {
             let names = plan_of_newer(unit, old, host.target, words);
-            if !names.is_empty() {
+            if !names.is_empty() || has_parts {
                 return by_plan(unit, names, (old, kind), readers, args);
             }
             let inputs = unit.group.inputs.iter();
@@ -206,6 +223,29 @@ fn new_program(
     }
 }
 
+/// Why a stage of a file with several cannot become a file of its own.
+fn part_refusal(input: &Input) -> Option<String> {
+    if input.part.as_ref()?.host().is_some() {
+        return Some("its source is a string in a file of another language".to_owned());
+    }
+    let name = name_alone(input)?;
+    Path::new(&name)
+        .exists()
+        .then(|| format!("`{}` is there already, and its file has several stages", input.file_name()))
+}
+
+/// The name of the file that a stage of a file with several gets.
+fn name_alone(input: &Input) -> Option<String> {
+    input.part.as_ref()?;
+    Some(input.path.as_ref()?.with_file_name(input.file_name()).to_string_lossy().into_owned())
+}
+
+/// The source of a new text. A stage of a file with several gets a file of its own.
+fn source_alone(upgraded: &Upgraded) -> Source {
+    let source = upgraded.source();
+    Source { name: name_alone(&upgraded.input).unwrap_or(source.name), ..source }
+}
+
 /// The texts of a program by a plan, which compile.
 fn by_plan(
     unit: &Unit,
@@ -214,11 +254,8 @@ fn by_plan(
     readers: &Readers,
     args: &SourceArgs,
 ) -> Result<New, Failure> {
-    let plan = Arc::new(plan);
-    let texts = rewritten(unit, &plan);
-    let compiler = readers.compiler(&checker(args, old, &plan)?, kind);
-    let sources: Vec<Source> = texts.iter().map(Upgraded::source).collect();
-    let compilation = compiler.compile(&sources);
+    let by = |plan: &Arc<Plan>| Ok(readers.compiler(&checker(args, old, plan)?, kind));
+    let ByPlan { plan, sources, compiler, compilation, .. } = ByPlan::new(unit, plan, &source_alone, &by)?;
     if let Some(error) = compilation.diagnostics.iter().find(|found| found.is_error()) {
         return Ok(Err((Outcome::Refused, Some(format!("in the new language, {}", told(error))))));
     }

@@ -13,13 +13,16 @@ use super::super::upgrade::NewFiles;
 use super::programs::{Done, Ported};
 use crate::port::Host;
 use crate::scene::{self, DiskFiles, Scene};
-use crate::upgrade::Dialect;
+use crate::sources::stages;
+use crate::upgrade::{Dialect, Target, upgrade};
 use crate::verify::{Conclusion, Drawn, Failure as DrawFailure, OnGpu, Options, Runner, verify};
-use glisten_front::compiler::Compiler;
+use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_ATTRIBUTE, SCENE_UNSET_TEXTURE, SCENE_UNSET_UNIFORM};
+use glisten_front::language::Profile;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::FileSource;
+use glisten_scene::compare::Verdict;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs;
@@ -132,14 +135,19 @@ fn judged(
         Some(dialect) => unit.read_back(index, &ported.plain, dialect),
         None => (unit.compiler.clone(), unit.sources.clone()),
     };
+    let made = made_stages(path, old, &before);
+    let own = new_sources.iter().map(|source| (NewFiles::key(&source.name), &*source.text));
     let texts: BTreeMap<PathBuf, &str> =
-        new_sources.iter().filter_map(|source| Some((fs::canonicalize(&source.name).ok()?, &*source.text))).collect();
+        made.iter().map(|(path, text)| (path.clone(), text.as_str())).chain(own).collect();
+    let is_alone = |source: &&Source| !one.report.files.contains(&source.name);
+    let alone = new_sources.iter().filter(is_alone);
     let renamed = |word: &str| {
         let by_plan = one.plan.as_ref().and_then(|plan| plan.renamed(word)).filter(|_| word.starts_with("gl_"));
         let by_host = dialect.and_then(|dialect| dialect.renamed.get(word)).map(String::as_str);
         by_plan.or(by_host).map(str::to_owned)
     };
-    let new_files = NewFiles { scene: &name, files: texts, renamed: &renamed };
+    let sources = alone.map(|source| (source.stage.name(), source.name.clone())).collect();
+    let new_files = NewFiles { scene: &name, files: texts, renamed: &renamed, sources };
     let (after, unset) = load(&name, &new_files, &new_compiler)?;
     // A member that the old program does not have is not read.
     let provided: Vec<&str> = one.plan.iter().flat_map(|plan| plan.provided()).collect();
@@ -155,7 +163,12 @@ fn judged(
     };
     let differing = drawn(&before)?.bit_unequal(&drawn(&after)?);
     let (new, said) = on(&before, &Instead { scene: &after, gpu })?;
-    let (old, old_said) = by_opengl(&before)?;
+    let (mut old, mut old_said) = by_opengl(&before)?;
+    if old == Conclusion::Fails && new == Conclusion::Holds && is_es(&before) {
+        // ES 1.00 §4.5.2: what is `mediump` may have 10 bits of a fraction.
+        old = Conclusion::Inconclusive;
+        old_said.push_str(", since OpenGL ES computes `mediump` with fewer bits than the envelope has");
+    }
     let same = match differing {
         0 => "the reference draws the same bytes".to_owned(),
         n => format!("the reference draws {n} values with other roundings"),
@@ -196,8 +209,41 @@ fn on(scene: &Scene, runner: &dyn Runner) -> Result<(Conclusion, String), String
     let conclusion = verification.conclusion();
     let Some(run) = verification.runs.first() else { return Err("nothing was drawn".to_owned()) };
     let share = 100.0 * run.verdict.share_judged(&verification.demands);
-    let n = run.verdict.covered;
-    Ok((conclusion, format!("{n} pixels, {share:.0} % of them judged, {} outside", run.verdict.outside)))
+    Ok((conclusion, figures(&run.verdict, share)))
+}
+
+/// The figures of a verdict; those that are rare only where there are any.
+fn figures(verdict: &Verdict, share: f64) -> String {
+    let mut text = format!("{} pixels, {share:.0} % of them judged, {} outside", verdict.covered, verdict.outside);
+    let rare = [
+        (verdict.outside_likely, "outside of what simulated GPUs drew"),
+        (verdict.coverage_mismatch, "with another coverage"),
+        (verdict.finiteness_mismatch, "not finite on one side"),
+    ];
+    for (n, what) in rare.into_iter().filter(|(n, _)| *n > 0) {
+        text.push_str(&format!(", {n} {what}"));
+    }
+    text
+}
+
+/// Whether a program of a scene is one of OpenGL ES.
+fn is_es(scene: &Scene) -> bool {
+    let mut stages = scene.draws.iter().flat_map(|draw| &draw.program.stages);
+    stages.any(|shader| shader.version.profile == Profile::Es)
+}
+
+/// The stages that were made for a program that lacks them, in a language that goes with its new texts.
+fn made_stages(scene: &std::path::Path, compiler: &Compiler, before: &Scene) -> Vec<(PathBuf, String)> {
+    let files = scene.parent().and_then(|folder| fs::read_dir(folder).ok());
+    let paths = files.into_iter().flatten().flatten().map(|entry| entry.path()).filter(|_| is_es(before));
+    let new = |path: PathBuf| {
+        let stage = stages::by_name(&path)?;
+        let text = fs::read_to_string(&path).ok()?;
+        let source = Source { name: path.to_string_lossy().into_owned(), text: text.into(), stage };
+        let upgraded = upgrade(compiler, &[source], Target::Core450).ok()?;
+        Some((NewFiles::key(&path.to_string_lossy()), upgraded.texts.into_iter().next()?))
+    };
+    paths.filter_map(new).collect()
 }
 
 fn absolute(path: &std::path::Path) -> String {

@@ -7,7 +7,7 @@
 mod programs;
 mod prove;
 
-pub(super) use programs::{checker, plan, plan_of_newer, rewritten, words};
+pub(super) use programs::{ByPlan, checker, plan, plan_of_newer, words};
 pub(super) use prove::NewFiles;
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
@@ -17,7 +17,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Input, Inputs};
 use super::session::{Session, Unit};
-use crate::upgrade::{Dialect, NewFile, NewTree, Target, TreeProgram, tree, with_version};
+use crate::upgrade::{Dialect, NewFile, NewTree, Plan, Target, TreeProgram, tree, with_version};
 use clap::{Args, ValueEnum};
 use glisten_front::compiler::Source;
 use std::path::{Path, PathBuf};
@@ -127,19 +127,18 @@ pub(super) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
     for unit in &units {
         let plan =
             plan(unit, session.compiler(), args.to.into(), &words).map_err(|refused| programs::failure(&refused))?;
-        let plan = Arc::new(plan);
-        plan.notes.iter().for_each(|note| console.remark(&format!("note: {note}")));
-        let new = rewritten(unit, &plan);
-        let compiler = checker(&args.sources, session.compiler(), &plan)?;
-        let exit = programs::check(&compiler, &mut session, &new)?;
+        let compiler = |plan: &Arc<Plan>| checker(&args.sources, session.compiler(), plan);
+        let new = ByPlan::new(unit, plan, &Upgraded::source, &compiler)?;
+        new.plan.notes.iter().for_each(|note| console.remark(&format!("note: {note}")));
+        let exit = programs::check(&new, &mut session)?;
         if exit > Exit::Ok {
             return Ok(exit);
         }
         for scene in &args.scenes {
-            prove::prove(scene, &new, &plan, session.compiler(), &compiler, console)?;
+            prove::prove(scene, &new.texts, &new.plan, session.compiler(), &new.compiler, console)?;
         }
-        trees.push(TreeProgram { compiler, sources: new.iter().map(Upgraded::source).collect() });
-        texts.extend(new);
+        trees.push(TreeProgram { compiler: new.compiler, sources: new.sources });
+        texts.extend(new.texts);
     }
     let dialect = (args.to == ToArg::Vulkan).then(Dialect::default);
     let new = tree(&trees, dialect.as_ref());

@@ -10,10 +10,11 @@ use super::super::files;
 use super::super::inputs::Input;
 use super::super::session::{Session, Unit};
 use super::Upgraded;
-use crate::upgrade::{Plan, Refused, Target, Text, completed, names_in, plan_in, rewrite};
+use crate::upgrade::{Macros, Plan, Refused, Target, Text, completed, names_in, plan_in, rewrite, selected};
 use glisten_front::Stage;
-use glisten_front::compiler::{Compiler, Preparation, Prepared, Source, SourceSettings};
+use glisten_front::compiler::{Compilation, Compiler, Preparation, Prepared, Source, SourceSettings};
 use glisten_front::source::version_line;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -27,8 +28,25 @@ pub(in super::super) fn words(units: &[Unit]) -> BTreeSet<String> {
     files.flat_map(|(_, file)| words(file.text())).collect()
 }
 
+/// The text of an input: as it was compiled, without what conditions keep for the other stages of its file.
+pub(super) fn text_of<'s>(unit: &'s Unit, input: &Input) -> Cow<'s, str> {
+    let text = whole_text_of(unit, input);
+    if input.part.is_none() {
+        return text.into();
+    }
+    let (set, unset) = macros_of(input);
+    selected(text, Macros { set: &set, unset: &unset }).into()
+}
+
+/// The macros that select the stage of an input in its file, and those that select the others.
+fn macros_of(input: &Input) -> (Vec<String>, Vec<String>) {
+    let file = files::read_source(&input.name, input.path.as_deref()).ok();
+    let part = input.part.as_ref().zip(file);
+    part.map(|(part, file)| part.macros(&file, input.stage)).unwrap_or_default()
+}
+
 /// The text of an input, as it was compiled. The stages of one file have one name, and their order.
-pub(super) fn text_of<'s>(unit: &'s Unit, input: &Input) -> &'s str {
+fn whole_text_of<'s>(unit: &'s Unit, input: &Input) -> &'s str {
     let before = unit.group.inputs.iter().take_while(|other| other.stage != input.stage);
     let index = before.filter(|other| other.name == input.name).count();
     let mut files = unit.batch.sources.files().filter(|(_, file)| file.name() == input.name);
@@ -62,7 +80,7 @@ pub(in super::super) fn plan_of_newer(
 
 fn sources_of(unit: &Unit) -> Vec<Source> {
     let source = |input: &Input| {
-        let (name, text) = (input.name.clone(), text_of(unit, input).into());
+        let (name, text) = (input.name.clone(), text_of(unit, input).into_owned().into());
         Source { name, text, stage: input.stage }
     };
     unit.group.inputs.iter().map(source).collect()
@@ -88,23 +106,24 @@ pub(super) fn failure(refused: &Refused) -> Failure {
     }
 }
 
-pub(in super::super) fn rewritten(unit: &Unit, plan: &Plan) -> Vec<Upgraded> {
+fn rewritten(unit: &Unit, plan: &Plan) -> Vec<Upgraded> {
     let upgraded = |input: &Input| {
         let text = text_of(unit, input);
         let version = version_of(unit, input.stage);
-        let text = rewrite(&Text { text, stage: input.stage, is_shader: true, version }, plan);
+        let text = rewrite(&Text { text: &text, stage: input.stage, is_shader: true, version }, plan);
         let text = if input.part.is_some() { alone(input, &text) } else { text };
         Upgraded { input: input.clone(), text }
     };
     unit.group.inputs.iter().map(upgraded).collect()
 }
 
-/// The new text of a stage of a file that contains several, as a file of its own: with the macros that select the stage, and
-/// without the gaps that the others leave.
+/// The new text of a stage of a file that contains several, as a file of its own: with the macros that select the stage, if it
+/// still asks for them, and without the gaps that the others leave.
 fn alone(input: &Input, text: &str) -> String {
-    let file = files::read_source(&input.name, input.path.as_deref()).ok();
-    let part = input.part.as_ref().zip(file);
-    let defines = part.map(|(part, file)| part.defines(&file, input.stage)).unwrap_or_default();
+    let (set, _) = macros_of(input);
+    let is_named = |name: &String| crate::engines::code::words(text).any(|(_, word)| word == name);
+    let defines: Vec<String> =
+        set.iter().filter(|name| is_named(name)).map(|name| format!("#define {name} 1\n")).collect();
     let version = version_line(text).map_or("", |line| text.get(line).unwrap_or(""));
     let mut alone = String::new();
     for line in text.lines() {
@@ -114,9 +133,11 @@ fn alone(input: &Input, text: &str) -> String {
         alone.push_str(line.trim_end());
         alone.push('\n');
         if line == version {
-            defines.iter().for_each(|(name, value)| alone.push_str(&format!("#define {name} {value}\n")));
+            alone.extend(defines.iter().map(String::as_str));
         }
     }
+    alone.truncate(alone.trim_end().len());
+    alone.push('\n');
     alone
 }
 
@@ -131,9 +152,45 @@ pub(in super::super) fn checker(
     Ok(compiler.clone().with_preparation(preparation))
 }
 
-/// Compiles the new texts and reports what is wrong with them.
-pub(super) fn check(compiler: &Compiler, session: &mut Session<'_>, texts: &[Upgraded]) -> Result<Exit, Failure> {
-    let compilation = compiler.compile(&texts.iter().map(Upgraded::source).collect::<Vec<_>>());
+/// The texts of a program by a plan.
+pub(in super::super) struct ByPlan {
+    /// The plan, without an output that nothing writes.
+    pub(in super::super) plan: Arc<Plan>,
+    pub(in super::super) texts: Vec<Upgraded>,
+    /// The sources of the texts, and what reads them.
+    pub(in super::super) sources: Vec<Source>,
+    pub(in super::super) compiler: Compiler,
+    pub(in super::super) compilation: Compilation,
+}
+
+impl ByPlan {
+    /// The texts of a program by a plan, each as the source that it becomes, for a compiler by the plan.
+    pub(in super::super) fn new(
+        unit: &Unit,
+        plan: Plan,
+        source: &dyn Fn(&Upgraded) -> Source,
+        compiler: &dyn Fn(&Arc<Plan>) -> Result<Compiler, Failure>,
+    ) -> Result<Self, Failure> {
+        let by = |plan: Plan| -> Result<Self, Failure> {
+            let plan = Arc::new(plan);
+            let texts = rewritten(unit, &plan);
+            let sources: Vec<Source> = texts.iter().map(source).collect();
+            let compiler = compiler(&plan)?;
+            let compilation = compiler.compile(&sources);
+            Ok(Self { plan, texts, sources, compiler, compilation })
+        };
+        let first = by(plan)?;
+        let program = first.compilation.program.as_ref();
+        match program.and_then(|program| first.plan.without_spare_output(program)) {
+            Some(plan) => by(plan),
+            None => Ok(first),
+        }
+    }
+}
+
+/// Reports what is wrong with the new texts.
+pub(super) fn check(new: &ByPlan, session: &mut Session<'_>) -> Result<Exit, Failure> {
+    let (texts, compilation) = (&new.texts, new.compilation.clone());
     let mut batch = Batch { sources: compilation.sources, diagnostics: Vec::new() };
     session.add(&mut batch, compilation.diagnostics.into_iter().filter(glisten_front::Diagnostic::is_error));
     if batch.diagnostics.is_empty() {

@@ -30,7 +30,7 @@ pub(super) fn prove(
         .filter_map(|upgraded| Some((fs::canonicalize(upgraded.input.path.as_ref()?).ok()?, upgraded.text.as_str())))
         .collect();
     let renamed = |word: &str| plan.renamed(word).filter(|_| word.starts_with("gl_")).map(str::to_owned);
-    let after = load(path, &NewFiles { scene: path, files, renamed: &renamed }, new)?;
+    let after = load(path, &NewFiles { scene: path, files, renamed: &renamed, sources: Vec::new() }, new)?;
     let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..RenderOptions::default() };
     let failed = |_| Failure::new(Exit::Content, format!("`{path}` cannot be drawn"));
     let before = glisten_reference::render(&before, &options).map_err(failed)?;
@@ -65,18 +65,37 @@ pub(in super::super) struct NewFiles<'a> {
     pub(in super::super) files: BTreeMap<PathBuf, &'a str>,
     /// The new name of a word in the scene.
     pub(in super::super) renamed: &'a dyn Fn(&str) -> Option<String>,
+    /// The stages that the scene has in other files now: the key, and the file.
+    pub(in super::super) sources: Vec<(&'static str, String)>,
+}
+
+impl NewFiles<'_> {
+    /// The key of a path in the texts.
+    pub(in super::super) fn key(path: &str) -> PathBuf {
+        fs::canonicalize(path).unwrap_or_else(|_| PathBuf::from(path))
+    }
+
+    /// The scene with the files that its stages are in now.
+    fn with_sources(&self, scene: &str) -> String {
+        let line = |line: &str| {
+            let key = line.split('=').next().unwrap_or("").trim();
+            let new = self.sources.iter().find(|(stage, _)| *stage == key);
+            new.map_or_else(|| line.to_owned(), |(_, file)| format!("{key} = {}", toml::Value::from(file.as_str())))
+        };
+        scene.lines().map(|one| line(one) + "\n").collect()
+    }
 }
 
 impl FileSource for NewFiles<'_> {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        if let Some(text) = fs::canonicalize(path).ok().and_then(|path| self.files.get(&path)) {
+        if let Some(text) = self.files.get(&Self::key(path)) {
             return Ok(text.as_bytes().to_vec());
         }
         let bytes = DiskFiles.read(path)?;
         if path != self.scene {
             return Ok(bytes);
         }
-        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let text = self.with_sources(&String::from_utf8_lossy(&bytes));
         let mut new = String::new();
         let mut at = 0;
         for (start, word) in engines::code::words(&text) {

@@ -15,8 +15,8 @@ pub(super) struct Open {
 
 /// A directive, with the lines that it continues on.
 #[derive(Clone, Debug)]
-pub(super) struct Directive {
-    pub(super) range: Range<usize>,
+pub(in crate::upgrade) struct Directive {
+    pub(in crate::upgrade) range: Range<usize>,
     /// The line without comments.
     code: String,
 }
@@ -28,26 +28,26 @@ impl Directive {
     }
 
     /// The word after `#`.
-    pub(super) fn word(&self) -> &str {
+    pub(in crate::upgrade) fn word(&self) -> &str {
         let code = self.code.trim_start().trim_start_matches('#').trim_start();
         code.split(|letter: char| !is_name(letter)).next().unwrap_or("")
     }
 
     /// The text after the word.
-    pub(super) fn rest(&self) -> &str {
+    pub(in crate::upgrade) fn rest(&self) -> &str {
         let code = self.code.trim_start().trim_start_matches('#').trim_start();
         code.get(self.word().len()..).unwrap_or("").trim()
     }
 }
 
 /// The directives of a text.
-pub(super) struct Conditions {
-    pub(super) list: Vec<Directive>,
+pub(in crate::upgrade) struct Conditions {
+    pub(in crate::upgrade) list: Vec<Directive>,
 }
 
 impl Conditions {
     /// Reads a text.
-    pub(super) fn new(text: &str) -> Self {
+    pub(in crate::upgrade) fn new(text: &str) -> Self {
         let code = without_comments(text);
         let (mut list, mut at, mut goes_on): (Vec<Directive>, usize, bool) = (Vec::new(), 0, false);
         for line in code.split_inclusive('\n') {

@@ -273,14 +273,13 @@ impl<'a> Text<'a> {
         if !is_first {
             let comma = one.token.checked_sub(1).filter(|at| self.chunks.word(*at) == ",");
             let words = self.head(one.chunk).unwrap_or_default();
-            let plain: Vec<&str> = words.split(' ').filter(|word| !OF_VARYINGS.contains(word)).collect();
+            let plain: Vec<&str> = words.split(' ').filter(|word| !self.is_of_varyings(word)).collect();
             return comma
                 .map(|comma| (self.chunks.place(comma), format!("; {}", plain.join(" "))))
                 .into_iter()
                 .collect();
         }
-        let tokens =
-            (one.chunk.tokens.start..one.token).filter(|index| OF_VARYINGS.contains(&self.chunks.word(*index)));
+        let tokens = (one.chunk.tokens.start..one.token).filter(|index| self.is_of_varyings(self.chunks.word(*index)));
         tokens
             .map(|index| {
                 let place = self.chunks.place(index);
@@ -288,6 +287,11 @@ impl<'a> Text<'a> {
                 (place.start..next.max(place.end), String::new())
             })
             .collect()
+    }
+
+    /// Whether a word, or the macro of that name, says how a varying leaves its stage.
+    fn is_of_varyings(&self, word: &str) -> bool {
+        OF_VARYINGS.contains(&word) || self.qualifiers.contains(word)
     }
 
     /// The loose uniforms of the text.

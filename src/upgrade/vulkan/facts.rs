@@ -10,7 +10,7 @@ use super::numbers::{Numbers, Space};
 use super::{Compiled, Key};
 use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
 use glisten_front::link::{Program, Varying, std140};
-use glisten_front::source::SourceMap;
+use glisten_front::source::{SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A uniform outside of blocks.
@@ -129,16 +129,27 @@ fn place(sources: &SourceMap, stages: &[Option<Stage>], global: &Global) -> Resu
             [Some(&global.name), block.map(|block| &block.name), block.and_then(|block| block.instance.as_ref())];
         words.into_iter().flatten().any(|word| rest.starts_with(word.as_str()))
     };
-    let found =
-        sources.files().zip(stages).find(|((_, file), _)| (file.base()..file.end()).contains(&global.span.start));
+    let alias = alias(sources, global);
+    let start = alias.unwrap_or(global.span).start;
+    let found = sources.files().zip(stages).find(|((_, file), _)| (file.base()..file.end()).contains(&start));
     let Some(((_, file), Some(_))) = found else {
         return Err(format!("`{}` is declared by what the engine adds to the source", global.name));
     };
-    let offset = (global.span.start - file.base()) as usize;
-    if !names(file.text(), offset) {
+    let offset = (start - file.base()) as usize;
+    if alias.is_none() && !names(file.text(), offset) {
         return Err(format!("a macro makes the name `{}`, which stands nowhere in the text", global.name));
     }
     Ok((file.name().to_owned(), offset))
+}
+
+/// The place of the macro that a declaration names its variable by: `#define Coord TEX0`, `in vec2 Coord;`.
+fn alias(sources: &SourceMap, global: &Global) -> Option<Span> {
+    let used = sources.expansion(global.span.expansion)?;
+    let is_bare = !used.call.expansion.is_some() && sources.snippet(used.call) == &*used.name;
+    let file = sources.file(sources.file_of(used.definition)?);
+    let line = file.text().get((used.definition.end - file.base()) as usize..)?.lines().next()?;
+    let body = line.split("//").next().and_then(|body| body.split("/*").next())?;
+    (is_bare && body.trim() == global.name).then_some(used.call)
 }
 
 fn fact(

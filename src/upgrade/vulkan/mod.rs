@@ -36,6 +36,7 @@ mod text;
 mod tree;
 mod unseen;
 
+pub(in crate::upgrade) use conditions::Conditions;
 pub use coordinates::converts_depth;
 pub use dialect::{Dialect, HostBlock, Numbering, plain};
 pub use includes::Includes;
@@ -50,6 +51,7 @@ use glisten_front::link::Program;
 type Key = (String, Option<Stage>);
 
 /// A program of a tree, compiled.
+#[derive(Clone, Copy)]
 struct Compiled<'a> {
     index: usize,
     unit: &'a TreeProgram,

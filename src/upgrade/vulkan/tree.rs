@@ -37,23 +37,26 @@ pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
             Err(reason) => refused.get_mut(index).into_iter().for_each(|one| *one = Some(reason.clone())),
         }
     }
+    let mut are_tried_alone = false;
     loop {
-        let all: BTreeMap<(String, String), String> =
-            left.iter().filter_map(|one| read.get(one.index)).flat_map(|one| one.includes.clone()).collect();
-        let attempt = rewritten(&left, dialect, all);
-        let failed: Vec<Refusal> = match &attempt {
-            Err((index, reason)) => vec![(*index, reason.clone())],
-            Ok((files, _)) => {
-                let judged = dialect.map(|dialect| left.iter().map(move |one| (one.index, check(one, files, dialect))));
-                judged.into_iter().flatten().filter_map(|(index, result)| Some((index, result.err()?))).collect()
+        let failed: Vec<Refusal> = match rewritten(&left, dialect, includes_of(&read, &left)) {
+            // Often more than one cannot be rewritten: each is tried by itself before all are tried again.
+            Err(_) if !are_tried_alone => {
+                are_tried_alone = true;
+                left.iter().filter_map(|one| rewritten(&[*one], dialect, includes_of(&read, &[*one])).err()).collect()
+            }
+            Err(one) => vec![one],
+            Ok((mut files, mut notes)) => {
+                let checked = |one: &Compiled<'_>| Some((one.index, check(one, &files, dialect?).err()?));
+                let failed: Vec<Refusal> = left.iter().filter_map(checked).collect();
+                if failed.is_empty() {
+                    notes.extend(split_notes);
+                    files.iter_mut().for_each(NewFile::point);
+                    return NewTree { files, refused, notes };
+                }
+                failed
             }
         };
-        if failed.is_empty() {
-            let (mut files, mut notes) = attempt.unwrap_or_default();
-            notes.extend(split_notes);
-            files.iter_mut().for_each(NewFile::point);
-            return NewTree { files, refused, notes };
-        }
         for (index, reason) in failed {
             left.retain(|one| one.index != index);
             if let Some(one) = refused.get_mut(index) {
@@ -61,6 +64,11 @@ pub fn tree(programs: &[TreeProgram], dialect: Option<&Dialect>) -> NewTree {
             }
         }
     }
+}
+
+/// The files that the includes of programs name.
+fn includes_of(read: &[Read], programs: &[Compiled<'_>]) -> BTreeMap<(String, String), String> {
+    programs.iter().filter_map(|one| read.get(one.index)).flat_map(|one| one.includes.clone()).collect()
 }
 
 /// A program that was compiled, with the files that its includes name.

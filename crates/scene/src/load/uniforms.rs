@@ -379,14 +379,22 @@ impl<'p> Values<'p> {
         reader.report(Diagnostic::new(&SCENE_WRONG_KIND, span, message).here(here).help(help));
     }
 
+    /// Sets the values of a uniform, and of all others with its name: blocks without an instance name, one for each stage, may
+    /// have members of the same name (GLSL 4.50 §4.3.9).
     fn store(&mut self, target: &Target<'_>, scalars: &[ScalarValue]) {
-        let first = (self.program.types.flat_len(target.leaf.ty) * target.element.unwrap_or(0)) as usize;
-        let start = target.leaf.flat_offset as usize + first;
-        if self.given.set(target.leaf, first, scalars)
-            && let Some(set) = self.set.get_mut(target.leaf.root.0 as usize)
-            && let Some(set) = set.get_mut(start..start + scalars.len())
-        {
-            set.fill(true);
+        let wanted = target.leaf;
+        let is_same = |leaf: &&UniformLeaf| {
+            leaf.name == wanted.name && leaf.ty == wanted.ty && leaf.array_size == wanted.array_size
+        };
+        for leaf in self.program.interface.uniforms.iter().filter(is_same) {
+            let first = (self.program.types.flat_len(leaf.ty) * target.element.unwrap_or(0)) as usize;
+            let start = leaf.flat_offset as usize + first;
+            if self.given.set(leaf, first, scalars)
+                && let Some(set) = self.set.get_mut(leaf.root.0 as usize)
+                && let Some(set) = set.get_mut(start..start + scalars.len())
+            {
+                set.fill(true);
+            }
         }
     }
 
