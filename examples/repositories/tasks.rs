@@ -6,6 +6,7 @@ use glisten::scene::{DiskFiles, load};
 use glisten::verify::{Conclusion, OnGpu, OnOpenGl, Options, Runner, Verification, verify};
 use glisten::{Compiler, Gl, Gpu, Stage};
 use glisten_gpu::Via;
+use glisten_reference::LineRule;
 use std::process::ExitCode;
 
 /// Whether Mesa accepts the texts of a program.
@@ -63,9 +64,9 @@ pub(crate) fn draw(scene: &str) -> ExitCode {
         (_, Err(error)) => return lacking(&error.to_string()),
     };
     let (spirv, gl) = (OnGpu::new(&gpu, Via::Spirv), OnOpenGl(&gl));
-    let options = Options { as_device: true, ..Options::default() };
     let mut worst = Conclusion::Holds;
-    for runner in [&spirv as &dyn Runner, &gl] {
+    for (runner, lines) in [(&spirv as &dyn Runner, LineRule::Vulkan), (&gl, LineRule::OpenGl)] {
+        let options = Options { as_device: true, lines, ..Options::default() };
         match verify(&scene, &[runner], &options) {
             Ok(verification) => {
                 let conclusion = verification.conclusion();

@@ -414,3 +414,56 @@ fn a_geometry_stage_converts_the_depth_and_has_locations_of_its_own() {
     assert_eq!(code(&output), 1);
     has(&err(&output), &["the host has no geometry stages"]);
 }
+
+/// Each stage gets a file without what conditions keep for the other, and is proved by the picture of the old file.
+#[test]
+fn a_file_with_several_stages_becomes_a_file_for_each() {
+    let folder = Folder::new(&[]);
+    let more = ["--engine", "libretro", "--prove", "-o", "out"];
+    let output = port(&folder, "stages", "vulkan", &more);
+    assert_eq!(code(&output), 1, "{}", err(&output));
+    has(
+        &err(&output),
+        &[
+            "`taken` stays as it was: `taken.vert` is there already, and its file has several stages",
+            "3 programs: 2 ported, 0 unchanged, 0 for it already, 1 left as they were; 3 files change, 2 are copied; 2 proved",
+        ],
+    );
+    let [vertex, fragment] = ["vert", "frag"].map(|stage| read(&folder, &format!("out/bloom.{stage}")));
+    has(
+        &vertex,
+        &["\nvec4 COL0; // nobody reads it\n", "layout(location = 0) VARYING vec2 Coord;", "#define offset_ 0.25\n"],
+    );
+    has(
+        &fragment,
+        &[
+            "layout(location = 0) out vec4 FragColor;",
+            "#define FragColor gl_FragColor",
+            "#ifndef PARAMETER_UNIFORM\n#define STRENGTH 0.5\n#endif\n",
+            "// Half a texel to the right.",
+        ],
+    );
+    assert!(!vertex.contains("FRAGMENT") && !fragment.contains("VERTEX"), "{vertex}{fragment}");
+    assert!(!folder.path("out/bloom.glsl").exists() && folder.path("out/taken.glsl").exists());
+    for stage in ["vert", "frag"] {
+        let said = complaint(&folder.path(&format!("out/bloom.{stage}")), stage, &folder.path("out"));
+        assert!(said.is_none(), "{said:?}");
+    }
+    let account: Value = serde_json::from_str(&read(&folder, "out/port.json")).expect("JSON");
+    let bloom = &account["programs"][0];
+    assert_eq!(bloom["files"], serde_json::json!(["bloom.glsl", "bloom.glsl"]));
+    assert_eq!(bloom["new"], serde_json::json!(["bloom.vert", "bloom.frag"]));
+    assert_eq!(bloom["proof"], "proved", "{account:#}");
+    has(&err(&port(&folder, "stages", "vulkan", &more)), &["wrote 0 files"]);
+}
+
+/// A fragment shader of OpenGL ES alone is proved with a vertex shader that was made for it, in the new language, too.
+#[test]
+fn a_lone_stage_of_es_is_proved() {
+    let shader = b"#version 100\nprecision highp float;\nvarying vec2 uv;\nuniform vec4 tint;\nvoid main() { gl_FragColor = vec4(uv, 0.5, 1.0) * tint; }\n";
+    let folder = Folder::new(&[("in/a.frag", shader)]);
+    let output = folder.run(&["port", "in", "--for", "vulkan", "--prove", "-o", "out"]);
+    let said = err(&output);
+    assert_eq!(code(&output), 0, "{said}");
+    assert!(said.contains("1 proved") || said.contains("OpenGL ES computes `mediump`"), "{said}");
+}

@@ -167,7 +167,30 @@ pub(super) fn without_empty(text: &str) -> String {
         }
         at += 1;
     }
-    lines.concat()
+    without_empty_first(&lines)
+}
+
+/// A condition whose first branch is empty asks the opposite: `#ifdef A`, `#else` becomes `#ifndef A`.
+fn without_empty_first(lines: &[&str]) -> String {
+    let mut new = String::new();
+    let mut at = 0;
+    while let Some(line) = lines.get(at).copied() {
+        let next = lines.get(at + 1).copied().unwrap_or("");
+        match negated(&[line.to_owned(), next.to_owned()]) {
+            Some(head) => {
+                let indentation = line.len() - line.trim_start().len();
+                new.push_str(line.get(..indentation).unwrap_or(""));
+                new.push_str(&head);
+                new.push_str(next.get(next.trim_end().len()..).unwrap_or("\n"));
+                at += 2;
+            }
+            None => {
+                new.push_str(line);
+                at += 1;
+            }
+        }
+    }
+    new
 }
 
 #[cfg(test)]
@@ -204,5 +227,7 @@ mod tests {
     fn empty_conditions_go() {
         let text = "a\n#if A\n\n#else\n#ifdef B\n#endif\n#endif\nb\n#if C\n#include \"x\"\n#endif\n";
         assert_eq!(without_empty(text), "a\nb\n#if C\n#include \"x\"\n#endif\n");
+        let first = "#ifdef A\n\n#else\nb\n#endif\n\t#ifndef C\r\n#else\r\nd\r\n#endif\r\n";
+        assert_eq!(without_empty(first), "#ifdef A\n\n#else\nb\n#endif\n\t#ifdef C\r\nd\r\n#endif\r\n");
     }
 }
