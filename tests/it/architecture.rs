@@ -29,7 +29,15 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
         &["glisten", "glisten-front", "glisten-emit", "glisten-scene", "glisten-reference", "glisten-specialize"],
         &["naga", "wgpu"],
     ),
+    (
+        "crates/studies",
+        &["glisten", "glisten-features", "glisten-front", "glisten-gpu", "glisten-reference", "glisten-scene"],
+        &["clap"],
+    ),
 ];
+
+/// The crate of programs that print, and that nothing depends on.
+const STUDIES: &str = "crates/studies";
 
 /// The top-level modules of a crate in the order of the data: each may use those before it.
 static ORDER: &[(&str, &[&str])] = &[
@@ -131,9 +139,10 @@ pub(super) fn rust_files(folder: &str) -> Vec<PathBuf> {
     files_with(&root().join(folder), "rs")
 }
 
-/// The folders of the sources of all crates.
+/// The folders of the sources of all crates but the studies.
 pub(super) fn source_folders() -> impl Iterator<Item = String> {
-    ["src".to_owned()].into_iter().chain(CRATES.iter().map(|(folder, _, _)| format!("{folder}/src")))
+    let crates = CRATES.iter().map(|(folder, _, _)| *folder).filter(|folder| *folder != STUDIES);
+    ["src".to_owned()].into_iter().chain(crates.map(|folder| format!("{folder}/src")))
 }
 
 /// The sources of all crates.
@@ -286,7 +295,7 @@ fn paths_are_resolved() {
 #[test]
 fn every_file_has_a_module_doc() {
     let mut files = sources();
-    for folder in ["tests", "examples", "benches", "integrations"] {
+    for folder in ["tests", "examples", "benches", "integrations", STUDIES] {
         files.extend(rust_files(folder));
     }
     // An example keeps a module that the program wrote.

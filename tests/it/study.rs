@@ -1,5 +1,5 @@
 //! Scenes of the study of `verify` (`fixtures/study/verify`) with their rewritings and faults, a few of each kind.
-//! `cargo run --release --example study -- fixtures/study/verify` judges all of them. These tests need a Vulkan software
+//! `cargo run --release -p glisten-studies --bin study -- fixtures/study/verify` judges all of them. These tests need a Vulkan software
 //! adapter.
 
 use crate::drawing::{gpu, loaded};

@@ -1,11 +1,11 @@
 //! Lights with corners under a matrix: the tables are those that the example fits, and the lights are near the integral.
 
-#[path = "../../../examples/ltc/errors.rs"]
+#[path = "../../../crates/studies/src/bin/ltc/errors.rs"]
 pub(super) mod errors;
-#[path = "../../../examples/ltc/fit.rs"]
+#[path = "../../../crates/studies/src/bin/ltc/fit.rs"]
 #[expect(dead_code, reason = "the example writes the tables")]
 mod fit;
-#[path = "../../../examples/ltc/ggx.rs"]
+#[path = "../../../crates/studies/src/bin/ltc/ggx.rs"]
 mod ggx;
 
 use super::{call, function};

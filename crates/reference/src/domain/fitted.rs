@@ -30,7 +30,7 @@ const REPORTED: &str =
 const CHOSEN: &str = "chosen: a budget of time";
 const TIMED: &str =
     "chosen: a march of 96 steps takes less than 10 s; `cargo test --test it -- widths` shows what becomes wider";
-const CALIBRATED: &str = "`cargo run --release --example population -- fixtures/scenes shader_lib/scenes --programs 0..1000` prints the alarms";
+const CALIBRATED: &str = "`cargo run --release -p glisten-studies --bin population -- fixtures/scenes shader_lib/scenes --programs 0..1000` prints the alarms";
 
 const POPULATION_TEST: &str =
     "`cargo test --test it -- scenes`: pictures of derivatives and of filters are as the population's";

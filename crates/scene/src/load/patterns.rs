@@ -238,7 +238,7 @@ fn opaque([r, g, b]: Color) -> Texel {
 /// The columns and the rows of `ltc.txt`.
 const LTC: u32 = 32;
 
-/// `ltc.txt`, which `cargo run --release --example ltc` made: six numbers for each texel.
+/// `ltc.txt`, which `cargo run --release -p glisten-studies --bin ltc` made: six numbers for each texel.
 static COSINES: LazyLock<Vec<[f64; 6]>> = LazyLock::new(|| {
     let texel = |line: &str| {
         let mut numbers = line.split(' ').map(|number| number.parse().unwrap_or(f64::NAN));

@@ -1,7 +1,7 @@
 //! Measures glisten on public repositories: who accepts which programs, whether the code is valid, whether the pictures agree.
 //!
 //! ```sh
-//! cargo run --release --features gl --example repositories -- FOLDER [--only NAME] [--pictures N] [--list] [--keep DIR] [-o FILE]
+//! cargo run --release -p glisten-studies --bin repositories -- FOLDER [--only NAME] [--pictures N] [--list] [--keep DIR] [-o FILE]
 //! ```
 //!
 //! `FOLDER` contains a folder `owner+name` for each repository of `repositories.toml`. Those that are missing are left out. With

@@ -1,7 +1,7 @@
 //! Counts how many programs each translator brings to WGSL: glisten, naga's own GLSL front end, and glslang with naga.
 //!
 //! ```sh
-//! cargo run --example peers -- fixtures/programs
+//! cargo run -p glisten-studies --bin peers -- fixtures/programs
 //! ```
 //!
 //! A program is a `.vert` and a `.frag` of one name. glisten's WGSL counts if naga validates it; the others count if `naga`

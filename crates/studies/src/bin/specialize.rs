@@ -1,6 +1,6 @@
 //! Leaves out of the programs of scenes what their pictures do not need, and proves it: a table for a folder of scenes.
 //!
-//! `cargo run --release --example specialize -- FOLDER...` prints a row for each scene of the folders: SPIR-V instructions
+//! `cargo run --release -p glisten-studies --bin specialize -- FOLDER...` prints a row for each scene of the folders: SPIR-V instructions
 //! and lines of GLSL of all draws before and after, the operations that the reference counts, whether the reference draws
 //! the same bytes in f32, and whether `verify` holds for the residual against the original on the first software adapter.
 //! It exits with 1 if a picture changes.

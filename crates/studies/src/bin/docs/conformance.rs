@@ -29,7 +29,7 @@ struct Fixture {
 
 /// The text of the region.
 pub(crate) fn conformance() -> Result<String, String> {
-    let fixtures = fixtures(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("fixtures"))?;
+    let fixtures = fixtures(&PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures"))?;
     let mut text = String::new();
     rules(&fixtures, &mut text);
     features(&fixtures, &mut text);

@@ -1,8 +1,8 @@
 //! Makes the tables of linearly transformed cosines, and measures the lights of `shader_lib/ltc.glsl` by integration.
 //!
 //! ```sh
-//! cargo run --release --example ltc > crates/scene/src/load/ltc.txt   # half a minute
-//! cargo run --release --example ltc -- errors
+//! cargo run --release -p glisten-studies --bin ltc > crates/scene/src/load/ltc.txt   # half a minute
+//! cargo run --release -p glisten-studies --bin ltc -- errors
 //! ```
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal")]

@@ -1,10 +1,10 @@
 //! The first hour of a new user, over repositories: `new-scene`, then `render`, then `verify`, for program after program.
 //!
 //! ```sh
-//! cargo run --all-features --example first_hour -- FOLDER [--sample N] [--only NAME] [--jobs N] [--seconds N] [--keep DIR] [--list]
+//! cargo run -p glisten-studies --bin first_hour -- FOLDER [--sample N] [--only NAME] [--jobs N] [--seconds N] [--keep DIR] [--list]
 //! ```
 //!
-//! `FOLDER` contains a folder for each repository. Those of `examples/repositories/repositories.toml` and of the
+//! `FOLDER` contains a folder for each repository. Those of `crates/studies/src/bin/repositories/repositories.toml` and of the
 //! list next to this file have its flags. With `--sample`, at
 //! most so many programs of each repository, evenly chosen (default: 20); with `--only`, repositories whose names contain the text; with
 //! `--seconds`, each command may take so long (default: 60); with `--keep`, scenes and pictures stay in a folder for each program; with

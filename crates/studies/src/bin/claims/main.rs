@@ -2,8 +2,8 @@
 //! vertices lose the highlight, and that interpolation without perspective bends (figure 137).
 //!
 //! ```sh
-//! cargo run --release --example claims            # work and errors: the same on every machine
-//! cargo run --release --example claims -- time    # GPU time as ratios, with their intervals
+//! cargo run --release -p glisten-studies --bin claims            # work and errors: the same on every machine
+//! cargo run --release -p glisten-studies --bin claims -- time    # GPU time as ratios, with their intervals
 //! ```
 //!
 //! *Out:* Markdown, which `docs/numerics.md` contains.

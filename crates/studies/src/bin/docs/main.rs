@@ -1,10 +1,10 @@
 //! Writes the generated parts of `README.md` and `docs/*.md`.
 //!
 //! ```sh
-//! cargo run --example docs                        # the parts that are the same on every machine
-//! cargo run --example docs -- --check             # exit code 1 if those are not current
-//! cargo run --example docs -- docs/conformance.md # one page
-//! cargo run --release --example docs -- --measured   # the measured parts, too
+//! cargo run -p glisten-studies --bin docs                        # the parts that are the same on every machine
+//! cargo run -p glisten-studies --bin docs -- --check             # exit code 1 if those are not current
+//! cargo run -p glisten-studies --bin docs -- docs/conformance.md # one page
+//! cargo run --release -p glisten-studies --bin docs -- --measured   # the measured parts, too
 //! ```
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal")]
@@ -34,7 +34,7 @@ fn main() -> ExitCode {
     match run(has("--check"), has("--measured"), &wanted) {
         Ok(stale) if stale.is_empty() => ExitCode::SUCCESS,
         Ok(stale) => {
-            eprintln!("not current: {}\nrun: cargo run --example docs", stale.join(", "));
+            eprintln!("not current: {}\nrun: cargo run -p glisten-studies --bin docs", stale.join(", "));
             ExitCode::FAILURE
         }
         Err(message) => {
@@ -46,7 +46,7 @@ fn main() -> ExitCode {
 
 /// Generates the wanted pages again, or all. Returns the pages that differ and were not written.
 fn run(check: bool, measured: bool, wanted: &[String]) -> Result<Vec<String>, String> {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let program = program(&root)?;
     let mut generator = maker::Generator { program, root: root.clone(), measured, made: 0, left: 0 };
     let mut stale = Vec::new();
@@ -68,17 +68,16 @@ fn run(check: bool, measured: bool, wanted: &[String]) -> Result<Vec<String>, St
     Ok(stale)
 }
 
-/// Builds the program and returns its path, which is next to the folder of the examples.
+/// Builds the program and returns its path, which is next to this one.
 fn program(root: &Path) -> Result<PathBuf, String> {
     let own = env::current_exe().map_err(|error| error.to_string())?;
-    let folder = own.parent().and_then(Path::parent).ok_or("this program is not in a target folder")?;
+    let folder = own.parent().ok_or("this program is not in a target folder")?;
     let release = folder.file_name().is_some_and(|name| name == "release");
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut build = Command::new(cargo);
-    build.args(["build", "--quiet", "--bin", "glisten"]).args(release.then_some("--release")).current_dir(root);
-    // With the features of this program, nothing is built again.
-    build.args(cfg!(all(feature = "gl", feature = "remote", feature = "snapshot")).then_some("--all-features"));
-    let status = build.status().map_err(|error| format!("cargo cannot run: {error}"))?;
+    build.args(["build", "--quiet", "--bin", "glisten", "--all-features"]).current_dir(root);
+    let status = build.args(release.then_some("--release")).status();
+    let status = status.map_err(|error| format!("cargo cannot run: {error}"))?;
     if !status.success() {
         return Err("the program `glisten` does not build".to_owned());
     }

@@ -1,7 +1,7 @@
 //! Makes the model of the gallery's scene `chess`: glTF 2.0, binary.
 //!
 //! ```sh
-//! cargo run --all-features --example chess -- shader_lib/scenes/chess.glb
+//! cargo run -p glisten-studies --bin chess -- shader_lib/scenes/chess.glb
 //! ```
 //!
 //! A board with textures of color, roughness and normals, and pieces turned on a lathe: brass, ivory under lacquer, ebony. Normals are
@@ -275,7 +275,7 @@ fn file() -> Result<Vec<u8>, String> {
     let texture = |source: usize, sampler: usize| json!({"source": source, "sampler": sampler});
     let all: Vec<usize> = (0..nodes.len()).collect();
     let root = json!({
-        "asset": {"version": "2.0", "generator": "glisten, examples/chess.rs"},
+        "asset": {"version": "2.0", "generator": "glisten, crates/studies/src/bin/chess.rs"},
         "extensionsUsed": ["KHR_lights_punctual", "KHR_mesh_quantization", "KHR_materials_clearcoat"],
         "extensionsRequired": ["KHR_mesh_quantization"],
         "extensions": {"KHR_lights_punctual": {"lights": lights}},

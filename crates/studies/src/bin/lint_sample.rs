@@ -1,7 +1,7 @@
 //! Draws findings of `glisten lint` at random from a folder of repositories, to be read by hand ([docs/lint.md]).
 //!
 //! ```sh
-//! cargo run --all-features --example lint_sample -- FOLDER --count 100 --seed 1
+//! cargo run -p glisten-studies --bin lint_sample -- FOLDER --count 100 --seed 1
 //! ```
 //!
 //! *In:* a folder whose folders are repositories. *Out:* a table of rules with the number of their findings and of those drawn, then each

@@ -1,7 +1,7 @@
 //! Measures how far the pictures of a driver are from the population of simulated GPUs, and how often sound pictures
 //! would be suspected.
 //!
-//! `cargo run --release --example population -- SCENE|FOLDER... [--members N] [--seed N] [--programs RANGE]
+//! `cargo run --release -p glisten-studies --bin population -- SCENE|FOLDER... [--members N] [--seed N] [--programs RANGE]
 //! [--list]` draws each scene on the
 //! first software adapter as SPIR-V and as WGSL, and with the population. It prints the pictures that `verify` would fail
 //! for being far from the population (with `--list`, all of them), and the time of the population. `--programs FIRST..END`
@@ -9,7 +9,7 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 
-#[path = "../tests/it/numeric/text.rs"]
+#[path = "../../../../tests/it/numeric/text.rs"]
 mod numeric;
 
 use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};

@@ -1,7 +1,7 @@
 //! Draws scenes with legal rewritings and planted mistakes from a folder, and counts what `verify` says about each.
 //!
 //! ```text
-//! cargo run --release --example study -- fixtures/study/verify [--margins 0,1,2,4,8,16] [--only TEXT] [--list]
+//! cargo run --release -p glisten-studies --bin study -- fixtures/study/verify [--margins 0,1,2,4,8,16] [--only TEXT] [--list]
 //! ```
 //!
 //! Each folder with a `cases.toml` is a scene: `scene.toml` with its shaders, and edits of them. `[[legal]]` edits are what a

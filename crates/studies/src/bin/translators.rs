@@ -2,7 +2,7 @@
 //! place of glisten's, and judged by the envelope.
 //!
 //! ```sh
-//! cargo run --release --example translators -- fixtures/scenes [--list]
+//! cargo run --release -p glisten-studies --bin translators -- fixtures/scenes [--list]
 //! ```
 //!
 //! The arguments are scene files and folders, which are searched recursively. A stage counts as *translated* if a

@@ -1,7 +1,7 @@
 //! `glisten fmt` over public repositories: how much it formats, whether the tokens stay, whether a second run changes anything.
 //!
 //! ```sh
-//! cargo run --release --all-features --example formatting -- FOLDER
+//! cargo run --release -p glisten-studies --bin formatting -- FOLDER
 //! ```
 //!
 //! `FOLDER` contains a folder `owner+name` for each repository; nothing in it is written. The table, in Markdown, has a row

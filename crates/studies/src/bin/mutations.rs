@@ -1,7 +1,7 @@
 //! Plants faults in the code that glisten emits for scenes, draws each one, and counts how many `verify` catches.
 //!
 //! ```text
-//! cargo run --release --example mutations -- fixtures/scenes [--each N] [--seed N] [--list] [--legal | --no-legal]
+//! cargo run --release -p glisten-studies --bin mutations -- fixtures/scenes [--each N] [--seed N] [--list] [--legal | --no-legal]
 //! ```
 //!
 //! The arguments are scene files and folders, which are searched recursively. For each kind of fault and each class of
@@ -10,7 +10,7 @@
 //! tries at most N faults of each kind per scene and form; `--list` prints the outcome of every fault; `--legal` tries
 //! legal changes alone, `--no-legal` faults alone. It needs a Vulkan software adapter and `spirv-val`.
 
-#[path = "../tests/it/mutation/mod.rs"]
+#[path = "../../../../tests/it/mutation/mod.rs"]
 mod mutation;
 
 use glisten::scene::{DiskFiles, Scene, load};

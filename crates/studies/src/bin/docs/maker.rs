@@ -26,13 +26,13 @@ enum Source {
     Measured(&'static [&'static str]),
     /// From the output of a benchmark with an argument.
     Bench(&'static str, &'static str),
-    /// From the output of an example with arguments.
-    Example(&'static str, &'static [&'static str]),
+    /// From the output of another study with arguments.
+    Study(&'static str, &'static [&'static str]),
 }
 
 static REGIONS: &[(&str, Source)] = &[
-    ("claims", Source::Example("claims", &[])),
-    ("claims-time", Source::Example("claims", &["time"])),
+    ("claims", Source::Study("claims", &[])),
+    ("claims-time", Source::Study("claims", &["time"])),
     ("codes", Source::Tables(diagnostics)),
     ("commands", Source::Help),
     ("conformance", Source::Examined(super::conformance::conformance)),
@@ -83,9 +83,13 @@ impl Generator {
         self.cargo(name, &["bench", "--quiet", "--bench", name, "--", argument])
     }
 
-    /// The output of an example.
-    fn example(&self, name: &str, arguments: &[&str]) -> Result<String, String> {
-        self.cargo(name, &[&["run", "--quiet", "--release", "--example", name, "--"], arguments].concat())
+    /// The output of another study.
+    fn study(&self, name: &str, arguments: &[&str]) -> Result<String, String> {
+        self.cargo(
+            name,
+            &[&["run", "--quiet", "--release", "--package", "glisten-studies", "--bin", name, "--"], arguments]
+                .concat(),
+        )
     }
 
     /// The output of what cargo builds and runs.
@@ -130,9 +134,9 @@ impl Maker for Generator {
                 let text = super::help::commands(|arguments| self.run(arguments))?;
                 self.make(text)
             }
-            Source::Measured(_) | Source::Bench(..) | Source::Example(..) if !self.measured => self.leave(),
-            Source::Example(name, arguments) => {
-                let text = self.example(name, arguments)?;
+            Source::Measured(_) | Source::Bench(..) | Source::Study(..) if !self.measured => self.leave(),
+            Source::Study(name, arguments) => {
+                let text = self.study(name, arguments)?;
                 self.make(text)
             }
             Source::Bench(name, argument) => {

@@ -2,7 +2,7 @@
 //! many pictures are proved.
 //!
 //! ```sh
-//! cargo run --all-features --example ports -- GLISTEN FOLDER... [--for HOST] [--engine NAME] [--game NEW] [--prove] [--list]
+//! cargo run -p glisten-studies --bin ports -- GLISTEN FOLDER... [--for HOST] [--engine NAME] [--game NEW] [--prove] [--list]
 //! ```
 //!
 //! `GLISTEN` is the program. Each folder is a pack or the shaders of an engine; the table names the commit if it is a repository.
