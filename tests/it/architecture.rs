@@ -31,7 +31,15 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "crates/studies",
-        &["glisten", "glisten-features", "glisten-front", "glisten-gpu", "glisten-reference", "glisten-scene"],
+        &[
+            "glisten",
+            "glisten-features",
+            "glisten-front",
+            "glisten-gpu",
+            "glisten-reference",
+            "glisten-scene",
+            "glisten-specialize",
+        ],
         &["clap"],
     ),
 ];
