@@ -5,11 +5,11 @@
 
 use glisten_front::builtin::BuiltinFunction as B;
 use glisten_front::fold;
+use glisten_front::hir::written_by;
 use glisten_front::hir::{
     BinaryOp, ExprId, ExprKind, Function, LogicalOp, ScalarValue, Shader, StmtKind, Storage, Type, Types, UnaryOp,
     VarRef,
 };
-use glisten_front::link::usage::written_by;
 use std::collections::BTreeMap;
 
 /// How deep expressions are followed.

@@ -5,8 +5,8 @@
 //! looked at once for all of their calls.
 
 use glisten_front::builtin::operations::Class;
+use glisten_front::hir::written_by;
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Storage, Type, Types, VarRef};
-use glisten_front::link::usage::written_by;
 
 /// How often a value changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

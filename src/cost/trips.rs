@@ -5,11 +5,11 @@
 //! arrays that the counter indexes. *Not done here:* loops that are left by `break`, which the paths show.
 
 use super::known::Known;
+use glisten_front::hir::written_by;
 use glisten_front::hir::{
     ArraySize, BinaryOp, Condition, ExprId, ExprKind, IncDec, LocalId, LogicalOp, LoopKind, Scalar, Stmt, StmtKind,
     Type, VarRef,
 };
-use glisten_front::link::usage::written_by;
 
 /// The rounds that are counted one by one.
 const MOST: u64 = 1 << 20;

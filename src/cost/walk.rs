@@ -11,10 +11,10 @@ use super::rates::{Rate, Rates};
 use super::trips::{Repeat, Trips, trips};
 use crate::library::own_cost;
 use glisten_front::builtin::BuiltinVariable;
+use glisten_front::hir::written_by;
 use glisten_front::hir::{
     Case, CaseLabel, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Storage, Types, VarRef,
 };
-use glisten_front::link::usage::written_by;
 use glisten_front::source::Span;
 use std::collections::BTreeMap;
 

@@ -455,6 +455,9 @@ fn a_file_with_several_stages_becomes_a_file_for_each() {
     assert_eq!(bloom["new"], serde_json::json!(["bloom.vert", "bloom.frag"]));
     assert_eq!(bloom["proof"], "proved", "{account:#}");
     has(&err(&port(&folder, "stages", "vulkan", &more)), &["wrote 0 files"]);
+    let output = port(&folder, "stages", "wgpu", &["--engine", "libretro", "-o", "wgpu"]);
+    assert_eq!(code(&output), 1, "{}", err(&output));
+    has(&read(&folder, "wgpu/shaders.rs"), &["pub mod bloom {"]);
 }
 
 /// A fragment shader of OpenGL ES alone is proved with a vertex shader that was made for it, in the new language, too.

@@ -24,7 +24,7 @@ pub(super) fn add(
     for (index, one) in ported.programs.iter().enumerate() {
         let Some(compilation) = described(host, ported, one) else { continue };
         let Some(program) = &compilation.program else { continue };
-        let Some(first) = one.files.first().and_then(|path| folder.place(pack, path)) else { continue };
+        let Some(first) = one.first().and_then(|path| folder.place(pack, &path)) else { continue };
         let (place, stem) = folder_and_stem(&first);
         let name = |kind: &str, extension: &str| {
             let path = Path::new(kind).join(&place).join(format!("{stem}.{extension}"));
@@ -41,7 +41,7 @@ pub(super) fn add(
             notes.extend(other_numbers(ported, one, program).map(|note| (index, note)));
             wgsl(program, &name, folder);
         }
-        if host.has_rust && one.files.len() == 2 {
+        if host.has_rust && one.report.new.len() == 2 {
             let module =
                 first.rsplit_once('.').map_or(first.as_str(), |(stem, _)| stem).replace(['/', '.', '-', ' '], "_");
             pairs.push((module, compilation));

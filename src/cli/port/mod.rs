@@ -11,11 +11,12 @@
 //! | `older` | included files of an older host, which become files of the folder |
 //! | `extras` | reflection, WGSL, Rust, C, the passes of a pack |
 //! | `tree` | all files of the new folder, and how they differ from what is there |
-//! | `proof` | the pictures of the original and of the new program |
+//! | `proof`, `pictures` | the proof of each program; its two pictures |
 
 mod brought;
 mod extras;
 mod older;
+mod pictures;
 mod programs;
 mod proof;
 mod tree;

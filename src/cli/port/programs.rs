@@ -53,6 +53,14 @@ pub(super) struct Ported {
     pub(super) older_files: Older,
 }
 
+impl Done {
+    /// The file that names what is written for the program: the vertex shader, or a stage of a file with several.
+    pub(super) fn first(&self) -> Option<PathBuf> {
+        let alone = self.report.new.iter().zip(&self.report.files).find(|(new, old)| new != old);
+        alone.map(|(new, _)| PathBuf::from(new)).or_else(|| self.files.first().cloned())
+    }
+}
+
 impl Ported {
     /// The file with several stages that a new file is one of.
     pub(super) fn whole(&self, new: &str) -> Option<&String> {

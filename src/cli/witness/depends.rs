@@ -2,8 +2,8 @@
 //!
 //! *In:* an expression. *Out:* globals. *Holds:* all assignments to a variable count, wherever they are. *Not done here:* conditions.
 
+use glisten_front::hir::written_by;
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, StmtKind, VarRef};
-use glisten_front::link::usage::written_by;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A variable of a shader: a global, or a local of a function.

@@ -6,10 +6,10 @@
 //! tells that they never are.
 
 use glisten_front::builtin::BuiltinFunction;
+use glisten_front::hir::written_by;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef,
 };
-use glisten_front::link::usage::written_by;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The locals that are names, and the variables that are assigned to.

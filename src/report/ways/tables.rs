@@ -232,12 +232,16 @@ impl Copy<'_> {
                 }
             };
         }
-        let mut children = Vec::new();
-        for child in kind.children() {
-            children.push(self.of(child)?);
+        if matches!(kind, ExprKind::Error | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Comma(..)) {
+            return None;
         }
-        let kind = with_children(kind, &children)?;
-        Some(self.shader.push(kind, ty, span))
+        let mut kind = kind;
+        let mut is_whole = true;
+        kind.for_each_operand(&mut |id| match is_whole.then(|| self.of(*id)).flatten() {
+            Some(new) => *id = new,
+            None => is_whole = false,
+        });
+        is_whole.then(|| self.shader.push(kind, ty, span))
     }
 
     /// Floats as literals.
@@ -263,24 +267,4 @@ impl Copy<'_> {
             _ => Some(self.shader.push(ExprKind::Construct(ConstructKind::Compose, literals), ty, span)),
         }
     }
-}
-
-/// The kind with other operands; `None` for one that has effects.
-fn with_children(kind: ExprKind, children: &[ExprId]) -> Option<ExprKind> {
-    let get = |index: usize| children.get(index).copied();
-    Some(match kind {
-        ExprKind::Literal(_) | ExprKind::Var(_) => kind,
-        ExprKind::Member(_, member) => ExprKind::Member(get(0)?, member),
-        ExprKind::Swizzle(_, swizzle) => ExprKind::Swizzle(get(0)?, swizzle),
-        ExprKind::Convert(_) => ExprKind::Convert(get(0)?),
-        ExprKind::Unary(op, _) => ExprKind::Unary(op, get(0)?),
-        ExprKind::Index(..) => ExprKind::Index(get(0)?, get(1)?),
-        ExprKind::Binary(op, ..) => ExprKind::Binary(op, get(0)?, get(1)?),
-        ExprKind::Logical(op, ..) => ExprKind::Logical(op, get(0)?, get(1)?),
-        ExprKind::Ternary(..) => ExprKind::Ternary(get(0)?, get(1)?, get(2)?),
-        ExprKind::Construct(how, _) => ExprKind::Construct(how, children.to_vec()),
-        ExprKind::Call(function, _) => ExprKind::Call(function, children.to_vec()),
-        ExprKind::BuiltinCall(function, _) => ExprKind::BuiltinCall(function, children.to_vec()),
-        ExprKind::Error | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Comma(..) => return None,
-    })
 }

@@ -89,9 +89,7 @@ fn depends_on_varyings_alone(types: &Types, shader: &Shader, program: &Program) 
         shader.visit_body(body, &mut |expr| {
             plain &= match &shader.expr(expr).kind {
                 ExprKind::Var(VarRef::Global(global)) => is_movable(types, shader.global(*global)),
-                ExprKind::BuiltinCall(function, _) => {
-                    is_arithmetic(*function) || *function == glisten_front::builtin::BuiltinFunction::Modf
-                }
+                ExprKind::BuiltinCall(function, _) => is_arithmetic(*function) || function.written_argument().is_some(),
                 _ => true,
             };
         });

@@ -6,7 +6,7 @@
 
 use super::function::Ctx;
 use super::places::Place;
-use super::{Try, facts, internal};
+use super::{Try, internal};
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId, VarRef};
 use naga::{Expression, Handle};
 
@@ -93,7 +93,7 @@ impl Ctx<'_, '_> {
             if matches!(kind, ExprKind::Var(named) if *named == var) {
                 return true;
             }
-            facts::children(kind, |child| work.push(child));
+            work.extend(kind.children());
         }
         false
     }

@@ -3,10 +3,9 @@
 //! *In:* a [`Shader`]. *Out:* [`Facts`]. *Holds:* nothing here recurses over expressions. The arena stores children
 //! before their parents, so one pass over it is enough; functions are traversed with work lists.
 
-use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
-    ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stmt,
-    StmtKind, Storage, VarRef,
+    ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, ScalarValue, Shader, Stmt, StmtKind, Storage,
+    VarRef, may_act, written_by,
 };
 use rustc_hash::FxHashSet;
 
@@ -132,7 +131,7 @@ impl Facts {
                     set(&mut self.used, named.index());
                     set(&mut self.shared, named.index());
                 }
-                children(&shader.expr(id).kind, |child| work.push(child));
+                work.extend(shader.expr(id).kind.children());
             }
         }
     }
@@ -160,18 +159,13 @@ fn set(flags: &mut [bool], index: usize) {
     }
 }
 
-/// Calls `visit` with each operand, in evaluation order.
-pub(super) fn children(kind: &ExprKind, visit: impl FnMut(ExprId)) {
-    kind.children().into_iter().for_each(visit);
-}
-
 /// The nature of each expression. `constants` says which expressions are local constants, which only their function
 /// knows.
 fn natures(shader: &Shader, constants: &[bool]) -> Vec<Nature> {
     let mut all: Vec<Nature> = Vec::with_capacity(shader.exprs.len());
     for (expr, constant) in shader.exprs.iter().zip(constants) {
         let mut nature = own_nature(shader, &expr.kind, *constant);
-        children(&expr.kind, |child| {
+        expr.kind.children().into_iter().for_each(|child| {
             if let Some(known) = all.get(child.index()) {
                 nature.effects |= known.effects;
                 nature.control |= known.control;
@@ -185,18 +179,9 @@ fn natures(shader: &Shader, constants: &[bool]) -> Vec<Nature> {
 }
 
 fn own_nature(shader: &Shader, kind: &ExprKind, local_constant: bool) -> Nature {
-    let effects = matches!(
-        kind,
-        ExprKind::IncDec(..)
-            | ExprKind::Assign(..)
-            | ExprKind::Call(..)
-            | ExprKind::BuiltinCall(
-                BuiltinFunction::Modf | BuiltinFunction::EmitVertex | BuiltinFunction::EndPrimitive,
-                _
-            )
-    );
+    let effects = may_act(kind);
     let control = match kind {
-        ExprKind::BuiltinCall(function, _) => depends_on_control_flow(*function),
+        ExprKind::BuiltinCall(function, _) => function.implicit_derivatives(),
         _ => false,
     };
     let constant = match kind {
@@ -205,24 +190,6 @@ fn own_nature(shader: &Shader, kind: &ExprKind, local_constant: bool) -> Nature 
         _ => !effects && !control,
     };
     Nature { effects, control, constant, cost: 1 }
-}
-
-/// Whether the function takes derivatives, explicitly or implicitly (GLSL 1.50 §8.7, §8.8).
-pub(super) fn depends_on_control_flow(function: BuiltinFunction) -> bool {
-    use BuiltinFunction as F;
-    matches!(function, F::Texture | F::TextureProj | F::TextureOffset | F::TextureProjOffset)
-        || matches!(function.class(), glisten_front::builtin::operations::Class::Derivative(_))
-}
-
-/// The variable at the root of `a.b[i].c`.
-pub(super) fn root(shader: &Shader, mut id: ExprId) -> Option<VarRef> {
-    loop {
-        match shader.expr(id).kind {
-            ExprKind::Var(var) => return Some(var),
-            ExprKind::Member(base, _) | ExprKind::Index(base, _) | ExprKind::Swizzle(base, _) => id = base,
-            _ => return None,
-        }
-    }
 }
 
 struct FunctionWalk<'a> {
@@ -258,8 +225,8 @@ impl<'a> FunctionWalk<'a> {
                     set(self.constants, id.index());
                 }
             }
-            self.expression(kind);
-            children(kind, |child| self.roots.push(child));
+            self.expression(id);
+            self.roots.extend(kind.children());
         }
         self.facts.globals.sort_unstable();
         self.facts.globals.dedup();
@@ -302,25 +269,13 @@ impl<'a> FunctionWalk<'a> {
         }
     }
 
-    fn expression(&mut self, kind: &ExprKind) {
-        match kind {
+    fn expression(&mut self, id: ExprId) {
+        let shader = self.shader;
+        written_by(shader, id, &mut |target| self.write(target));
+        match &shader.expr(id).kind {
             ExprKind::Var(VarRef::Global(global)) => self.facts.globals.push(*global),
-            ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => self.write(*target),
-            ExprKind::BuiltinCall(BuiltinFunction::Modf, arguments) => {
-                if let Some(target) = arguments.get(1) {
-                    self.write(*target);
-                }
-            }
-            ExprKind::Call(callee, arguments) => {
-                self.facts.calls.push(*callee);
-                let callee = self.shader.function(*callee);
-                for (index, argument) in arguments.iter().enumerate() {
-                    if matches!(callee.param_mode(index), ParamMode::Out | ParamMode::Inout) {
-                        self.write(*argument);
-                    }
-                }
-            }
-            ExprKind::Index(base, index) if !self.is_constant(*index) => match root(self.shader, *base) {
+            ExprKind::Call(callee, _) => self.facts.calls.push(*callee),
+            ExprKind::Index(base, index) if !self.is_constant(*index) => match shader.root_variable(*base) {
                 Some(VarRef::Local(local)) => self.local(local, false),
                 Some(VarRef::Global(global)) => set(self.indexed, global.index()),
                 None => {}
@@ -330,7 +285,7 @@ impl<'a> FunctionWalk<'a> {
     }
 
     fn write(&mut self, target: ExprId) {
-        if let Some(VarRef::Local(local)) = root(self.shader, target) {
+        if let Some(VarRef::Local(local)) = self.shader.root_variable(target) {
             self.local(local, true);
         }
     }

@@ -6,11 +6,10 @@
 use super::chain::Chain;
 use super::signature::{Argument, Inner, Key, Signature, What};
 use super::{Selection, Try};
-use glisten_front::builtin::BuiltinFunction;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::{
-    Case, Condition, ExprId, ExprKind, Function, FunctionId, LocalId, ParamMode, Stmt, StmtKind, Type, TypeId, VarRef,
+    Case, Condition, ExprId, ExprKind, Function, FunctionId, LocalId, Stmt, StmtKind, Type, TypeId, VarRef, written_by,
 };
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -117,8 +116,8 @@ impl Selection<'_> {
                     Some(Mapped::Chain(inner)) => self.denoted(&inner, None, expr.span),
                     None => self.local(local, expr.ty, expr.span),
                 },
-                kind => {
-                    let kind = with_operands(kind, &|id| copies.get(&id).copied().unwrap_or(id));
+                mut kind => {
+                    kind.for_each_operand(&mut |id| *id = copies.get(id).copied().unwrap_or(*id));
                     self.push(kind, expr.ty, expr.span)
                 }
             };
@@ -138,18 +137,7 @@ impl Selection<'_> {
         if plain(function.local(parameter).ty) {
             return Ok(());
         }
-        shader.visit_body(body, &mut |id| match &shader.expr(id).kind {
-            ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => changed |= is_it(*target),
-            ExprKind::BuiltinCall(BuiltinFunction::Modf | BuiltinFunction::Frexp, list) => {
-                changed |= list.iter().skip(1).any(|id| is_it(*id));
-            }
-            ExprKind::Call(callee, list) => {
-                let callee = shader.function(*callee);
-                let out = |index| matches!(callee.param_mode(index), ParamMode::Out | ParamMode::Inout);
-                changed |= list.iter().enumerate().any(|(index, id)| out(index) && is_it(*id));
-            }
-            _ => {}
-        });
+        shader.visit_body(body, &mut |id| written_by(shader, id, &mut |target| changed |= is_it(target)));
         if !changed {
             return Ok(());
         }
@@ -159,28 +147,6 @@ impl Selection<'_> {
             Diagnostic::new(&general::NOT_SUPPORTED_YET, span, message)
                 .help("copy the members that change to variables first"),
         ))
-    }
-}
-
-/// An expression with other operands.
-fn with_operands(kind: ExprKind, id: &dyn Fn(ExprId) -> ExprId) -> ExprKind {
-    let list = |operands: Vec<ExprId>| operands.into_iter().map(id).collect();
-    match kind {
-        ExprKind::Error | ExprKind::Literal(_) | ExprKind::Var(_) => kind,
-        ExprKind::Member(a, member) => ExprKind::Member(id(a), member),
-        ExprKind::Swizzle(a, swizzle) => ExprKind::Swizzle(id(a), swizzle),
-        ExprKind::Convert(a) => ExprKind::Convert(id(a)),
-        ExprKind::Unary(op, a) => ExprKind::Unary(op, id(a)),
-        ExprKind::IncDec(op, a) => ExprKind::IncDec(op, id(a)),
-        ExprKind::Index(a, b) => ExprKind::Index(id(a), id(b)),
-        ExprKind::Binary(op, a, b) => ExprKind::Binary(op, id(a), id(b)),
-        ExprKind::Logical(op, a, b) => ExprKind::Logical(op, id(a), id(b)),
-        ExprKind::Assign(op, a, b) => ExprKind::Assign(op, id(a), id(b)),
-        ExprKind::Comma(a, b) => ExprKind::Comma(id(a), id(b)),
-        ExprKind::Ternary(a, b, c) => ExprKind::Ternary(id(a), id(b), id(c)),
-        ExprKind::Construct(kind, operands) => ExprKind::Construct(kind, list(operands)),
-        ExprKind::Call(function, operands) => ExprKind::Call(function, list(operands)),
-        ExprKind::BuiltinCall(function, operands) => ExprKind::BuiltinCall(function, list(operands)),
     }
 }
 

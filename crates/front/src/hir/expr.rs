@@ -186,4 +186,28 @@ impl ExprKind {
             Self::Construct(_, list) | Self::Call(_, list) | Self::BuiltinCall(_, list) => SmallVec::from_slice(list),
         }
     }
+
+    /// Calls `f` with each operand, in evaluation order, to change it.
+    pub fn for_each_operand(&mut self, f: &mut dyn FnMut(&mut ExprId)) {
+        match self {
+            Self::Error | Self::Literal(_) | Self::Var(_) => {}
+            Self::Member(a, _) | Self::Swizzle(a, _) | Self::Convert(a) | Self::Unary(_, a) | Self::IncDec(_, a) => {
+                f(a)
+            }
+            Self::Index(a, b)
+            | Self::Binary(_, a, b)
+            | Self::Logical(_, a, b)
+            | Self::Assign(_, a, b)
+            | Self::Comma(a, b) => {
+                f(a);
+                f(b);
+            }
+            Self::Ternary(a, b, c) => {
+                f(a);
+                f(b);
+                f(c);
+            }
+            Self::Construct(_, list) | Self::Call(_, list) | Self::BuiltinCall(_, list) => list.iter_mut().for_each(f),
+        }
+    }
 }

@@ -9,6 +9,7 @@
 //! shader with errors still has a HIR, in which anything in error is [`ExprKind::Error`] of [`TypeId::ERROR`]. No
 //! phase after `link` ever sees one, because a program with errors is not passed on.
 
+mod effects;
 mod expr;
 mod handles;
 mod members;
@@ -24,6 +25,7 @@ pub use crate::language::{
     ArraySize, Interpolation, MatrixLayout, Member, MemberPlace, ParamMode, SamplerDim, SamplerType, Sampling, Scalar,
     Stage, Storage, StructId, StructType, Type, TypeId, Types,
 };
+pub use effects::{may_act, written_by};
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
 pub use handles::{FunctionId, GlobalId, LocalId};
 pub use members::MembersRead;

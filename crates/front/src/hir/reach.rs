@@ -2,8 +2,8 @@
 //!
 //! *In:* a shader with complete bodies. *Out:* its flags `reachable`, `used` and `written`.
 
-use super::{ExprId, ExprKind, FunctionId, GlobalId, ParamMode, ScalarValue, Shader, Stmt, StmtKind, VarRef};
-use crate::builtin::{BuiltinFunction, BuiltinVariable};
+use super::{ExprId, ExprKind, FunctionId, GlobalId, ScalarValue, Shader, Stmt, StmtKind, VarRef, written_by};
+use crate::builtin::BuiltinVariable;
 
 /// The globals and functions that a function or an initializer mentions.
 #[derive(Default)]
@@ -93,22 +93,10 @@ impl Shader {
             let kind = &self.expr(id).kind;
             match kind {
                 ExprKind::Var(VarRef::Global(global)) => mentions.globals.push(*global),
-                ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => self.mention_write(*target, mentions),
-                ExprKind::Call(function, arguments) => {
-                    mentions.calls.push(*function);
-                    for (index, &argument) in arguments.iter().enumerate() {
-                        if matches!(self.function(*function).param_mode(index), ParamMode::Out | ParamMode::Inout) {
-                            self.mention_write(argument, mentions);
-                        }
-                    }
-                }
-                ExprKind::BuiltinCall(BuiltinFunction::Modf, arguments) => {
-                    if let Some(&whole) = arguments.get(1) {
-                        self.mention_write(whole, mentions);
-                    }
-                }
+                ExprKind::Call(function, _) => mentions.calls.push(*function),
                 _ => {}
             }
+            written_by(self, id, &mut |target| self.mention_write(target, mentions));
             pending.extend(kind.children());
         }
     }

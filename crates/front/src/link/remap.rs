@@ -33,29 +33,14 @@ impl Remap {
         Expr { kind: self.kind(expr.kind), ..expr }
     }
 
-    fn kind(&self, kind: ExprKind) -> ExprKind {
-        let id = |id: ExprId| self.expr_id(id);
-        let list = |list: Vec<ExprId>| list.into_iter().map(id).collect();
-        match kind {
-            ExprKind::Error => ExprKind::Error,
-            ExprKind::Literal(value) => ExprKind::Literal(value),
-            ExprKind::Var(VarRef::Global(global)) => ExprKind::Var(VarRef::Global(self.global_id(global))),
-            ExprKind::Var(VarRef::Local(local)) => ExprKind::Var(VarRef::Local(local)),
-            ExprKind::Member(a, member) => ExprKind::Member(id(a), member),
-            ExprKind::Index(a, b) => ExprKind::Index(id(a), id(b)),
-            ExprKind::Swizzle(a, swizzle) => ExprKind::Swizzle(id(a), swizzle),
-            ExprKind::Convert(a) => ExprKind::Convert(id(a)),
-            ExprKind::Construct(how, arguments) => ExprKind::Construct(how, list(arguments)),
-            ExprKind::Unary(op, a) => ExprKind::Unary(op, id(a)),
-            ExprKind::IncDec(op, a) => ExprKind::IncDec(op, id(a)),
-            ExprKind::Binary(op, a, b) => ExprKind::Binary(op, id(a), id(b)),
-            ExprKind::Logical(op, a, b) => ExprKind::Logical(op, id(a), id(b)),
-            ExprKind::Ternary(a, b, c) => ExprKind::Ternary(id(a), id(b), id(c)),
-            ExprKind::Assign(op, a, b) => ExprKind::Assign(op, id(a), id(b)),
-            ExprKind::Comma(a, b) => ExprKind::Comma(id(a), id(b)),
-            ExprKind::Call(function, arguments) => ExprKind::Call(self.function_id(function), list(arguments)),
-            ExprKind::BuiltinCall(function, arguments) => ExprKind::BuiltinCall(function, list(arguments)),
+    fn kind(&self, mut kind: ExprKind) -> ExprKind {
+        match &mut kind {
+            ExprKind::Var(VarRef::Global(global)) => *global = self.global_id(*global),
+            ExprKind::Call(function, _) => *function = self.function_id(*function),
+            _ => {}
         }
+        kind.for_each_operand(&mut |id| *id = self.expr_id(*id));
+        kind
     }
 
     /// Gives the statements of a body new handles. It recurses into blocks, which nest at most as deep as the parser

@@ -1,29 +1,7 @@
 //! Static use: which globals a body reads, and which it may write (GLSL 1.50 §4.3.4, "actually read").
 
-use crate::hir::{ExprId, ExprKind, GlobalId, ParamMode, Shader, VarRef};
+use crate::hir::{ExprKind, GlobalId, Shader, VarRef, written_by};
 use crate::source::Span;
-
-/// Calls `f` with every l-value that an expression itself writes: the target of an assignment, of `++` or `--`, and
-/// the arguments for `out` and `inout` parameters.
-pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
-    match &shader.expr(expr).kind {
-        ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => f(*target),
-        ExprKind::Call(callee, arguments) => {
-            let callee = shader.function(*callee);
-            for (index, &argument) in arguments.iter().enumerate() {
-                if matches!(callee.param_mode(index), ParamMode::Out | ParamMode::Inout) {
-                    f(argument);
-                }
-            }
-        }
-        ExprKind::BuiltinCall(function, arguments) => {
-            if let Some(&argument) = function.written_argument().and_then(|index| arguments.get(index)) {
-                f(argument);
-            }
-        }
-        _ => {}
-    }
-}
 
 /// The position of the first assignment to a global in the functions that `main` reaches.
 pub(super) fn first_write(shader: &Shader, global: GlobalId) -> Option<Span> {

@@ -5,10 +5,10 @@
 //! put `gl_Position` at a constant place does not count, because nothing of such a vertex is seen.
 
 use crate::builtin::BuiltinVariable;
+use crate::hir::written_by;
 use crate::hir::{
     ArraySize, ExprId, ExprKind, FunctionId, GlobalId, ScalarValue, Shader, Stmt, StmtKind, Type, TypeId, Types, VarRef,
 };
-use crate::link::usage::written_by;
 use std::collections::BTreeSet;
 use std::ops::Range;
 

@@ -6,10 +6,10 @@
 //! function is divergent; if it may leave a loop, the whole loop is.
 
 use crate::builtin::BuiltinVariable;
+use crate::hir::written_by;
 use crate::hir::{
     ExprId, ExprKind, FunctionId, Global, Interpolation, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef,
 };
-use crate::link::usage::written_by;
 use rustc_hash::FxHashMap;
 
 /// A call of a built-in function in divergent control flow.

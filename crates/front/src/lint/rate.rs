@@ -6,8 +6,8 @@
 use super::subject::Place;
 use super::uses::{has_no_effect, is_plain};
 use crate::builtin::BuiltinFunction as B;
+use crate::hir::written_by;
 use crate::hir::{Condition, ExprId, ExprKind, Stmt, StmtKind, Storage, VarRef};
-use crate::link::usage::written_by;
 use rustc_hash::FxHashSet;
 
 /// How often a value changes.

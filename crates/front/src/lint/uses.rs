@@ -4,8 +4,8 @@
 
 use crate::builtin::BuiltinFunction;
 use crate::builtin::operations::Class;
+use crate::hir::written_by;
 use crate::hir::{BinaryOp, ExprId, ExprKind, Function, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
-use crate::link::usage::written_by;
 use rustc_hash::FxHashSet;
 
 /// The uses of a local.

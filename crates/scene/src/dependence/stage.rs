@@ -4,11 +4,11 @@
 //! regardless of the order of its assignments, but the fourth component of an output counts by itself. A condition that differs makes
 //! what it guards differ; if it guards a jump, all of the function.
 
+use glisten_front::hir::written_by;
 use glisten_front::hir::{
     Condition, ConstructKind, ExprId, ExprKind, FunctionId, Global, ParamMode, Shader, Stmt, StmtKind, Storage, Types,
     VarRef,
 };
-use glisten_front::link::usage::written_by;
 
 /// The globals whose values may differ.
 pub(super) struct Differing {

@@ -3,8 +3,8 @@
 //! *In:* the program as it was written. *Out:* for each function the globals that it may write or read, and what it does
 //! besides; for a piece of a body the locals, too.
 
+use glisten_front::hir::written_by;
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, StmtKind, VarRef};
-use glisten_front::link::usage::written_by;
 use std::collections::BTreeSet;
 
 /// What a function does besides giving a value.
@@ -117,27 +117,6 @@ impl Effects {
             };
         });
         assigned
-    }
-}
-
-/// Whether an expression itself, not one of its operands, may do more than give a value.
-pub(crate) fn may_act(kind: &ExprKind) -> bool {
-    match kind {
-        ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) => true,
-        ExprKind::BuiltinCall(function, _) => function.has_effects(),
-        ExprKind::Literal(_)
-        | ExprKind::Var(_)
-        | ExprKind::Member(..)
-        | ExprKind::Index(..)
-        | ExprKind::Swizzle(..)
-        | ExprKind::Convert(_)
-        | ExprKind::Construct(..)
-        | ExprKind::Unary(..)
-        | ExprKind::Binary(..)
-        | ExprKind::Logical(..)
-        | ExprKind::Ternary(..)
-        | ExprKind::Comma(..)
-        | ExprKind::Error => false,
     }
 }
 

@@ -19,7 +19,7 @@ mod selections;
 mod statements;
 mod store;
 
-pub(crate) use effects::{Effects, may_act};
+pub(crate) use effects::Effects;
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;

@@ -7,11 +7,11 @@
 use super::apply::Links;
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::builtin::operations::Class;
+use glisten_front::hir::written_by;
 use glisten_front::hir::{
     BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, Interpolation, LocalId, LocalKind, Sampling, Scalar, Shader,
     Stmt, StmtKind, Storage, Type, Types, UnaryOp, VarRef,
 };
-use glisten_front::link::usage::written_by;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 

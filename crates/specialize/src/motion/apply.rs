@@ -7,7 +7,6 @@ use super::Move;
 use super::affine::Kind;
 use super::candidates::{Candidate, Candidates};
 use crate::prune::Pruned;
-use crate::prune::for_each_child;
 use crate::settle::Settled;
 use glisten_front::Program;
 use glisten_front::hir::{
@@ -221,7 +220,7 @@ impl Copy<'_> {
                 }
             }
             ExprKind::Var(VarRef::Global(global)) => *global = self.global(*global),
-            _ => for_each_child(&mut kind, &mut |child| *child = self.expr(*child)),
+            _ => kind.for_each_operand(&mut |child| *child = self.expr(*child)),
         }
         self.to.push(kind, ty, span)
     }

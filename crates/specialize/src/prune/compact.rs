@@ -4,41 +4,12 @@
 //! *In:* a stage and the globals that stay. *Out:* a stage with new handles.
 
 use super::uses::{Uses, reached};
-use crate::forward::may_act;
 use glisten_front::hir::{
     Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, Types,
-    VarRef,
+    VarRef, may_act,
 };
 use glisten_front::stack::with_stack;
 use rustc_hash::FxHashMap;
-
-/// Calls `f` with each operand of an expression.
-pub(crate) fn for_each_child(kind: &mut ExprKind, f: &mut dyn FnMut(&mut ExprId)) {
-    match kind {
-        ExprKind::Error | ExprKind::Literal(_) | ExprKind::Var(_) => {}
-        ExprKind::Member(a, _)
-        | ExprKind::Swizzle(a, _)
-        | ExprKind::Convert(a)
-        | ExprKind::Unary(_, a)
-        | ExprKind::IncDec(_, a) => f(a),
-        ExprKind::Index(a, b)
-        | ExprKind::Binary(_, a, b)
-        | ExprKind::Logical(_, a, b)
-        | ExprKind::Assign(_, a, b)
-        | ExprKind::Comma(a, b) => {
-            f(a);
-            f(b);
-        }
-        ExprKind::Ternary(a, b, c) => {
-            f(a);
-            f(b);
-            f(c);
-        }
-        ExprKind::Construct(_, list) | ExprKind::Call(_, list) | ExprKind::BuiltinCall(_, list) => {
-            list.iter_mut().for_each(f);
-        }
-    }
-}
 
 struct Rebuild<'a> {
     old: &'a Shader,
@@ -194,7 +165,7 @@ impl Rebuild<'_> {
             }
             _ => {}
         }
-        for_each_child(&mut kind, &mut |child| *child = self.expr(function, *child));
+        kind.for_each_operand(&mut |child| *child = self.expr(function, *child));
         self.new.push(kind, expr.ty, expr.span)
     }
 

@@ -3,8 +3,7 @@
 //! *In:* a stage. *Out:* the stage; whether anything went. *Holds:* arguments are without effects, and each stands for a
 //! parameter that is used at most once, or is as short as a name or a number.
 
-use crate::forward::may_act;
-use glisten_front::hir::{Expr, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, VarRef};
+use glisten_front::hir::{Expr, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, VarRef, may_act};
 
 /// A function may be so many expressions long to be written where it is called from several places.
 const SHORT: usize = 5;
@@ -97,7 +96,7 @@ fn substitute(shader: &mut Shader, root: ExprId, arguments: &[ExprId]) -> ExprId
             continue;
         }
         let Expr { mut kind, ty, span } = shader.expr(id).clone();
-        super::compact::for_each_child(&mut kind, &mut |child| {
+        kind.for_each_operand(&mut |child| {
             if let Some(place) = places.get(child) {
                 *child = *place;
             }

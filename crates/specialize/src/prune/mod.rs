@@ -26,7 +26,6 @@ mod trim;
 mod unreached;
 mod uses;
 
-pub(crate) use compact::for_each_child;
 pub(super) use unreached::without_unreached;
 
 use super::settle::Settled;

@@ -3,8 +3,7 @@
 //! *In:* a body. *Out:* the body without them. *Holds:* only whole locals that nothing else can name are followed; what a
 //! loop reads anywhere is taken to be read at its end and wherever it is left.
 
-use crate::forward::may_act;
-use glisten_front::hir::{ExprId, ExprKind, Function, LocalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
+use glisten_front::hir::{ExprId, ExprKind, Function, LocalId, ParamMode, Shader, Stmt, StmtKind, VarRef, may_act};
 
 /// Locals that are read later, a bit each: a set is copied for each branch.
 #[derive(Clone, Debug, Default)]

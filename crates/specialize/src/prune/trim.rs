@@ -4,10 +4,9 @@
 //! *Holds:* structs between the stages, built-in ones and those that are compared as a whole stay. All stages have the same
 //! type for the same name.
 
-use crate::forward::may_act;
 use glisten_front::hir::{
     ArraySize, BinaryOp, ConstructKind, ExprKind, GlobalId, ScalarValue, Shader, Storage, StructId, Type, TypeId,
-    Types, Value, VarRef,
+    Types, Value, VarRef, may_act,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;

@@ -5,8 +5,7 @@
 //! is evaluated: names, types and the order of what stays are those of the source.
 
 use super::{compact, overwritten_in, sweep, uses};
-use crate::forward::may_act;
-use glisten_front::hir::{ExprId, GlobalId, Shader, Storage, Types};
+use glisten_front::hir::{ExprId, GlobalId, Shader, Storage, Types, may_act};
 
 /// Leaves out what reaches no output. `live` says for each global whether somebody reads it when the stage has ended.
 pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -> Shader {

@@ -7,10 +7,10 @@
 use super::identities;
 use crate::forward::Walked;
 use glisten_front::builtin::operations::{Binary, Class, Numbers};
+use glisten_front::hir::written_by;
 use glisten_front::hir::{
     BinaryOp, ExprId, ExprKind, FunctionId, LocalId, ScalarValue, Stmt, StmtKind, Storage, UnaryOp, VarRef,
 };
-use glisten_front::link::usage::written_by;
 use rustc_hash::{FxHashMap, FxHashSet, FxHasher};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{Hash, Hasher};

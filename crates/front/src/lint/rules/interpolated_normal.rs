@@ -4,8 +4,8 @@ use super::super::rate::{Rate, rate};
 use super::super::{Findings, Place, Subject};
 use crate::builtin::BuiltinFunction as B;
 use crate::diagnostic::Applicability;
+use crate::hir::written_by;
 use crate::hir::{ExprId, ExprKind, GlobalId, Interpolation, Shader, Stage, Storage, Type, VarRef};
-use crate::link::usage::written_by;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let program = subject.program;

@@ -2,8 +2,8 @@
 
 use super::super::rate::is_lookup;
 use super::super::{Findings, Place, Subject};
+use crate::hir::written_by;
 use crate::hir::{ExprId, ExprKind, Stage, Stmt, StmtKind, VarRef};
-use crate::link::usage::written_by;
 use rustc_hash::FxHashSet;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {

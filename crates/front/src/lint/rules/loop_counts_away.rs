@@ -1,8 +1,8 @@
 //! `loop-counts-away`: a loop whose counter moves away from its bound: `for (int i = 0; i < 4; i--)`.
 
 use super::super::{Findings, Place, Subject};
+use crate::hir::written_by;
 use crate::hir::{BinaryOp, ExprId, ExprKind, IncDec, LocalId, StmtKind, VarRef};
-use crate::link::usage::written_by;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for (place, statement) in subject.statements() {

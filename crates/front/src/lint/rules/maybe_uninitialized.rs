@@ -6,8 +6,8 @@
 
 use super::super::uses::written_by_parts;
 use super::super::{Findings, Place, Subject};
+use crate::hir::written_by;
 use crate::hir::{CaseLabel, ExprId, ExprKind, LocalId, LocalKind, ParamMode, Stmt, StmtKind, VarRef};
-use crate::link::usage::written_by;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for place in &subject.places {

@@ -4,8 +4,8 @@
 //! its first line on. So the rule errs on the side of silence.
 
 use super::super::{Findings, Subject, running};
+use crate::hir::written_by;
 use crate::hir::{ExprId, ExprKind, Function, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, VarRef};
-use crate::link::usage::written_by;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let program = subject.program;
@@ -137,9 +137,14 @@ impl Walk<'_> {
                 }
                 self.assign_in(id);
             }
-            ExprKind::BuiltinCall(crate::builtin::BuiltinFunction::Modf, arguments) => {
-                arguments.first().into_iter().for_each(|&argument| self.expr(argument));
-                arguments.get(1).into_iter().for_each(|&argument| self.indices(argument));
+            ExprKind::BuiltinCall(function, arguments) if function.written_argument().is_some() => {
+                for (index, &argument) in arguments.iter().enumerate() {
+                    if function.written_argument() == Some(index) {
+                        self.indices(argument)
+                    } else {
+                        self.expr(argument)
+                    }
+                }
                 self.assign_in(id);
             }
             kind => {

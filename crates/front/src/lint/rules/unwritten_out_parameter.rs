@@ -1,8 +1,8 @@
 //! `unwritten-out-parameter`: an `out` parameter that its function never assigns.
 
 use super::super::{Findings, Subject, running};
+use crate::hir::written_by;
 use crate::hir::{LocalKind, ParamMode, VarRef};
-use crate::link::usage::written_by;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let program = subject.program;

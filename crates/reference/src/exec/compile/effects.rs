@@ -1,7 +1,7 @@
 //! [`Effects`]: which expressions change variables, and which variables a construct changes.
 
 use glisten_front::hir::{
-    Condition, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef,
+    Condition, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, StmtKind, Storage, VarRef, written_by,
 };
 use std::collections::BTreeSet;
 
@@ -25,10 +25,13 @@ impl Effects {
     pub(super) fn of(shader: &Shader) -> Self {
         let mut exprs: Vec<bool> = Vec::with_capacity(shader.exprs.len());
         for expr in &shader.exprs {
-            let mut has = matches!(expr.kind, ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..))
-                || matches!(expr.kind, ExprKind::BuiltinCall(glisten_front::builtin::BuiltinFunction::Modf, _));
+            let mut has = match &expr.kind {
+                ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) => true,
+                ExprKind::BuiltinCall(function, _) => function.written_argument().is_some(),
+                _ => false,
+            };
             // Children come before their parents.
-            each_child(&expr.kind, &mut |child| has |= exprs.get(child.index()).copied().unwrap_or(true));
+            expr.kind.children().into_iter().for_each(|child| has |= exprs.get(child.index()).copied().unwrap_or(true));
             exprs.push(has);
         }
         let mut effects = Self { exprs, functions: vec![None; shader.functions.len()] };
@@ -108,25 +111,12 @@ impl Effects {
                 continue;
             }
             let kind = &shader.expr(expr).kind;
-            match kind {
-                ExprKind::Assign(_, place, _) | ExprKind::IncDec(_, place) => root(shader, *place, assigned),
-                ExprKind::Call(function, arguments) => {
-                    let callee = shader.function(*function);
-                    for (index, argument) in arguments.iter().enumerate() {
-                        if matches!(callee.param_mode(index), ParamMode::Out | ParamMode::Inout) {
-                            root(shader, *argument, assigned);
-                        }
-                    }
-                    let globals = self.function(shader, *function);
-                    assigned.globals.extend(globals);
-                }
-                ExprKind::BuiltinCall(_, arguments) => {
-                    // `modf`: the second argument is an output.
-                    arguments.get(1).iter().for_each(|out| root(shader, **out, assigned));
-                }
-                _ => {}
+            written_by(shader, expr, &mut |place| root(shader, place, assigned));
+            if let ExprKind::Call(function, _) = kind {
+                let globals = self.function(shader, *function);
+                assigned.globals.extend(globals);
             }
-            each_child(kind, &mut |child| rest.push(child));
+            rest.extend(kind.children());
         }
     }
 }
@@ -155,9 +145,4 @@ fn root(shader: &Shader, place: ExprId, assigned: &mut Assigned) {
             _ => return,
         }
     }
-}
-
-/// Calls `f` with each direct child.
-fn each_child(kind: &ExprKind, f: &mut dyn FnMut(ExprId)) {
-    kind.children().into_iter().for_each(f);
 }

@@ -1,0 +1,49 @@
+//! What an expression does besides giving a value.
+//!
+//! *In:* a stage and an expression. *Out:* the l-values that the expression itself writes. *Holds:* who asks what is written asks here,
+//! so that a built-in function with a result in an argument is known everywhere.
+
+use super::{ExprId, ExprKind, ParamMode, Shader};
+
+/// Calls `f` with every l-value that an expression itself writes: the target of an assignment, of `++` or `--`, and
+/// the arguments for `out` and `inout` parameters.
+pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
+    match &shader.expr(expr).kind {
+        ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => f(*target),
+        ExprKind::Call(callee, arguments) => {
+            let callee = shader.function(*callee);
+            for (index, &argument) in arguments.iter().enumerate() {
+                if matches!(callee.param_mode(index), ParamMode::Out | ParamMode::Inout) {
+                    f(argument);
+                }
+            }
+        }
+        ExprKind::BuiltinCall(function, arguments) => {
+            if let Some(&argument) = function.written_argument().and_then(|index| arguments.get(index)) {
+                f(argument);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Whether an expression itself does more than give a value: it writes, emits, or calls a function of the shader, which may.
+pub fn may_act(kind: &ExprKind) -> bool {
+    match kind {
+        ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) => true,
+        ExprKind::BuiltinCall(function, _) => function.has_effects(),
+        ExprKind::Error
+        | ExprKind::Literal(_)
+        | ExprKind::Var(_)
+        | ExprKind::Member(..)
+        | ExprKind::Index(..)
+        | ExprKind::Swizzle(..)
+        | ExprKind::Convert(_)
+        | ExprKind::Construct(..)
+        | ExprKind::Unary(..)
+        | ExprKind::Binary(..)
+        | ExprKind::Logical(..)
+        | ExprKind::Ternary(..)
+        | ExprKind::Comma(..) => false,
+    }
+}
