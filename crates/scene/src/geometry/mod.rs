@@ -17,7 +17,8 @@ mod tangents;
 
 pub(crate) use framing::{DOME, Framing};
 pub(crate) use gltf::{
-    Contents, Covering, Lamp, LampKind, Map, Surface, contents as gltf_contents, image as gltf_image, is_gltf,
+    Contents, Lamp, LampKind, Surface, contents as gltf_contents, draw as gltf_draw, image as gltf_image, is_blended,
+    is_gltf, passes,
 };
 pub use model::is_model_file;
 pub(crate) use model::{Look, Model, ModelCamera, Projection, TextureSource};
