@@ -108,10 +108,12 @@ struct Finish {
 };
 
 #ifdef GLISTEN_PLACES
-// Where a texture is on a surface: its coordinates are the products of these rows and (s, t, 1).
+// Where a texture is on a surface: its coordinates are the products of these rows and (s, t, 1), of the second set of texture coordinates
+// where `second` is 1.
 struct Place {
     vec3 s;
     vec3 t;
+    float second;
 };
 
 // The places of a material's textures.

@@ -131,9 +131,18 @@ struct Reflection {
 };
 
 #ifdef GLISTEN_PLACES
+#ifdef GLISTEN_TWO_SETS
+// The second set of texture coordinates.
+vec2 surface_second;
+#endif
+
 // The texture coordinates of a texture.
 vec2 standardPlace(Place place, vec2 st)
 {
+#ifdef GLISTEN_TWO_SETS
+    if (place.second > 0.0)
+        st = surface_second;
+#endif
     return vec2(dot(place.s, vec3(st, 1.0)), dot(place.t, vec3(st, 1.0)));
 }
 #define STANDARD_PLACE(map) standardPlace(places.map, st)

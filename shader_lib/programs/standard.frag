@@ -19,6 +19,9 @@ uniform sampler2D normal_map;
 #ifdef GLISTEN_COAT_NORMALS
 uniform sampler2D clearcoat_normal_map;
 #endif
+#ifdef GLISTEN_TWO_SETS
+in vec2 st2;
+#endif
 #ifdef GLISTEN_COLORS
 in vec4 tint;
 #endif
@@ -31,6 +34,9 @@ void main()
     vec3 N = safeNormalize(direction);
     vec3 V = safeNormalize(eye - world);
 #ifdef GLISTEN_SURFACE
+#ifdef GLISTEN_TWO_SETS
+    surface_second = st2;
+#endif
     vec4 base = texture(decal, STANDARD_PLACE(decal));
 #ifdef GLISTEN_COLORS
     base *= tint;

@@ -13,6 +13,10 @@ in vec2 texcoord;
 in vec4 tangent;
 out vec4 along;         // tangent in world space, not of unit length, and its handedness
 #endif
+#ifdef GLISTEN_TWO_SETS
+in vec2 texcoord2;
+out vec2 st2;           // the second set of texture coordinates
+#endif
 #ifdef GLISTEN_COLORS
 in vec4 vertex_color;
 out vec4 tint;
@@ -31,6 +35,9 @@ void main()
     st = texcoord;
 #ifdef STANDARD_TANGENTS
     along = vec4(mat3(model) * tangent.xyz, tangent.w);
+#endif
+#ifdef GLISTEN_TWO_SETS
+    st2 = texcoord2;
 #endif
 #ifdef GLISTEN_COLORS
     tint = vertex_color;

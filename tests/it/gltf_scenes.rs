@@ -215,7 +215,8 @@ fn wrong_files_and_keys_are_told_with_their_place() {
 fn what_is_not_drawn_is_a_note() {
     let glass = r#"{"name": "glass", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1},
         "KHR_materials_dispersion": {}, "KHR_materials_diffuse_transmission": {},
-        "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": {"index": 0, "texCoord": 1}}}}"#;
+        "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": {"index": 0, "texCoord": 1},
+        "clearcoatRoughnessTexture": {"index": 0, "texCoord": 2}}}}"#;
     let image = r#", "images": [{"uri": "a.png"}], "textures": [{"source": 0}]"#;
     let loaded = scene(PLAIN, &squares(&[glass], "", image));
     let told = told(&loaded).join("\n");
@@ -224,7 +225,7 @@ fn what_is_not_drawn_is_a_note() {
         "without KHR_materials_dispersion",
         "without KHR_materials_diffuse_transmission",
         "what is behind `glass` is not blurred",
-        "the coat of `glass` has texture coordinates of set 1",
+        "the roughness of the coat of `glass` has texture coordinates of set 2, a third one, and is left out",
     ] {
         assert!(told.contains("W0912") && told.contains(words), "{told}");
     }
@@ -238,7 +239,7 @@ fn extensions_become_layers() {
         "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963267948966},
         "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceIor": 1.8, "iridescenceThicknessMaximum": 600,
             "iridescenceThicknessTexture": {"index": 0}},
-        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatNormalTexture": {"index": 0, "scale": 0.5}},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": {"index": 0, "texCoord": 1}, "clearcoatNormalTexture": {"index": 0, "scale": 0.5}},
         "KHR_materials_specular": {"specularTexture": {"index": 0}, "specularColorTexture": {"index": 0}},
         "KHR_materials_transmission": {"transmissionFactor": 0.5, "transmissionTexture": {"index": 0}},
         "KHR_materials_volume": {"thicknessFactor": 2, "attenuationDistance": 4, "attenuationColor": [1, 0.5, 0],
@@ -283,6 +284,8 @@ fn extensions_become_layers() {
         near(&value(draw, "finish.film_thickness"), &[600.0]);
         near(&value(draw, "finish.film_thinnest"), &[100.0]);
         near(&value(draw, "finish.clearcoat_normal_scale"), &[0.5]);
+        near(&value(draw, "places.clearcoat_map.second"), &[1.0]);
+        near(&value(draw, "places.sheen_map.second"), &[0.0]);
         near(&value(draw, "finish.transmission"), &[0.5]);
         near(&value(draw, "finish.absorption"), &[0.0, 0.5 * 2.0_f32.ln(), 64.0]);
     }

@@ -6,7 +6,7 @@
 
 use super::lights::Member;
 use crate::tables::{Node, Reader};
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 /// A macro of the program `standard`, and the keys for which it is defined.
 const MACROS: &[(&str, &[&str])] = &[
@@ -85,7 +85,7 @@ pub(super) const TABLES: &[(&str, &str)] = &[("sheen_table", "sheen_albedo")];
 /// The textures that may have a `transform`, besides those of layers: members of the uniform `places`.
 const PLACED: &[&str] = &["decal", "metallic_roughness", "emission_map", "occlusion_map", "normal_map"];
 
-const TRANSFORM_KEYS: &[&str] = &["scale", "rotate", "translate"];
+const TRANSFORM_KEYS: &[&str] = &["scale", "rotate", "translate", "set"];
 
 /// The keys of all layers.
 pub(super) fn keys() -> Vec<&'static str> {
@@ -109,6 +109,9 @@ pub(super) fn macros(table: &DeTable<'_>) -> Vec<&'static str> {
     if placed().any(|map| transform(table, map).is_some()) {
         names.push("GLISTEN_PLACES");
     }
+    if placed().any(|map| transform(table, map).is_some_and(|node| set(node) > 0)) {
+        names.push("GLISTEN_TWO_SETS");
+    }
     names
 }
 
@@ -129,6 +132,8 @@ pub(super) fn members(reader: &mut Reader, table: &DeTable<'_>) -> Vec<(String, 
     }
     for map in placed() {
         let [s, t] = transform(table, map).map_or(IDENTITY, |node| place(reader, node));
+        let second = transform(table, map).map_or(0, set);
+        members.push((format!("places.{map}.second"), Member::Float(f64::from(second))));
         members.push((format!("places.{map}.s"), Member::Vector(s)));
         members.push((format!("places.{map}.t"), Member::Vector(t)));
     }
@@ -142,6 +147,12 @@ fn transform<'t, 'i>(table: &'t DeTable<'i>, map: &str) -> Option<&'t Node<'i>> 
     table.get(map)?.get_ref().as_table()?.get("transform")
 }
 
+/// The set of texture coordinates that a transform names, 0 or 1.
+fn set(node: &Node<'_>) -> u8 {
+    let set = node.get_ref().as_table().and_then(|table| table.get("set")).map(|node| node.get_ref());
+    u8::from(matches!(set, Some(DeValue::Integer(number)) if number.as_str() == "1"))
+}
+
 /// The rows of a transform of texture coordinates: it scales, then turns counterclockwise, then translates.
 fn place(reader: &mut Reader, node: &Node<'_>) -> [[f64; 3]; 2] {
     let Some(table) = reader.table(node, "transform") else { return IDENTITY };
@@ -151,6 +162,7 @@ fn place(reader: &mut Reader, node: &Node<'_>) -> [[f64; 3]; 2] {
         _ => reader.reals(table, "scale", [1.0; 2]),
     };
     let [ds, dt] = reader.reals(table, "translate", [0.0; 2]);
+    reader.count(table, "set", 0, 0..=1);
     let (sine, cosine) = reader.real(table, "rotate", 0.0).to_radians().sin_cos();
     [[cosine * x, -sine * y, ds], [sine * x, cosine * y, dt]]
 }

@@ -111,7 +111,8 @@ fn write_map(text: &mut String, file: &str, key: &str, map: &Map) {
     let (name, wrap) = (quoted(&name), map.wrap);
     let transform = map.transform.map_or_else(String::new, |transform| {
         let (scale, rotate, translate) = (transform.scale, transform.rotate, transform.translate);
-        format!(", transform = {{ scale = {scale:?}, rotate = {rotate:?}, translate = {translate:?} }}")
+        let set = if transform.is_second { ", set = 1" } else { "" };
+        format!(", transform = {{ scale = {scale:?}, rotate = {rotate:?}, translate = {translate:?}{set} }}")
     });
     let _ = writeln!(
         text,

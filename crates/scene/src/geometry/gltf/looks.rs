@@ -74,10 +74,3 @@ pub(super) fn source(
         _ => Some(TextureSource::Embedded(u32::try_from(texture.source.value()).ok()?)),
     }
 }
-
-/// The set of texture coordinates for the colors of a material.
-pub(super) fn color_set(root: &Root, look: usize) -> u32 {
-    let material = root.materials.get(look);
-    let texture = material.and_then(|material| material.pbr_metallic_roughness.base_color_texture.as_ref());
-    texture.map_or(0, |info| info.tex_coord)
-}

@@ -33,6 +33,8 @@ pub(crate) struct Transform {
     /// In degrees.
     pub(crate) rotate: f64,
     pub(crate) translate: [f64; 2],
+    /// Whether the coordinates are those of the second set.
+    pub(crate) is_second: bool,
 }
 
 /// A texture of a glTF material: the key of `[material]`, what it is called in a remark, and whether it has encoded colors.
@@ -75,35 +77,48 @@ const OF_EXTENSIONS: &[(&str, &str, Row)] = &[
 const TRANSMISSION: &str = "KHR_materials_transmission";
 const VOLUME: &str = "KHR_materials_volume";
 
-/// Reads the textures of a material.
-struct Maps<'a> {
-    root: &'a Root,
-    /// The material.
-    name: &'a str,
-    /// The set of texture coordinates that the mesh has.
-    base_set: u32,
-    remarks: &'a mut Vec<String>,
-    maps: Vec<Map>,
+const TRANSFORM: &str = "KHR_texture_transform";
+
+/// A texture as a material has it.
+struct Given {
+    row: Row,
+    index: Index<Texture>,
+    /// The set of texture coordinates.
+    set: u32,
+    /// Its transform.
+    placed: Option<Value>,
 }
 
-/// The textures of a material.
-///
-/// # Errors
-/// A sentence about one of them.
-pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec<String>) -> Result<Vec<Map>, String> {
-    let given = &material.pbr_metallic_roughness;
-    let base_set = given.base_color_texture.as_ref().map_or(0, |info| info.tex_coord);
-    let mut maps = Maps { root, name, base_set, remarks, maps: Vec::new() };
-    maps.info(BASE_COLOR, given.base_color_texture.as_ref())?;
-    maps.info(EMISSION, material.emissive_texture.as_ref())?;
-    maps.info(METALLIC_ROUGHNESS, given.metallic_roughness_texture.as_ref())?;
-    if let Some(given) = &material.occlusion_texture {
-        let placed = given.extensions.as_ref().and_then(|all| all.others.get(TRANSFORM));
-        maps.add(OCCLUSION, (given.index, given.tex_coord), placed)?;
+impl Given {
+    fn new(row: Row, index: Index<Texture>, set: u32, placed: Option<&Value>) -> Self {
+        // The transform may name another set.
+        let own = placed.and_then(|placed| placed.get("texCoord")).and_then(Value::as_u64);
+        let set = own.and_then(|own| u32::try_from(own).ok()).unwrap_or(set);
+        Self { row, index, set, placed: placed.cloned() }
     }
-    if let Some(given) = &material.normal_texture {
-        let placed = given.extensions.as_ref().and_then(|all| all.others.get(TRANSFORM));
-        maps.add(NORMAL, (given.index, given.tex_coord), placed)?;
+
+    fn of(row: Row, info: &Info) -> Self {
+        let placed = info.extensions.as_ref().and_then(|all| all.others.get(TRANSFORM));
+        Self::new(row, info.index, info.tex_coord, placed)
+    }
+}
+
+/// The textures of a material, in the order of their tables.
+fn given(material: &Material) -> Result<Vec<Given>, String> {
+    let own = &material.pbr_metallic_roughness;
+    let plain = [
+        (BASE_COLOR, own.base_color_texture.as_ref()),
+        (EMISSION, material.emissive_texture.as_ref()),
+        (METALLIC_ROUGHNESS, own.metallic_roughness_texture.as_ref()),
+    ];
+    let mut all: Vec<Given> = plain.into_iter().filter_map(|(row, info)| Some(Given::of(row, info?))).collect();
+    if let Some(found) = &material.occlusion_texture {
+        let placed = found.extensions.as_ref().and_then(|all| all.others.get(TRANSFORM));
+        all.push(Given::new(OCCLUSION, found.index, found.tex_coord, placed));
+    }
+    if let Some(found) = &material.normal_texture {
+        let placed = found.extensions.as_ref().and_then(|all| all.others.get(TRANSFORM));
+        all.push(Given::new(NORMAL, found.index, found.tex_coord, placed));
     }
     let extensions = material.extensions.as_ref().map(|all| &all.others);
     for (extension, key, row) in OF_EXTENSIONS {
@@ -114,53 +129,68 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
         let Some(info) = info.filter(|_| is_there) else { continue };
         let wrong = || format!("its `{key}` is no texture");
         let info: Info = gltf::json::deserialize::from_value(info.clone()).map_err(|_| wrong())?;
-        maps.info(*row, Some(&info))?;
+        all.push(Given::of(*row, &info));
     }
-    Ok(maps.maps)
+    Ok(all)
 }
 
-const TRANSFORM: &str = "KHR_texture_transform";
+/// The two sets of texture coordinates that a material has: the set of the base color, or 0, and the first other one.
+pub(super) fn sets(material: &Material) -> (u32, Option<u32>) {
+    sets_of(&given(material).unwrap_or_default())
+}
 
-impl Maps<'_> {
-    fn info(&mut self, row: Row, info: Option<&Info>) -> Result<(), String> {
-        let Some(info) = info else { return Ok(()) };
-        let placed = info.extensions.as_ref().and_then(|all| all.others.get(TRANSFORM));
-        self.add(row, (info.index, info.tex_coord), placed)
-    }
+fn sets_of(all: &[Given]) -> (u32, Option<u32>) {
+    let first = all.iter().find(|given| given.row == BASE_COLOR).map_or(0, |given| given.set);
+    (first, all.iter().map(|given| given.set).find(|set| *set != first))
+}
 
-    fn add(
-        &mut self,
-        (key, what, is_encoded): Row,
-        (index, set): (Index<Texture>, u32),
-        placed: Option<&Value>,
-    ) -> Result<(), String> {
-        let own_set = placed.and_then(|placed| placed.get("texCoord")).and_then(Value::as_u64);
-        let set = own_set.map_or(u64::from(set), |own| own);
-        if set != u64::from(self.base_set) {
-            self.remarks.push(format!(
-                "{what} of `{}` has texture coordinates of set {set}, and is drawn with those of set {}",
-                self.name, self.base_set
-            ));
-        }
-        let Some(source) = source(self.root, index, self.name, self.remarks) else { return Ok(()) };
-        let sampler = self.root.get(index).and_then(|texture| texture.sampler);
-        let sampler = sampler.and_then(|sampler| self.root.get(sampler));
-        let wrap = sampler.map_or("repeat", |sampler| match sampler.wrap_s {
-            Checked::Valid(mode) if mode.as_gl_enum() == CLAMP_TO_EDGE => "clamp",
-            Checked::Valid(mode) if mode.as_gl_enum() == MIRRORED_REPEAT => "mirror",
-            _ => "repeat",
-        });
-        let magnified = sampler.and_then(|sampler| sampler.mag_filter);
-        let is_nearest = matches!(magnified, Some(Checked::Valid(filter)) if filter.as_gl_enum() == NEAREST);
-        let transform = placed.map(transform).transpose()?.filter(|transform| *transform != Transform::NONE);
-        self.maps.push(Map { key, is_encoded, source, wrap, is_nearest, transform });
-        Ok(())
+/// The textures of a material.
+///
+/// # Errors
+/// A sentence about one of them.
+pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec<String>) -> Result<Vec<Map>, String> {
+    let all = given(material)?;
+    let sets = sets_of(&all);
+    let mut maps = Vec::new();
+    for one in &all {
+        maps.extend(map(root, one, sets, (name, remarks))?);
     }
+    Ok(maps)
+}
+
+/// A texture; `None` for one whose image is not read.
+fn map(
+    root: &Root,
+    given: &Given,
+    (first, second): (u32, Option<u32>),
+    (name, remarks): (&str, &mut Vec<String>),
+) -> Result<Option<Map>, String> {
+    let (key, what, is_encoded) = given.row;
+    let is_second = second == Some(given.set);
+    if given.set != first && !is_second {
+        let set = given.set;
+        remarks.push(format!("{what} of `{name}` has texture coordinates of set {set}, a third one, and is left out"));
+        return Ok(None);
+    }
+    let Some(source) = source(root, given.index, name, remarks) else { return Ok(None) };
+    let sampler = root.get(given.index).and_then(|texture| texture.sampler);
+    let sampler = sampler.and_then(|sampler| root.get(sampler));
+    let wrap = sampler.map_or("repeat", |sampler| match sampler.wrap_s {
+        Checked::Valid(mode) if mode.as_gl_enum() == CLAMP_TO_EDGE => "clamp",
+        Checked::Valid(mode) if mode.as_gl_enum() == MIRRORED_REPEAT => "mirror",
+        _ => "repeat",
+    });
+    let magnified = sampler.and_then(|sampler| sampler.mag_filter);
+    let is_nearest = matches!(magnified, Some(Checked::Valid(filter)) if filter.as_gl_enum() == NEAREST);
+    let placed = given.placed.as_ref().map(transform).transpose()?.unwrap_or(Transform::NONE);
+    let placed = Transform { is_second, ..placed };
+    let transform = (placed != Transform::NONE).then_some(placed);
+    Ok(Some(Map { key, is_encoded, source, wrap, is_nearest, transform }))
 }
 
 impl Transform {
     /// A texture stays where it is.
-    const NONE: Self = Self { scale: [1.0; 2], rotate: 0.0, translate: [0.0; 2] };
+    const NONE: Self = Self { scale: [1.0; 2], rotate: 0.0, translate: [0.0; 2], is_second: false };
 }
 
 /// A transform of glTF, whose t grows downwards: for a turn by r, u = o_u + cos r s_u u + sin r s_v v, and
@@ -175,7 +205,7 @@ fn transform(table: &Value) -> Result<Transform, String> {
     if !translate.iter().all(|value| (*value as f32).is_finite()) {
         return Err(format!("the {TRANSFORM} of a texture is not finite"));
     }
-    Ok(Transform { scale: [x, y], rotate: turn.to_degrees(), translate })
+    Ok(Transform { scale: [x, y], rotate: turn.to_degrees(), translate, is_second: false })
 }
 
 #[cfg(test)]
@@ -185,7 +215,7 @@ mod tests {
     /// The corners of the image for the corners of a square, by the rows that a scene makes of the transform.
     fn placed(json: &str, [s, t]: [f64; 2]) -> [f64; 2] {
         let table: Value = gltf::json::deserialize::from_str(json).expect("JSON");
-        let Transform { scale: [x, y], rotate, translate: [ds, dt] } = transform(&table).expect("a transform");
+        let Transform { scale: [x, y], rotate, translate: [ds, dt], .. } = transform(&table).expect("a transform");
         let (sine, cosine) = rotate.to_radians().sin_cos();
         [cosine * x * s - sine * y * t + ds, sine * x * s + cosine * y * t + dt]
     }
