@@ -255,7 +255,9 @@ fn extensions_become_layers() {
     );
     let loaded = scene(PLAIN, &squares(&[all, none], "", &images));
     let messages = told(&loaded);
-    assert_eq!(messages.len(), 1, "{messages:?}");
+    // Only a volume refracts, and nobody has so many layers with textures.
+    let codes: Vec<&str> = messages.iter().filter_map(|message| message.split(':').next()).collect();
+    assert_eq!(codes, ["W0912", "W0706"], "{messages:?}");
     let draws = loaded.scene.expect("it loads").draws;
     // Glass is drawn last: what passes, and what it mirrors.
     let [none, through, surface] = draws.as_slice() else { panic!("{} draws", draws.len()) };

@@ -105,11 +105,6 @@ impl<'a> Builder<'a> {
         soup.normals = normals.map_or(Vec::new(), |normals| normals.rows([0.0; 3]));
         soup.tangents = tangents.map_or(Vec::new(), |tangents| tangents.rows([1.0, 0.0, 0.0, 1.0]));
         soup.colors = colors.map_or(Vec::new(), |colors| colors.rows([1.0; 4]));
-        // The first row of an image is at t = 0 in glTF, and at the top of a picture here.
-        let upright = |rows: Option<Numbers>| {
-            let rows = rows.map_or(Vec::new(), |rows| rows.rows([0.0; 2]));
-            rows.into_iter().map(|[s, t]| [s, 1.0 - t]).collect::<Vec<_>>()
-        };
         soup.texcoords = upright(texcoords);
         // Where a material has textures by a set that the primitive lacks, they show one texel.
         soup.texcoords2 = texcoords2.map_or(Vec::new(), upright);
@@ -184,6 +179,12 @@ impl<'a> Builder<'a> {
         }
         Ok(linear(0).determinant() < 0.0)
     }
+}
+
+/// Texture coordinates whose t grows upwards: the first row of an image is at t = 0 in glTF, and at the top of a picture here.
+fn upright(rows: Option<Numbers>) -> Vec<[f64; 2]> {
+    let rows = rows.map_or(Vec::new(), |rows| rows.rows([0.0; 2]));
+    rows.into_iter().map(|[s, t]| [s, 1.0 - t]).collect()
 }
 
 fn blended(joints: &[DMat4], numbers: [f64; 4], weights: [f64; 4]) -> DMat4 {
