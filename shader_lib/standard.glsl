@@ -137,6 +137,7 @@ vec2 surface_second;
 #endif
 
 // The texture coordinates of a texture.
+//   place  where it is    st  those of the surface
 vec2 standardPlace(Place place, vec2 st)
 {
 #ifdef GLISTEN_TWO_SETS
@@ -245,6 +246,7 @@ void standardFibers(vec2 st, vec3 N, vec3 V)
 #endif
 
 // A reflection under the fibers of a material, if it has any: it loses what they return.
+//   base  the reflection without them
 Reflection standardUnderFibers(Reflection base)
 {
 #ifdef GLISTEN_FIBERS
