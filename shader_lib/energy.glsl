@@ -6,9 +6,20 @@
 //
 // Light that `ggx` loses, since it leaves a rough surface only after several reflections: without it, rough metals are dark. E is the
 // part that the model reflects of light from everywhere, from the pattern `ltc_albedo`, E_m its mean over all directions.
+//
+// The tables are by one roughness. A brushed surface takes that of energyRoughness(): it loses about as much.
 #ifndef GLISTEN_ENERGY
 #define GLISTEN_ENERGY
 #include "ltc.glsl"
+
+// The roughness of a surface that is not brushed and loses about as much light, for the other functions: by the mean square of alpha.
+//   alpha  along a tangent and across it, each limited to [2^-20, 1]
+// bound: 4e-7 abs
+float energyRoughness(vec2 alpha)
+{
+    vec2 a = clamp(alpha, vec2(exp2(-20.0)), vec2(1.0));
+    return sqrt(sqrt(0.5 * dot(a, a)));
+}
 
 // The factor of all further reflections, pi f N.L, reciprocal: add it to that of ggxFactor().
 //   table  `ltc_albedo`, of any filter    N, L, V  unit vectors    roughness  the root of alpha, limited to [0, 1]

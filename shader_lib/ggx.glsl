@@ -1,7 +1,7 @@
 // name: ggx
 // kind: specular
 // equation: f = D V F; D = alpha^2 / (pi cos^4 (alpha^2 + tan^2)^2), V = G_2 / (4 N.L N.V) with Smith's correlated G_2
-// source: Walter et al., Microfacet Models for Refraction, EGSR 2007, (33); Heitz, Masking-Shadowing Function, JCGT 2014, (72), (85), (99)
+// source: Walter et al., Microfacet Models for Refraction, EGSR 2007, (33); Heitz, Masking-Shadowing Function, JCGT 2014, (72), (85), (99); KHR_materials_anisotropy, Khronos 2023
 // stability: from |N x H|^2 and not 1 - (N.H)^2, so highlights hold their shape down to alpha = 1e-6, a roughness of 0.001
 //
 // The microfacet model of Trowbridge and Reitz, which everybody calls GGX. alpha is limited to [2^-20, 1]; artists set its
@@ -101,6 +101,31 @@ float ggxFactor(vec3 N, vec3 T, vec3 L, vec3 V, vec2 alpha)
     float d = NL * v + NV * l;
     float D = radians(180.0) * ggxDistribution(N, T, halfVector(L, V), a);
     return d > 0.0 ? safeFinite(D * (0.5 * NL / d)) : 0.0;
+}
+
+// The widths of a brushed surface: along T, which is across the scratches and where highlights are wide, and across it.
+//   roughness  along the scratches, the root of alpha, limited to [0, 1]    strength  limited to [0, 1]: 0 for a surface that is not brushed
+// bound: 3e-7 abs
+vec2 ggxBrushed(float roughness, float strength)
+{
+    float r = safeUnit(roughness);
+    float s = safeUnit(strength);
+    float a = r * r;
+    return vec2(a + s * s * (1.0 - a), a);
+}
+
+// The normal by which a brushed surface mirrors its surroundings: bent towards the eye in the plane of N and T, more as it is smoother.
+//   N, T  unit normal, and unit tangent across the scratches    V  unit vector towards the eye    roughness, strength  as of ggxBrushed()
+// bound: 2e-6 abs, the eye's direction in that plane
+vec3 ggxBent(vec3 N, vec3 T, vec3 V, float roughness, float strength)
+{
+    vec3 B = cross(N, T);
+    vec3 across = safeNormalize(safeFinite(V - dot(V, B) * B));
+    float k = 1.0 - safeUnit(strength) * (1.0 - safeUnit(roughness));
+    k *= k;
+    k *= k;
+    vec3 bent = safeNormalize(safeFinite((1.0 - k) * across + k * N));
+    return dot(bent, bent) > 0.0 ? bent : N;
 }
 
 // The specular reflection of white light from everywhere, by the fit that Karis published for mobile GPUs. It was made for dielectrics:

@@ -43,6 +43,12 @@ const int SPECULAR_BECKMANN = 10;
 const int SPECULAR_SHEEN = 11;
 const int SPECULAR_NORMALIZED = 12;
 
+// Finish.transmission_pass: which part of a surface that light passes through a draw adds. The first one is for draws without blending,
+// the others for a draw that multiplies what is behind, and one that is added to it.
+const int GLASS_ALL = 0;
+const int GLASS_THROUGH = 1;
+const int GLASS_SURFACE = 2;
+
 // The models of a material, and their parameters besides its reflectances.
 struct Finish {
     int diffuse_model;
@@ -71,7 +77,68 @@ struct Finish {
     float normal_scale;
     float occlusion_strength;
 #endif
+#ifdef GLISTEN_FIBERS
+    // The color of fibers over the rest, 0 to 1, and their roughness.
+    vec3 sheen;
+    float sheen_roughness;
+#endif
+#ifdef GLISTEN_BRUSHED
+    // How much rougher a brushed surface is across its scratches, 0 to 1, and the cosine and the sine of the angle from the tangent to that
+    // direction, in which highlights are wide.
+    float anisotropy;
+    vec2 anisotropy_turn;
+#endif
+#ifdef GLISTEN_FILM
+    // How strong a thin film is, 0 to 1, its index of refraction, and its thickness in nanometers, where its texture is white and black.
+    float film;
+    float film_index;
+    float film_thickness;
+    float film_thinnest;
+#endif
+#ifdef GLISTEN_COAT_NORMALS
+    // How strong the texture of the coat's normals is.
+    float clearcoat_normal_scale;
+#endif
+#ifdef GLISTEN_GLASS
+    // The part of the light that passes instead of being scattered, 0 to 1; e^-absorption of it is left behind, per channel.
+    float transmission;
+    vec3 absorption;
+    int transmission_pass;
+#endif
 };
+
+#ifdef GLISTEN_PLACES
+// Where a texture is on a surface: its coordinates are the products of these rows and (s, t, 1), of the second set of texture coordinates
+// where `second` is 1.
+struct Place {
+    vec3 s;
+    vec3 t;
+    float second;
+};
+
+// The places of a material's textures.
+struct Places {
+    Place decal;
+    Place metallic_roughness;
+    Place emission_map;
+    Place occlusion_map;
+    Place normal_map;
+    Place sheen_map;
+    Place sheen_roughness_map;
+    Place anisotropy_map;
+    Place iridescence_map;
+    Place iridescence_thickness_map;
+    Place clearcoat_map;
+    Place clearcoat_roughness_map;
+    Place clearcoat_normal_map;
+    Place dielectric_map;
+    Place dielectric_strength_map;
+    Place transmission_map;
+    Place thickness_map;
+};
+
+uniform Places places;
+#endif
 
 uniform Light light[GLISTEN_LIGHTS];
 // How many of the lights are used.

@@ -13,6 +13,9 @@
 #include "burley.glsl"
 #include "clearcoat.glsl"
 #include "half_lambert.glsl"
+#ifdef GLISTEN_FILM
+#include "iridescence.glsl"
+#endif
 #include "lambert.glsl"
 #include "normalized.glsl"
 #include "oren_nayar.glsl"
@@ -24,6 +27,9 @@
 #include "specular_lut.glsl"
 #include "threshold.glsl"
 #include "toon.glsl"
+#ifdef GLISTEN_GLASS
+#include "transmission.glsl"
+#endif
 
 // The ramp of soft toon shading: the dark side at s = 0, the lit side at 1.
 uniform sampler2D ramp;
@@ -41,11 +47,79 @@ uniform sampler2D occlusion_map;
 Material surface;
 float surface_roughness;
 float surface_occlusion;
+#ifdef GLISTEN_BRUSHED
+#ifdef GLISTEN_BRUSHED_MAP
+// The direction in which highlights are wide in red and green, from -1 to 1, and a part of the strength in blue.
+uniform sampler2D anisotropy_map;
+#endif
+// The unit tangent in which highlights are wide, across the scratches, and the strength of the brush.
+vec3 surface_brush;
+float surface_anisotropy;
+#endif
+#ifdef GLISTEN_FIBERS
+#ifdef GLISTEN_FIBERS_MAPS
+// The color of fibers, linear RGB, and their roughness in alpha, as parts of the material's.
+uniform sampler2D sheen_map;
+uniform sampler2D sheen_roughness_map;
+#endif
+// `sheen_albedo`.
+uniform sampler2D sheen_table;
+// The fibers' color, their roughness, and what they return of light from everywhere.
+vec3 surface_sheen;
+float surface_sheen_roughness;
+vec3 surface_fibers;
+#endif
+#ifdef GLISTEN_FILM
+#ifdef GLISTEN_FILM_MAPS
+// How strong a film is, in red, and how thick, in green.
+uniform sampler2D iridescence_map;
+uniform sampler2D iridescence_thickness_map;
+#endif
+// The film's strength and thickness.
+float surface_film;
+float surface_film_thickness;
+#endif
+#ifdef GLISTEN_DIELECTRIC_MAPS
+// What a part that is no metal mirrors, as parts of the material's: the color, linear RGB, and the strength in alpha.
+uniform sampler2D dielectric_map;
+uniform sampler2D dielectric_strength_map;
+#endif
+#ifdef GLISTEN_COAT_MAPS
+// The strength of the coat in red, and its roughness in green, as parts of the material's.
+uniform sampler2D clearcoat_map;
+uniform sampler2D clearcoat_roughness_map;
+float surface_coat;
+float surface_coat_roughness;
+#define STANDARD_COAT surface_coat
+#define STANDARD_COAT_ROUGHNESS surface_coat_roughness
+#else
+#define STANDARD_COAT finish.clearcoat
+#define STANDARD_COAT_ROUGHNESS finish.clearcoat_roughness
+#endif
+#if defined(GLISTEN_NORMALS) || defined(GLISTEN_COAT_NORMALS)
+// The coat's normal, which is not that of the layers below.
+vec3 surface_coat_normal;
+#define STANDARD_COAT_NORMAL surface_coat_normal
+#else
+#define STANDARD_COAT_NORMAL N
+#endif
+#ifdef GLISTEN_GLASS
+#ifdef GLISTEN_GLASS_MAPS
+// The part of the light that passes in red, and the way through the volume in green, as parts of the material's.
+uniform sampler2D transmission_map;
+uniform sampler2D thickness_map;
+#endif
+// The color of light that passes, linear RGB.
+vec3 surface_through;
+#endif
 #define STANDARD_MATERIAL surface
 #define STANDARD_ROUGHNESS surface_roughness
 #else
 #define STANDARD_MATERIAL material
 #define STANDARD_ROUGHNESS finish.roughness
+#define STANDARD_COAT finish.clearcoat
+#define STANDARD_COAT_ROUGHNESS finish.clearcoat_roughness
+#define STANDARD_COAT_NORMAL N
 #endif
 
 // The light that reaches the eye, in two parts so that a decal can color one and not the other; linear RGB.
@@ -56,12 +130,33 @@ struct Reflection {
     vec3 gloss;
 };
 
+#ifdef GLISTEN_PLACES
+#ifdef GLISTEN_TWO_SETS
+// The second set of texture coordinates.
+vec2 surface_second;
+#endif
+
+// The texture coordinates of a texture.
+//   place  where it is    st  those of the surface
+vec2 standardPlace(Place place, vec2 st)
+{
+#ifdef GLISTEN_TWO_SETS
+    if (place.second > 0.0)
+        st = surface_second;
+#endif
+    return vec2(dot(place.s, vec3(st, 1.0)), dot(place.t, vec3(st, 1.0)));
+}
+#define STANDARD_PLACE(map) standardPlace(places.map, st)
+#else
+#define STANDARD_PLACE(map) st
+#endif
+
 #ifdef GLISTEN_SURFACE
 // The material at a point: the base color, the roughness and the rest of the uniforms, each times its texture.
 //   st  texture coordinates    base  the texel of the base color, linear RGB
 void standardSurface(vec2 st, vec3 base)
 {
-    vec4 rough = texture(metallic_roughness, st);
+    vec4 rough = texture(metallic_roughness, STANDARD_PLACE(metallic_roughness));
     surface = material;
     if (finish.metallic < 0.0) {
         surface.diffuse = material.diffuse * base;
@@ -71,13 +166,96 @@ void standardSurface(vec2 st, vec3 base)
         float metallic = safeUnit(finish.metallic * rough.b);
         surface.diffuse = color * (1.0 - metallic);
         surface.ambient = surface.diffuse;
+#ifdef GLISTEN_DIELECTRIC_MAPS
+        vec3 dielectric = finish.dielectric * texture(dielectric_map, STANDARD_PLACE(dielectric_map)).rgb;
+        dielectric *= texture(dielectric_strength_map, STANDARD_PLACE(dielectric_strength_map)).a;
+        surface.specular = mix(dielectric, color, metallic);
+#else
         surface.specular = mix(finish.dielectric, color, metallic);
+#endif
     }
-    surface.emission = material.emission * texture(emission_map, st).rgb;
+#ifdef GLISTEN_GLASS
+    float passing = finish.transmission;
+    vec3 absorbed = finish.absorption;
+#ifdef GLISTEN_GLASS_MAPS
+    passing *= texture(transmission_map, STANDARD_PLACE(transmission_map)).r;
+    absorbed *= texture(thickness_map, STANDARD_PLACE(thickness_map)).g;
+#endif
+    passing = safeUnit(passing);
+    surface_through = passing * surface.diffuse * transmissionLeft(absorbed);
+    surface.diffuse *= 1.0 - passing;
+    surface.ambient *= 1.0 - passing;
+#endif
+#ifdef GLISTEN_COAT_MAPS
+    surface_coat = finish.clearcoat * texture(clearcoat_map, STANDARD_PLACE(clearcoat_map)).r;
+    surface_coat_roughness = finish.clearcoat_roughness * texture(clearcoat_roughness_map, STANDARD_PLACE(clearcoat_roughness_map)).g;
+#endif
+#ifdef GLISTEN_FILM
+    surface_film = finish.film;
+    surface_film_thickness = finish.film_thickness;
+#ifdef GLISTEN_FILM_MAPS
+    surface_film *= texture(iridescence_map, STANDARD_PLACE(iridescence_map)).r;
+    float thick = texture(iridescence_thickness_map, STANDARD_PLACE(iridescence_thickness_map)).g;
+    surface_film_thickness = mix(finish.film_thinnest, finish.film_thickness, thick);
+#endif
+    surface_film = safeUnit(surface_film);
+#endif
+    surface.emission = material.emission * texture(emission_map, STANDARD_PLACE(emission_map)).rgb;
     surface_roughness = safeUnit(finish.roughness * rough.g);
-    surface_occlusion = safeUnit(1.0 + finish.occlusion_strength * (texture(occlusion_map, st).r - 1.0));
+    surface_occlusion = safeUnit(1.0 + finish.occlusion_strength * (texture(occlusion_map, STANDARD_PLACE(occlusion_map)).r - 1.0));
+}
+
+#ifdef GLISTEN_BRUSHED
+// The brush at a point.
+//   st  texture coordinates    N  unit normal    T  unit tangent    handedness  1, or -1 where the texture is mirrored
+void standardBrush(vec2 st, vec3 N, vec3 T, float handedness)
+{
+    vec2 turn = finish.anisotropy_turn;
+    surface_anisotropy = finish.anisotropy;
+#ifdef GLISTEN_BRUSHED_MAP
+    vec3 texel = texture(anisotropy_map, STANDARD_PLACE(anisotropy_map)).rgb;
+    vec2 d = safeNormalize(vec3(2.0 * texel.rg - 1.0, 0.0)).xy;
+    turn = vec2(turn.x * d.x - turn.y * d.y, turn.y * d.x + turn.x * d.y);
+    surface_anisotropy *= texel.b;
+#endif
+    vec3 B = handedness < 0.0 ? -cross(N, T) : cross(N, T);
+    surface_brush = turn.x * T + turn.y * B;
+#ifdef GLISTEN_NORMALS
+    // The normal is no longer the one at right angles to the tangent.
+    surface_brush = safeNormalize(surface_brush - dot(surface_brush, N) * N);
+#endif
 }
 #endif
+
+#ifdef GLISTEN_FIBERS
+// The fibers at a point.
+//   st  texture coordinates    N  unit normal    V  unit vector towards the eye
+void standardFibers(vec2 st, vec3 N, vec3 V)
+{
+    surface_sheen = finish.sheen;
+    surface_sheen_roughness = finish.sheen_roughness;
+#ifdef GLISTEN_FIBERS_MAPS
+    surface_sheen *= texture(sheen_map, STANDARD_PLACE(sheen_map)).rgb;
+    surface_sheen_roughness *= texture(sheen_roughness_map, STANDARD_PLACE(sheen_roughness_map)).a;
+#endif
+    surface_sheen = clamp(surface_sheen, vec3(0.0), vec3(1.0));
+    surface_sheen_roughness = safeUnit(surface_sheen_roughness);
+    surface_fibers = surface_sheen * sheenAlbedo(sheen_table, N, V, surface_sheen_roughness);
+}
+#endif
+#endif
+
+// A reflection under the fibers of a material, if it has any: it loses what they return.
+//   base  the reflection without them
+Reflection standardUnderFibers(Reflection base)
+{
+#ifdef GLISTEN_FIBERS
+    float left = 1.0 - safeExtent(surface_fibers);
+    return Reflection(left * base.body, left * base.gloss);
+#else
+    return base;
+#endif
+}
 
 // The diffuse reflection of a light of intensity 1, per channel.
 //   N  unit normal    L, V  unit vectors towards the light and the eye
@@ -120,8 +298,36 @@ vec3 standardFresnel(vec3 L, vec3 V)
     if (!standardHasFresnel())
         return vec3(0.0);
     vec3 F90 = vec3(safeUnit(50.0 * safeExtent(STANDARD_MATERIAL.specular)));
-    return fresnelSchlick(dot(V, halfVector(L, V)), STANDARD_MATERIAL.specular, F90);
+    float c = dot(V, halfVector(L, V));
+    vec3 F = fresnelSchlick(c, STANDARD_MATERIAL.specular, F90);
+#ifdef GLISTEN_FILM
+    vec3 film = iridescenceFresnel(c, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
+    F = mix(F, film, surface_film);
+#endif
+    return F;
 }
+
+// The light that what is mirrored leaves for the body. Under a film it has no color of its own, and the body none of its complement.
+//   mirrored  a part of the light, per channel
+vec3 standardLeft(vec3 mirrored)
+{
+#ifdef GLISTEN_FILM
+    return vec3(1.0 - safeUnit(safeExtent(mirrored)));
+#else
+    return 1.0 - mirrored;
+#endif
+}
+
+#ifdef GLISTEN_GLASS
+// Light that comes through the surface from behind it, without pi.
+//   N  unit normal    L, V  unit vectors towards the light and the eye
+vec3 standardThrough(vec3 N, vec3 L, vec3 V)
+{
+    vec3 across = transmissionMirrored(N, L);
+    float alpha = STANDARD_ROUGHNESS * STANDARD_ROUGHNESS;
+    return transmissionFactor(N, L, V, alpha) * surface_through * standardLeft(standardFresnel(across, V));
+}
+#endif
 
 // The specular reflection of a light of intensity 1, per channel.
 //   N  unit normal    L, V  unit vectors towards the light and the eye    fresnel  standardFresnel()
@@ -146,7 +352,11 @@ vec3 standardSpecular(vec3 N, vec3 L, vec3 V, vec3 fresnel)
     case SPECULAR_TABLE_LIGHT:
         return specularLutLight(highlight, N, L) * STANDARD_MATERIAL.specular;
     case SPECULAR_GGX:
+#ifdef GLISTEN_BRUSHED
+        return ggxFactor(N, surface_brush, L, V, ggxBrushed(STANDARD_ROUGHNESS, surface_anisotropy)) * fresnel;
+#else
         return ggxFactor(N, L, V, alpha) * fresnel;
+#endif
     case SPECULAR_BECKMANN:
         return beckmannFactor(N, L, V, alpha) * fresnel;
     case SPECULAR_SHEEN:
@@ -171,18 +381,37 @@ vec3 standardMirrored(Light one, vec3 R, float roughness)
 Reflection standardDome(Light one, vec3 N, vec3 V)
 {
     Reflection sum = Reflection(ambient(STANDARD_MATERIAL.ambient, lightDome(one, N)), vec3(0.0));
+#ifdef GLISTEN_BRUSHED
+    vec3 R = mirrorDirection(ggxBent(N, surface_brush, V, STANDARD_ROUGHNESS, surface_anisotropy), V);
+#else
     vec3 R = mirrorDirection(N, V);
+#endif
     float NV = safeUnit(dot(N, V));
     if (standardHasFresnel()) {
         vec3 seen = STANDARD_MATERIAL.specular * 50.0;
         vec3 albedo = min(ggxAlbedo(NV, STANDARD_ROUGHNESS, STANDARD_MATERIAL.specular), seen);
-        sum.body = sum.body * (1.0 - min(albedo, vec3(1.0)));
+#ifdef GLISTEN_FILM
+        vec3 film = iridescenceFresnel(NV, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
+        albedo = mix(albedo, ggxAlbedo(NV, STANDARD_ROUGHNESS, iridescenceNormal(film, NV)), surface_film);
+#endif
+        vec3 left = standardLeft(min(albedo, vec3(1.0)));
+        sum.body = sum.body * left;
         sum.gloss = safeLimit(albedo * standardMirrored(one, R, STANDARD_ROUGHNESS));
+#ifdef GLISTEN_GLASS
+        if (finish.transmission_pass == GLASS_ALL)
+            sum.body += left * surface_through * standardMirrored(one, -V, STANDARD_ROUGHNESS);
+#endif
     }
+#ifdef GLISTEN_FIBERS
+    sum = standardUnderFibers(sum);
+    sum.gloss = safeLimit(sum.gloss + surface_fibers * lightDome(one, N));
+#endif
     if (finish.clearcoat > 0.0) {
-        float w = clearcoatWeight(N, V, finish.clearcoat);
+        vec3 smooth_normal = STANDARD_COAT_NORMAL;
+        float w = clearcoatWeight(smooth_normal, V, STANDARD_COAT);
         sum.body = sum.body * (1.0 - w);
-        sum.gloss = safeLimit((1.0 - w) * sum.gloss + w * standardMirrored(one, R, finish.clearcoat_roughness));
+        vec3 seen = standardMirrored(one, mirrorDirection(smooth_normal, V), STANDARD_COAT_ROUGHNESS);
+        sum.gloss = safeLimit((1.0 - w) * sum.gloss + w * seen);
     }
     return sum;
 }
@@ -205,13 +434,23 @@ Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
     float cspot = lightBeam(one, L);
     vec3 fresnel = standardFresnel(L, V);
     vec3 Iamb = ambient(STANDARD_MATERIAL.ambient, one.ambient);
-    vec3 Idiff = safeLimit(standardDiffuse(N, L, V) * one.diffuse * (1.0 - fresnel));
+    vec3 Idiff = safeLimit(standardDiffuse(N, L, V) * one.diffuse * standardLeft(fresnel));
+#ifdef GLISTEN_GLASS
+    Idiff = safeLimit(Idiff + safeLimit(standardThrough(N, L, V) * one.diffuse));
+#endif
     vec3 Ispec = safeLimit(standardSpecular(N, L, V, fresnel) * one.specular);
+#ifdef GLISTEN_FIBERS
+    Reflection base = standardUnderFibers(Reflection(Idiff, Ispec));
+    float width = surface_sheen_roughness * surface_sheen_roughness;
+    Idiff = base.body;
+    Ispec = safeLimit(base.gloss + safeLimit(sheenFactor(N, L, V, width) * safeLimit(surface_sheen * one.specular)));
+#endif
     if (finish.clearcoat > 0.0) {
-        float w = clearcoatWeight(N, V, finish.clearcoat);
-        float alpha = finish.clearcoat_roughness * finish.clearcoat_roughness;
+        vec3 smooth_normal = STANDARD_COAT_NORMAL;
+        float w = clearcoatWeight(smooth_normal, V, STANDARD_COAT);
+        float alpha = STANDARD_COAT_ROUGHNESS * STANDARD_COAT_ROUGHNESS;
         Idiff = (1.0 - w) * Idiff;
-        Ispec = clearcoat(Ispec, N, L, V, finish.clearcoat, alpha, one.specular);
+        Ispec = clearcoat(Ispec, smooth_normal, L, V, STANDARD_COAT, alpha, one.specular);
     }
     vec3 none = vec3(0.0);
     return Reflection(illumination(Iamb, Idiff, none, d, cspot), illumination(none, none, Ispec, d, cspot));
@@ -233,6 +472,23 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
     }
     return sum;
 }
+
+#ifdef GLISTEN_GLASS
+// The part of what is behind a surface that comes through it, per channel, linear RGB.
+//   N  unit normal    V  unit vector towards the eye
+vec3 standardGlass(vec3 N, vec3 V)
+{
+    float NV = safeUnit(dot(N, V));
+    vec3 mirrored = ggxAlbedo(NV, STANDARD_ROUGHNESS, STANDARD_MATERIAL.specular);
+    vec3 through = surface_through * standardLeft(min(mirrored, vec3(1.0)));
+#ifdef GLISTEN_FIBERS
+    through *= 1.0 - safeExtent(surface_fibers);
+#endif
+    if (finish.clearcoat > 0.0)
+        through *= 1.0 - clearcoatWeight(STANDARD_COAT_NORMAL, V, STANDARD_COAT);
+    return through;
+}
+#endif
 
 // (101), linear RGB: a decal multiplies the color of the body.
 //   reflection  of all lights    decal  white for none

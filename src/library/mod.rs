@@ -74,6 +74,7 @@ static MODULES: &[Module] = &[
     module!("hemisphere"),
     module!("illumination"),
     module!("interpolation"),
+    module!("iridescence"),
     module!("irradiance"),
     module!("lambert"),
     module!("lights"),
@@ -104,6 +105,7 @@ static MODULES: &[Module] = &[
     module!("threshold"),
     module!("tonemap"),
     module!("toon"),
+    module!("transmission"),
     module!("ward"),
 ];
 

@@ -72,6 +72,8 @@ pub enum InputKind {
     Index,
     /// The refractive indices of a metal by channel: 0.05 to 10.
     Metal,
+    /// The thickness of a film in nanometers: 10 to 3000, uniform in the logarithm.
+    Film,
     /// A unit normal and a unit tangent at right angles to it.
     Tangent,
     /// A color of a scene: three numbers from 1e-6 to 1e4, uniform in the logarithm, or 0.
@@ -303,6 +305,7 @@ impl Random {
             InputKind::Alpha => to.push(self.spread(1e-6, 1.0)),
             InputKind::Index => to.push((self.spread(1e-6, 1.0) * self.pick(&[1.0, -1.0])).exp()),
             InputKind::Metal => (0..3).for_each(|_| to.push(self.spread(0.05, 10.0))),
+            InputKind::Film => to.push(self.spread(10.0, 3000.0)),
             InputKind::Tangent => {
                 let n = self.direction();
                 let across = super::vector::cross(n, self.direction());

@@ -213,14 +213,83 @@ fn wrong_files_and_keys_are_told_with_their_place() {
 
 #[test]
 fn what_is_not_drawn_is_a_note() {
-    let glass = r#"{"name": "glass", "extensions": {"KHR_materials_transmission": {}, "KHR_materials_sheen": {},
-        "KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0}}}}"#;
-    let loaded = scene(PLAIN, &squares(&[glass], "", ""));
+    let glass = r#"{"name": "glass", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1},
+        "KHR_materials_dispersion": {}, "KHR_materials_diffuse_transmission": {},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": {"index": 0, "texCoord": 1},
+        "clearcoatRoughnessTexture": {"index": 0, "texCoord": 2}}}}"#;
+    let image = r#", "images": [{"uri": "a.png"}], "textures": [{"source": 0}]"#;
+    let loaded = scene(PLAIN, &squares(&[glass], "", image));
     let told = told(&loaded).join("\n");
-    for words in
-        ["without KHR_materials_transmission", "without KHR_materials_sheen", "the `clearcoatTexture` of `glass`"]
-    {
-        assert!(loaded.scene.is_some() && told.contains("W0912") && told.contains(words), "{told}");
+    for words in [
+        "light passes straight through `glass`: it refracts nothing",
+        "without KHR_materials_dispersion",
+        "without KHR_materials_diffuse_transmission",
+        "what is behind `glass` is not blurred",
+        "the roughness of the coat of `glass` has texture coordinates of set 2, a third one, and is left out",
+    ] {
+        assert!(told.contains("W0912") && told.contains(words), "{told}");
+    }
+}
+
+/// The layers of extensions are keys of the material.
+#[test]
+fn extensions_become_layers() {
+    let all = r#"{"name": "all", "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {
+        "KHR_materials_sheen": {"sheenColorFactor": [0.5, 2, 0.25], "sheenRoughnessFactor": 0.75, "sheenColorTexture": {"index": 0}},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963267948966},
+        "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceIor": 1.8, "iridescenceThicknessMaximum": 600,
+            "iridescenceThicknessTexture": {"index": 0}},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": {"index": 0, "texCoord": 1}, "clearcoatNormalTexture": {"index": 0, "scale": 0.5}},
+        "KHR_materials_specular": {"specularTexture": {"index": 0}, "specularColorTexture": {"index": 0}},
+        "KHR_materials_transmission": {"transmissionFactor": 0.5, "transmissionTexture": {"index": 0}},
+        "KHR_materials_volume": {"thicknessFactor": 2, "attenuationDistance": 4, "attenuationColor": [1, 0.5, 0],
+            "thicknessTexture": {"index": 0}}}}"#;
+    // Layers without strength are none, and a coat without strength has no textures.
+    let none = r#"{"name": "none", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+        {"offset": [0.25, 0.5], "scale": [2, 3]}}}}, "extensions": {"KHR_materials_sheen": {"sheenRoughnessFactor": 1},
+        "KHR_materials_anisotropy": {}, "KHR_materials_iridescence": {"iridescenceTexture": {"index": 0}},
+        "KHR_materials_transmission": {}, "KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0}}}}"#;
+    let dot = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAAC0lEQVR4nGP4DwQACfsD/fteaysAAAAASUVORK5CYII=";
+    let images = format!(
+        r#", "images": [{{"uri": "data:image/png;base64,{dot}"}}], "samplers": [{{"wrapS": 33071}}], "textures": [{{"source": 0, "sampler": 0}}]"#
+    );
+    let loaded = scene(PLAIN, &squares(&[all, none], "", &images));
+    let messages = told(&loaded);
+    // Only a volume refracts, and nobody has so many layers with textures.
+    let codes: Vec<&str> = messages.iter().filter_map(|message| message.split(':').next()).collect();
+    assert_eq!(codes, ["W0912", "W0706"], "{messages:?}");
+    let draws = loaded.scene.expect("it loads").draws;
+    // Glass is drawn last: what passes, and what it mirrors.
+    let [none, through, surface] = draws.as_slice() else { panic!("{} draws", draws.len()) };
+    near(&value(none, "places.decal.s"), &[2.0, 0.0, 0.25]);
+    // t grows upwards, from the lower edge: 1 - 0.5 - 3 (1 - t).
+    near(&value(none, "places.decal.t"), &[0.0, 3.0, -2.5]);
+    let names = |draw: &glisten::scene::Draw| {
+        draw.program.interface.uniforms.iter().map(|leaf| leaf.name.clone()).collect::<Vec<_>>().join(" ")
+    };
+    for member in ["sheen", "anisotropy", "film", "transmission"] {
+        assert!(!names(none).contains(&format!("finish.{member} ")), "{member}");
+    }
+    assert_eq!(
+        (value(through, "finish.transmission_pass"), value(surface, "finish.transmission_pass")),
+        (vec![1.0], vec![2.0])
+    );
+    assert_eq!(through.state.blend, Some((BlendFactor::DstColor, BlendFactor::Zero)));
+    assert_eq!(surface.state.blend, Some((BlendFactor::One, BlendFactor::One)));
+    for draw in [through, surface] {
+        assert!(!draw.state.depth_write);
+        near(&value(draw, "finish.sheen"), &[0.5, 1.0, 0.25]);
+        near(&value(draw, "finish.sheen_roughness"), &[0.75]);
+        near(&value(draw, "finish.anisotropy"), &[0.5]);
+        near(&value(draw, "finish.anisotropy_turn"), &[0.0, 1.0]);
+        near(&value(draw, "finish.film_index"), &[1.8]);
+        near(&value(draw, "finish.film_thickness"), &[600.0]);
+        near(&value(draw, "finish.film_thinnest"), &[100.0]);
+        near(&value(draw, "finish.clearcoat_normal_scale"), &[0.5]);
+        near(&value(draw, "places.clearcoat_map.second"), &[1.0]);
+        near(&value(draw, "places.sheen_map.second"), &[0.0]);
+        near(&value(draw, "finish.transmission"), &[0.5]);
+        near(&value(draw, "finish.absorption"), &[0.0, 0.5 * 2.0_f32.ln(), 64.0]);
     }
 }
 

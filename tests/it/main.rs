@@ -70,6 +70,8 @@ mod helps;
 #[cfg(feature = "cli")]
 mod host;
 mod hostile;
+#[cfg(feature = "gpu")]
+mod layers;
 mod layouts;
 #[cfg(feature = "gpu")]
 mod library;

@@ -219,7 +219,7 @@ pub(super) fn corner(reads: &Reads<'_>, input: &Input<'_>, number: usize, range:
         (Some(AttributeRole::Normal), _) => [0.0, 0.0, 1.0, 0.0],
         // Beyond the edge, too, where nothing else is shown.
         (Some(AttributeRole::Texcoord), _) if taste == 3 => [2.0 * s - 0.5, 2.0 * t - 0.5, 0.0, 1.0],
-        (Some(AttributeRole::Texcoord), _) => [s, t, 0.0, 1.0],
+        (Some(AttributeRole::Texcoord | AttributeRole::Texcoord2), _) => [s, t, 0.0, 1.0],
         (Some(AttributeRole::Color), _) => COLORS[number % 4],
         (Some(AttributeRole::Tangent), _) => [1.0, 0.0, 0.0, 1.0],
         (Some(AttributeRole::Bitangent), _) => [0.0, 1.0, 0.0, 0.0],

@@ -128,7 +128,7 @@ fn specular(
     })
 }
 
-fn factor(a: &Args<'_>) -> Option<Answer> {
+pub(super) fn factor(a: &Args<'_>) -> Option<Answer> {
     let (n, l, v, alpha) = (a.d(), a.d(), a.d(), a.f());
     let w = width(alpha);
     let hidden = |nv: f64| if nv > 1e-9 { nv * lambda(nv, w) } else { ((w * w + nv * nv).sqrt() - nv) / 2.0 };

@@ -5,6 +5,7 @@ mod diffuse;
 mod equations;
 mod geometry;
 mod helpers;
+mod layers;
 mod looks;
 mod ltc;
 mod microfacet;
@@ -28,6 +29,7 @@ pub(super) static ALL: &[&[Form]] = &[
     geometry::FORMS,
     color::FORMS,
     microfacet::FORMS,
+    layers::FORMS,
     diffuse::FORMS,
     tone::FORMS,
     looks::FORMS,

@@ -99,6 +99,7 @@ fn stiff(kind: InputKind, random: &mut Random, to: &mut Vec<f64>) {
             const INDICES: &[f64] = &[1e-3, 0.05, 0.2, 1.0, 4.0, 10.0, 1e3];
             to.extend([random.pick(INDICES), random.pick(INDICES), random.pick(INDICES)]);
         }
+        InputKind::Film => to.push(random.pick(&[0.0, 0.01, 0.02, 0.03, 1.0, 100.0, 400.0, 1200.0, 1e4, 1e6])),
         InputKind::Tangent => {
             let n = any_direction(random);
             to.extend(n);

@@ -117,6 +117,11 @@ static LITERAL: &[(&str, &str)] = &[
         "pow(alpha / (dot(N, naiveHalf(L, V)) * dot(N, naiveHalf(L, V)) * (alpha * alpha - 1.0) + 1.0), 2.0) * max(dot(N, L), 0.0) * \
          ggxVisibility(max(dot(N, L), 0.0), max(dot(N, V), 0.0), alpha)",
     ),
+    ("ggxBrushed(float,float)", "vec2(mix(roughness * roughness, 1.0, strength * strength), roughness * roughness)"),
+    (
+        "iridescenceNormal(vec3,float)",
+        "clamp((F - pow(1.0 - cosine, 5.0)) / (1.0 - pow(1.0 - cosine, 5.0)), vec3(0.0), vec3(1.0))",
+    ),
     (
         "beckmannDistribution(vec3,vec3,float)",
         "exp((dot(N, H) * dot(N, H) - 1.0) / (alpha * alpha * dot(N, H) * dot(N, H))) / (3.14159265 * alpha * alpha * pow(dot(N, H), 4.0))",

@@ -60,8 +60,17 @@ vec3 fuzzy_coated_dielectric(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, f
 { return fuzz(coated_dielectric(a, f, N, L, V, r), f, N, L, V, r, 1.0); }
 vec3 fuzzy_coated_metal(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
 { return fuzz(coated_metal(a, f, N, L, V, r), f, N, L, V, r, 1.0); }
-vec3 brushed(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
-{ return vec3(ggxFactor(N, vec3(1.0, 0.0, 0.0), L, V, r * r * vec2(1.0, 0.25))); }
+vec3 brushed(vec3 T, vec3 N, vec3 L, vec3 V, float r, float s) { return vec3(ggxFactor(N, T, L, V, ggxBrushed(r, s))); }
+vec3 kept(sampler2D a, vec3 T, vec3 N, vec3 L, vec3 V, float r, float s)
+{ return brushed(T, N, L, V, r, s) + energyFactor(a, N, L, V, energyRoughness(ggxBrushed(r, s)), vec3(1.0)); }
+vec3 brushed_along(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
+{ return brushed(vec3(1.0, 0.0, 0.0), N, L, V, r, 0.6); }
+vec3 brushed_across(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
+{ return brushed(vec3(0.0, 1.0, 0.0), N, L, V, r, 0.6); }
+vec3 kept_along(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
+{ return kept(a, vec3(1.0, 0.0, 0.0), N, L, V, r, 0.6); }
+vec3 kept_across(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
+{ return kept(a, vec3(0.0, 1.0, 0.0), N, L, V, r, 0.6); }
 ";
 
 fn blend(name: &str) -> Evaluator {
@@ -148,16 +157,31 @@ fn white_surfaces_return_all_light() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Tables are by one roughness: an anisotropic surface never returns more than it gets, and further reflections of it are missing.
+/// Tables are by one roughness: an anisotropic surface never returns more than it gets, and loses less with that of
+/// `energyRoughness()`. The brush is of strength 0.6. With `FURNACE_TABLE=1` the figures are printed.
 #[test]
-fn brushed_metals_lose_light_and_gain_none() {
+fn brushed_metals_keep_most_of_their_light() {
     let both = [tables().expect("the scene is good").remove(1), pattern("sheen_albedo")];
-    let factor = blend("brushed");
-    for roughness in [0.5, 0.75, 1.0] {
-        for eye in [0.15, 0.6, 1.0] {
-            let found = returned(&factor, &both, eye, roughness);
-            assert!((0.5..1.0 + 1e-3).contains(&found), "roughness {roughness}, cosine {eye}: {found}");
+    let mut table = String::new();
+    for (name, low, high) in [
+        ("brushed_along", 0.7, 1e-3),
+        ("brushed_across", 0.7, 1e-3),
+        ("kept_along", 0.08, 0.05),
+        ("kept_across", 0.08, 0.05),
+    ] {
+        let factor = blend(name);
+        let (mut least, mut most, mut sum) = (0.0_f64, 0.0_f64, 0.0);
+        for roughness in [0.5, 0.75, 1.0] {
+            for eye in [0.15, 0.6, 1.0] {
+                let off = returned(&factor, &both, eye, roughness) - 1.0;
+                (least, most, sum) = (least.min(off), most.max(off), sum + off.abs());
+            }
         }
+        table += &format!("| `{name}` | {least:+.4} | {most:+.4} | {:.4} |\n", sum / 9.0);
+        assert!(least > -low && most < high, "{table}");
+    }
+    if std::env::var_os("FURNACE_TABLE").is_some() {
+        writeln!(std::io::stderr(), "{table}").expect("standard error can be written to");
     }
 }
 

@@ -17,7 +17,8 @@ mod tangents;
 
 pub(crate) use framing::{DOME, Framing};
 pub(crate) use gltf::{
-    Contents, Covering, Lamp, LampKind, Map, Surface, contents as gltf_contents, image as gltf_image, is_gltf,
+    Contents, Lamp, LampKind, Surface, contents as gltf_contents, draw as gltf_draw, image as gltf_image, is_blended,
+    is_gltf, passes,
 };
 pub use model::is_model_file;
 pub(crate) use model::{Look, Model, ModelCamera, Projection, TextureSource};
@@ -36,6 +37,8 @@ pub(crate) struct Geometry {
     pub(crate) positions: Vec<[f64; 3]>,
     pub(crate) normals: Vec<[f64; 3]>,
     pub(crate) texcoords: Vec<[f64; 2]>,
+    /// A second set.
+    pub(crate) texcoords2: Vec<[f64; 2]>,
     pub(crate) colors: Vec<[f64; 4]>,
     /// The direction of growing s, and the handedness of the bitangent.
     pub(crate) tangents: Vec<[f64; 4]>,
@@ -51,6 +54,7 @@ impl Geometry {
             AttributeRole::Position => (3, flat(&mut self.positions.iter().flatten().copied())),
             AttributeRole::Normal => (3, flat(&mut self.normals.iter().flatten().copied())),
             AttributeRole::Texcoord => (2, flat(&mut self.texcoords.iter().flatten().copied())),
+            AttributeRole::Texcoord2 => (2, flat(&mut self.texcoords2.iter().flatten().copied())),
             AttributeRole::Color => (4, flat(&mut self.colors.iter().flatten().copied())),
             AttributeRole::Tangent => (4, flat(&mut self.tangents.iter().flatten().copied())),
             AttributeRole::Bitangent => (3, flat(&mut self.bitangents().iter().flatten().copied())),
@@ -66,13 +70,18 @@ impl Geometry {
             return;
         }
         let keep = |mine: bool, others: bool| mine && others;
+        let texcoords2 = keep(!self.texcoords2.is_empty(), !other.texcoords2.is_empty());
         let colors = keep(!self.colors.is_empty(), !other.colors.is_empty());
         let tangents = keep(!self.tangents.is_empty(), !other.tangents.is_empty());
         self.positions.extend(other.positions);
         self.normals.extend(other.normals);
         self.texcoords.extend(other.texcoords);
+        self.texcoords2.extend(other.texcoords2);
         self.colors.extend(other.colors);
         self.tangents.extend(other.tangents);
+        if !texcoords2 {
+            self.texcoords2.clear();
+        }
         if !colors {
             self.colors.clear();
         }

@@ -192,6 +192,7 @@ fn part(lists: &Soup, triangles: Vec<[Corner; 3]>) -> Soup {
         positions: rows.iter().filter_map(|row| lists.positions.get(*row as usize).copied()).collect(),
         colors: of(&lists.colors),
         tangents: Vec::new(),
+        texcoords2: Vec::new(),
         texcoords: texcoords.old.iter().filter_map(|row| lists.texcoords.get(*row as usize).copied()).collect(),
         normals: normals.old.iter().filter_map(|row| lists.normals.get(*row as usize).copied()).collect(),
         triangles,

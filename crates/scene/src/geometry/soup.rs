@@ -24,6 +24,8 @@ pub(crate) struct Soup {
     pub(crate) positions: Vec<[f64; 3]>,
     pub(crate) texcoords: Vec<[f64; 2]>,
     pub(crate) normals: Vec<[f64; 3]>,
+    /// A second set of texture coordinates: one for each position, or none.
+    pub(crate) texcoords2: Vec<[f64; 2]>,
     /// One for each position, or none.
     pub(crate) colors: Vec<[f64; 4]>,
     /// One for each position, or none.
@@ -81,6 +83,7 @@ impl Soup {
                     geometry.positions.push(self.position(*corner).to_array());
                     geometry.normals.push(normal.to_array());
                     geometry.texcoords.push(texcoord.unwrap_or([0.0; 2]));
+                    geometry.texcoords2.extend(self.texcoords2.get(row));
                     geometry.colors.extend(self.colors.get(row));
                     geometry.tangents.extend(tangents.get(row));
                 }

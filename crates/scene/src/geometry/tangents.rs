@@ -93,6 +93,7 @@ impl Geometry {
         self.positions.extend(self.positions.get(row).copied());
         self.normals.extend(self.normals.get(row).copied());
         self.texcoords.extend(self.texcoords.get(row).copied());
+        self.texcoords2.extend(self.texcoords2.get(row).copied());
         self.colors.extend(self.colors.get(row).copied());
     }
 

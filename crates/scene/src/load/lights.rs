@@ -90,6 +90,7 @@ pub(super) const LIGHT_SPACES: &[(&str, LightSpace)] = &[("world", LightSpace::W
 pub(super) enum Member {
     Int(i32),
     Float(f64),
+    Pair([f64; 2]),
     Vector([f64; 3]),
 }
 

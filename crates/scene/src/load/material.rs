@@ -5,6 +5,7 @@
 //! which `textures` reads `decal`, `ramp` and `highlight`. *Holds:* a draw's own material replaces the scene's as a
 //! whole. The scene's material does not affect programs that declare none.
 
+use super::layers;
 use super::lights::Member;
 use crate::fixed::uses_fixed_state;
 use crate::tables::{Node, Reader};
@@ -13,9 +14,14 @@ use glisten_front::diagnostic::codes::scenes::{SCENE_MISSING_KEY, SCENE_UNKNOWN_
 use glisten_front::link::Program;
 use toml::de::DeTable;
 
-/// The samplers of the library's programs for which a material may provide a texture.
-pub(super) const TEXTURES: &[&str] =
+/// The samplers of the library's programs for which a material may provide a texture, besides those of layers.
+const TEXTURES: &[&str] =
     &["decal", "ramp", "highlight", "metallic_roughness", "emission_map", "occlusion_map", "normal_map"];
+
+/// Whether a material may provide the texture of a sampler.
+pub(super) fn has_texture(sampler: &str) -> bool {
+    TEXTURES.contains(&sampler) || layers::MAPS.contains(&sampler)
+}
 
 /// The keys for which the program `standard` has the macro `GLISTEN_SURFACE`: what changes from point to point.
 const SURFACE_KEYS: &[&str] = &[
@@ -116,19 +122,21 @@ const SPECULAR_MODELS: &[(&str, SpecularModel)] = &[
 ];
 
 /// The uniforms of a material by name.
-pub(super) type Material = [(&'static str, Member); 20];
+pub(super) type Material = Vec<(String, Member)>;
 
 /// The macros that the program `standard` has for the material of a draw, or of the scene.
 pub(super) fn macros(draw: &DeTable<'_>, scene: Option<&Node<'_>>) -> Vec<&'static str> {
     let node = draw.get("material").or(scene);
     let Some(table) = node.and_then(|node| node.get_ref().as_table()) else { return Vec::new() };
     let flagged = |key: &str| table.get(key).and_then(|node| node.get_ref().as_bool()).unwrap_or(false);
+    let layers = layers::macros(table);
     let rows = [
-        ("GLISTEN_SURFACE", SURFACE_KEYS.iter().any(|key| table.contains_key(*key))),
+        ("GLISTEN_SURFACE", !layers.is_empty() || SURFACE_KEYS.iter().any(|key| table.contains_key(*key))),
         ("GLISTEN_NORMALS", table.contains_key("normal_map")),
         ("GLISTEN_COLORS", flagged("vertex_colors")),
     ];
-    rows.into_iter().filter(|(_, wanted)| *wanted).map(|(name, _)| name).collect()
+    let named = rows.into_iter().filter(|(_, wanted)| *wanted).map(|(name, _)| name);
+    named.chain(layers).collect()
 }
 
 /// The material of a draw, with its node; `None` if there is none, or if the program does not use one.
@@ -156,7 +164,7 @@ pub(super) fn load_material<'t, 'i>(
     }
     let node = own.map(|(_, node)| node).or(scene)?;
     let table = reader.table(node, "material")?;
-    reader.check_keys(table, "a material", &[KEYS, SURFACE_KEYS].concat());
+    reader.check_keys(table, "a material", &keys());
     // The model of metals and roughness: a metal has no diffuse color, anything else mirrors 0.04.
     let is_physical = table.contains_key("base_color") || table.contains_key("metallic");
     let base = reader.reals(table, "base_color", [0.8; 3]);
@@ -201,7 +209,13 @@ pub(super) fn load_material<'t, 'i>(
         ("finish.normal_scale", Member::Float(reader.real(table, "normal_scale", 1.0))),
         ("finish.occlusion_strength", Member::Float(reader.real(table, "occlusion_strength", 1.0))),
     ];
-    Some((members, node))
+    let own = members.map(|(name, value)| (name.to_owned(), value));
+    Some((own.into_iter().chain(layers::members(reader, table)).collect(), node))
+}
+
+/// All keys of a material.
+fn keys() -> Vec<&'static str> {
+    [KEYS, SURFACE_KEYS, &layers::keys()].concat()
 }
 
 /// The diffuse color and the reflectance at normal incidence of a base color, as in glTF 2.0, appendix B.
@@ -233,7 +247,7 @@ pub(super) fn load_colors(
 ) -> Option<Colors> {
     let table = reader.table(draw.get("material").or(scene)?, "material")?;
     if program.interface.roots.iter().all(|root| root.name != "material") {
-        reader.check_keys(table, "a material", &[KEYS, SURFACE_KEYS].concat());
+        reader.check_keys(table, "a material", &keys());
     }
     let diffuse = reader.reals(table, "diffuse", [0.8; 3]);
     Some(Colors {

@@ -92,8 +92,9 @@ impl Missing<'_> {
         if given || list.len() < self.attributes.len() {
             return None;
         }
-        let free = AttributeRole::ALL.map(|role| (role != AttributeRole::Color).then_some(role));
-        let free: Vec<AttributeRole> = free.into_iter().flatten().collect();
+        // A shape has neither.
+        let lacks = |role: &AttributeRole| matches!(role, AttributeRole::Color | AttributeRole::Texcoord2);
+        let free: Vec<AttributeRole> = AttributeRole::ALL.into_iter().filter(|role| !lacks(role)).collect();
         let roles: Option<Vec<AttributeRole>> = likely_roles(&free, self.program, list).into_iter().collect();
         let assignments: Vec<String> =
             list.iter().zip(roles?).map(|(attribute, role)| assignment(role, attribute)).collect();

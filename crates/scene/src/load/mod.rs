@@ -11,6 +11,7 @@ mod draw;
 mod fibers;
 mod fixed;
 mod imported;
+mod layers;
 mod lights;
 mod material;
 mod matrices;
@@ -104,6 +105,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
         programs: Vec::new(),
         models: BTreeMap::new(),
         shared: None,
+        tables: BTreeMap::new(),
         casters: Vec::new(),
         waiting: Vec::new(),
         io_error: false,
@@ -183,6 +185,8 @@ struct Loader<'a> {
     models: BTreeMap<String, Option<Arc<Model>>>,
     /// The textures of imported draws, which share them, and how many texels they have.
     shared: Option<(SharedTextures, u64)>,
+    /// The tables of the library's programs, by their patterns.
+    tables: BTreeMap<&'static str, Arc<Texture>>,
     /// The meshes of the draws so far, in their places, for maps of depths.
     casters: Vec<Option<depths::Caster>>,
     /// The maps of depths that the draws so far ask for.

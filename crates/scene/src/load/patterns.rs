@@ -162,6 +162,19 @@ pub(super) fn find(table: &DeTable<'_>) -> Option<Pattern> {
     PATTERNS.iter().find(|pattern| pattern.name == name).copied()
 }
 
+/// The level of a pattern without any keys.
+pub(super) fn by_default(name: &str) -> Option<TextureLevel> {
+    let pattern = PATTERNS.iter().find(|pattern| pattern.name == name)?;
+    let parameters = Parameters { from: pattern.from, to: pattern.to, ..Parameters::default() };
+    Some(fill(pattern, &parameters, pattern.size.0, pattern.size.1))
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Self { from: BLACK, to: WHITE, exponent: 32.0, bands: 3.0, edge: 0.55, softness: 0.06, cells: 8.0, gap: 0.04 }
+    }
+}
+
 impl Pattern {
     /// The default wrap mode. Tables clamp: a table that repeats would mix its two ends at both.
     pub(super) fn wrap(&self) -> Wrap {
@@ -202,15 +215,16 @@ pub(super) fn load(
     let width = reader.count(table, "width", pattern.size.0, 1..=4096);
     let is_flat = kind.dim == SamplerDim::D1;
     let height = if is_flat { 1 } else { reader.count(table, "height", pattern.size.1, 1..=4096) };
+    let own = Parameters::default();
     let parameters = Parameters {
         from: reader.reals(table, "from", pattern.from),
         to: reader.reals(table, "to", pattern.to),
-        exponent: reader.real(table, "exponent", 32.0),
-        bands: reader.real(table, "bands", 3.0),
-        edge: reader.real(table, "edge", 0.55),
-        softness: reader.real(table, "softness", 0.06),
-        cells: reader.real(table, "cells", 8.0),
-        gap: reader.real(table, "gap", 0.04),
+        exponent: reader.real(table, "exponent", own.exponent),
+        bands: reader.real(table, "bands", own.bands),
+        edge: reader.real(table, "edge", own.edge),
+        softness: reader.real(table, "softness", own.softness),
+        cells: reader.real(table, "cells", own.cells),
+        gap: reader.real(table, "gap", own.gap),
     };
     Some(fill(&pattern, &parameters, width, height))
 }

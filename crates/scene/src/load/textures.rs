@@ -2,7 +2,8 @@
 
 use super::Loader;
 use super::depths::{self, DepthMap, Waiting};
-use super::material::TEXTURES;
+use super::layers;
+use super::material::has_texture;
 use super::mipmaps::chain;
 use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::paste::{self, Lines};
@@ -13,13 +14,14 @@ use crate::picture::{Image, Transfer};
 use crate::tables::{Node, Number, NumberValue, report_unknown_name};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
-    SCENE_BAD_ASSET, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
+    SCENE_BAD_ASSET, SCENE_UNREAD_KEY, SCENE_UNSET_TEXTURE, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
 };
 use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 use std::sync::Arc;
-use toml::de::DeTable;
+use toml::Spanned;
+use toml::de::{DeString, DeTable};
 
 const KEYS: &[&str] = &[
     "kind",
@@ -44,6 +46,7 @@ const KEYS: &[&str] = &[
     "lod_bias",
     "magnify",
     "fixed_point",
+    "transform",
 ];
 
 /// The largest width, height, depth or number of layers.
@@ -105,11 +108,12 @@ pub(super) fn load_textures(
     }
     for ((slot, texture), (given, &kind)) in slots.iter().zip(&mut textures).zip(given.iter_mut().zip(&kinds)) {
         let Some(node) = material.and_then(|material| material.get(slot.name.as_str())) else { continue };
-        if !*given && TEXTURES.contains(&slot.name.as_str()) {
+        if !*given && has_texture(&slot.name) {
             *given = true;
             *texture = shared_texture(loader, node, &slot.name, kind);
         }
     }
+    warn_unplaced(loader, (draw, material), program);
     let mut unset = Vec::new();
     for (((slot, texture), given), kind) in slots.iter().zip(&mut textures).zip(given).zip(kinds) {
         if given {
@@ -118,10 +122,45 @@ pub(super) fn load_textures(
         if slot.active && !conventional {
             unset.push((slot.name.as_str(), kind));
         }
-        *texture = Some(Arc::new(unset_texture(kind, if conventional { 1 } else { 0 })));
+        let table = layers::TABLES.iter().find(|(sampler, _)| conventional && *sampler == slot.name);
+        *texture = Some(match table {
+            Some((_, pattern)) => made_table(loader, pattern, kind),
+            None => Arc::new(unset_texture(kind, if conventional { 1 } else { 0 })),
+        });
     }
     warn_unset(loader, draw, &unset, place);
     textures
+}
+
+/// The table of a sampler of the library's programs, which all draws share.
+fn made_table(loader: &mut Loader<'_>, pattern: &'static str, kind: SamplerType) -> Arc<Texture> {
+    let made = loader.tables.entry(pattern).or_insert_with(|| {
+        let levels = patterns::by_default(pattern).into_iter().collect();
+        let (wrap, sampling) = (Wrap::ClampToEdge, Sampling::default());
+        Arc::new(Texture { kind, levels, filter: Filter::Nearest, wrap, compare: Compare::Lequal, sampling })
+    });
+    Arc::clone(made)
+}
+
+/// Warns about transforms of textures that the program does not know: they belong to a material of the program `standard`.
+fn warn_unplaced(loader: &mut Loader<'_>, (draw, material): (&DeTable<'_>, Option<&DeTable<'_>>), program: &Program) {
+    let own = draw.get("textures").and_then(|node| node.get_ref().as_table());
+    for (name, node) in own.into_iter().chain(material).flatten() {
+        let Some((key, _)) = node.get_ref().as_table().and_then(|table| table.get_key_value("transform")) else {
+            continue;
+        };
+        let member = format!("places.{}.s", name.get_ref());
+        let is_known = program.interface.uniforms.iter().any(|leaf| leaf.name == member);
+        if is_known && own.is_none_or(|own| !own.contains_key(name.get_ref().as_ref())) {
+            continue;
+        }
+        let span = loader.reader.span_of(key);
+        let message = format!("nothing reads the `transform` of `{}`", name.get_ref());
+        let diagnostic = Diagnostic::new(&SCENE_UNREAD_KEY, span, message).here("changes nothing");
+        loader
+            .reader
+            .report_missing(diagnostic.help("a material of the program `standard` has transforms of its textures"));
+    }
 }
 
 /// Warns about samplers without a texture, with lines to paste: the smallest textures that say the same.
@@ -175,7 +214,10 @@ fn unset_texture(kind: SamplerType, level: u8) -> Texture {
 
 /// A texture, which the draws of a file share: the file, and not the scene, says how often it is there.
 fn shared_texture(loader: &mut Loader<'_>, node: &Node<'_>, name: &str, kind: SamplerType) -> Option<Arc<Texture>> {
-    let key = format!("{kind:?} {node:?}");
+    // Wherever it is placed, the texture is the same.
+    let is_own = |(key, _): &(&Spanned<DeString<'_>>, _)| key.get_ref() != "transform";
+    let parts = node.get_ref().as_table().map(|table| table.iter().filter(is_own).collect::<Vec<_>>());
+    let key = format!("{kind:?} {parts:?}");
     if let Some(known) = loader.shared.as_ref().and_then(|(known, _)| known.get(&key)) {
         return known.clone();
     }

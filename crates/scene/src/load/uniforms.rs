@@ -360,6 +360,9 @@ impl<'p> Values<'p> {
         let (shape, scalars) = match value {
             Member::Int(value) => (Type::Scalar(Scalar::Int), vec![ScalarValue::Int(value)]),
             Member::Float(value) => (Type::Scalar(Scalar::Float), vec![ScalarValue::Float(value as f32)]),
+            Member::Pair(value) => {
+                (Type::Vector(Scalar::Float, 2), value.map(|value| ScalarValue::Float(value as f32)).to_vec())
+            }
             Member::Vector(value) => {
                 (Type::Vector(Scalar::Float, 3), value.map(|value| ScalarValue::Float(value as f32)).to_vec())
             }
@@ -372,6 +375,7 @@ impl<'p> Values<'p> {
         let wanted = match value {
             Member::Int(_) => "an int",
             Member::Float(_) => "a float",
+            Member::Pair(_) => "a vec2",
             Member::Vector(_) => "a vec3",
         };
         let help = "<glisten/scene.glsl> declares what scenes fill";

@@ -4,6 +4,7 @@
 //! key counts as read if one program to which the table applies reads its value. A model that is the one a program of
 //! the library has anyway is no mistake. *Not done here:* tables that no program declares at all (`warn_unlit`).
 
+use super::layers;
 use crate::library::Library;
 use crate::model::Draw;
 use crate::reads::scene_values_read;
@@ -13,7 +14,7 @@ use glisten_front::diagnostic::codes::scenes::SCENE_UNREAD_KEY;
 use std::collections::BTreeSet;
 use toml::de::DeTable;
 
-/// Keys of a material, and the values that they set.
+/// Keys of a material, and the values that they set, besides those of layers.
 const MATERIAL: &[(&str, &str)] = &[
     ("ambient", "material.ambient"),
     ("diffuse", "material.diffuse"),
@@ -99,13 +100,14 @@ pub(super) fn warn_unread(
             warn_table(reader, ("light", table), LIGHT, &lit, library);
         }
     }
+    let values: Vec<_> = MATERIAL.iter().copied().chain(layers::values()).collect();
     let shared: Vec<&Reading<'_, '_>> = all.iter().copied().filter(|one| !one.table.contains_key("material")).collect();
     if let Some(table) = scene.get("material").and_then(|node| node.get_ref().as_table()) {
-        warn_table(reader, ("material", table), MATERIAL, &declaring(&shared, "material"), library);
+        warn_table(reader, ("material", table), &values, &declaring(&shared, "material"), library);
     }
     for one in all.iter().take(n_own) {
         if let Some(table) = one.table.get("material").and_then(|node| node.get_ref().as_table()) {
-            warn_table(reader, ("material", table), MATERIAL, &declaring(&[one], "material"), library);
+            warn_table(reader, ("material", table), &values, &declaring(&[one], "material"), library);
         }
     }
 }

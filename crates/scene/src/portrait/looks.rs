@@ -69,7 +69,7 @@ fn libraries(model: &Model, path: &str, files: &dyn FileSource, remarks: &mut Ve
 }
 
 /// A texture that a scene can have.
-fn texture(
+pub(super) fn texture(
     source: &TextureSource,
     path: &str,
     name: &str,

@@ -5,10 +5,12 @@
 
 mod camera;
 mod looks;
+mod surfaces;
 
 use crate::files::{FileError, FileSource};
-use crate::geometry::{Framing, Model, Normals};
+use crate::geometry::{Framing, Model, Normals, is_gltf};
 use looks::Shown;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 pub use crate::geometry::is_model_file;
@@ -41,13 +43,20 @@ pub fn portrait(path: &str, name: &str, files: &dyn FileSource) -> Result<Portra
     if let Some(nothing) = model.nothing {
         return Err(PortraitError::Model(nothing.to_owned()));
     }
-    let mut remarks = model.remarks.clone();
-    let shown = looks::shown(&model, path, name, files, &mut remarks);
     let framing =
         Framing::of(&model).ok_or_else(|| PortraitError::Model("all of its triangles are without area".to_owned()))?;
     let mut text = head(&model, name);
     camera::write(&framing, &mut text);
-    shown.iter().for_each(|shown| draw(&mut text, name, shown));
+    let mut remarks = model.remarks.clone();
+    if is_gltf(&bytes) {
+        surfaces::write(&mut text, &model, &bytes, (path, name, files), &mut remarks).map_err(PortraitError::Model)?;
+    } else {
+        let shown = looks::shown(&model, path, name, files, &mut remarks);
+        shown.iter().for_each(|shown| draw(&mut text, name, shown));
+    }
+    // What is left out of a texture that several materials have is said once.
+    let mut said = BTreeSet::new();
+    remarks.retain(|remark| said.insert(remark.clone()));
     Ok(Portrait { text, remarks })
 }
 

@@ -10,17 +10,19 @@ pub enum AttributeRole {
     Position,
     Normal,
     Texcoord,
+    /// A second set of texture coordinates.
+    Texcoord2,
     Color,
     /// The direction of growing s, and in w the handedness of the bitangent: 1 or -1.
     Tangent,
     Bitangent,
 }
 
-use AttributeRole::{Bitangent, Color, Normal, Position, Tangent, Texcoord};
+use AttributeRole::{Bitangent, Color, Normal, Position, Tangent, Texcoord, Texcoord2};
 
 impl AttributeRole {
     /// All roles.
-    pub const ALL: [Self; 6] = [Position, Normal, Texcoord, Color, Tangent, Bitangent];
+    pub const ALL: [Self; 7] = [Position, Normal, Texcoord, Texcoord2, Color, Tangent, Bitangent];
 
     /// The key of `[draw.mesh]`.
     pub fn name(self) -> &'static str {
@@ -28,6 +30,7 @@ impl AttributeRole {
             Position => "position",
             Normal => "normal",
             Texcoord => "texcoord",
+            Texcoord2 => "texcoord2",
             Color => "color",
             Tangent => "tangent",
             Bitangent => "bitangent",
@@ -41,7 +44,7 @@ impl AttributeRole {
             Normal => Some("gl_Normal"),
             Texcoord => Some("gl_MultiTexCoord0"),
             Color => Some("gl_Color"),
-            Tangent | Bitangent => None,
+            Texcoord2 | Tangent | Bitangent => None,
         }
     }
 
@@ -49,7 +52,7 @@ impl AttributeRole {
     pub fn fits(self, ty: Type) -> bool {
         let Type::Vector(Scalar::Float, size) = ty else { return false };
         match self {
-            Position | Texcoord => true,
+            Position | Texcoord | Texcoord2 => true,
             Normal | Color | Tangent | Bitangent => size >= 3,
         }
     }

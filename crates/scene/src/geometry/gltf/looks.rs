@@ -5,9 +5,9 @@
 //! of the highlight is 2 / roughness⁴ - 2, with which Blinn's lobe is as wide as that of GGX.
 
 use super::super::model::{Look, TextureSource};
-use gltf::json::Root;
 use gltf::json::material::Material;
-use gltf::json::texture::Info;
+use gltf::json::texture::Texture;
+use gltf::json::{Index, Root};
 use percent_encoding::percent_decode_str;
 
 /// The looks of all materials; the last one is for triangles without a material.
@@ -47,7 +47,7 @@ fn look(root: &Root, material: &Material, name: &str, remarks: &mut Vec<String>)
     if extensions.is_some_and(|extensions| extensions.unlit.is_some()) {
         (look.emission, look.diffuse, look.specular, look.metal) = (look.diffuse, [0.0; 3], [0.0; 3], None);
     }
-    look.texture = texture.and_then(|info| source(root, info, name, remarks));
+    look.texture = texture.and_then(|info| source(root, info.index, name, remarks));
     look
 }
 
@@ -55,8 +55,14 @@ fn exponent(roughness: f64) -> f64 {
     (2.0 / roughness.max(0.1).powi(4) - 2.0).clamp(1.0, 512.0)
 }
 
-pub(super) fn source(root: &Root, info: &Info, name: &str, remarks: &mut Vec<String>) -> Option<TextureSource> {
-    let texture = root.get(info.index)?;
+/// Where the image of a texture is.
+pub(super) fn source(
+    root: &Root,
+    index: Index<Texture>,
+    name: &str,
+    remarks: &mut Vec<String>,
+) -> Option<TextureSource> {
+    let texture = root.get(index)?;
     let Some(image) = root.get(texture.source) else {
         remarks.push(format!("the texture of `{name}` is in a format that is not read (KTX or WebP): it is left out"));
         return None;
@@ -67,11 +73,4 @@ pub(super) fn source(root: &Root, info: &Info, name: &str, remarks: &mut Vec<Str
         }
         _ => Some(TextureSource::Embedded(u32::try_from(texture.source.value()).ok()?)),
     }
-}
-
-/// The set of texture coordinates for the colors of a material.
-pub(super) fn color_set(root: &Root, look: usize) -> u32 {
-    let material = root.materials.get(look);
-    let texture = material.and_then(|material| material.pbr_metallic_roughness.base_color_texture.as_ref());
-    texture.map_or(0, |info| info.tex_coord)
 }

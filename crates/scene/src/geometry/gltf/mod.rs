@@ -7,8 +7,11 @@
 mod accessor;
 mod buffers;
 mod contents;
+mod draws;
 mod lamps;
+mod layers;
 mod looks;
+mod maps;
 mod nodes;
 mod numbers;
 mod primitives;
@@ -18,12 +21,13 @@ use super::model::{Model, ModelCamera, Projection};
 use crate::files::FileSource;
 use buffers::Buffers;
 pub(crate) use contents::{Contents, contents, is_gltf};
+pub(crate) use draws::{draw, is_blended, passes};
 use glam::DMat4;
 use gltf::json::{Index, Root, camera::Camera};
 pub(crate) use lamps::{Lamp, LampKind};
 use nodes::Nodes;
 use primitives::Builder;
-pub(crate) use surface::{Covering, Map, Surface};
+pub(crate) use surface::Surface;
 
 /// Extensions that a file may require: they do not change where its triangles are.
 static HARMLESS: &[&str] = &[

@@ -14,14 +14,26 @@ pub(super) fn number(table: &Value, key: &str, default: f64) -> Result<f64, Stri
     value.ok_or_else(|| format!("its `{key}` is not a number"))
 }
 
+/// A member of an extension that is a list of two numbers.
+///
+/// # Errors
+/// As of [`number`].
+pub(super) fn pair(table: &Value, key: &str, default: [f64; 2]) -> Result<[f64; 2], String> {
+    list(table, key, default, "two numbers")
+}
+
 /// A member of an extension that is a list of three numbers.
 ///
 /// # Errors
 /// As of [`number`].
 pub(super) fn triple(table: &Value, key: &str, default: [f64; 3]) -> Result<[f64; 3], String> {
+    list(table, key, default, "three numbers")
+}
+
+fn list<const N: usize>(table: &Value, key: &str, default: [f64; N], what: &str) -> Result<[f64; N], String> {
     let Some(value) = table.get(key) else { return Ok(default) };
     let numbers: Option<Vec<f64>> = value.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
     let numbers = numbers.filter(|numbers| numbers.iter().all(|value| (*value as f32).is_finite()));
-    let wrong = || format!("its `{key}` is not three numbers");
-    numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()).ok_or_else(wrong)
+    let wrong = || format!("its `{key}` is not {what}");
+    numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok()).ok_or_else(wrong)
 }

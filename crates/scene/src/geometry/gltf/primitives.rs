@@ -8,7 +8,7 @@ use super::super::model::Part;
 use super::super::soup::{Corner, Soup};
 use super::accessor::{self, Numbers};
 use super::buffers::Buffers;
-use super::looks::color_set;
+use super::maps;
 use super::nodes::Nodes;
 use glam::{DMat3, DMat4, DVec3};
 use gltf::json::mesh::{Mesh, Mode, Primitive, Semantic};
@@ -96,13 +96,21 @@ impl<'a> Builder<'a> {
         let normals = of_count(self.numbers(primitive, Semantic::Normals)?);
         let tangents = of_count(self.numbers(primitive, Semantic::Tangents)?);
         let colors = of_count(self.numbers(primitive, Semantic::Colors(0))?);
-        let texcoords = of_count(self.numbers(primitive, Semantic::TexCoords(color_set(self.root, look)))?);
+        let (set, second) = self.root.materials.get(look).map_or((0, None), maps::sets);
+        let texcoords = of_count(self.numbers(primitive, Semantic::TexCoords(set))?);
+        let texcoords2 = match second {
+            Some(second) => Some(of_count(self.numbers(primitive, Semantic::TexCoords(second))?)),
+            None => None,
+        };
         soup.normals = normals.map_or(Vec::new(), |normals| normals.rows([0.0; 3]));
         soup.tangents = tangents.map_or(Vec::new(), |tangents| tangents.rows([1.0, 0.0, 0.0, 1.0]));
         soup.colors = colors.map_or(Vec::new(), |colors| colors.rows([1.0; 4]));
-        // The first row of an image is at t = 0 in glTF, and at the top of a picture here.
-        let rows = texcoords.map_or(Vec::new(), |texcoords| texcoords.rows([0.0; 2]));
-        soup.texcoords = rows.into_iter().map(|[s, t]| [s, 1.0 - t]).collect();
+        soup.texcoords = upright(texcoords);
+        // Where a material has textures by a set that the primitive lacks, they show one texel.
+        soup.texcoords2 = texcoords2.map_or(Vec::new(), upright);
+        if second.is_some() && soup.texcoords2.is_empty() {
+            soup.texcoords2 = vec![[0.0; 2]; count];
+        }
         let mirrored = self.place(primitive, &mut soup, world, joints)?;
         let indices: Vec<u32> = match primitive.indices {
             Some(indices) => {
@@ -171,6 +179,12 @@ impl<'a> Builder<'a> {
         }
         Ok(linear(0).determinant() < 0.0)
     }
+}
+
+/// Texture coordinates whose t grows upwards: the first row of an image is at t = 0 in glTF, and at the top of a picture here.
+fn upright(rows: Option<Numbers>) -> Vec<[f64; 2]> {
+    let rows = rows.map_or(Vec::new(), |rows| rows.rows([0.0; 2]));
+    rows.into_iter().map(|[s, t]| [s, 1.0 - t]).collect()
 }
 
 fn blended(joints: &[DMat4], numbers: [f64; 4], weights: [f64; 4]) -> DMat4 {

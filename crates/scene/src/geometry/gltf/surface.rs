@@ -1,15 +1,14 @@
 //! The materials of a glTF file, for the standard program with `GLISTEN_SURFACE`.
 //!
-//! *In:* the metallic-roughness model, with the extensions for emission, index of refraction, specular color, clear coat, no light.
+//! *In:* the metallic-roughness model, with the extensions for emission, index of refraction, specular color, layers, no light.
 //! *Out:* a [`Surface`]. *Holds:* what other extensions and textures would change is a remark.
 
-use super::super::model::TextureSource;
-use super::looks::source;
+use super::layers::{self, Setting};
+use super::maps::{self, Map};
 use super::numbers::{number, triple};
 use gltf::json::material::{AlphaMode, Material};
-use gltf::json::texture::{CLAMP_TO_EDGE, Info, MIRRORED_REPEAT, NEAREST};
 use gltf::json::validation::Checked;
-use gltf::json::{Index, Root, Value, texture::Texture};
+use gltf::json::{Root, Value};
 
 /// A material.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,14 +22,14 @@ pub(crate) struct Surface {
     pub(crate) emission: [f64; 3],
     /// The light that its parts without metal mirror at normal incidence.
     pub(crate) dielectric: [f64; 3],
-    /// The strength and the roughness of a coat.
-    pub(crate) clearcoat: [f64; 2],
     /// Whether no light changes it.
     pub(crate) is_unlit: bool,
     pub(crate) is_two_sided: bool,
     pub(crate) normal_scale: f64,
     pub(crate) occlusion_strength: f64,
-    pub(crate) maps: Maps,
+    pub(crate) maps: Vec<Map>,
+    /// The settings that extensions add.
+    pub(crate) layers: Vec<Setting>,
 }
 
 /// How a surface covers what is behind it.
@@ -40,25 +39,6 @@ pub(crate) enum Covering {
     /// Where its alpha is at least this.
     Mask(f64),
     Blend,
-}
-
-/// The textures of a material.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Maps {
-    pub(crate) base_color: Option<Map>,
-    pub(crate) metallic_roughness: Option<Map>,
-    pub(crate) emission: Option<Map>,
-    pub(crate) occlusion: Option<Map>,
-    pub(crate) normal: Option<Map>,
-}
-
-/// A texture.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Map {
-    pub(crate) source: TextureSource,
-    /// The name of its wrap mode in scene files.
-    pub(crate) wrap: &'static str,
-    pub(crate) is_nearest: bool,
 }
 
 impl Default for Surface {
@@ -73,31 +53,20 @@ impl Default for Surface {
             roughness: 1.0,
             emission: [0.0; 3],
             dielectric: [0.04; 3],
-            clearcoat: [0.0; 2],
             is_unlit: false,
             is_two_sided: false,
             normal_scale: 1.0,
             occlusion_strength: 1.0,
-            maps: Maps::default(),
+            maps: Vec::new(),
+            layers: Vec::new(),
         }
     }
 }
 
 /// Extensions that change the picture and that the standard program does not have.
 static MISSING: &[(&str, &str)] = &[
-    ("KHR_materials_transmission", "no light passes through it"),
-    ("KHR_materials_volume", "no light passes through it"),
-    ("KHR_materials_sheen", "it has no sheen"),
-    ("KHR_materials_iridescence", "it has no iridescence"),
-    ("KHR_materials_anisotropy", "its highlights are round"),
     ("KHR_materials_dispersion", "it splits no light"),
     ("KHR_materials_diffuse_transmission", "no light passes through it"),
-];
-
-/// Textures of extensions that are read otherwise.
-static MISSING_MAPS: &[(&str, &[&str])] = &[
-    ("KHR_materials_clearcoat", &["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]),
-    ("KHR_materials_specular", &["specularTexture", "specularColorTexture"]),
 ];
 
 /// The surface of a material.
@@ -108,7 +77,6 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
     let none = Value::Null;
     let strength = extension("KHR_materials_emissive_strength").unwrap_or(&none);
     let strength = number(strength, "emissiveStrength", 1.0)?;
-    let coat = extension("KHR_materials_clearcoat").unwrap_or(&none);
     let mut surface = Surface {
         name: name.to_owned(),
         base_color: [r, g, b],
@@ -118,10 +86,7 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
         roughness: part(given.roughness_factor.0)?,
         emission: finite(material.emissive_factor.0)?.map(|channel| channel * strength),
         dielectric: dielectric(extension("KHR_materials_ior"), extension("KHR_materials_specular"))?,
-        clearcoat: [
-            number(coat, "clearcoatFactor", 0.0)?.clamp(0.0, 1.0),
-            number(coat, "clearcoatRoughnessFactor", 0.0)?.clamp(0.0, 1.0),
-        ],
+        layers: layers::of(material)?,
         is_unlit: material.extensions.as_ref().is_some_and(|all| all.unlit.is_some()),
         is_two_sided: material.double_sided,
         ..Surface::default()
@@ -136,12 +101,16 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
             "`{name}` is by KHR_materials_pbrSpecularGlossiness, and is drawn by its metal and roughness instead"
         ));
     }
-    for (key, maps) in MISSING_MAPS {
-        for map in maps.iter().filter(|map| extension(key).is_some_and(|table| table.get(**map).is_some())) {
-            remarks.push(format!("the `{map}` of `{name}` is left out"));
+    if surface.layers.iter().any(|(key, _)| *key == "transmission") {
+        let volume = extension("KHR_materials_volume").unwrap_or(&none);
+        if number(volume, "thicknessFactor", 0.0)? > 0.0 {
+            remarks.push(format!("light passes straight through `{name}`: it refracts nothing"));
+        }
+        if surface.roughness > 0.0 {
+            remarks.push(format!("what is behind `{name}` is not blurred by its roughness"));
         }
     }
-    surface.maps = maps(root, material, name, remarks);
+    surface.maps = maps::of(root, material, name, remarks)?;
     if let Some(normal) = &material.normal_texture {
         [surface.normal_scale] = finite([normal.scale])?;
     }
@@ -149,44 +118,6 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
         surface.occlusion_strength = part(occlusion.strength.0)?;
     }
     Ok(surface)
-}
-
-fn maps(root: &Root, material: &Material, name: &str, remarks: &mut Vec<String>) -> Maps {
-    let given = &material.pbr_metallic_roughness;
-    let plain =
-        |index: Index<Texture>, tex_coord: u32| Info { index, tex_coord, extensions: None, extras: Default::default() };
-    let base_set = given.base_color_texture.as_ref().map_or(0, |info| info.tex_coord);
-    let mut map = |info: Option<Info>, what: &str| {
-        let info = info?;
-        if info.tex_coord != base_set {
-            remarks.push(format!(
-                "{what} of `{name}` has texture coordinates of set {}, and is drawn with those of set {base_set}",
-                info.tex_coord
-            ));
-        }
-        if info.extensions.as_ref().is_some_and(|all| all.others.contains_key("KHR_texture_transform")) {
-            remarks.push(format!("{what} of `{name}` is drawn without its KHR_texture_transform"));
-        }
-        let source = source(root, &info, name, remarks)?;
-        let sampler = root.get(info.index)?.sampler.and_then(|sampler| root.get(sampler));
-        let wrap = sampler.map_or("repeat", |sampler| match sampler.wrap_s {
-            Checked::Valid(mode) if mode.as_gl_enum() == CLAMP_TO_EDGE => "clamp",
-            Checked::Valid(mode) if mode.as_gl_enum() == MIRRORED_REPEAT => "mirror",
-            _ => "repeat",
-        });
-        let magnified = sampler.and_then(|sampler| sampler.mag_filter);
-        let is_nearest = matches!(magnified, Some(Checked::Valid(filter)) if filter.as_gl_enum() == NEAREST);
-        Some(Map { source, wrap, is_nearest })
-    };
-    let normal = material.normal_texture.as_ref().map(|given| plain(given.index, given.tex_coord));
-    let occlusion = material.occlusion_texture.as_ref().map(|given| plain(given.index, given.tex_coord));
-    Maps {
-        base_color: map(given.base_color_texture.clone(), "the base color"),
-        metallic_roughness: map(given.metallic_roughness_texture.clone(), "the metal and roughness"),
-        emission: map(material.emissive_texture.clone(), "the emission"),
-        occlusion: map(occlusion, "the occlusion"),
-        normal: map(normal, "the map of normals"),
-    }
 }
 
 fn covering(material: &Material) -> Result<Covering, String> {

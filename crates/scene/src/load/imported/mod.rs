@@ -9,7 +9,7 @@ mod text;
 use super::Loader;
 use super::lights::Light;
 use super::matrices::load_transform;
-use crate::geometry::{Contents, Framing, Model, ModelCamera, gltf_contents, is_gltf};
+use crate::geometry::{Contents, Framing, Model, ModelCamera, gltf_contents, gltf_draw, is_blended, is_gltf, passes};
 use crate::tables::{Node, NumberValue, Reader};
 use glam::{DMat4, DVec3};
 use glisten_front::diagnostic::codes::scenes::{MODEL_SIMPLIFIED, SCENE_BAD_ASSET, SCENE_WRONG_VALUE};
@@ -236,11 +236,14 @@ fn write_one<'t, 'i>(
         draws.push((look, surface, is_colored));
     }
     // What can be seen through is drawn over the rest.
-    draws.sort_by_key(|(_, surface, _)| text::is_blended(surface));
+    draws.sort_by_key(|(_, surface, _)| is_blended(surface));
+    let mut names = Vec::new();
     for (look, surface, is_colored) in &draws {
-        text::draw(&mut text, &source.name, *look, surface, *is_colored);
+        for pass in passes(surface) {
+            gltf_draw(&mut text, &source.name, *look, (surface, pass), *is_colored);
+            names.push(surface.name.clone());
+        }
     }
-    let names: Vec<String> = draws.iter().map(|(_, surface, _)| surface.name.clone()).collect();
     let materials = loader.reader.table_at(table, "materials");
     for (key, _) in materials.into_iter().flatten() {
         check_name(&mut loader.reader, source, key, &names)?;

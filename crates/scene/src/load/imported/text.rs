@@ -1,9 +1,8 @@
-//! Writes what a glTF file has as tables of a scene.
+//! Writes the camera and the lights of a glTF file as tables of a scene.
 //!
-//! *In:* its camera, lights and materials. *Out:* TOML. *Holds:* every number is written so that it reads as itself.
+//! *In:* its camera and lights. *Out:* TOML. *Holds:* every number is written so that it reads as itself.
 
-use crate::files::relative_to;
-use crate::geometry::{Covering, DOME, Framing, Lamp, LampKind, Map, ModelCamera, Projection, Surface, TextureSource};
+use crate::geometry::{DOME, Framing, Lamp, LampKind, ModelCamera, Projection};
 use glam::{DMat4, DVec3};
 use std::fmt::Write;
 
@@ -87,89 +86,7 @@ pub(super) fn lamp(text: &mut String, lamp: &Lamp, transform: DMat4) {
     }
 }
 
-/// Whether a surface shows what is behind it.
-pub(super) fn is_blended(surface: &Surface) -> bool {
-    surface.covering == Covering::Blend
-}
-
-/// `[[draw]]` for the triangles of a material.
-pub(super) fn draw(text: &mut String, file: &str, look: usize, surface: &Surface, is_colored: bool) {
-    let cull = if surface.is_two_sided { "none" } else { "back" };
-    let _ = writeln!(
-        text,
-        "[[draw]]\nprogram = \"standard\"\ndepth_test = true\ncull = \"{cull}\"\n\
-         mesh = {{ file = {}, material = {look} }}",
-        quoted(file)
-    );
-    if is_blended(surface) {
-        text.push_str("blend = \"alpha\"\ndepth_write = false\n");
-    }
-    let _ = writeln!(text, "[draw.material]\ntwo_sided = {}", surface.is_two_sided);
-    let color = triple(surface.base_color);
-    let _ = if surface.is_unlit {
-        writeln!(
-            text,
-            "diffuse_model = \"none\"\nspecular_model = \"none\"\ndiffuse = [0.0, 0.0, 0.0]\n\
-             specular = [0.0, 0.0, 0.0]\nemission = {color}"
-        )
-    } else {
-        writeln!(
-            text,
-            "base_color = {color}\nmetallic = {:?}\nroughness = {:?}\ndielectric = {}\nemission = {}",
-            surface.metallic,
-            surface.roughness,
-            triple(surface.dielectric),
-            triple(surface.emission)
-        )
-    };
-    let [clearcoat, coat_roughness] = surface.clearcoat;
-    if clearcoat > 0.0 && !surface.is_unlit {
-        let _ = writeln!(text, "clearcoat = {clearcoat:?}\nclearcoat_roughness = {coat_roughness:?}");
-    }
-    let _ = match surface.covering {
-        Covering::Opaque => Ok(()),
-        Covering::Mask(cutoff) => writeln!(text, "alpha = {:?}\nalpha_cutoff = {cutoff:?}", surface.alpha),
-        Covering::Blend => writeln!(text, "alpha = {:?}", surface.alpha),
-    };
-    if is_colored {
-        text.push_str("vertex_colors = true\n");
-    }
-    let maps = &surface.maps;
-    map(text, file, "decal", maps.base_color.as_ref(), "srgb");
-    if surface.is_unlit {
-        map(text, file, "emission_map", maps.base_color.as_ref(), "srgb");
-        return;
-    }
-    map(text, file, "emission_map", maps.emission.as_ref(), "srgb");
-    map(text, file, "metallic_roughness", maps.metallic_roughness.as_ref(), "linear");
-    if maps.occlusion.is_some() {
-        let _ = writeln!(text, "occlusion_strength = {:?}", surface.occlusion_strength);
-        map(text, file, "occlusion_map", maps.occlusion.as_ref(), "linear");
-    }
-    if maps.normal.is_some() {
-        let _ = writeln!(text, "normal_scale = {:?}", surface.normal_scale);
-        map(text, file, "normal_map", maps.normal.as_ref(), "linear");
-    }
-}
-
-/// A texture of a material, in a file next to the glTF file or in it.
-fn map(text: &mut String, file: &str, key: &str, map: Option<&Map>, decode: &str) {
-    let Some(Map { source, wrap, is_nearest }) = map else { return };
-    let (name, image) = match source {
-        TextureSource::File(name) => (relative_to(file, name), String::new()),
-        TextureSource::Embedded(number) => (file.to_owned(), format!(", image = {number}")),
-    };
-    let filter = if *is_nearest { "filter = \"nearest\"" } else { "filter = \"trilinear\", mipmaps = true" };
-    let name = quoted(&name);
-    let _ = writeln!(text, "{key} = {{ file = {name}{image}, decode = \"{decode}\", wrap = \"{wrap}\", {filter} }}");
-}
-
 fn triple(values: [f64; 3]) -> String {
     let [x, y, z] = values.map(|value| value + 0.0);
     format!("[{x:?}, {y:?}, {z:?}]")
-}
-
-/// A string of TOML.
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
 }

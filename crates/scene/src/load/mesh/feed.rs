@@ -24,6 +24,7 @@ impl Mesh {
     pub(in super::super) fn has(&self, role: AttributeRole) -> bool {
         match role {
             AttributeRole::Color => !self.geometry.colors.is_empty(),
+            AttributeRole::Texcoord2 => !self.geometry.texcoords2.is_empty(),
             _ => !self.geometry.positions.is_empty(),
         }
     }

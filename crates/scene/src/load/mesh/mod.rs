@@ -44,7 +44,7 @@ pub(super) struct Named {
     pub(super) span: Span,
 }
 
-const ROLE_KEYS: &[&str] = &["position", "normal", "texcoord", "color", "tangent", "bitangent"];
+const ROLE_KEYS: &[&str] = &["position", "normal", "texcoord", "texcoord2", "color", "tangent", "bitangent"];
 const SHAPE_KEYS: &[&str] =
     &["shape", "radius", "minor_radius", "segments", "rings", "size", "height", "tube", "turns"];
 

@@ -24,6 +24,8 @@ enum Source {
     Help,
     /// From the output of the program, which depends on the machine.
     Measured(&'static [&'static str]),
+    /// From the differences that `glisten lib prefilter` prints for the panorama of the gallery's scene `studio`.
+    Panorama,
     /// From the output of a benchmark with an argument.
     Bench(&'static str, &'static str),
     /// From the output of another study with arguments.
@@ -45,6 +47,7 @@ static REGIONS: &[(&str, Source)] = &[
     ("operations", Source::Tables(builtin::operations_markdown)),
     ("pipeline", Source::Tables(pipeline)),
     ("precision", Source::Tables(builtin::precision_markdown)),
+    ("prefilter", Source::Panorama),
     ("programs", Source::Tables(programs)),
     ("specialize-draw", Source::Bench("specialize", "draw")),
     ("specialize-make", Source::Bench("specialize", "make")),
@@ -104,6 +107,32 @@ impl Generator {
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
 
+    /// Draws the panorama on the reference, so that every machine has the same one, and prefilters it.
+    fn panorama(&self) -> Result<String, String> {
+        let folder = std::env::temp_dir().join(format!("glisten-docs-{}", std::process::id()));
+        let [panorama, maps] = ["studio.exr", "maps"].map(|name| folder.join(name).display().to_string());
+        std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        let scene = "examples/environment/studio.toml";
+        let drawn = self.printed(&["render", scene, "--backend", "cpu", "-o", &panorama]);
+        let sizes = ["--size", "65", "--levels", "6"];
+        let text =
+            drawn.and_then(|_| self.printed(&[&["lib", "prefilter", &panorama, "-o", &maps], &sizes[..]].concat()));
+        // What is left there is no reason to fail.
+        let _ = std::fs::remove_dir_all(&folder);
+        text
+    }
+
+    /// The standard output of the program.
+    fn printed(&self, arguments: &[&str]) -> Result<String, String> {
+        let mut command = Command::new(&self.program);
+        command.args(arguments).current_dir(&self.root);
+        let output = command.output().map_err(|error| format!("{} cannot run: {error}", self.program.display()))?;
+        if !output.status.success() {
+            return Err(format!("`{}` fails: {}", arguments.join(" "), String::from_utf8_lossy(&output.stderr)));
+        }
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
     fn leave(&mut self) -> Result<Option<String>, String> {
         self.left += 1;
         Ok(None)
@@ -134,7 +163,13 @@ impl Maker for Generator {
                 let text = super::help::commands(|arguments| self.run(arguments))?;
                 self.make(text)
             }
-            Source::Measured(_) | Source::Bench(..) | Source::Study(..) if !self.measured => self.leave(),
+            Source::Measured(_) | Source::Panorama | Source::Bench(..) | Source::Study(..) if !self.measured => {
+                self.leave()
+            }
+            Source::Panorama => {
+                let text = self.panorama()?;
+                self.make(text)
+            }
             Source::Study(name, arguments) => {
                 let text = self.study(name, arguments)?;
                 self.make(text)

@@ -1,0 +1,225 @@
+//! The layers of a material of the program `standard`: fibers, a brush, a film, a coat with textures, glass, and places of textures.
+
+use crate::drawing::reference;
+use crate::lit_scenes::value;
+use crate::scenes::told;
+use crate::support::compiler;
+use glisten::scene::{Loaded, MemoryFiles, Scene, load};
+use glisten_reference::Precision;
+use std::f32::consts::PI;
+
+/// A square that fills the window, seen from straight above and from far away, so that all pixels have the same eye.
+fn scene(light: &str, draw: &str, material: &str) -> Loaded {
+    let text = format!(
+        "[framebuffer]\nwidth = 8\nheight = 8\n[camera]\neye = [0, 0, 4096]\northo = 1\nnear = 4095\nfar = 4097\n{light}\n[[draw]]\n\
+         program = \"standard\"\nmesh = {{ shape = \"quad\" }}\n{draw}\n[draw.material]\n{material}\n"
+    );
+    let files = MemoryFiles::new([("a.toml", text.as_str())]);
+    load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded))
+}
+
+#[track_caller]
+fn good(loaded: Loaded) -> Scene {
+    assert!(loaded.diagnostics.is_empty(), "{:?}", told(&loaded));
+    loaded.scene.expect("without findings there is a scene")
+}
+
+/// The colors of the pixels, row by row from below.
+fn picture(scene: &Scene) -> Vec<[f64; 4]> {
+    let drawn = reference(scene, Precision::F64);
+    (0..64).map(|at| drawn.attachments[0][(7 - at / 8) * 8 + at % 8]).collect()
+}
+
+/// The color of a pixel in the middle.
+fn middle(light: &str, material: &str) -> [f64; 4] {
+    picture(&good(scene(light, "", material)))[36]
+}
+
+/// Light from everywhere, of intensity 1.
+const DOME: &str = "[[light]]\nkind = \"hemisphere\"\nsky = [1, 1, 1]\nground = [1, 1, 1]";
+/// Light from the eye.
+const HEAD_ON: &str = "[[light]]\nkind = \"directional\"\ntowards = [0, 0, 1]";
+
+#[track_caller]
+fn near(found: [f64; 4], wanted: [f64; 3], within: f64) {
+    let is_near = found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() <= within);
+    assert!(is_near, "{found:?} {wanted:?}");
+}
+
+/// White surfaces return all of the light from everywhere, whatever lies on them.
+#[test]
+fn white_layers_are_white_in_white_light() {
+    let plaster = "diffuse = [1, 1, 1]\nspecular_model = \"none\"\n";
+    let plastic = "base_color = [1, 1, 1]\nmetallic = 0.0\nroughness = 0.5\n";
+    let layers = [
+        (plaster, "sheen = [1, 1, 1]\nsheen_roughness = 0.5"),
+        (plaster, "sheen = [0.5, 0.5, 0.5]\nsheen_roughness = 1.0\nclearcoat = 1.0"),
+        (plastic, "anisotropy = 0.8"),
+        (plastic, "transmission = 1.0"),
+        (plastic, "transmission = 0.5\nclearcoat = 0.5\nclearcoat_normal_scale = 2.0"),
+        (plastic, "sheen = [1, 1, 1]\nsheen_roughness = 0.25\nanisotropy = 1.0\ntransmission = 0.25"),
+    ];
+    for (base, layer) in layers {
+        let found = middle(DOME, &format!("{base}{layer}"));
+        near(found, [1.0; 3], 2e-3);
+    }
+}
+
+/// Seen and lit from straight above, the density of a brushed surface is 1 / (pi a_t a_b), and Smith's term is 1 / 4.
+#[test]
+fn a_brush_widens_the_highlight() {
+    let metal = "base_color = [1, 0.5, 0.25]\nmetallic = 1.0\nroughness = 0.5\n";
+    for strength in [0.0_f64, 0.5, 1.0] {
+        let along = 0.25 + strength * strength * 0.75;
+        let found = middle(HEAD_ON, &format!("{metal}anisotropy = {strength:?}\nanisotropy_rotation = 30"));
+        let factor = 0.25 / (along * 0.25);
+        near(found, [factor, 0.5 * factor, 0.25 * factor], 1e-5);
+    }
+    // Along the scratches, the light moves out of the highlight sooner than across them.
+    let lit = |turn: f64| {
+        let light = "[[light]]\nkind = \"directional\"\ntowards = [0.6, 0, 0.8]";
+        middle(light, &format!("{metal}anisotropy = 1.0\nanisotropy_rotation = {turn:?}"))[0]
+    };
+    assert!(lit(0.0) > 2.0 * lit(90.0), "{} {}", lit(0.0), lit(90.0));
+    assert!((lit(0.0) - lit(180.0)).abs() < 1e-6);
+    // The texture turns the brush, too, and its blue is a part of the strength.
+    let map = |texel: &str| {
+        let light = "[[light]]\nkind = \"directional\"\ntowards = [0.6, 0, 0.8]";
+        let map = format!("anisotropy_map = {{ width = 1, height = 1, values = [{texel}] }}");
+        middle(light, &format!("{metal}anisotropy = 1.0\n{map}"))[0]
+    };
+    assert!((map("1, 0.5, 1, 1") - lit(0.0)).abs() < 1e-6);
+    assert!((map("0.5, 1, 1, 1") - lit(90.0)).abs() < 1e-6);
+    assert!(
+        (map("1, 0.5, 0, 1") - middle("[[light]]\nkind = \"directional\"\ntowards = [0.6, 0, 0.8]", metal)[0]).abs()
+            < 1e-6
+    );
+}
+
+/// A film without thickness, or without strength, is none. Over a metal, one of a quarter of a wave takes green, and one of half a wave leaves it.
+#[test]
+fn a_film_has_colors() {
+    let metal = "base_color = [0.5, 0.5, 0.5]\nmetallic = 1.0\nroughness = 0.5\n";
+    let film = |more: &str| middle(HEAD_ON, &format!("{metal}{more}"));
+    let bare = film("");
+    near(film("iridescence = 1.0\niridescence_thickness = 0"), [bare[0], bare[1], bare[2]], 1e-6);
+    near(film("iridescence = 0.0"), [bare[0], bare[1], bare[2]], 1e-6);
+    // The path is 2 n d: half a wave of 550 nm, and a whole one.
+    let [dark, bright] = [550.0 * 0.25 / 1.3, 550.0 * 0.5 / 1.3]
+        .map(|thickness| film(&format!("iridescence = 1.0\niridescence_thickness = {thickness:?}")));
+    assert!(
+        bright[1] > 0.95 * bare[1] && dark[1] < 0.7 * bare[1] && bright[2] < 0.9 * bright[1],
+        "{dark:?} {bare:?} {bright:?}"
+    );
+    // Maps: red is a part of the strength, green of the thickness.
+    let map = "iridescence_thickness_map = { width = 1, height = 1, values = [0, 0.5, 0, 1] }";
+    let found = film(&format!("iridescence = 1.0\niridescence_thickness = 300\niridescence_thinnest = 100\n{map}"));
+    let wanted = film("iridescence = 1.0\niridescence_thickness = 200");
+    near(found, [wanted[0], wanted[1], wanted[2]], 1e-9);
+}
+
+/// A light behind a thin wall shines through it as one before it is mirrored, by the wall's color and without what it absorbs.
+#[test]
+fn light_passes_through_glass() {
+    let glass =
+        "base_color = [0.5, 1, 0.25]\nmetallic = 0.0\nroughness = 0.5\ndielectric = [0, 0, 0]\ntransmission = 1.0\n";
+    let behind = "[[light]]\nkind = \"directional\"\ntowards = [0, 0, -1]";
+    let found = middle(behind, &format!("{glass}absorption = [0, 0, 0.5]"));
+    let factor = f64::from(PI) * (1.0 / (f64::from(PI) * 0.0625)) * 0.25;
+    near(found, [0.5 * factor, factor, 0.25 * factor * (-0.5_f64).exp()], 1e-5);
+    // In front of a picture: the first draw multiplies, and the second one adds.
+    let through =
+        picture(&good(scene(HEAD_ON, "blend = \"multiply\"", &format!("{glass}transmission_pass = \"through\""))));
+    near(through[36], [0.0; 3], 1e-9);
+    let backed = "[framebuffer]\nclear = [1, 1, 1, 1]\nwidth = 8\nheight = 8\n[camera]\neye = [0, 0, 4096]\northo = 1\nnear = 4095\nfar = 4097\n[[draw]]\n\
+                  program = \"standard\"\nmesh = { shape = \"quad\" }\nblend = \"multiply\"\n[draw.material]\n";
+    let text = format!("{backed}{glass}transmission_pass = \"through\"\n");
+    let files = MemoryFiles::new([("a.toml", text.as_str())]);
+    let loaded = load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded));
+    near(picture(&loaded.scene.expect("it loads"))[36], [0.5, 1.0, 0.25], 1e-2);
+}
+
+/// The textures of a coat and of a dielectric are parts of the numbers.
+#[test]
+fn textures_of_the_coat_and_of_the_mirror_are_parts() {
+    let plastic = "base_color = [0.25, 0.5, 0.75]\nmetallic = 0.0\nroughness = 0.5\n";
+    let of = |more: &str| middle(HEAD_ON, &format!("{plastic}{more}"));
+    let texel = |key: &str, texel: &str| format!("{key} = {{ width = 1, height = 1, values = [{texel}] }}\n");
+    let pairs = [
+        (
+            "clearcoat = 1.0\nclearcoat_roughness = 0.8\n".to_owned()
+                + &texel("clearcoat_map", "0.5, 0, 0, 1")
+                + &texel("clearcoat_roughness_map", "0, 0.25, 0, 1"),
+            "clearcoat = 0.5\nclearcoat_roughness = 0.2".to_owned(),
+        ),
+        (
+            "dielectric = [0.08, 0.08, 0.08]\n".to_owned()
+                + &texel("dielectric_map", "1, 0.5, 0.25, 1")
+                + &texel("dielectric_strength_map", "0, 0, 0, 0.5"),
+            "dielectric = [0.04, 0.02, 0.01]".to_owned(),
+        ),
+        (
+            "sheen = [1, 0.5, 1]\nsheen_roughness = 1.0\n".to_owned()
+                + &texel("sheen_map", "0.5, 1, 0, 1")
+                + &texel("sheen_roughness_map", "0, 0, 0, 0.5"),
+            "sheen = [0.5, 0.5, 0]\nsheen_roughness = 0.5".to_owned(),
+        ),
+    ];
+    for (mapped, plain) in pairs {
+        let [r, g, b, _] = of(&plain);
+        near(of(&mapped), [r, g, b], 1e-6);
+    }
+    // A bump of the coat alone.
+    let bump = texel("clearcoat_normal_map", "0.8, 0.5, 0.9, 1");
+    let coat = "clearcoat = 1.0\nclearcoat_roughness = 0.3\n";
+    let (flat, bumped) = (of(coat), of(&format!("{coat}{bump}")));
+    assert!(bumped[0] < flat[0], "{bumped:?} {flat:?}");
+    near(of(&format!("{coat}{bump}clearcoat_normal_scale = 0.0")), [flat[0], flat[1], flat[2]], 1e-6);
+}
+
+/// A transform scales, turns counterclockwise, and moves; each texture has its own.
+#[test]
+fn textures_have_their_places() {
+    // Red and green below, blue and white above.
+    let texture = "width = 2, height = 2, values = [1,0,0,1, 0,1,0,1, 0,0,1,1, 1,1,1,1], filter = \"nearest\"";
+    let unlit = "diffuse_model = \"none\"\nspecular_model = \"none\"\ndiffuse = [0, 0, 0]\nemission = [1, 1, 1]\n";
+    let drawn = |transform: &str| {
+        let map = format!("emission_map = {{ {texture}, transform = {{ {transform} }} }}");
+        let pixels = picture(&good(scene(HEAD_ON, "", &format!("{unlit}{map}"))));
+        [pixels[9], pixels[14], pixels[49], pixels[54]].map(|[r, g, b, _]| [r, g, b])
+    };
+    let [red, green, blue, white] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+    assert_eq!(drawn("scale = 1"), [red, green, blue, white]);
+    assert_eq!(drawn("translate = [0.5, 0]"), [green, red, white, blue]);
+    assert_eq!(drawn("scale = 0.5"), [red; 4]);
+    assert_eq!(drawn("scale = [0.5, 1]"), [red, red, blue, blue]);
+    // The coordinates turn counterclockwise, and so the picture turns clockwise: the corner at (1, 0) goes to (0, 1).
+    assert_eq!(drawn("rotate = 90, translate = [1, 0]"), [green, white, red, blue]);
+    let loaded =
+        good(scene(HEAD_ON, "", &format!("{unlit}emission_map = {{ {texture}, transform = {{ rotate = 90 }} }}")));
+    assert_eq!(value(&loaded.draws[0], "places.decal.s"), [1.0, 0.0, 0.0]);
+}
+
+/// Mistakes have their messages.
+#[test]
+fn mistakes_in_layers_are_told() {
+    let plain = "base_color = [1, 1, 1]\n";
+    let texture = "width = 1, height = 1, values = [1, 1, 1, 1]";
+    for (material, words) in [
+        ("sheen_roughnes = 1", "no key `sheen_roughnes`"),
+        ("transmission_pass = \"front\"", "`transmission_pass` cannot be `front`"),
+        ("sheen = 1", "sheen"),
+        ("anisotropy_map = 1", "anisotropy_map"),
+        (&format!("decal = {{ {texture}, transform = {{ scale = [1, 2, 3] }} }}"), "scale"),
+        (&format!("decal = {{ {texture}, transform = {{ scal = 1 }} }}"), "no key `scal`"),
+        (&format!("decal = {{ {texture}, transform = 3 }}"), "transform"),
+        (&format!("ramp = {{ {texture}, transform = {{ scale = 2 }} }}"), "nothing reads the `transform` of `ramp`"),
+    ] {
+        let found = told(&scene(HEAD_ON, "", &format!("{plain}{material}"))).join("\n");
+        assert!(found.contains(words), "{material}: {found}");
+    }
+    // Draws' own textures have no places.
+    let own = format!("textures = {{ decal = {{ {texture}, transform = {{ scale = 2 }} }} }}");
+    let found = told(&scene(HEAD_ON, &own, plain)).join("\n");
+    assert!(found.contains("W0911") && found.contains("nothing reads the `transform`"), "{found}");
+}
