@@ -1,4 +1,4 @@
-//! What an expression does besides giving a value.
+//! Effects of an expression besides the value that it gives.
 //!
 //! *In:* a stage and an expression. *Out:* the l-values that the expression itself writes. *Holds:* who asks what is written asks here,
 //! so that a built-in function with a result in an argument is known everywhere.
