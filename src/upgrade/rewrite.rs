@@ -237,14 +237,16 @@ pub(super) fn directive(line: &str) -> Option<&str> {
     line.trim_start_matches('\u{feff}').trim_start().strip_prefix('#')
 }
 
-/// The lines of a text without comments, and whether each is a directive.
+/// The lines of a text without comments, and whether each is a directive; a line that continues one is an empty one.
 fn directive_lines(code: &str) -> Vec<(Range<usize>, Option<&str>)> {
-    let mut at = 0;
+    let (mut at, mut goes_on) = (0, false);
     code.split_inclusive('\n')
         .map(|line| {
             let range = at..at + line.len();
             at = range.end;
-            (range, directive(line).map(str::trim))
+            let found = if goes_on { Some("") } else { directive(line).map(str::trim) };
+            goes_on = found.is_some() && line.trim_end().ends_with('\\');
+            (range, found)
         })
         .collect()
 }
@@ -361,6 +363,13 @@ mod tests {
                    #define LOOK(q) texture2D(t, q)\nvoid main() { gl_FragColor = LOOK(p).texture2D; }\n";
         let new = "#version 150\n// varying\n // was\nout vec4 fragColor;\nuniform sampler2D t;\nin\tvec2 p; /* texture2D */\n\
                    #define LOOK(q) texture(t, q)\nvoid main() { fragColor = LOOK(p).texture2D; }\n";
+        assert_eq!(upgraded(old, Stage::Fragment, Target::Core150), new);
+    }
+
+    #[test]
+    fn declarations_do_not_come_into_a_macro_of_several_lines() {
+        let old = "#version 120\n#define LOOK(q) \\\n  texture2D(t, q) \\\n  .rgba\nuniform sampler2D t;\nvoid main() { gl_FragColor = LOOK(vec2(0.0)); }\n";
+        let new = "#version 150\n#define LOOK(q) \\\n  texture(t, q) \\\n  .rgba\nout vec4 fragColor;\nuniform sampler2D t;\nvoid main() { fragColor = LOOK(vec2(0.0)); }\n";
         assert_eq!(upgraded(old, Stage::Fragment, Target::Core150), new);
     }
 
