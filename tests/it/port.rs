@@ -468,5 +468,7 @@ fn a_lone_stage_of_es_is_proved() {
     let output = folder.run(&["port", "in", "--for", "vulkan", "--prove", "-o", "out"]);
     let said = err(&output);
     assert_eq!(code(&output), 0, "{said}");
+    // `gl_FragColor` is `mediump`, which some drivers compute with fewer bits; Vulkan's picture is judged in any case.
     assert!(said.contains("1 proved") || said.contains("OpenGL ES computes `mediump`"), "{said}");
+    has(&said, &["the reference draws the same bytes", "100 % of them judged, 0 outside\n", " 0 failed"]);
 }
