@@ -279,14 +279,18 @@ impl<'a> Text<'a> {
                 .into_iter()
                 .collect();
         }
-        let tokens = (one.chunk.tokens.start..one.token).filter(|index| self.is_of_varyings(self.chunks.word(*index)));
-        tokens
-            .map(|index| {
-                let place = self.chunks.place(index);
-                let next = self.chunks.place(index + 1).start;
-                (place.start..next.max(place.end), String::new())
-            })
-            .collect()
+        let mut edits: Vec<Edit> = Vec::new();
+        let mut index = one.chunk.tokens.start;
+        while index < one.token {
+            let is_layout = self.chunks.word(index) == "layout";
+            let last = if is_layout { closing(&self.chunks.all, index + 1).unwrap_or(index) } else { index };
+            if is_layout || self.is_of_varyings(self.chunks.word(index)) {
+                let (start, end) = (self.chunks.place(index).start, self.chunks.place(last).end);
+                edits.push((start..self.chunks.place(last + 1).start.max(end), String::new()));
+            }
+            index = last + 1;
+        }
+        edits
     }
 
     /// Whether a word, or the macro of that name, says how a varying leaves its stage.
@@ -321,9 +325,8 @@ impl<'a> Text<'a> {
             let first = moves.first().map(|first| self.chunks.range(first.chunk));
             if let (Some(loose), Some(first)) = (loose, &first) {
                 let is_later = |at: Option<usize>| at.is_some_and(|at| at > first.end);
-                let mut words = self.chunks.of(one.chunk).iter().filter(|token| token.is_word());
                 later_struct |= loose.structs.iter().any(|name| is_later(self.struct_place(name)))
-                    || words.any(|token| is_later(self.constant_place(token.text)));
+                    || self.sizes(one.chunk).any(|word| is_later(self.constant_place(word)));
             }
             let above = if is_new && !is_call { self.above(&code, range.start) } else { Vec::new() };
             let (code, rest) = self.member(one, loose)?;
@@ -452,6 +455,20 @@ impl<'a> Text<'a> {
         (0..self.chunks.all.len()).find(is_it).map(|at| self.chunks.place(at).start)
     }
 
+    /// The words between the brackets of a declaration.
+    fn sizes(&self, chunk: &Chunk) -> impl Iterator<Item = &'a str> {
+        let mut depth = 0_usize;
+        let inside = self.chunks.of(chunk).iter().filter(move |token| {
+            match token.text {
+                "[" => depth += 1,
+                "]" => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            depth > 0 && token.is_word()
+        });
+        inside.map(|token| token.text)
+    }
+
     /// The place of the definition of a struct in this text.
     fn struct_place(&self, name: &str) -> Option<usize> {
         let at =
@@ -462,13 +479,15 @@ impl<'a> Text<'a> {
     /// Where the block is: at the first of the declarations, or the last one, if a struct comes between them.
     fn block_place(&self, moves: &[&Declared<'_>], later_struct: bool) -> Result<Option<(usize, Vec<Open>)>, String> {
         let (Some(first), Some(last)) = (moves.first(), moves.last()) else { return Ok(None) };
-        let between = self.chunks.list.iter().filter(|chunk| {
+        let names: BTreeSet<&str> = moves.iter().map(|one| self.chunks.word(one.token)).collect();
+        let uses_one = self.chunks.list.iter().any(|chunk| {
             chunk.is_function
                 && first.chunk.tokens.end <= chunk.tokens.start
                 && chunk.tokens.end <= last.chunk.tokens.start
+                && self.chunks.of(chunk).iter().any(|token| names.contains(token.text))
         });
-        if later_struct && between.count() > 0 {
-            let what = "a struct of a uniform comes after a function that may use other uniforms";
+        if later_struct && uses_one {
+            let what = "a struct of a uniform comes after a function that uses other uniforms";
             return Err(format!("{what}; move the struct to the beginning of `{}`", self.name));
         }
         let at = self.chunks.range(if later_struct { last.chunk } else { first.chunk }).start;

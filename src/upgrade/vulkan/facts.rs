@@ -9,7 +9,7 @@ use super::files::{Files, stages_of_texts};
 use super::numbers::{Numbers, Space};
 use super::{Compiled, Key};
 use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
-use glisten_front::link::{Program, Varying, std140};
+use glisten_front::link::{Program, Varying, partners, std140};
 use glisten_front::source::{SourceMap, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -207,10 +207,8 @@ fn fact(
         let node = numbers.node(unit, space, &name, size, Some(row.location));
         return Ok(Fact::Numbered(Numbered { index: dual.then_some(row.index), ..numbered(space, node) }));
     }
-    if let Some(name) = geometry_input(program, shader, global) {
-        let vertex =
-            program.stage(Stage::Vertex).and_then(|vertex| vertex.globals.iter().find(|one| is_out(one, name)));
-        let size = vertex.map_or(1, |one| program.types.locations(one.ty));
+    if let Some(output) = geometry_input(program, shader.stage, id) {
+        let (name, size) = (output.match_name(), program.types.locations(output.ty));
         let node = numbers.node(unit, Space::GeometryInput, name, size, None);
         return Ok(Fact::Numbered(numbered(Space::GeometryInput, node)));
     }
@@ -232,19 +230,16 @@ fn is_before_geometry(program: &Program, shader: &Shader, global: &Global) -> bo
         && matches!((shader.stage, global.storage), (Stage::Vertex, Storage::Out) | (Stage::Geometry, Storage::In))
 }
 
-fn is_out(global: &Global, name: &str) -> bool {
-    global.storage == Storage::Out && global.builtin.is_none() && global.match_name() == name
-}
-
-/// The name by which the vertex and the geometry stage match, of a variable that both have.
-fn geometry_input<'a>(program: &Program, shader: &Shader, global: &'a Global) -> Option<&'a str> {
-    let name = global.match_name();
-    let is_in = |one: &Global| one.storage == Storage::In && one.builtin.is_none() && one.match_name() == name;
-    let has = |stage, is_it: &dyn Fn(&Global) -> bool| {
-        program.stage(stage).is_some_and(|shader| shader.globals.iter().any(is_it))
+/// The output of the vertex stage that feeds the geometry stage, by itself or by the input that it feeds.
+fn geometry_input(program: &Program, stage: Stage, id: GlobalId) -> Option<&Global> {
+    let (vertex, geometry) = (program.stage(Stage::Vertex)?, program.stage(Stage::Geometry)?);
+    let is_it = |(output, input): &(GlobalId, GlobalId)| match stage {
+        Stage::Vertex => *output == id,
+        Stage::Geometry => *input == id,
+        Stage::Fragment => false,
     };
-    let is_whole = has(Stage::Geometry, &is_in) && has(Stage::Vertex, &|one| is_out(one, name));
-    (is_before_geometry(program, shader, global) && is_whole).then_some(name)
+    let (output, _) = partners(vertex, geometry).into_iter().find(is_it)?;
+    Some(vertex.global(output))
 }
 
 /// The second color of dual-source blending has the location of the first: it is numbered with it.

@@ -30,6 +30,7 @@ mod includes;
 mod layouts;
 mod numbers;
 mod output;
+mod qualifiers;
 mod samplers;
 mod style;
 mod text;

@@ -14,6 +14,7 @@ use super::files::{File, Files};
 use super::layouts::{Layout, Layouts, block_name};
 use super::numbers::Numbers;
 use super::output::Note;
+use super::qualifiers::Qualifiers;
 use super::style::{self, indent_of};
 use super::{Compiled, Key};
 use crate::engines::code::{is_name, without_comments};
@@ -33,7 +34,7 @@ pub(super) struct Plan<'a> {
     pub(super) turned: &'a BTreeSet<Key>,
     /// The included files that name `gl_FragCoord` and are read by those.
     pub(super) turned_parts: &'a BTreeSet<Key>,
-    pub(super) qualifiers: &'a BTreeSet<String>,
+    pub(super) qualifiers: &'a Qualifiers,
     /// All words of all texts.
     pub(super) names: &'a BTreeSet<String>,
     /// The uniforms that the host has in blocks of its own, by their old names.
@@ -76,7 +77,7 @@ impl Plan<'_> {
             chunks: &chunks,
             conditions: &conditions,
             facts: self.facts.get(key).unwrap_or(&none),
-            qualifiers: self.qualifiers,
+            qualifiers: self.qualifiers.of(key),
             names: self.names,
             dialect: self.dialect,
             numbers: self.numbers,

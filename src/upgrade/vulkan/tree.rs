@@ -14,6 +14,7 @@ use super::includes::Includes;
 use super::layouts::{Layouts, loose};
 use super::numbers::Numbers;
 use super::output::{NewFile, NewTree, Note, Pointed, TreeProgram};
+use super::qualifiers::Qualifiers;
 use super::samplers;
 use super::text::{Plan, foreign};
 use super::unseen::unseen;
@@ -185,7 +186,7 @@ fn rewritten(
     };
     let mut numbers = Numbers::default();
     let mut facts = Facts::new(programs, &files, dialect, &mut numbers)?;
-    let qualifiers = qualifiers(&files);
+    let qualifiers = Qualifiers::new(&files);
     let mut notes = add_unseen(&files, &mut facts, &qualifiers, &mut numbers);
     let mut known: BTreeSet<String> = BTreeSet::new();
     for fact in facts.all.values_mut().flat_map(BTreeMap::values_mut) {
@@ -246,34 +247,13 @@ fn new_file(files: &Files, moved: &BTreeMap<String, String>, key: &Key, file: &F
     }
 }
 
-/// Macros that stand for qualifiers in every definition: `#define VARYING in`.
-fn qualifiers(files: &Files) -> BTreeSet<String> {
-    static WORDS: &[&str] =
-        &["uniform", "in", "out", "flat", "smooth", "centroid", "lowp", "mediump", "highp", "const", "invariant"];
-    let (mut found, mut others): (BTreeSet<String>, BTreeSet<String>) = Default::default();
-    for file in files.all.values() {
-        let conditions = Conditions::new(&file.text);
-        for one in conditions.list.iter().filter(|one| one.word() == "define") {
-            let mut words = one.rest().split_whitespace();
-            let Some(name) = words.next() else { continue };
-            let is_plain = words.all(|word| WORDS.contains(&word));
-            if is_plain {
-                found.insert(name.to_owned())
-            } else {
-                others.insert(name.to_owned())
-            };
-        }
-    }
-    &found - &others
-}
-
 /// Adds what conditions hide, and says what stays as it is.
-fn add_unseen(files: &Files, facts: &mut Facts, qualifiers: &BTreeSet<String>, numbers: &mut Numbers) -> Vec<Note> {
+fn add_unseen(files: &Files, facts: &mut Facts, qualifiers: &Qualifiers, numbers: &mut Numbers) -> Vec<Note> {
     let mut notes = Vec::new();
     for (key, file) in &files.all {
         let chunks = Chunks::new(&file.text);
         let of_file = facts.all.entry(key.clone()).or_default();
-        let (found, left) = unseen(&chunks, file, of_file, qualifiers, numbers);
+        let (found, left) = unseen(&chunks, file, of_file, qualifiers.of(key), numbers);
         of_file.extend(found);
         for place in left {
             let line = file.text.get(..place).map_or(0, |before| before.matches('\n').count()) as u32 + 1;
