@@ -14,6 +14,7 @@ use crate::upgrade::{Dialect, Target, upgrade};
 use crate::verify::{Conclusion, Drawn, Failure as DrawFailure, OnGpu, Options, Runner, verify};
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_ATTRIBUTE, SCENE_UNSET_TEXTURE, SCENE_UNSET_UNIFORM};
+use glisten_front::hir::{PrimitiveOut, Stage};
 use glisten_front::language::Profile;
 use glisten_front::link::UniformLeaf;
 use glisten_gpu::{Gpu, Via};
@@ -29,7 +30,7 @@ use std::sync::Arc;
 /// The width and height of the pictures.
 const SIDE: u32 = 64;
 /// Of so many pixels of points and lines, which overlap, one may have another fragment.
-const POINTS_OFF: u64 = 100;
+const POINTS_OFF: u64 = 50;
 /// Of fewer pixels, one at an edge is too large a part.
 const FEWEST: u64 = 8;
 
@@ -214,9 +215,13 @@ fn figures(verdict: &Verdict, share: f64) -> String {
     text
 }
 
+/// Whether what is rasterized are points or lines: of the scene, or of a geometry shader.
 fn has_points_or_lines(scene: &Scene) -> bool {
     use Primitive::{LineLoop, LineStrip, Lines, Points};
-    scene.draws.iter().any(|draw| matches!(draw.state.primitive, Points | Lines | LineStrip | LineLoop))
+    scene.draws.iter().any(|draw| match draw.program.stage(Stage::Geometry) {
+        Some(shader) => shader.geometry.output.is_some_and(|output| output != PrimitiveOut::TriangleStrip),
+        None => matches!(draw.state.primitive, Points | Lines | LineStrip | LineLoop),
+    })
 }
 
 /// Whether a program of a scene is one of OpenGL ES.

@@ -7,8 +7,9 @@
 //!
 //! `GLISTEN` is the program. Each folder is a pack or the shaders of an engine; the table names the commit if it is a repository.
 //! `PACK=GAME` names the assets of the game that a pack of Minecraft was made for, and `--game` those of the game that it is ported to. Of
-//! the programs that glslang takes as OpenGL's, each stage of the new program is compiled by `glslangValidator -V` and judged by
-//! `spirv-val`. With `--list`, every program that is not accepted is printed with the reason.
+//! the programs that glslang compiles and links as OpenGL's, each stage of the new program is compiled by `glslangValidator -V` and judged by
+//! `spirv-val`. Of those that are not ported, *not GLSL* have an error by the specification, and *not read* a feature or an extension
+//! that glisten does not read. With `--list`, every program that is not accepted is printed with the reason.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a table")]
 
@@ -66,6 +67,10 @@ struct Row {
     programs: usize,
     /// Programs whose old texts glslang takes as OpenGL's.
     by_opengl: usize,
+    /// Of these, programs with an error by the specification.
+    no_glsl: usize,
+    /// Of these, programs with something that glisten does not read.
+    not_read: usize,
     ported: usize,
     accepted: usize,
     valid: usize,
@@ -80,9 +85,9 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     println!(
-        "| folder | commit | game | programs | by glslang as OpenGL | of these ported | by glslang as Vulkan | by spirv-val | proved | inconclusive | failed |"
+        "| folder | commit | game | programs | by glslang as OpenGL | of these not GLSL | not read | ported | by glslang as Vulkan | by spirv-val | proved | inconclusive | failed |"
     );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     let (mut exit, mut all) = (ExitCode::SUCCESS, Row::default());
     for (folder, game) in &arguments.folders {
         match row(&arguments, folder, game.as_deref()) {
@@ -105,17 +110,19 @@ fn main() -> ExitCode {
 
 impl Row {
     fn print(&self, name: &str, commit: &str, game: &str, proves: bool) {
-        let Self { programs, by_opengl, ported, accepted, valid, .. } = self;
+        let Self { programs, by_opengl, no_glsl, not_read, ported, accepted, valid, .. } = self;
         let proofs = [self.proved, self.inconclusive, self.failed];
         let [proved, inconclusive, failed] = proofs.map(|n| if proves { n.to_string() } else { "–".to_owned() });
         println!(
-            "| {name} | {commit} | {game} | {programs} | {by_opengl} | {ported} | {accepted} | {valid} | {proved} | {inconclusive} | {failed} |"
+            "| {name} | {commit} | {game} | {programs} | {by_opengl} | {no_glsl} | {not_read} | {ported} | {accepted} | {valid} | {proved} | {inconclusive} | {failed} |"
         );
     }
 
     fn add(&mut self, other: &Self) {
         self.programs += other.programs;
         self.by_opengl += other.by_opengl;
+        self.no_glsl += other.no_glsl;
+        self.not_read += other.not_read;
         self.ported += other.ported;
         self.accepted += other.accepted;
         self.valid += other.valid;
@@ -123,6 +130,14 @@ impl Row {
         self.inconclusive += other.inconclusive;
         self.failed += other.failed;
     }
+}
+
+/// The code of an error, at the end of a reason: `.. is not supported yet (E0001)`.
+fn code(reason: &str) -> Option<&str> {
+    let code = reason.strip_suffix(')')?.rsplit_once('(')?.1;
+    code.strip_prefix('E')
+        .is_some_and(|digits| digits.len() == 4 && digits.bytes().all(|b| b.is_ascii_digit()))
+        .then_some(code)
 }
 
 fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row, String> {
@@ -166,14 +181,20 @@ fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row,
                 println!("  {}: {text}", program["name"].as_str().unwrap_or(""));
             }
         };
-        if let Some(complaint) = files.iter().find_map(|file| tools::glslang(&old_tree, *file, &[]).err()) {
+        if let Err(complaint) = tools::opengl(&old_tree, &files) {
             said(&format!("the old text: {complaint}"));
             continue;
         }
         row.by_opengl += 1;
         let result = program["result"].as_str().unwrap_or("");
         if result == "refused" {
-            said(program["because"].as_str().unwrap_or(""));
+            let reason = program["because"].as_str().unwrap_or("");
+            match code(reason) {
+                Some("E0001" | "E0125") => row.not_read += 1,
+                Some(_) if !reason.starts_with("in the new language") => row.no_glsl += 1,
+                _ => {}
+            }
+            said(reason);
             continue;
         }
         row.ported += 1;
@@ -185,7 +206,7 @@ fn row(arguments: &Arguments, folder: &Path, game: Option<&Path>) -> Result<Row,
             let names = ["-Dgl_VertexID=gl_VertexIndex", "-Dgl_InstanceID=gl_InstanceIndex"];
             let given = if is_minecraft { &["--amb", "--aml", names[0], names[1]][..] } else { &[] };
             let vulkan = [&["-V", "--target-env", "vulkan1.1", "-o", &place], given].concat();
-            match tools::glslang(&new_tree, *file, &vulkan) {
+            match tools::vulkan(&new_tree, *file, &vulkan) {
                 Ok(()) => {
                     let judged = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(&module).output();
                     let complaint = match judged {
