@@ -159,6 +159,56 @@ fn an_input_that_nothing_writes_is_no_input() {
 }
 
 #[test]
+fn a_location_without_a_partner_goes_with_its_qualifiers() {
+    let vertex = "#version 410\nlayout(location = 0) in vec4 p;\nlayout(location = 3) out vec4 color;\nlayout(location = 4) out vec2 spare;\n\
+                  void main() {\n    color = p;\n    gl_Position = p;\n}\n";
+    let fragment = "#version 410\nlayout(location = 3) in vec4 shade;\nlayout(location = 0) out vec4 c;\nvoid main() {\n    c = shade;\n}\n";
+    let folder = ported(&[("a.vert", vertex), ("a.frag", fragment)], "vulkan");
+    let new = read(&folder, "a.vert");
+    has(&new, "out vec4 color;\nvec2 spare;\n");
+    // A geometry stage matches by locations, too.
+    let geometry = "#version 410\nlayout(triangles) in;\nlayout(triangle_strip, max_vertices = 3) out;\nlayout(location = 3) in vec4 tint[];\n\
+                    layout(location = 3) out vec4 color;\nvoid main() {\n    for (int i = 0; i < 3; ++i) {\n        \
+                    gl_Position = gl_in[i].gl_Position;\n        color = tint[i];\n        EmitVertex();\n    }\n}\n";
+    let folder = ported(&[("a.vert", vertex), ("a.geom", geometry), ("a.frag", fragment)], "vulkan");
+    let number = |text: &str, end: &str| {
+        let line = text.lines().find(|line| line.ends_with(end)).unwrap_or_else(|| panic!("no `{end}` in:\n{text}"));
+        line.trim_end_matches(end).to_owned()
+    };
+    let (vertex, geometry) = (read(&folder, "a.vert"), read(&folder, "a.geom"));
+    assert_eq!(number(&vertex, " out vec4 color;"), number(&geometry, " in vec4 tint[];"));
+}
+
+#[test]
+fn a_macro_of_another_program_does_not_matter() {
+    let shared = "#version 330\n#define IN in\nIN vec2 uv;\nIN vec2 spare;\nout vec4 c;\nvoid main() {\n    c = vec4(uv, 0.0, 1.0);\n}\n";
+    let vertex = "#version 330\nin vec4 p;\nout vec2 uv;\nvoid main() {\n    uv = p.xy;\n    gl_Position = p;\n}\n";
+    let other = "#version 330\n#define IN params\nstruct Params { float gain; };\nout vec4 c;\nvoid main() {\n    Params IN = Params(1.0);\n    \
+                 c = vec4(IN.gain);\n}\n";
+    let folder = ported(&[("a.vert", vertex), ("a.frag", shared), ("b.frag", other)], "vulkan");
+    has(&read(&folder, "a.frag"), "layout(location = 0) IN vec2 uv;\nvec2 spare;\n");
+}
+
+#[test]
+fn a_struct_between_uniforms_is_before_the_block() {
+    // A constant of a uniform's name, in a branch that is not taken, is no size of it.
+    let text = "#version 330\n#define RUNTIME\n#ifdef RUNTIME\nuniform float gain;\nuniform float gamma;\n#else\nconst float gain = 1.0;\n\
+                const float gamma = 2.2;\n#endif\nfloat lifted(float x) {\n    return x * gain;\n}\nuniform vec2 size;\nout vec4 c;\n\
+                void main() {\n    c = vec4(lifted(size.x), gamma, 0.0, 1.0);\n}\n";
+    has(&fragment(text), "uniform FragmentUniforms {\n");
+    // A function between the uniforms uses none of them.
+    let text = "#version 330\nuniform float gain;\nfloat squared(float x) {\n    return x * x;\n}\nstruct Light {\n    vec4 color;\n};\n\
+                uniform Light light;\nout vec4 c;\nvoid main() {\n    c = light.color * squared(gain);\n}\n";
+    let new = fragment(text);
+    has(&new, "struct Light {\n    vec4 color;\n};\n");
+    assert!(new.find("struct Light") < new.find("uniform Uniforms"), "{new}");
+    // One that uses one of them is in the way.
+    let folder = Folder::new(&[("a.frag", text.replace("return x * x", "return x * gain").as_bytes())]);
+    let output = folder.run(&["upgrade", "--to", "vulkan", "a.frag"]);
+    has(&err(&output), "a struct of a uniform comes after a function that uses other uniforms");
+}
+
+#[test]
 fn a_pack_says_what_nobody_fills() {
     let vertex = "#version 150\nin vec4 Position;\nuniform mat4 ProjMat;\nuniform vec2 HistorySize;\nvoid main() {\n    \
                   gl_Position = ProjMat * vec4(Position.xy * HistorySize, 0.2, 1.0);\n}\n";
