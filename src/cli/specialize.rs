@@ -16,7 +16,7 @@ use super::suggest;
 use crate::account::{PAGE, SceneOnPage, page};
 use crate::sources::stages::extension;
 use crate::specialize::{
-    Account, PictureError, Pictures, SpecializedScene, Times, account, pictures, specialize_scene_by,
+    Account, PictureError, Pictures, SpecializedScene, Times, account, files_of, pictures, specialize_scene_by,
 };
 use clap::Args;
 use glisten_emit::{self as emit, Conventions, Target};
@@ -200,13 +200,8 @@ fn specialized(
             return Err(Failure::new(Exit::Content, message).help("please report it with the scene"));
         }
         let stem = residuals.stem(&left.program, &done.texts);
-        let file = |stage: Stage| {
-            let shader = draw.program.stage(stage);
-            let main = shader.and_then(|shader| shader.main.map(|main| shader.function(main).span));
-            let place = main.and_then(|span| read.sources().file_of(span));
-            place.map_or_else(String::new, |file| read.sources().file(file).name().to_owned())
-        };
-        names.push([file(Stage::Vertex), file(Stage::Fragment), stem]);
+        let [vertex, fragment] = files_of(&draw.program, read.sources());
+        names.push([vertex, fragment, stem]);
     }
     Ok(Ok(Done {
         name: stem(name),

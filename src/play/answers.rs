@@ -4,6 +4,8 @@
 //! `glisten play` and in a page that has glisten as a module.
 
 use super::look::{Criteria, Shown, look, told};
+use super::needs::needs;
+use super::stability::stability;
 use super::{Job, Pictures, Wish};
 use crate::scene::{Loaded, Scene};
 use glisten_emit::Target;
@@ -46,7 +48,15 @@ pub fn answer<C: Criteria>(
             Ok(look(criteria, &job.scene, loaded, Shown { target, leaves_out: *leaves_out }).0)
         }
         Wish::Draw { gpu: false } => pictures.reference(&drawable(load(criteria))?.0),
-        Wish::Draw { gpu: true } | Wish::Judge => Err("there is no driver here".to_owned()),
+        Wish::Draw { gpu: true } | Wish::Judge | Wish::Variants => Err("there is no driver here".to_owned()),
+        Wish::Needs => {
+            let (scene, sources) = drawable(load(criteria))?;
+            needs(&job.scene, &scene, &sources)
+        }
+        Wish::Stability => {
+            let (scene, sources) = drawable(load(criteria))?;
+            stability(&scene, &sources)
+        }
         Wish::Plan | Wish::Show { .. } | Wish::JudgeShown { .. } => Err("only a page draws by a browser".to_owned()),
         Wish::Pixel { x, y } => Ok(pictures.pixel(*x, *y)),
         Wish::Trace { x, y } => {

@@ -52,6 +52,12 @@ pub enum Wish {
         #[serde(default)]
         positions: Option<Positions>,
     },
+    /// The account of what the picture does not need.
+    Needs,
+    /// The harm that f32 does to the picture, and its causes.
+    Stability,
+    /// The error of variants of the scene's shading against their cost.
+    Variants,
     /// The values of a pixel of the last pictures.
     Pixel {
         /// From the left.

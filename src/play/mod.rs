@@ -4,6 +4,8 @@
 //!  a job ──► jobs
 //!  job, scene that was read ──► answers ──┬─► look ◄── controls   findings, texts, translations
 //!                                         ├─► pictures             the reference's picture, a pixel
+//!                                         ├─► needs                what the picture does not need
+//!                                         ├─► stability            what f32 does to it
 //!                                         └─► crate::trace         what a pixel computed
 //!  scene ──► browser: a plan for WebGPU; what it read back ──► verdict
 //! ```
@@ -17,7 +19,9 @@ mod browser;
 mod controls;
 mod jobs;
 mod look;
+mod needs;
 mod pictures;
+mod stability;
 mod verdict;
 
 pub use answers::{OwnLevels, answer, drawable};

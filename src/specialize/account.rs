@@ -6,6 +6,9 @@ use super::error::{PictureError, options, picture_error};
 use super::residual::SpecializedScene;
 pub use super::smallest::{body_instructions, spirv_instructions};
 use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::Stage;
+use glisten_front::link::Program;
+use glisten_front::source::SourceMap;
 use glisten_reference::{Precision, Work, work};
 use glisten_scene::{Draw, Scene};
 use glisten_specialize::{Extent, Moved};
@@ -131,6 +134,16 @@ pub struct Figures {
     pub vertex_operations: u64,
     /// Operations that the fragment stage executes for the picture.
     pub fragment_operations: u64,
+}
+
+/// The files of a program's vertex and fragment shader: those that have their `main`.
+pub fn files_of(program: &Program, sources: &SourceMap) -> [String; 2] {
+    [Stage::Vertex, Stage::Fragment].map(|stage| {
+        let shader = program.stage(stage);
+        let main = shader.and_then(|shader| shader.main.map(|main| shader.function(main).span));
+        let file = main.and_then(|span| sources.file_of(span));
+        file.map_or_else(String::new, |file| sources.file(file).name().to_owned())
+    })
 }
 
 /// The account of a scene. `names` are the files of each draw's original shaders and the stem of its residual's.

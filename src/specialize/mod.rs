@@ -31,7 +31,8 @@ pub use glisten_specialize::{
 
 #[cfg(feature = "reference")]
 pub use account::{
-    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account, body_instructions, spirv_instructions,
+    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account, body_instructions, files_of,
+    spirv_instructions,
 };
 #[cfg(feature = "reference")]
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};

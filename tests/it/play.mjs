@@ -76,6 +76,21 @@ try {
   seen.value = await page.textContent(".cm-value");
   await page.mouse.move(2, 2);
 
+  // What the picture does not need is crossed out, until the texts change.
+  await page.click("#study-needs");
+  await page.waitForSelector("#study .found li", limit);
+  await page.locator("#study .found button.link", { hasText: "a.frag" }).first().click();
+  await page.waitForSelector("#editor .cm-needless", limit);
+  seen.needs = { crossed: await page.locator("#editor .cm-needless").first().textContent(), file: await page.locator("#study .found button.link", { hasText: "a.frag" }).first().textContent() };
+  await page.getByRole("slider", { name: "shade", exact: true }).focus();
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForSelector("#study.is-old", limit);
+  seen.needs.old = (await page.locator("#editor .cm-needless").count()) === 0;
+  await page.keyboard.press("End");
+  await page.click("#study-stability");
+  await page.waitForSelector("#study-verdict:not([hidden])", limit);
+  seen.stability = { verdict: await page.textContent("#study-verdict"), map: await page.locator("#study .map img").count() };
+
   await page.click("#judge");
   await page.waitForSelector("#verdict:not([hidden])", limit);
   seen.verdict = await page.textContent("#verdict");
@@ -92,7 +107,13 @@ try {
   await file.goto(`file://${exported}`);
   await file.waitForSelector("#pictures img", limit);
   await file.selectOption("#target", "msl");
-  seen.exported = { msl: (await file.locator("#translation .cm-content").textContent()).includes("metal_stdlib"), asked: asked.filter((url) => !url.startsWith("data:") && !url.startsWith("file:")) };
+  await file.click("#study-needs");
+  await file.waitForSelector("#study table", limit);
+  const needless = await file.locator("#study .found li").count();
+  await file.click("#study-stability");
+  await file.waitForSelector("#study-verdict:not([hidden])", limit);
+  const stable = await file.textContent("#study-verdict");
+  seen.exported = { needless, stable, msl: (await file.locator("#translation .cm-content").textContent()).includes("metal_stdlib"), asked: asked.filter((url) => !url.startsWith("data:") && !url.startsWith("file:")) };
 } catch (error) {
   seen.errors.push(String(error));
   seen.state = await page.evaluate(() => ["state", "drawn", "pixel"].map((id) => document.getElementById(id)?.textContent)).catch(String);

@@ -204,6 +204,34 @@ fn a_pixel_is_followed_through_texts_of_the_page() {
 }
 
 #[test]
+fn studies_are_those_of_the_commands() {
+    let folder = folder();
+    let play = Play::start(folder.path(), &["shaders"]);
+    let study = |ask: &str, text: &str| {
+        play.ask(&json!({ "ask": ask, "scene": "shaders/a.toml", "texts": { "shaders/a.frag": text } }))["ok"].clone()
+    };
+    let needs = study("needs", FRAGMENT);
+    let draw = &needs["draws"][0];
+    assert_eq!(draw["left_out"][0]["because"], "it is 0.25", "{needs:#}");
+    assert_eq!((&draw["left_out"][0]["file"], &draw["left_out"][0]["line"]), (&json!("shaders/a.frag"), &json!(2)));
+    assert_eq!((&draw["before"]["uniform_bytes"], &draw["after"]["uniform_bytes"]), (&json!(16), &json!(0)));
+    let stable = study("stability", FRAGMENT);
+    assert_eq!((&stable["verdict"], &stable["causes"]), (&json!("stable"), &json!([])), "{stable:#}");
+    let hurt = study("stability", &FRAGMENT.replace("shade, 0.5", "(shade + 1.0e8) - 1.0e8, 0.5"));
+    assert_ne!(hurt["verdict"], "stable", "{hurt:#}");
+    assert_eq!((&hurt["causes"][0]["line"], &hurt["width"]), (&json!(6), &json!(16)), "{hurt:#}");
+    assert!(hurt["map"].as_str().is_some_and(|uri| uri.starts_with("data:image/png;base64,")));
+    let report = study("variants", &FRAGMENT.replace("shade, 0.5", "pow(shade, 3.0), 0.5"));
+    let ways = report["ways"].as_array().expect("a list");
+    assert!(ways.len() > 2, "{report:#}");
+    for way in ways {
+        assert!(way["picture"].as_str().is_some_and(|uri| uri.starts_with("data:image/png;base64,")), "{way:#}");
+        assert!(way["title"].is_string() && way["error"]["rmse"].is_number() && way["ratio"]["median"].is_number());
+    }
+    assert_eq!(ways[0]["title"], "as written");
+}
+
+#[test]
 fn a_saved_file_is_written_unless_it_changed() {
     let folder = folder();
     let play = Play::start(folder.path(), &["shaders/a.toml"]);
@@ -413,7 +441,13 @@ fn the_page_works_in_a_browser() {
     assert!(seen["finding"].as_str().is_some_and(|text| text.contains("there is no function `mixx`")), "{seen:#}");
     assert_eq!((&seen["verdict"], &seen["pictures"]), (&json!("holds"), &json!(4)), "{seen:#}");
     assert_eq!(seen["width"], json!(360), "nothing is wider than a narrow window");
-    assert_eq!(seen["exported"], json!({ "msl": true, "asked": [] }));
+    assert_eq!(seen["exported"], json!({ "msl": true, "asked": [], "needless": 2, "stable": "stable" }));
+    assert_eq!(
+        seen["needs"],
+        json!({ "crossed": "uniform float shade;", "file": "a.frag:2", "old": true }),
+        "{seen:#}"
+    );
+    assert_eq!(seen["stability"], json!({ "verdict": "stable", "map": 1 }), "{seen:#}");
     let saved = fs::read_to_string(folder.path().join("shaders/a.toml")).expect("it is there");
     assert!(saved.contains("shade = 1.0") && !saved.contains("eye = [0.0, 0.0, 4.0]"), "{saved}");
     let saved = fs::read_to_string(folder.path().join("shaders/a.frag")).expect("it is there");

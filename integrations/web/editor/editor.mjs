@@ -31,6 +31,7 @@ const theme = EditorView.theme({
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "color-mix(in srgb, var(--accent) 28%, transparent) !important" },
   ".cm-tooltip, .cm-panels": { backgroundColor: "var(--card)", color: "var(--ink)", border: "1px solid var(--rule)" },
   ".cm-step": { backgroundColor: "color-mix(in srgb, var(--accent) 34%, transparent)", outline: "1px solid var(--accent)" },
+  ".cm-needless": { textDecoration: "line-through", textDecorationColor: "var(--soft)", opacity: ".62" },
   ".cm-value": { padding: ".2rem .5rem", fontFamily: "var(--code)", whiteSpace: "pre" },
   ".cm-diagnosticAction": { backgroundColor: "var(--accent)", color: "var(--on-pill)" },
   ".cm-panels input, .cm-panels button": { font: "inherit" },
@@ -89,6 +90,19 @@ const step = StateField.define({
   provide: (field) => EditorView.decorations.from(field),
 });
 
+// The lines that a picture does without.
+const setNeedless = StateEffect.define();
+const needless = StateField.define({
+  create: () => Decoration.none,
+  update: (old, change) => {
+    const asked = change.effects.filter((effect) => effect.is(setNeedless)).at(-1);
+    if (!asked) return old.map(change.changes);
+    const line = ({ from, title }) => Decoration.line({ class: "cm-needless", attributes: { title } }).range(from);
+    return Decoration.set(asked.value.map(line));
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
 // An editor in `parent`, whose texts nobody can change if it is `readOnly`. `changed` is called with the text when a person, a fix or a control changes it; `moved` with the line
 // where the cursor is; `valueAt` gives the text to show for a place of a text, by its name, line and column (in characters), or null.
 export const create = ({ parent, readOnly = false, label = "", words = {}, changed = () => {}, moved = () => {}, valueAt = () => null }) => {
@@ -118,7 +132,7 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(), indentUnit.of("    "),
     label === "Translation" ? [] : lintGutter(), readOnly ? [] : [autocompletion({ override: [completeAnyWord] })],
     keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
-    spoken.of(language(kind, words[kind] ?? {})), syntaxHighlighting(colors), theme, listen, step, values,
+    spoken.of(language(kind, words[kind] ?? {})), syntaxHighlighting(colors), theme, listen, step, needless, values,
     EditorState.readOnly.of(readOnly), EditorView.editable.of(true),
     EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false" }),
   ];
@@ -174,6 +188,13 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
       const effects = [setStep.of(place)];
       if (place) effects.push(EditorView.scrollIntoView(place.from, { y: "center" }));
       view.dispatch({ effects });
+    },
+    // Crosses out lines; each has a line and a title that says why.
+    cross(lines) {
+      const doc = view.state.doc;
+      const byLine = new Map(lines.filter(({ line }) => line >= 1 && line <= doc.lines).map(({ line, title }) => [line, title]));
+      const places = [...byLine].sort(([a], [b]) => a - b).map(([line, title]) => ({ from: doc.line(line).from, title }));
+      view.dispatch({ effects: setNeedless.of(places) });
     },
     // Moves to a line and column.
     go(line, column = 1) {

@@ -58,7 +58,11 @@ impl Driver {
         Ok(answer)
     }
 
-    fn gpu(&mut self, machine: &MachineArgs) -> Result<&Gpu, String> {
+    /// The GPU.
+    ///
+    /// # Errors
+    /// The reason why there is none.
+    pub(super) fn gpu(&mut self, machine: &MachineArgs) -> Result<&Gpu, String> {
         if self.0.is_none() {
             let gpu = open_gpu(machine.adapter()).map_err(|error| error.to_string())?;
             self.0 = Some(gpu.with_timeout(machine.time_limit()));

@@ -11,10 +11,11 @@ use super::super::scenes::SceneArgs;
 use super::PlayArgs;
 use super::driver::{Driver, timed};
 use super::page::page;
-use crate::play::{Pictures, Shown, look, told};
+use crate::play::{Job, OwnLevels, Pictures, Shown, Wish, answer, look, told};
 use crate::scene;
 use glisten_emit::Target;
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Writes the page.
@@ -57,6 +58,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
         "look": looks(args, &of, console)?,
         "drawn": drawn,
         "judged": judged,
+        "studies": studies(args, &of, console)?,
     });
     let title = Path::new(&args.start).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let html = page(&title.unwrap_or_default(), start).map_err(|error| Failure::new(Exit::Content, error))?;
@@ -83,6 +85,23 @@ fn looks(args: &PlayArgs, of: &SceneArgs, console: &Console) -> Result<Value, Fa
         first.insert("by_target".into(), programs.into());
     }
     Ok(first)
+}
+
+/// What the picture does not need, and what f32 does to it; the reason where there is no answer.
+fn studies(args: &PlayArgs, of: &SceneArgs, console: &Console) -> Result<Value, Failure> {
+    let mut told = Map::new();
+    for (name, wish) in [("needs", Wish::Needs), ("stability", Wish::Stability)] {
+        let session = of.session(console)?;
+        let loaded = scene::load(&args.start, &files::SceneFiles, session.compiler());
+        let job = Job { scene: args.start.clone(), texts: BTreeMap::new(), wish };
+        let answered = of.within_time(move || {
+            Ok(answer(&job, &mut OwnLevels, &mut Pictures::default(), |_| loaded)
+                .unwrap_or_else(|error| json!({ "error": error })))
+        });
+        let answered = answered.unwrap_or_else(|error| json!({ "error": failure(error).message() }));
+        told.insert(name.to_owned(), answered);
+    }
+    Ok(told.into())
 }
 
 fn failure(error: super::super::scenes::DrawError) -> Failure {

@@ -5,7 +5,7 @@
 //!  browser ──► server ──► access   the token, the origin, the folders
 //!                │
 //!                ├──► files        scenes, shaders; saving; what changed on disk
-//!                ├──► lanes ──► worker, a process of its own: crate::play, driver
+//!                ├──► lanes ──► worker, a process of its own: crate::play, driver, variants
 //!                └──► page         HTML, with the editor
 //! ```
 //!
@@ -23,6 +23,7 @@ mod files;
 mod lanes;
 mod page;
 mod server;
+mod variants;
 mod worker;
 
 use super::args::{LevelArgs, SourceArgs};

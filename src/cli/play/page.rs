@@ -18,6 +18,7 @@ const PLAY: Page = Page {
         "\n",
         include_str!("page/webgpu.js"),
         include_str!("page/asking.js"),
+        include_str!("page/studies.js"),
         include_str!("page/play.js"),
     ],
 };

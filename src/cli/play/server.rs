@@ -48,6 +48,8 @@ struct Server {
     looks: Lane,
     /// Draws.
     draws: Lane,
+    /// Studies costs and errors.
+    studies: Lane,
     /// The arguments that say how sources are read, for other commands.
     source_args: Vec<String>,
 }
@@ -99,6 +101,7 @@ pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     }
     server.looks.stop();
     server.draws.stop();
+    server.studies.stop();
     Ok(Exit::Interrupted)
 }
 
@@ -172,6 +175,7 @@ impl Server {
             folders,
             looks,
             draws: Lane::new(worker, limit),
+            studies: Lane::new(worker, limit),
             source_args: source_args(args),
         }
     }
@@ -258,6 +262,7 @@ impl Server {
         let answer = match ask {
             "look" => self.looks.ask(&line),
             "pixel" | "trace" => self.draws.ask_behind(&line),
+            "needs" | "stability" | "variants" => self.studies.ask(&line),
             _ => self.draws.ask(&line),
         };
         match answer {

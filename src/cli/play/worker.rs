@@ -12,6 +12,7 @@ use super::super::scenes::SceneArgs;
 use super::super::session::Session;
 use super::PlayArgs;
 use super::driver::{Driver, timed};
+use super::variants::variants;
 use crate::play::{Job, Pictures, Wish, drawable};
 use crate::scene;
 use serde_json::{Value, json};
@@ -87,6 +88,7 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Re
             let (scene, sources) = drawable(load(&mut session))?;
             driver.compare(&scene, &sources, &args.machine, pictures)
         }
+        Wish::Variants => variants(&job.scene, session.compiler(), driver.gpu(&args.machine)?),
         Wish::Draw { gpu: false } => timed(|| crate::play::answer(&job, &mut session, pictures, load)),
         _ => crate::play::answer(&job, &mut session, pictures, load),
     }

@@ -92,6 +92,8 @@ const makeModule = ({ module, worker, files, request, seconds }) => {
       if (job.ask === "judge") return byGpu(job, judgements, "judge-shown");
       if (job.gpu) return byGpu(job, draws, "show");
     }
+    // A study takes long, and ends no picture.
+    if (job.ask === "needs" || job.ask === "stability") return judgements(job, true);
     const answer = await (job.ask === "look" ? looks(job, true) : job.ask === "pixel" ? last(job, false) : draws(job, job.ask !== "trace"));
     for (const file of answer.ok?.files ?? []) file.is_writable = own.has(plainName(file.name));
     return answer;

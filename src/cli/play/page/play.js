@@ -68,7 +68,7 @@ const editor = Editor.create({
 const textChanged = () => {
   edition += 1;
   isJudged = isJudging = false;
-  showFiles(); look(); draw(); inspector.refresh();
+  showFiles(); look(); draw(); inspector.refresh(); studies.age();
 };
 const translation = Editor.create({ parent: byId("translation"), label: "Translation", words: start.words, readOnly: true });
 
@@ -81,7 +81,11 @@ const open = (name, line, column) => {
   if (line) editor.go(line, column);
 };
 const ofFile = (name) => findings.filter((finding) => finding.file === name);
-const mark = () => { if (shown) editor.mark(ofFile(shown), apply); };
+const mark = () => {
+  if (!shown) return;
+  editor.mark(ofFile(shown), apply);
+  editor.cross(studies.linesOf(shown));
+};
 
 const showFiles = () => {
   const base = (name) => name.split(/[\\/]/).at(-1);
@@ -482,6 +486,9 @@ const inspector = (() => {
   };
 })();
 
+const studies = makeStudies({ ask, open, inspect: inspector.inspect, edition: () => edition, isOwn: (name) => docs.get(name)?.isWritable ?? false, kept: start.studies ?? null });
+studies.onChange(mark);
+
 // The camera turns around its target.
 let turning = null;
 const named = (...path) => controls.find((control) => control.path.join("/") === path.join("/"));
@@ -525,7 +532,7 @@ const choose = (name, text) => {
   isJudged = isJudging = false;
   scene = name;
   shown = null;
-  inspector.forget();
+  inspector.forget(); studies.forget();
   if (text !== undefined) docs.set(name, { text, saved: null, isWritable: true });
   look(); draw();
   return true;
@@ -585,6 +592,7 @@ const openLink = async (text) => {
   }
   shown = null;
   edition += 1;
+  inspector.forget(); studies.forget();
   look(); draw();
 };
 const showGallery = () => {
@@ -610,6 +618,7 @@ const watch = async () => {
 };
 
 byId("target").replaceChildren(...start.targets.map(({ word, name }) => html("option", { value: word }, name)));
+byId("study-variants").hidden = !isServed;
 if (isLive) {
   byId("save").hidden = false;
   byId("save").addEventListener("click", isServed ? save : download);
