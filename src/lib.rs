@@ -74,6 +74,7 @@ pub mod upgrade;
 #[cfg(feature = "reference")]
 pub mod verify;
 
+pub use glisten_front::compiler::SourceSettings;
 pub use glisten_front::{Compilation, Compiler, Diagnostic, Diagnostics, Options, Program, Source, Stage};
 pub use glisten_front::{diagnostic, lint, source};
 #[cfg(feature = "gl")]
@@ -84,6 +85,7 @@ pub use glisten_gpu::Gpu;
 pub use glisten_reference::{Precision, RenderOptions, render};
 #[cfg(feature = "reference")]
 pub use glisten_scene::picture::Picture;
+pub use sources::{Search, completing};
 
 /// Translates programs to targets, and reflects what a host needs to know.
 pub mod emit {

@@ -6,7 +6,7 @@ mod models;
 
 use crate::engines;
 use crate::library::Embedded;
-use crate::sources::{completing, parse_version};
+use crate::sources::{Search, completing, parse_version};
 use glisten_front::compiler::SourceSettings;
 use glisten_front::source::IncludeResolver;
 use glisten_front::{Compiler, Program};
@@ -75,6 +75,6 @@ impl Library for WithEngines {
     }
 
     fn completing(&self, compiler: Compiler, settings: &SourceSettings) -> Compiler {
-        completing(compiler, settings)
+        completing(compiler, settings, Search::EngineFirst)
     }
 }

@@ -32,10 +32,8 @@ pub(crate) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// Reads files and remembers nothing.
-#[cfg(any(test, feature = "reference"))]
 pub(super) struct Plain;
 
-#[cfg(any(test, feature = "reference"))]
 impl Disk for Plain {
     fn text(&self, path: &Path) -> Result<Arc<str>, String> {
         if path.is_dir() {

@@ -1,7 +1,7 @@
 //! [`completing`]: a compiler for sources about which a host says more, where no command and no build reads them.
 //!
-//! *In:* a compiler, [`SourceSettings`]. *Out:* the compiler that completes sources so. *Holds:* included files are read from disk, then
-//! asked for as the compiler would.
+//! *In:* a compiler, [`SourceSettings`]. *Out:* the compiler that completes sources so. *Holds:* [`Search`] says where included
+//! files are.
 
 use super::disk::Plain;
 use super::settings::Settings;
@@ -11,12 +11,33 @@ use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The compiler for sources with these settings.
-pub(crate) fn completing(compiler: Compiler, settings: &SourceSettings) -> Compiler {
+/// Where the files that sources include are searched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// On disk as the engine does, then as the compiler does.
+    EngineFirst,
+    /// As the compiler does, then on disk as the engine does.
+    CompilerFirst,
+    /// As the compiler does: nothing is read from disk.
+    CompilerAlone,
+}
+
+/// The compiler for sources with these settings: it completes them as their engine does.
+///
+/// ```
+/// use glisten::{Compiler, Options, Search, Source, SourceSettings, Stage, completing};
+///
+/// let settings = SourceSettings { engine: Some("three".into()), ..SourceSettings::default() };
+/// let compiler = completing(Compiler::new(Options::default()), &settings, Search::CompilerAlone);
+/// let text = "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }";
+/// let source = Source { name: "a.vert".into(), text: text.into(), stage: Stage::Vertex };
+/// assert!(compiler.compile(&[source]).program.is_some());
+/// ```
+pub fn completing(compiler: Compiler, settings: &SourceSettings, search: Search) -> Compiler {
     if let Some(completing) = compiler.with_settings(settings) {
         return completing;
     }
-    let completed = Completed { settings: Settings::from_host(settings), includes: compiler.includes() };
+    let completed = Completed { settings: Settings::from_host(settings), includes: compiler.includes(), search };
     compiler.with_preparation(completed)
 }
 
@@ -24,6 +45,7 @@ struct Completed {
     settings: Settings,
     /// The resolver of the compiler.
     includes: Arc<dyn IncludeResolver + Send + Sync>,
+    search: Search,
 }
 
 impl Preparation for Completed {
@@ -33,9 +55,12 @@ impl Preparation for Completed {
             return Prepared::default();
         }
         let mut prepared = self.settings.clone().complete(source, Some(Path::new(&source.name)), Arc::new(Plain));
-        if let Some(first) = prepared.includes.take() {
-            prepared.includes = Some(Arc::new(Both { first, second: Arc::clone(&self.includes) }));
-        }
+        let of_compiler = || Arc::clone(&self.includes);
+        prepared.includes = prepared.includes.take().and_then(|of_engine| match self.search {
+            Search::EngineFirst => Some(Arc::new(Both { first: of_engine, second: of_compiler() }) as _),
+            Search::CompilerFirst => Some(Arc::new(Both { first: of_compiler(), second: of_engine }) as _),
+            Search::CompilerAlone => None,
+        });
         prepared
     }
 }

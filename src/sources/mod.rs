@@ -6,7 +6,6 @@
 //! them can remember what it has read.
 
 mod disk;
-#[cfg(feature = "reference")]
 mod host;
 mod includes;
 mod programs;
@@ -14,8 +13,7 @@ mod settings;
 pub(crate) mod stages;
 
 pub(crate) use disk::{Disk, read_bounded};
-#[cfg(feature = "reference")]
-pub(crate) use host::completing;
+pub use host::{Search, completing};
 pub(crate) use includes::DiskIncludes;
 #[cfg(feature = "cli")]
 pub(crate) use programs::ProgramFiles;

@@ -4,7 +4,9 @@ use crate::error::Error;
 use crate::includes::Includes;
 use glisten::diagnostic::{Key, Level, Levels, Severity, did_you_mean};
 use glisten::emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, WindowOrigin};
-use glisten::{Compiler, Options};
+use glisten::engines::{self, STYLES};
+use glisten::source::Prelude;
+use glisten::{Compiler, Options, Search, SourceSettings, completing};
 
 /// Everything that is set before a compilation.
 #[derive(Clone, Default)]
@@ -17,6 +19,8 @@ pub struct Settings {
     pub levels: Levels,
     /// Where includes are looked for.
     pub includes: Includes,
+    /// How an engine completes the sources.
+    pub source: SourceSettings,
     /// Whether to leave out what reaches no output; by default for WGSL and SPIR-V without source lines.
     pub optimize: Option<bool>,
 }
@@ -39,6 +43,7 @@ pub static OPTIONS: &[(&str, &str, Setter)] = &[
     }),
     ("debug-lines", "true or false", |settings, value| flag(value).map(|on| settings.conventions.debug_lines = on)),
     ("deny", "a code of a warning, or warnings", |settings, value| settings.level(Level::Deny, value)),
+    ("engine", "a name of an engine, such as three or minecraft", |settings, value| settings.engine(value)),
     ("floats", "f16, f32 or f64", |settings, value| {
         let words = [("f16", FloatWidth::Half), ("f32", FloatWidth::Single), ("f64", FloatWidth::Double)];
         word(&words, value).map(|width| settings.conventions.floats = width)
@@ -48,8 +53,18 @@ pub static OPTIONS: &[(&str, &str, Setter)] = &[
         let words = versions.map(|version| (version.word(), version));
         word(&words, value).map(|version| settings.conventions.glsl_version = version)
     }),
+    ("include-style", "a style, such as quote, three or moj", |settings, value| {
+        let known = STYLES.iter().find(|style| style.name == value).ok_or("")?;
+        settings.source.include_style = Some(known.name.to_owned());
+        Ok(())
+    }),
     ("optimize", "true or false", |settings, value| flag(value).map(|on| settings.optimize = Some(on))),
     ("point-sprites", "true or false", |settings, value| flag(value).map(|on| settings.conventions.point_sprites = on)),
+    ("prelude", "a text", |settings, value| {
+        let name = format!("<prelude {}>", settings.source.preludes.len() + 1);
+        settings.source.preludes.push(Prelude { name, text: value.into() });
+        Ok(())
+    }),
     ("program-point-size", "true or false", |settings, value| {
         flag(value).map(|on| settings.conventions.program_point_size = on)
     }),
@@ -121,7 +136,18 @@ impl Settings {
     /// The compiler with these settings.
     pub fn compiler(&self) -> Compiler {
         let compiler = Compiler::new(self.options.clone());
-        compiler.with_includes(self.includes.clone()).with_levels(self.levels.clone())
+        let compiler = compiler.with_includes(self.includes.clone()).with_levels(self.levels.clone());
+        if self.source.is_empty() {
+            return compiler;
+        }
+        let search = if self.includes.in_memory { Search::CompilerAlone } else { Search::CompilerFirst };
+        let folders = self.includes.folders.iter().map(|folder| folder.to_string_lossy().into_owned());
+        let source = SourceSettings {
+            version: self.options.completion.assumed_version.clone(),
+            includes: if self.includes.in_memory { Vec::new() } else { folders.collect() },
+            ..self.source.clone()
+        };
+        completing(compiler, &source, search)
     }
 
     /// Whether the code for a target is without what reaches no output.
@@ -142,6 +168,16 @@ impl Settings {
             return Err(format!("{code} ({}) is an error, which no level changes", code.name));
         }
         self.levels.set_key(found, level);
+        Ok(())
+    }
+
+    fn engine(&mut self, name: &str) -> Result<(), String> {
+        if engines::find(name).is_none() {
+            let near = did_you_mean(name, engines::names());
+            let help = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+            return Err(format!("there is no engine `{name}`{help}"));
+        }
+        self.source.engine = Some(name.to_owned());
         Ok(())
     }
 
@@ -179,6 +215,7 @@ fn word<T: Copy>(words: &[(&str, T)], value: &str) -> Result<T, String> {
 #[cfg(test)]
 mod tests {
     use super::{OPTIONS, Settings};
+    use glisten::{Source, Stage};
 
     #[test]
     fn options_take_their_words_and_no_others() {
@@ -196,12 +233,33 @@ mod tests {
         ] {
             assert_eq!(settings.set(name, value), Ok(()), "{name}");
         }
-        for (name, ..) in OPTIONS {
+        // Every text may be a prelude.
+        for (name, ..) in OPTIONS.iter().filter(|(name, ..)| *name != "prelude") {
             assert!(settings.set(name, "no such word").is_err(), "{name} takes anything");
         }
         let error = settings.set("clip-y", "true").expect_err("there is none");
         assert!(error.message.contains("did you mean `clip-z`"), "{error}");
         assert!(settings.set("deny", "E0001").expect_err("an error").message.contains("no level"));
+    }
+
+    #[test]
+    fn an_engine_and_preludes_complete_sources() {
+        let compiles = |options: &[(&str, &str)], text: &str| {
+            let mut settings = Settings::default();
+            settings.includes.in_memory = true;
+            options.iter().for_each(|(name, value)| assert_eq!(settings.set(name, value), Ok(()), "{name}"));
+            let source = Source { name: "a.vert".into(), text: text.into(), stage: Stage::Vertex };
+            settings.compiler().compile(&[source]).program.is_some()
+        };
+        let three = "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }";
+        assert!(compiles(&[("engine", "three")], three) && !compiles(&[], three));
+        let own = "#version 150\nvoid main() { gl_Position = scale * at; }";
+        let preludes = [("prelude", "uniform mat4 scale;"), ("prelude", "in vec4 at;")];
+        assert!(compiles(&preludes, own) && !compiles(&preludes[..1], own));
+        let old = "attribute vec4 at; void main() { gl_Position = SCALE * at; }";
+        assert!(compiles(&[("prelude", "#define SCALE 2.0"), ("assume-version", "100")], old));
+        let error = Settings::default().set("engine", "tree").expect_err("there is none");
+        assert!(error.message.contains("did you mean `three`"), "{error}");
     }
 
     #[test]

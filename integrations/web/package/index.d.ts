@@ -33,19 +33,24 @@ export interface Options {
   /** Flags of `glisten compile`: `clipZ` is `--clip-z`. */
   options?: Flags;
 }
-/** Flags of `glisten compile`. */
+/** Flags of `glisten compile`; `prelude` is the text, not a file. */
 export interface Flags {
   allow?: string | readonly string[];
   warn?: string | readonly string[];
   deny?: string | readonly string[];
+  /** Completes sources as this engine does: `three` gives what a `ShaderMaterial` has. The names are those of `glisten compile --engine`. */
+  engine?: string;
   assumeVersion?: string;
   clipDistances?: number;
   clipZ?: "zero-to-one" | "minus-one-to-one";
   debugLines?: boolean;
   floats?: "f16" | "f32" | "f64";
+  includeStyle?: string;
   glslVersion?: "330" | "450" | "300es" | "vulkan";
   optimize?: boolean;
   pointSprites?: boolean;
+  /** Texts before each source. */
+  prelude?: string | readonly string[];
   programPointSize?: boolean;
   spirvEnv?: "webgpu" | "vulkan";
   strict?: boolean;

@@ -1,27 +1,57 @@
 // A plugin for Vite: `import program from "./x.frag?glisten"` is the code and the reflection of a program.
 //
-// A fragment shader brings the vertex shader of its stem, and the other way round. All files that went in are watched: with Vite,
+// A fragment shader brings the vertex shader of its stem, and the other way round: `wave.vert` and `wave.frag`, `wave/vertex.glsl` and
+// `wave/fragment.glsl`. A source without a `#version` line is GLSL ES 1.00, as for WebGL. All files that went in are watched: with Vite,
 // a change of an included file reloads what imports the program.
 
 import { compile, GlistenError } from "glisten";
-import { existsSync, readFileSync } from "node:fs";
-import { dirname, join, resolve } from "node:path";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { basename, dirname, join, resolve } from "node:path";
 
 const SUFFIX = "?glisten";
-const VERTEX = ["vert", "vs", "vsh"];
-const FRAGMENT = ["frag", "fs", "fsh"];
+/** Words that tell the stage: as an extension, or at an end of the name of a `.glsl` file. */
+const WORDS = {
+  vertex: ["vertexshader", "vertex", "vert", "vsh", "vs", "vp"],
+  fragment: ["fragmentshader", "fragment", "frag", "fsh", "fs", "pixel", "fp", "ps"],
+};
 
-/** The files of the program of a file. */
+/** The stage that a file name tells, and the rest of the name: `wave` for `wave.frag`, `wave.frag.glsl`, `wave-frag.glsl`, `waveFrag.glsl`. */
+function read(name) {
+  const inner = name.replace(/\.glsl$/i, "");
+  for (const [stage, words] of Object.entries(WORDS)) {
+    for (const word of words) {
+      const capital = word[0].toUpperCase() + word.slice(1);
+      const signs = inner === name ? "\\." : "[._-]";
+      const found = new RegExp(`^(.*)${signs}${word}$`, "i").exec(inner);
+      if (found) return { stage, stem: found[1] };
+      if (inner === name) continue;
+      if (inner.toLowerCase() === word) return { stage, stem: "" };
+      const other = new RegExp(`^${word}[._-](.*)$`, "i").exec(inner) ?? new RegExp(`^(.*[a-z0-9])${capital}$`).exec(inner);
+      if (other) return { stage, stem: other[1] };
+    }
+  }
+  return null;
+}
+
+/** The files of the program of a file: the other stage has the same stem, in the same folder. */
 function filesOf(file) {
-  const [, stem, extension, tail] = /^(.*?)\.([a-z]+)(\.glsl)?$/.exec(file) ?? [];
-  const others = VERTEX.includes(extension) ? FRAGMENT : FRAGMENT.includes(extension) ? VERTEX : [];
-  const other = others.map((one) => `${stem}.${one}${tail ?? ""}`).find(existsSync);
+  const own = read(basename(file));
+  if (!own) return [file];
+  const isOther = (name) => {
+    const found = read(name);
+    return found !== null && found.stage !== own.stage && found.stem === own.stem;
+  };
+  const [other] = readdirSync(dirname(file)).filter(isOther).sort();
   if (!other) return [file];
-  return VERTEX.includes(extension) ? [file, other] : [other, file];
+  const path = join(dirname(file), other);
+  return own.stage === "vertex" ? [file, path] : [path, file];
 }
 
 export default function glisten(given = {}) {
-  const { target = "wgsl", folders = [], ...options } = given;
+  const { target = "wgsl", folders = [], ...rest } = given;
+  // A source without a `#version` line is WebGL's, unless an engine says otherwise (WebGL 1.0 §4.3: GLSL ES 1.00).
+  const { assumeVersion = rest.options?.engine ? undefined : "100", ...flags } = rest.options ?? {};
+  const options = { ...rest, options: assumeVersion === undefined ? flags : { ...flags, assumeVersion } };
   return {
     name: "glisten",
     enforce: "pre",

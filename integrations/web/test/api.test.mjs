@@ -31,6 +31,24 @@ test("errors are thrown with their places", () => {
   assert.throws(() => compiler.compile(program, { target: "cobol" }), { kind: "argument" });
 });
 
+test("an engine and preludes complete sources", () => {
+  const material = {
+    "a.vert": "varying vec2 at;\nvoid main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }\n",
+    "a.frag": "varying vec2 at;\nuniform vec3 tint;\nvoid main() { gl_FragColor = vec4(tint * at.xyx, 1.0); }\n",
+  };
+  const { reflection } = compiler.compile(material, { options: { engine: "three" } });
+  assert.deepEqual(reflection.attributes.map(({ name }) => name).sort(), ["position", "uv"]);
+  assert.throws(() => compiler.compile(material), { kind: "content" });
+  assert.throws(() => compiler.compile(material, { options: { engine: "tree" } }), /did you mean `three`/);
+  // A chunk of three.js, which the host has in memory.
+  const chunk = { "a.frag": "#include <half>\nvoid main() { gl_FragColor = vec4(half_of(1.0)); }\n" };
+  const includes = (path) => (path === "half" ? "float half_of(float x) { return 0.5 * x; }\n" : null);
+  assert.match(compiler.compile(chunk, { options: { engine: "three" }, includes }).stages.fragment.wgsl, /@fragment/);
+  const bare = { "a.frag": "void main() { c = vec4(k); }\n" };
+  const options = { assumeVersion: "150", prelude: ["uniform float k;", "out vec4 c;"] };
+  assert.equal(compiler.compile(bare, { options }).reflection.uniforms[0].name, "k");
+});
+
 test("lint finds, and fix mends", () => {
   const old = { "a.frag": "#version 150\nout vec4 c;\nin vec2 uv;\nuniform sampler2D t;\nvoid main() { c = texture2D(t, uv); }\n" };
   const found = compiler.lint(old);

@@ -42,6 +42,10 @@ test("a program is its two sources, from either", async () => {
     [{ "a.vert": vertex, "a.frag": fragment }, "a.frag"],
     [{ "a.vert": vertex, "a.frag": fragment }, "a.vert"],
     [{ "a.vert.glsl": vertex, "a.frag.glsl": fragment }, "a.frag.glsl"],
+    [{ "a-vert.glsl": vertex, "a-frag.glsl": fragment }, "a-frag.glsl"],
+    [{ "aVertex.glsl": vertex, "aFragment.glsl": fragment }, "aVertex.glsl"],
+    [{ "vertex.glsl": vertex, "fragment.glsl": fragment }, "fragment.glsl"],
+    [{ "vs.glsl": vertex, "fs.glsl": fragment }, "fs.glsl"],
   ]) {
     const { module, watched } = await imported(texts, name);
     assert.match(module.vertex, /@vertex/);
@@ -49,6 +53,17 @@ test("a program is its two sources, from either", async () => {
     assert.equal(module.reflection.uniforms[0].name, "k");
     assert.deepEqual(watched, Object.keys(texts).sort());
   }
+});
+
+test("a source without a version is WebGL's, and an engine's if there is one", async () => {
+  const old = { "a.vert": "attribute vec2 p;\nvoid main() { gl_Position = vec4(p, 0.0, 1.0); }\n", "a.frag": "precision mediump float;\nvoid main() { gl_FragColor = vec4(1.0); }\n" };
+  const { module, errors } = await imported(old, "a.frag");
+  assert.deepEqual(errors, []);
+  assert.equal(module.reflection.attributes[0].name, "p");
+  const three = { "a/vertex.glsl": "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }\n", "a/fragment.glsl": "void main() { gl_FragColor = vec4(1.0); }\n" };
+  const found = await imported(three, "a/fragment.glsl", { options: { engine: "three" } });
+  assert.deepEqual(found.errors, []);
+  assert.equal(found.module.reflection.attributes[0].name, "position");
 });
 
 test("files of the same path in two folders are two files", async () => {

@@ -48,14 +48,20 @@ class Options(TypedDict, total=False):
     """Whether source lines are in SPIR-V."""
     deny: str | Sequence[str]
     """Codes or names of findings that are errors, or ``warnings``."""
+    engine: str
+    """The engine that completes the sources: ``three``, ``minecraft`` and so on."""
     floats: Literal["f16", "f32", "f64"]
     """The width of ``float`` in the code."""
     glsl_version: Literal["330", "450", "300es", "vulkan"]
     """The version of emitted GLSL."""
+    include_style: str
+    """How sources name the files that they include: ``quote``, ``three`` and so on."""
     optimize: bool
     """Whether what reaches no output is left out."""
     point_sprites: bool
     """Whether points have coordinates, as by ``GL_POINT_SPRITE``."""
+    prelude: str | Sequence[str]
+    """Texts before each source."""
     program_point_size: bool
     """Whether the shader sets the size of points."""
     spirv_env: Literal["webgpu", "vulkan"]
