@@ -235,6 +235,8 @@ fn constants_of_a_chain_may_be_combined() {
         ("sums", "float x = 1e38 * (1.0 + place.x); color = vec4((x - 3e38) - 3e38);"),
         ("more terms", "color = vec4(((place.x * 1e30) * (1.0 + place.y)) * 1e20);"),
         ("quotients", "color = vec4((place.x / 1e-30) / 1e-30);"),
+        ("a step", "float y = step(0.5, place.x); color = vec4((y + 0.02) - y, 1.0 / ((0.02 + y) - y), 0.0, 1.0);"),
+        ("a condition", "float y = float(!(place.x < 0.5)); color = vec4((y + 0.02) - y);"),
     ] {
         let scene = square(&format!("void main() {{ {body} }}"), "rgba32float");
         let envelope = reference(&scene, Precision::Envelope);

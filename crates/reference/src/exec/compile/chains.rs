@@ -2,7 +2,7 @@
 //!
 //! *In:* the operands of `+`, `-`, `*` and `/`. *Out:* the result of the operation as written; and, from the second
 //! constant of a chain on, an instruction that lets an envelope have the result with all constants combined as well:
-//! `(x * 1e30) * 1e30` may be `x * inf`, `(x - 3e38) - 3e38` may be `x - inf`.
+//! `(x * 1e30) * 1e30` may be `x * inf`, `(x - 3e38) - 3e38` may be `x - inf`. A `step` has the constant 1 in it.
 //!
 //! *Holds:* Vulkan (Precision and Operation: Evaluation of Expressions) and WGSL (Reassociation and Fusion) allow it, and
 //! drivers do it. Values are those of the text. *Not done here:* chains whose terms include the negative of a variable.
@@ -106,6 +106,24 @@ impl Compiler<'_> {
         }
         self.emit.chains.insert(result, chain);
         result
+    }
+
+    /// Takes 0 or 1 for `1 - b`, which is how compilers write the negation of a condition as a number: `step(0.5, x) + 0.02` may be
+    /// `1.02 - b`, and lose digits that neither 0 nor 1 has.
+    pub(super) fn of_one_less(&mut self, number: Operand) {
+        if !self.emit.form.rewrites() {
+            return;
+        }
+        let one = self.emit.float(1.0);
+        let less = self.emit.pure(Class::Float, &[number, one], |dst| Inst::Float2 {
+            op: Float2::Sub,
+            dst,
+            a: number,
+            b: one,
+        });
+        let (terms, prefixes) = (SmallVec::from_slice(&[less]), SmallVec::new());
+        let chain = Chain { sum: true, terms, constant: 1.0, constants: 1, prefixes, stores: None };
+        self.emit.chains.insert(number, chain);
     }
 
     fn folded(&mut self, plain: Operand, sum: bool, terms: &[Operand], constant: f64) -> Operand {

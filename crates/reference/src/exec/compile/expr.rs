@@ -94,6 +94,9 @@ impl Compiler<'_> {
         if matches!(op, Float2::Add | Float2::Sub | Float2::Mul | Float2::Div) {
             self.emit.define(dst, Definition::Of(op, a, b));
         }
+        if op == Float2::Step {
+            self.of_one_less(dst);
+        }
         dst
     }
     pub(super) fn int1(&mut self, op: Int1, a: Operand) -> Operand {
@@ -130,7 +133,11 @@ impl Compiler<'_> {
             (Float, Bool) => float_to_int(FloatToInt::Bool, self),
             (Int | Uint, Bool) => self.int1(Int1::Bool, a),
             (Int | Bool, Float) => {
-                self.emit.pure(Class::Float, &[a], |dst| Inst::IntToFloat { op: IntToFloat::Int, dst, a })
+                let number = self.emit.pure(Class::Float, &[a], |dst| Inst::IntToFloat { op: IntToFloat::Int, dst, a });
+                if from == Bool {
+                    self.of_one_less(number);
+                }
+                number
             }
             (Uint, Float) => {
                 self.emit.pure(Class::Float, &[a], |dst| Inst::IntToFloat { op: IntToFloat::Uint, dst, a })
