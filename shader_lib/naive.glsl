@@ -99,17 +99,17 @@ float naiveHalfRange(vec3 N, vec3 L) { return 0.5 * dot(N, L) + 0.5; }
 // The albedo of a rough surface in closed form, E_FON_exact of listing 1: 0/0 at a right angle, NaN where rounding takes the cosine above 1.
 float naiveEonExact(float mu, float r)
 {
-    float A = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * 3.14159265)) * r);
+    float A = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * radians(180.0))) * r);
     float s = sqrt(1.0 - mu * mu);
     float G = s * (acos(mu) - s * mu) + (2.0 / 3.0) * ((s / mu) * (1.0 - s * s * s) - s);
-    return A + (r * A / 3.14159265) * G;
+    return A + (r * A / radians(180.0)) * G;
 }
 
 // f_EON of listing 1 with that albedo, times pi and N.L.
 vec3 naiveEon(vec3 N, vec3 L, vec3 V, vec3 rho, float r)
 {
-    float c1 = 0.5 - 2.0 / (3.0 * 3.14159265);
-    float c2 = 2.0 / 3.0 - 28.0 / (15.0 * 3.14159265);
+    float c1 = 0.5 - 2.0 / (3.0 * radians(180.0));
+    float c2 = 2.0 / 3.0 - 28.0 / (15.0 * radians(180.0));
     float mui = dot(N, L);
     float muo = dot(N, V);
     float s = dot(L, V) - mui * muo;

@@ -6,16 +6,13 @@
 //
 // The sum over a scene's lights (module `scene`) with any of the library's models, as the standard program computes
 // it. With GLISTEN_SURFACE, textures change the material from point to point: standardSurface() is called first. With
-// GLISTEN_ENVIRONMENT, a map of `glisten lib prefilter` is one more light, from all around.
+// GLISTEN_SURROUNDED, a map of `glisten lib prefilter` is one more light, from all around.
 #ifndef GLISTEN_STANDARD
 #define GLISTEN_STANDARD
 #include "artistic.glsl"
 #include "beckmann.glsl"
 #include "burley.glsl"
 #include "clearcoat.glsl"
-#ifdef GLISTEN_ENVIRONMENT
-#include "environment.glsl"
-#endif
 #include "half_lambert.glsl"
 #ifdef GLISTEN_FILM
 #include "iridescence.glsl"
@@ -31,6 +28,9 @@
 #include "specular_lut.glsl"
 #include "threshold.glsl"
 #include "toon.glsl"
+#ifdef GLISTEN_SURROUNDED
+#include "environment.glsl"
+#endif
 #ifdef GLISTEN_GLASS
 #include "transmission.glsl"
 #endif
@@ -39,7 +39,7 @@
 uniform sampler2D ramp;
 // The specular tables: cosine 0 at s = 0, 1 at 1.
 uniform sampler2D highlight;
-#ifdef GLISTEN_ENVIRONMENT
+#ifdef GLISTEN_SURROUNDED
 // Light from all around, for environmentRadiance(), and `ltc_albedo`.
 uniform sampler2D environment;
 uniform sampler2D environment_table;
@@ -467,7 +467,7 @@ vec3 standardSpecular(vec3 N, vec3 L, vec3 V, vec3 fresnel)
 //   one  the light    R  unit vector, the eye's mirror direction    roughness  0 to 1
 vec3 standardMirrored(Light one, vec3 R, float roughness)
 {
-#ifdef GLISTEN_ENVIRONMENT
+#ifdef GLISTEN_SURROUNDED
     if (one.kind == LIGHT_ENVIRONMENT)
         return safeLimit(environmentRadiance(environment, R, roughness));
 #endif
@@ -479,7 +479,7 @@ vec3 standardMirrored(Light one, vec3 R, float roughness)
 //   one  the light    N  unit normal
 vec3 standardArriving(Light one, vec3 N)
 {
-#ifdef GLISTEN_ENVIRONMENT
+#ifdef GLISTEN_SURROUNDED
     if (one.kind == LIGHT_ENVIRONMENT)
         return safeLimit(environmentRadiance(environment, N, 1.0));
 #endif
@@ -490,7 +490,7 @@ vec3 standardArriving(Light one, vec3 N)
 //   one  the light    N  unit normal    V  unit vector towards the eye    roughness  0 to 1
 vec3 standardTowards(Light one, vec3 N, vec3 V, float roughness)
 {
-#ifdef GLISTEN_ENVIRONMENT
+#ifdef GLISTEN_SURROUNDED
     if (one.kind == LIGHT_ENVIRONMENT)
         return environmentDominant(N, V, roughness);
 #endif
@@ -501,7 +501,7 @@ vec3 standardTowards(Light one, vec3 N, vec3 V, float roughness)
 //   N  unit normal    V  unit vector towards the eye    Kspec  reflectance at normal incidence
 vec3 standardAlbedo(vec3 N, vec3 V, vec3 Kspec)
 {
-#ifdef GLISTEN_ENVIRONMENT
+#ifdef GLISTEN_SURROUNDED
     return ltcAlbedo(environment_table, N, V, STANDARD_ROUGHNESS, Kspec);
 #else
     return ggxAlbedo(safeUnit(dot(N, V)), STANDARD_ROUGHNESS, Kspec);
@@ -635,7 +635,7 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
         sum.body = safeLimit(sum.body + one.body);
         sum.gloss = safeLimit(sum.gloss + one.gloss);
     }
-#ifdef GLISTEN_ENVIRONMENT
+#ifdef GLISTEN_SURROUNDED
     Light environs = light[0];
     environs.kind = LIGHT_ENVIRONMENT;
     Reflection around = standardAround(environs, N, V);

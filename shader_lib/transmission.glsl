@@ -54,12 +54,13 @@ vec3 transmissionLeft(vec3 depth)
 }
 
 // How far light goes in a ball, as a part of its diameter: the cosine of the angle in it.
+// An eye behind the surface counts as grazing.
 //   N, V  unit normal, unit vector towards the eye    n  index of refraction, limited to [1, 16]
 // bound: 6e-7 abs
 float transmissionPath(vec3 N, vec3 V, float n)
 {
     float k = clamp(n, 1.0, 16.0);
-    float c = clamp(dot(N, V), -1.0, 1.0);
+    float c = safeUnit(dot(N, V));
     return min(sqrt((k - 1.0) * (k + 1.0) + c * c) / k, 1.0);
 }
 
@@ -73,7 +74,7 @@ vec3 transmissionSphere(vec3 N, vec3 V, float n)
     float a2 = min(dot(s, s), 1.0);
     float ca = clamp(dot(N, V), -1.0, 1.0);
     float one = 1.0 - 2.0 * a2 / (k * k);
-    float both = 2.0 * transmissionPath(N, V, k) / k;
+    float both = 2.0 * sqrt((k - 1.0) * (k + 1.0) + ca * ca) / (k * k);
     // cos(2 b - a) along the normal, and sin(2 b - a) / sin a of V's part across it.
     float along = one * ca + both * a2;
     float across = both * ca - one;

@@ -72,6 +72,7 @@ static SCENES: &[LibraryScene] = &[
     scene!("brushed"),
     scene!("film"),
     scene!("glass"),
+    scene!("marbles"),
     scene!("lamps"),
     scene!("panels"),
     scene!("shadows"),

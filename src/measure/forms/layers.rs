@@ -158,7 +158,12 @@ pub(super) static FORMS: &[Form] = forms! {
     "transmission" "transmissionLeft(vec3)" [Intensity]
         |a| Some(Answer::new(a.v().map(|depth| (-depth).exp()), 1.0).conditioned(4.0));
     "transmission" "transmissionPath(vec3,vec3,float)" [Direction, Direction, Index]
-        |a| Some(Answer::new([bent_in(a.d(), a.d(), a.f()).1.cos()], 1.0).conditioned(16.0));
+        |a| {
+            let (n, v, index) = (a.d(), a.d(), a.f());
+            // An eye behind the surface counts as grazing.
+            let inside = if dot(n, v) > 0.0 { bent_in(n, v, index).1 } else { (1.0 / index.max(1.0)).asin() };
+            Some(Answer::new([inside.cos()], 1.0).conditioned(16.0))
+        };
     "transmission" "transmissionSphere(vec3,vec3,float)" [Direction, Direction, Index] through_ball;
     "transmission" "transmissionRoughness(float,float)" [Unit, Index]
         |a| Some(Answer::new([a.f() * (2.0 * a.f().max(1.0) - 2.0).min(1.0)], 1.0).conditioned(4.0));

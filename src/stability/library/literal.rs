@@ -91,7 +91,7 @@ static LITERAL: &[(&str, &str)] = &[
     ),
     ("shadowDistance(float,vec2)", "range.x * range.y / (range.y - depth * (range.y - range.x))"),
     ("transmissionLeft(vec3)", "exp(-depth)"),
-    ("transmissionPath(vec3,vec3,float)", "sqrt(1.0 - (1.0 - dot(N, V) * dot(N, V)) / (n * n))"),
+    ("transmissionPath(vec3,vec3,float)", "sqrt(1.0 - (1.0 - max(dot(N, V), 0.0) * max(dot(N, V), 0.0)) / (n * n))"),
     (
         "transmissionSphere(vec3,vec3,float)",
         "refract(refract(-V, N, 1.0 / n), 2.0 * dot(refract(-V, N, 1.0 / n), N) * N - N, n)",

@@ -89,6 +89,7 @@ const SHOWN: &[(&str, Shown)] = &[
     ("brushed", Shown::ByValue(&["ggxDistribution(vec3,vec3,vec3,vec2)", "ggxBrushed(float,float)"])),
     ("film", Shown::ByValue(&["iridescenceFresnel(float,float,float,float,vec3)"])),
     ("glass", Shown::ByValue(&["transmissionFactor(vec3,vec3,vec3,float)", "transmissionLeft(vec3)"])),
+    ("marbles", Shown::ByValue(&["transmissionSphere(vec3,vec3,float)", "transmissionPath(vec3,vec3,float)"])),
     ("lamps", Shown::ByValue(&["areaSphereFactor(vec3,vec3,float)"])),
     ("panels", Shown::ByValue(&["ltcEdge(vec3,vec3)", "ltcPolygon(vec3[16],int,float)"])),
     ("shadows", Shown::ByValue(&["shadowPenumbra(float,float,float)", "shadowVariance(vec2,float,float,float)"])),

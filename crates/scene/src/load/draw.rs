@@ -311,7 +311,7 @@ fn own_macros(
     let is_standard = files.iter().any(|(_, name, _)| library_file(name) == Some("standard.frag"));
     let names = if is_standard { macros(table, around.material) } else { Vec::new() };
     let cones = around.lighting.has_cones().then_some("GLISTEN_CONES");
-    let environment = (is_standard && around.environment.is_some()).then_some("GLISTEN_ENVIRONMENT");
+    let environment = (is_standard && around.environment.is_some()).then_some("GLISTEN_SURROUNDED");
     let flags = names.into_iter().chain(cones).chain(environment).map(|name| (name, "1".to_owned()));
     flags.chain(around.lighting.room().map(|room| ("GLISTEN_LIGHTS", room.to_string()))).collect()
 }
