@@ -382,7 +382,7 @@ fn copies_of_a_mesh_are_drawn() {
         assert!(code == "E0911" && text.contains(words), "{text}");
     }
     let none = scene(PLAIN, &copied("{}"));
-    assert!(told(&none).join("\n").contains("no triangles"), "{:?}", told(&none));
+    assert!(told(&none).join("\n").contains("draws nothing"), "{:?}", told(&none));
 }
 
 /// A file of lights, or of a camera: other files and draws have the meshes.

@@ -20,7 +20,7 @@ fn the_reference_code_of_eon_is_no_number_at_grazing_angles() {
         for precision in both {
             let of = |of: &Evaluator| of.reference(&[cosine, roughness], &[], precision).expect("it is called")[0][0];
             assert!(of(&albedo).is_nan(), "{cosine} {roughness}");
-            assert!((0.0..=1.0 + 1e-6).contains(&of(&fit)), "{cosine} {roughness}: {}", of(&fit));
+            assert!((0.0..=1.001).contains(&of(&fit)), "{cosine} {roughness}: {}", of(&fit));
         }
     }
     let literal = function("naive", "naiveEon(vec3,vec3,vec3,vec3,float)", &[]);
