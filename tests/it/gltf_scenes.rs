@@ -259,7 +259,9 @@ fn a_body_in_an_environment_bends_light() {
     near(&value(leaf, "finish.dielectric_strength"), &[0.25]);
     near(&value(leaf, "finish.dielectric"), &[0.08, 0.04, 0.04]);
     assert_eq!(value(leaf, "lights"), [0.0]);
-    // Without one, it is as thin as a wall.
+    // Where the scene says so, or without one, it is as thin as a wall.
+    let thin = scene(&format!("{around}{PLAIN}refraction = false\n"), &file);
+    assert_eq!(thin.scene.expect("it loads").draws.len(), 5);
     let plain = scene(PLAIN, &file);
     assert!(told(&plain).join("\n").contains("`glass`: it refracts nothing, as the scene has no `[environment]`"));
     assert_eq!(plain.scene.expect("it loads").draws.len(), 5);

@@ -19,7 +19,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-const KEYS: &[&str] = &["gltf", "camera", "lights", "transform", "material", "materials", "draw"];
+const KEYS: &[&str] = &["gltf", "camera", "lights", "refraction", "transform", "material", "materials", "draw"];
 
 /// The most draws of a file.
 const MAX_DRAWS: usize = 1024;
@@ -142,7 +142,8 @@ fn source<'t, 'i>(loader: &mut Loader<'_>, node: &'t Node<'i>, surrounded: bool)
         loader.reader.report(diagnostic.help("draw it as a mesh: `mesh = { file = \"..\" }` in a `[[draw]]`"));
         return None;
     }
-    let contents = match gltf_contents(&bytes, surrounded) {
+    let bends = loader.reader.flag(table, "refraction", true);
+    let contents = match gltf_contents(&bytes, surrounded && bends) {
         Ok(contents) => contents,
         Err(error) => {
             loader.reader.error(&SCENE_BAD_ASSET, span, format!("`{path}`: {error}"), "not a scene that can be read");
