@@ -368,8 +368,11 @@ fn copies_of_a_mesh_are_drawn() {
         let node = format!(
             "{{\"mesh\": 0, \"extensions\": {{\"EXT_mesh_gpu_instancing\": {{\"attributes\": {attributes}}}}}, \"translation\": [0, 0, 0]}}"
         );
-        squares(&[PAINT], "", r#", "extensionsRequired": ["EXT_mesh_gpu_instancing"]"#)
-            .replacen("{\"mesh\": 0, \"translation\": [0, 0, 0]}", &node, 1)
+        squares(&[PAINT], "", r#", "extensionsRequired": ["EXT_mesh_gpu_instancing"]"#).replacen(
+            "{\"mesh\": 0, \"translation\": [0, 0, 0]}",
+            &node,
+            1,
+        )
     };
     let loaded = scene(PLAIN, &copied(r#"{"TRANSLATION": 0}"#));
     assert!(loaded.diagnostics.is_empty(), "{:?}", told(&loaded));

@@ -210,7 +210,8 @@ fn around(smooth: f64, rough: f64) -> String {
 #[test]
 fn an_environment_is_light_from_all_around() {
     let plastic = "base_color = [1, 1, 1]\nmetallic = 0.0\nroughness = 0.5\n";
-    for layer in ["", "clearcoat = 1.0", "sheen = [1, 1, 1]\nsheen_roughness = 0.5", "transmission = 1.0\nrefraction = 1.5"]
+    for layer in
+        ["", "clearcoat = 1.0", "sheen = [1, 1, 1]\nsheen_roughness = 0.5", "transmission = 1.0\nrefraction = 1.5"]
     {
         near(middle(&around(1.0, 1.0), &format!("{plastic}{layer}")), [1.0; 3], 2e-3);
     }
@@ -246,7 +247,9 @@ fn a_body_absorbs_and_bends_light() {
         let frosted = body.replace("roughness = 0.0", "roughness = 1.0");
         middle(&around(1.0, 0.25), &format!("{frosted}refraction = {index}"))[0]
     };
-    assert!((rough("1.0") - 1.0).abs() < 1e-3 && (rough("1.5") - 0.25).abs() < 1e-3 && (rough("1.25") - 0.625).abs() < 1e-3);
+    assert!(
+        (rough("1.0") - 1.0).abs() < 1e-3 && (rough("1.5") - 0.25).abs() < 1e-3 && (rough("1.25") - 0.625).abs() < 1e-3
+    );
 }
 
 /// A leaf passes light on without a direction: of a light behind it, its color's part.

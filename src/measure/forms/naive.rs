@@ -44,7 +44,8 @@ fn eon(a: &Args<'_>) -> Option<Answer> {
     let mean = af * (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * PI)) * r);
     let tiny = f64::from(1e-7_f32);
     let lost = (1.0 - eon_albedo(nv, r)).max(tiny) * (1.0 - eon_albedo(nl, r)).max(tiny) / (1.0 - mean).max(tiny);
-    let value = rho.map(|rho| nl * (rho * af * (1.0 + r * term) + rho * rho * mean / (1.0 - rho * (1.0 - mean)) * lost));
+    let value =
+        rho.map(|rho| nl * (rho * af * (1.0 + r * term) + rho * rho * mean / (1.0 - rho * (1.0 - mean)) * lost));
     // Few digits are left of 1 - E for a nearly smooth surface.
     Some(Answer::new(value, 1.0).conditioned((64.0 + 64.0 / nv.min(nl)) / (r + 1e-7)))
 }

@@ -105,7 +105,8 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let generated = generated.map(|made| (made.stage, made.pipeline));
     let fixed = fixed.map(|state| Arc::new(FixedDraw { state, switches, generated }));
     let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
-    let textures = load_textures(loader, (table, own_material, around.environment), &program, (conventional, &maps), place);
+    let textures =
+        load_textures(loader, (table, own_material, around.environment), &program, (conventional, &maps), place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
     // Whatever else is wrong was reported before a mesh or a program that cannot be drawn with ends the draw.
     possible?;

@@ -88,7 +88,8 @@ pub(super) fn of(material: &Material, surrounded: bool) -> Result<Vec<Setting>, 
     let mut settings = Vec::new();
     let specular = table(material, "KHR_materials_specular").map(|table| number(table, "specularFactor", 1.0));
     let strength = specular.transpose()?.map(|strength| strength.clamp(0.0, 1.0));
-    settings.extend(strength.filter(|strength| *strength < 1.0).map(|strength| ("dielectric_strength", vec![strength])));
+    settings
+        .extend(strength.filter(|strength| *strength < 1.0).map(|strength| ("dielectric_strength", vec![strength])));
     for layer in LAYERS {
         let Some(table) = table(material, layer.extension) else { continue };
         let mut own = layer.rows.iter().map(|row| setting(table, row)).collect::<Result<Vec<Setting>, String>>()?;
