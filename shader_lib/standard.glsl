@@ -139,7 +139,7 @@ uniform sampler2D thickness_map;
 // The color of light that passes, linear RGB.
 vec3 surface_through;
 #ifdef GLISTEN_REFRACTION
-// What a way as long as a body is thick takes of it.
+// How much of it a way as long as the body is thick takes.
 vec3 surface_absorbed;
 #endif
 #endif
@@ -462,7 +462,7 @@ vec3 standardSpecular(vec3 N, vec3 L, vec3 V, vec3 fresnel)
     return vec3(0.0);
 }
 
-// What a mirror of a roughness shows of light from all around. The horizon of a hemisphere is as wide as the roughness, and that of the
+// Light from all around as a mirror of a roughness shows it. The horizon of a hemisphere is as wide as the roughness, and that of the
 // whole half spheres for 1.
 //   one  the light    R  unit vector, the eye's mirror direction    roughness  0 to 1
 vec3 standardMirrored(Light one, vec3 R, float roughness)
@@ -509,7 +509,7 @@ vec3 standardAlbedo(vec3 N, vec3 V, vec3 Kspec)
 }
 
 #ifdef GLISTEN_GLASS
-// What of light from all around is behind a surface: beyond a thin wall, or a ball that bends it.
+// Light from all around that is behind a surface: beyond a thin wall, or a ball that bends it.
 //   one  the light    N  unit normal    V  unit vector towards the eye
 vec3 standardBehind(Light one, vec3 N, vec3 V)
 {
