@@ -126,7 +126,7 @@ fn reflection_is_reciprocal() {
     }
 }
 
-/// The same for brushed surfaces, about a tangent, and for a light behind a thin wall, mirrored to the eye's side.
+/// Brushed surfaces with their tangent are reciprocal, and so are thin walls for a light behind them, mirrored to the eye's side.
 #[test]
 fn brushed_surfaces_and_walls_are_reciprocal() {
     let tangent = [0.8, 0.6, 0.0];

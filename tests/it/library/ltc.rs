@@ -80,7 +80,7 @@ fn the_albedo_is_that_of_the_published_table() {
     let table = &errors::tables().expect("the scene is good")[1..];
     for [roughness, cosine, all, grazing] in PUBLISHED {
         let eye = [(1.0 - cosine * cosine).max(0.0).sqrt() as f32, 0.0, *cosine as f32];
-        let row = [&[0.0, 0.0, 1.0], &eye, &[*roughness as f32, 1.0, 0.0, 0.5]].concat();
+        let row = [&[0.0, 0.0, 1.0][..], &eye, &[*roughness as f32, 1.0, 0.0, 0.5]].concat();
         let found = albedo.reference(&row, table, glisten_reference::Precision::F64).expect("it is called").remove(0);
         for (found, wanted) in found.iter().zip([*all, *grazing, 0.5 * (all + grazing)]) {
             assert!((found - wanted).abs() < 5e-3, "{roughness} {cosine}: {found} {wanted}");
