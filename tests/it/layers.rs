@@ -227,7 +227,7 @@ fn an_environment_is_light_from_all_around() {
     let wrong = told(&scene(&format!("[environment]\n{texel}"), "", plaster)).join("\n");
     assert!(wrong.contains("2x3 texels has no squares"), "{wrong}");
     let unread = "[environment]\nwidth = 1\nheight = 1\nvalues = [1, 1, 1, 1]\n[[draw]]\nprogram = \"vertex_color\"\n\
-                  attributes = { pv = [0, 0, 0], cv = [1, 1, 1] }\nuniforms = { mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1] }\n";
+                  attributes = { pv = { size = 3, values = [0, 0, 0] }, cv = { size = 3, values = [1, 1, 1] } }\nuniforms = { mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1] }\n";
     let files = MemoryFiles::new([("a.toml", unread)]);
     let loaded = load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded));
     assert!(told(&loaded).join("\n").contains("declares a sampler `environment`"), "{:?}", told(&loaded));
