@@ -1,11 +1,11 @@
 // name: naive
 // kind: reference
-// equation: (82) to (108), literally
-// source: textbook and article
+// equation: (82) to (108), literally; EON, and a dielectric over a diffuse body, as others publish them
+// source: textbook and article; Portsmouth, Kutz and Hill, EON, JCGT 14(1), 2025, listing 1; three.js, lights_physical_pars_fragment
 // stability: none: as in the literal equations
 //
 // The equations as printed, regardless of rounding, range and poles, to measure the value of the stable forms in the
-// other modules. Do not draw with them. K and L are omitted in all but (82) and (83).
+// other modules. Do not draw with them. K and L are omitted in all but (82) and (83). Factors of newer models are f times pi and N.L.
 #ifndef GLISTEN_NAIVE
 #define GLISTEN_NAIVE
 
@@ -95,5 +95,57 @@ vec2 naiveOctahedron(vec3 d)
 
 // The coordinate of the article's half-range lookup.
 float naiveHalfRange(vec3 N, vec3 L) { return 0.5 * dot(N, L) + 0.5; }
+
+// The albedo of a rough surface in closed form, E_FON_exact of listing 1: 0/0 at a right angle, NaN where rounding takes the cosine above 1.
+float naiveEonExact(float mu, float r)
+{
+    float A = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * radians(180.0))) * r);
+    float s = sqrt(1.0 - mu * mu);
+    float G = s * (acos(mu) - s * mu) + (2.0 / 3.0) * ((s / mu) * (1.0 - s * s * s) - s);
+    return A + (r * A / radians(180.0)) * G;
+}
+
+// f_EON of listing 1 with that albedo, times pi and N.L.
+vec3 naiveEon(vec3 N, vec3 L, vec3 V, vec3 rho, float r)
+{
+    float c1 = 0.5 - 2.0 / (3.0 * radians(180.0));
+    float c2 = 2.0 / 3.0 - 28.0 / (15.0 * radians(180.0));
+    float mui = dot(N, L);
+    float muo = dot(N, V);
+    float s = dot(L, V) - mui * muo;
+    float st = s > 0.0 ? s / max(mui, muo) : s;
+    float A = 1.0 / (1.0 + c1 * r);
+    vec3 single = rho * A * (1.0 + r * st);
+    float mean = A * (1.0 + c2 * r);
+    vec3 again = rho * rho * mean / (1.0 - rho * (1.0 - mean));
+    float lost = max(1.0e-7, 1.0 - naiveEonExact(muo, r)) * max(1.0e-7, 1.0 - naiveEonExact(mui, r));
+    return mui * (single + again * lost / max(1.0e-7, 1.0 - mean));
+}
+
+// The direct light of MeshStandardMaterial of three.js (RE_Direct_Physical) without metal, for a lamp of intensity pi: the body gets all of
+// the light, as if nothing were mirrored.
+vec3 naivePlastic(vec3 N, vec3 L, vec3 V, vec3 Kdiff, float F0, float alpha)
+{
+    vec3 H = naiveHalf(L, V);
+    float a2 = alpha * alpha;
+    float NL = clamp(dot(N, L), 0.0, 1.0);
+    float NV = clamp(dot(N, V), 0.0, 1.0);
+    float NH = clamp(dot(N, H), 0.0, 1.0);
+    float F = F0 + (1.0 - F0) * pow(1.0 - clamp(dot(V, H), 0.0, 1.0), 5.0);
+    float d = NL * sqrt(a2 + (1.0 - a2) * NV * NV) + NV * sqrt(a2 + (1.0 - a2) * NL * NL);
+    float q = NH * NH * (a2 - 1.0) + 1.0;
+    return NL * (Kdiff + F * (0.5 / max(d, 1.0e-6)) * a2 / (q * q));
+}
+
+// White fibers over a white body as three.js has them (sheenEnergyComp): the fibers return 0.157 of the light, whatever their roughness.
+float naiveSheen(vec3 N, vec3 L, vec3 V, float alpha)
+{
+    vec3 H = naiveHalf(L, V);
+    float NL = clamp(dot(N, L), 0.0, 1.0);
+    float NV = clamp(dot(N, V), 0.0, 1.0);
+    float NH = clamp(dot(N, H), 0.0, 1.0);
+    float D = (2.0 + 1.0 / alpha) * pow(max(1.0 - NH * NH, 0.0078125), 0.5 / alpha) / 2.0;
+    return NL * (1.0 - 0.157 + D * clamp(1.0 / (4.0 * (NL + NV - NL * NV)), 0.0, 1.0));
+}
 
 #endif

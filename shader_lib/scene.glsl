@@ -105,6 +105,20 @@ struct Finish {
     vec3 absorption;
     int transmission_pass;
 #endif
+#ifdef GLISTEN_REFRACTION
+    // The index of refraction of a body, and how it spreads over the colors: 20 divided by Abbe's number.
+    float refraction;
+    float dispersion;
+#endif
+#ifdef GLISTEN_DIELECTRIC_STRENGTH
+    // How much of that a part that is no metal mirrors, 0 to 1, at all angles.
+    float dielectric_strength;
+#endif
+#ifdef GLISTEN_LEAF
+    // The part of the light that is scattered through the surface instead of back, 0 to 1, and its color, linear RGB.
+    float leaf;
+    vec3 leaf_color;
+#endif
 };
 
 #ifdef GLISTEN_PLACES
@@ -135,6 +149,8 @@ struct Places {
     Place dielectric_strength_map;
     Place transmission_map;
     Place thickness_map;
+    Place diffuse_transmission_map;
+    Place diffuse_transmission_color_map;
 };
 
 uniform Places places;

@@ -5,7 +5,8 @@
 // stability: finite for every finite input
 //
 // The sum over a scene's lights (module `scene`) with any of the library's models, as the standard program computes
-// it. With GLISTEN_SURFACE, textures change the material from point to point: standardSurface() is called first.
+// it. With GLISTEN_SURFACE, textures change the material from point to point: standardSurface() is called first. With
+// GLISTEN_SURROUNDED, a map of `glisten lib prefilter` is one more light, from all around.
 #ifndef GLISTEN_STANDARD
 #define GLISTEN_STANDARD
 #include "artistic.glsl"
@@ -27,6 +28,9 @@
 #include "specular_lut.glsl"
 #include "threshold.glsl"
 #include "toon.glsl"
+#ifdef GLISTEN_SURROUNDED
+#include "environment.glsl"
+#endif
 #ifdef GLISTEN_GLASS
 #include "transmission.glsl"
 #endif
@@ -35,6 +39,13 @@
 uniform sampler2D ramp;
 // The specular tables: cosine 0 at s = 0, 1 at 1.
 uniform sampler2D highlight;
+#ifdef GLISTEN_SURROUNDED
+// Light from all around, for environmentRadiance(), and `ltc_albedo`.
+uniform sampler2D environment;
+uniform sampler2D environment_table;
+// Light.kind of that light, which is none of the scene's list.
+const int LIGHT_ENVIRONMENT = 4;
+#endif
 
 #ifdef GLISTEN_SURFACE
 // Roughness and metal in green and blue, as parts of the material's; light that the surface sends out, a part of its emission;
@@ -84,6 +95,22 @@ float surface_film_thickness;
 uniform sampler2D dielectric_map;
 uniform sampler2D dielectric_strength_map;
 #endif
+#ifdef GLISTEN_DIELECTRIC_STRENGTH
+// The part of all that microfacets mirror, also at grazing angles.
+float surface_mirror;
+#define STANDARD_MIRROR surface_mirror
+#else
+#define STANDARD_MIRROR 1.0
+#endif
+#ifdef GLISTEN_LEAF
+#ifdef GLISTEN_LEAF_MAPS
+// The part of the light that is scattered through the surface, in alpha, and its color, linear RGB, as parts of the material's.
+uniform sampler2D diffuse_transmission_map;
+uniform sampler2D diffuse_transmission_color_map;
+#endif
+// The color of light that is scattered through the surface, linear RGB.
+vec3 surface_leaf;
+#endif
 #ifdef GLISTEN_COAT_MAPS
 // The strength of the coat in red, and its roughness in green, as parts of the material's.
 uniform sampler2D clearcoat_map;
@@ -111,11 +138,16 @@ uniform sampler2D thickness_map;
 #endif
 // The color of light that passes, linear RGB.
 vec3 surface_through;
+#ifdef GLISTEN_REFRACTION
+// How much of it a way as long as the body is thick takes.
+vec3 surface_absorbed;
+#endif
 #endif
 #define STANDARD_MATERIAL surface
 #define STANDARD_ROUGHNESS surface_roughness
 #else
 #define STANDARD_MATERIAL material
+#define STANDARD_MIRROR 1.0
 #define STANDARD_ROUGHNESS finish.roughness
 #define STANDARD_COAT finish.clearcoat
 #define STANDARD_COAT_ROUGHNESS finish.clearcoat_roughness
@@ -158,6 +190,9 @@ void standardSurface(vec2 st, vec3 base)
 {
     vec4 rough = texture(metallic_roughness, STANDARD_PLACE(metallic_roughness));
     surface = material;
+#ifdef GLISTEN_DIELECTRIC_STRENGTH
+    surface_mirror = 1.0;
+#endif
     if (finish.metallic < 0.0) {
         surface.diffuse = material.diffuse * base;
         surface.ambient = material.ambient * base;
@@ -166,13 +201,20 @@ void standardSurface(vec2 st, vec3 base)
         float metallic = safeUnit(finish.metallic * rough.b);
         surface.diffuse = color * (1.0 - metallic);
         surface.ambient = surface.diffuse;
+        vec3 dielectric = finish.dielectric;
 #ifdef GLISTEN_DIELECTRIC_MAPS
-        vec3 dielectric = finish.dielectric * texture(dielectric_map, STANDARD_PLACE(dielectric_map)).rgb;
-        dielectric *= texture(dielectric_strength_map, STANDARD_PLACE(dielectric_strength_map)).a;
-        surface.specular = mix(dielectric, color, metallic);
-#else
-        surface.specular = mix(finish.dielectric, color, metallic);
+        dielectric *= texture(dielectric_map, STANDARD_PLACE(dielectric_map)).rgb;
 #endif
+#ifdef GLISTEN_DIELECTRIC_STRENGTH
+        float strength = finish.dielectric_strength;
+#ifdef GLISTEN_DIELECTRIC_MAPS
+        strength *= texture(dielectric_strength_map, STANDARD_PLACE(dielectric_strength_map)).a;
+#endif
+        // The strength is that of what is no metal; the color of both is that of their sum.
+        surface_mirror = mix(safeUnit(strength), 1.0, metallic);
+        metallic = surface_mirror > 0.0 ? min(metallic / surface_mirror, 1.0) : 0.0;
+#endif
+        surface.specular = mix(dielectric, color, metallic);
     }
 #ifdef GLISTEN_GLASS
     float passing = finish.transmission;
@@ -182,9 +224,31 @@ void standardSurface(vec2 st, vec3 base)
     absorbed *= texture(thickness_map, STANDARD_PLACE(thickness_map)).g;
 #endif
     passing = safeUnit(passing);
-    surface_through = passing * surface.diffuse * transmissionLeft(absorbed);
+    surface_through = passing * surface.diffuse;
+#ifdef GLISTEN_REFRACTION
+    surface_absorbed = absorbed;
+#else
+    surface_through *= transmissionLeft(absorbed);
+#endif
     surface.diffuse *= 1.0 - passing;
     surface.ambient *= 1.0 - passing;
+#endif
+#ifdef GLISTEN_LEAF
+    float scattered = finish.leaf;
+    surface_leaf = finish.leaf_color;
+#ifdef GLISTEN_LEAF_MAPS
+    scattered *= texture(diffuse_transmission_map, STANDARD_PLACE(diffuse_transmission_map)).a;
+    surface_leaf *= texture(diffuse_transmission_color_map, STANDARD_PLACE(diffuse_transmission_color_map)).rgb;
+#endif
+    scattered = safeUnit(scattered);
+    surface_leaf *= scattered;
+    if (finish.metallic >= 0.0)
+        surface_leaf *= 1.0 - safeUnit(finish.metallic * rough.b);
+#ifdef GLISTEN_GLASS
+    surface_leaf *= 1.0 - passing;
+#endif
+    surface.diffuse *= 1.0 - scattered;
+    surface.ambient *= 1.0 - scattered;
 #endif
 #ifdef GLISTEN_COAT_MAPS
     surface_coat = finish.clearcoat * texture(clearcoat_map, STANDARD_PLACE(clearcoat_map)).r;
@@ -304,7 +368,7 @@ vec3 standardFresnel(vec3 L, vec3 V)
     vec3 film = iridescenceFresnel(c, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
     F = mix(F, film, surface_film);
 #endif
-    return F;
+    return STANDARD_MIRROR * F;
 }
 
 // The light that what is mirrored leaves for the body. Under a film it has no color of its own, and the body none of its complement.
@@ -319,13 +383,44 @@ vec3 standardLeft(vec3 mirrored)
 }
 
 #ifdef GLISTEN_GLASS
+// The part of the light behind a surface that passes, but for what is mirrored.
+//   N  unit normal    V  unit vector towards the eye
+vec3 standardPassing(vec3 N, vec3 V)
+{
+#ifdef GLISTEN_REFRACTION
+    return surface_through * transmissionLeft(transmissionPath(N, V, finish.refraction) * surface_absorbed);
+#else
+    return surface_through;
+#endif
+}
+
+// The roughness with which light passes.
+float standardBlur()
+{
+#ifdef GLISTEN_REFRACTION
+    return transmissionRoughness(STANDARD_ROUGHNESS, finish.refraction);
+#else
+    return STANDARD_ROUGHNESS;
+#endif
+}
+
 // Light that comes through the surface from behind it, without pi.
 //   N  unit normal    L, V  unit vectors towards the light and the eye
 vec3 standardThrough(vec3 N, vec3 L, vec3 V)
 {
     vec3 across = transmissionMirrored(N, L);
-    float alpha = STANDARD_ROUGHNESS * STANDARD_ROUGHNESS;
-    return transmissionFactor(N, L, V, alpha) * surface_through * standardLeft(standardFresnel(across, V));
+    float alpha = standardBlur() * standardBlur();
+    return transmissionFactor(N, L, V, alpha) * standardPassing(N, V) * standardLeft(standardFresnel(across, V));
+}
+#endif
+
+#ifdef GLISTEN_LEAF
+// Light that is scattered through the surface from behind it, without pi.
+//   N  unit normal    L, V  unit vectors towards the light and the eye
+vec3 standardScattered(vec3 N, vec3 L, vec3 V)
+{
+    vec3 across = safeFinite(L - 2.0 * dot(N, L) * N);
+    return lambertFactor(-N, L) * surface_leaf * standardLeft(standardFresnel(across, V));
 }
 #endif
 
@@ -367,68 +462,135 @@ vec3 standardSpecular(vec3 N, vec3 L, vec3 V, vec3 fresnel)
     return vec3(0.0);
 }
 
-// The light of a hemisphere that a mirror of a roughness shows: its horizon is as wide as the roughness, and that of the whole half
-// spheres for 1.
+// Light from all around as a mirror of a roughness shows it. The horizon of a hemisphere is as wide as the roughness, and that of the
+// whole half spheres for 1.
 //   one  the light    R  unit vector, the eye's mirror direction    roughness  0 to 1
 vec3 standardMirrored(Light one, vec3 R, float roughness)
 {
+#ifdef GLISTEN_SURROUNDED
+    if (one.kind == LIGHT_ENVIRONMENT)
+        return safeLimit(environmentRadiance(environment, R, roughness));
+#endif
     float t = clamp(dot(R, safeNormalize(one.direction)) / clamp(roughness, 1.0 / 64.0, 1.0), -1.0, 1.0);
     return safeLimit(mix(one.ambient, one.diffuse, 0.5 + 0.5 * t));
 }
 
-// The hemisphere's part of (101), and what microfacets and the coat mirror of it.
+// The light from all around that arrives at a matte surface, without pi. Of an environment, it is what the roughest mirror shows.
+//   one  the light    N  unit normal
+vec3 standardArriving(Light one, vec3 N)
+{
+#ifdef GLISTEN_SURROUNDED
+    if (one.kind == LIGHT_ENVIRONMENT)
+        return safeLimit(environmentRadiance(environment, N, 1.0));
+#endif
+    return lightDome(one, N);
+}
+
+// The direction from which a surface mirrors light from all around.
+//   one  the light    N  unit normal    V  unit vector towards the eye    roughness  0 to 1
+vec3 standardTowards(Light one, vec3 N, vec3 V, float roughness)
+{
+#ifdef GLISTEN_SURROUNDED
+    if (one.kind == LIGHT_ENVIRONMENT)
+        return environmentDominant(N, V, roughness);
+#endif
+    return mirrorDirection(N, V);
+}
+
+// The part of light from everywhere that microfacets mirror.
+//   N  unit normal    V  unit vector towards the eye    Kspec  reflectance at normal incidence
+vec3 standardAlbedo(vec3 N, vec3 V, vec3 Kspec)
+{
+#ifdef GLISTEN_SURROUNDED
+    return ltcAlbedo(environment_table, N, V, STANDARD_ROUGHNESS, Kspec);
+#else
+    return ggxAlbedo(safeUnit(dot(N, V)), STANDARD_ROUGHNESS, Kspec);
+#endif
+}
+
+#ifdef GLISTEN_GLASS
+// Light from all around that is behind a surface: beyond a thin wall, or a ball that bends it.
 //   one  the light    N  unit normal    V  unit vector towards the eye
+vec3 standardBehind(Light one, vec3 N, vec3 V)
+{
+#ifdef GLISTEN_REFRACTION
+    vec3 n = transmissionIndices(finish.refraction, finish.dispersion);
+    vec3 seen = standardMirrored(one, transmissionSphere(N, V, n.y), standardBlur());
+    if (finish.dispersion > 0.0) {
+        seen.x = standardMirrored(one, transmissionSphere(N, V, n.x), standardBlur()).x;
+        seen.z = standardMirrored(one, transmissionSphere(N, V, n.z), standardBlur()).z;
+    }
+    return seen;
+#else
+    return standardMirrored(one, -V, STANDARD_ROUGHNESS);
+#endif
+}
+#endif
+
+// The part of (101) that light from all around has, and what microfacets and the coat mirror of it.
+//   one  a hemisphere, or the environment    N  unit normal    V  unit vector towards the eye
 Reflection standardDome(Light one, vec3 N, vec3 V)
 {
-    Reflection sum = Reflection(ambient(STANDARD_MATERIAL.ambient, lightDome(one, N)), vec3(0.0));
-#ifdef GLISTEN_BRUSHED
-    vec3 R = mirrorDirection(ggxBent(N, surface_brush, V, STANDARD_ROUGHNESS, surface_anisotropy), V);
-#else
-    vec3 R = mirrorDirection(N, V);
+    Reflection sum = Reflection(ambient(STANDARD_MATERIAL.ambient, standardArriving(one, N)), vec3(0.0));
+#ifdef GLISTEN_LEAF
+    sum.body = safeLimit(sum.body + surface_leaf * standardArriving(one, -N));
 #endif
-    float NV = safeUnit(dot(N, V));
     if (standardHasFresnel()) {
-        vec3 seen = STANDARD_MATERIAL.specular * 50.0;
-        vec3 albedo = min(ggxAlbedo(NV, STANDARD_ROUGHNESS, STANDARD_MATERIAL.specular), seen);
-#ifdef GLISTEN_FILM
-        vec3 film = iridescenceFresnel(NV, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
-        albedo = mix(albedo, ggxAlbedo(NV, STANDARD_ROUGHNESS, iridescenceNormal(film, NV)), surface_film);
+#ifdef GLISTEN_BRUSHED
+        vec3 bent = ggxBent(N, surface_brush, V, STANDARD_ROUGHNESS, surface_anisotropy);
+        vec3 R = standardTowards(one, bent, V, STANDARD_ROUGHNESS);
+#else
+        vec3 R = standardTowards(one, N, V, STANDARD_ROUGHNESS);
 #endif
+        vec3 seen = STANDARD_MATERIAL.specular * 50.0;
+        vec3 albedo = min(standardAlbedo(N, V, STANDARD_MATERIAL.specular), seen);
+#ifdef GLISTEN_FILM
+        float NV = safeUnit(dot(N, V));
+        vec3 film = iridescenceFresnel(NV, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
+        albedo = mix(albedo, standardAlbedo(N, V, iridescenceNormal(film, NV)), surface_film);
+#endif
+        albedo *= STANDARD_MIRROR;
         vec3 left = standardLeft(min(albedo, vec3(1.0)));
         sum.body = sum.body * left;
         sum.gloss = safeLimit(albedo * standardMirrored(one, R, STANDARD_ROUGHNESS));
 #ifdef GLISTEN_GLASS
         if (finish.transmission_pass == GLASS_ALL)
-            sum.body += left * surface_through * standardMirrored(one, -V, STANDARD_ROUGHNESS);
+            sum.body += left * standardPassing(N, V) * standardBehind(one, N, V);
 #endif
     }
 #ifdef GLISTEN_FIBERS
     sum = standardUnderFibers(sum);
-    sum.gloss = safeLimit(sum.gloss + surface_fibers * lightDome(one, N));
+    sum.gloss = safeLimit(sum.gloss + surface_fibers * standardArriving(one, N));
 #endif
     if (finish.clearcoat > 0.0) {
         vec3 smooth_normal = STANDARD_COAT_NORMAL;
         float w = clearcoatWeight(smooth_normal, V, STANDARD_COAT);
         sum.body = sum.body * (1.0 - w);
-        vec3 seen = standardMirrored(one, mirrorDirection(smooth_normal, V), STANDARD_COAT_ROUGHNESS);
+        vec3 R = standardTowards(one, smooth_normal, V, STANDARD_COAT_ROUGHNESS);
+        vec3 seen = standardMirrored(one, R, STANDARD_COAT_ROUGHNESS);
         sum.gloss = safeLimit((1.0 - w) * sum.gloss + w * seen);
     }
     return sum;
+}
+
+// The same, as far as it reaches the surface.
+//   one, N, V  as above
+Reflection standardAround(Light one, vec3 N, vec3 V)
+{
+    Reflection dome = standardDome(one, N, V);
+#ifdef GLISTEN_SURFACE
+    return Reflection(surface_occlusion * dome.body, surface_occlusion * dome.gloss);
+#else
+    return dome;
+#endif
 }
 
 // One light's part of (101).
 //   one  the light    P  shaded point    N  unit normal    V  unit vector towards the eye
 Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
 {
-#ifdef GLISTEN_SURFACE
-    if (one.kind == LIGHT_HEMISPHERE) {
-        Reflection dome = standardDome(one, N, V);
-        return Reflection(surface_occlusion * dome.body, surface_occlusion * dome.gloss);
-    }
-#else
     if (one.kind == LIGHT_HEMISPHERE)
-        return standardDome(one, N, V);
-#endif
+        return standardAround(one, N, V);
     vec3 L = lightVector(one, P);
     float d = lightAttenuation(one, P);
     float cspot = lightBeam(one, L);
@@ -437,6 +599,9 @@ Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
     vec3 Idiff = safeLimit(standardDiffuse(N, L, V) * one.diffuse * standardLeft(fresnel));
 #ifdef GLISTEN_GLASS
     Idiff = safeLimit(Idiff + safeLimit(standardThrough(N, L, V) * one.diffuse));
+#endif
+#ifdef GLISTEN_LEAF
+    Idiff = safeLimit(Idiff + safeLimit(standardScattered(N, L, V) * one.diffuse));
 #endif
     vec3 Ispec = safeLimit(standardSpecular(N, L, V, fresnel) * one.specular);
 #ifdef GLISTEN_FIBERS
@@ -470,6 +635,13 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
         sum.body = safeLimit(sum.body + one.body);
         sum.gloss = safeLimit(sum.gloss + one.gloss);
     }
+#ifdef GLISTEN_SURROUNDED
+    Light environs = light[0];
+    environs.kind = LIGHT_ENVIRONMENT;
+    Reflection around = standardAround(environs, N, V);
+    sum.body = safeLimit(sum.body + around.body);
+    sum.gloss = safeLimit(sum.gloss + around.gloss);
+#endif
     return sum;
 }
 
@@ -478,9 +650,8 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
 //   N  unit normal    V  unit vector towards the eye
 vec3 standardGlass(vec3 N, vec3 V)
 {
-    float NV = safeUnit(dot(N, V));
-    vec3 mirrored = ggxAlbedo(NV, STANDARD_ROUGHNESS, STANDARD_MATERIAL.specular);
-    vec3 through = surface_through * standardLeft(min(mirrored, vec3(1.0)));
+    vec3 mirrored = STANDARD_MIRROR * standardAlbedo(N, V, STANDARD_MATERIAL.specular);
+    vec3 through = standardPassing(N, V) * standardLeft(min(mirrored, vec3(1.0)));
 #ifdef GLISTEN_FIBERS
     through *= 1.0 - safeExtent(surface_fibers);
 #endif

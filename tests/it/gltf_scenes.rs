@@ -214,7 +214,7 @@ fn wrong_files_and_keys_are_told_with_their_place() {
 #[test]
 fn what_is_not_drawn_is_a_note() {
     let glass = r#"{"name": "glass", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1},
-        "KHR_materials_dispersion": {}, "KHR_materials_diffuse_transmission": {},
+        "KHR_materials_dispersion": {"dispersion": 2},
         "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": {"index": 0, "texCoord": 1},
         "clearcoatRoughnessTexture": {"index": 0, "texCoord": 2}}}}"#;
     let image = r#", "images": [{"uri": "a.png"}], "textures": [{"source": 0}]"#;
@@ -222,13 +222,49 @@ fn what_is_not_drawn_is_a_note() {
     let told = told(&loaded).join("\n");
     for words in [
         "light passes straight through `glass`: it refracts nothing",
-        "without KHR_materials_dispersion",
-        "without KHR_materials_diffuse_transmission",
         "what is behind `glass` is not blurred",
         "the roughness of the coat of `glass` has texture coordinates of set 2, a third one, and is left out",
     ] {
         assert!(told.contains("W0912") && told.contains(words), "{told}");
     }
+}
+
+/// In an environment, a thick body is one draw that bends light. A strength of the mirror is one of its own, and leaves pass light on.
+#[test]
+fn a_body_in_an_environment_bends_light() {
+    let glass = r#"{"name": "glass", "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.5}, "extensions": {
+        "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.75},
+        "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.25, 1]},
+        "KHR_materials_dispersion": {"dispersion": 2}}}"#;
+    let pane = r#"{"name": "pane", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}"#;
+    let leaf = r#"{"name": "leaf", "pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5, "diffuseTransmissionColorFactor": [0.5, 1, 0.25]},
+        "KHR_materials_specular": {"specularFactor": 0.25, "specularColorFactor": [2, 1, 1]}}}"#;
+    let file = squares(&[glass, pane, leaf], "", "");
+    let around = "[environment]\nwidth = 1\nheight = 2\nvalues = [1, 1, 1, 1,  0.5, 0.5, 0.5, 1]\n";
+    let loaded = scene(&format!("{around}{PLAIN}"), &file);
+    let messages = told(&loaded).join("\n");
+    assert!(messages.contains("`glass` shows the environment through itself"), "{messages}");
+    assert!(!messages.contains("straight") && messages.contains("what is behind `pane` is not blurred"), "{messages}");
+    let draws = loaded.scene.expect("it loads").draws;
+    // The pane is last, in two draws.
+    let [glass, leaf, _, surface] = draws.as_slice() else { panic!("{} draws", draws.len()) };
+    assert_eq!((value(glass, "finish.transmission_pass"), glass.state.blend), (vec![0.0], None));
+    assert!(glass.state.depth_write && surface.state.blend.is_some());
+    near(&value(glass, "finish.refraction"), &[1.75]);
+    near(&value(glass, "finish.dispersion"), &[2.0]);
+    near(&value(glass, "finish.absorption"), &[0.0, 2.0_f32.ln(), 0.0]);
+    near(&value(leaf, "finish.leaf"), &[0.5]);
+    near(&value(leaf, "finish.leaf_color"), &[0.5, 1.0, 0.25]);
+    near(&value(leaf, "finish.dielectric_strength"), &[0.25]);
+    near(&value(leaf, "finish.dielectric"), &[0.08, 0.04, 0.04]);
+    assert_eq!(value(leaf, "lights"), [0.0]);
+    // Where the scene says so, or without one, it is as thin as a wall.
+    let thin = scene(&format!("{around}{PLAIN}refraction = false\n"), &file);
+    assert_eq!(thin.scene.expect("it loads").draws.len(), 5);
+    let plain = scene(PLAIN, &file);
+    assert!(told(&plain).join("\n").contains("`glass`: it refracts nothing, as the scene has no `[environment]`"));
+    assert_eq!(plain.scene.expect("it loads").draws.len(), 5);
 }
 
 /// The layers of extensions are keys of the material.
@@ -323,6 +359,35 @@ fn the_picture_is_that_of_the_equation() {
     for (found, wanted) in middle("flat").into_iter().zip([0.25, 0.5, 0.75]) {
         assert!((found - wanted).abs() < 0.6 / 255.0, "{found} {wanted}");
     }
+}
+
+/// EXT_mesh_gpu_instancing: a mesh as often as its attributes say. The corners of the square are three places, and three sizes.
+#[test]
+fn copies_of_a_mesh_are_drawn() {
+    let copied = |attributes: &str| {
+        let node = format!(
+            "{{\"mesh\": 0, \"extensions\": {{\"EXT_mesh_gpu_instancing\": {{\"attributes\": {attributes}}}}}, \"translation\": [0, 0, 0]}}"
+        );
+        squares(&[PAINT], "", r#", "extensionsRequired": ["EXT_mesh_gpu_instancing"]"#).replacen(
+            "{\"mesh\": 0, \"translation\": [0, 0, 0]}",
+            &node,
+            1,
+        )
+    };
+    let loaded = scene(PLAIN, &copied(r#"{"TRANSLATION": 0}"#));
+    assert!(loaded.diagnostics.is_empty(), "{:?}", told(&loaded));
+    let draws = loaded.scene.expect("it loads").draws;
+    assert_eq!(draws[0].indices.as_ref().map(Vec::len), Some(4 * 6));
+    // What has no triangles or no accessor.
+    for (attributes, words) in [
+        (r#"{"TRANSLATION": "a"}"#, "the TRANSLATION of its copies is no accessor"),
+        (r#"{"SCALE": 99}"#, "there is no accessor 99"),
+    ] {
+        let (code, _, text) = the_error(&scene(PLAIN, &copied(attributes)));
+        assert!(code == "E0911" && text.contains(words), "{text}");
+    }
+    let none = scene(PLAIN, &copied("{}"));
+    assert!(told(&none).join("\n").contains("draws nothing"), "{:?}", told(&none));
 }
 
 /// A file of lights, or of a camera: other files and draws have the meshes.

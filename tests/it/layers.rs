@@ -200,6 +200,94 @@ fn textures_have_their_places() {
     assert_eq!(value(&loaded.draws[0], "places.decal.s"), [1.0, 0.0, 0.0]);
 }
 
+/// The map of light from all around: squares of one texel, the upper one for a roughness of 1.
+fn around(smooth: f64, rough: f64) -> String {
+    let texel = |level: f64| format!("{level:?}, {level:?}, {level:?}, 1");
+    format!("[environment]\nwidth = 1\nheight = 2\nvalues = [{}, {}]\n", texel(smooth), texel(rough))
+}
+
+/// White surfaces in white surroundings are white; a matte one shows the roughest light, a mirror the smoothest.
+#[test]
+fn an_environment_is_light_from_all_around() {
+    let plastic = "base_color = [1, 1, 1]\nmetallic = 0.0\nroughness = 0.5\n";
+    for layer in
+        ["", "clearcoat = 1.0", "sheen = [1, 1, 1]\nsheen_roughness = 0.5", "transmission = 1.0\nrefraction = 1.5"]
+    {
+        near(middle(&around(1.0, 1.0), &format!("{plastic}{layer}")), [1.0; 3], 2e-3);
+    }
+    let plaster = "diffuse = [0.5, 0.25, 1]\nspecular_model = \"none\"\n";
+    near(middle(&around(1.0, 0.5), plaster), [0.25, 0.125, 0.5], 1e-6);
+    let mirror = "base_color = [1, 0.5, 0.25]\nmetallic = 1.0\nroughness = 0.0\n";
+    near(middle(&around(4.0, 0.5), mirror), [4.0, 2.0, 1.0], 2e-2);
+    // Lights of the scene add to it.
+    let lit = middle(&format!("{}{HEAD_ON}", around(1.0, 0.5)), plaster);
+    near(lit, [0.75, 0.375, 1.5], 1e-6);
+    // Its map is that of a scene; anything else is told.
+    let texel = "width = 2\nheight = 3\nvalues = [0, 0, 0, 0,  0, 0, 0, 0,  0, 0, 0, 0,  0, 0, 0, 0,  0, 0, 0, 0,  0, 0, 0, 0]\n";
+    let wrong = told(&scene(&format!("[environment]\n{texel}"), "", plaster)).join("\n");
+    assert!(wrong.contains("2x3 texels has no squares"), "{wrong}");
+    let unread = "[environment]\nwidth = 1\nheight = 1\nvalues = [1, 1, 1, 1]\n[[draw]]\nprogram = \"vertex_color\"\n\
+                  attributes = { pv = { size = 3, values = [0, 0, 0] }, cv = { size = 3, values = [1, 1, 1] } }\nuniforms = { mc = [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1] }\n";
+    let files = MemoryFiles::new([("a.toml", unread)]);
+    let loaded = load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded));
+    assert!(told(&loaded).join("\n").contains("declares a sampler `environment`"), "{:?}", told(&loaded));
+}
+
+/// A body shows what is behind it: all of white surroundings but for what it absorbs on its way, which is as long as it is thick in the middle.
+#[test]
+fn a_body_absorbs_and_bends_light() {
+    let body = "base_color = [1, 1, 1]\nmetallic = 0.0\nroughness = 0.0\ndielectric = [0, 0, 0]\ntransmission = 1.0\n";
+    let found = middle(&around(1.0, 1.0), &format!("{body}refraction = 1.5\nabsorption = [0, 0.5, 2]"));
+    near(found, [1.0, (-0.5_f64).exp(), (-2.0_f64).exp()], 1e-3);
+    // A hemisphere is seen through it, too: straight through is the ground.
+    let dome = "[[light]]\nkind = \"hemisphere\"\naxis = [0, 0, 1]\nsky = [1, 0, 0]\nground = [0, 1, 0]";
+    near(middle(dome, &format!("{body}refraction = 1.5")), [0.0, 1.0, 0.0], 1e-3);
+    // Glass of the index of air blurs nothing, whatever its roughness.
+    let rough = |index: &str| {
+        let frosted = body.replace("roughness = 0.0", "roughness = 1.0");
+        middle(&around(1.0, 0.25), &format!("{frosted}refraction = {index}"))[0]
+    };
+    assert!(
+        (rough("1.0") - 1.0).abs() < 1e-3 && (rough("1.5") - 0.25).abs() < 1e-3 && (rough("1.25") - 0.625).abs() < 1e-3
+    );
+}
+
+/// A leaf passes light on without a direction: of a light behind it, its color's part.
+#[test]
+fn a_leaf_scatters_light_through_itself() {
+    let leaf = "base_color = [1, 1, 1]\nmetallic = 0.0\ndielectric = [0, 0, 0]\ndiffuse_transmission = 0.75\n\
+                diffuse_transmission_color = [1, 0.5, 0.25]\n";
+    let behind = "[[light]]\nkind = \"directional\"\ntowards = [0, 0.6, -0.8]";
+    near(middle(behind, leaf), [0.6, 0.3, 0.15], 1e-6);
+    near(middle(HEAD_ON, leaf), [0.25; 3], 1e-6);
+    near(middle(DOME, leaf), [1.0, 0.625, 0.4375], 1e-6);
+    let map = "diffuse_transmission_map = { width = 1, height = 1, values = [1, 1, 1, 0.5] }\n\
+               diffuse_transmission_color_map = { width = 1, height = 1, values = [0, 1, 1, 1] }\n";
+    near(middle(behind, &format!("{leaf}{map}")), [0.0, 0.15, 0.075], 1e-6);
+    let metal = leaf.replace("metallic = 0.0", "metallic = 1.0");
+    assert_eq!(middle(behind, &metal)[..3], [0.0; 3]);
+}
+
+/// The strength of what a dielectric mirrors is one for all angles (KHR_materials_specular scales F_90, too); a metal has all of it.
+#[test]
+fn the_strength_of_a_dielectric_is_that_at_grazing_angles_too() {
+    let grazing = "[[light]]\nkind = \"directional\"\ntowards = [0, 0.9998, 0.02]";
+    let plastic = "base_color = [0, 0, 0]\nmetallic = 0.0\nroughness = 0.6\n";
+    let of = |more: &str| middle(grazing, &format!("{plastic}{more}"))[0];
+    let whole = of("");
+    assert!(whole > 0.0);
+    for strength in [0.0, 0.25, 0.5, 1.0] {
+        let found = of(&format!("dielectric_strength = {strength:?}"));
+        assert!((found - strength * whole).abs() < 1e-9 + 1e-6 * whole, "{strength}: {found} {whole}");
+    }
+    let metal = "base_color = [1, 0.5, 0.25]\nmetallic = 1.0\nroughness = 0.6\n";
+    let [r, g, b, _] = middle(HEAD_ON, metal);
+    near(middle(HEAD_ON, &format!("{metal}dielectric_strength = 0.0")), [r, g, b], 1e-6);
+    // White surroundings: what is not mirrored is left for the body.
+    let white = "base_color = [1, 1, 1]\nmetallic = 0.0\nroughness = 0.5\n";
+    near(middle(DOME, &format!("{white}dielectric_strength = 0.5")), [1.0; 3], 2e-3);
+}
+
 /// Mistakes have their messages.
 #[test]
 fn mistakes_in_layers_are_told() {

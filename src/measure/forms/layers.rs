@@ -108,6 +108,25 @@ fn through(a: &Args<'_>) -> Option<Answer> {
     Some(answer.conditioned(condition))
 }
 
+/// The angles to the normal of the eye and of what it sees in a body.
+fn bent_in(n: V, v: V, index: f64) -> (f64, f64) {
+    let (sine, cosine) = (norm(cross(n, v)), dot(n, v));
+    let k = index.max(1.0);
+    (sine.atan2(cosine), sine.atan2(((k - 1.0) * (k + 1.0) + cosine * cosine).sqrt()))
+}
+
+/// Snell's law at both sides of a ball, by the angles: the eye's direction turns by 2 (a - b) in the plane of both.
+fn through_ball(a: &Args<'_>) -> Option<Answer> {
+    let (n, v, index) = (a.d(), a.d(), a.f());
+    let (outside, inside) = bent_in(n, v, index);
+    let across = sub(v, scale(dot(n, v), n));
+    let turned = 2.0 * inside - outside;
+    let flat = norm(across);
+    let along = scale(-turned.cos(), n);
+    let value = if flat > 1e-300 { sub(along, scale(turned.sin() / flat, across)) } else { along };
+    Some(Answer::new(value, 1.0).conditioned(64.0))
+}
+
 pub(super) static FORMS: &[Form] = forms! {
     "ggx" "ggxBrushed(float,float)" [Unit, Unit] |a| {
         let (roughness, strength) = (a.f(), a.f());
@@ -138,4 +157,19 @@ pub(super) static FORMS: &[Form] = forms! {
     "transmission" "transmissionFactor(vec3,vec3,vec3,float)" [Direction, Direction, Direction, Alpha] through;
     "transmission" "transmissionLeft(vec3)" [Intensity]
         |a| Some(Answer::new(a.v().map(|depth| (-depth).exp()), 1.0).conditioned(4.0));
+    "transmission" "transmissionPath(vec3,vec3,float)" [Direction, Direction, Index]
+        |a| {
+            let (n, v, index) = (a.d(), a.d(), a.f());
+            // An eye behind the surface counts as grazing.
+            let inside = if dot(n, v) > 0.0 { bent_in(n, v, index).1 } else { (1.0 / index.max(1.0)).asin() };
+            Some(Answer::new([inside.cos()], 1.0).conditioned(16.0))
+        };
+    "transmission" "transmissionSphere(vec3,vec3,float)" [Direction, Direction, Index] through_ball;
+    "transmission" "transmissionRoughness(float,float)" [Unit, Index]
+        |a| Some(Answer::new([a.f() * (2.0 * a.f().max(1.0) - 2.0).min(1.0)], 1.0).conditioned(4.0));
+    "transmission" "transmissionIndices(float,float)" [Index, Gain] |a| {
+        let (n, dispersion) = (a.f().max(1.0), a.f());
+        let spread = (n - 1.0) * dispersion / 20.0;
+        Some(Answer::relative([(n - spread / 2.0).max(1.0), n, n + spread / 2.0]).conditioned(4.0))
+    };
 };

@@ -5,6 +5,7 @@ use super::geometry::{barycentric, interpolated, segment};
 use super::{Form, InputKind, cosine_power, cross, dot, forms, half, norm, surroundings};
 use crate::measure::vector::{add, mul, scale, sub};
 use crate::measure::{Answer, Args};
+use std::f64::consts::PI;
 
 /// A power of a cosine as in the literal equation: the exponent multiplies the rounding of the cosine.
 fn literal(answer: Option<Answer>, k: f64) -> Option<Answer> {
@@ -21,6 +22,65 @@ fn blinn(a: &Args<'_>, unlimited: bool) -> Option<Answer> {
     let (n, l, v, k) = (a.d(), a.d(), a.d(), a.f());
     let (h, blur) = half(l, v)?;
     (k > 0.0 && (!unlimited || dot(n, h) > 0.0)).then(|| literal(cosine_power(n, h, k, blur), k * blur))?
+}
+
+/// The part of the light that a white rough surface returns after one reflection, by the angle: mu tan^2 and so on without 0/0.
+fn eon_albedo(mu: f64, r: f64) -> f64 {
+    let s = ((1.0 - mu) * (1.0 + mu)).sqrt();
+    let g = s * (s.atan2(mu) - s * mu) + 2.0 / 3.0 * (s * mu * (1.0 + s + s * s) / (1.0 + s) - s);
+    (1.0 + r * g / PI) / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * r)
+}
+
+/// Listing 1 of EON, where both directions are well above the surface.
+fn eon(a: &Args<'_>) -> Option<Answer> {
+    let (n, l, v, rho, r) = (a.d(), a.d(), a.d(), a.v(), a.f());
+    let (nl, nv) = (dot(n, l), dot(n, v));
+    if nl < 1e-3 || nv < 1e-3 || nl >= 1.0 || nv >= 1.0 {
+        return None;
+    }
+    let between = dot(l, v) - nl * nv;
+    let term = if between > 0.0 { between / nl.max(nv) } else { between };
+    let af = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * r);
+    let mean = af * (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * PI)) * r);
+    let tiny = f64::from(1e-7_f32);
+    let lost = (1.0 - eon_albedo(nv, r)).max(tiny) * (1.0 - eon_albedo(nl, r)).max(tiny) / (1.0 - mean).max(tiny);
+    let value =
+        rho.map(|rho| nl * (rho * af * (1.0 + r * term) + rho * rho * mean / (1.0 - rho * (1.0 - mean)) * lost));
+    // Few digits are left of 1 - E for a nearly smooth surface.
+    Some(Answer::new(value, 1.0).conditioned((64.0 + 64.0 / nv.min(nl)) / (r + 1e-7)))
+}
+
+/// A dielectric over a body that gets all of the light.
+fn plastic(a: &Args<'_>) -> Option<Answer> {
+    let (n, l, v, body, f0, alpha) = (a.d(), a.d(), a.d(), a.v(), a.f(), a.f());
+    let (h, blur) = half(l, v)?;
+    let (nl, nv, sine) = (dot(n, l), dot(n, v), norm(cross(n, h)));
+    if nl < 1e-3 || nv < 1e-3 {
+        return None;
+    }
+    let a2 = alpha * alpha;
+    let smith = |cos: f64| (a2 + (1.0 - a2) * cos * cos).sqrt();
+    let q = sine * sine * (1.0 - a2) + a2;
+    let mirrored = f0 + (1.0 - f0) * (1.0 - dot(v, h)).powi(5);
+    let gloss = mirrored * a2 / (q * q) * 0.5 / (nl * smith(nv) + nv * smith(nl)).max(1e-6);
+    let value = body.map(|body| nl * (body + gloss));
+    // 1 - (N.H)^2 has lost what is below its rounding.
+    Some(Answer::new(value, 1.0).conditioned(16.0 + gloss * nl * (64.0 + 64.0 * blur / q)))
+}
+
+/// Fibers that return the same part of the light at any roughness.
+fn velvet(a: &Args<'_>) -> Option<Answer> {
+    let (n, l, v, alpha) = (a.d(), a.d(), a.d(), a.f());
+    let (h, blur) = half(l, v)?;
+    let (nl, nv, sine) = (dot(n, l), dot(n, v), norm(cross(n, h)));
+    if nl < 1e-3 || nv < 1e-3 {
+        return None;
+    }
+    let sine2 = (sine * sine).max(1.0 / 128.0);
+    let density = (2.0 + 1.0 / alpha) * sine2.powf(0.5 / alpha) / 2.0;
+    let seen = (0.25 / (nl + nv - nl * nv)).min(1.0);
+    let condition = 16.0 + density * nl * (16.0 + 16.0 * blur / (alpha * sine2));
+    Some(Answer::new([nl * (1.0 - f64::from(0.157_f32) + density * seen)], 1.0).conditioned(condition))
 }
 
 pub(super) static FORMS: &[Form] = forms! {
@@ -77,5 +137,12 @@ pub(super) static FORMS: &[Form] = forms! {
         // An arc cosine of 1 minus rounding has half of its digits, or no value.
         (sine > 1e-7).then(|| Answer::new([sine.atan2(cosine) * cross(a, b)[2] / sine], 1.0).conditioned(8.0 + 16.0 / sine))
     };
+    "naive" "naiveEonExact(float,float)" [Unit, Unit] |a| {
+        let (mu, r) = (a.f(), a.f());
+        (mu > 0.0).then(|| Answer::new([eon_albedo(mu, r)], 1.0).conditioned(16.0 + 8.0 / mu))
+    };
+    "naive" "naiveEon(vec3,vec3,vec3,vec3,float)" [Lighting, Color, Unit] eon;
+    "naive" "naivePlastic(vec3,vec3,vec3,vec3,float,float)" [Lighting, Color, Unit, Alpha] plastic;
+    "naive" "naiveSheen(vec3,vec3,vec3,float)" [Lighting, Alpha] velvet;
     "naive" "naiveHalfRange(vec3,vec3)" [Direction, Direction] |a| Some(Answer::new([0.5 + dot(a.d(), a.d()) / 2.0], 1.0));
 };

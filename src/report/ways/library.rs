@@ -1,7 +1,8 @@
 //! The report on the library: one scene, shaded by each of its models, per fragment and per vertex.
 //!
 //! *In:* nothing. *Out:* [`LibraryFiles`], which has the scene with its `[report]` table as a file. *Holds:* the standard
-//! program per fragment is the reference of each model; a program of its own, where there is one, is another variant of that model.
+//! program per fragment is the reference of each model; a program of its own, where there is one, is another variant of that model. In one
+//! group more, highlights as wide and as bright as that of GGX are compared with it.
 
 use glisten_scene::{FileError, FileSource};
 use std::fmt::Write;
@@ -52,6 +53,25 @@ static MODELS: &[Model] = &[
     model("normalized Blinn-Phong", "specular_model = \"normalized\"", None),
     model("Oren and Nayar", "diffuse_model = \"oren_nayar\", specular_model = \"none\"", None),
     model("EON", "diffuse_model = \"eon\", specular_model = \"none\"", None),
+    model("Burley", "diffuse_model = \"burley\", specular_model = \"none\"", None),
+    model("wrap", "diffuse_model = \"wrap\", specular_model = \"none\", threshold = 0.4", None),
+    model("Minnaert", "diffuse_model = \"minnaert\", specular_model = \"none\", roughness = 0.4", None),
+    model("fibers", "specular_model = \"sheen\", roughness = 0.45", None),
+];
+
+/// The name of the group of highlights that are compared with GGX.
+const LIKE_GGX: &str = "like GGX";
+
+/// Highlights alone, the first one of GGX with alpha = 0.2025. The exponents are 2 / alpha^2 - 2, with which Blinn's lobe is as wide, and a
+/// quarter of it for R.V; models without a norm are as bright in the middle, 1 / (4 alpha^2) times.
+static HIGHLIGHTS: &[(&str, &str)] = &[
+    ("GGX", "specular_model = \"ggx\", specular = [0.5, 0.5, 0.5], roughness = 0.45"),
+    ("Beckmann", "specular_model = \"beckmann\", specular = [0.5, 0.5, 0.5], roughness = 0.45"),
+    ("normalized Blinn-Phong", "specular_model = \"normalized\", specular = [0.5, 0.5, 0.5], shininess = 46.8"),
+    ("Blinn-Phong", "specular_model = \"blinn_phong\", specular = [3.05, 3.05, 3.05], shininess = 46.8"),
+    ("Phong", "specular_model = \"phong\", specular = [3.05, 3.05, 3.05], shininess = 11.7"),
+    ("Schlick (90) on N.H", "specular_model = \"schlick_blinn\", specular = [3.05, 3.05, 3.05], shininess = 46.8"),
+    ("fourth power", "specular_model = \"quartic\", specular = [3.05, 3.05, 3.05]"),
 ];
 
 /// The scene without its variants: a knot under a warm and a dim blue light.
@@ -116,6 +136,14 @@ fn text() -> String {
             way("program of its own per vertex", &format!("{program}_vertex"), false);
         }
     }
+    for (index, (name, material)) in HIGHLIGHTS.iter().enumerate() {
+        let truth = if index == 0 { "truth = true\n" } else { "" };
+        let _ = write!(
+            text,
+            "\n[[report.way]]\nname = \"{LIKE_GGX}: {name}\"\nmodel = \"{LIKE_GGX}\"\n{truth}\
+             set = {{ program = \"standard\", material = {{ diffuse_model = \"none\", diffuse = [0.0, 0.0, 0.0], {material} }} }}\n"
+        );
+    }
     text
 }
 
@@ -131,7 +159,7 @@ impl FileSource for LibraryFiles {
 
 #[cfg(test)]
 mod tests {
-    use super::{LIBRARY_SCENE, LibraryFiles, MODELS, text};
+    use super::{HIGHLIGHTS, LIBRARY_SCENE, LibraryFiles, MODELS, text};
     use crate::report::plan::plan;
     use crate::scene::{FileSource, MemoryFiles, load};
     use glisten_front::{Compiler, Options};
@@ -140,7 +168,8 @@ mod tests {
     fn every_way_loads_without_a_warning() {
         let plan = plan("library", &text(), 0).expect("the table is right");
         let programs = MODELS.iter().filter(|model| model.program.is_some()).count();
-        assert_eq!((plan.ways.len(), plan.truths.len()), (2 * MODELS.len() + 2 * programs, MODELS.len()));
+        let ways = 2 * MODELS.len() + 2 * programs + HIGHLIGHTS.len();
+        assert_eq!((plan.ways.len(), plan.truths.len()), (ways, MODELS.len() + 1));
         let compiler = Compiler::new(Options::default()).with_includes(crate::library::Embedded);
         for way in &plan.ways {
             let crate::report::plan::Drawn::Text(text) = &way.drawn else { panic!("a text") };
@@ -159,6 +188,30 @@ mod tests {
     fn every_program_of_a_model_is_among_them() {
         for program in crate::library::programs().iter().filter_map(|program| program.name.strip_suffix("_vertex")) {
             assert!(program == "standard" || MODELS.iter().any(|model| model.program == Some(program)), "{program}");
+        }
+    }
+
+    /// Every diffuse and every specular model of the program `standard` is among them.
+    #[test]
+    fn every_model_of_the_standard_program_is_among_them() {
+        let module = crate::library::modules().iter().find(|module| module.name == "scene").expect("it is there");
+        let names = |what: &str| {
+            let prefix = format!("const int {what}_");
+            let names = module
+                .text
+                .lines()
+                .filter_map(|line| Some(line.strip_prefix(&prefix)?.split(' ').next()?.to_lowercase()));
+            names.filter(|name| name != "none").collect::<Vec<_>>()
+        };
+        for (key, name) in names("DIFFUSE")
+            .iter()
+            .map(|name| ("diffuse_model", name))
+            .chain(names("SPECULAR").iter().map(|name| ("specular_model", name)))
+        {
+            // What a material has without a key.
+            let is_default = name == "lambert";
+            let named = format!("{key} = \"{name}\"");
+            assert!(is_default || MODELS.iter().any(|model| model.material.contains(&named)), "{named}");
         }
     }
 }

@@ -90,6 +90,12 @@ static LITERAL: &[(&str, &str)] = &[
         "mix(dark, lit, smoothstep(edge - width, edge + width, naiveHalfRange(N, L)))",
     ),
     ("shadowDistance(float,vec2)", "range.x * range.y / (range.y - depth * (range.y - range.x))"),
+    ("transmissionLeft(vec3)", "exp(-depth)"),
+    ("transmissionPath(vec3,vec3,float)", "sqrt(1.0 - (1.0 - max(dot(N, V), 0.0) * max(dot(N, V), 0.0)) / (n * n))"),
+    (
+        "transmissionSphere(vec3,vec3,float)",
+        "refract(refract(-V, N, 1.0 / n), 2.0 * dot(refract(-V, N, 1.0 / n), N) * N - N, n)",
+    ),
     ("environmentPlace(vec3)", "naiveOctahedron(d)"),
     (
         "environmentDominant(vec3,vec3,float)",
@@ -117,6 +123,11 @@ static LITERAL: &[(&str, &str)] = &[
         "pow(alpha / (dot(N, naiveHalf(L, V)) * dot(N, naiveHalf(L, V)) * (alpha * alpha - 1.0) + 1.0), 2.0) * max(dot(N, L), 0.0) * \
          ggxVisibility(max(dot(N, L), 0.0), max(dot(N, V), 0.0), alpha)",
     ),
+    (
+        "ggxDistribution(vec3,vec3,vec3,vec2)",
+        "1.0 / (3.14159265 * alpha.x * alpha.y * pow(dot(T, H) * dot(T, H) / (alpha.x * alpha.x) + \
+         dot(cross(N, T), H) * dot(cross(N, T), H) / (alpha.y * alpha.y) + dot(N, H) * dot(N, H), 2.0))",
+    ),
     ("ggxBrushed(float,float)", "vec2(mix(roughness * roughness, 1.0, strength * strength), roughness * roughness)"),
     (
         "iridescenceNormal(vec3,float)",
@@ -131,11 +142,22 @@ static LITERAL: &[(&str, &str)] = &[
         "(2.0 + 1.0 / alpha) * pow(sqrt(1.0 - dot(N, H) * dot(N, H)), 1.0 / alpha) / 6.2831853",
     ),
     (
+        "sheenFactor(vec3,vec3,vec3,float)",
+        "max(dot(N, L), 0.0) * (2.0 + 1.0 / alpha) * pow(sqrt(1.0 - dot(N, naiveHalf(L, V)) * dot(N, naiveHalf(L, V))), 1.0 / alpha) / 8.0 / \
+         (max(dot(N, L), 0.0) + max(dot(N, V), 0.0) - max(dot(N, L), 0.0) * max(dot(N, V), 0.0))",
+    ),
+    (
+        "wardFactor(vec3,vec3,vec3,vec3,vec2)",
+        "max(dot(N, L), 0.0) * exp(-(pow(dot(L + V, T) / alpha.x, 2.0) + pow(dot(L + V, cross(N, T)) / alpha.y, 2.0)) / \
+         pow(dot(L + V, N), 2.0)) / (alpha.x * alpha.y) * dot(L + V, L + V) / pow(dot(L + V, N), 4.0)",
+    ),
+    (
         "orenNayarFactor(vec3,vec3,vec3,float)",
         "dot(N, L) * (1.0 - 0.5 * sigma * sigma / (sigma * sigma + 0.33) + 0.45 * sigma * sigma / (sigma * sigma + 0.09) * \
          max(dot(normalize(L - N * dot(N, L)), normalize(V - N * dot(N, V))), 0.0) * \
          sin(max(acos(dot(N, L)), acos(dot(N, V)))) * tan(min(acos(dot(N, L)), acos(dot(N, V)))))",
     ),
+    ("eonFactor(vec3,vec3,vec3,vec3,float)", "naiveEon(N, L, V, Kdiff, roughness)"),
     (
         "burleyFactor(vec3,vec3,vec3,float)",
         "max(dot(N, L), 0.0) * (1.0 + (2.0 * roughness * pow(dot(L, naiveHalf(L, V)), 2.0) - 0.5) * pow(1.0 - max(dot(N, L), 0.0), 5.0)) * \

@@ -106,6 +106,7 @@ fn reflection_is_reciprocal() {
         ("oren_nayar", "eonFactor(vec3,vec3,vec3,vec3,float)", &[0.8, 0.5, 0.2, 0.7]),
         ("oren_nayar", "orenNayarFactor(vec3,vec3,vec3,float)", &[0.6]),
         ("burley", "burleyFactor(vec3,vec3,vec3,float)", &[0.6]),
+        ("artistic", "minnaertFactor(vec3,vec3,vec3,float)", &[1.4]),
     ] {
         let factor = wrapped(module, signature);
         let mut rows = Vec::new();
@@ -122,6 +123,158 @@ fn reflection_is_reciprocal() {
         for pair in values.chunks(2) {
             assert!((pair[0] - pair[1]).abs() <= 1e-5 * pair[0].abs().max(1e-3), "{signature}: {pair:?}");
         }
+    }
+}
+
+/// Brushed surfaces with their tangent are reciprocal, and so are thin walls for a light behind them, mirrored to the eye's side.
+#[test]
+fn brushed_surfaces_and_walls_are_reciprocal() {
+    let tangent = [0.8, 0.6, 0.0];
+    let brushed = |module: &str, signature: &str| {
+        function(module, signature, &[(0, "normalize"), (1, "normalize"), (2, "normalize"), (3, "normalize")])
+    };
+    let factors = [
+        brushed("ggx", "ggxFactor(vec3,vec3,vec3,vec3,vec2)"),
+        brushed("ward", "wardFactor(vec3,vec3,vec3,vec3,vec2)"),
+    ];
+    let wall = wrapped("transmission", "transmissionFactor(vec3,vec3,vec3,float)");
+    let near = |there: f64, back: f64| (there - back).abs() <= 1e-5 * there.abs().max(1e-3);
+    for i in 0..40 {
+        let (a, b) = (0.02 + 0.024 * f64::from(i), 0.97 - 0.021 * f64::from(i));
+        let (light, eye) = (direction(a, 0.3), direction(b, 0.3 + 0.15 * f64::from(i)));
+        for factor in &factors {
+            let row = |l: V, v: V| [UP, tangent, l, v].concat().into_iter().chain([0.5, 0.2]).collect::<Vec<f32>>();
+            let (there, back) = (call(factor, &row(light, eye))[0][0] / a, call(factor, &row(eye, light))[0][0] / b);
+            assert!(near(there, back), "{i}: {there} {back}");
+        }
+        let behind = |v: V| [v[0], v[1], -v[2]];
+        let row = |l: V, v: V| [UP, behind(l), v].concat().into_iter().chain([0.3]).collect::<Vec<f32>>();
+        let (there, back) = (call(&wall, &row(light, eye))[0][0] / a, call(&wall, &row(eye, light))[0][0] / b);
+        assert!(near(there, back), "{i}: {there} {back}");
+    }
+}
+
+/// The formulas of Khronos' sample renderer (brdf.glsl, ibl.glsl, punctual.glsl): GGX with its anisotropic form, Charlie's fibers, the falloff
+/// and the cone of lamps, and the roughness of light that passes.
+#[test]
+fn the_models_are_those_of_khronos_sample_renderer() {
+    let near = |found: f64, wanted: f64| (found - wanted).abs() <= 2e-5 * wanted.abs().max(1e-3);
+    let brushed = function("ggx", "ggxFactor(vec3,vec3,vec3,vec3,vec2)", &[]);
+    let fibers = function("sheen", "sheenFactor(vec3,vec3,vec3,float)", &[]);
+    for (i, (along, across)) in [(0.5_f32, 0.1_f32), (0.9, 0.4), (0.3, 0.3)].into_iter().enumerate() {
+        let (l, v) = (direction(0.8, 0.3 + i as f64), direction(0.45, 2.0));
+        let unit = |a: V| DVec3::new(a[0].into(), a[1].into(), a[2].into());
+        let (light, eye) = (unit(l), unit(v));
+        let h = (light + eye).normalize();
+        let (at, ab) = (f64::from(along), f64::from(across));
+        // D_GGX_anisotropic and V_GGX_anisotropic.
+        let a2 = at * ab;
+        let f = DVec3::new(ab * h.x, at * h.y, a2 * h.z);
+        let d = a2 * (a2 / f.dot(f)).powi(2) / PI;
+        let ggx_v = light.z * DVec3::new(at * eye.x, ab * eye.y, eye.z).length();
+        let ggx_l = eye.z * DVec3::new(at * light.x, ab * light.y, light.z).length();
+        let wanted = PI * d * 0.5 / (ggx_v + ggx_l) * light.z;
+        let row = [UP, [1.0, 0.0, 0.0], l, v].concat().into_iter().chain([along, across]).collect::<Vec<f32>>();
+        let found = call(&brushed, &row)[0][0];
+        assert!(near(found, wanted), "{found} {wanted}");
+        // D_Charlie, with the visibility of Neubelt and Pettineo.
+        let (inverse, sine2) = (1.0 / at, 1.0 - h.z * h.z);
+        let d = (2.0 + inverse) * sine2.powf(inverse * 0.5) / TAU;
+        let wanted = PI * d / (4.0 * (light.z + eye.z - light.z * eye.z)) * light.z;
+        let found = call(&fibers, &[UP, l, v].concat().into_iter().chain([along]).collect::<Vec<f32>>())[0][0];
+        assert!(near(found, wanted), "{found} {wanted}");
+    }
+    let falloff = function("punctual", "punctualFalloff(float,float)", &[]);
+    for (r, range) in [(0.5_f64, 2.0_f64), (1.9, 2.0), (3.0, 2.0)] {
+        let wanted = (1.0 - (r / range).powi(4)).clamp(0.0, 1.0) / (r * r);
+        let found = call(&falloff, &[r as f32, range as f32])[0][0];
+        // KHR_lights_punctual has the window once, Karis and this library its square.
+        let window = (1.0 - (r / range).powi(4)).clamp(0.0, 1.0);
+        assert!(near(found, wanted * window), "{r}: {found} {wanted}");
+    }
+    let blur = function("transmission", "transmissionRoughness(float,float)", &[]);
+    for (roughness, ior) in [(0.5_f32, 1.0_f32), (0.5, 1.25), (0.5, 1.5), (0.8, 2.4)] {
+        let wanted = f64::from(roughness) * (f64::from(ior) * 2.0 - 2.0).clamp(0.0, 1.0);
+        assert!(near(call(&blur, &[roughness, ior])[0][0], wanted), "{roughness} {ior}");
+    }
+}
+
+/// A ball by Snell's law at both sides, vector by vector, and the rainbow: for water, the light that turns least in a ball with one reflection
+/// inside leaves it at 42 degrees (Descartes 1637).
+#[test]
+fn a_ball_bends_light_by_snell() {
+    let of = |signature| function("transmission", signature, &[(0, "normalize"), (1, "normalize")]);
+    let ball = of("transmissionSphere(vec3,vec3,float)");
+    let path = of("transmissionPath(vec3,vec3,float)");
+    let refract = |i: DVec3, n: DVec3, eta: f64| {
+        let d = n.dot(i);
+        let k = 1.0 - eta * eta * (1.0 - d * d);
+        eta * i - (eta * d + k.sqrt()) * n
+    };
+    let mut least = f64::INFINITY;
+    for i in 0..200 {
+        let cos = (f64::from(i) + 0.5) / 200.0;
+        let v = direction(cos, 0.7);
+        let eye = DVec3::new(v[0].into(), v[1].into(), v[2].into()).normalize();
+        for index in [1.0_f32, 1.333, 1.5, 2.4] {
+            let n = f64::from(index);
+            let inside = refract(-eye, DVec3::Z, 1.0 / n);
+            // The ball's other side: the normal is turned by the chord.
+            let far = DVec3::Z + 2.0 * -inside.z * inside;
+            let out = refract(inside, -far, n);
+            let row = [UP, v].concat().into_iter().chain([index]).collect::<Vec<f32>>();
+            let found = DVec3::from_slice(&call(&ball, &row)[0]);
+            assert!((found - out).length() < 2e-6, "{cos} {n}: {found} {out}");
+            assert!((call(&path, &row)[0][0] + inside.z).abs() < 1e-6, "{cos} {n}");
+            if index == 1.333 {
+                // Twice refracted, 2 (a - b), and once mirrored, pi - 2 b more.
+                let (a, b) = (eye.z.acos(), (-inside.z).acos());
+                least = least.min(2.0 * (a - b) + PI - 2.0 * b);
+            }
+        }
+    }
+    assert!(((PI - least).to_degrees() - 42.0).abs() < 0.2, "{}", (PI - least).to_degrees());
+}
+
+/// Nine coefficients of any light, by integration over the sphere, against the integral of its cosine: what is left are the bands above.
+#[test]
+fn spherical_harmonics_are_near_the_integral() {
+    let irradiance = function("irradiance", "irradiance(vec3,vec3[9])", &[]);
+    let sphere: Vec<DVec3> = (0..20_000)
+        .map(|i| {
+            let y = 1.0 - (2.0 * f64::from(i) + 1.0) / 20_000.0;
+            let (r, a) = ((1.0 - y * y).sqrt(), f64::from(i) * 2.399_963_229_728_653);
+            DVec3::new(r * a.cos(), y, r * a.sin())
+        })
+        .collect();
+    let weight = 4.0 * PI / 20_000.0;
+    // A sky with a wide lamp and a colored horizon.
+    let light = |d: DVec3| 0.3 + 0.2 * d.y + 2.0 * d.dot(DVec3::new(0.6, 0.64, 0.48)).max(0.0).powi(8);
+    let basis = |d: DVec3| {
+        let (s3, s15, s5) = ((3.0 / (4.0 * PI)).sqrt(), (15.0 / (4.0 * PI)).sqrt(), (5.0 / (16.0 * PI)).sqrt());
+        [
+            0.5 / PI.sqrt(),
+            s3 * d.y,
+            s3 * d.z,
+            s3 * d.x,
+            s15 * d.x * d.y,
+            s15 * d.y * d.z,
+            s5 * (3.0 * d.z * d.z - 1.0),
+            s15 * d.x * d.z,
+            0.5 * s15 * (d.x * d.x - d.y * d.y),
+        ]
+    };
+    let mut coefficients = [[0.0_f32; 3]; 9];
+    for (index, coefficient) in coefficients.iter_mut().enumerate() {
+        let sum: f64 = sphere.iter().map(|d| light(*d) * basis(*d)[index] * weight).sum();
+        *coefficient = [sum as f32; 3];
+    }
+    for n in sphere.iter().step_by(997) {
+        let row: Vec<f32> = n.to_array().map(|x| x as f32).into_iter().chain(coefficients.concat()).collect();
+        let found = call(&irradiance, &row)[0][0];
+        let integral: f64 = sphere.iter().map(|d| light(*d) * d.dot(*n).max(0.0) * weight / PI).sum();
+        // Ramamoorthi and Hanrahan 2001: an error of a few percent at most.
+        assert!((found - integral).abs() < 0.03 * integral.max(0.3), "{n}: {found} {integral}");
     }
 }
 

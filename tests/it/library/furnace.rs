@@ -73,14 +73,17 @@ vec3 kept_across(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
 { return kept(a, vec3(0.0, 1.0, 0.0), N, L, V, r, 0.6); }
 ";
 
+/// The parameters of a blend: the tables, normal, light and eye, roughness.
+pub(super) const TABLED: &str = "(sampler2D,sampler2D,vec3,vec3,vec3,float)";
+
 fn blend(name: &str) -> Evaluator {
     let compiler = crate::support::compiler().with_includes(glisten::library::Embedded);
-    let signature = format!("{name}(sampler2D,sampler2D,vec3,vec3,vec3,float)");
+    let signature = format!("{name}{TABLED}");
     Evaluator::new(&compiler, BLENDS, &signature, &[]).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// The texture of a pattern.
-fn pattern(name: &str) -> Arc<Texture> {
+pub(super) fn pattern(name: &str) -> Arc<Texture> {
     let vertex = "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n";
     let fragment = "#version 150\nuniform sampler2D a;\nout vec4 c;\nvoid main() { c = texture(a, vec2(0.5)); }\n";
     let scene = format!(
@@ -92,7 +95,7 @@ fn pattern(name: &str) -> Arc<Texture> {
 }
 
 /// The mean of pi f N.L over the half sphere.
-fn returned(factor: &Evaluator, tables: &[Arc<Texture>], eye: f64, roughness: f32) -> f64 {
+pub(super) fn returned(factor: &Evaluator, tables: &[Arc<Texture>], eye: f64, roughness: f32) -> f64 {
     const HEIGHTS: u32 = 256;
     const TURNS: u32 = 48;
     let direction = |cos: f64, turn: f64| {

@@ -57,3 +57,33 @@ fn the_horizon_cuts_lights() {
     let found = call(&sphere, &[UP.as_slice(), &[0.6, 0.0, 0.8, 0.25]].concat())[0][0];
     assert!((found - 0.0625 * 0.8).abs() < 1e-3, "{found}");
 }
+
+/// The directional albedo by the table of Heitz, Dupuy, Hill and Neubelt (selfshadow/ltc_code, ltc.js):
+/// roughness, cosine, the light that a white mirror returns, and the part of Schlick's term. They have few samples a texel.
+#[test]
+fn the_albedo_is_that_of_the_published_table() {
+    const PUBLISHED: &[[f64; 4]] = &[
+        [32.0 / 63.0, 1.0, 0.912293, 3.11924e-5],
+        [32.0 / 63.0, 0.742001, 0.88238, 0.00296637],
+        [32.0 / 63.0, 0.370118, 0.843912, 0.0454447],
+        [32.0 / 63.0, 0.152431, 0.855767, 0.112969],
+        [44.0 / 63.0, 1.0, 0.700375, 4.77335e-5],
+        [44.0 / 63.0, 0.742001, 0.691396, 0.00207127],
+        [44.0 / 63.0, 0.370118, 0.732555, 0.0202841],
+        [44.0 / 63.0, 0.152431, 0.830842, 0.0514838],
+        [1.0, 1.0, 0.306974, 3.39596e-5],
+        [1.0, 0.742001, 0.366732, 0.000672483],
+        [1.0, 0.370118, 0.515819, 0.00590506],
+        [1.0, 0.152431, 0.700191, 0.0179113],
+    ];
+    let albedo = function("ltc", "ltcAlbedo(sampler2D,vec3,vec3,float,vec3)", &[]);
+    let table = &errors::tables().expect("the scene is good")[1..];
+    for [roughness, cosine, all, grazing] in PUBLISHED {
+        let eye = [(1.0 - cosine * cosine).max(0.0).sqrt() as f32, 0.0, *cosine as f32];
+        let row = [&[0.0, 0.0, 1.0][..], &eye, &[*roughness as f32, 1.0, 0.0, 0.5]].concat();
+        let found = albedo.reference(&row, table, glisten_reference::Precision::F64).expect("it is called").remove(0);
+        for (found, wanted) in found.iter().zip([*all, *grazing, 0.5 * (all + grazing)]) {
+            assert!((found - wanted).abs() < 1e-2, "{roughness} {cosine}: {found} {wanted}");
+        }
+    }
+}

@@ -7,6 +7,7 @@ mod energy;
 mod evaluator;
 #[cfg(feature = "cli")]
 mod exports;
+mod faults;
 mod films;
 mod furnace;
 mod laws;

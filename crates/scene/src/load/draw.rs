@@ -105,7 +105,8 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let generated = generated.map(|made| (made.stage, made.pipeline));
     let fixed = fixed.map(|state| Arc::new(FixedDraw { state, switches, generated }));
     let own_material = material.and_then(|(_, node)| node.get_ref().as_table());
-    let textures = load_textures(loader, table, own_material, &program, (conventional, &maps), place);
+    let textures =
+        load_textures(loader, (table, own_material, around.environment), &program, (conventional, &maps), place);
     let dynamic = load_dynamic(&mut loader.reader, table, &program);
     // Whatever else is wrong was reported before a mesh or a program that cannot be drawn with ends the draw.
     possible?;
@@ -311,7 +312,8 @@ fn own_macros(
     let is_standard = files.iter().any(|(_, name, _)| library_file(name) == Some("standard.frag"));
     let names = if is_standard { macros(table, around.material) } else { Vec::new() };
     let cones = around.lighting.has_cones().then_some("GLISTEN_CONES");
-    let flags = names.into_iter().chain(cones).map(|name| (name, "1".to_owned()));
+    let environment = (is_standard && around.environment.is_some()).then_some("GLISTEN_SURROUNDED");
+    let flags = names.into_iter().chain(cones).chain(environment).map(|name| (name, "1".to_owned()));
     flags.chain(around.lighting.room().map(|room| ("GLISTEN_LIGHTS", room.to_string()))).collect()
 }
 

@@ -1,5 +1,5 @@
-//! The layers of a material that few have: fibers, brushed metal, thin films, glass, textures of coats and of what a dielectric mirrors,
-//! places of textures.
+//! The layers of a material that few have: fibers, brushed metal, thin films, glass, leaves, textures of coats and of what a dielectric
+//! mirrors, places of textures.
 //!
 //! *In:* the table of a material. *Out:* the macros of the program `standard` for it, and the values of the uniforms. *Holds:* a layer is
 //! compiled only for a material with one of its keys, so that no other pays for it; the tables here are the only list of them.
@@ -29,8 +29,31 @@ const MACROS: &[(&str, &[&str])] = &[
     ("GLISTEN_COAT_MAPS", &["clearcoat_map", "clearcoat_roughness_map"]),
     ("GLISTEN_COAT_NORMALS", &["clearcoat_normal_map", "clearcoat_normal_scale"]),
     ("GLISTEN_DIELECTRIC_MAPS", &["dielectric_map", "dielectric_strength_map"]),
-    ("GLISTEN_GLASS", &["transmission", "transmission_pass", "absorption", "transmission_map", "thickness_map"]),
+    ("GLISTEN_DIELECTRIC_STRENGTH", &["dielectric_strength", "dielectric_map", "dielectric_strength_map"]),
+    (
+        "GLISTEN_GLASS",
+        &[
+            "transmission",
+            "transmission_pass",
+            "absorption",
+            "refraction",
+            "dispersion",
+            "transmission_map",
+            "thickness_map",
+        ],
+    ),
+    ("GLISTEN_REFRACTION", &["refraction", "dispersion"]),
     ("GLISTEN_GLASS_MAPS", &["transmission_map", "thickness_map"]),
+    (
+        "GLISTEN_LEAF",
+        &[
+            "diffuse_transmission",
+            "diffuse_transmission_color",
+            "diffuse_transmission_map",
+            "diffuse_transmission_color_map",
+        ],
+    ),
+    ("GLISTEN_LEAF_MAPS", &["diffuse_transmission_map", "diffuse_transmission_color_map"]),
 ];
 
 /// The kind of a key's value.
@@ -61,6 +84,11 @@ const VALUES: &[(&str, &str, Kind)] = &[
     ("transmission", "finish.transmission", Kind::Number(0.0)),
     ("absorption", "finish.absorption", Kind::Color([0.0; 3])),
     ("transmission_pass", "finish.transmission_pass", Kind::Choice(PASSES)),
+    ("refraction", "finish.refraction", Kind::Number(1.5)),
+    ("dispersion", "finish.dispersion", Kind::Number(0.0)),
+    ("dielectric_strength", "finish.dielectric_strength", Kind::Number(1.0)),
+    ("diffuse_transmission", "finish.leaf", Kind::Number(0.0)),
+    ("diffuse_transmission_color", "finish.leaf_color", Kind::Color([1.0; 3])),
 ];
 
 /// The textures of layers.
@@ -77,10 +105,12 @@ pub(super) const MAPS: &[&str] = &[
     "dielectric_strength_map",
     "transmission_map",
     "thickness_map",
+    "diffuse_transmission_map",
+    "diffuse_transmission_color_map",
 ];
 
 /// A sampler of the program `standard` that has a table, and the pattern that it is.
-pub(super) const TABLES: &[(&str, &str)] = &[("sheen_table", "sheen_albedo")];
+pub(super) const TABLES: &[(&str, &str)] = &[("sheen_table", "sheen_albedo"), ("environment_table", "ltc_albedo")];
 
 /// The textures that may have a `transform`, besides those of layers: members of the uniform `places`.
 const PLACED: &[&str] = &["decal", "metallic_roughness", "emission_map", "occlusion_map", "normal_map"];

@@ -78,6 +78,7 @@ const KEYS: &[&str] = &[
     "gallery",
     "stability",
     "scene",
+    "environment",
 ];
 
 /// The result of loading a scene.
@@ -106,6 +107,7 @@ pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler:
         models: BTreeMap::new(),
         shared: None,
         tables: BTreeMap::new(),
+        environment: None,
         casters: Vec::new(),
         waiting: Vec::new(),
         io_error: false,
@@ -136,13 +138,18 @@ struct ProgramKey {
 struct Surroundings<'t, 'i> {
     camera: Option<&'t DeTable<'i>>,
     material: Option<&'t Node<'i>>,
+    /// The map of the light from all around.
+    environment: Option<&'t Node<'i>>,
     lighting: Lighting,
     framebuffer: Framebuffer,
 }
 
+/// The table of the light from all around, and the sampler of programs that gets it.
+const ENVIRONMENT: &str = "environment";
+
 /// Whether a scene says how it is lit.
 fn is_lit(table: &DeTable<'_>) -> bool {
-    table.contains_key("light") || table.contains_key("global_ambient")
+    ["light", "global_ambient", ENVIRONMENT].iter().any(|key| table.contains_key(*key))
 }
 
 /// The file that a scene refers to with `<glisten/programs/phong.frag>`.
@@ -187,6 +194,8 @@ struct Loader<'a> {
     shared: Option<(SharedTextures, u64)>,
     /// The tables of the library's programs, by their patterns.
     tables: BTreeMap<&'static str, Arc<Texture>>,
+    /// The map of the environment, once a draw has it; `None` inside for one that cannot be loaded.
+    environment: Option<Option<Arc<Texture>>>,
     /// The meshes of the draws so far, in their places, for maps of depths.
     casters: Vec<Option<depths::Caster>>,
     /// The maps of depths that the draws so far ask for.
@@ -210,7 +219,9 @@ impl Loader<'_> {
         let framebuffer = self.framebuffer(table)?;
         let mut lighting = Lighting::load(&mut self.reader, table);
         let camera = self.reader.table_at(table, "camera");
-        let wants = imported::Wants { camera: camera.is_none(), lights: !is_lit(table) };
+        let environment = table.get(ENVIRONMENT);
+        let wants =
+            imported::Wants { camera: camera.is_none(), lights: !is_lit(table), surrounded: environment.is_some() };
         let written = imported::write(self, table, wants);
         let read: Option<Vec<imported::Imported<'_>>> =
             written.as_ref().map(|all| all.iter().map(|one| imported::read(&mut self.reader, one)).collect());
@@ -220,6 +231,7 @@ impl Loader<'_> {
         let around = Surroundings {
             camera: camera.or_else(|| read.iter().find_map(|one| one.camera.as_ref())),
             material: table.get("material"),
+            environment,
             lighting,
             framebuffer,
         };
@@ -266,6 +278,13 @@ impl Loader<'_> {
 
     /// Warns about lights and a material that no program uses.
     fn warn_unlit(&mut self, table: &DeTable<'_>, draws: &[Draw]) {
+        let has_map = |draw: &Draw| draw.program.interface.samplers.iter().any(|slot| slot.name == ENVIRONMENT);
+        if let Some((name, _)) = table.get_key_value(ENVIRONMENT).filter(|_| !draws.iter().any(has_map)) {
+            let span = self.reader.span_of(name);
+            let message = format!("no program of the scene declares a sampler `{ENVIRONMENT}`");
+            let diagnostic = Diagnostic::new(&SCENE_UNUSED_LIGHT, span, message).here("changes nothing");
+            self.reader.report(diagnostic.help("`program = \"standard\"` does"));
+        }
         for (key, root) in [("light", "light"), ("material", "material"), ("global_ambient", "global_ambient")] {
             let Some((name, _)) = table.get_key_value(key) else { continue };
             let asked = |draw: &Draw| {

@@ -1,13 +1,12 @@
 //! Loads `[draw.textures]` as [`Texture`]s.
 
-use super::Loader;
 use super::depths::{self, DepthMap, Waiting};
 use super::layers;
 use super::material::has_texture;
 use super::mipmaps::chain;
 use super::names::{FILTERS, TEXTURE_KINDS, TextureKind, kind_name};
 use super::paste::{self, Lines};
-use super::{patterns, profiles};
+use super::{ENVIRONMENT, Loader, patterns, profiles};
 use crate::geometry::gltf_image;
 use crate::model::{Compare, Filter, Sampling, Texels, Texture, TextureLevel, Wrap};
 use crate::picture::{Image, Transfer};
@@ -58,12 +57,11 @@ const MAX_TEXELS: u64 = 1 << 25;
 /// The largest number of texels of the first levels of all textures that imported draws have.
 const MAX_SHARED_TEXELS: u64 = 1 << 27;
 
-/// The texture of each sampler slot of the program, in order: the draw's own, or the material's, or, for a sampler of
+/// The texture of each sampler slot of the program, in order: the draw's own, or the material's, or the scene's environment, or, for a sampler of
 /// one of the library's programs (`conventional`), a white one.
 pub(super) fn load_textures(
     loader: &mut Loader<'_>,
-    draw: &DeTable<'_>,
-    material: Option<&DeTable<'_>>,
+    (draw, material, environment): (&DeTable<'_>, Option<&DeTable<'_>>, Option<&Node<'_>>),
     program: &Program,
     (conventional, maps): (bool, &[DepthMap]),
     place: Span,
@@ -113,6 +111,12 @@ pub(super) fn load_textures(
             *texture = shared_texture(loader, node, &slot.name, kind);
         }
     }
+    for ((slot, texture), (given, &kind)) in slots.iter().zip(&mut textures).zip(given.iter_mut().zip(&kinds)) {
+        if let Some(node) = environment.filter(|_| !*given && slot.name == ENVIRONMENT) {
+            *given = true;
+            *texture = surroundings(loader, node, kind);
+        }
+    }
     warn_unplaced(loader, (draw, material), program);
     let mut unset = Vec::new();
     for (((slot, texture), given), kind) in slots.iter().zip(&mut textures).zip(given).zip(kinds) {
@@ -130,6 +134,25 @@ pub(super) fn load_textures(
     }
     warn_unset(loader, draw, &unset, place);
     textures
+}
+
+/// The map of an environment, which all draws share: squares on top of each other.
+fn surroundings(loader: &mut Loader<'_>, node: &Node<'_>, kind: SamplerType) -> Option<Arc<Texture>> {
+    if let Some(known) = &loader.environment {
+        return known.clone();
+    }
+    let texture = load_texture(loader, node, ENVIRONMENT, kind).map(Arc::new);
+    let level = texture.as_ref().and_then(|texture| texture.levels.first());
+    let wrong = level.filter(|level| level.height % level.width.max(1) != 0).map(|level| (level.width, level.height));
+    if let Some((width, height)) = wrong {
+        let span = loader.reader.span_of(node);
+        let message = format!("a map of {width}x{height} texels has no squares on top of each other");
+        let diagnostic = Diagnostic::new(&SCENE_WRONG_SIZE, span, message).here("not light from all around");
+        loader.reader.report(diagnostic.help("`glisten lib prefilter` makes the map of a panorama"));
+    }
+    let texture = texture.filter(|_| wrong.is_none());
+    loader.environment = Some(texture.clone());
+    texture
 }
 
 /// The table of a sampler of the library's programs, which all draws share.

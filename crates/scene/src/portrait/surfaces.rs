@@ -18,7 +18,7 @@ pub(super) fn write(
     (path, name, files): (&str, &str, &dyn FileSource),
     remarks: &mut Vec<String>,
 ) -> Result<(), String> {
-    let contents = gltf_contents(bytes)?;
+    let contents = gltf_contents(bytes, false)?;
     remarks.extend(contents.remarks);
     let mut draws: Vec<(usize, Surface)> = Vec::new();
     for look in model.used() {

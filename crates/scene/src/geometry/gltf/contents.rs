@@ -23,11 +23,11 @@ pub(crate) struct Contents {
     pub(crate) remarks: Vec<String>,
 }
 
-/// Reads the contents of a file.
+/// Reads the contents of a file. `surrounded` is whether a scene says what light comes from all around.
 ///
 /// # Errors
 /// A sentence about the file.
-pub(crate) fn contents(bytes: &[u8]) -> Result<Contents, String> {
+pub(crate) fn contents(bytes: &[u8], surrounded: bool) -> Result<Contents, String> {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let (root, _) = super::document(text)?;
     super::check_extensions(&root)?;
@@ -50,7 +50,7 @@ pub(crate) fn contents(bytes: &[u8]) -> Result<Contents, String> {
     }
     for (number, material) in root.materials.iter().enumerate() {
         let name = material.name.clone().unwrap_or_else(|| format!("material {number}"));
-        let read = surface::of(&root, material, &name, &mut contents.remarks);
+        let read = surface::of(&root, (material, surrounded), &name, &mut contents.remarks);
         contents.materials.push(read.map_err(|error| format!("`{name}`: {error}"))?);
     }
     contents.materials.push(Surface::default());

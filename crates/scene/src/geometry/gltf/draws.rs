@@ -14,9 +14,9 @@ pub(crate) fn is_blended(surface: &Surface) -> bool {
     surface.covering == Covering::Blend || is_glass(surface)
 }
 
-/// Whether light passes through a surface.
+/// Whether what is behind a surface is seen through it. A body that bends light shows only what is all around.
 fn is_glass(surface: &Surface) -> bool {
-    !surface.is_unlit && surface.layers.iter().any(|(key, _)| *key == "transmission")
+    !surface.is_unlit && surface.has("transmission") && !surface.has("refraction")
 }
 
 /// The values of `transmission_pass` of a surface's draws.

@@ -62,27 +62,51 @@ const LAYERS: &[Layer] = &[
             ("iridescenceThicknessMinimum", "iridescence_thinnest", Kind::Size(100.0)),
         ],
     },
+    Layer {
+        extension: LEAF,
+        rows: &[
+            ("diffuseTransmissionFactor", "diffuse_transmission", Kind::Part(0.0)),
+            ("diffuseTransmissionColorFactor", LEAF_COLOR, Kind::Color([1.0; 3])),
+        ],
+    },
     Layer { extension: TRANSMISSION, rows: &[("transmissionFactor", "transmission", Kind::Part(0.0))] },
 ];
 
 const TRANSMISSION: &str = "KHR_materials_transmission";
+const LEAF: &str = "KHR_materials_diffuse_transmission";
+const LEAF_COLOR: &str = "diffuse_transmission_color";
+const VOLUME: &str = "KHR_materials_volume";
 
 /// How little of a color a volume leaves: e to the power of minus this.
 const DARKEST: f64 = 64.0;
 
-/// The settings of all layers that a material has.
+/// The settings of all layers that a material has. A thick body bends light if it is `surrounded` by some.
 ///
 /// # Errors
 /// A sentence about one of them.
-pub(super) fn of(material: &Material) -> Result<Vec<Setting>, String> {
+pub(super) fn of(material: &Material, surrounded: bool) -> Result<Vec<Setting>, String> {
     let mut settings = Vec::new();
+    let specular = table(material, "KHR_materials_specular").map(|table| number(table, "specularFactor", 1.0));
+    let strength = specular.transpose()?.map(|strength| strength.clamp(0.0, 1.0));
+    settings
+        .extend(strength.filter(|strength| *strength < 1.0).map(|strength| ("dielectric_strength", vec![strength])));
     for layer in LAYERS {
         let Some(table) = table(material, layer.extension) else { continue };
-        let own = layer.rows.iter().map(|row| setting(table, row)).collect::<Result<Vec<Setting>, String>>()?;
-        if is_there(&own) {
-            settings.extend(own);
-            if layer.extension == TRANSMISSION {
-                settings.extend(absorption(material)?);
+        let mut own = layer.rows.iter().map(|row| setting(table, row)).collect::<Result<Vec<Setting>, String>>()?;
+        if !is_there(&own) {
+            continue;
+        }
+        if layer.extension == LEAF {
+            let absorbed = absorption(material)?.unwrap_or_default();
+            for (_, values) in own.iter_mut().filter(|(key, _)| *key == LEAF_COLOR) {
+                values.iter_mut().zip(&absorbed).for_each(|(value, absorbed)| *value *= (-absorbed).exp());
+            }
+        }
+        settings.extend(own);
+        if layer.extension == TRANSMISSION {
+            settings.extend(absorption(material)?.map(|absorbed| ("absorption", absorbed)));
+            if surrounded && is_thick(material)? {
+                settings.extend(refraction(material)?);
             }
         }
     }
@@ -93,9 +117,29 @@ pub(super) fn of(material: &Material) -> Result<Vec<Setting>, String> {
     Ok(settings)
 }
 
+/// Whether a material is that of a body, and not of a thin wall.
+///
+/// # Errors
+/// A sentence about its thickness.
+pub(super) fn is_thick(material: &Material) -> Result<bool, String> {
+    let Some(volume) = table(material, VOLUME) else { return Ok(false) };
+    Ok(number(volume, "thicknessFactor", 0.0)? > 0.0)
+}
+
+/// How a body bends light.
+fn refraction(material: &Material) -> Result<Vec<Setting>, String> {
+    let given = |extension: &str, key: &str, default: f64| {
+        table(material, extension).map_or(Ok(default), |table| number(table, key, default))
+    };
+    let index = given("KHR_materials_ior", "ior", 1.5)?.max(1.0);
+    let dispersion = given("KHR_materials_dispersion", "dispersion", 0.0)?;
+    let split = (dispersion > 0.0).then(|| ("dispersion", vec![dispersion]));
+    Ok([("refraction", vec![index])].into_iter().chain(split).collect())
+}
+
 /// The light that a volume takes: e^-x of it is left, for x = -ln(color) thickness / distance.
-fn absorption(material: &Material) -> Result<Option<Setting>, String> {
-    let Some(volume) = table(material, "KHR_materials_volume") else { return Ok(None) };
+fn absorption(material: &Material) -> Result<Option<Vec<f64>>, String> {
+    let Some(volume) = table(material, VOLUME) else { return Ok(None) };
     let thickness = number(volume, "thicknessFactor", 0.0)?.max(0.0);
     let color = triple(volume, "attenuationColor", [1.0; 3])?;
     // Without a distance, it takes nothing.
@@ -106,7 +150,7 @@ fn absorption(material: &Material) -> Result<Option<Setting>, String> {
     let part = |channel: f64| (-channel.clamp(0.0, 1.0).ln() * per_length).clamp(0.0, DARKEST);
     // 0 times infinity is for a volume without thickness.
     let parts = color.map(|channel| if per_length > 0.0 { part(channel) } else { 0.0 });
-    Ok(Some(("absorption", parts.map(|part| part + 0.0).to_vec())))
+    Ok(Some(parts.map(|part| part + 0.0).to_vec()))
 }
 
 /// Whether an extension adds anything to a material.

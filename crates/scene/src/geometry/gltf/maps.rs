@@ -70,10 +70,17 @@ const OF_EXTENSIONS: &[(&str, &str, Row)] = &[
     ),
     ("KHR_materials_specular", "specularTexture", ("dielectric_strength_map", "the strength of the reflection", false)),
     ("KHR_materials_specular", "specularColorTexture", ("dielectric_map", "the color of the reflection", true)),
+    (LEAF, "diffuseTransmissionTexture", ("diffuse_transmission_map", "the diffuse transmission", false)),
+    (
+        LEAF,
+        "diffuseTransmissionColorTexture",
+        ("diffuse_transmission_color_map", "the color of the diffuse transmission", true),
+    ),
     (TRANSMISSION, "transmissionTexture", ("transmission_map", "the transmission", false)),
     (VOLUME, "thicknessTexture", ("thickness_map", "the thickness", false)),
 ];
 
+const LEAF: &str = "KHR_materials_diffuse_transmission";
 const TRANSMISSION: &str = "KHR_materials_transmission";
 const VOLUME: &str = "KHR_materials_volume";
 

@@ -8,6 +8,7 @@ mod accessor;
 mod buffers;
 mod contents;
 mod draws;
+mod instances;
 mod lamps;
 mod layers;
 mod looks;
@@ -33,6 +34,7 @@ pub(crate) use surface::Surface;
 static HARMLESS: &[&str] = &[
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
+    instances::EXTENSION,
     "KHR_texture_transform",
     "KHR_texture_basisu",
     "EXT_texture_webp",
@@ -62,7 +64,10 @@ pub(super) fn read(path: &str, bytes: &[u8], files: &dyn FileSource) -> Result<M
         let Some(found) = root.nodes.get(node) else { continue };
         let world = nodes.world(node);
         if let Some(mesh) = found.mesh {
-            builder.mesh(mesh, found.skin, world, &nodes).map_err(|error| format!("node {node}: {error}"))?;
+            let named = |error: String| format!("node {node}: {error}");
+            for copy in builder.copies(found).map_err(named)? {
+                builder.mesh(mesh, found.skin, world * copy, &nodes).map_err(named)?;
+            }
         }
         camera = camera.or_else(|| model_camera(&root, found.camera?, world));
     }

@@ -8,13 +8,18 @@ use super::super::model::Part;
 use super::super::soup::{Corner, Soup};
 use super::accessor::{self, Numbers};
 use super::buffers::Buffers;
+use super::instances;
 use super::maps;
 use super::nodes::Nodes;
 use glam::{DMat3, DMat4, DVec3};
 use gltf::json::mesh::{Mesh, Mode, Primitive, Semantic};
+use gltf::json::scene::Node;
 use gltf::json::skin::Skin;
 use gltf::json::validation::Checked;
 use gltf::json::{Index, Root};
+
+/// The most vertices of a file: those of triangles that share none.
+const MAX_VERTICES: usize = 3 * MAX_TRIANGLES;
 
 /// Collects the triangles of all meshes.
 pub(super) struct Builder<'a> {
@@ -22,12 +27,13 @@ pub(super) struct Builder<'a> {
     buffers: Buffers<'a>,
     parts: Vec<Part>,
     n_triangles: usize,
+    n_vertices: usize,
     n_skipped: usize,
 }
 
 impl<'a> Builder<'a> {
     pub(super) fn new(root: &'a Root, buffers: Buffers<'a>) -> Self {
-        Self { root, buffers, parts: Vec::new(), n_triangles: 0, n_skipped: 0 }
+        Self { root, buffers, parts: Vec::new(), n_triangles: 0, n_vertices: 0, n_skipped: 0 }
     }
 
     /// The parts, and what was left out.
@@ -37,6 +43,11 @@ impl<'a> Builder<'a> {
             n => Some(format!("{n} of its primitives are points or lines, which are left out")),
         };
         (self.parts, skipped.into_iter().collect())
+    }
+
+    /// The matrices of the copies of a node's mesh to its node.
+    pub(super) fn copies(&mut self, node: &Node) -> Result<Vec<DMat4>, String> {
+        instances::of(self.root, &mut self.buffers, node)
     }
 
     /// Adds the primitives of a mesh.
@@ -92,6 +103,11 @@ impl<'a> Builder<'a> {
         };
         let mut soup = Soup { positions: positions.rows([0.0; 3]), ..Soup::default() };
         let count = soup.positions.len();
+        // Copies would let a small file have any number of them.
+        self.n_vertices += count;
+        if self.n_vertices > MAX_VERTICES {
+            return Err(format!("the file has more than {MAX_VERTICES} vertices with all copies of its meshes"));
+        }
         let of_count = |rows: Option<Numbers>| rows.filter(|rows| rows.values.len() == count * rows.width);
         let normals = of_count(self.numbers(primitive, Semantic::Normals)?);
         let tangents = of_count(self.numbers(primitive, Semantic::Tangents)?);

@@ -41,6 +41,13 @@ pub(crate) enum Covering {
     Blend,
 }
 
+impl Surface {
+    /// Whether an extension adds a setting.
+    pub(super) fn has(&self, wanted: &str) -> bool {
+        self.layers.iter().any(|(key, _)| *key == wanted)
+    }
+}
+
 impl Default for Surface {
     /// A material without any key (§3.9.6).
     fn default() -> Self {
@@ -63,14 +70,16 @@ impl Default for Surface {
     }
 }
 
-/// Extensions that change the picture and that the standard program does not have.
-static MISSING: &[(&str, &str)] = &[
-    ("KHR_materials_dispersion", "it splits no light"),
-    ("KHR_materials_diffuse_transmission", "no light passes through it"),
-];
-
 /// The surface of a material.
-pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec<String>) -> Result<Surface, String> {
+///
+/// # Errors
+/// A sentence about one of its numbers.
+pub(super) fn of(
+    root: &Root,
+    (material, surrounded): (&Material, bool),
+    name: &str,
+    remarks: &mut Vec<String>,
+) -> Result<Surface, String> {
     let extension = |key: &str| material.extensions.as_ref().and_then(|all| all.others.get(key));
     let given = &material.pbr_metallic_roughness;
     let [r, g, b, alpha] = finite(given.base_color_factor.0)?;
@@ -86,7 +95,7 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
         roughness: part(given.roughness_factor.0)?,
         emission: finite(material.emissive_factor.0)?.map(|channel| channel * strength),
         dielectric: dielectric(extension("KHR_materials_ior"), extension("KHR_materials_specular"))?,
-        layers: layers::of(material)?,
+        layers: layers::of(material, surrounded)?,
         is_unlit: material.extensions.as_ref().is_some_and(|all| all.unlit.is_some()),
         is_two_sided: material.double_sided,
         ..Surface::default()
@@ -94,17 +103,18 @@ pub(super) fn of(root: &Root, material: &Material, name: &str, remarks: &mut Vec
     if surface.emission.iter().any(|channel| !(*channel as f32).is_finite()) {
         return Err("its emission is not finite".to_owned());
     }
-    let left_out = MISSING.iter().filter(|(key, _)| extension(key).is_some());
-    remarks.extend(left_out.map(|(key, what)| format!("`{name}` is drawn without {key}: {what}")));
     if material.extensions.as_ref().is_some_and(|all| all.pbr_specular_glossiness.is_some()) {
         remarks.push(format!(
             "`{name}` is by KHR_materials_pbrSpecularGlossiness, and is drawn by its metal and roughness instead"
         ));
     }
-    if surface.layers.iter().any(|(key, _)| *key == "transmission") {
-        let volume = extension("KHR_materials_volume").unwrap_or(&none);
-        if number(volume, "thicknessFactor", 0.0)? > 0.0 {
-            remarks.push(format!("light passes straight through `{name}`: it refracts nothing"));
+    if surface.has("refraction") {
+        remarks.push(format!("`{name}` shows the environment through itself, bent as by a ball, and nothing else"));
+    } else if surface.has("transmission") {
+        if layers::is_thick(material)? {
+            remarks.push(format!(
+                "light passes straight through `{name}`: it refracts nothing, as the scene has no `[environment]`"
+            ));
         }
         if surface.roughness > 0.0 {
             remarks.push(format!("what is behind `{name}` is not blurred by its roughness"));
@@ -132,16 +142,15 @@ fn covering(material: &Material) -> Result<Covering, String> {
     })
 }
 
-/// The light at normal incidence that a dielectric mirrors: by its index of refraction, times a color.
+/// The light at normal incidence that a dielectric mirrors: by its index of refraction, times a color. Its strength is a layer.
 fn dielectric(ior: Option<&Value>, specular: Option<&Value>) -> Result<[f64; 3], String> {
     let ior = ior.map_or(Ok(1.5), |table| number(table, "ior", 1.5))?;
     let none = Value::Null;
     let specular = specular.unwrap_or(&none);
-    let strength = number(specular, "specularFactor", 1.0)?.clamp(0.0, 1.0);
     let color = triple(specular, "specularColorFactor", [1.0; 3])?;
     // 0 is for a surface that mirrors everything (KHR_materials_ior).
     let mirrored = if ior > 0.0 { ((ior - 1.0) / (ior + 1.0)).powi(2) } else { 1.0 };
-    Ok(color.map(|channel| (mirrored * channel.max(0.0)).min(1.0) * strength))
+    Ok(color.map(|channel| (mirrored * channel.max(0.0)).min(1.0)))
 }
 
 fn finite<const N: usize>(numbers: [f32; N]) -> Result<[f64; N], String> {

@@ -19,7 +19,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-const KEYS: &[&str] = &["gltf", "camera", "lights", "transform", "material", "materials", "draw"];
+const KEYS: &[&str] = &["gltf", "camera", "lights", "refraction", "transform", "material", "materials", "draw"];
 
 /// The most draws of a file.
 const MAX_DRAWS: usize = 1024;
@@ -29,6 +29,8 @@ const MAX_DRAWS: usize = 1024;
 pub(super) struct Wants {
     pub(super) camera: bool,
     pub(super) lights: bool,
+    /// Whether it says what light comes from all around, which a thick body bends.
+    pub(super) surrounded: bool,
 }
 
 /// A file as the text of a scene, and what takes precedence over it.
@@ -74,7 +76,8 @@ pub(super) fn write<'t, 'i>(
         loader.reader.wrong_type(node, "scene", "a list of tables, each headed `[[scene]]`");
         return None;
     };
-    let sources: Vec<Option<Source<'t, 'i>>> = nodes.iter().map(|node| source(loader, node)).collect();
+    let sources: Vec<Option<Source<'t, 'i>>> =
+        nodes.iter().map(|node| source(loader, node, wants.surrounded)).collect();
     let sources: Vec<Source<'t, 'i>> = sources.into_iter().collect::<Option<_>>()?;
     // What is placed, of all files: cameras see all of it.
     let points: Vec<DVec3> = sources.iter().flat_map(Source::points).collect();
@@ -110,7 +113,7 @@ fn takes_lights(table: &DeTable<'_>) -> bool {
 }
 
 /// Reads the file of a table.
-fn source<'t, 'i>(loader: &mut Loader<'_>, node: &'t Node<'i>) -> Option<Source<'t, 'i>> {
+fn source<'t, 'i>(loader: &mut Loader<'_>, node: &'t Node<'i>, surrounded: bool) -> Option<Source<'t, 'i>> {
     let table = loader.reader.table(node, "scene")?;
     loader.reader.check_keys(table, "a scene of a file", KEYS);
     let Some(file) = table.get("gltf") else {
@@ -139,7 +142,8 @@ fn source<'t, 'i>(loader: &mut Loader<'_>, node: &'t Node<'i>) -> Option<Source<
         loader.reader.report(diagnostic.help("draw it as a mesh: `mesh = { file = \"..\" }` in a `[[draw]]`"));
         return None;
     }
-    let contents = match gltf_contents(&bytes) {
+    let bends = loader.reader.flag(table, "refraction", true);
+    let contents = match gltf_contents(&bytes, surrounded && bends) {
         Ok(contents) => contents,
         Err(error) => {
             loader.reader.error(&SCENE_BAD_ASSET, span, format!("`{path}`: {error}"), "not a scene that can be read");

@@ -35,7 +35,18 @@ static ROWS: &[Row] = &[
     ),
     ("`.iridescence`", "`iridescence`", "`iridescence`, `iridescence_thickness`", &["iridescenceFresnel"]),
     ("`.transmission`, thin", "`transmission`", "`transmission`, `absorption`", &["transmissionFactor"]),
-    ("`.ior`, `.specularColor`", "`fresnel`", "`dielectric`", &["fresnelNormal", "fresnelDielectric"]),
+    (
+        "`.transmission`, `.thickness`, `.dispersion`",
+        "`transmission`",
+        "`refraction`, `dispersion`, `absorption`",
+        &["transmissionSphere", "transmissionIndices", "transmissionLeft"],
+    ),
+    (
+        "`.ior`, `.specularColor`, `.specularIntensity`",
+        "`fresnel`",
+        "`dielectric`, `dielectric_strength`",
+        &["fresnelNormal", "fresnelDielectric"],
+    ),
     ("a measured metal", "`fresnel`", "none", &["fresnelConductor"]),
     ("plaster, clay, cloth without gloss", "`oren_nayar`, `burley`", "`diffuse_model = \"eon\"`", &["eonFactor"]),
     (
@@ -49,7 +60,7 @@ static ROWS: &[Row] = &[
     (
         "`scene.environment`, `PMREMGenerator`",
         "`environment`, by `glisten lib prefilter`",
-        "none",
+        "`[environment]`",
         &["environmentSpecular", "environmentRadiance"],
     ),
     (
