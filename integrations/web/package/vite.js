@@ -67,7 +67,7 @@ export default function glisten(given = {}) {
       const files = filesOf(id.slice(0, -SUFFIX.length));
       const sources = files.map((name) => {
         this.addWatchFile(name);
-        return { name, text: readFileSync(name, "utf8") };
+        return { name, text: readFileSync(name, "utf8"), stage: read(basename(name))?.stage };
       });
       const includes = (path, angled, from) => {
         const found = [...(angled ? [] : [dirname(from)]), ...folders].map((folder) => join(folder, path)).find(existsSync);

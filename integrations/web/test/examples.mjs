@@ -26,25 +26,56 @@ const address = `http://127.0.0.1:${server.address().port}/integrations/web/exam
 // SwiftShader draws by WebGPU without a GPU.
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"] });
 const seen = { errors: [] };
+// A canvas that nobody sees need not be presented: its frames go to a texture, which is read back.
+const readable = () => {
+  const frames = new WeakMap();
+  const { configure } = GPUCanvasContext.prototype;
+  GPUCanvasContext.prototype.configure = function (given) {
+    configure.call(this, given);
+    const size = [this.canvas.width, this.canvas.height];
+    const texture = given.device.createTexture({ size, format: given.format, usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+    frames.set(this.canvas, { ...given, texture });
+  };
+  GPUCanvasContext.prototype.getCurrentTexture = function () { return frames.get(this.canvas).texture; };
+  window.frameOf = async (canvas) => {
+    const { device, format, texture } = frames.get(canvas);
+    const { width, height } = texture;
+    const stride = Math.ceil((width * 4) / 256) * 256;
+    const buffer = device.createBuffer({ size: stride * height, usage: GPUBufferUsage.COPY_DST | GPUBufferUsage.MAP_READ });
+    const encoder = device.createCommandEncoder();
+    encoder.copyTextureToBuffer({ texture }, { buffer, bytesPerRow: stride }, [width, height]);
+    device.queue.submit([encoder.finish()]);
+    await buffer.mapAsync(GPUMapMode.READ);
+    const bytes = new Uint8Array(buffer.getMappedRange());
+    const order = format.startsWith("bgra") ? [2, 1, 0, 3] : [0, 1, 2, 3];
+    return Array.from({ length: width * height * 4 }, (_, at) => {
+      const [pixel, channel] = [at >> 2, at & 3];
+      return bytes[Math.floor(pixel / width) * stride + (pixel % width) * 4 + order[channel]];
+    });
+  };
+};
 const open = async (path) => {
   const page = await browser.newPage();
   page.setDefaultTimeout(120000);
   page.on("pageerror", (error) => seen.errors.push(`${path}: ${error.message}`));
+  await page.addInitScript(readable);
   await page.goto(`${address}/${path}`);
   await page.waitForFunction(() => document.body.dataset.ready);
   return page;
 };
-// How many colors a canvas shows, as it is on the screen.
-const picture = async (page, selector) => (await page.locator(selector).screenshot()).toString("base64");
-const pixels = (page, pictures) => page.evaluate(async (pictures) => {
-  const read = async (text) => {
-    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${text}`)).blob());
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
-    context.drawImage(bitmap, 0, 0);
-    return context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+// The pixels of canvases after `draw`, in the frame in which they are drawn.
+const pixels = (page, selectors, draw = "") => page.evaluate(async ([selectors, draw]) => {
+  const read = (canvas) => {
+    const bitmap = new OffscreenCanvas(canvas.width, canvas.height);
+    const context = bitmap.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    return Array.from(context.getImageData(0, 0, canvas.width, canvas.height).data);
   };
-  return Promise.all(pictures.map(async (one) => Array.from(await read(one))));
-}, pictures);
+  await new Promise(requestAnimationFrame);
+  if (draw) window.eval(draw);
+  const canvases = selectors.map((selector) => document.querySelector(selector));
+  return Promise.all(canvases.map((canvas) => (canvas.getContext("webgpu") ? window.frameOf(canvas) : read(canvas))));
+}, [selectors, draw]);
 const colors = (data) => {
   const found = new Set();
   for (let at = 0; at < data.length; at += 4) found.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
@@ -58,19 +89,17 @@ try {
   seen.told = await typed.textContent("#said");
   await typed.fill("#source", fragment);
   await typed.waitForTimeout(500);
-  const [rings] = await pixels(typed, [await picture(typed, "canvas")]);
+  const [rings] = await pixels(typed, ["canvas"]);
   seen.rings = colors(rings);
 
   const three = await open("three/index.html#still");
-  await three.evaluate(() => window.drawAt(1500));
-  await three.waitForTimeout(500);
-  const [before, after] = await pixels(three, [await picture(three, "#webgl"), await picture(three, "#webgpu")]);
+  const [before, after] = await pixels(three, ["#webgl", "#webgpu"], "drawAt(1500)");
   const far = before.filter((value, at) => Math.abs(value - after[at]) > 8).length;
   seen.three = { colors: [colors(before), colors(after)], far: far / before.length };
 
   const worker = await open("worker/index.html");
   seen.worker = await worker.evaluate(() => document.body.dataset.ready);
-  const [ball] = await pixels(worker, [await picture(worker, "canvas")]);
+  const [ball] = await pixels(worker, ["canvas"]);
   seen.ball = colors(ball);
 } catch (error) {
   seen.errors.push(String(error));
