@@ -6,9 +6,8 @@ use super::error::{PictureError, options, picture_error};
 use super::residual::SpecializedScene;
 pub use super::smallest::{body_instructions, spirv_instructions};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::hir::Stage;
-use glisten_front::link::Program;
-use glisten_front::source::SourceMap;
+#[cfg(feature = "stability")]
+use glisten_front::{hir::Stage, link::Program, source::SourceMap};
 use glisten_reference::{Precision, Work, work};
 use glisten_scene::{Draw, Scene};
 use glisten_specialize::{Extent, Moved};
@@ -137,7 +136,8 @@ pub struct Figures {
 }
 
 /// The files of a program's vertex and fragment shader: those that have their `main`.
-pub fn files_of(program: &Program, sources: &SourceMap) -> [String; 2] {
+#[cfg(feature = "stability")]
+pub(crate) fn files_of(program: &Program, sources: &SourceMap) -> [String; 2] {
     [Stage::Vertex, Stage::Fragment].map(|stage| {
         let shader = program.stage(stage);
         let main = shader.and_then(|shader| shader.main.map(|main| shader.function(main).span));

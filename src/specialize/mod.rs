@@ -29,10 +29,11 @@ pub use glisten_specialize::{
     Input, Kind, Known, KnownState, KnownTexture, LeftOut, Moved, Residual, specialize, specialize_with,
 };
 
+#[cfg(feature = "stability")]
+pub(crate) use account::files_of;
 #[cfg(feature = "reference")]
 pub use account::{
-    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account, body_instructions, files_of,
-    spirv_instructions,
+    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account, body_instructions, spirv_instructions,
 };
 #[cfg(feature = "reference")]
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};

@@ -87,7 +87,7 @@ fn looks(args: &PlayArgs, of: &SceneArgs, console: &Console) -> Result<Value, Fa
     Ok(first)
 }
 
-/// What the picture does not need, and what f32 does to it; the reason where there is no answer.
+/// The studies of the page: needs, and harm by f32; the reason where there is no answer.
 fn studies(args: &PlayArgs, of: &SceneArgs, console: &Console) -> Result<Value, Failure> {
     let mut told = Map::new();
     for (name, wish) in [("needs", Wish::Needs), ("stability", Wish::Stability)] {
