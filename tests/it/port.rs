@@ -472,3 +472,15 @@ fn a_lone_stage_of_es_is_proved() {
     assert!(said.contains("1 proved") || said.contains("OpenGL ES computes `mediump`"), "{said}");
     has(&said, &["the reference draws the same bytes", "100 % of them judged, 0 outside\n", " 0 failed"]);
 }
+
+/// Mesa's OpenGL clips by distances that are not enabled: both scenes enable what the original writes.
+#[test]
+fn clip_distances_cut_both_pictures() {
+    let vertex = "#version 150\nuniform mat4 MVP;\nin vec3 Position;\nin vec2 Texcoord;\nout vec2 uv;\nout float gl_ClipDistance[1];\n\
+                  void main() {\n    uv = Texcoord;\n    gl_Position = MVP * vec4(Position, 1.0);\n    gl_ClipDistance[0] = Texcoord.x - 0.3;\n}\n";
+    let fragment = "#version 150\nin vec2 uv;\nout vec4 c;\nvoid main() {\n    c = vec4(uv, 0.0, 1.0);\n}\n";
+    let folder = Folder::new(&[("clipped/a.vert", vertex.as_bytes()), ("clipped/a.frag", fragment.as_bytes())]);
+    let output = folder.run(&["port", "clipped", "--for", "vulkan", "--prove", "-o", "out"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    assert!(err(&output).contains("a: proved: "), "{}", err(&output));
+}

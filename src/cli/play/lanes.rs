@@ -64,11 +64,7 @@ impl Lane {
         if !self.is_newest(number) {
             return Err(NoAnswer::Superseded);
         }
-        let answer = self.answer(&mut slot, job, number);
-        if answer.is_err() {
-            *slot = None;
-        }
-        answer
+        self.answer(&mut slot, job, number)
     }
 
     /// Asks the worker as it is, without ending anything.
@@ -88,7 +84,16 @@ impl Lane {
         self.newest.load(Ordering::Acquire) == number
     }
 
+    /// The answer to a job. A worker whose answer nobody waited for is ended: the next job would get it.
     fn answer(&self, slot: &mut MutexGuard<'_, Option<Worker>>, job: &str, number: u64) -> Result<String, NoAnswer> {
+        let answer = self.answer_of(slot, job, number);
+        if answer.is_err() {
+            **slot = None;
+        }
+        answer
+    }
+
+    fn answer_of(&self, slot: &mut MutexGuard<'_, Option<Worker>>, job: &str, number: u64) -> Result<String, NoAnswer> {
         let worker = match &mut **slot {
             Some(worker) => worker,
             None => slot.insert(start(self.command)?),
@@ -167,6 +172,22 @@ mod tests {
         assert!(matches!(lane.ask("exit 3"), Err(NoAnswer::Crashed(status)) if status.contains('3')));
         assert_eq!(lane.ask("exec sleep 60"), Err(NoAnswer::TimeOver));
         assert_eq!(lane.ask("echo two"), Ok("two".into()));
+    }
+
+    #[test]
+    fn no_job_gets_the_answer_to_another() {
+        let lane = Lane::new(shell, LONG);
+        assert_eq!(lane.ask("echo one"), Ok("one".into()));
+        std::thread::scope(|scope| {
+            let behind = scope.spawn(|| lane.ask_behind("sleep 1; echo behind"));
+            // It has the worker once nobody else can, and has asked it a little later.
+            while lane.worker.try_lock().is_ok() {
+                std::thread::yield_now();
+            }
+            std::thread::sleep(Duration::from_millis(200));
+            assert_eq!(lane.ask("echo newer"), Ok("newer".into()));
+            assert_eq!(behind.join().expect("it ends"), Err(NoAnswer::Superseded));
+        });
     }
 
     #[test]

@@ -12,6 +12,7 @@ use crate::scene::{self, DiskFiles, Primitive, Scene};
 use crate::sources::stages;
 use crate::upgrade::{Dialect, Target, upgrade};
 use crate::verify::{Conclusion, Drawn, Failure as DrawFailure, OnGpu, Options, Runner, verify};
+use glisten_emit::{Conventions, reflect};
 use glisten_front::compiler::{Compiler, Source};
 use glisten_front::diagnostic::codes::scenes::{SCENE_UNSET_ATTRIBUTE, SCENE_UNSET_TEXTURE, SCENE_UNSET_UNIFORM};
 use glisten_front::hir::{PrimitiveOut, Stage};
@@ -54,7 +55,7 @@ pub(super) fn judged(
     new_scene::run(&args, &quiet).map_err(|failure| format!("no scene can be made: {}", failure.message()))?;
     let name = path.to_string_lossy();
     let old = if one.is_older { &ported.older } else { &ported.old };
-    let (before, _) = load(&name, &DiskFiles, old)?;
+    let (mut before, _) = load(&name, &DiskFiles, old)?;
     let (new_compiler, new_sources) = match dialect {
         Some(dialect) => unit.read_back(index, &ported.plain, dialect),
         None => (unit.compiler.clone(), unit.sources.clone()),
@@ -74,6 +75,7 @@ pub(super) fn judged(
     let new_files = NewFiles { scene: &name, files: texts, renamed: &renamed, sources };
     let (mut after, unset) = load(&name, &new_files, &new_compiler)?;
     keep_initial_values(&before, &mut after, &renamed);
+    clip_by_all_distances(&mut before, &mut after);
     // A member that the old program does not have is not read.
     let provided: Vec<&str> = one.plan.iter().flat_map(|plan| plan.provided()).collect();
     let is_read = |message: &&String| provided.iter().any(|name| message.contains(&format!("`{name}`")));
@@ -102,6 +104,16 @@ pub(super) fn judged(
         n => format!("the reference draws {n} values with other roundings"),
     };
     Ok((new.conclusion.max(old.conclusion), format!("{same}; OpenGL: {}; Vulkan: {}", old.figures, new.figures)))
+}
+
+/// Enables all clip distances that the original writes, in both scenes. Mesa's OpenGL clips by them even where they are not enabled.
+fn clip_by_all_distances(before: &mut Scene, after: &mut Scene) {
+    for (old, new) in before.draws.iter_mut().zip(&mut after.draws) {
+        let written = reflect(&old.program, &Conventions::default()).conventions.clip_distances;
+        for draw in [old, new] {
+            draw.state.clip_distances = written;
+        }
+    }
 }
 
 /// Gives the new program the values that uniforms of the original begin with. Blocks have none, so that a host has to fill them.
