@@ -5,7 +5,7 @@ import { init } from "glisten";
 import { WebGpuMaterial } from "./webgpu-material.js";
 
 const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 20);
-camera.position.set(0, 0, 4);
+camera.position.set(0, 0, 5);
 camera.updateMatrixWorld();
 const geometry = new THREE.TorusKnotGeometry(0.8, 0.3, 160, 24);
 const material = new THREE.ShaderMaterial({
