@@ -32,6 +32,18 @@ def test_code_and_reflection():
     assert program.diagnostics == []
 
 
+def test_an_engine_and_preludes_complete_sources():
+    material = {"a.vert": "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }"}
+    assert "@vertex" in glisten.compile(material, engine="three").wgsl("vertex")
+    with pytest.raises(glisten.CompileError):
+        glisten.compile(material)
+    bare = {"a.frag": "void main() { c = vec4(k); }"}
+    program = glisten.compile(bare, assume_version="150", prelude=["uniform float k;", "out vec4 c;"])
+    assert [row["name"] for row in program.reflection["uniforms"]] == ["k"]
+    with pytest.raises(ValueError, match="did you mean `three`"):
+        glisten.compile(material, engine="tree")
+
+
 def test_files(tmp_path):
     for name, text in PROGRAM.items():
         (tmp_path / name).write_text(text.replace("LEVEL", "1.0"))
