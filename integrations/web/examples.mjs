@@ -1,4 +1,4 @@
-// Opens the examples without a bundler in Chromium, and looks at what they draw: `node integrations/web/test/examples.mjs`.
+// Opens the examples without a bundler in Chromium, and looks at what they draw: `node integrations/web/examples.mjs`.
 //
 // The arguments: the browser, the module playwright-core; those of Debian and of `npm install --prefix target/browser playwright-core`
 // without them. `npm install` in examples/three comes first. Prints one JSON object of what it saw; the exit code is 1 if something is wrong.
@@ -7,7 +7,7 @@ import { createReadStream, existsSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
 import { pathToFileURL } from "node:url";
-import { root } from "./package.mjs";
+import { root } from "./test/package.mjs";
 
 const [executablePath = "/usr/bin/chromium", module = pathToFileURL(join(root, "target/browser/node_modules/playwright-core/index.mjs")).href] = process.argv.slice(2);
 const { chromium } = await import(module);

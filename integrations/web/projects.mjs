@@ -1,5 +1,5 @@
 // Builds the shaders of projects for WebGL by the plugin for Vite, and asks a judge about the WGSL:
-// `node integrations/web/test/projects.mjs FOLDER... [--engine FOLDER=NAME]... [--list]`.
+// `node integrations/web/projects.mjs FOLDER... [--engine FOLDER=NAME]... [--list]`.
 //
 // Each folder is a project. Every fragment shader is imported as an application would, with its vertex shader, and alone vertex shaders, too; what
 // has no `main` is a part of others. A text that `glslangValidator` refuses as OpenGL ES is told apart. The judge is Tint, of the npm package `webgpu`
@@ -10,7 +10,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSy
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { root, vite } from "./package.mjs";
+import { root, vite } from "./test/package.mjs";
 
 const { default: glisten } = await import(pathToFileURL(vite).href);
 const words = process.argv.slice(2);
