@@ -486,8 +486,7 @@ const inspector = (() => {
   };
 })();
 
-const studies = makeStudies({ ask, open, inspect: inspector.inspect, edition: () => edition, isOwn: (name) => docs.get(name)?.isWritable ?? false, kept: start.studies ?? null });
-studies.onChange(mark);
+const studies = makeStudies({ ask, open, inspect: inspector.inspect, edition: () => edition, isOwn: (name) => docs.get(name)?.isWritable ?? false, kept: start.studies ?? null, changed: () => mark() });
 
 // The camera turns around its target.
 let turning = null;

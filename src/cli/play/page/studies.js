@@ -1,7 +1,8 @@
 
 // ---- Studies of a scene: what its picture does not need, what f32 does to it, what other ways to shade it cost. Each takes a while, so a
 // person asks for it; what was found for older texts is told as such.
-const makeStudies = ({ ask, open, inspect, edition, isOwn, kept }) => {
+// `changed` is called when other lines are to be crossed out.
+const makeStudies = ({ ask, open, inspect, edition, isOwn, kept, changed }) => {
   const NAMES = ["needs", "stability", "variants"];
   const found = new Map(NAMES.map((name) => [name, null]));  // the answer, and the edition of the texts that it is for
   let chosen = null, running = null;
@@ -42,7 +43,7 @@ const makeStudies = ({ ask, open, inspect, edition, isOwn, kept }) => {
       return [...title, table(["", "as written", "needed", ""], rows), ...lists];
     });
     const n = account.draws.reduce((sum, draw) => sum + new Set(draw.left_out.map((one) => JSON.stringify(one))).size, 0);
-    note(n ? `${n} ${n === 1 ? "part of the program does" : "parts of the program do"} nothing for this picture, with these uniforms, textures and attributes. Their lines are crossed out. “Only what this picture needs” below shows what is left.` : "This picture needs all of it.");
+    note(n ? `This picture does without ${n} ${n === 1 ? "part" : "parts"} of the program, with these uniforms, textures and attributes. Their lines are crossed out. “Only what this picture needs” below shows what is left.` : "This picture needs the whole program.");
     return parts;
   };
 
@@ -158,17 +159,16 @@ const makeStudies = ({ ask, open, inspect, edition, isOwn, kept }) => {
     byId("study-verdict").hidden = true;
     NAMES.forEach((one) => button(one).setAttribute("aria-pressed", String(one === name)));
     note(WAITS[name]);
-    const answer = kept ? { ok: kept[name]?.error ? undefined : kept[name], error: kept[name]?.error } : await ask({ ask: name });
+    // An exported page has the answers, or the reasons why there are none.
+    const told = kept?.[name];
+    const answer = told ? { ok: told, error: told.error } : await ask({ ask: name });
     if (running === name) running = null;
     if (answer.status === 409) return;
     found.set(name, { ok: answer.ok, error: answer.error, edition: asked });
     if (chosen === name) { show(); changed(); }
   };
-  let changed = () => {};
   NAMES.forEach((name) => button(name).addEventListener("click", () => { run(name).catch((error) => note(`no answer: ${error.message}`)); }));
   return {
-    // Called when other lines are crossed out.
-    onChange: (call) => { changed = call; },
     // The texts changed.
     age: () => { if (!running) show(); changed(); },
     // Another scene.
