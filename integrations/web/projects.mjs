@@ -1,9 +1,10 @@
-// Builds the shaders of projects for WebGL by the plugin for Vite, and asks a judge about the WGSL:
+// Builds the shaders of projects for WebGL by the plugin for Vite, and asks judges about the WGSL:
 // `node integrations/web/projects.mjs FOLDER... [--engine FOLDER=NAME]... [--list]`.
 //
 // Each folder is a project. Every fragment shader is imported as an application would, with its vertex shader, and alone vertex shaders, too; what
-// has no `main` is a part of others. A text that `glslangValidator` refuses as OpenGL ES is told apart. The judge is Tint, of the npm package `webgpu`
-// in target/tint. Prints a table; with --list, each program that is not built, with the reason.
+// has no `main` is a part of others. A text that `glslangValidator` refuses as OpenGL ES is told apart. The judges are Tint, of the npm package `webgpu`
+// in target/tint, and the WebGPU of Chromium, by playwright-core in target/browser: it makes a pipeline of each program, with the layout of
+// bindings and the buffers of attributes that the reflection tells, and draws with it once. Prints a table; with --list, each program that is not built, with the reason.
 
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";

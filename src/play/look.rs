@@ -4,15 +4,15 @@
 //! the form of its `--format json`; each program of the scene is told once.
 
 use super::controls::controls;
+use super::translations::translations;
 use crate::scene::{Loaded, Scene};
-use crate::specialize::{SpecializedScene, specialize_scene};
-use glisten_emit::{Conventions, Emitted, Target, emit, reflect};
+use crate::specialize::specialize_scene;
+use glisten_emit::Target;
 use glisten_front::diagnostic::write::{self, Finding};
 use glisten_front::diagnostic::{Code, Diagnostic, Levels};
 use glisten_front::link::Program;
 use glisten_front::lint::check_some;
 use glisten_front::source::SourceMap;
-use glisten_specialize::optimize;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -56,11 +56,12 @@ pub fn look(criteria: &mut impl Criteria, name: &str, loaded: Loaded, shown: Sho
     let findings: Value = serde_json::from_str(&write::json(&findings, None)).unwrap_or_default();
     let text = sources.files().next().map(|(_, file)| file.text().to_owned()).unwrap_or_default();
     let residual = scene.as_ref().filter(|_| shown.leaves_out).map(|scene| specialize_scene(scene, &sources, &[]));
+    let residual = residual.as_ref().map(|residual| self::programs(&residual.scene));
     let answer = json!({
         "findings": findings,
         "files": files(&sources),
         "controls": controls(&text),
-        "programs": translations(criteria, &programs, residual.as_ref(), shown.target),
+        "programs": translations(criteria, &sources, residual.as_deref().unwrap_or(&programs), shown.target),
         "size": scene.as_ref().map(|scene| [scene.framebuffer.width, scene.framebuffer.height]),
     });
     (answer, scene)
@@ -88,37 +89,6 @@ fn files(sources: &SourceMap) -> Vec<Value> {
     let file =
         |(_, file): (_, &glisten_front::source::SourceFile)| json!({ "name": file.name(), "text": &**file.text() });
     sources.files().map(file).collect()
-}
-
-/// Each program in the language, with its reflection.
-fn translations(
-    criteria: &impl Criteria,
-    programs: &[Arc<Program>],
-    residual: Option<&SpecializedScene>,
-    target: Target,
-) -> Vec<Value> {
-    let of_residual = residual.map(|residual| self::programs(&residual.scene));
-    let programs = of_residual.as_deref().unwrap_or(programs);
-    programs.iter().map(|program| translation(criteria, program, target)).collect()
-}
-
-fn translation(criteria: &impl Criteria, program: &Program, target: Target) -> Value {
-    let conventions = Conventions::default();
-    let made = criteria.guarded(|| {
-        let optimized = optimize(program);
-        let mut reflection = reflect(&optimized, &conventions);
-        let stage = |stage| match emit(&optimized, stage, target, &conventions) {
-            Ok(Emitted::Text(text)) => json!({ "stage": stage.name(), "text": text }),
-            Ok(Emitted::Words(words)) => json!({ "stage": stage.name(), "n_words": words.len() }),
-            Err(errors) => json!({ "stage": stage.name(), "error": told(&errors) }),
-        };
-        let stages: Vec<Value> = optimized.stages.iter().map(|shader| stage(shader.stage)).collect();
-        reflection.compact();
-        json!({ "name": program.name, "stages": stages, "reflection": reflection })
-    });
-    made.unwrap_or_else(
-        |panic| json!({ "name": program.name, "stages": [], "error": format!("internal error: {panic}") }),
-    )
 }
 
 /// The messages of diagnostics, a line each.
@@ -170,6 +140,27 @@ mod tests {
         assert_eq!(answer["files"].as_array().map(Vec::len), Some(3));
         let text = answer["programs"][0]["stages"][1]["text"].as_str().unwrap_or_default();
         assert!(text.contains("@fragment"), "{answer}");
+    }
+
+    #[test]
+    fn lines_know_the_statements_that_they_come_from() {
+        let text = "#version 150\nuniform vec3 tint;\nout vec4 color;\nfloat half_of(float x) {\n    return 0.5 * x;\n}\n\
+            void main() {\n    float lit = half_of(tint.r);\n    if (lit > 0.5) {\n        discard;\n    }\n    color = vec4(tint, lit);\n}\n";
+        let answer = looked(text);
+        let stage = &answer["programs"][0]["stages"][1];
+        let written: Vec<&str> = stage["text"].as_str().unwrap_or_default().lines().collect();
+        let mut found = Vec::new();
+        for origin in stage["lines"].as_array().into_iter().flatten() {
+            let number = |index: usize| origin[index].as_u64().unwrap_or(0) as usize;
+            assert_eq!(answer["files"][number(1)]["name"], "a.frag", "{origin}");
+            let line = written.get(number(0) - 1).copied().unwrap_or_default().trim();
+            found.push((line.split(' ').next().unwrap_or_default(), number(2), number(3)));
+        }
+        for wanted in [("fn", 4, 4), ("return", 5, 5), ("if", 9, 11), ("discard;", 10, 10)] {
+            assert!(found.contains(&wanted), "{wanted:?} in {found:?} of\n{}", written.join("\n"));
+        }
+        // The color is written on the lines of its own statement, and of no other.
+        assert!(found.iter().any(|(_, from, to)| (*from, *to) == (12, 12)), "{found:?}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  a job ──► jobs
-//!  job, scene that was read ──► answers ──┬─► look ◄── controls   findings, texts, translations
+//!  job, scene that was read ──► answers ──┬─► look ◄── controls, translations   findings, texts
 //!                                         ├─► pictures             the reference's picture, a pixel
 //!                                         ├─► needs                what the picture does not need
 //!                                         ├─► stability            what f32 does to it
@@ -22,6 +22,7 @@ mod look;
 mod needs;
 mod pictures;
 mod stability;
+mod translations;
 mod verdict;
 
 pub use answers::{OwnLevels, answer, drawable};

@@ -32,6 +32,7 @@ const theme = EditorView.theme({
   ".cm-tooltip, .cm-panels": { backgroundColor: "var(--card)", color: "var(--ink)", border: "1px solid var(--rule)" },
   ".cm-step": { backgroundColor: "color-mix(in srgb, var(--accent) 34%, transparent)", outline: "1px solid var(--accent)" },
   ".cm-needless": { textDecoration: "line-through", textDecorationColor: "var(--soft)", opacity: ".62" },
+  ".cm-match": { backgroundColor: "color-mix(in srgb, var(--accent) 20%, transparent)" },
   ".cm-value": { padding: ".2rem .5rem", fontFamily: "var(--code)", whiteSpace: "pre" },
   ".cm-diagnosticAction": { backgroundColor: "var(--accent)", color: "var(--on-pill)" },
   ".cm-panels input, .cm-panels button": { font: "inherit" },
@@ -90,29 +91,47 @@ const step = StateField.define({
   provide: (field) => EditorView.decorations.from(field),
 });
 
-// The lines that a picture does without.
-const setNeedless = StateEffect.define();
-const needless = StateField.define({
-  create: () => Decoration.none,
-  update: (old, change) => {
-    const asked = change.effects.filter((effect) => effect.is(setNeedless)).at(-1);
-    if (!asked) return old.map(change.changes);
-    const line = ({ from, title }) => Decoration.line({ class: "cm-needless", attributes: { title } }).range(from);
-    return Decoration.set(asked.value.map(line));
-  },
-  provide: (field) => EditorView.decorations.from(field),
-});
+// Lines that are shown in another way, until others are: each has the place where it begins, and the words for a pointer.
+const linesOf = (name) => {
+  const set = StateEffect.define();
+  const field = StateField.define({
+    create: () => Decoration.none,
+    update: (old, change) => {
+      const asked = change.effects.filter((effect) => effect.is(set)).at(-1);
+      if (!asked) return old.map(change.changes);
+      const line = ({ from, title }) => Decoration.line({ class: name, ...(title ? { attributes: { title } } : {}) }).range(from);
+      return Decoration.set(asked.value.map(line));
+    },
+    provide: (field) => EditorView.decorations.from(field),
+  });
+  return { set, field };
+};
+// The lines that a picture does without, and those that belong to a line of another text.
+const needless = linesOf("cm-needless");
+const matching = linesOf("cm-match");
 
 // An editor in `parent`, whose texts nobody can change if it is `readOnly`. `changed` is called with the text when a person, a fix or a control changes it; `moved` with the line
-// where the cursor is; `valueAt` gives the text to show for a place of a text, by its name, line and column (in characters), or null.
-export const create = ({ parent, readOnly = false, label = "", words = {}, changed = () => {}, moved = () => {}, valueAt = () => null }) => {
+// where the cursor is, and whether a person moved it there; `pointed` with the line under the pointer, or null; `valueAt` gives the text to show for a place of a text, by its name, line and column (in characters), or null.
+export const create = ({ parent, readOnly = false, label = "", words = {}, changed = () => {}, moved = () => {}, pointed = () => {}, valueAt = () => null }) => {
   const spoken = new Compartment();
   const states = new Map();
   let current = null;
   const listen = EditorView.updateListener.of((update) => {
     const byPage = update.transactions.some((one) => one.annotation(ofPage));
     if (update.docChanged && !byPage) changed(current, update.state.doc.toString());
-    if (update.selectionSet || update.docChanged) moved(update.state.doc.lineAt(update.state.selection.main.head).number);
+    if (update.selectionSet || update.docChanged) moved(update.state.doc.lineAt(update.state.selection.main.head).number, update.transactions.some((one) => one.isUserEvent("select")));
+  });
+  let under = null;
+  const point = (line) => {
+    if (line !== under) pointed(line);
+    under = line;
+  };
+  const pointer = EditorView.domEventHandlers({
+    mousemove: (event, view) => {
+      const place = view.posAtCoords({ x: event.clientX, y: event.clientY });
+      point(place === null ? null : view.state.doc.lineAt(place).number);
+    },
+    mouseleave: () => point(null),
   });
   const values = hoverTooltip((view, place) => {
     const line = view.state.doc.lineAt(place);
@@ -132,7 +151,7 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(), indentUnit.of("    "),
     label === "Translation" ? [] : lintGutter(), readOnly ? [] : [autocompletion({ override: [completeAnyWord] })],
     keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
-    spoken.of(language(kind, words[kind] ?? {})), syntaxHighlighting(colors), theme, listen, step, needless, values,
+    spoken.of(language(kind, words[kind] ?? {})), syntaxHighlighting(colors), theme, listen, pointer, step, needless.field, matching.field, values,
     EditorState.readOnly.of(readOnly), EditorView.editable.of(true),
     EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false" }),
   ];
@@ -145,6 +164,11 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     // Columns count characters; places count UTF-16 code units.
     const before = Array.from(at.text).slice(0, Math.max(0, column - 1)).join("").length;
     return Math.min(at.to, at.from + before);
+  };
+  const placesOf = (lines) => {
+    const doc = view.state.doc;
+    const byLine = new Map(lines.filter(({ line }) => line >= 1 && line <= doc.lines).map(({ line, title }) => [line, title]));
+    return [...byLine].sort(([a], [b]) => a - b).map(([line, title]) => ({ from: doc.line(line).from, title }));
   };
   return {
     // Shows a text by its name, which nobody can change if it is `isFixed`; the history and the cursor of each name are kept.
@@ -191,10 +215,11 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     },
     // Crosses out lines; each has a line and a title that says why.
     cross(lines) {
-      const doc = view.state.doc;
-      const byLine = new Map(lines.filter(({ line }) => line >= 1 && line <= doc.lines).map(({ line, title }) => [line, title]));
-      const places = [...byLine].sort(([a], [b]) => a - b).map(([line, title]) => ({ from: doc.line(line).from, title }));
-      view.dispatch({ effects: setNeedless.of(places) });
+      view.dispatch({ effects: needless.set.of(placesOf(lines)) });
+    },
+    // Shows that lines, by their numbers, belong to a line of another text.
+    match(lines) {
+      view.dispatch({ effects: matching.set.of(placesOf(lines.map((line) => ({ line })))) });
     },
     // Moves to a line and column.
     go(line, column = 1) {

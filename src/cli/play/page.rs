@@ -19,6 +19,7 @@ const PLAY: Page = Page {
         include_str!("page/webgpu.js"),
         include_str!("page/asking.js"),
         include_str!("page/studies.js"),
+        include_str!("page/matching.js"),
         include_str!("page/play.js"),
     ],
 };

@@ -19,7 +19,7 @@ mod wgsl;
 mod write;
 
 pub use alone::interface_of;
-pub use emitted::Emitted;
+pub use emitted::{Emitted, Origin, Traced};
 pub use notes::{levels_of_comparisons, notes};
 pub use reflection::{Reflection, reflect};
-pub use write::{emit, emit_functions, emit_single_file, emit_with_sources};
+pub use write::{emit, emit_functions, emit_single_file, emit_traced, emit_with_sources};

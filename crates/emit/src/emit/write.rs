@@ -4,7 +4,7 @@
 //!
 //! *Holds:* naga's writers run inside `catch_unwind`, since they panic on some modules that its validator accepts.
 
-use super::emitted::Emitted;
+use super::emitted::{Emitted, Traced};
 use super::merge::{merged, name_entry_points};
 use super::messages::{chain, without_handles};
 use super::naga_repairs::nesting::is_nested;
@@ -34,7 +34,8 @@ pub fn emit(
     emit_with_sources(program, stage, target, conventions, None)
 }
 
-/// Emits like [`emit`], with the texts that source lines in SPIR-V refer to ([`Conventions::debug_lines`]).
+/// Emits like [`emit`], with the comments of the sources, and with the texts that source lines in SPIR-V refer to
+/// ([`Conventions::debug_lines`]).
 ///
 /// # Errors
 /// The same as those of [`emit`].
@@ -45,10 +46,24 @@ pub fn emit_with_sources(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
 ) -> Result<Emitted, Vec<Diagnostic>> {
+    emit_traced(program, stage, target, conventions, sources).map(|traced| traced.emitted)
+}
+
+/// Emits like [`emit_with_sources`], and tells which lines come from which places of the source.
+///
+/// # Errors
+/// The same as those of [`emit`].
+pub fn emit_traced(
+    program: &Program,
+    stage: Stage,
+    target: Target,
+    conventions: &Conventions,
+    sources: Option<&SourceMap>,
+) -> Result<Traced, Vec<Diagnostic>> {
     if target == Target::Glsl {
         width_of(stage, target, conventions)?;
         let emitted = targets::glsl::write(program, stage, conventions, sources)?;
-        return Ok(with_header(emitted, program, &[stage], target, sources));
+        return Ok(with_header(Traced::of(emitted), program, &[stage], target, sources));
     }
     emit_stages(program, &[stage], target, conventions, sources, Extent::Stage)
 }
@@ -71,7 +86,7 @@ pub fn emit_single_file(
         return Err(vec![refused.help("choose WGSL, MSL or HLSL, or write one file for each stage")]);
     }
     let stages: Vec<Stage> = program.stages.iter().map(|shader| shader.stage).collect();
-    emit_stages(program, &stages, target, conventions, sources, Extent::SingleFile)
+    emit_stages(program, &stages, target, conventions, sources, Extent::SingleFile).map(|traced| traced.emitted)
 }
 
 /// Writes functions of a stage in WGSL, with what they call and use and without an entry point, for hosts that write their own. The
@@ -86,7 +101,8 @@ pub fn emit_functions(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
 ) -> Result<Emitted, Vec<Diagnostic>> {
-    emit_stages(program, &[stage], Target::Wgsl, conventions, sources, Extent::Functions(functions))
+    let traced = emit_stages(program, &[stage], Target::Wgsl, conventions, sources, Extent::Functions(functions));
+    traced.map(|traced| traced.emitted)
 }
 
 /// How much of a program is in a file.
@@ -108,7 +124,7 @@ fn emit_stages(
     conventions: &Conventions,
     sources: Option<&SourceMap>,
     extent: Extent<'_>,
-) -> Result<Emitted, Vec<Diagnostic>> {
+) -> Result<Traced, Vec<Diagnostic>> {
     let slots = Slots::of(&program.interface);
     let mut modules = Vec::with_capacity(stages.len());
     let mut deep = false;
@@ -145,12 +161,12 @@ fn emit_stages(
         let job = Job { module, info, conventions, sources, slots, types, shaders, is_single };
         targets::write(target, job).map_err(|message| vec![failed(target, &message)])
     };
-    let emitted = glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
+    let traced = glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
         catch_unwind(AssertUnwindSafe(write)).unwrap_or_else(|_| {
             Err(vec![internal_error(Span::default(), format!("the writer of {} panicked", target.name()))])
         })
     })?;
-    Ok(with_header(emitted, program, stages, target, sources))
+    Ok(with_header(traced, program, stages, target, sources))
 }
 
 /// A module with floats of a width, and what the validator knows of it.
@@ -182,23 +198,23 @@ fn width_of(stage: Stage, target: Target, conventions: &Conventions) -> Result<F
 
 /// Text with a header, if the sources are known.
 fn with_header(
-    emitted: Emitted,
+    traced: Traced,
     program: &Program,
     stages: &[Stage],
     target: Target,
     sources: Option<&SourceMap>,
-) -> Emitted {
-    let (Emitted::Text(text), Some(sources)) = (&emitted, sources) else { return emitted };
+) -> Traced {
+    let (Emitted::Text(text), Some(sources)) = (&traced.emitted, sources) else { return traced };
     let shaders: Vec<_> = program.stages.iter().filter(|shader| stages.contains(&shader.stage)).collect();
-    let Some(header) = header(&shaders, sources) else { return emitted };
-    Emitted::Text(match target {
+    let Some(header) = header(&shaders, sources) else { return traced };
+    match target {
         // In GLSL, `#version` comes first: some drivers do not accept a comment before it.
-        Target::Glsl => match text.split_once('\n') {
+        Target::Glsl => Traced::of(Emitted::Text(match text.split_once('\n') {
             Some((version, rest)) => format!("{version}\n{header}{}", rest.trim_start_matches('\n')),
             None => header + text,
-        },
-        Target::Wgsl | Target::Msl | Target::Hlsl | Target::Spirv => header + text,
-    })
+        })),
+        Target::Wgsl | Target::Msl | Target::Hlsl | Target::Spirv => traced.behind(&header),
+    }
 }
 
 fn internal_error(span: Span, message: String) -> Diagnostic {

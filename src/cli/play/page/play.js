@@ -12,6 +12,8 @@ let findings = [];
 let controls = [];
 let programs = [];
 let stage = null;
+let translated = null;  // the stage in the translation
+let names = [];         // of the files, by the numbers that translations give them
 let isJudged = false;
 let isJudging = false;
 let edition = 0;        // counts the changes of texts: an answer to an older one has places that are no longer true
@@ -58,6 +60,8 @@ const latest = (work, patience) => {
 const editor = Editor.create({
   parent: byId("editor"), label: "Source", words: start.words, readOnly: !isLive,
   valueAt: (name, line, column) => inspector.valueAt(name, line, column),
+  moved: (line, isPerson) => matching.movedInSource(line, isPerson),
+  pointed: (line) => matching.pointedInSource(line),
   changed: (name, text) => {
     const doc = docs.get(name);
     if (!doc) return;
@@ -70,7 +74,12 @@ const textChanged = () => {
   isJudged = isJudging = false;
   showFiles(); look(); draw(); inspector.refresh(); studies.age();
 };
-const translation = Editor.create({ parent: byId("translation"), label: "Translation", words: start.words, readOnly: true });
+const translation = Editor.create({
+  parent: byId("translation"), label: "Translation", words: start.words, readOnly: true,
+  moved: (line, isPerson) => matching.movedInTranslation(line, isPerson),
+  pointed: (line) => matching.pointedInTranslation(line),
+});
+const matching = makeMatching({ editor, translation, shown: () => shown, stage: () => translated, files: () => names, open: (name) => open(name) });
 
 const open = (name, line, column) => {
   const doc = docs.get(name);
@@ -155,6 +164,7 @@ const take = (answer, isOutdated = false) => {
       }
     }
   }
+  names = answer.files.map((file) => file.name);
   const read = new Set(answer.files.map((file) => file.name));
   for (const [name, doc] of docs) if (!read.has(name) && name !== scene && doc.text === doc.saved) docs.delete(name);
   findings = isOutdated ? answer.findings.map((finding) => ({ ...finding, fixes: [] })) : answer.findings;
@@ -176,7 +186,9 @@ const showTranslation = () => {
   byId("stages").replaceChildren(...stages.map((one) => html("label", {}, html("input", { type: "radio", name: "stage", value: one.key, checked: one.key === stage, change: () => { stage = one.key; showTranslation(); } }), one.label)));
   const now = stages.find((one) => one.key === stage);
   const text = now ? now.text ?? now.error ?? "" : "";
+  translated = now ?? null;
   translation.show(`translation.${target()}`, text, target() === "wgsl" ? "wgsl" : "glsl");
+  matching.forget();
 };
 const showReflection = () => {
   const row = (cells, tag = "td") => html("tr", {}, cells.map((cell) => html(tag, {}, cell)));

@@ -9,7 +9,7 @@ pub(super) mod msl;
 mod spirv;
 mod wgsl;
 
-use super::emitted::Emitted;
+use super::emitted::{Emitted, Traced};
 use crate::target::{Conventions, Slots, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
@@ -46,12 +46,12 @@ impl Job<'_> {
 }
 
 /// Writes a module for a target.
-pub(super) fn write(target: Target, job: Job<'_>) -> Result<Emitted, String> {
+pub(super) fn write(target: Target, job: Job<'_>) -> Result<Traced, String> {
     match target {
-        Target::Wgsl => wgsl::write(&job).map(Emitted::Text),
-        Target::Spirv => spirv::write(&job).map(Emitted::Words),
-        Target::Msl => msl::write(job).map(Emitted::Text),
-        Target::Hlsl => hlsl::write(job).map(Emitted::Text),
+        Target::Wgsl => wgsl::write(&job),
+        Target::Spirv => spirv::write(&job).map(Emitted::Words).map(Traced::of),
+        Target::Msl => msl::write(job).map(Emitted::Text).map(Traced::of),
+        Target::Hlsl => hlsl::write(job).map(Emitted::Text).map(Traced::of),
         // Written from the typed program, before there is a module.
         Target::Glsl => Err("GLSL is not written from a module".to_owned()),
     }

@@ -1,6 +1,7 @@
 //! WGSL, with the names of the source.
 
 use super::Job;
+use crate::emit::emitted::{Emitted, Traced};
 use crate::emit::naga_repairs::nesting;
 use crate::emit::wgsl::{self, Notes, Style};
 use glisten_front::diagnostic::Diagnostic;
@@ -12,17 +13,18 @@ pub(super) fn limit(module: &naga::Module) -> Option<Diagnostic> {
 }
 
 /// Writes WGSL, with the comments of the source.
-pub(super) fn write(job: &Job<'_>) -> Result<String, String> {
+pub(super) fn write(job: &Job<'_>) -> Result<Traced, String> {
     let Job { module, info, .. } = job;
     let notes = Notes::of(job.types, &job.shaders, job.sources);
-    let text = wgsl::write(module, info, Style::Full, &notes)?;
+    let (text, origins) = wgsl::write(module, info, Style::Full, &notes)?;
+    let traced = Traced { emitted: Emitted::Text(text), origins };
     // GLSL allows derivatives in any control flow (§8.8 calls them undefined in some). WGSL rejects them where it
     // cannot prove that control flow is uniform, unless a directive disables that. naga has the directive in its IR
     // but never writes it.
     if job.has(Stage::Fragment) && takes_derivatives(module) {
-        return Ok(format!("diagnostic(off, derivative_uniformity);\n\n{text}"));
+        return Ok(traced.behind("diagnostic(off, derivative_uniformity);\n\n"));
     }
-    Ok(text)
+    Ok(traced)
 }
 
 /// Whether the module takes any derivatives, explicit or implicit.

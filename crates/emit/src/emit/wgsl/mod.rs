@@ -43,6 +43,8 @@ mod tree;
 pub(super) use comments::header;
 pub(super) use notes::Notes;
 
+use super::emitted::Origin;
+
 /// How far to go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Style {
@@ -53,7 +55,7 @@ pub(super) enum Style {
     Full,
 }
 
-/// Writes a module.
+/// Writes a module. Returns which lines come from which places of the source, too: heads of functions and statements.
 ///
 /// # Errors
 /// The message of an internal error: what WGSL does not have.
@@ -62,6 +64,6 @@ pub(super) fn write(
     info: &naga::valid::ModuleInfo,
     style: Style,
     notes: &Notes<'_>,
-) -> Result<String, String> {
+) -> Result<(String, Vec<Origin>), String> {
     module::write(module, info, style, notes)
 }

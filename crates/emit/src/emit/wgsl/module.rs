@@ -7,20 +7,28 @@ use super::inverse::Inverses;
 use super::names::{Names, short_type};
 use super::notes::Notes;
 use super::tree::Expr;
+use super::print::Marks;
 use super::{Style, effects, print, scopes};
+use crate::emit::emitted::Origin;
+use glisten_front::source::Span;
 use naga::common::wgsl::{ToWgsl, TryToWgsl, address_space_str};
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{
     Arena, Binding, BuiltIn, Expression, Function, Handle, Interpolation, Module, Sampling, ShaderStage, TypeInner,
 };
 
-/// Writes a module, with the comments of the source.
-pub(super) fn write(module: &Module, info: &ModuleInfo, style: Style, notes: &Notes<'_>) -> Try<String> {
+/// Writes a module, with the comments of the source. Returns which lines come from where, too.
+pub(super) fn write(
+    module: &Module,
+    info: &ModuleInfo,
+    style: Style,
+    notes: &Notes<'_>,
+) -> Try<(String, Vec<Origin>)> {
     let names = Names::of(module);
     let effects = effects::of_functions(module);
     let inverses = Inverses::of(module, info);
     let context = Context { module, names: &names, effects: &effects, style };
-    let mut writer = Writer { context, inverses: &inverses, notes, text: String::new() };
+    let mut writer = Writer { context, inverses: &inverses, notes, text: String::new(), marks: Marks::new() };
     writer.enables();
     writer.structs()?;
     writer.variables()?;
@@ -36,7 +44,20 @@ pub(super) fn write(module: &Module, info: &ModuleInfo, style: Style, notes: &No
     writer.text.push('\n');
     let inverses = inverses.text()?;
     writer.text.push_str(&inverses);
-    Ok(writer.text)
+    let origins = origins(&writer.text, &writer.marks);
+    Ok((writer.text, origins))
+}
+
+/// The lines of the places of a text.
+fn origins(text: &str, marks: &Marks) -> Vec<Origin> {
+    let (mut line, mut last) = (1, 0);
+    let lines = marks.iter().filter_map(|&(at, span)| {
+        line += text.get(last..at)?.matches('\n').count() as u32;
+        last = at;
+        let range = span.to_range()?;
+        Some(Origin { line, span: Span::new(range.start as u32, range.end as u32) })
+    });
+    lines.collect()
 }
 
 struct Writer<'m, 'n> {
@@ -44,6 +65,7 @@ struct Writer<'m, 'n> {
     inverses: &'m Inverses,
     notes: &'n Notes<'n>,
     text: String,
+    marks: Marks,
 }
 
 impl<'m> Writer<'m, '_> {
@@ -230,8 +252,14 @@ impl<'m> Writer<'m, '_> {
             Some(ShaderStage::Vertex) => "@vertex\n",
             Some(_) => "@fragment\n",
         });
+        if span.is_defined() {
+            self.marks.push((self.text.len(), span));
+        }
         self.head(name, stage, function, &heads, &result);
-        self.text.push_str(&print::body(&body));
+        let (text, marks) = print::body(&body);
+        let start = self.text.len();
+        self.marks.extend(marks.into_iter().map(|(at, span)| (start + at, span)));
+        self.text.push_str(&text);
         self.text.push_str("}\n\n");
         Ok(())
     }

@@ -13,19 +13,23 @@ pub(super) const INDENT: &str = "    ";
 pub(super) struct Printer<'b, 'm> {
     body: &'b Body<'m>,
     text: String,
+    marks: Marks,
 }
 
-/// The statements of a function's body, each on its line.
-pub(super) fn body(body: &Body<'_>) -> String {
-    let mut printer = Printer { body, text: String::new() };
+/// Places of a text, in ascending order, with the places of the source that they come from.
+pub(super) type Marks = Vec<(usize, naga::Span)>;
+
+/// The statements of a function's body, each on its line, and where each begins in the text.
+pub(super) fn body(body: &Body<'_>) -> (String, Marks) {
+    let mut printer = Printer { body, text: String::new(), marks: Marks::new() };
     printer.block(BlockId(0), 1);
-    printer.text
+    (printer.text, printer.marks)
 }
 
 /// An expression of the module behind the beginning of its declaration.
 pub(super) fn expression(head: &str, expr: &Expr<'_>) -> String {
     let body = Body { blocks: Vec::new(), names: Vec::new() };
-    let mut printer = Printer { body: &body, text: head.to_owned() };
+    let mut printer = Printer { body: &body, text: head.to_owned(), marks: Marks::new() };
     printer.wrapped(expr, 0, 1);
     printer.text
 }
@@ -89,6 +93,7 @@ impl Printer<'_, '_> {
 
     fn stmt(&mut self, stmt: &Stmt<'_>, indent: usize) {
         self.lines(&stmt.above, indent);
+        self.mark(stmt);
         match &stmt.kind {
             StmtKind::Empty => {}
             StmtKind::If { condition, accept, reject } => {
@@ -170,6 +175,12 @@ impl Printer<'_, '_> {
         }
     }
 
+    /// The next line comes from the statement.
+    fn mark(&mut self, stmt: &Stmt<'_>) {
+        let spans = [stmt.declared, stmt.span];
+        self.marks.extend(spans.into_iter().filter(naga::Span::is_defined).map(|span| (self.text.len(), span)));
+    }
+
     /// The head of a statement with a block.
     fn headed(&mut self, indent: usize, word: &str, condition: &Expr<'_>) {
         self.indent(indent);
@@ -181,8 +192,10 @@ impl Printer<'_, '_> {
     /// The branches after an `if`, up to the last brace.
     fn otherwise(&mut self, mut reject: BlockId, indent: usize) {
         while let Some(block) = self.body.blocks.get(reject.0)
-            && let Some(StmtKind::If { condition, accept, reject: next }) = only(block)
+            && let Some(stmt) = only(block)
+            && let StmtKind::If { condition, accept, reject: next } = &stmt.kind
         {
+            self.mark(stmt);
             self.indent(indent);
             self.text.push_str("} else if ");
             self.wrapped(condition, indent, 2);
@@ -373,11 +386,11 @@ impl Printer<'_, '_> {
 }
 
 /// The statement of a block that has one, and no comments.
-fn only<'b, 'm>(block: &'b Block<'m>) -> Option<&'b StmtKind<'m>> {
+fn only<'b, 'm>(block: &'b Block<'m>) -> Option<&'b Stmt<'m>> {
     let is_bare = |stmt: &Stmt<'_>| stmt.above.is_empty() && stmt.behind.is_empty();
     if !block.head.is_empty() || !block.end.is_empty() || !block.statements.iter().all(is_bare) {
         return None;
     }
-    let mut kinds = block.statements.iter().map(|stmt| &stmt.kind).filter(|kind| !matches!(kind, StmtKind::Empty));
-    kinds.next().filter(|_| kinds.next().is_none())
+    let mut real = block.statements.iter().filter(|stmt| !matches!(stmt.kind, StmtKind::Empty));
+    real.next().filter(|_| real.next().is_none())
 }

@@ -19,7 +19,7 @@ fn read(text: &str, style: Style) -> String {
 fn plain(mut module: naga::Module, style: Style) -> String {
     unname(&mut module);
     let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).expect("valid");
-    flat(&write(&module, &info, style, &Notes::default()).expect("written"))
+    flat(&write(&module, &info, style, &Notes::default()).expect("written").0)
 }
 
 /// Gives everything in a module a name of its own: which names it has, and which values, is no part of what it does.
@@ -156,7 +156,7 @@ fn stages(style: Style) -> Vec<Stages> {
             let lowered = crate::lower::lower(&program, stage, Target::Wgsl, &Conventions::default());
             let Ok(module) = lowered else { continue };
             let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).expect("valid");
-            let text = write(&module, &info, style, &Notes::default()).expect("written");
+            let text = write(&module, &info, style, &Notes::default()).expect("written").0;
             texts.push(Stages { name: format!("{name}, {}", stage.name()), text, module });
         }
     }
