@@ -85,7 +85,7 @@ pub use glisten_gpu::Gpu;
 pub use glisten_reference::{Precision, RenderOptions, render};
 #[cfg(feature = "reference")]
 pub use glisten_scene::picture::Picture;
-pub use sources::{Search, completing};
+pub use sources::{Search, completing, stage_of_name};
 
 /// Translates programs to targets, and reflects what a host needs to know.
 pub mod emit {

@@ -11,6 +11,8 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSy
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { opened } from "./test/chromium.mjs";
+import { compared } from "./test/layout.mjs";
 import { root, vite } from "./test/package.mjs";
 
 const { default: glisten } = await import(pathToFileURL(vite).href);
@@ -34,6 +36,7 @@ const tint = async (code) => {
   const error = await device.popErrorScope();
   return told.messages.find((one) => one.type === "error")?.message ?? error?.message ?? null;
 };
+const chromium = await opened();
 /** The complaint of glslang about a text as it is, which WebGL takes for OpenGL ES. */
 const glslang = (name, text) => {
   const folder = mkdtempSync(join(tmpdir(), "glisten-"));
@@ -50,12 +53,12 @@ const glslang = (name, text) => {
 const isShader = (name) => /\.(vert|frag|vsh|fsh|vs|fs|glsl)$/.test(name);
 const hasMain = (text) => /\bvoid\s+main\s*\(/.test(text.replace(/\/\/.*|\/\*[^]*?\*\//g, ""));
 
-console.log("| project | commit | programs | built | accepted by Tint | refused by glslang, too | others |");
-console.log("| --- | --- | --- | --- | --- | --- | --- |");
-const all = [0, 0, 0, 0, 0];
+console.log("| project | commit | programs | built | accepted by Tint | drawn by Chromium | lone stages accepted | places read back | refused by glslang, too | others |");
+console.log("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+const all = [0, 0, 0, 0, 0, 0, 0, 0];
 let isRight = true;
 for (const folder of folders) {
-  const row = { programs: 0, built: 0, accepted: 0, refused: 0, others: 0 };
+  const row = { programs: 0, built: 0, accepted: 0, drawn: 0, lone: 0, places: 0, refused: 0, others: 0 };
   const options = { folders: [folder], options: { ...(engines.has(folder) ? { engine: engines.get(folder) } : {}), allow: ["W0108"] } };
   const plugin = glisten(options);
   const files = readdirSync(folder, { recursive: true }).map((name) => join(folder, name)).filter((name) => isShader(name) && !name.includes("node_modules")).sort();
@@ -85,13 +88,23 @@ for (const folder of folders) {
       if (complaint) { isAccepted = false; say(`Tint: ${complaint}`); }
     }
     row.accepted += isAccepted;
+    const told = compared(program.reflection, [program.vertex, program.fragment].filter(Boolean));
+    row.places += told.count;
+    told.complaints.forEach((one) => say(`reflection: ${one}`));
+    const complaint = chromium ? await chromium.complaint(program) : null;
+    if (complaint) say(`Chromium: ${complaint}`);
+    row.drawn += complaint === "";
+    row.lone += chromium !== null && complaint === null;
+    isRight &&= !complaint && told.complaints.length === 0;
   }
   const git = existsSync(join(folder, ".git")) ? execFileSync("git", ["-C", folder, "rev-parse", "--short=7", "HEAD"], { encoding: "utf8" }).trim() : "";
-  const counts = [row.programs, row.built, row.accepted, row.refused, row.others];
+  const counts = [row.programs, row.built, row.accepted, row.drawn, row.lone, row.places, row.refused, row.others];
   counts.forEach((count, index) => { all[index] += count; });
   isRight &&= row.built === row.accepted;
   console.log(`| ${basename(folder).replace("+", "/")} | ${git} | ${counts.join(" | ")} |`);
 }
 console.log(`| all | | ${all.join(" | ")} |`);
+console.log(chromium ? `\nDrawn by ${chromium.name}.` : "\nNo Chromium with WebGPU was found: nothing was drawn.");
+await chromium?.close();
 // Dawn keeps the process alive.
 process.exit(isRight ? 0 : 1);

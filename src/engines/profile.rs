@@ -11,6 +11,7 @@ use glisten_front::compiler::Problem;
 use glisten_front::source::{Prelude, version_line};
 use indexmap::IndexMap;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use std::ops::Range;
 use std::sync::LazyLock;
 
@@ -24,7 +25,7 @@ macro_rules! prelude {
 }
 macro_rules! profile {
     ($name:literal $(, $prelude:expr)*) => {
-        ($name, include_str!(concat!("profiles/", $name, ".toml")), &[$($prelude),*])
+        ($name, include_str!(concat!("profiles/", $name, ".json")), &[$($prelude),*])
     };
 }
 
@@ -58,6 +59,9 @@ pub const SHOWN: &str = "<glisten>/engines/";
 struct Settings {
     /// One line for people.
     about: String,
+    /// What is worth knowing of the settings, in their order, for those who change them.
+    #[serde(rename = "why")]
+    _why: IgnoredAny,
     /// Another profile, whose settings hold where this one has none.
     extends: Option<String>,
     /// The version of sources without a `#version` line.
@@ -215,7 +219,7 @@ fn number(version: &str) -> Option<u16> {
 }
 
 fn settings(text: &str) -> Settings {
-    toml::from_str(text).expect("a test reads every embedded profile")
+    serde_json::from_str(text).expect("a test reads every embedded profile")
 }
 
 impl Profile {

@@ -18,3 +18,4 @@ pub(crate) use includes::DiskIncludes;
 #[cfg(feature = "cli")]
 pub(crate) use programs::ProgramFiles;
 pub(crate) use settings::{Settings, members, parse_version};
+pub use stages::stage_of_name;

@@ -89,6 +89,18 @@ fn is_word_of_capital(name: &str, place: usize) -> bool {
     ends_small && after.starts_with(|first: char| first.is_ascii_uppercase())
 }
 
+/// The stage that the name of a file tells, and the name without the part that tells it, which the other stages of a program share.
+///
+/// ```
+/// use glisten::{Stage, stage_of_name};
+///
+/// assert_eq!(stage_of_name("shaders/waveFrag.glsl"), Some((Stage::Fragment, "wave".to_owned())));
+/// assert_eq!(stage_of_name("wave.glsl"), None);
+/// ```
+pub fn stage_of_name(name: &str) -> Option<(Stage, String)> {
+    read(Path::new(name))
+}
+
 /// The stage of a file name.
 pub(crate) fn by_name(path: &Path) -> Option<Stage> {
     read(path).map(|(stage, _)| stage)

@@ -454,6 +454,49 @@ fn the_page_works_in_a_browser() {
     assert!(saved.contains("color.r = mix(color.r, 1.0, 0.5);"), "{saved}");
 }
 
+/// The lessons of `docs/tutorial.md`, to the letter.
+#[test]
+fn the_lessons_of_the_tutorial_can_be_done_in_a_browser() {
+    let Some((browser, module)) = browser() else {
+        untried();
+        return;
+    };
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["globe.vert", "globe.frag"] {
+        fs::copy(root.join("fixtures/tutorial").join(name), folder.path().join(name)).expect("it can be copied");
+    }
+    let play = Play::start(folder.path(), &["."]);
+    let address = format!("http://{}/?token={}", play.host(), play.token);
+    let script = root.join("tests/it/lessons.mjs");
+    let ran = Command::new("node").arg(script).arg(address).args([browser, module]).output().expect("node runs");
+    let errors = String::from_utf8_lossy(&ran.stderr);
+    let seen: Value = serde_json::from_slice(&ran.stdout).unwrap_or_else(|error| panic!("{error}: {errors}"));
+    assert_eq!(seen["errors"], json!([]), "{seen:#}");
+    let page = fs::read_to_string(root.join("docs/tutorial.md")).expect("it is there");
+    for (key, part) in [
+        ("finding", "`colour` is not declared"),
+        ("finding", "did you mean `color`?"),
+        ("finding", "write `color`"),
+        ("last", "out color"),
+        ("step", "max(dot(normalize(normal), towardsLight), 0.0)"),
+        ("verdict", "holds"),
+    ] {
+        assert!(seen[key].as_str().is_some_and(|text| text.contains(part)), "{key}: {seen:#}");
+        let told = page.replace("\n   ", "");
+        assert!(told.contains(part), "the page does not tell `{part}`");
+    }
+    assert!(seen["value"].as_str().is_some_and(|text| text.starts_with("vec3")), "{seen:#}");
+    assert_eq!(seen["dot"], json!(true), "{seen:#}");
+    let light = "    let light = 0.1 + 0.9 * max(dot(normalize(normal), uniforms.towardsLight), 0.0);";
+    assert_eq!(seen["matched"]["wgsl"], json!([light]), "{seen:#}");
+    assert_eq!(seen["matched"]["glsl"], json!(["    vec3 albedo = texture(surface, place).rgb;"]), "{seen:#}");
+    assert_eq!(seen["crossed"], json!(["uniform vec3 towardsLight;"]), "{seen:#}");
+    let reflection = seen["reflection"].as_str().unwrap_or_default();
+    assert!(reflection.contains("group 1, binding 0; sampler: group 1, binding 1"), "{reflection}");
+    assert!(!reflection.contains("undefined"), "{reflection}");
+}
+
 /// The scene of these tests with a cube that a camera looks at.
 fn with_camera(folder: &Path) {
     let camera = "[camera]\neye = [0.0, 0.0, 4.0]\ntarget = [0.0, 0.0, 0.0]\n\n";

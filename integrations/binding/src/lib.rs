@@ -11,14 +11,16 @@ mod program;
 #[cfg(feature = "render")]
 mod scene;
 mod settings;
+mod sources;
 mod upgrade;
 
 pub use error::{Error, Kind, Unreadable, guarded};
 pub use includes::{Answer, Includes};
-pub use program::{Compiled, Format, compile, stage_of_name, stage_of_word, target_of_word};
+pub use program::{Compiled, Format, compile, target_of_word, targets};
 #[cfg(feature = "render")]
 pub use scene::{Drawn, Files, Scenery};
 pub use settings::{OPTIONS, Settings};
+pub use sources::{sources_of, stage_of_name, stage_of_word};
 pub use upgrade::{Upgraded, upgrade};
 
 #[cfg(feature = "render")]

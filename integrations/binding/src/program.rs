@@ -10,43 +10,28 @@ use glisten::diagnostic::{Diagnostic, Severity};
 use glisten::emit::{self, Emitted, Reflection, Target};
 use glisten::source::SourceMap;
 use glisten::{Program, Source, Stage, lint};
+use std::collections::HashSet;
 use std::sync::OnceLock;
 
-/// Extensions of files, with their stages.
-static EXTENSIONS: &[(&str, Stage)] = &[
-    ("vert", Stage::Vertex),
-    ("vs", Stage::Vertex),
-    ("vsh", Stage::Vertex),
-    ("geom", Stage::Geometry),
-    ("gs", Stage::Geometry),
-    ("gsh", Stage::Geometry),
-    ("frag", Stage::Fragment),
-    ("fs", Stage::Fragment),
-    ("fsh", Stage::Fragment),
-];
-
-/// The stage that the name of a file tells: by its extension, or by the one before `.glsl`.
-pub fn stage_of_name(name: &str) -> Option<Stage> {
-    let (_, extension) = name.strip_suffix(".glsl").unwrap_or(name).rsplit_once('.')?;
-    EXTENSIONS.iter().find(|(known, _)| *known == extension).map(|(_, stage)| *stage)
-}
-
-/// The stage of a word.
-///
-/// # Errors
-/// There is no such stage.
-pub fn stage_of_word(word: &str) -> Result<Stage, Error> {
-    let found = Stage::ALL.into_iter().find(|stage| stage.name() == word);
-    found.ok_or_else(|| Error::argument(format!("`{word}` is no stage: vertex, geometry or fragment")))
+/// The targets that can be written.
+pub fn targets() -> impl Iterator<Item = Target> {
+    Target::ALL.iter().copied().filter(|target| target.is_there())
 }
 
 /// The target of a word.
 ///
 /// # Errors
-/// There is no such target.
+/// There is no such target, or this build cannot write it.
 pub fn target_of_word(word: &str) -> Result<Target, Error> {
-    let words = || Target::ALL.iter().map(|target| target.word()).collect::<Vec<_>>().join(", ");
-    Target::from_word(word).ok_or_else(|| Error::argument(format!("`{word}` is no target: {}", words())))
+    let words = || targets().map(Target::word).collect::<Vec<_>>().join(", ");
+    match Target::from_word(word) {
+        Some(target) if target.is_there() => Ok(target),
+        Some(target) => {
+            let place = "only the module with the reference writes";
+            Err(Error::argument(format!("{place} {}; this one writes {}", target.name(), words())))
+        }
+        None => Err(Error::argument(format!("`{word}` is no target: {}", words()))),
+    }
 }
 
 /// A format of diagnostics.
@@ -72,6 +57,17 @@ pub(crate) struct Report {
 impl Report {
     pub(crate) fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
+    }
+
+    /// Leaves out what was found before at the same place: stages in one text share declarations.
+    fn tell_once(&mut self) {
+        let Self { sources, diagnostics } = self;
+        let mut told = HashSet::new();
+        diagnostics.retain(|diagnostic| {
+            let place = sources.location(diagnostic.primary.span);
+            let place = place.map(|place| (sources.file(place.file).name(), place.line, place.column));
+            told.insert((place, diagnostic.code.id, diagnostic.message.clone()))
+        });
     }
 
     pub(crate) fn findings(&self) -> Vec<Finding> {
@@ -123,6 +119,7 @@ pub fn compile(settings: &Settings, sources: &[Source], lints: bool) -> Result<C
     }
     let place = |diagnostic: &Diagnostic| report.sources.call_site(diagnostic.primary.span).start;
     report.diagnostics.sort_by_key(place);
+    report.tell_once();
     let program = compilation.program.filter(|_| !report.has_errors());
     Ok(Compiled { settings: settings.clone(), report, program, optimized: OnceLock::new() })
 }
@@ -200,8 +197,9 @@ impl Compiled {
 
 #[cfg(test)]
 mod tests {
-    use super::{Format, compile, stage_of_name};
+    use super::{Format, compile};
     use crate::Settings;
+    use crate::sources::stage_of_name;
     use glisten::emit::Target;
     use glisten::{Source, Stage};
 

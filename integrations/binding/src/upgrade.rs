@@ -6,6 +6,7 @@ use crate::settings::Settings;
 use glisten::diagnostic::write::Finding;
 use glisten::upgrade::{Refused, Target};
 use glisten::{Compilation, Source};
+use std::collections::BTreeSet;
 
 /// The sources of a program in another language; or what is wrong with them.
 #[derive(Debug, Default)]
@@ -18,10 +19,17 @@ pub struct Upgraded {
 /// Rewrites the sources of a program, as `glisten upgrade` does. Files that they include stay as they are.
 ///
 /// # Errors
-/// There are no sources, or there is no such version to write; a source is newer, or the version has no counterpart for a name.
+/// There are no sources, or there is no such version to write; two sources are stages of one text; a source is newer, or the version has no
+/// counterpart for a name.
 pub fn upgrade(settings: &Settings, sources: &[Source], version: &str) -> Result<Upgraded, Error> {
     if sources.is_empty() {
         return Err(Error::argument("there are no sources"));
+    }
+    let names: BTreeSet<&str> = sources.iter().map(|source| source.name.as_str()).collect();
+    if names.len() < sources.len() {
+        return Err(Error::argument(
+            "a source has several stages, and each stage becomes a text: give one source for each",
+        ));
     }
     let Some((_, target)) = Target::ALL.iter().find(|(word, _)| *word == version) else {
         let words = Target::ALL.map(|(word, _)| word).join(", ");

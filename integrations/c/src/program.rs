@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Kept, show};
 use crate::names::{self, FormatNumber, StageNumber, TargetNumber};
 use crate::pointers::{give, reference, slice, take_back, text};
 use crate::status::{Status, call};
-use glisten_binding::{Compiled, Error, Stage, compile, stage_of_name};
+use glisten_binding::{Compiled, Error, Stage, compile};
 use std::ffi::c_char;
 
 /// The size of a text that ends with NUL.
@@ -54,11 +54,10 @@ pub(crate) unsafe fn sources_of(sources: *const Source, count: usize) -> Result<
             size => std::str::from_utf8(unsafe { slice(source.text.cast::<u8>(), size, "text of a source")? })
                 .map_err(|_| Error::argument(format!("the text of `{name}` is not UTF-8")))?,
         };
-        let stage: Option<Stage> = names::stage(source.stage)?.or_else(|| stage_of_name(name));
-        let stage = stage.ok_or_else(|| Error::argument(format!("the name `{name}` tells no stage")))?;
-        Ok(glisten_binding::Source { name: name.to_owned(), text: content.into(), stage })
+        glisten_binding::sources_of(name, content, names::stage(source.stage)?)
     };
-    sources.iter().map(source).collect()
+    let sources: Vec<Vec<_>> = sources.iter().map(source).collect::<Result<_, Error>>()?;
+    Ok(sources.concat())
 }
 
 /// Compiles, and gives the program to the host.

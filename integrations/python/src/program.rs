@@ -29,18 +29,11 @@ pub(crate) fn compile(
 
 /// The sources of a call.
 pub(crate) fn sources_of(sources: Vec<(String, String, Option<String>)>) -> PyResult<Vec<Source>> {
-    let sources: Result<Vec<Source>, Error> = sources.into_iter().map(source).collect();
-    sources.map_err(raised)
-}
-
-fn source((name, text, stage): (String, String, Option<String>)) -> Result<Source, Error> {
-    let stage = match stage {
-        Some(word) => stage_of_word(&word)?,
-        None => stage_of_name(&name).ok_or_else(|| {
-            Error::argument(format!("the name `{name}` tells no stage: end it with .vert or .frag, or name the stage"))
-        })?,
-    };
-    Ok(Source { name, text: text.into(), stage })
+    let sources = sources.into_iter().map(|(name, text, stage)| {
+        let stage = stage.map(|word| stage_of_word(&word)).transpose()?;
+        glisten_binding::sources_of(&name, &text, stage)
+    });
+    sources.collect::<Result<Vec<_>, Error>>().map(|sources| sources.concat()).map_err(raised)
 }
 
 #[pymethods]

@@ -81,6 +81,10 @@ export function api(module) {
     return module.call({ call: "format", sources: [{ name, text, stage }], style }).texts[0];
   }
 
+  function stageOf(name) {
+    return module.call({ call: "names", sources: [{ name, text: "" }] }).names[0];
+  }
+
   function versions() {
     const { version, targets, options, upgrades, reference } = module.call({ call: "versions" });
     return { version, targets, options, upgrades, reference };
@@ -112,5 +116,5 @@ export function api(module) {
     return { width, height, data: attachments[0], attachments, covered: reply.bytes(reply.covered) };
   }
 
-  return { compile, lint, fix, reflect, upgrade, format, versions, render };
+  return { compile, lint, fix, reflect, upgrade, format, stageOf, versions, render };
 }

@@ -2,7 +2,10 @@
 export type Stage = "vertex" | "geometry" | "fragment";
 /** A language to write. `glsl` is GLSL ES 3.00, unless the option `glslVersion` says otherwise. */
 export type Target = "wgsl" | "spirv" | "msl" | "hlsl" | "glsl";
-/** A source of a program. The name tells the stage (`a.vert`, `a.frag`) unless `stage` does. */
+/**
+ * A source of a program. `stage` tells the stage, or else the name does (`a.vert`, `a.frag`). A text whose name tells none has the stages that macros choose in
+ * it (`#ifdef VERTEX_SHADER`).
+ */
 export interface Source {
   name: string;
   text: string;
@@ -131,6 +134,11 @@ export declare function format(
   text: string,
   options?: { name?: string; stage?: Stage; indent?: number; width?: number; bracesBelow?: boolean },
 ): string;
+/**
+ * The stage that the name of a file tells, and the name without the part that tells it, which the other stages of a program share:
+ * `wave` for `wave.frag`, `wave.frag.glsl` and `waveFrag.glsl`. Null where the name tells none.
+ */
+export declare function stageOf(name: string): { stage: Stage; stem: string } | null;
 /** The version, and the words that calls take. */
 export declare function versions(): {
   version: string;

@@ -3,4 +3,4 @@
 import { browser } from "./browser.js";
 
 export { GlistenError } from "./module.js";
-export const { init, compile, lint, fix, reflect, upgrade, format, versions } = browser(new URL("./compiler.wasm", import.meta.url));
+export const { init, compile, lint, fix, reflect, upgrade, format, stageOf, versions } = browser(new URL("./compiler.wasm", import.meta.url));

@@ -5,7 +5,7 @@ import { Module } from "./module.js";
 import { readFileSync } from "node:fs";
 
 export { GlistenError } from "./module.js";
-export const { compile, lint, fix, reflect, upgrade, format, versions, render } = api(
+export const { compile, lint, fix, reflect, upgrade, format, stageOf, versions, render } = api(
   new Module(new WebAssembly.Module(readFileSync(new URL("./reference.wasm", import.meta.url)))),
 );
 

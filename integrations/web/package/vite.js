@@ -1,45 +1,22 @@
 // A plugin for Vite: `import program from "./x.frag?glisten"` is the code and the reflection of a program.
 //
 // A fragment shader brings the vertex shader of its stem, and the other way round: `wave.vert` and `wave.frag`, `wave/vertex.glsl` and
-// `wave/fragment.glsl`. A source without a `#version` line is GLSL ES 1.00, as for WebGL. All files that went in are watched: with Vite,
+// `wave/fragment.glsl`. A file with both, chosen by macros, is a program of its own. A source without a `#version` line is GLSL ES 1.00, as for WebGL. All files that went in are watched: with Vite,
 // a change of an included file reloads what imports the program.
 
-import { compile, GlistenError } from "glisten";
+import { compile, GlistenError, stageOf } from "glisten";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { basename, dirname, join, resolve } from "node:path";
 
 const SUFFIX = "?glisten";
-/** Words that tell the stage: as an extension, or at an end of the name of a `.glsl` file. */
-const WORDS = {
-  vertex: ["vertexshader", "vertex", "vert", "vsh", "vs", "vp"],
-  fragment: ["fragmentshader", "fragment", "frag", "fsh", "fs", "pixel", "fp", "ps"],
-};
 
-/** The stage that a file name tells, and the rest of the name: `wave` for `wave.frag`, `wave.frag.glsl`, `wave-frag.glsl`, `waveFrag.glsl`. */
-function read(name) {
-  const inner = name.replace(/\.glsl$/i, "");
-  for (const [stage, words] of Object.entries(WORDS)) {
-    for (const word of words) {
-      const capital = word[0].toUpperCase() + word.slice(1);
-      const signs = inner === name ? "\\." : "[._-]";
-      const found = new RegExp(`^(.*)${signs}${word}$`, "i").exec(inner);
-      if (found) return { stage, stem: found[1] };
-      if (inner === name) continue;
-      if (inner.toLowerCase() === word) return { stage, stem: "" };
-      const other = new RegExp(`^${word}[._-](.*)$`, "i").exec(inner) ?? new RegExp(`^(.*[a-z0-9])${capital}$`).exec(inner);
-      if (other) return { stage, stem: other[1] };
-    }
-  }
-  return null;
-}
-
-/** The files of the program of a file: the other stage has the same stem, in the same folder. */
+/** The files of the program of a file: the other stage has the same stem, in the same folder. A file whose name tells no stage is a program. */
 function filesOf(file) {
-  const own = read(basename(file));
+  const own = stageOf(basename(file));
   if (!own) return [file];
   const isOther = (name) => {
-    const found = read(name);
-    return found !== null && found.stage !== own.stage && found.stem === own.stem;
+    const found = stageOf(name);
+    return found !== null && found.stage !== own.stage && found.stage !== "geometry" && found.stem === own.stem;
   };
   const [other] = readdirSync(dirname(file)).filter(isOther).sort();
   if (!other) return [file];
@@ -67,7 +44,7 @@ export default function glisten(given = {}) {
       const files = filesOf(id.slice(0, -SUFFIX.length));
       const sources = files.map((name) => {
         this.addWatchFile(name);
-        return { name, text: readFileSync(name, "utf8"), stage: read(basename(name))?.stage };
+        return { name, text: readFileSync(name, "utf8") };
       });
       const includes = (path, angled, from) => {
         const found = [...(angled ? [] : [dirname(from)]), ...folders].map((folder) => join(folder, path)).find(existsSync);

@@ -88,6 +88,15 @@ test("errors have their file and line", async () => {
   assert.match(error.message, /`x` is not declared/);
 });
 
-test("a name that tells no stage is refused", async () => {
-  await assert.rejects(imported({ "a.glsl": fragment }, "a.glsl"), /tells no stage/);
+test("a file may have both stages", async () => {
+  const both = "varying vec2 st;\n#ifdef VERTEX_SHADER\nattribute vec2 p;\nvoid main() { st = p; gl_Position = vec4(p, 0.0, 1.0); }\n#endif\n#ifdef FRAGMENT_SHADER\nprecision mediump float;\nuniform float k;\nvoid main() { gl_FragColor = vec4(st, k, 1.0); }\n#endif\n";
+  const { module, watched } = await imported({ "screen.glsl": both }, "screen.glsl");
+  assert.match(module.vertex, /@vertex/);
+  assert.match(module.fragment, /@fragment/);
+  assert.deepEqual(module.reflection.attributes.map(({ name }) => name), ["p"]);
+  assert.deepEqual(watched, ["screen.glsl"]);
+});
+
+test("what tells no stage is refused", async () => {
+  await assert.rejects(imported({ "a.glsl": fragment }, "a.glsl"), /neither the name `.*a\.glsl` nor the text tells the stage/);
 });

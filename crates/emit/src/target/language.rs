@@ -55,6 +55,14 @@ impl Target {
         }
     }
 
+    /// Whether its writer is there: a module for the web may leave out those of MSL and HLSL (the feature `native` of this crate).
+    pub fn is_there(self) -> bool {
+        match self {
+            Self::Msl | Self::Hlsl => crate::emit::NATIVE_ARE_THERE,
+            Self::Wgsl | Self::Spirv | Self::Glsl => true,
+        }
+    }
+
     /// The target with this word.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|target| target.word() == word)

@@ -51,7 +51,7 @@ pub(crate) fn fix(request: &Request) -> Result<Reply, Error> {
 }
 
 fn checked(settings: &Settings, texts: &[Text]) -> Result<Compiled, Error> {
-    let sources = texts.iter().map(Text::source).collect::<Result<Vec<Source>, Error>>()?;
+    let sources = texts.iter().map(Text::sources).collect::<Result<Vec<Vec<Source>>, Error>>()?.concat();
     glisten_binding::compile(settings, &sources, true)
 }
 

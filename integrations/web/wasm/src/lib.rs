@@ -73,6 +73,7 @@ fn answered(bytes: &[u8]) -> Result<Reply, Error> {
         "fix" => fixes::fix(&request),
         "upgrade" => texts::upgrade(&request),
         "format" => texts::format(&request),
+        "names" => Ok(texts::names(&request)),
         "versions" => Ok(texts::versions()),
         #[cfg(feature = "reference")]
         "render" => scene::render(&request, blob),

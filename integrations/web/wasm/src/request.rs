@@ -3,7 +3,7 @@
 #[cfg(feature = "reference")]
 use crate::includes::joined;
 use crate::includes::{Asked, Found};
-use glisten_binding::{Error, Settings, Source, stage_of_name, stage_of_word};
+use glisten_binding::{Error, Settings, Source, Stage, sources_of, stage_of_word};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -113,21 +113,19 @@ impl Request {
 
     /// The sources with their stages.
     pub(crate) fn sources(&self) -> Result<Vec<Source>, Error> {
-        self.sources.iter().map(Text::source).collect()
+        let sources: Result<Vec<Vec<Source>>, Error> = self.sources.iter().map(Text::sources).collect();
+        sources.map(|sources| sources.concat())
     }
 }
 
 impl Text {
-    /// The source.
-    pub(crate) fn source(&self) -> Result<Source, Error> {
-        let name = &self.name;
-        let stage = match &self.stage {
-            Some(word) => stage_of_word(word)?,
-            None => stage_of_name(name).ok_or_else(|| {
-                let help = "end it with .vert or .frag, or name the stage";
-                Error::argument(format!("the name `{name}` tells no stage: {help}"))
-            })?,
-        };
-        Ok(Source { name: name.clone(), text: self.text.as_str().into(), stage })
+    /// The sources: one for each stage of the text.
+    pub(crate) fn sources(&self) -> Result<Vec<Source>, Error> {
+        sources_of(&self.name, &self.text, self.stage()?)
+    }
+
+    /// The stage that the host says.
+    pub(crate) fn stage(&self) -> Result<Option<Stage>, Error> {
+        self.stage.as_deref().map(stage_of_word).transpose()
     }
 }

@@ -1,9 +1,9 @@
-//! Texts to texts: `upgrade` and `format`; and `versions`.
+//! Texts to texts: `upgrade` and `format`; and `names` and `versions`.
 
 use crate::reply::Reply;
 use crate::request::Request;
 use glisten::format::{MAX_INDENT, Options, WIDTHS, formatted};
-use glisten_binding::{Error, Format, OPTIONS, Stage, Target, VERSION, stage_of_name, stage_of_word};
+use glisten_binding::{Error, Format, OPTIONS, Stage, Target, VERSION, targets, stage_of_name, stage_of_word};
 
 /// Answers `upgrade`.
 pub(crate) fn upgrade(request: &Request) -> Result<Reply, Error> {
@@ -53,11 +53,22 @@ pub(crate) fn format(request: &Request) -> Result<Reply, Error> {
     Ok(reply)
 }
 
+/// Answers `names`: for each name of a file, the stage and the rest of the name, or nothing.
+pub(crate) fn names(request: &Request) -> Reply {
+    let told = request.sources.iter().map(|source| {
+        let (stage, stem) = glisten::stage_of_name(&source.name)?;
+        Some(serde_json::json!({ "stage": stage.name(), "stem": stem }))
+    });
+    let mut reply = Reply::default();
+    reply.set("names", told.collect::<Vec<_>>());
+    reply
+}
+
 /// Answers `versions`: of glisten, and the words that options and targets have.
 pub(crate) fn versions() -> Reply {
     let mut reply = Reply::default();
     reply.set("version", VERSION);
-    reply.set("targets", Target::ALL.iter().map(|target| target.word()).collect::<Vec<_>>());
+    reply.set("targets", targets().map(Target::word).collect::<Vec<_>>());
     reply.set("options", OPTIONS.iter().map(|(name, ..)| *name).collect::<Vec<_>>());
     reply.set("upgrades", glisten::upgrade::Target::ALL.map(|(word, _)| word).to_vec());
     reply.set("reference", cfg!(feature = "reference"));

@@ -192,8 +192,9 @@ const showTranslation = () => {
 };
 const showReflection = () => {
   const row = (cells, tag = "td") => html("tr", {}, cells.map((cell) => html(tag, {}, cell)));
+  const placeOf = ({ group, binding }) => `group ${group}, binding ${binding}`;
   const typed = (one) => (one.array_size ? `${one.type}[${one.array_size}]` : one.type);
-  const block = (one, name) => ["block", name, `${one.size} bytes`, `group ${one.group}, binding ${one.binding}`];
+  const block = (one, name) => ["block", name, `${one.size} bytes`, placeOf(one)];
   const uniform = (one) => ["uniform", one.name, typed(one), `offset ${one.offset}${one.block ? ` in ${one.block}` : ""}`];
   const member = (of) => (one) => (one.members?.length ? one.members.map(member(`${of}.${one.name}`)).flat(1) : [["uniform", `${of}.${one.name}`, typed(one), `offset ${one.offset} in the element`]]);
   const rows = programs.flatMap(({ reflection: told = {} }) => [
@@ -202,7 +203,7 @@ const showReflection = () => {
     ...(told.blocks ?? []).map((one) => block(one, one.name)),
     ...(told.uniforms ?? []).map(uniform),
     ...(told.struct_arrays ?? []).flatMap((one) => [["uniform", `${one.name}[${one.array_size}]`, "structs", `offset ${one.offset ?? 0}, stride ${one.array_stride}`], ...one.members.flatMap(member(`${one.name}[i]`))]),
-    ...(told.samplers ?? []).map((one) => ["texture", one.name, one.type, `group ${one.group}, binding ${one.texture_binding ?? one.binding}${one.sampler_binding === undefined || one.sampler_binding === null ? "" : `, sampler ${one.sampler_binding}`}`]),
+    ...(told.samplers ?? []).map((one) => ["texture", one.name, one.type, [placeOf(one.texture), one.sampler && `sampler: ${placeOf(one.sampler)}`].filter(Boolean).join("; ")]),
     ...(told.outputs ?? []).map((one) => ["output", one.name, one.type, `location ${one.location}`]),
   ]);
   byId("reflection").replaceChildren(html("table", {}, html("thead", {}, row(["kind", "name", "type", "place"], "th")), html("tbody", {}, rows.map((cells) => row(cells)))));

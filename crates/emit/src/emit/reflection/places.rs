@@ -4,7 +4,7 @@
 //! *In:* a [`Program`] and [`Conventions`]. *Out:* parts of the [`Reflection`](super::Reflection). *Holds:* it agrees
 //! with the emitted text; a test compares them.
 
-use crate::emit::targets::{glsl, msl};
+use crate::emit::targets::{glsl, native};
 use crate::target::{Conventions, Slots, WindowOrigin, viewport_slot};
 use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::link::{Program, SlotBinding};
@@ -181,7 +181,7 @@ impl<'a> Places<'a> {
         let version = self.conventions.glsl_version;
         let entry = |stage: Stage| {
             let shader = self.program.stage(stage).filter(|shader| shader.main.is_some());
-            shader.map(|_| msl::entry_point(stage).to_owned())
+            shader.map(|_| native::msl_entry_point(stage).to_owned())
         };
         let entry_points =
             super::EntryPoints { vertex: entry(Stage::Vertex), geometry: None, fragment: entry(Stage::Fragment) };

@@ -4,8 +4,7 @@
 //! explicitly, so that an update of naga changes nothing silently.
 
 pub(super) mod glsl;
-mod hlsl;
-pub(super) mod msl;
+pub(super) mod native;
 mod spirv;
 mod wgsl;
 
@@ -50,8 +49,8 @@ pub(super) fn write(target: Target, job: Job<'_>) -> Result<Traced, String> {
     match target {
         Target::Wgsl => wgsl::write(&job),
         Target::Spirv => spirv::write(&job).map(Emitted::Words).map(Traced::of),
-        Target::Msl => msl::write(job).map(Emitted::Text).map(Traced::of),
-        Target::Hlsl => hlsl::write(job).map(Emitted::Text).map(Traced::of),
+        Target::Msl => native::msl(job).map(Emitted::Text).map(Traced::of),
+        Target::Hlsl => native::hlsl(job).map(Emitted::Text).map(Traced::of),
         // Written from the typed program, before there is a module.
         Target::Glsl => Err("GLSL is not written from a module".to_owned()),
     }

@@ -6,8 +6,8 @@ use super::function::{Builder, Built, Context};
 use super::inverse::Inverses;
 use super::names::{Names, short_type};
 use super::notes::Notes;
-use super::tree::Expr;
 use super::print::Marks;
+use super::tree::Expr;
 use super::{Style, effects, print, scopes};
 use crate::emit::emitted::Origin;
 use glisten_front::source::Span;
@@ -18,12 +18,7 @@ use naga::{
 };
 
 /// Writes a module, with the comments of the source. Returns which lines come from where, too.
-pub(super) fn write(
-    module: &Module,
-    info: &ModuleInfo,
-    style: Style,
-    notes: &Notes<'_>,
-) -> Try<(String, Vec<Origin>)> {
+pub(super) fn write(module: &Module, info: &ModuleInfo, style: Style, notes: &Notes<'_>) -> Try<(String, Vec<Origin>)> {
     let names = Names::of(module);
     let effects = effects::of_functions(module);
     let inverses = Inverses::of(module, info);

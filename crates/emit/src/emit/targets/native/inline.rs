@@ -15,7 +15,7 @@ use crate::lower::for_each_operand;
 use naga::{Block, Expression, Function, Handle, Range, Statement};
 
 /// Removes the `Emit`s of loads that need no name.
-pub(in crate::emit) fn inline_loads(module: &mut naga::Module) {
+pub(super) fn inline_loads(module: &mut naga::Module) {
     for (_, function) in module.functions.iter_mut() {
         inline_in(function);
     }

@@ -3,28 +3,21 @@
 //! *Holds:* the numbers are those of [`Slots`], which the reflection tells. The entry points are `vertex_main` and
 //! `fragment_main`, so that both fit into one library: `main` is a word of Metal's.
 
-use super::{Job, policies};
+use super::inline::inline_loads;
+use super::msl_entry_point;
+
 use crate::emit::messages::chain;
-use crate::emit::naga_repairs::inline::inline_loads;
+use crate::emit::targets::{Job, policies};
 use crate::target::{SlotKind, Slots};
 use glisten_front::hir::Stage;
 use naga::back::msl;
-
-/// The name of the entry point of a stage.
-pub(in crate::emit) fn entry_point(stage: Stage) -> &'static str {
-    match stage {
-        Stage::Vertex => "vertex_main",
-        Stage::Geometry => "geometry_main",
-        Stage::Fragment => "fragment_main",
-    }
-}
 
 /// Writes MSL.
 pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
     inline_loads(&mut job.module);
     for entry in job.module.entry_points.iter_mut().filter(|_| !job.is_single) {
         let stage = if entry.stage == naga::ShaderStage::Vertex { Stage::Vertex } else { Stage::Fragment };
-        entry.name = entry_point(stage).to_owned();
+        entry.name = msl_entry_point(stage).to_owned();
     }
     let Job { module, info, conventions, slots, .. } = &job;
     let names = module.entry_points.iter().map(|entry| entry.name.clone());
@@ -37,7 +30,7 @@ pub(super) fn write(mut job: Job<'_>) -> Result<String, String> {
         bounds_check_policies: policies(),
         zero_initialize_workgroup_memory: false,
         force_loop_bounding: false,
-        // The reasons are in [`spirv`](super::spirv).
+        // The reasons are in [`spirv`](crate::emit::targets::spirv).
         emit_int_div_checks: false,
         ..msl::Options::default()
     };

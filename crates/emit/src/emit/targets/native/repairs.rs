@@ -11,7 +11,7 @@
 //! *In:* HLSL as naga writes it, one declaration per line. *Out:* the same program.
 
 /// The text with all repairs.
-pub(in crate::emit) fn repaired(text: &str) -> String {
+pub(super) fn repaired(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     for line in text.lines() {
         if is_of_heap(line) {
@@ -88,7 +88,7 @@ fn listed(line: &str) -> Option<String> {
 }
 
 /// The text with `count` clip distances. They are packed into vectors, since Direct3D has two elements for them.
-pub(in crate::emit) fn with_clip_distances(text: &str, count: u32) -> String {
+pub(super) fn with_clip_distances(text: &str, count: u32) -> String {
     const SEMANTIC: &str = " : SV_ClipDistance;";
     // The struct that the function itself fills has the array.
     let mut own = text.lines().filter_map(|line| line.strip_suffix(SEMANTIC)?.split_whitespace().last());

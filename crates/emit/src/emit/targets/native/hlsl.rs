@@ -4,10 +4,10 @@
 //! for samplers. naga takes samplers from a heap through a buffer of indices, which only wgpu binds; here each sampler
 //! is a variable with a register of its own.
 
-use super::Job;
+use super::inline::inline_loads;
+use super::repairs::{repaired, with_clip_distances};
 use crate::emit::messages::chain;
-use crate::emit::naga_repairs::hlsl::{repaired, with_clip_distances};
-use crate::emit::naga_repairs::inline::inline_loads;
+use crate::emit::targets::Job;
 use crate::target::Slots;
 use naga::back::hlsl;
 

@@ -1,0 +1,87 @@
+//! [`sources_of`]: a text to the sources of a program, one for each of its stages.
+//!
+//! *Holds:* the stage is that which the host says, or that which the name tells, as for the program `glisten`. A text whose name tells none has
+//! the stages that macros or marks choose in it (docs/engines.md); all of them have its name and the whole text.
+
+use crate::error::Error;
+use glisten::engines::combined;
+use glisten::{Source, Stage};
+
+/// The stage that the name of a file tells.
+pub fn stage_of_name(name: &str) -> Option<Stage> {
+    glisten::stage_of_name(name).map(|(stage, _)| stage)
+}
+
+/// The stage of a word.
+///
+/// # Errors
+/// There is no such stage.
+pub fn stage_of_word(word: &str) -> Result<Stage, Error> {
+    let found = Stage::ALL.into_iter().find(|stage| stage.name() == word);
+    found.ok_or_else(|| Error::argument(format!("`{word}` is no stage: vertex, geometry or fragment")))
+}
+
+/// The source of a text with one stage.
+///
+/// # Errors
+/// Neither the host nor the name tells the stage.
+fn source_of(name: &str, text: &str, stage: Option<Stage>) -> Result<Source, Error> {
+    let stage = stage.or_else(|| stage_of_name(name)).ok_or_else(|| no_stage(name))?;
+    Ok(Source { name: name.to_owned(), text: text.into(), stage })
+}
+
+/// The sources of a text.
+///
+/// # Errors
+/// Neither the host, nor the name, nor the text tells the stage; the text has several programs.
+pub fn sources_of(name: &str, text: &str, stage: Option<Stage>) -> Result<Vec<Source>, Error> {
+    if stage.is_some() || stage_of_name(name).is_some() {
+        return source_of(name, text, stage).map(|source| vec![source]);
+    }
+    let members = combined::members(text);
+    match members.as_slice() {
+        [] => Err(no_stage(name)),
+        [member] => member.parts.iter().map(|part| source_of(name, text, Some(part.stage))).collect(),
+        several => {
+            let names: Vec<&str> = several.iter().filter_map(|member| member.name.as_deref()).collect();
+            Err(Error::argument(format!("`{name}` has several programs: {}", names.join(", "))))
+        }
+    }
+}
+
+fn no_stage(name: &str) -> Error {
+    let help = "end it with .vert or .frag, or name the stage";
+    Error::argument(format!("neither the name `{name}` nor the text tells the stage: {help}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{source_of, sources_of};
+    use glisten::Stage::{Fragment, Vertex};
+
+    const BOTH: &str = "varying vec2 st;\n#ifdef VERTEX_SHADER\nattribute vec2 p;\nvoid main() { st = p; gl_Position = vec4(p, 0.0, 1.0); }\n#endif\n\
+        #ifdef FRAGMENT_SHADER\nvoid main() { gl_FragColor = vec4(st, 0.0, 1.0); }\n#endif\n";
+
+    #[test]
+    fn the_host_the_name_and_the_text_tell_stages_in_this_order() {
+        let stages = |name, text, stage| {
+            let sources = sources_of(name, text, stage).expect("it tells a stage");
+            sources.iter().map(|source| source.stage).collect::<Vec<_>>()
+        };
+        assert_eq!(stages("a.glsl", BOTH, None), [Vertex, Fragment]);
+        assert_eq!(stages("a.glsl", BOTH, Some(Fragment)), [Fragment]);
+        assert_eq!(stages("a.vert", BOTH, None), [Vertex]);
+        assert_eq!(stages("waterFrag.glsl", "", None), [Fragment]);
+    }
+
+    #[test]
+    fn what_tells_no_stage_is_refused() {
+        let text = "void main() {}";
+        for error in [source_of("a.glsl", BOTH, None).unwrap_err(), sources_of("a.glsl", text, None).unwrap_err()] {
+            assert!(error.message.contains("`a.glsl`"), "{error:?}");
+        }
+        let two = "@vs a\nvoid main() {}\n@end\n@fs b\nvoid main() {}\n@end\n@program one a b\n@program two a b\n";
+        let error = sources_of("a.glsl", two, None).unwrap_err();
+        assert!(error.message.ends_with("several programs: one, two"), "{error:?}");
+    }
+}
