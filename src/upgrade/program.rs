@@ -107,6 +107,10 @@ pub fn upgrade(compiler: &Compiler, sources: &[Source], target: Target) -> Resul
         return Err(Refused::NotValid(Box::new(compilation)));
     }
     let texts = match target {
+        // A module for the web without the reference is as small as can be.
+        Target::Vulkan if cfg!(all(target_family = "wasm", not(feature = "reference"))) => {
+            return Err(Refused::NotForVulkan("only the module with the reference writes GLSL for Vulkan".to_owned()));
+        }
         Target::Vulkan => to_vulkan(&checker, &new).map_err(Refused::NotForVulkan)?,
         _ => new.iter().map(|source| source.text.to_string()).collect(),
     };

@@ -483,7 +483,7 @@ fn the_lessons_of_the_tutorial_can_be_done_in_a_browser() {
         ("verdict", "holds"),
     ] {
         assert!(seen[key].as_str().is_some_and(|text| text.contains(part)), "{key}: {seen:#}");
-        let told = page.replace("\n   ", "");
+        let told = page.replace("\n   ", " ");
         assert!(told.contains(part), "the page does not tell `{part}`");
     }
     assert!(seen["value"].as_str().is_some_and(|text| text.starts_with("vec3")), "{seen:#}");

@@ -15,7 +15,8 @@ fn the_package_gives_what_the_program_gives() {
         writeln!(std::io::stderr(), "{message}").expect("it can be told");
         return;
     }
-    let tests = ["api", "native", "vite"].map(|name| root.join(format!("integrations/web/test/{name}.test.mjs")));
+    let tests =
+        ["api", "native", "size", "vite"].map(|name| root.join(format!("integrations/web/test/{name}.test.mjs")));
     let ran = Command::new("node")
         .arg("--test")
         .args(tests)

@@ -1,6 +1,6 @@
 /** A stage of a program. */
 export type Stage = "vertex" | "geometry" | "fragment";
-/** A language to write. `glsl` is GLSL ES 3.00, unless the option `glslVersion` says otherwise. */
+/** A language to write; `msl` and `hlsl` with `glisten/reference` alone. `glsl` is GLSL ES 3.00, unless the option `glslVersion` says otherwise. */
 export type Target = "wgsl" | "spirv" | "msl" | "hlsl" | "glsl";
 /**
  * A source of a program. `stage` tells the stage, or else the name does (`a.vert`, `a.frag`). A text whose name tells none has the stages that macros choose in

@@ -69,6 +69,29 @@ test("includes come from a map, from a function and from the library", () => {
   assert.match(compiler.compile({ "a.frag": lit }).stages.fragment.wgsl, /lambertFactor/);
 });
 
+test("MSL, HLSL and GLSL for Vulkan come with the reference", () => {
+  for (const target of ["msl", "hlsl"]) {
+    assert.throws(() => compiler.compile(program, { target }), { kind: "argument", message: /only the module with the reference writes/ });
+    assert.ok(reference.compile(program, { target }).stages.fragment[target].includes("main"));
+  }
+  const old = { "a.frag": "#version 150\nuniform float k;\nout vec4 c;\nvoid main() { c = vec4(k); }\n" };
+  assert.throws(() => compiler.upgrade(old, "vulkan"), /only the module with the reference writes/);
+  assert.match(reference.upgrade(old, "vulkan").texts["a.frag"], /layout\(.*binding/);
+  assert.deepEqual(reference.versions().targets.filter((target) => !compiler.versions().targets.includes(target)), ["msl", "hlsl"]);
+  assert.deepEqual(reference.versions().upgrades.filter((word) => !compiler.versions().upgrades.includes(word)), ["vulkan"]);
+});
+
+test("names tell stages, and texts do where names do not", () => {
+  assert.deepEqual(compiler.stageOf("shaders/waveFrag.glsl"), { stage: "fragment", stem: "wave" });
+  assert.equal(compiler.stageOf("wave.glsl"), null);
+  const both = "#version 150\n#ifdef VERTEX\nvoid main() { gl_Position = vec4(0.0); }\n#else\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n#endif\n";
+  assert.deepEqual(Object.keys(compiler.compile({ "a.glsl": both }).stages), ["vertex", "fragment"]);
+  // What stages share is told once.
+  const wrong = both.replace("#ifdef", "float f() { return nothing; }\n#ifdef");
+  assert.equal(compiler.lint({ "a.glsl": wrong }).diagnostics.filter(({ severity }) => severity === "error").length, 1);
+  assert.throws(() => compiler.compile({ "a.glsl": "void main() {}" }), { kind: "argument", message: /nor the text tells the stage/ });
+});
+
 test("upgrade and format rewrite texts", () => {
   const old = { "a.frag": "#version 120\nvarying vec2 u;\nvoid main() { gl_FragColor = vec4(u, 0.0, 1.0); }\n" };
   assert.match(compiler.upgrade(old, "330").texts["a.frag"], /#version 330 core[^]*in vec2 u;/);

@@ -7,7 +7,7 @@ import { join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 export const root = fileURLToPath(new URL("../../..", import.meta.url));
-const folder = resolve(process.env.GLISTEN_WEB ?? join(root, "target/web/package"));
+export const folder = resolve(process.env.GLISTEN_WEB ?? join(root, "target/web/package"));
 const program = resolve(process.env.GLISTEN ?? join(root, "target/debug/glisten"));
 
 const load = (file) => import(pathToFileURL(join(folder, file)).href);

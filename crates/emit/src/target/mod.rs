@@ -10,7 +10,9 @@ mod textures;
 
 pub use conventions::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
 pub use language::Target;
+#[cfg_attr(target_family = "wasm", allow(unused_imports, reason = "MSL alone has kinds"))]
+pub(crate) use slots::SlotKind;
+pub(crate) use slots::Slots;
 pub use slots::viewport_slot;
-pub(crate) use slots::{SlotKind, Slots};
 pub use textures::BUFFER_WIDTH;
 pub(crate) use textures::Shape;

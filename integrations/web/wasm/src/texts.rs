@@ -70,7 +70,10 @@ pub(crate) fn versions() -> Reply {
     reply.set("version", VERSION);
     reply.set("targets", targets().map(Target::word).collect::<Vec<_>>());
     reply.set("options", OPTIONS.iter().map(|(name, ..)| *name).collect::<Vec<_>>());
-    reply.set("upgrades", glisten::upgrade::Target::ALL.map(|(word, _)| word).to_vec());
+    // GLSL for Vulkan is written with the reference alone.
+    let upgrades = glisten::upgrade::Target::ALL.into_iter();
+    let upgrades = upgrades.filter(|(_, target)| cfg!(feature = "reference") || *target != glisten::upgrade::Target::Vulkan);
+    reply.set("upgrades", upgrades.map(|(word, _)| word).collect::<Vec<_>>());
     reply.set("reference", cfg!(feature = "reference"));
     reply
 }

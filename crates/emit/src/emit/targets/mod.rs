@@ -19,6 +19,7 @@ use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::ModuleInfo;
 
 /// The input of a writer.
+#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "some is for MSL and HLSL alone"))]
 pub(super) struct Job<'a> {
     pub(super) module: Module,
     pub(super) info: &'a ModuleInfo,

@@ -32,7 +32,7 @@ pub struct Code {
     pub severity: Severity,
     /// The section of the specification: `GLSL 1.50 §4.2.2`, or empty.
     pub section: &'static str,
-    /// The page: what the code means and why, in whole sentences.
+    /// The page: what the code means and why, in whole sentences. Empty in a module for the web, as are the examples.
     pub page: &'static str,
     /// An example that raises the code.
     pub bad: Example,
@@ -87,6 +87,19 @@ pub enum Example {
     None,
 }
 
+/// Whether texts for people who look something up are left out: a module for the web is downloaded, and nothing in it shows them.
+const LEFT_OUT: bool = cfg!(target_family = "wasm");
+
+/// A text for people who look something up.
+const fn text(text: &'static str) -> &'static str {
+    if LEFT_OUT { "" } else { text }
+}
+
+/// An example for them.
+const fn example(example: Example) -> Example {
+    if LEFT_OUT { Example::None } else { example }
+}
+
 /// Declares the rows of a phase: `NAME = "E0301" "slug" Error "section" { page } bad { .. } good { .. };`
 macro_rules! codes {
     ($($(#[$doc:meta])* $ident:ident = $id:literal $name:literal $severity:ident $section:literal
@@ -97,7 +110,10 @@ macro_rules! codes {
         #[doc(alias = $id)]
         pub static $ident: $crate::diagnostic::Code = $crate::diagnostic::Code {
             id: $id, name: $name, severity: $crate::diagnostic::Severity::$severity, section: $section,
-            page: $page, bad: $bad, good: $good, lint: ::core::option::Option::None,
+            page: $crate::diagnostic::codes::text($page),
+            bad: $crate::diagnostic::codes::example($bad),
+            good: $crate::diagnostic::codes::example($good),
+            lint: ::core::option::Option::None,
         };)*
         /// All rows of this phase.
         pub(super) static ALL: &[&$crate::diagnostic::Code] = &[$(&$ident),*];
@@ -114,14 +130,17 @@ macro_rules! lints {
         #[doc = $page]
         #[doc(alias = $id)]
         pub static $ident: $crate::diagnostic::Code = $crate::diagnostic::Code {
-            id: $id, name: $name, section: $section, page: $page, bad: $bad, good: $good,
+            id: $id, name: $name, section: $section,
+            page: $crate::diagnostic::codes::text($page),
+            bad: $crate::diagnostic::codes::example($bad),
+            good: $crate::diagnostic::codes::example($good),
             severity: match $crate::diagnostic::group::Default::$level {
                 $crate::diagnostic::group::Default::Warning => $crate::diagnostic::Severity::Warning,
                 _ => $crate::diagnostic::Severity::Note,
             },
             lint: ::core::option::Option::Some($crate::diagnostic::LintInfo {
                 group: $crate::diagnostic::Group::$group, level: $crate::diagnostic::group::Default::$level,
-                fixable: $crate::diagnostic::Fixable::$fixable, since: $since, rationale: $why,
+                fixable: $crate::diagnostic::Fixable::$fixable, since: $since, rationale: $crate::diagnostic::codes::text($why),
             }),
         };)*
         /// All rows of this group.

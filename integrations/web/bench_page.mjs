@@ -1,0 +1,118 @@
+// How soon the page of `glisten play` answers, in Chromium: `node integrations/web/bench_page.mjs [PROGRAM] [FOLDER]`.
+//
+// PROGRAM is glisten (target/release/glisten), FOLDER has scenes (fixtures/scenes/library). For the page that the program serves, and for the page
+// that computes by itself if `integrations/web/make page` has built its module: the time from a key to its finding, from a fix of the text to the
+// picture of the reference, and, while a slider moves, the pictures a second of the reference and of the GPU (SwiftShader in the page, lavapipe from
+// the program). It needs Debian's chromium, and playwright-core in target/browser. Medians and the slowest tenth, in ms.
+
+import { spawn, spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const root = fileURLToPath(new URL("../..", import.meta.url));
+const [program = join(root, "target/release/glisten"), given = join(root, "fixtures/scenes/library")] = process.argv.slice(2);
+const folder = resolve(given);
+const { chromium } = await import(pathToFileURL(join(root, "target/browser/node_modules/playwright-core/index.mjs")).href);
+const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"] });
+const KEYS = 15;
+const at = (times, part) => [...times].sort((a, b) => a - b)[Math.min(times.length - 1, Math.floor(times.length * part))];
+const told = (name, times) => console.log(`  ${name.padEnd(52)} ${String(times.length).padStart(4)} ${at(times, 0.5).toFixed(0).padStart(7)} ${at(times, 0.9).toFixed(0).padStart(7)}`);
+
+/** The time from the next key to the first change of an element, in the page. */
+const answered = (page, watched) => page.evaluate((watched) => new Promise((done) => {
+  const element = document.querySelector(watched);
+  let begun = null;
+  addEventListener("keydown", () => { begun ??= performance.now(); }, { once: true, capture: true });
+  const observer = new MutationObserver(() => {
+    if (begun === null) return;
+    observer.disconnect();
+    done(performance.now() - begun);
+  });
+  observer.observe(element, { subtree: true, childList: true, characterData: true });
+}), watched);
+
+const measure = async (name, address) => {
+  const page = await browser.newPage({ viewport: { width: 1400, height: 1000 } });
+  page.setDefaultTimeout(120000);
+  await page.goto(address);
+  await page.waitForSelector("#pictures img");
+  console.log(`${name}\n  ${"".padEnd(52)}    n  median     9/10`);
+  const idle = () => page.waitForTimeout(900);
+  const fragment = page.locator("#files button", { hasText: ".frag" }).first();
+  if (await fragment.count()) {
+    await fragment.click();
+    await page.locator("#editor .cm-content").click();
+    await page.keyboard.press("Control+End");
+    const [wrong, right] = [[], []];
+    for (let key = 0; key < KEYS; key += 1) {
+      await idle();
+      const found = answered(page, "#findings");
+      await page.keyboard.press("q");
+      wrong.push(await found);
+      await idle();
+      const drawn = answered(page, "#drawn");
+      await page.keyboard.press("Backspace");
+      right.push(await drawn);
+    }
+    told("from a key to its finding", wrong);
+    told("from a fix to the picture", right);
+  }
+  // Each scene once: what the page says of the reference's picture.
+  const scenes = await page.locator("#scenes option").evaluateAll((options) => options.map((option) => option.value));
+  const pictures = [];
+  for (const scene of scenes) {
+    const before = await page.locator("#drawn").textContent();
+    await page.selectOption("#scenes", scene);
+    await page.waitForFunction((before) => document.querySelector("#drawn").textContent !== before && / ms$/.test(document.querySelector("#drawn").textContent), before).catch(() => null);
+    const [, width, height, time] = /(\d+) × (\d+).* in (\d+) ms/.exec(await page.locator("#drawn").textContent()) ?? [];
+    if (time !== undefined) pictures.push({ scene, time: Number(time), pixels: width * height });
+  }
+  told("the reference's picture of a scene", pictures.map(({ time }) => time));
+  told("the same for 256 × 256 pixels", pictures.map(({ time, pixels }) => (time * 256 * 256) / pixels));
+  const [slowest] = pictures.sort((a, b) => b.time / b.pixels - a.time / a.pixels);
+  if (slowest) console.log(`  the slowest for its size is ${slowest.scene.split("/").at(-1)}: ${slowest.time} ms for ${slowest.pixels} pixels`);
+  // A slider that moves: pictures a second.
+  const slider = page.locator("#controls input[type=range]").first();
+  for (const by of ["reference", "gpu"]) {
+    await page.check(`input[name=by][value=${by}]`);
+    await page.waitForTimeout(3000);
+    const [count, seconds] = await slider.evaluate((slider) => new Promise((done) => {
+      let count = 0;
+      const observer = new MutationObserver(() => { count += 1; });
+      observer.observe(document.querySelector("#drawn"), { subtree: true, childList: true, characterData: true });
+      const begun = performance.now();
+      const [low, high] = [Number(slider.min), Number(slider.max)];
+      const move = () => {
+        const passed = performance.now() - begun;
+        if (passed > 4000) { observer.disconnect(); done([count, passed / 1000]); return; }
+        slider.value = low + (high - low) * (0.5 + 0.4 * Math.sin(passed / 300));
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+        requestAnimationFrame(move);
+      };
+      move();
+    }));
+    console.log(`  ${`pictures a second while a slider moves, by ${by}`.padEnd(52)} ${String(count).padStart(4)} ${(count / seconds).toFixed(1).padStart(7)}`);
+  }
+  await page.close();
+};
+
+const server = spawn(program, ["play", folder], { stdio: ["ignore", "pipe", "inherit"] });
+const address = await new Promise((found) => {
+  let text = "";
+  server.stdout.on("data", (part) => { text += part; const [url] = /http:\S+/.exec(text) ?? []; if (url) found(url); });
+});
+await measure("the page that the program serves", address);
+server.kill();
+
+const module = join(root, "target/web/play.wasm.gz");
+if (existsSync(module)) {
+  const place = mkdtempSync(join(tmpdir(), "glisten-"));
+  const file = join(place, "page.html");
+  const made = spawnSync(program, ["play", folder, "--export", file, "--module", module], { encoding: "utf8" });
+  if (made.status === 0) await measure("the page that computes by itself", pathToFileURL(file).href);
+  else console.log(made.stderr);
+  rmSync(place, { recursive: true });
+} else console.log("The page that computes by itself is not measured: `integrations/web/make page` builds its module.");
+await browser.close();
