@@ -59,7 +59,7 @@ pub const SHOWN: &str = "<glisten>/engines/";
 struct Settings {
     /// One line for people.
     about: String,
-    /// What is worth knowing of the settings, in their order, for those who change them.
+    /// Reasons for settings, in their order, for those who change them.
     #[serde(rename = "why")]
     _why: IgnoredAny,
     /// Another profile, whose settings hold where this one has none.

@@ -3,7 +3,8 @@
 //! *In:* a job, a scene that was read with its texts. *Out:* one JSON object, or a sentence. *Holds:* it is the same in the process of
 //! `glisten play` and in a page that has glisten as a module.
 
-use super::look::{Criteria, Shown, look, told};
+use super::criteria::{Criteria, told};
+use super::look::{Shown, look};
 use super::needs::needs;
 use super::stability::stability;
 use super::{Job, Pictures, Wish};

@@ -5,7 +5,7 @@
 //! measure.
 
 use super::answers::drawable;
-use super::look::told;
+use super::criteria::told;
 use super::verdict::judged;
 use super::{Pictures, Positions, drawn};
 use crate::scene::{Loaded, Scene};

@@ -4,34 +4,18 @@
 //! the form of its `--format json`; each program of the scene is told once.
 
 use super::controls::controls;
+use super::criteria::Criteria;
 use super::translations::translations;
 use crate::scene::{Loaded, Scene};
 use crate::specialize::specialize_scene;
 use glisten_emit::Target;
-use glisten_front::diagnostic::write::{self, Finding};
+use glisten_front::diagnostic::write;
 use glisten_front::diagnostic::{Code, Diagnostic, Levels};
 use glisten_front::link::Program;
 use glisten_front::lint::check_some;
 use glisten_front::source::SourceMap;
 use serde_json::{Value, json};
 use std::sync::Arc;
-
-/// Decides which findings are told.
-pub trait Criteria {
-    /// The levels of a file.
-    fn levels_of(&mut self, name: &str) -> Levels;
-
-    /// The findings that are told of these diagnostics, in the order in which they are told.
-    fn findings(&mut self, sources: &SourceMap, found: Vec<Diagnostic>) -> Vec<Finding>;
-
-    /// Runs a job. A panic in it is returned as its message, where panics can be caught.
-    ///
-    /// # Errors
-    /// The message of a panic.
-    fn guarded<R>(&self, job: impl FnOnce() -> R) -> Result<R, String> {
-        Ok(job())
-    }
-}
 
 /// How the programs are shown.
 #[derive(Clone, Copy, Debug)]
@@ -91,15 +75,10 @@ fn files(sources: &SourceMap) -> Vec<Value> {
     sources.files().map(file).collect()
 }
 
-/// The messages of diagnostics, a line each.
-pub fn told<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> String {
-    let lines: Vec<&str> = diagnostics.into_iter().map(|diagnostic| diagnostic.message.as_str()).collect();
-    lines.join("\n")
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Criteria, Shown, look};
+    use super::{Shown, look};
+    use crate::play::Criteria;
     use crate::scene::{self, MemoryFiles};
     use crate::{Compiler, Options};
     use glisten_emit::Target;

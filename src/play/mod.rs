@@ -11,12 +11,13 @@
 //! ```
 //!
 //! *In:* jobs, and scenes that were read. *Out:* answers as JSON. *Holds:* nothing here reads a file or starts a process; the levels
-//! of findings are those of [`Criteria`].
+//! of findings are those of [`Criteria`], which the host of the page decides.
 
 mod answers;
 #[cfg(feature = "plan")]
 mod browser;
 mod controls;
+mod criteria;
 mod jobs;
 mod look;
 mod needs;
@@ -29,7 +30,8 @@ pub use answers::{OwnLevels, answer, drawable};
 #[cfg(feature = "plan")]
 pub use browser::{compare, plan, show};
 pub use controls::{Control, Kind, controls};
+pub use criteria::{Criteria, told};
 pub use jobs::{Job, Positions, Wish};
-pub use look::{Criteria, Shown, look, told};
+pub use look::{Shown, look};
 pub use pictures::{Pictures, drawn};
 pub use verdict::judged;

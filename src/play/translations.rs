@@ -3,7 +3,7 @@
 //! *In:* programs, and the texts that they were read from. *Out:* JSON. *Holds:* a line of WGSL that begins a statement or a function knows
 //! the lines of the source that this is on; the numbers of files are those of the answer's `files`.
 
-use super::look::{Criteria, told};
+use super::criteria::{Criteria, told};
 use glisten_emit::{Conventions, Emitted, Origin, Target, Traced, emit_traced, reflect};
 use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};

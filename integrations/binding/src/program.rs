@@ -100,7 +100,7 @@ pub fn compile(settings: &Settings, sources: &[Source], lints: bool) -> Result<C
     if sources.is_empty() {
         return Err(Error::argument("there are no sources"));
     }
-    let compilation = settings.compiler().compile(sources);
+    let compilation = settings.compiler_for(sources).compile(sources);
     let mut report =
         Report { sources: compilation.sources, diagnostics: compilation.diagnostics.into_iter().collect() };
     match &compilation.program {

@@ -2,11 +2,12 @@
 
 use crate::error::Error;
 use crate::includes::Includes;
+use crate::sources::share_a_text;
 use glisten::diagnostic::{Key, Level, Levels, Severity, did_you_mean};
 use glisten::emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, WindowOrigin};
 use glisten::engines::{self, STYLES};
 use glisten::source::Prelude;
-use glisten::{Compiler, Options, Search, SourceSettings, completing};
+use glisten::{Compiler, Options, Search, Source, SourceSettings, completing};
 
 /// Everything that is set before a compilation.
 #[derive(Clone, Default)]
@@ -135,16 +136,23 @@ impl Settings {
 
     /// The compiler with these settings.
     pub fn compiler(&self) -> Compiler {
+        self.compiler_for(&[])
+    }
+
+    /// The compiler with these settings for sources of which some may be stages of one text.
+    pub(crate) fn compiler_for(&self, sources: &[Source]) -> Compiler {
         let compiler = Compiler::new(self.options.clone());
         let compiler = compiler.with_includes(self.includes.clone()).with_levels(self.levels.clone());
-        if self.source.is_empty() {
+        let is_plain = self.source.is_empty();
+        if is_plain && !share_a_text(sources) {
             return compiler;
         }
-        let search = if self.includes.in_memory { Search::CompilerAlone } else { Search::CompilerFirst };
+        let in_memory = self.includes.in_memory || is_plain;
+        let search = if in_memory { Search::CompilerAlone } else { Search::CompilerFirst };
         let folders = self.includes.folders.iter().map(|folder| folder.to_string_lossy().into_owned());
         let source = SourceSettings {
             version: self.options.completion.assumed_version.clone(),
-            includes: if self.includes.in_memory { Vec::new() } else { folders.collect() },
+            includes: if in_memory { Vec::new() } else { folders.collect() },
             ..self.source.clone()
         };
         completing(compiler, &source, search)
@@ -215,7 +223,7 @@ fn word<T: Copy>(words: &[(&str, T)], value: &str) -> Result<T, String> {
 #[cfg(test)]
 mod tests {
     use super::{OPTIONS, Settings};
-    use glisten::{Source, Stage};
+    use glisten::Stage;
 
     #[test]
     fn options_take_their_words_and_no_others() {

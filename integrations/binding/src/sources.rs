@@ -6,6 +6,7 @@
 use crate::error::Error;
 use glisten::engines::combined;
 use glisten::{Source, Stage};
+use std::collections::BTreeSet;
 
 /// The stage that the name of a file tells.
 pub fn stage_of_name(name: &str) -> Option<Stage> {
@@ -49,6 +50,12 @@ pub fn sources_of(name: &str, text: &str, stage: Option<Stage>) -> Result<Vec<So
     }
 }
 
+/// Whether some of the sources are stages of one text.
+pub(crate) fn share_a_text(sources: &[Source]) -> bool {
+    let names: BTreeSet<&str> = sources.iter().map(|source| source.name.as_str()).collect();
+    names.len() < sources.len()
+}
+
 fn no_stage(name: &str) -> Error {
     let help = "end it with .vert or .frag, or name the stage";
     Error::argument(format!("neither the name `{name}` nor the text tells the stage: {help}"))
@@ -57,9 +64,11 @@ fn no_stage(name: &str) -> Error {
 #[cfg(test)]
 mod tests {
     use super::{source_of, sources_of};
+    use crate::program::{Format, compile};
+    use crate::settings::Settings;
     use glisten::Stage::{Fragment, Vertex};
 
-    const BOTH: &str = "varying vec2 st;\n#ifdef VERTEX_SHADER\nattribute vec2 p;\nvoid main() { st = p; gl_Position = vec4(p, 0.0, 1.0); }\n#endif\n\
+    const BOTH: &str = "precision mediump float;\nvarying vec2 st;\n#ifdef VERTEX_SHADER\nattribute vec2 p;\nvoid main() { st = p; gl_Position = vec4(p, 0.0, 1.0); }\n#endif\n\
         #ifdef FRAGMENT_SHADER\nvoid main() { gl_FragColor = vec4(st, 0.0, 1.0); }\n#endif\n";
 
     #[test]
@@ -72,6 +81,22 @@ mod tests {
         assert_eq!(stages("a.glsl", BOTH, Some(Fragment)), [Fragment]);
         assert_eq!(stages("a.vert", BOTH, None), [Vertex]);
         assert_eq!(stages("waterFrag.glsl", "", None), [Fragment]);
+    }
+
+    #[test]
+    fn each_stage_of_a_text_is_compiled_with_its_macro() {
+        let mut settings = Settings::default();
+        settings.set("assume-version", "100").expect("it is a version");
+        let sources = sources_of("a.glsl", BOTH, None).expect("it has two stages");
+        let compiled = compile(&settings, &sources, true).expect("there are sources");
+        assert!(compiled.is_sound(), "{}", compiled.diagnostics(Format::Human));
+        assert_eq!(compiled.stages(), [Vertex, Fragment]);
+        // Wrong lines of a part that both stages have are told once.
+        let wrong = BOTH.replace("varying", "float f() { return nothing; }\nvarying");
+        let sources = sources_of("a.glsl", &wrong, None).expect("it has two stages");
+        let compiled = compile(&settings, &sources, true).expect("there are sources");
+        let found = compiled.findings();
+        assert_eq!(found.iter().filter(|one| one.message.contains("`nothing`")).count(), 1, "{found:#?}");
     }
 
     #[test]

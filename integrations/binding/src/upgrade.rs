@@ -3,10 +3,10 @@
 use crate::error::Error;
 use crate::program::{Format, Report};
 use crate::settings::Settings;
+use crate::sources::share_a_text;
 use glisten::diagnostic::write::Finding;
 use glisten::upgrade::{Refused, Target};
 use glisten::{Compilation, Source};
-use std::collections::BTreeSet;
 
 /// The sources of a program in another language; or what is wrong with them.
 #[derive(Debug, Default)]
@@ -25,8 +25,7 @@ pub fn upgrade(settings: &Settings, sources: &[Source], version: &str) -> Result
     if sources.is_empty() {
         return Err(Error::argument("there are no sources"));
     }
-    let names: BTreeSet<&str> = sources.iter().map(|source| source.name.as_str()).collect();
-    if names.len() < sources.len() {
+    if share_a_text(sources) {
         return Err(Error::argument(
             "a source has several stages, and each stage becomes a text: give one source for each",
         ));

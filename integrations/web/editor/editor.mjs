@@ -27,12 +27,12 @@ const theme = EditorView.theme({
   ".cm-content": { caretColor: "var(--ink)" },
   ".cm-cursor": { borderLeftColor: "var(--ink)" },
   ".cm-gutters": { backgroundColor: "var(--quiet)", color: "var(--soft)", border: "0" },
-  ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "color-mix(in srgb, var(--accent) 9%, transparent)" },
+  ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "color-mix(in srgb, var(--ink) 5%, transparent)" },
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "color-mix(in srgb, var(--accent) 28%, transparent) !important" },
   ".cm-tooltip, .cm-panels": { backgroundColor: "var(--card)", color: "var(--ink)", border: "1px solid var(--rule)" },
   ".cm-step": { backgroundColor: "color-mix(in srgb, var(--accent) 34%, transparent)", outline: "1px solid var(--accent)" },
   ".cm-needless": { textDecoration: "line-through", textDecorationColor: "var(--soft)", opacity: ".62" },
-  ".cm-match": { backgroundColor: "color-mix(in srgb, var(--accent) 20%, transparent)" },
+  ".cm-match": { backgroundColor: "color-mix(in srgb, var(--num) 26%, transparent)" },
   ".cm-value": { padding: ".2rem .5rem", fontFamily: "var(--code)", whiteSpace: "pre" },
   ".cm-diagnosticAction": { backgroundColor: "var(--accent)", color: "var(--on-pill)" },
   ".cm-panels input, .cm-panels button": { font: "inherit" },
@@ -170,6 +170,12 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     const byLine = new Map(lines.filter(({ line }) => line >= 1 && line <= doc.lines).map(({ line, title }) => [line, title]));
     return [...byLine].sort(([a], [b]) => a - b).map(([line, title]) => ({ from: doc.line(line).from, title }));
   };
+  // Brings a place into sight within the editor. The page around it stays where it is.
+  const scrollTo = (place) => {
+    const { top, bottom } = view.lineBlockAt(place);
+    const { scrollTop, clientHeight } = view.scrollDOM;
+    if (top < scrollTop || bottom > scrollTop + clientHeight) view.scrollDOM.scrollTop = Math.max(0, (top + bottom - clientHeight) / 2);
+  };
   return {
     // Shows a text by its name, which nobody can change if it is `isFixed`; the history and the cursor of each name are kept.
     show(name, text, kind, isFixed = readOnly) {
@@ -209,9 +215,8 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     // Emphasizes the text between two places (line and column), in sight; none of a null.
     emphasize(range) {
       const place = range && { from: placeOf(range.start.line, range.start.column), to: placeOf(range.end.line, range.end.column) };
-      const effects = [setStep.of(place)];
-      if (place) effects.push(EditorView.scrollIntoView(place.from, { y: "center" }));
-      view.dispatch({ effects });
+      view.dispatch({ effects: setStep.of(place) });
+      if (place) scrollTo(place.from);
     },
     // Crosses out lines; each has a line and a title that says why.
     cross(lines) {
@@ -227,9 +232,8 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
       view.dispatch({ selection: { anchor: place }, effects: EditorView.scrollIntoView(place, { y: "center" }) });
       view.focus();
     },
-    // Scrolls without taking the focus.
-    reveal(line) {
-      view.dispatch({ effects: EditorView.scrollIntoView(placeOf(line, 1), { y: "center" }) });
-    },
+    // Scrolls to a line without taking the focus.
+    reveal(line) { scrollTo(placeOf(line, 1)); },
+    focus() { view.focus(); },
   };
 };

@@ -30,7 +30,7 @@ pub struct Origin {
     pub span: Span,
 }
 
-/// What a writer writes, and where its lines come from.
+/// The output of a writer, and where its lines come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Traced {
     /// The text or the words.

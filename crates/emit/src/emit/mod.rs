@@ -22,5 +22,4 @@ pub use alone::interface_of;
 pub use emitted::{Emitted, Origin, Traced};
 pub use notes::{levels_of_comparisons, notes};
 pub use reflection::{Reflection, reflect};
-pub(crate) use targets::native::ARE_THERE as NATIVE_ARE_THERE;
 pub use write::{emit, emit_functions, emit_single_file, emit_traced, emit_with_sources};

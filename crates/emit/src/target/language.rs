@@ -58,7 +58,7 @@ impl Target {
     /// Whether its writer is there: a module for the web may leave out those of MSL and HLSL (the feature `native` of this crate).
     pub fn is_there(self) -> bool {
         match self {
-            Self::Msl | Self::Hlsl => crate::emit::NATIVE_ARE_THERE,
+            Self::Msl | Self::Hlsl => cfg!(any(not(target_family = "wasm"), feature = "native")),
             Self::Wgsl | Self::Spirv | Self::Glsl => true,
         }
     }

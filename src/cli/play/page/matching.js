@@ -36,15 +36,20 @@ const makeMatching = ({ editor, translation, shown, stage, files, open }) => {
     return show(all.filter((row) => mine.some((one) => one.file === row.file && one.from === row.from && one.to === row.to)));
   };
   let kept = () => show([]);
-  const pointed = (of) => (line) => { if (line === null) kept(); else of(line); };
+  const firstLine = (chosen) => Math.min(...chosen.map((row) => row.line));
+  const pointed = (of, reveal) => (line) => {
+    if (line === null) { kept(); return; }
+    const chosen = of(line);
+    if (chosen.length) reveal(chosen);
+  };
   return {
-    pointedInSource: pointed(ofSource),
-    pointedInTranslation: pointed(ofTranslation),
+    pointedInSource: pointed(ofSource, (chosen) => translation.reveal(firstLine(chosen))),
+    pointedInTranslation: pointed(ofTranslation, ([first]) => { if (first.file === shown()) editor.reveal(first.from); }),
     // The cursor's partners stay, and come into sight if a person has moved it.
     movedInSource: (line, isPerson) => {
       kept = () => ofSource(line);
-      const [first] = kept();
-      if (first && isPerson) translation.reveal(first.line);
+      const chosen = kept();
+      if (chosen.length && isPerson) translation.reveal(firstLine(chosen));
     },
     movedInTranslation: (line, isPerson) => {
       if (!isPerson) return;

@@ -127,6 +127,8 @@ const apply = (fix) => {
       .sort((a, b) => a.from - b.from);
     rewrite(name, changes);
   }
+  // The button of the fix is gone.
+  editor.focus();
 };
 
 // Rewrites places of a text, in ascending order, whether the editor shows it or not.
@@ -283,7 +285,8 @@ const controlElement = (control) => {
       const slider = html("input", { type: "range", min: low, max: high, step: whole ? 1 : (high - low) / 400, "aria-label": label, input: () => set(slider.value) });
       const box = html("input", { type: "number", step: whole ? 1 : "any", "aria-label": `${label}, number`, change: () => set(box.value) });
       refreshers.push(() => { slider.value = control.values[index]; if (document.activeElement !== box) box.value = control.values[index]; });
-      parts.push(html("div", { class: "one" }, slider, box));
+      const name = control.values.length > 1 ? html("span", { class: "axis", "aria-hidden": "true" }, names[index]) : null;
+      parts.push(html("div", { class: "one" }, name, slider, box));
     });
   }
   const refresh = () => refreshers.forEach((one) => one());
@@ -292,7 +295,14 @@ const controlElement = (control) => {
   return html("fieldset", {}, html("legend", {}, title), parts);
 };
 
+// What gets the focus is not behind the picture, which stays at the top.
+new ResizeObserver(([{ target }]) => {
+  const stays = getComputedStyle(target).position === "sticky";
+  target.parentElement.style.scrollPaddingTop = stays ? `${target.offsetHeight + 8}px` : "";
+}).observe(document.querySelector(".results > :first-child"));
+
 // ---- Pictures.
+const HINT = byId("pixel").textContent;
 const figure = (name, source, width, height, caption) => {
   const image = html("img", { src: source, width, height, alt: name, draggable: "false", style: `--ratio: ${width / height}` });
   image.addEventListener("pointermove", (event) => { if (!turning) point(image, event, width, height); });
@@ -313,6 +323,8 @@ const showDrawn = (drawn) => {
     byId("pictures").replaceChildren(figure("picture", drawn.picture, drawn.width, drawn.height, ""));
     byId("pictures").querySelector("img").dataset.kind = "drawn";
   }
+  // The numbers of a pixel were those of the last picture.
+  byId("pixel").textContent = HINT;
   byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}, in ${drawn.milliseconds.toFixed(0)} ms${drawn.is_empty ? "; nothing is covered: no fragment reached a pixel" : ""}`;
 };
 const showJudged = (judged) => {
@@ -342,7 +354,7 @@ const draw = isLive ? latest(async () => {
   if (answer.ok) {
     byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
     showDrawn(answer.ok);
-  } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn: ${answer.error}`;
+  } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn, so this is the last picture: ${answer.error}`;
 }, 600) : () => {};
 // The judgement draws too: a picture that waits for its turn would only end it. A change of a text ends it and draws.
 const judge = async () => {
@@ -355,7 +367,7 @@ const judge = async () => {
   byId("judge").disabled = false;
   isJudging = false;
   if (asked !== edition) return;
-  if (answer.ok) { isJudged = true; showJudged(answer.ok); }
+  if (answer.ok) { isJudged = true; showJudged(answer.ok); byId("verdict").scrollIntoView({ block: "nearest" }); }
   else if (answer.status !== 409) byId("drawn").textContent = `Not judged: ${answer.error}`;
 };
 
@@ -454,6 +466,9 @@ const inspector = (() => {
     const found = invocations.length === 0 ? "no fragment reached it" : `${invocations.length} fragment${invocations.length > 1 ? "s" : ""}`;
     byId("inspected").textContent = `pixel ${pixel.join(", ")}: ${found}${color ? `; color ${list(color.value)}` : ""}`;
     choose(chosen, isAsked);
+    // The step is the same one; its text is marked where it is shown.
+    const step = steps[now];
+    if (!isAsked && step?.file === shown) editor.emphasize(step);
   };
   let isAsked = false;
   const run = latest(async () => {

@@ -40,7 +40,7 @@ const makeStudies = ({ ask, open, inspect, edition, isOwn, kept, changed }) => {
       const list = ([file, list]) => html("details", { open: isOwn(file) ? "" : null }, html("summary", {}, `${base(file)}: ${list.length}`), html("ul", { class: "found" }, [...list].sort((a, b) => a.line - b.line).map(item)));
       const lists = [...files].sort(([a], [b]) => isOwn(b) - isOwn(a)).map(list);
       const title = account.draws.length > 1 ? [html("h3", {}, `Draw ${index + 1}`)] : [];
-      return [...title, table(["", "as written", "needed", ""], rows), ...lists];
+      return [...title, table(["", "as written", "needed", "of it"], rows), ...lists];
     });
     const n = account.draws.reduce((sum, draw) => sum + new Set(draw.left_out.map((one) => JSON.stringify(one))).size, 0);
     note(n ? `This picture does without ${n} ${n === 1 ? "part" : "parts"} of the program, with these uniforms, textures and attributes. Their lines are crossed out. “Only what this picture needs” below shows what is left.` : "This picture needs the whole program.");

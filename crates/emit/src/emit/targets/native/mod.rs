@@ -14,9 +14,6 @@ mod repairs;
 use super::Job;
 use glisten_front::hir::Stage;
 
-/// Whether the writers are there.
-pub(crate) const ARE_THERE: bool = cfg!(any(not(target_family = "wasm"), feature = "native"));
-
 /// The name of the entry point of a stage in MSL.
 pub(in crate::emit) fn msl_entry_point(stage: Stage) -> &'static str {
     match stage {
