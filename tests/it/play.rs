@@ -486,7 +486,7 @@ fn the_lessons_of_the_tutorial_can_be_done_in_a_browser() {
         let told = page.replace("\n   ", " ");
         assert!(told.contains(part), "the page does not tell `{part}`");
     }
-    assert!(seen["value"].as_str().is_some_and(|text| text.starts_with("vec3")), "{seen:#}");
+    assert!(seen["value"].as_str().is_some_and(|text| text.starts_with("albedo: vec3")), "{seen:#}");
     assert_eq!(seen["dot"], json!(true), "{seen:#}");
     let light = "    let light = 0.1 + 0.9 * max(dot(normalize(normal), uniforms.towardsLight), 0.0);";
     assert_eq!(seen["matched"]["wgsl"], json!([light]), "{seen:#}");

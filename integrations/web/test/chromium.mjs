@@ -56,9 +56,10 @@ const inPage = () => {
     if (vertex && fragment) {
       const { layouts, groups } = groupsOf(reflection);
       const attributes = reflection.attributes.flatMap((one) => Array.from({ length: one.columns }, (_, column) => ({ format: one.format, shaderLocation: one.location + column, offset: 0 })));
-      const outputs = reflection.outputs.filter((one) => one.index === 0);
+      // A pipeline has no target for an output that no line writes: the code has none then.
+      const outputs = /\bfn main\([^]*?\)\s*->/.test(fragment) ? reflection.outputs.filter((one) => one.index === 0) : [];
       const kind = (type) => (type.startsWith("i") ? "rgba32sint" : type.startsWith("u") ? "rgba32uint" : "rgba8unorm");
-      const targets = Array.from({ length: Math.max(1, ...outputs.map((one) => one.location + 1)) }, (_, location) => {
+      const targets = Array.from({ length: Math.max(0, ...outputs.map((one) => one.location + 1)) }, (_, location) => {
         const own = outputs.find((one) => one.location === location);
         return own ? { format: kind(own.type) } : null;
       });
@@ -66,10 +67,15 @@ const inPage = () => {
         layout: device.createPipelineLayout({ bindGroupLayouts: layouts }),
         vertex: { module: modules[0], buffers: attributes.map((one) => ({ arrayStride: 16, attributes: [one] })) },
         fragment: { module: modules[1], targets },
+        depthStencil: { format: "depth32float", depthWriteEnabled: true, depthCompare: "always" },
       });
+      const depth = device.createTexture({ format: "depth32float", size: [8, 8], usage: GPUTextureUsage.RENDER_ATTACHMENT }).createView();
       const views = targets.map((target) => target && device.createTexture({ format: target.format, size: [8, 8], usage: GPUTextureUsage.RENDER_ATTACHMENT }).createView());
       const encoder = device.createCommandEncoder();
-      const pass = encoder.beginRenderPass({ colorAttachments: views.map((view) => view && { view, loadOp: "clear", storeOp: "store" }) });
+      const pass = encoder.beginRenderPass({
+        colorAttachments: views.map((view) => view && { view, loadOp: "clear", storeOp: "store" }),
+        depthStencilAttachment: { view: depth, depthLoadOp: "clear", depthClearValue: 1, depthStoreOp: "store" },
+      });
       pass.setPipeline(pipeline);
       groups.forEach((group, index) => pass.setBindGroup(index, group));
       const vertices = device.createBuffer({ size: 64, usage: GPUBufferUsage.VERTEX });
