@@ -89,7 +89,7 @@ test("errors have their file and line", async () => {
 });
 
 test("a file may have both stages", async () => {
-  const both = "varying vec2 st;\n#ifdef VERTEX_SHADER\nattribute vec2 p;\nvoid main() { st = p; gl_Position = vec4(p, 0.0, 1.0); }\n#endif\n#ifdef FRAGMENT_SHADER\nprecision mediump float;\nuniform float k;\nvoid main() { gl_FragColor = vec4(st, k, 1.0); }\n#endif\n";
+  const both = "precision mediump float;\nvarying vec2 st;\n#ifdef VERTEX_SHADER\nattribute vec2 p;\nvoid main() { st = p; gl_Position = vec4(p, 0.0, 1.0); }\n#endif\n#ifdef FRAGMENT_SHADER\nuniform float k;\nvoid main() { gl_FragColor = vec4(st, k, 1.0); }\n#endif\n";
   const { module, watched } = await imported({ "screen.glsl": both }, "screen.glsl");
   assert.match(module.vertex, /@vertex/);
   assert.match(module.fragment, /@fragment/);
