@@ -77,7 +77,7 @@ for (const folder of folders) {
     if (code === null || errors.length) {
       const complaint = [file, ...sources].map((name) => glslang(name, readFileSync(name, "utf8"))).find((one) => one !== null);
       row[complaint ? "refused" : "others"] += 1;
-      say(errors[0] ?? "not built");
+      say(`${complaint ? "" : "glslangValidator takes it: "}${errors[0] ?? "not built"}`);
       continue;
     }
     row.built += 1;
