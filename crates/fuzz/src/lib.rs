@@ -12,6 +12,7 @@
 //! *Not done here:* making inputs; that is libFuzzer's work.
 
 pub mod mutants;
+pub mod record;
 mod sections;
 mod seeds;
 mod targets;

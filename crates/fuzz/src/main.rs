@@ -14,6 +14,7 @@
 mod survey;
 
 use clap::Parser;
+use glisten_fuzz::record::{self, Run};
 use glisten_fuzz::{TARGETS, Target, dictionary, seeds, target};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -43,6 +44,12 @@ struct Arguments {
     /// Instead of fuzzing, change sources in so many ways, and compare the verdicts of glisten and of glslang
     #[arg(long, value_name = "N")]
     mutants: Option<usize>,
+    /// Add each run to this record, as rows of CSV
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// Instead of fuzzing, print the sums of this record
+    #[arg(long, value_name = "FILE")]
+    recorded: Option<PathBuf>,
     /// The number from which the changes follow
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -75,6 +82,11 @@ fn run(arguments: &Arguments) -> Result<usize> {
         let (table, bad) = survey::survey(&folders, count, arguments.seed, &root.join("target/fuzz/mutants"))?;
         println!("{table}");
         return Ok(bad);
+    }
+    if let Some(file) = &arguments.recorded {
+        let text = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+        print!("{}", record::sums(&text));
+        return Ok(0);
     }
     if arguments.targets.is_empty() {
         TARGETS.iter().for_each(|target| println!("{:12} {}", target.name, target.promise));
@@ -160,6 +172,8 @@ impl Place<'_> {
         for seed in &seeds {
             write(&begin.join(&seed.name), &seed.bytes)?;
         }
+        let count = || std::fs::read_dir(&crashes).map_or(0, |files| files.flatten().count());
+        let before = count();
         println!("{name}: {} ({} seeds, {} minutes)", self.chosen.promise, seeds.len(), arguments.minutes);
         let mut engine = self.engine()?;
         engine.args([
@@ -177,9 +191,16 @@ impl Place<'_> {
         write(&self.folder.join("logs").join(name), log.as_bytes())?;
         let last = log.lines().rev().find(|line| line.starts_with('#')).unwrap_or("nothing was executed");
         println!("{name}: {last}");
+        let executions = record::executions(last);
         let files = std::fs::read_dir(&crashes).map_err(|error| format!("{}: {error}", crashes.display()))?;
         let broken: Vec<PathBuf> = files.flatten().map(|entry| entry.path()).collect();
         broken.iter().for_each(|path| println!("{name}: {}", path.display()));
+        if let Some(file) = &arguments.record {
+            let (minutes, jobs) = (arguments.minutes, arguments.jobs);
+            let broken = broken.len().saturating_sub(before);
+            let run = Run { target: name.to_owned(), minutes, jobs, executions, broken };
+            record::add(file, root, &run)?;
+        }
         Ok(broken.len())
     }
 

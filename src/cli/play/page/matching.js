@@ -17,11 +17,15 @@ const makeMatching = ({ editor, translation, shown, stage, files, open }) => {
     for (let line = row.line + 1; line < next && !/^\s*(}.*)?$/.test(lines[line - 1]); line += 1) found.push(line);
     return found;
   };
+  let known = { of: null, rows: [] };
   const told = () => {
-    const all = rows();
-    const starts = [...new Set(all.map((row) => row.line))].sort((a, b) => a - b);
-    const lines = translation.text().split("\n");
-    return all.map((row) => ({ ...own(row, all), lines: reach(row, starts, lines) }));
+    if (known.of !== stage()) {
+      const all = rows();
+      const starts = [...new Set(all.map((row) => row.line))].sort((a, b) => a - b);
+      const lines = translation.text().split("\n");
+      known = { of: stage(), rows: all.map((row) => ({ ...own(row, all), lines: reach(row, starts, lines) })) };
+    }
+    return known.rows;
   };
   const show = (chosen) => {
     editor.match(chosen.filter((row) => row.file === shown()).flatMap((row) => Array.from({ length: row.to - row.from + 1 }, (_, index) => row.from + index)));
