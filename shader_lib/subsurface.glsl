@@ -21,9 +21,9 @@ vec2 subsurfaceMoments(float x)
 {
     float y = clamp(x, 0.0, exp2(20.0));
     if (y < 1.0) {
-        // The first omitted terms are 3e-8.
+        // The first omitted terms are 1e-17.
         vec2 sum = vec2(0.0);
-        for (int k = 9; k >= 0; --k)
+        for (int k = 16; k >= 0; --k)
             sum = vec2(1.0 / (float(k) + 1.0), 1.0 / (float(k) + 3.0)) - y / (float(k) + 1.0) * sum;
         return sum;
     }

@@ -13,6 +13,7 @@ mod furnace;
 mod laws;
 mod ltc;
 mod occlusion;
+mod papers;
 #[cfg(feature = "cli")]
 mod prefilter;
 mod registers;
