@@ -7,7 +7,7 @@
 // The sum over a scene's lights (module `scene`) with any of the library's models, as the standard program computes
 // it. With GLISTEN_SURFACE, textures change the material from point to point: standardSurface() is called first. With
 // GLISTEN_SURROUNDED, a map of `glisten lib prefilter` is one more light, from all around, or nine coefficients with
-// GLISTEN_HARMONICS. With GLISTEN_AREAS, lights may have a shape. With GLISTEN_MATCAP, a picture of a lit ball is all of the light.
+// GLISTEN_HARMONICS. With GLISTEN_AREAS, lights may have a shape. With GLISTEN_BALL, a picture of a lit ball is all of the light.
 #ifndef GLISTEN_STANDARD
 #define GLISTEN_STANDARD
 #include "artistic.glsl"
@@ -38,7 +38,7 @@
 #ifdef GLISTEN_AREAS
 #include "ltc.glsl"
 #endif
-#ifdef GLISTEN_MATCAP
+#ifdef GLISTEN_BALL
 #include "matcap.glsl"
 #endif
 #ifdef GLISTEN_SUBSURFACE
@@ -72,7 +72,7 @@ uniform sampler2D area_table;
 // `ltc_albedo`.
 uniform sampler2D albedo_table;
 #endif
-#ifdef GLISTEN_MATCAP
+#ifdef GLISTEN_BALL
 // The picture of a lit ball, linear RGB.
 uniform sampler2D matcap;
 #endif
@@ -121,8 +121,8 @@ float surface_film;
 float surface_film_thickness;
 #endif
 #ifdef GLISTEN_SUBSURFACE
-// subsurfaceReach() of the material.
-vec3 surface_reach;
+// subsurfaceBands() of the material.
+mat2x3 surface_bands;
 #endif
 #ifdef GLISTEN_DIELECTRIC_MAPS
 // What a part that is no metal mirrors, as parts of the material's: the color, linear RGB, and the strength in alpha.
@@ -251,7 +251,7 @@ void standardSurface(vec2 st, vec3 base)
         surface.specular = mix(dielectric, color, metallic);
     }
 #ifdef GLISTEN_SUBSURFACE
-    surface_reach = subsurfaceReach(finish.subsurface_radius, surface.diffuse);
+    surface_bands = subsurfaceBands(finish.subsurface_radius, surface.diffuse);
 #endif
 #ifdef GLISTEN_GLASS
     float passing = finish.transmission;
@@ -390,7 +390,7 @@ vec3 standardDiffuse(vec3 N, vec3 L, vec3 V)
 vec3 standardBody(vec3 N, vec3 L, vec3 V)
 {
 #ifdef GLISTEN_SUBSURFACE
-    vec3 traveled = subsurfaceFactor(N, L, surface_reach) * STANDARD_MATERIAL.diffuse;
+    vec3 traveled = subsurfaceFactor(N, L, surface_bands) * STANDARD_MATERIAL.diffuse;
     return mix(standardDiffuse(N, L, V), traveled, safeUnit(finish.subsurface));
 #else
     return standardDiffuse(N, L, V);
@@ -713,7 +713,7 @@ Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
     else
         body = facing * standardDiffuse(N, L, V);
 #ifdef GLISTEN_SUBSURFACE
-    vec3 traveled = subsurfaceFactor(N, L, surface_reach) * STANDARD_MATERIAL.diffuse;
+    vec3 traveled = subsurfaceFactor(N, L, surface_bands) * STANDARD_MATERIAL.diffuse;
     body = mix(body, facing * traveled, safeUnit(finish.subsurface));
 #endif
     vec3 gloss = vec3(0.0);
@@ -833,7 +833,7 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
     return sum;
 }
 
-#ifdef GLISTEN_MATCAP
+#ifdef GLISTEN_BALL
 // The light of a picture of a lit ball, which is that of all lights.
 //   N, V  unit normal and unit vector towards the eye, in eye space
 Reflection standardBall(vec3 N, vec3 V)

@@ -25,7 +25,7 @@ in vec2 st2;
 #ifdef GLISTEN_COLORS
 in vec4 tint;
 #endif
-#ifdef GLISTEN_MATCAP
+#ifdef GLISTEN_BALL
 uniform mat4 view;          // from world space to eye space
 #endif
 uniform vec3 eye;           // in world space
@@ -87,7 +87,7 @@ void main()
     if (finish.transmission_pass == GLASS_SURFACE)
         alpha = 0.0;
 #endif
-#ifdef GLISTEN_MATCAP
+#ifdef GLISTEN_BALL
     color = vec4(standardColor(standardBall(mat3(view) * N, mat3(view) * V), vec3(1.0)), alpha);
 #else
     color = vec4(standardColor(standardReflection(world, N, V), vec3(1.0)), alpha);

@@ -1,6 +1,7 @@
 //! The library of lighting models: its values, edge cases and properties, the article's register programs, every
 //! target, and its command.
 
+mod bodies;
 #[cfg(feature = "cli")]
 mod command;
 mod energy;

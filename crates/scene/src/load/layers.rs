@@ -55,7 +55,7 @@ const MACROS: &[(&str, &[&str])] = &[
     ),
     ("GLISTEN_LEAF_MAPS", &["diffuse_transmission_map", "diffuse_transmission_color_map"]),
     ("GLISTEN_SUBSURFACE", &["subsurface", "subsurface_radius"]),
-    ("GLISTEN_MATCAP", &["matcap"]),
+    ("GLISTEN_BALL", &["matcap"]),
 ];
 
 /// The kind of a key's value.

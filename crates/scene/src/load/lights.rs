@@ -77,17 +77,9 @@ impl Kind {
             Self::Hemisphere => &["kind", "axis", "sky", "ground"],
             Self::Sphere => &["kind", "position", "radius", "color", "diffuse", "specular"],
             Self::Tube => &["kind", "from", "to", "radius", "color", "diffuse", "specular"],
-            Self::Disk => &[
-                "kind",
-                "position",
-                "direction",
-                "target",
-                "radius",
-                "two_sided",
-                "color",
-                "diffuse",
-                "specular",
-            ],
+            Self::Disk => {
+                &["kind", "position", "direction", "target", "radius", "two_sided", "color", "diffuse", "specular"]
+            }
             Self::Rectangle => &[
                 "kind",
                 "position",
@@ -227,7 +219,8 @@ impl Light {
             if reader.is_misspelled(table, "kind") {
                 return None;
             }
-            let help = "add `kind = \"directional\"`, or `point`, `spot`, `hemisphere`, `sphere`, `tube`, `disk`, `rectangle`";
+            let help =
+                "add `kind = \"directional\"`, or `point`, `spot`, `hemisphere`, `sphere`, `tube`, `disk`, `rectangle`";
             reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, "a light names its kind").help(help));
             return None;
         };

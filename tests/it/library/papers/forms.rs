@@ -7,22 +7,18 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A vector, or three color channels.
-pub type V = [f64; 3];
+pub(super) type V = [f64; 3];
 
-fn dot(a: V, b: V) -> f64 {
+pub(super) fn dot(a: V, b: V) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+pub(super) fn cross(a: V, b: V) -> V {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// `p a + q b`.
-fn mix(p: f64, a: V, q: f64, b: V) -> V {
+pub(super) fn mix(p: f64, a: V, q: f64, b: V) -> V {
     [0, 1, 2].map(|k| p * a[k] + q * b[k])
 }
 
@@ -30,7 +26,7 @@ fn length(a: V) -> f64 {
     dot(a, a).sqrt()
 }
 
-fn unit(a: V) -> V {
+pub(super) fn unit(a: V) -> V {
     let size = length(a);
     a.map(|x| x / size)
 }
@@ -60,11 +56,7 @@ fn enter(n: V, v: V, index: f64) -> Option<(f64, V, V)> {
     let back = lean(n, v)?;
     let onward = back.map(|x| -x);
     let cosine = dot(n, v).max(0.0);
-    let sine = if dot(n, v) < 0.0 {
-        1.0
-    } else {
-        length(cross(n, v))
-    };
+    let sine = if dot(n, v) < 0.0 { 1.0 } else { length(cross(n, v)) };
     // Snell: sin(inner) = sin(outer) / index. In the right triangle of hypotenuse `index`
     // and one leg sin(outer), the other leg is sqrt(index^2 - sin^2) and `inner` is its angle.
     let leg = ((index - 1.0) * (index + 1.0) + cosine * cosine).sqrt();
@@ -84,7 +76,7 @@ fn far_end(n: V, inside: V) -> V {
 /// Source: Snell's law twice (Born & Wolf sec. 1.5.1). The index is clamped to [1, 16]. An
 /// eye below the horizon counts as one on the horizon (straight from behind, which has no such
 /// counterpart, the ray just goes on).
-pub fn sphere_exit(n: V, v: V, index: f64) -> V {
+pub(super) fn sphere_exit(n: V, v: V, index: f64) -> V {
     let Some((outer, inside, _)) = enter(n, v, index) else {
         return v.map(|x| -x);
     };
@@ -100,7 +92,7 @@ pub fn sphere_exit(n: V, v: V, index: f64) -> V {
 /// The length of the eye's ray inside that ball over the ball's diameter. Source: Snell's
 /// law (Born & Wolf sec. 1.5.1) and the chord between the two ends. An eye with `n.v < 0`
 /// counts as grazing.
-pub fn sphere_path(n: V, v: V, index: f64) -> f64 {
+pub(super) fn sphere_path(n: V, v: V, index: f64) -> f64 {
     match enter(n, v, index) {
         Some((_, inside, _)) => length(mix(1.0, far_end(n, inside), -1.0, n)) / 2.0,
         None if dot(n, v) > 0.0 => 1.0,
@@ -112,7 +104,7 @@ pub fn sphere_path(n: V, v: V, index: f64) -> f64 {
 /// The roughness seen through a refracting surface: none at index 1, all of it from index
 /// 1.5 on, linear between. Source: `applyIorToRoughness` in `functions.glsl` of the Khronos
 /// glTF-Sample-Renderer.
-pub fn blurred_roughness(roughness: f64, index: f64) -> f64 {
+pub(super) fn blurred_roughness(roughness: f64, index: f64) -> f64 {
     if index <= 1.0 {
         0.0
     } else if index >= 1.5 {
@@ -126,7 +118,7 @@ pub fn blurred_roughness(roughness: f64, index: f64) -> f64 {
 /// "Implementation" (`n_F - n_C = (n_d - 1) / V_d`, `dispersion = 20 / V_d`, red and blue
 /// half of that spread away from green), and `getIBLVolumeRefraction` in `ibl.glsl` of the
 /// Khronos glTF-Sample-Renderer; the floor of 1 is the specification's remark.
-pub fn dispersed(index: f64, dispersion: f64) -> V {
+pub(super) fn dispersed(index: f64, dispersion: f64) -> V {
     let abbe = 20.0 / dispersion;
     let spread = (index - 1.0) / abbe;
     [index - spread / 2.0, index, index + spread / 2.0].map(|x| x.max(1.0))
@@ -145,13 +137,9 @@ fn fon_a(r: f64) -> f64 {
 /// The Fujii Oren-Nayar BRDF of unit single-scattering albedo for polar angles `out` and
 /// `into` and azimuth difference `turn`. Source: Fujii, "A tiny improvement of Oren-Nayar
 /// reflectance model", with A and B of EON listing 1.
-pub fn fon(into: f64, out: f64, turn: f64, r: f64) -> f64 {
+pub(super) fn fon(into: f64, out: f64, turn: f64, r: f64) -> f64 {
     let s = into.sin() * out.sin() * turn.cos();
-    let t = if s > 0.0 {
-        into.cos().max(out.cos())
-    } else {
-        1.0
-    };
+    let t = if s > 0.0 { into.cos().max(out.cos()) } else { 1.0 };
     fon_a(r) * (1.0 + r * s / t) / PI
 }
 
@@ -159,7 +147,7 @@ pub fn fon(into: f64, out: f64, turn: f64, r: f64) -> f64 {
 /// 1, `E_FON_exact`, written with the elevation `up` above the surface, in which
 /// `tan(theta) (1 - sin^3 theta) = sin(theta) (1 + sin + sin^2) tan(up / 2)` stays exact
 /// down to `mu = 0` (where the listing divides by zero). `mu` is clamped to [0, 1].
-pub fn eon_albedo(mu: f64, r: f64) -> f64 {
+pub(super) fn eon_albedo(mu: f64, r: f64) -> f64 {
     let up = mu.clamp(0.0, 1.0).asin();
     let theta = FRAC_PI_2 - up;
     let s = up.cos();
@@ -171,7 +159,7 @@ pub fn eon_albedo(mu: f64, r: f64) -> f64 {
 /// The same albedo from its definition, the integral of the Fujii Oren-Nayar BRDF times the
 /// cosine over the hemisphere, by Gauss-Legendre quadrature in both angles, split where the
 /// two polar angles are equal and where the azimuth difference is a right angle.
-pub fn eon_albedo_integral(mu: f64, r: f64) -> f64 {
+pub(super) fn eon_albedo_integral(mu: f64, r: f64) -> f64 {
     let out = mu.clamp(0.0, 1.0).acos();
     let rule = gauss_legendre(24);
     integrate(&rule, &[0.0, out, FRAC_PI_2], |into| {
@@ -182,7 +170,7 @@ pub fn eon_albedo_integral(mu: f64, r: f64) -> f64 {
 
 /// The albedo of the Fujii model averaged over the hemisphere with the cosine. Source: EON
 /// listing 1 (`avgEF`).
-pub fn eon_average_albedo(r: f64) -> f64 {
+pub(super) fn eon_average_albedo(r: f64) -> f64 {
     fon_a(r) * (1.0 + r * (2.0 / 3.0 - 28.0 / (15.0 * PI)))
 }
 
@@ -190,13 +178,13 @@ pub fn eon_average_albedo(r: f64) -> f64 {
 /// pi times `n.l` times the EON BRDF of single-scattering albedo `rho` and roughness `r`.
 /// Source: EON listing 1 (`f_EON` with the exact albedo), including its floors of 1e-7.
 /// `None` if lamp or eye are not above the horizon.
-pub fn eon(n: V, l: V, v: V, rho: V, r: f64) -> Option<V> {
+pub(super) fn eon(n: V, l: V, v: V, rho: V, r: f64) -> Option<V> {
     eon_floored(n, l, v, rho, r, 1e-7)
 }
 
 /// [`eon`] with another floor than the listing's for the three factors of the multiple
 /// scattering, to see how much it matters; with floor 0 smooth walls scatter once only.
-pub fn eon_floored(n: V, l: V, v: V, rho: V, r: f64, floor: f64) -> Option<V> {
+pub(super) fn eon_floored(n: V, l: V, v: V, rho: V, r: f64, floor: f64) -> Option<V> {
     let (mu_l, mu_v) = (dot(n, l), dot(n, v));
     if mu_l <= 0.0 || mu_v <= 0.0 {
         return None;
@@ -212,11 +200,8 @@ pub fn eon_floored(n: V, l: V, v: V, rho: V, r: f64, floor: f64) -> Option<V> {
     // Multiple scattering.
     let average = eon_average_albedo(r);
     let lost = |albedo: f64| (1.0 - albedo).max(floor);
-    let lobe = if lost(average) > 0.0 {
-        lost(eon_albedo(mu_l, r)) * lost(eon_albedo(mu_v, r)) / lost(average)
-    } else {
-        0.0
-    };
+    let lobe =
+        if lost(average) > 0.0 { lost(eon_albedo(mu_l, r)) * lost(eon_albedo(mu_v, r)) / lost(average) } else { 0.0 };
     Some(rho.map(|rho| {
         let tint = rho * rho * average / (1.0 - rho * (1.0 - average));
         mu_l * (rho * once + tint * lobe)
@@ -235,7 +220,7 @@ fn half(l: V, v: V) -> Option<V> {
 
 /// The Trowbridge-Reitz (GGX) distribution for the angle `theta` between normal and half
 /// vector. Source: Walter et al. 2007 eq. (33), which three.js's `D_GGX` cites.
-pub fn ggx(theta: f64, alpha: f64) -> f64 {
+pub(super) fn ggx(theta: f64, alpha: f64) -> f64 {
     let a2 = alpha * alpha;
     let spread = a2 * theta.cos().powi(2) + theta.sin().powi(2);
     a2 / (PI * spread * spread)
@@ -252,7 +237,7 @@ fn smith_lambda(theta: f64, alpha: f64) -> f64 {
 /// = `BRDF_Lambert` + `BRDF_GGX` (`V_GGX_SmithCorrelated` with `EPSILON` 1e-6, `D_GGX`,
 /// `F_Schlick` with f90 = 1) of three.js up to about r180, with Schlick's true fifth power.
 /// `None` if lamp or eye are not above the horizon.
-pub fn three_plastic(n: V, l: V, v: V, diffuse: V, f0: f64, alpha: f64) -> Option<V> {
+pub(super) fn three_plastic(n: V, l: V, v: V, diffuse: V, f0: f64, alpha: f64) -> Option<V> {
     let (mu_l, mu_v) = (dot(n, l), dot(n, v));
     if mu_l <= 0.0 || mu_v <= 0.0 {
         return None;
@@ -272,7 +257,7 @@ pub fn three_plastic(n: V, l: V, v: V, diffuse: V, f0: f64, alpha: f64) -> Optio
 /// The "Charlie" sheen distribution for the angle `theta` between normal and half vector.
 /// Source: Estevez and Kulla 2017 and three.js's `D_Charlie`, whose floor under the squared
 /// sine is 0.0078125.
-pub fn charlie(theta: f64, alpha: f64) -> f64 {
+pub(super) fn charlie(theta: f64, alpha: f64) -> f64 {
     let squared_sine = theta.sin().powi(2).max(0.0078125);
     (2.0 + 1.0 / alpha) * (squared_sine.ln() / (2.0 * alpha)).exp() / TAU
 }
@@ -282,7 +267,7 @@ pub fn charlie(theta: f64, alpha: f64) -> f64 {
 /// (`D_Charlie`, `V_Neubelt`) and, in its `meshphysical` shader up to about r180,
 /// `outgoingLight * (1 - 0.157 max(sheenColor)) + sheenSpecularDirect`. `alpha` is the
 /// square of `sheenRoughness`. `None` if lamp or eye are not above the horizon.
-pub fn three_sheen(n: V, l: V, v: V, alpha: f64) -> Option<f64> {
+pub(super) fn three_sheen(n: V, l: V, v: V, alpha: f64) -> Option<f64> {
     let (mu_l, mu_v) = (dot(n, l), dot(n, v));
     if mu_l <= 0.0 || mu_v <= 0.0 {
         return None;
@@ -298,7 +283,7 @@ pub fn three_sheen(n: V, l: V, v: V, alpha: f64) -> Option<f64> {
 
 /// Nodes and weights of Gauss-Legendre quadrature on [-1, 1], by Newton's method on the
 /// Legendre polynomial.
-pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
+pub(super) fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
     let size = count as f64;
     (0..count)
         .map(|k| {
@@ -308,10 +293,7 @@ pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
                 let (mut before, mut value) = (1.0, x);
                 for j in 2..=count {
                     let j = j as f64;
-                    (before, value) = (
-                        value,
-                        ((2.0 * j - 1.0) * x * value - (j - 1.0) * before) / j,
-                    );
+                    (before, value) = (value, ((2.0 * j - 1.0) * x * value - (j - 1.0) * before) / j);
                 }
                 slope = size * (x * value - before) / (x * x - 1.0);
                 x -= value / slope;
@@ -322,7 +304,7 @@ pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
 }
 
 /// The integral of `f` over the intervals between neighboring `ends`.
-pub fn integrate(rule: &[(f64, f64)], ends: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn integrate(rule: &[(f64, f64)], ends: &[f64], f: impl Fn(f64) -> f64) -> f64 {
     let mut sum = 0.0;
     for pair in ends.windows(2) {
         let (middle, reach) = ((pair[0] + pair[1]) / 2.0, (pair[1] - pair[0]) / 2.0);
@@ -332,4 +314,3 @@ pub fn integrate(rule: &[(f64, f64)], ends: &[f64], f: impl Fn(f64) -> f64) -> f
     }
     sum
 }
-

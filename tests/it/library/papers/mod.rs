@@ -100,7 +100,12 @@ fn the_naive_eon_is_the_papers() {
     };
     let all = cases(points::eon_points(), eon);
     compare("oren_nayar", "eonFactor(vec3,vec3,vec3,vec3,float)", &all, 1e-3);
-    compare("naive", "naiveEon(vec3,vec3,vec3,vec3,float)", &all, 2e-7);
+    // The listing takes the root of 1 - cos^2, which is negative where rounding makes a cosine larger than 1: NaN, which its floor of 1e-7
+    // turns into a loss. That is its fault (`faults`), and not that of the transcription.
+    let is_upright = |d: V, n: V| d.iter().zip(n).all(|(d, n)| (d - n).abs() < 1e-6);
+    let tilted: Vec<_> =
+        points::eon_points().into_iter().filter(|(n, l, v, ..)| !is_upright(*l, *n) && !is_upright(*v, *n)).collect();
+    compare("naive", "naiveEon(vec3,vec3,vec3,vec3,float)", &cases(tilted, eon), 2e-7);
 }
 
 /// The albedo that the paper has in closed form is the integral of its factor.

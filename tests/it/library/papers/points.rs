@@ -4,13 +4,13 @@ use super::forms::{V, cross, dot, mix, unit};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Normal, eye and index for the ball.
-pub type SpherePoint = (V, V, f64);
+pub(super) type SpherePoint = (V, V, f64);
 /// Normal, lamp, eye, albedo and roughness for EON.
-pub type EonPoint = (V, V, V, V, f64);
+pub(super) type EonPoint = (V, V, V, V, f64);
 /// Normal, lamp, eye, diffuse color, reflectance at normal incidence and alpha.
-pub type PlasticPoint = (V, V, V, V, f64, f64);
+pub(super) type PlasticPoint = (V, V, V, V, f64, f64);
 /// Normal, lamp, eye and alpha.
-pub type SheenPoint = (V, V, V, f64);
+pub(super) type SheenPoint = (V, V, V, f64);
 
 const GRAZING: [f64; 6] = [1e-6, 3e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 const UP: V = [0.0, 0.0, 1.0];
@@ -54,35 +54,22 @@ impl Random {
 
     /// The z axis (whose dot products are exact) as often as any direction.
     fn normal(&mut self) -> V {
-        if self.bits() & 1 == 0 {
-            UP
-        } else {
-            self.sphere()
-        }
+        if self.bits() & 1 == 0 { UP } else { self.sphere() }
     }
 }
 
 /// The direction of cosine `cosine` to `n` at an azimuth.
 fn raised(n: V, cosine: f64, azimuth: f64) -> V {
-    let aside = if n[0].abs() < 0.6 {
-        [1.0, 0.0, 0.0]
-    } else {
-        [0.0, 1.0, 0.0]
-    };
+    let aside = if n[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
     let b = unit(cross(n, aside));
     let t = cross(b, n);
     let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-    unit(mix(
-        cosine,
-        n,
-        sine,
-        mix(azimuth.cos(), t, azimuth.sin(), b),
-    ))
+    unit(mix(cosine, n, sine, mix(azimuth.cos(), t, azimuth.sin(), b)))
 }
 
 /// Balls and eyes above the horizon: 640 stiff ones (grazing, square on, index at the ends
 /// of its range), then 1000 others.
-pub fn sphere_points() -> Vec<SpherePoint> {
+pub(super) fn sphere_points() -> Vec<SpherePoint> {
     let mut random = Random(1);
     let mut points = Vec::new();
     for cosine in [1e-6, 1e-5, 1e-4, 1e-3, 0.5, 1.0 - 1e-12, 1.0 - 1e-6, 1.0] {
@@ -97,18 +84,14 @@ pub fn sphere_points() -> Vec<SpherePoint> {
     for _ in 0..1000 {
         let n = random.sphere();
         let v = raised(n, random.within(0.01, 1.0), random.within(0.0, TAU));
-        let index = if random.bits() & 3 == 0 {
-            random.scaled(1.0, 16.0)
-        } else {
-            random.within(1.0, 2.5)
-        };
+        let index = if random.bits() & 3 == 0 { random.scaled(1.0, 16.0) } else { random.within(1.0, 2.5) };
         points.push((n, v, index));
     }
     points
 }
 
 /// Eyes on or below the horizon, for [`sphere_path`] only.
-pub fn sphere_hidden_points() -> Vec<SpherePoint> {
+pub(super) fn sphere_hidden_points() -> Vec<SpherePoint> {
     let mut random = Random(2);
     let mut points: Vec<SpherePoint> = Vec::new();
     for index in [1.0, 1.0 + 1e-6, 1.5, 16.0] {
@@ -127,24 +110,11 @@ pub fn sphere_hidden_points() -> Vec<SpherePoint> {
 }
 
 /// Roughness and index for [`blurred_roughness`].
-pub fn roughness_points() -> Vec<(f64, f64)> {
+pub(super) fn roughness_points() -> Vec<(f64, f64)> {
     let mut random = Random(3);
     let mut points = Vec::new();
     for roughness in [0.0, 1e-4, 1e-3, 0.1, 0.25, 0.5, 0.999, 1.0] {
-        for index in [
-            1.0,
-            1.0 + 1e-6,
-            1.0001,
-            1.01,
-            1.25,
-            1.33,
-            1.5 - 1e-6,
-            1.5,
-            1.5 + 1e-6,
-            1.8,
-            2.42,
-            16.0,
-        ] {
+        for index in [1.0, 1.0 + 1e-6, 1.0001, 1.01, 1.25, 1.33, 1.5 - 1e-6, 1.5, 1.5 + 1e-6, 1.8, 2.42, 16.0] {
             points.push((roughness, index));
         }
     }
@@ -159,13 +129,11 @@ pub fn roughness_points() -> Vec<(f64, f64)> {
 }
 
 /// Index and dispersion for [`dispersed`]; beyond a dispersion of 40 red is held at 1.
-pub fn dispersion_points() -> Vec<(f64, f64)> {
+pub(super) fn dispersion_points() -> Vec<(f64, f64)> {
     let mut random = Random(4);
     let mut points = Vec::new();
     for index in [1.0, 1.0 + 1e-6, 1.001, 1.33, 1.5, 2.42, 4.0, 16.0] {
-        for dispersion in [
-            0.0, 1e-6, 1e-3, 0.1, 0.36, 1.0, 2.04, 10.0, 39.9, 40.0, 40.1, 100.0,
-        ] {
+        for dispersion in [0.0, 1e-6, 1e-3, 0.1, 0.36, 1.0, 2.04, 10.0, 39.9, 40.0, 40.1, 100.0] {
             points.push((index, dispersion));
         }
     }
@@ -180,7 +148,7 @@ pub fn dispersion_points() -> Vec<(f64, f64)> {
 }
 
 /// Cosine and roughness for [`eon_albedo`].
-pub fn albedo_points() -> Vec<(f64, f64)> {
+pub(super) fn albedo_points() -> Vec<(f64, f64)> {
     let mut random = Random(5);
     let mut points = Vec::new();
     for mu in [1e-6, 1e-5, 1e-4, 1e-3, 0.5, 1.0 - 1e-6, 1.0 - 1e-12, 1.0] {
@@ -220,20 +188,12 @@ fn stiff_pairs(random: &mut Random, near: f64) -> Vec<(V, V, V)> {
         let n = random.normal();
         let low = raised(n, random.pick(&GRAZING), random.within(0.0, TAU));
         let high = raised(n, random.within(0.05, 1.0), random.within(0.0, TAU));
-        points.push(if k % 2 == 0 {
-            (n, low, high)
-        } else {
-            (n, high, low)
-        });
+        points.push(if k % 2 == 0 { (n, low, high) } else { (n, high, low) });
     }
     // The eye or the lamp square on, and both.
     for k in 0..80 {
         let n = random.normal();
-        let cosine = if k % 4 < 2 {
-            random.pick(&GRAZING)
-        } else {
-            random.within(0.05, 1.0)
-        };
+        let cosine = if k % 4 < 2 { random.pick(&GRAZING) } else { random.within(0.05, 1.0) };
         let other = raised(n, cosine, random.within(0.0, TAU));
         points.push(match k % 8 {
             0 => (n, n, n),
@@ -244,11 +204,7 @@ fn stiff_pairs(random: &mut Random, near: f64) -> Vec<(V, V, V)> {
     // The lamp in the eye.
     for k in 0..80 {
         let n = random.normal();
-        let cosine = if k % 2 == 0 {
-            random.pick(&GRAZING)
-        } else {
-            random.within(0.05, 1.0)
-        };
+        let cosine = if k % 2 == 0 { random.pick(&GRAZING) } else { random.within(0.05, 1.0) };
         let v = raised(n, cosine, random.within(0.0, TAU));
         points.push((n, v, v));
     }
@@ -262,21 +218,13 @@ fn stiff_pairs(random: &mut Random, near: f64) -> Vec<(V, V, V)> {
     // The lamp in or near the mirror image of the eye.
     for k in 0..80 {
         let n = random.normal();
-        let cosine = if k % 4 == 0 {
-            random.pick(&GRAZING)
-        } else {
-            random.within(0.05, 1.0)
-        };
+        let cosine = if k % 4 == 0 { random.pick(&GRAZING) } else { random.within(0.05, 1.0) };
         let azimuth = random.within(0.0, TAU);
         let v = raised(n, cosine, azimuth);
         let stray = random.pick(&[0.0, 0.3, 1.0, 3.0]) * near;
         let m = unit(mix(1.0, n, stray, raised(n, 0.0, random.within(0.0, TAU))));
         let l = unit(mix(2.0 * dot(m, v), m, -1.0, v));
-        let l = if dot(n, l) > 1e-7 {
-            l
-        } else {
-            raised(n, cosine, azimuth + PI)
-        };
+        let l = if dot(n, l) > 1e-7 { l } else { raised(n, cosine, azimuth + PI) };
         points.push((n, l, v));
     }
     // Not above the horizon.
@@ -284,11 +232,7 @@ fn stiff_pairs(random: &mut Random, near: f64) -> Vec<(V, V, V)> {
         let n = if k < 8 { UP } else { random.normal() };
         let above = raised(n, random.within(0.05, 1.0), random.within(0.0, TAU));
         let below = match k {
-            0..4 => [
-                (TAU / 4.0 * f64::from(k)).cos().round(),
-                (TAU / 4.0 * f64::from(k)).sin().round(),
-                0.0,
-            ],
+            0..4 => [(TAU / 4.0 * f64::from(k)).cos().round(), (TAU / 4.0 * f64::from(k)).sin().round(), 0.0],
             _ => raised(n, -random.scaled(1e-6, 1.0), random.within(0.0, TAU)),
         };
         points.push(match k % 4 {
@@ -310,7 +254,7 @@ fn easy_pair(random: &mut Random) -> (V, V, V) {
 }
 
 /// Points for [`eon`]: 540 stiff ones, then 1000 others.
-pub fn eon_points() -> Vec<EonPoint> {
+pub(super) fn eon_points() -> Vec<EonPoint> {
     let mut random = Random(6);
     let mut points = Vec::new();
     for (k, (n, l, v)) in stiff_pairs(&mut random, 1e-3).into_iter().enumerate() {
@@ -332,14 +276,11 @@ pub fn eon_points() -> Vec<EonPoint> {
 
 /// Points for [`three_plastic`]: three times 540 stiff ones (one round for each of the
 /// alphas 1e-4, 1e-3 and 1), then 1000 others.
-pub fn plastic_points() -> Vec<PlasticPoint> {
+pub(super) fn plastic_points() -> Vec<PlasticPoint> {
     let mut random = Random(7);
     let mut points = Vec::new();
     for alpha in [1e-4, 1e-3, 1.0] {
-        for (k, (n, l, v)) in stiff_pairs(&mut random, f64::min(alpha, 0.1))
-            .into_iter()
-            .enumerate()
-        {
+        for (k, (n, l, v)) in stiff_pairs(&mut random, f64::min(alpha, 0.1)).into_iter().enumerate() {
             let diffuse = match k % 3 {
                 0 => [0.0; 3],
                 1 => [1.0; 3],
@@ -358,7 +299,7 @@ pub fn plastic_points() -> Vec<PlasticPoint> {
 }
 
 /// Points for [`three_sheen`]: 540 stiff ones, then 1000 others.
-pub fn sheen_points() -> Vec<SheenPoint> {
+pub(super) fn sheen_points() -> Vec<SheenPoint> {
     let mut random = Random(8);
     let mut points = Vec::new();
     for (n, l, v) in stiff_pairs(&mut random, 0.09) {
