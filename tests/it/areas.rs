@@ -1,14 +1,16 @@
 //! Lights with a shape, light from all around by coefficients, pictures of lit balls, and bodies that light travels in, in the program
 //! `standard`.
 
+use crate::drawing::reference;
 use crate::layers::{DOME, HEAD_ON, good, middle, near, picture, scene};
 use crate::scenes::{the_error, told};
-use crate::support::compiler;
+use crate::support::{compiler, root};
 use glam::DVec3;
 use glisten::evaluate::Evaluator;
 use glisten::library::Embedded;
-use glisten::scene::{Loaded, MemoryFiles, load};
+use glisten::scene::{DiskFiles, Loaded, MemoryFiles, load};
 use glisten_reference::Precision;
+use glisten_scene::picture::Image;
 use std::f64::consts::PI;
 
 const PLASTER: &str = "diffuse = [1, 1, 1]\nspecular_model = \"none\"\n";
@@ -381,6 +383,23 @@ fn a_picture_of_a_ball_is_all_of_the_light() {
     let told = told(&lit).join("\n");
     assert!(told.contains("light"), "{told}");
     near(picture(&lit.scene.expect("a warning"))[36], [0.8, 0.0, 0.0], 1e-6);
+}
+
+/// The picture that the library's scene has is that of its ball.
+#[test]
+fn the_librarys_ball_is_drawn_here() {
+    let path = root().join("fixtures/library/clay_ball.toml");
+    let loaded = load(&path.display().to_string(), &DiskFiles, &compiler());
+    let drawn = reference(&good(loaded), Precision::F64);
+    let bytes = std::fs::read(root().join("shader_lib/scenes/clay.png")).expect("the picture is there");
+    let image = Image::read(&bytes, 4096, 1 << 24).expect("a picture");
+    let pairs = image.pixels.iter().zip(&drawn.attachments[0]);
+    for (kept, drawn) in pairs {
+        for (kept, drawn) in kept.iter().zip(drawn).take(3) {
+            let encoded = if *drawn <= 0.0031308 { 12.92 * drawn } else { 1.055 * drawn.powf(1.0 / 2.4) - 0.055 };
+            assert!((f64::from(*kept) - encoded.clamp(0.0, 1.0)).abs() < 1.0 / 255.0, "{kept} {drawn}");
+        }
+    }
 }
 
 /// Light that travels in a body reaches around the terminator, more of the colors that travel further; without a way it is Lambert's.
