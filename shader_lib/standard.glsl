@@ -691,6 +691,16 @@ bool standardTakesPoint()
 #endif
 }
 
+// Whether anything but a highlight needs all of the light that arrives.
+bool standardScatters()
+{
+#if defined(GLISTEN_FIBERS) || defined(GLISTEN_GLASS) || defined(GLISTEN_LEAF) || defined(GLISTEN_SUBSURFACE)
+    return true;
+#else
+    return finish.diffuse_model != DIFFUSE_NONE;
+#endif
+}
+
 // The part of (101) that a light with a shape has. Lambert's reflection and that of `ggx` are sums over the light. Other models of the
 // form N.L f have Lambert's sum times f towards the middle of the light; the rest are those of a point there that is as bright.
 //   one  the light    P  shaded point    N  unit normal    V  unit vector towards the eye
@@ -703,7 +713,7 @@ Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
     vec3 L = safeNormalize(center);
     // The same above the horizon.
     vec3 above = safeNormalize(L + max(0.125 - dot(N, L), 0.0) * N);
-    float arriving = standardShape(one, ltcFrame(N, V), center, one.x, one.y);
+    float arriving = standardScatters() ? standardShape(one, ltcFrame(N, V), center, one.x, one.y) : 0.0;
     float facing = standardTakesPoint() ? standardShape(one, ltcFrame(L, V), center, one.x, one.y) : 0.0;
     vec3 body = vec3(0.0);
     if (finish.diffuse_model == DIFFUSE_LAMBERT)

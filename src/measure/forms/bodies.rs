@@ -32,7 +32,7 @@ fn bands(d: f64) -> [f64; 2] {
 
 /// The mean of Lambert's factor, a wrapped one and light from everywhere that lacks these parts.
 fn lit(c: f64, a: f64, b: f64) -> f64 {
-    let a = a.min(2.0 / 3.0);
+    let a = a.clamp(0.0, 2.0 / 3.0);
     let b = b.clamp(a, (3.0 * a).min(1.0));
     let lambert = c.max(0.0);
     if a == 0.0 {
