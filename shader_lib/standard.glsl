@@ -661,10 +661,8 @@ float standardShape(Light one, mat3 to, vec3 center, vec3 x, vec3 y)
         return ltcTube(to, safeLimit(center - x), safeLimit(center + x), one.radius);
     case LIGHT_DISK:
         return ltcDisk(to, center, x, y);
-    case LIGHT_RECTANGLE:
-        return ltcRectangle(to, center, x, y);
     }
-    return 0.0;
+    return ltcRectangle(to, center, x, y);
 }
 
 // Whether the diffuse model is N.L times a function that is not steep.
@@ -701,6 +699,37 @@ bool standardScatters()
 #endif
 }
 
+// The sums over a light with a shape: of what arrives at the surface, of what one gets that faces the light, of the highlight, of the coat's,
+// of light that passes, and of light that is scattered through the surface. One loop, so that a program has one copy of them.
+const int AREA_ARRIVING = 0;
+const int AREA_FACING = 1;
+const int AREA_GLOSS = 2;
+const int AREA_COAT = 3;
+const int AREA_THROUGH = 4;
+const int AREA_LEAF = 5;
+
+// Whether the material needs a sum.
+bool standardNeeds(int sum)
+{
+    switch (sum) {
+    case AREA_ARRIVING:
+        return standardScatters();
+    case AREA_FACING:
+        return standardTakesPoint();
+    case AREA_GLOSS:
+        return finish.specular_model == SPECULAR_GGX;
+    case AREA_COAT:
+        return finish.clearcoat > 0.0;
+    case AREA_THROUGH:
+#ifdef GLISTEN_GLASS
+        return true;
+#else
+        return false;
+#endif
+    }
+    return true;
+}
+
 // The part of (101) that a light with a shape has. Lambert's reflection and that of `ggx` are sums over the light. Other models of the
 // form N.L f have Lambert's sum times f towards the middle of the light; the rest are those of a point there that is as bright.
 //   one  the light    P  shaded point    N  unit normal    V  unit vector towards the eye
@@ -711,10 +740,53 @@ Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
     if (dot(safeNormalize(one.direction), safeNormalize(center)) > 0.0)
         return Reflection(vec3(0.0), vec3(0.0));
     vec3 L = safeNormalize(center);
+    float got[6];
+#if defined(GLISTEN_LEAF)
+    int last = AREA_LEAF;
+#elif defined(GLISTEN_GLASS)
+    int last = AREA_THROUGH;
+#else
+    int last = AREA_COAT;
+#endif
+    for (int k = 0; k <= last; ++k) {
+        got[k] = 0.0;
+        if (!standardNeeds(k))
+            continue;
+        vec3 normal = N;
+        float roughness = STANDARD_ROUGHNESS;
+        vec3 middle = center;
+        vec3 x = one.x;
+        vec3 y = one.y;
+        if (k == AREA_FACING) {
+            normal = L;
+        } else if (k == AREA_COAT) {
+            normal = STANDARD_COAT_NORMAL;
+            roughness = STANDARD_COAT_ROUGHNESS;
+        }
+#ifdef GLISTEN_BRUSHED
+        if (k == AREA_GLOSS)
+            normal = safeNormalize(ggxBent(N, surface_brush, V, STANDARD_ROUGHNESS, surface_anisotropy));
+#endif
+#ifdef GLISTEN_GLASS
+        if (k == AREA_THROUGH)
+            roughness = standardBlur();
+#endif
+#if defined(GLISTEN_GLASS) || defined(GLISTEN_LEAF)
+        if (k >= AREA_THROUGH) {
+            // The light mirrored at the surface, for one behind it.
+            middle = transmissionMirrored(N, center);
+            x = transmissionMirrored(N, x);
+            y = transmissionMirrored(N, y);
+        }
+#endif
+        bool is_matte = k <= AREA_FACING || k == AREA_LEAF;
+        mat3 to = is_matte ? ltcFrame(normal, V) : ltcMatrix(area_table, normal, V, roughness);
+        got[k] = standardShape(one, to, middle, x, y);
+    }
+    float arriving = got[AREA_ARRIVING];
+    float facing = got[AREA_FACING];
     // The same above the horizon.
     vec3 above = safeNormalize(L + max(0.125 - dot(N, L), 0.0) * N);
-    float arriving = standardScatters() ? standardShape(one, ltcFrame(N, V), center, one.x, one.y) : 0.0;
-    float facing = standardTakesPoint() ? standardShape(one, ltcFrame(L, V), center, one.x, one.y) : 0.0;
     vec3 body = vec3(0.0);
     if (finish.diffuse_model == DIFFUSE_LAMBERT)
         body = arriving * STANDARD_MATERIAL.diffuse;
@@ -733,31 +805,16 @@ Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
         // A small light leaves what one direction does, and one all over the sky what all do.
         left = mix(standardLeft(standardFresnel(above, V)), standardLeft(min(albedo, vec3(1.0))), arriving);
         body *= left;
-        if (finish.specular_model == SPECULAR_GGX) {
-#ifdef GLISTEN_BRUSHED
-            vec3 bent = ggxBent(N, surface_brush, V, STANDARD_ROUGHNESS, surface_anisotropy);
-            mat3 to = ltcMatrix(area_table, safeNormalize(bent), V, STANDARD_ROUGHNESS);
-#else
-            mat3 to = ltcMatrix(area_table, N, V, STANDARD_ROUGHNESS);
-#endif
-            gloss = albedo * standardShape(one, to, center, one.x, one.y);
-        }
+        gloss = albedo * got[AREA_GLOSS];
     }
     if (finish.specular_model != SPECULAR_GGX)
         gloss = safeLimit(facing * standardSpecular(N, L, V, standardFresnel(L, V)));
-#if defined(GLISTEN_GLASS) || defined(GLISTEN_LEAF)
-    // The light mirrored at the surface, for one behind it.
-    vec3 behind = transmissionMirrored(N, center);
-    vec3 behind_x = transmissionMirrored(N, one.x);
-    vec3 behind_y = transmissionMirrored(N, one.y);
-#endif
 #ifdef GLISTEN_GLASS
-    float blur = standardBlur();
-    float through = standardShape(one, ltcMatrix(area_table, N, V, blur), behind, behind_x, behind_y);
-    body += through * ltcAlbedo(albedo_table, N, V, blur, vec3(1.0)) * standardPassing(N, V) * left;
+    vec3 passed = got[AREA_THROUGH] * ltcAlbedo(albedo_table, N, V, standardBlur(), vec3(1.0));
+    body += passed * standardPassing(N, V) * left;
 #endif
 #ifdef GLISTEN_LEAF
-    body += standardShape(one, ltcFrame(N, V), behind, behind_x, behind_y) * surface_leaf * left;
+    body += got[AREA_LEAF] * surface_leaf * left;
 #endif
     Reflection sum = Reflection(safeLimit(body * one.diffuse), safeLimit(gloss * one.specular));
 #ifdef GLISTEN_FIBERS
@@ -769,9 +826,7 @@ Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
     if (finish.clearcoat > 0.0) {
         vec3 smooth_normal = STANDARD_COAT_NORMAL;
         float w = clearcoatWeight(smooth_normal, V, STANDARD_COAT);
-        mat3 to = ltcMatrix(area_table, smooth_normal, V, STANDARD_COAT_ROUGHNESS);
-        vec3 coat = ltcAlbedo(albedo_table, smooth_normal, V, STANDARD_COAT_ROUGHNESS, vec3(1.0));
-        coat *= standardShape(one, to, center, one.x, one.y);
+        vec3 coat = ltcAlbedo(albedo_table, smooth_normal, V, STANDARD_COAT_ROUGHNESS, vec3(1.0)) * got[AREA_COAT];
         sum.body = (1.0 - w) * sum.body;
         sum.gloss = safeLimit((1.0 - w) * sum.gloss + safeLimit(w * coat * one.specular));
     }

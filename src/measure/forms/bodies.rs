@@ -21,7 +21,7 @@ fn moments(x: f64) -> [f64; 3] {
     })
 }
 
-/// What normalized diffusion on a ball of radius 1 takes of two harmonics, by the mean squares and fourth powers of its chords: 2 pi r R(r) is a
+/// The parts of two harmonics that normalized diffusion on a ball of radius 1 takes, by the mean squares and fourth powers of its chords: 2 pi r R(r) is a
 /// sum of two exponentials.
 fn bands(d: f64) -> [f64; 2] {
     // With r = 2 t, t from 0 to 1.

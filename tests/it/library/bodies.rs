@@ -8,7 +8,7 @@ fn profile(d: f64, r: f64) -> f64 {
     ((-r / d).exp() + (-r / (3.0 * d)).exp()) / (4.0 * d)
 }
 
-/// What a point at the angle `a` from the light gets: the mean of its neighbors' light by the profile (Penner and Borshukov, on the ball
+/// The light of a point at the angle `a` from the lamp: the mean of its neighbors' light by the profile (Penner and Borshukov, on the ball
 /// instead of on a ring).
 fn convolved(d: f64, a: f64) -> f64 {
     const CHORDS: u32 = 400;
