@@ -213,8 +213,8 @@ static LIMITS: &[Limit] = &[
         what: "vertices of a glTF file with all copies",
         largest: 12_582_912,
         code: "E0911",
-        // Two copies of one mesh, and one of a mesh that has the rest.
-        make: |n| model(&[1 << 22, n - (2 << 22)], &[(0, 2), (1, 1)]),
+        // Two copies of one mesh, one of a mesh that has the rest, and a triangle to be seen.
+        make: |n| model(&[3, 1 << 22, n - 3 - (2 << 22)], &[(0, 1), (1, 2), (2, 1)]),
     },
     Limit {
         what: "lights of a glTF file",
@@ -233,14 +233,21 @@ static LIMITS: &[Limit] = &[
     },
 ];
 
-/// A glTF file of meshes with this many vertices and one triangle, and nodes that have copies of them: accessors without data are zero.
+/// A glTF file of meshes with this many vertices and one triangle, and nodes that have copies of them. Accessors without
+/// data are zero: only the triangle of a mesh of three vertices has an area.
 fn model(meshes: &[usize], nodes: &[(usize, usize)]) -> Input {
     let list = |items: Vec<String>| items.join(", ");
     let accessor = |kind: u32, shape: &str, count: usize| {
         format!("{{\"componentType\": {kind}, \"type\": \"{shape}\", \"count\": {count}}}")
     };
-    let mut accessors = vec![accessor(5125, "SCALAR", 3)];
-    accessors.extend(meshes.iter().map(|count| accessor(5126, "VEC3", *count)));
+    // The numbers 0, 1, 2, and the corners of a triangle.
+    let data = "AAAAAAEAAAACAAAAAAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    let seen = |view: u32, text: String| text.replacen('{', &format!("{{\"bufferView\": {view}, "), 1);
+    let mut accessors = vec![seen(0, accessor(5125, "SCALAR", 3))];
+    accessors.extend(meshes.iter().map(|count| match count {
+        3 => seen(1, accessor(5126, "VEC3", 3)),
+        _ => accessor(5126, "VEC3", *count),
+    }));
     accessors.extend(nodes.iter().map(|(_, copies)| accessor(5126, "VEC3", *copies)));
     let mesh =
         |at: usize| format!("{{\"primitives\": [{{\"attributes\": {{\"POSITION\": {}}}, \"indices\": 0}}]}}", at + 1);
@@ -252,7 +259,9 @@ fn model(meshes: &[usize], nodes: &[(usize, usize)]) -> Input {
     };
     Model(format!(
         "{{\"asset\": {{\"version\": \"2.0\"}}, \"scene\": 0, \"scenes\": [{{\"nodes\": [{}]}}], \"nodes\": [{}], \"meshes\": [{}], \
-         \"accessors\": [{}], \"extensionsUsed\": [\"EXT_mesh_gpu_instancing\"]}}",
+         \"accessors\": [{}], \"bufferViews\": [{{\"buffer\": 0, \"byteLength\": 12}}, {{\"buffer\": 0, \"byteOffset\": 12, \"byteLength\": 36}}], \
+         \"buffers\": [{{\"byteLength\": 48, \"uri\": \"data:application/octet-stream;base64,{data}\"}}], \
+         \"extensionsUsed\": [\"EXT_mesh_gpu_instancing\"]}}",
         list((0..nodes.len()).map(|at| at.to_string()).collect()),
         list(nodes.iter().enumerate().map(node).collect()),
         list((0..meshes.len()).map(mesh).collect()),
