@@ -699,35 +699,40 @@ bool standardScatters()
 #endif
 }
 
-// The sums over a light with a shape: of what arrives at the surface, of what one gets that faces the light, of the highlight, of the coat's,
-// of light that passes, and of light that is scattered through the surface. One loop, so that a program has one copy of them.
-const int AREA_ARRIVING = 0;
-const int AREA_FACING = 1;
+// The sums over a light with a shape: of what one gets that faces the light, of what arrives at the surface, of the highlight, of light that
+// passes, of light that is scattered through the surface, and of the coat's highlight. Those that a material needs follow each other,
+// and one loop has all of them, so that a program has one copy.
+const int AREA_FACING = 0;
+const int AREA_ARRIVING = 1;
 const int AREA_GLOSS = 2;
-const int AREA_COAT = 3;
-const int AREA_THROUGH = 4;
-const int AREA_LEAF = 5;
-
-// Whether the material needs a sum.
-bool standardNeeds(int sum)
-{
-    switch (sum) {
-    case AREA_ARRIVING:
-        return standardScatters();
-    case AREA_FACING:
-        return standardTakesPoint();
-    case AREA_GLOSS:
-        return finish.specular_model == SPECULAR_GGX;
-    case AREA_COAT:
-        return finish.clearcoat > 0.0;
-    case AREA_THROUGH:
 #ifdef GLISTEN_GLASS
-        return true;
+const int AREA_THROUGH = AREA_GLOSS + 1;
 #else
-        return false;
+const int AREA_THROUGH = AREA_GLOSS;
 #endif
-    }
-    return true;
+#ifdef GLISTEN_LEAF
+const int AREA_LEAF = AREA_THROUGH + 1;
+#else
+const int AREA_LEAF = AREA_THROUGH;
+#endif
+const int AREA_COAT = AREA_LEAF + 1;
+
+// The first sum that the material needs.
+int standardFirst()
+{
+    if (standardTakesPoint())
+        return AREA_FACING;
+    return standardScatters() ? AREA_ARRIVING : AREA_GLOSS;
+}
+
+// The last sum that the material needs.
+int standardLast()
+{
+    if (finish.clearcoat > 0.0)
+        return AREA_COAT;
+    if (AREA_LEAF > AREA_GLOSS || finish.specular_model == SPECULAR_GGX)
+        return AREA_LEAF;
+    return AREA_ARRIVING;
 }
 
 // The part of (101) that a light with a shape has. Lambert's reflection and that of `ggx` are sums over the light. Other models of the
@@ -740,23 +745,15 @@ Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
     if (dot(safeNormalize(one.direction), safeNormalize(center)) > 0.0)
         return Reflection(vec3(0.0), vec3(0.0));
     vec3 L = safeNormalize(center);
-    float got[6];
-#if defined(GLISTEN_LEAF)
-    int last = AREA_LEAF;
-#elif defined(GLISTEN_GLASS)
-    int last = AREA_THROUGH;
-#else
-    int last = AREA_COAT;
-#endif
-    for (int k = 0; k <= last; ++k) {
-        got[k] = 0.0;
-        if (!standardNeeds(k))
-            continue;
+    float got[6] = float[6](0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    int last = standardLast();
+    for (int k = standardFirst(); k <= last; ++k) {
         vec3 normal = N;
         float roughness = STANDARD_ROUGHNESS;
         vec3 middle = center;
         vec3 x = one.x;
         vec3 y = one.y;
+        bool is_matte = k <= AREA_ARRIVING;
         if (k == AREA_FACING) {
             normal = L;
         } else if (k == AREA_COAT) {
@@ -771,43 +768,50 @@ Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
         if (k == AREA_THROUGH)
             roughness = standardBlur();
 #endif
+#ifdef GLISTEN_LEAF
+        if (k == AREA_LEAF)
+            is_matte = true;
+#endif
 #if defined(GLISTEN_GLASS) || defined(GLISTEN_LEAF)
-        if (k >= AREA_THROUGH) {
+        if (k > AREA_GLOSS && k < AREA_COAT) {
             // The light mirrored at the surface, for one behind it.
             middle = transmissionMirrored(N, center);
             x = transmissionMirrored(N, x);
             y = transmissionMirrored(N, y);
         }
 #endif
-        bool is_matte = k <= AREA_FACING || k == AREA_LEAF;
         mat3 to = is_matte ? ltcFrame(normal, V) : ltcMatrix(area_table, normal, V, roughness);
         got[k] = standardShape(one, to, middle, x, y);
     }
     float arriving = got[AREA_ARRIVING];
     float facing = got[AREA_FACING];
-    // The same above the horizon.
-    vec3 above = safeNormalize(L + max(0.125 - dot(N, L), 0.0) * N);
+    vec3 albedo = vec3(0.0);
+    if (standardHasFresnel())
+        albedo = standardMirrors(N, V);
     vec3 body = vec3(0.0);
-    if (finish.diffuse_model == DIFFUSE_LAMBERT)
-        body = arriving * STANDARD_MATERIAL.diffuse;
-    else if (standardFollowsCosine())
-        body = safeFinite(arriving / dot(N, above) * standardDiffuse(N, above, V));
-    else
-        body = facing * standardDiffuse(N, L, V);
-#ifdef GLISTEN_SUBSURFACE
-    vec3 traveled = subsurfaceFactor(N, L, surface_bands) * STANDARD_MATERIAL.diffuse;
-    body = mix(body, facing * traveled, safeUnit(finish.subsurface));
-#endif
-    vec3 gloss = vec3(0.0);
     vec3 left = vec3(1.0);
-    if (standardHasFresnel()) {
-        vec3 albedo = standardMirrors(N, V);
+    if (standardScatters()) {
+        // The same above the horizon.
+        vec3 above = safeNormalize(L + max(0.125 - dot(N, L), 0.0) * N);
+        if (finish.diffuse_model == DIFFUSE_LAMBERT)
+            body = arriving * STANDARD_MATERIAL.diffuse;
+        else if (standardFollowsCosine())
+            body = safeFinite(arriving / dot(N, above) * standardDiffuse(N, above, V));
+        else
+            body = facing * standardDiffuse(N, L, V);
+#ifdef GLISTEN_SUBSURFACE
+        vec3 traveled = subsurfaceFactor(N, L, surface_bands) * STANDARD_MATERIAL.diffuse;
+        body = mix(body, facing * traveled, safeUnit(finish.subsurface));
+#endif
         // A small light leaves what one direction does, and one all over the sky what all do.
-        left = mix(standardLeft(standardFresnel(above, V)), standardLeft(min(albedo, vec3(1.0))), arriving);
+        if (standardHasFresnel())
+            left = mix(standardLeft(standardFresnel(above, V)), standardLeft(min(albedo, vec3(1.0))), arriving);
         body *= left;
-        gloss = albedo * got[AREA_GLOSS];
     }
-    if (finish.specular_model != SPECULAR_GGX)
+    vec3 gloss = vec3(0.0);
+    if (finish.specular_model == SPECULAR_GGX)
+        gloss = albedo * got[AREA_GLOSS];
+    else
         gloss = safeLimit(facing * standardSpecular(N, L, V, standardFresnel(L, V)));
 #ifdef GLISTEN_GLASS
     vec3 passed = got[AREA_THROUGH] * ltcAlbedo(albedo_table, N, V, standardBlur(), vec3(1.0));

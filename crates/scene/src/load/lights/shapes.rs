@@ -102,5 +102,7 @@ fn flat(reader: &mut Reader, table: &DeTable<'_>) -> Option<(DVec3, [DVec3; 2])>
     let right = along.cross(up).try_normalize().or_else(|| along.cross(DVec3::NEG_Z).try_normalize());
     let right = right.unwrap_or_else(|| along.any_orthonormal_vector());
     let both = reader.flag(table, "two_sided", false);
-    Some((if both { DVec3::ZERO } else { direction }, [right, right.cross(along)]))
+    // A sum with zero has no negative zeros.
+    let axes = [right, right.cross(along)].map(|axis| axis + DVec3::ZERO);
+    Some((if both { DVec3::ZERO } else { direction }, axes))
 }
