@@ -10,7 +10,7 @@
 // reflections to the other lightTerm(). All positions and directions are in one space.
 //
 // GLISTEN_LIGHTS is the size of a scene's array of lights; define it before the include for more than 8. With GLISTEN_CONES, lights
-// have the range and the cone of `punctual`, too.
+// have the range and the cone of `punctual`, too; with GLISTEN_AREAS, the shapes of `ltc`, which lightTerm() takes for points.
 #ifndef GLISTEN_LIGHTS_MODULE
 #define GLISTEN_LIGHTS_MODULE
 #include "ambient.glsl"
@@ -35,6 +35,12 @@ const int LIGHT_SPOT = 2;
 // Two half spheres of light: `direction` points to the center of the sky, `diffuse` is the sky's color and `ambient`
 // the ground's. The result counts as ambient light.
 const int LIGHT_HEMISPHERE = 3;
+// Lights with a shape: `diffuse` and `specular` are their radiance, so that one all over the sky gives as much as a hemisphere.
+// `position` is the middle, and flat ones shine along `direction`, to both sides if it is zero.
+const int LIGHT_SPHERE = 5;
+const int LIGHT_TUBE = 6;
+const int LIGHT_DISK = 7;
+const int LIGHT_RECTANGLE = 8;
 
 struct Light {
     int kind;
@@ -56,6 +62,13 @@ struct Light {
     // Spot lights: 1 - cos of the cone's inner and outer angle, instead of `exponent`; an outer one of 0 for `exponent`.
     float inner;
     float outer;
+#endif
+#ifdef GLISTEN_AREAS
+    // Tubes: from the middle to an end. Disks and rectangles: from the middle to the rim, and to that at right angles.
+    vec3 x;
+    vec3 y;
+    // Spheres, tubes and disks.
+    float radius;
 #endif
 };
 

@@ -119,6 +119,11 @@ struct Finish {
     float leaf;
     vec3 leaf_color;
 #endif
+#ifdef GLISTEN_SUBSURFACE
+    // The part of the diffuse light that travels in the body, 0 to 1, and its way between two collisions as a part of the body's radius.
+    float subsurface;
+    vec3 subsurface_radius;
+#endif
 };
 
 #ifdef GLISTEN_PLACES

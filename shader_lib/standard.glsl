@@ -6,7 +6,8 @@
 //
 // The sum over a scene's lights (module `scene`) with any of the library's models, as the standard program computes
 // it. With GLISTEN_SURFACE, textures change the material from point to point: standardSurface() is called first. With
-// GLISTEN_SURROUNDED, a map of `glisten lib prefilter` is one more light, from all around.
+// GLISTEN_SURROUNDED, a map of `glisten lib prefilter` is one more light, from all around, or nine coefficients with
+// GLISTEN_HARMONICS. With GLISTEN_AREAS, lights may have a shape. With GLISTEN_BALL, a picture of a lit ball is all of the light.
 #ifndef GLISTEN_STANDARD
 #define GLISTEN_STANDARD
 #include "artistic.glsl"
@@ -30,8 +31,20 @@
 #include "toon.glsl"
 #ifdef GLISTEN_SURROUNDED
 #include "environment.glsl"
+#ifdef GLISTEN_HARMONICS
+#include "irradiance.glsl"
 #endif
-#ifdef GLISTEN_GLASS
+#endif
+#ifdef GLISTEN_AREAS
+#include "ltc.glsl"
+#endif
+#ifdef GLISTEN_BALL
+#include "matcap.glsl"
+#endif
+#ifdef GLISTEN_SUBSURFACE
+#include "subsurface.glsl"
+#endif
+#if defined(GLISTEN_GLASS) || (defined(GLISTEN_LEAF) && defined(GLISTEN_AREAS))
 #include "transmission.glsl"
 #endif
 
@@ -40,11 +53,28 @@ uniform sampler2D ramp;
 // The specular tables: cosine 0 at s = 0, 1 at 1.
 uniform sampler2D highlight;
 #ifdef GLISTEN_SURROUNDED
-// Light from all around, for environmentRadiance(), and `ltc_albedo`.
+#ifdef GLISTEN_HARMONICS
+// Light from all around, for irradiance().
+uniform vec3 harmonics[9];
+#else
+// Light from all around, for environmentRadiance().
 uniform sampler2D environment;
-uniform sampler2D environment_table;
+#endif
 // Light.kind of that light, which is none of the scene's list.
 const int LIGHT_ENVIRONMENT = 4;
+#endif
+#ifdef GLISTEN_AREAS
+// `ltc_matrix`.
+uniform sampler2D area_table;
+#endif
+#if defined(GLISTEN_SURROUNDED) || defined(GLISTEN_AREAS)
+#define STANDARD_ALBEDO_TABLE
+// `ltc_albedo`.
+uniform sampler2D albedo_table;
+#endif
+#ifdef GLISTEN_BALL
+// The picture of a lit ball, linear RGB.
+uniform sampler2D matcap;
 #endif
 
 #ifdef GLISTEN_SURFACE
@@ -89,6 +119,10 @@ uniform sampler2D iridescence_thickness_map;
 // The film's strength and thickness.
 float surface_film;
 float surface_film_thickness;
+#endif
+#ifdef GLISTEN_SUBSURFACE
+// subsurfaceBands() of the material.
+mat2x3 surface_bands;
 #endif
 #ifdef GLISTEN_DIELECTRIC_MAPS
 // What a part that is no metal mirrors, as parts of the material's: the color, linear RGB, and the strength in alpha.
@@ -216,6 +250,9 @@ void standardSurface(vec2 st, vec3 base)
 #endif
         surface.specular = mix(dielectric, color, metallic);
     }
+#ifdef GLISTEN_SUBSURFACE
+    surface_bands = subsurfaceBands(finish.subsurface_radius, surface.diffuse);
+#endif
 #ifdef GLISTEN_GLASS
     float passing = finish.transmission;
     vec3 absorbed = finish.absorption;
@@ -348,6 +385,18 @@ vec3 standardDiffuse(vec3 N, vec3 L, vec3 V)
     return vec3(0.0);
 }
 
+// The same for a body in which a part of the light travels.
+//   N, L, V  as above
+vec3 standardBody(vec3 N, vec3 L, vec3 V)
+{
+#ifdef GLISTEN_SUBSURFACE
+    vec3 traveled = subsurfaceFactor(N, L, surface_bands) * STANDARD_MATERIAL.diffuse;
+    return mix(standardDiffuse(N, L, V), traveled, safeUnit(finish.subsurface));
+#else
+    return standardDiffuse(N, L, V);
+#endif
+}
+
 // Whether the specular model is one of microfacets, with a Fresnel term.
 bool standardHasFresnel()
 {
@@ -469,7 +518,11 @@ vec3 standardMirrored(Light one, vec3 R, float roughness)
 {
 #ifdef GLISTEN_SURROUNDED
     if (one.kind == LIGHT_ENVIRONMENT)
+#ifdef GLISTEN_HARMONICS
+        return max(irradianceMirrored(safeNormalize(R), harmonics, roughness), vec3(0.0));
+#else
         return safeLimit(environmentRadiance(environment, R, roughness));
+#endif
 #endif
     float t = clamp(dot(R, safeNormalize(one.direction)) / clamp(roughness, 1.0 / 64.0, 1.0), -1.0, 1.0);
     return safeLimit(mix(one.ambient, one.diffuse, 0.5 + 0.5 * t));
@@ -481,7 +534,11 @@ vec3 standardArriving(Light one, vec3 N)
 {
 #ifdef GLISTEN_SURROUNDED
     if (one.kind == LIGHT_ENVIRONMENT)
+#ifdef GLISTEN_HARMONICS
+        return max(irradiance(N, harmonics), vec3(0.0));
+#else
         return safeLimit(environmentRadiance(environment, N, 1.0));
+#endif
 #endif
     return lightDome(one, N);
 }
@@ -501,11 +558,25 @@ vec3 standardTowards(Light one, vec3 N, vec3 V, float roughness)
 //   N  unit normal    V  unit vector towards the eye    Kspec  reflectance at normal incidence
 vec3 standardAlbedo(vec3 N, vec3 V, vec3 Kspec)
 {
-#ifdef GLISTEN_SURROUNDED
-    return ltcAlbedo(environment_table, N, V, STANDARD_ROUGHNESS, Kspec);
+#ifdef STANDARD_ALBEDO_TABLE
+    return ltcAlbedo(albedo_table, N, V, STANDARD_ROUGHNESS, Kspec);
 #else
     return ggxAlbedo(safeUnit(dot(N, V)), STANDARD_ROUGHNESS, Kspec);
 #endif
+}
+
+// What the microfacets of the material mirror of light from everywhere.
+//   N  unit normal    V  unit vector towards the eye
+vec3 standardMirrors(vec3 N, vec3 V)
+{
+    vec3 seen = STANDARD_MATERIAL.specular * 50.0;
+    vec3 albedo = min(standardAlbedo(N, V, STANDARD_MATERIAL.specular), seen);
+#ifdef GLISTEN_FILM
+    float NV = safeUnit(dot(N, V));
+    vec3 film = iridescenceFresnel(NV, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
+    albedo = mix(albedo, standardAlbedo(N, V, iridescenceNormal(film, NV)), surface_film);
+#endif
+    return STANDARD_MIRROR * albedo;
 }
 
 #ifdef GLISTEN_GLASS
@@ -542,14 +613,7 @@ Reflection standardDome(Light one, vec3 N, vec3 V)
 #else
         vec3 R = standardTowards(one, N, V, STANDARD_ROUGHNESS);
 #endif
-        vec3 seen = STANDARD_MATERIAL.specular * 50.0;
-        vec3 albedo = min(standardAlbedo(N, V, STANDARD_MATERIAL.specular), seen);
-#ifdef GLISTEN_FILM
-        float NV = safeUnit(dot(N, V));
-        vec3 film = iridescenceFresnel(NV, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
-        albedo = mix(albedo, standardAlbedo(N, V, iridescenceNormal(film, NV)), surface_film);
-#endif
-        albedo *= STANDARD_MIRROR;
+        vec3 albedo = standardMirrors(N, V);
         vec3 left = standardLeft(min(albedo, vec3(1.0)));
         sum.body = sum.body * left;
         sum.gloss = safeLimit(albedo * standardMirrored(one, R, STANDARD_ROUGHNESS));
@@ -585,18 +649,211 @@ Reflection standardAround(Light one, vec3 N, vec3 V)
 #endif
 }
 
+#ifdef GLISTEN_AREAS
+// How much of a light with a shape arrives, 0 to 1: 1 for a light all over the sky.
+//   one  the light    to  ltcFrame(), or ltcMatrix()    center, x, y  of the light, from the shaded point
+float standardShape(Light one, mat3 to, vec3 center, vec3 x, vec3 y)
+{
+    switch (one.kind) {
+    case LIGHT_SPHERE:
+        return ltcSphere(to, center, one.radius);
+    case LIGHT_TUBE:
+        return ltcTube(to, safeLimit(center - x), safeLimit(center + x), one.radius);
+    case LIGHT_DISK:
+        return ltcDisk(to, center, x, y);
+    }
+    return ltcRectangle(to, center, x, y);
+}
+
+// Whether the diffuse model is N.L times a function that is not steep.
+bool standardFollowsCosine()
+{
+    switch (finish.diffuse_model) {
+    case DIFFUSE_OREN_NAYAR:
+    case DIFFUSE_EON:
+    case DIFFUSE_BURLEY:
+    case DIFFUSE_MINNAERT:
+        return true;
+    }
+    return false;
+}
+
+// Whether a model takes a light with a shape for a point.
+bool standardTakesPoint()
+{
+#if defined(GLISTEN_FIBERS) || defined(GLISTEN_SUBSURFACE)
+    return true;
+#else
+    bool sums = finish.diffuse_model <= DIFFUSE_LAMBERT || standardFollowsCosine();
+    return !sums || (finish.specular_model != SPECULAR_NONE && finish.specular_model != SPECULAR_GGX);
+#endif
+}
+
+// Whether anything but a highlight needs all of the light that arrives.
+bool standardScatters()
+{
+#if defined(GLISTEN_FIBERS) || defined(GLISTEN_GLASS) || defined(GLISTEN_LEAF) || defined(GLISTEN_SUBSURFACE)
+    return true;
+#else
+    return finish.diffuse_model != DIFFUSE_NONE;
+#endif
+}
+
+// The sums over a light with a shape: of what one gets that faces the light, of what arrives at the surface, of the highlight, of light that
+// passes, of light that is scattered through the surface, and of the coat's highlight. Those that a material needs follow each other,
+// and one loop has all of them, so that a program has one copy.
+const int AREA_FACING = 0;
+const int AREA_ARRIVING = 1;
+const int AREA_GLOSS = 2;
+#ifdef GLISTEN_GLASS
+const int AREA_THROUGH = AREA_GLOSS + 1;
+#else
+const int AREA_THROUGH = AREA_GLOSS;
+#endif
+#ifdef GLISTEN_LEAF
+const int AREA_LEAF = AREA_THROUGH + 1;
+#else
+const int AREA_LEAF = AREA_THROUGH;
+#endif
+const int AREA_COAT = AREA_LEAF + 1;
+
+// The first sum that the material needs.
+int standardFirst()
+{
+    if (standardTakesPoint())
+        return AREA_FACING;
+    return standardScatters() ? AREA_ARRIVING : AREA_GLOSS;
+}
+
+// The last sum that the material needs.
+int standardLast()
+{
+    if (finish.clearcoat > 0.0)
+        return AREA_COAT;
+    if (AREA_LEAF > AREA_GLOSS || finish.specular_model == SPECULAR_GGX)
+        return AREA_LEAF;
+    return AREA_ARRIVING;
+}
+
+// The part of (101) that a light with a shape has. Lambert's reflection and that of `ggx` are sums over the light. Other models of the
+// form N.L f have Lambert's sum times f towards the middle of the light; the rest are those of a point there that is as bright.
+//   one  the light    P  shaded point    N  unit normal    V  unit vector towards the eye
+Reflection standardArea(Light one, vec3 P, vec3 N, vec3 V)
+{
+    vec3 center = safeLimit(one.position - P);
+    // Behind a flat light.
+    if (dot(safeNormalize(one.direction), safeNormalize(center)) > 0.0)
+        return Reflection(vec3(0.0), vec3(0.0));
+    vec3 L = safeNormalize(center);
+    float got[6] = float[6](0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    int last = standardLast();
+    for (int k = standardFirst(); k <= last; ++k) {
+        vec3 normal = N;
+        float roughness = STANDARD_ROUGHNESS;
+        vec3 middle = center;
+        vec3 x = one.x;
+        vec3 y = one.y;
+        bool is_matte = k <= AREA_ARRIVING;
+        if (k == AREA_FACING) {
+            normal = L;
+        } else if (k == AREA_COAT) {
+            normal = STANDARD_COAT_NORMAL;
+            roughness = STANDARD_COAT_ROUGHNESS;
+        }
+#ifdef GLISTEN_BRUSHED
+        if (k == AREA_GLOSS)
+            normal = safeNormalize(ggxBent(N, surface_brush, V, STANDARD_ROUGHNESS, surface_anisotropy));
+#endif
+#ifdef GLISTEN_GLASS
+        if (k == AREA_THROUGH)
+            roughness = standardBlur();
+#endif
+#ifdef GLISTEN_LEAF
+        if (k == AREA_LEAF)
+            is_matte = true;
+#endif
+#if defined(GLISTEN_GLASS) || defined(GLISTEN_LEAF)
+        if (k > AREA_GLOSS && k < AREA_COAT) {
+            // The light mirrored at the surface, for one behind it.
+            middle = transmissionMirrored(N, center);
+            x = transmissionMirrored(N, x);
+            y = transmissionMirrored(N, y);
+        }
+#endif
+        mat3 to = is_matte ? ltcFrame(normal, V) : ltcMatrix(area_table, normal, V, roughness);
+        got[k] = standardShape(one, to, middle, x, y);
+    }
+    float arriving = got[AREA_ARRIVING];
+    float facing = got[AREA_FACING];
+    vec3 albedo = vec3(0.0);
+    if (standardHasFresnel())
+        albedo = standardMirrors(N, V);
+    vec3 body = vec3(0.0);
+    vec3 left = vec3(1.0);
+    if (standardScatters()) {
+        // The same above the horizon.
+        vec3 above = safeNormalize(L + max(0.125 - dot(N, L), 0.0) * N);
+        if (finish.diffuse_model == DIFFUSE_LAMBERT)
+            body = arriving * STANDARD_MATERIAL.diffuse;
+        else if (standardFollowsCosine())
+            body = safeFinite(arriving / dot(N, above) * standardDiffuse(N, above, V));
+        else
+            body = facing * standardDiffuse(N, L, V);
+#ifdef GLISTEN_SUBSURFACE
+        vec3 traveled = subsurfaceFactor(N, L, surface_bands) * STANDARD_MATERIAL.diffuse;
+        body = mix(body, facing * traveled, safeUnit(finish.subsurface));
+#endif
+        // A small light leaves what one direction does, and one all over the sky what all do.
+        if (standardHasFresnel())
+            left = mix(standardLeft(standardFresnel(above, V)), standardLeft(min(albedo, vec3(1.0))), arriving);
+        body *= left;
+    }
+    vec3 gloss = vec3(0.0);
+    if (finish.specular_model == SPECULAR_GGX)
+        gloss = albedo * got[AREA_GLOSS];
+    else
+        gloss = safeLimit(facing * standardSpecular(N, L, V, standardFresnel(L, V)));
+#ifdef GLISTEN_GLASS
+    vec3 passed = got[AREA_THROUGH] * ltcAlbedo(albedo_table, N, V, standardBlur(), vec3(1.0));
+    body += passed * standardPassing(N, V) * left;
+#endif
+#ifdef GLISTEN_LEAF
+    body += got[AREA_LEAF] * surface_leaf * left;
+#endif
+    Reflection sum = Reflection(safeLimit(body * one.diffuse), safeLimit(gloss * one.specular));
+#ifdef GLISTEN_FIBERS
+    sum = standardUnderFibers(sum);
+    float width = surface_sheen_roughness * surface_sheen_roughness;
+    vec3 fibers = mix(facing * sheenFactor(N, L, V, width) * surface_sheen, arriving * surface_fibers, arriving);
+    sum.gloss = safeLimit(sum.gloss + safeLimit(fibers * one.specular));
+#endif
+    if (finish.clearcoat > 0.0) {
+        vec3 smooth_normal = STANDARD_COAT_NORMAL;
+        float w = clearcoatWeight(smooth_normal, V, STANDARD_COAT);
+        vec3 coat = ltcAlbedo(albedo_table, smooth_normal, V, STANDARD_COAT_ROUGHNESS, vec3(1.0)) * got[AREA_COAT];
+        sum.body = (1.0 - w) * sum.body;
+        sum.gloss = safeLimit((1.0 - w) * sum.gloss + safeLimit(w * coat * one.specular));
+    }
+    return sum;
+}
+#endif
+
 // One light's part of (101).
 //   one  the light    P  shaded point    N  unit normal    V  unit vector towards the eye
 Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
 {
     if (one.kind == LIGHT_HEMISPHERE)
         return standardAround(one, N, V);
+#ifdef GLISTEN_AREAS
+    if (one.kind >= LIGHT_SPHERE)
+        return standardArea(one, P, N, V);
+#endif
     vec3 L = lightVector(one, P);
     float d = lightAttenuation(one, P);
     float cspot = lightBeam(one, L);
     vec3 fresnel = standardFresnel(L, V);
     vec3 Iamb = ambient(STANDARD_MATERIAL.ambient, one.ambient);
-    vec3 Idiff = safeLimit(standardDiffuse(N, L, V) * one.diffuse * standardLeft(fresnel));
+    vec3 Idiff = safeLimit(standardBody(N, L, V) * one.diffuse * standardLeft(fresnel));
 #ifdef GLISTEN_GLASS
     Idiff = safeLimit(Idiff + safeLimit(standardThrough(N, L, V) * one.diffuse));
 #endif
@@ -644,6 +901,16 @@ Reflection standardReflection(vec3 P, vec3 N, vec3 V)
 #endif
     return sum;
 }
+
+#ifdef GLISTEN_BALL
+// The light of a picture of a lit ball, which is that of all lights.
+//   N, V  unit normal and unit vector towards the eye, in eye space
+Reflection standardBall(vec3 N, vec3 V)
+{
+    vec3 lit = texture(matcap, matcapCoordinate(N, V)).rgb;
+    return Reflection(safeLimit(STANDARD_MATERIAL.diffuse * lit), vec3(0.0));
+}
+#endif
 
 #ifdef GLISTEN_GLASS
 // The part of what is behind a surface that comes through it, per channel, linear RGB.

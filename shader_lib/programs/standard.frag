@@ -25,6 +25,9 @@ in vec2 st2;
 #ifdef GLISTEN_COLORS
 in vec4 tint;
 #endif
+#ifdef GLISTEN_BALL
+uniform mat4 view;          // from world space to eye space
+#endif
 uniform vec3 eye;           // in world space
 uniform sampler2D decal;    // colors the body, not the gloss
 out vec4 color;
@@ -84,7 +87,11 @@ void main()
     if (finish.transmission_pass == GLASS_SURFACE)
         alpha = 0.0;
 #endif
+#ifdef GLISTEN_BALL
+    color = vec4(standardColor(standardBall(mat3(view) * N, mat3(view) * V), vec3(1.0)), alpha);
+#else
     color = vec4(standardColor(standardReflection(world, N, V), vec3(1.0)), alpha);
+#endif
 #else
     color = vec4(standardColor(standardReflection(world, N, V), texture(decal, st).rgb), 1.0);
 #endif

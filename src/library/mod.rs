@@ -102,6 +102,7 @@ static MODULES: &[Module] = &[
     module!("spot"),
     module!("srgb"),
     module!("standard"),
+    module!("subsurface"),
     module!("threshold"),
     module!("tonemap"),
     module!("toon"),

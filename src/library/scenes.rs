@@ -68,6 +68,7 @@ static SCENES: &[LibraryScene] = &[
     scene!("studio"),
     scene!("moon"),
     scene!("wax"),
+    scene!("skin"),
     scene!("drawing"),
     scene!("lobes"),
     scene!("velvet"),
@@ -79,12 +80,15 @@ static SCENES: &[LibraryScene] = &[
     scene!("marbles"),
     scene!("lamps"),
     scene!("panels"),
+    scene!("softbox"),
     scene!("shadows"),
     scene!("corner"),
     scene!("lux"),
     scene!("furnace"),
     scene!("lines"),
     scene!("probe"),
+    scene!("dusk"),
+    scene!("clay"),
     scene!("noises"),
     scene!("ember"),
     scene!("dial"),
@@ -95,6 +99,7 @@ static SCENES: &[LibraryScene] = &[
 /// The files that scenes name.
 static FILES: &[(&str, &[u8])] = &[
     ("chess.glb", include_bytes!("../../shader_lib/scenes/chess.glb")),
+    ("clay.png", include_bytes!("../../shader_lib/scenes/clay.png")),
     ("studio.exr", include_bytes!("../../shader_lib/scenes/studio.exr")),
 ];
 

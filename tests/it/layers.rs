@@ -9,7 +9,7 @@ use glisten_reference::Precision;
 use std::f32::consts::PI;
 
 /// A square that fills the window, seen from straight above and from far away, so that all pixels have the same eye.
-fn scene(light: &str, draw: &str, material: &str) -> Loaded {
+pub(crate) fn scene(light: &str, draw: &str, material: &str) -> Loaded {
     let text = format!(
         "[framebuffer]\nwidth = 8\nheight = 8\n[camera]\neye = [0, 0, 4096]\northo = 1\nnear = 4095\nfar = 4097\n{light}\n[[draw]]\n\
          program = \"standard\"\nmesh = {{ shape = \"quad\" }}\n{draw}\n[draw.material]\n{material}\n"
@@ -19,29 +19,29 @@ fn scene(light: &str, draw: &str, material: &str) -> Loaded {
 }
 
 #[track_caller]
-fn good(loaded: Loaded) -> Scene {
+pub(crate) fn good(loaded: Loaded) -> Scene {
     assert!(loaded.diagnostics.is_empty(), "{:?}", told(&loaded));
     loaded.scene.expect("without findings there is a scene")
 }
 
 /// The colors of the pixels, row by row from below.
-fn picture(scene: &Scene) -> Vec<[f64; 4]> {
+pub(crate) fn picture(scene: &Scene) -> Vec<[f64; 4]> {
     let drawn = reference(scene, Precision::F64);
     (0..64).map(|at| drawn.attachments[0][(7 - at / 8) * 8 + at % 8]).collect()
 }
 
 /// The color of a pixel in the middle.
-fn middle(light: &str, material: &str) -> [f64; 4] {
+pub(crate) fn middle(light: &str, material: &str) -> [f64; 4] {
     picture(&good(scene(light, "", material)))[36]
 }
 
 /// Light from everywhere, of intensity 1.
-const DOME: &str = "[[light]]\nkind = \"hemisphere\"\nsky = [1, 1, 1]\nground = [1, 1, 1]";
+pub(crate) const DOME: &str = "[[light]]\nkind = \"hemisphere\"\nsky = [1, 1, 1]\nground = [1, 1, 1]";
 /// Light from the eye.
-const HEAD_ON: &str = "[[light]]\nkind = \"directional\"\ntowards = [0, 0, 1]";
+pub(crate) const HEAD_ON: &str = "[[light]]\nkind = \"directional\"\ntowards = [0, 0, 1]";
 
 #[track_caller]
-fn near(found: [f64; 4], wanted: [f64; 3], within: f64) {
+pub(crate) fn near(found: [f64; 4], wanted: [f64; 3], within: f64) {
     let is_near = found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() <= within);
     assert!(is_near, "{found:?} {wanted:?}");
 }

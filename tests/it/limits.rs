@@ -25,9 +25,11 @@ enum Input {
     Shader(String),
     /// A scene file.
     Scene(String),
+    /// A glTF file.
+    Model(String),
 }
 
-use Input::Scene;
+use Input::{Model, Scene};
 
 fn shader(text: &str) -> Input {
     Input::Shader(format!("#version 150\n{text}"))
@@ -201,7 +203,71 @@ static LIMITS: &[Limit] = &[
         code: "E0905",
         make: |n| scene(SMALL, &format!("{THREE}\ninstances = {n}"), ""),
     },
+    Limit {
+        what: "copies of a mesh of a glTF file (`EXT_mesh_gpu_instancing`)",
+        largest: 65_536,
+        code: "E0911",
+        make: |n| model(&[3], &[(0, n)]),
+    },
+    Limit {
+        what: "vertices of a glTF file with all copies",
+        largest: 12_582_912,
+        code: "E0911",
+        // Two copies of one mesh, one of a mesh that has the rest, and a triangle to be seen.
+        make: |n| model(&[3, 1 << 22, n - 3 - (2 << 22)], &[(0, 1), (1, 2), (2, 1)]),
+    },
+    Limit {
+        what: "lights of a glTF file",
+        largest: 64,
+        code: "E0911",
+        make: |n| {
+            let nodes = vec!["{\"extensions\": {\"KHR_lights_punctual\": {\"light\": 0}}}"; n].join(", ");
+            let indices: Vec<String> = (0..n).map(|at| at.to_string()).collect();
+            Model(format!(
+                "{{\"asset\": {{\"version\": \"2.0\"}}, \"scene\": 0, \"scenes\": [{{\"nodes\": [{}]}}], \"nodes\": [{nodes}], \
+                 \"extensionsUsed\": [\"KHR_lights_punctual\"], \
+                 \"extensions\": {{\"KHR_lights_punctual\": {{\"lights\": [{{\"type\": \"point\"}}]}}}}}}",
+                indices.join(", ")
+            ))
+        },
+    },
 ];
+
+/// A glTF file of meshes with this many vertices and one triangle, and nodes that have copies of them. Accessors without
+/// data are zero: only the triangle of a mesh of three vertices has an area.
+fn model(meshes: &[usize], nodes: &[(usize, usize)]) -> Input {
+    let list = |items: Vec<String>| items.join(", ");
+    let accessor = |kind: u32, shape: &str, count: usize| {
+        format!("{{\"componentType\": {kind}, \"type\": \"{shape}\", \"count\": {count}}}")
+    };
+    // The numbers 0, 1, 2, and the corners of a triangle.
+    let data = "AAAAAAEAAAACAAAAAAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    let seen = |view: u32, text: String| text.replacen('{', &format!("{{\"bufferView\": {view}, "), 1);
+    let mut accessors = vec![seen(0, accessor(5125, "SCALAR", 3))];
+    accessors.extend(meshes.iter().map(|count| match count {
+        3 => seen(1, accessor(5126, "VEC3", 3)),
+        _ => accessor(5126, "VEC3", *count),
+    }));
+    accessors.extend(nodes.iter().map(|(_, copies)| accessor(5126, "VEC3", *copies)));
+    let mesh =
+        |at: usize| format!("{{\"primitives\": [{{\"attributes\": {{\"POSITION\": {}}}, \"indices\": 0}}]}}", at + 1);
+    let node = |(at, (mesh, _)): (usize, &(usize, usize))| {
+        let places = 1 + meshes.len() + at;
+        format!(
+            "{{\"mesh\": {mesh}, \"extensions\": {{\"EXT_mesh_gpu_instancing\": {{\"attributes\": {{\"TRANSLATION\": {places}}}}}}}}}"
+        )
+    };
+    Model(format!(
+        "{{\"asset\": {{\"version\": \"2.0\"}}, \"scene\": 0, \"scenes\": [{{\"nodes\": [{}]}}], \"nodes\": [{}], \"meshes\": [{}], \
+         \"accessors\": [{}], \"bufferViews\": [{{\"buffer\": 0, \"byteLength\": 12}}, {{\"buffer\": 0, \"byteOffset\": 12, \"byteLength\": 36}}], \
+         \"buffers\": [{{\"byteLength\": 48, \"uri\": \"data:application/octet-stream;base64,{data}\"}}], \
+         \"extensionsUsed\": [\"EXT_mesh_gpu_instancing\"]}}",
+        list((0..nodes.len()).map(|at| at.to_string()).collect()),
+        list(nodes.iter().enumerate().map(node).collect()),
+        list((0..meshes.len()).map(mesh).collect()),
+        list(accessors),
+    ))
+}
 
 /// Includes file *n* - 1 from file *n*, down to 1, which is a comment.
 struct Chain;
@@ -226,6 +292,12 @@ fn errors(input: Input) -> Vec<&'static str> {
             let fragment = "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
             let files = MemoryFiles::new([("a.toml", text.as_str()), ("a.vert", vertex), ("a.frag", fragment)]);
             load("a.toml", &files, &compiler()).diagnostics
+        }
+        Model(text) => {
+            let scene =
+                "[framebuffer]\nwidth = 8\nheight = 8\n[camera]\neye = [0, 0, 4]\n[[scene]]\ngltf = \"a.gltf\"\n";
+            let files = MemoryFiles::new([("a.toml", scene), ("a.gltf", text.as_str())]);
+            load("a.toml", &files, &compiler().with_includes(glisten::library::Embedded)).diagnostics
         }
     };
     diagnostics.iter().filter(|one| one.is_error()).map(|one| one.code.id).collect()

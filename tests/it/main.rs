@@ -2,6 +2,8 @@
 
 mod api;
 mod architecture;
+#[cfg(feature = "gpu")]
+mod areas;
 #[cfg(feature = "cli")]
 mod baseline;
 #[cfg(feature = "cli")]

@@ -1,5 +1,6 @@
 //! The closed forms, with one file for each group of modules.
 
+mod bodies;
 mod color;
 mod diffuse;
 mod equations;
@@ -36,6 +37,7 @@ pub(super) static ALL: &[&[Form]] = &[
     sources::FORMS,
     ltc::FORMS,
     surroundings::FORMS,
+    bodies::FORMS,
     today::FORMS,
     shadows::FORMS,
     shapes::FORMS,

@@ -1,6 +1,7 @@
 //! The library of lighting models: its values, edge cases and properties, the article's register programs, every
 //! target, and its command.
 
+mod bodies;
 #[cfg(feature = "cli")]
 mod command;
 mod energy;
@@ -13,6 +14,7 @@ mod furnace;
 mod laws;
 mod ltc;
 mod occlusion;
+mod papers;
 #[cfg(feature = "cli")]
 mod prefilter;
 mod registers;

@@ -27,6 +27,7 @@ const ALLOWED: f64 = 1.1;
 static STAYS: &[(&str, &str, f64)] = &[
     ("fog", "the weight of the `mix` with the fog's color may be NaN, where the eye's distance is", 1.15),
     ("spot", "the base of `pow` may be NaN, where the lamp is in the surface", 1.12),
+    ("gltf_window", "the loop over the eight corners is written out, which executes less", 1.2),
 ];
 
 /// Scenes whose residual is written out, where glslang leaves a loop: longer, and it executes less.

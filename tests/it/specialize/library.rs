@@ -66,7 +66,7 @@ fn what_would_be_longer_written_out_stays() {
 /// Scenes whose residual executes more as the reference counts, and not on a GPU: the reference computes both arms of a `?:` for all lanes
 /// where they are cheap. In the original an arm calls a function, `safeLargest()`, so that it is computed for the lanes that take it; in the
 /// residual it is a number. They may have this many times the operations.
-static COUNTED: (&[&str], f64) = (&["dial"], 1.1);
+static COUNTED: (&[&str], f64) = (&["dial", "ember"], 1.1);
 
 /// No scene's residual is larger than what `compile -O` makes of the original, and none executes more. `SPECIALIZE_ALL=1` looks
 /// at all scenes.

@@ -99,7 +99,9 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let is_seen = around.camera.is_some() || table.contains_key("camera") || table.contains_key("mesh");
     let maps = depths::load_maps(&mut loader.reader, table);
     let lighting = &around.lighting;
-    let context = Context { program: &program, view: &view, lighting, space, conventional, is_seen, maps: &maps };
+    let harmonics = around.harmonics.as_ref();
+    let context =
+        Context { program: &program, view: &view, lighting, harmonics, space, conventional, is_seen, maps: &maps };
     let mut fixed = load_fixed(&mut loader.reader, table, (&program, &view), around);
     let uniforms = load_uniforms(&mut loader.reader, table, &context, material.as_ref(), fixed.as_mut(), place);
     let generated = generated.map(|made| (made.stage, made.pipeline));
@@ -312,8 +314,14 @@ fn own_macros(
     let is_standard = files.iter().any(|(_, name, _)| library_file(name) == Some("standard.frag"));
     let names = if is_standard { macros(table, around.material) } else { Vec::new() };
     let cones = around.lighting.has_cones().then_some("GLISTEN_CONES");
-    let environment = (is_standard && around.environment.is_some()).then_some("GLISTEN_SURROUNDED");
-    let flags = names.into_iter().chain(cones).chain(environment).map(|name| (name, "1".to_owned()));
+    let harmonics = around.harmonics.is_some();
+    let standard = [
+        ("GLISTEN_SURROUNDED", harmonics || around.environment.is_some()),
+        ("GLISTEN_HARMONICS", harmonics),
+        ("GLISTEN_AREAS", around.lighting.has_areas()),
+    ];
+    let standard = standard.into_iter().filter(|(_, wanted)| is_standard && *wanted).map(|(name, _)| name);
+    let flags = names.into_iter().chain(cones).chain(standard).map(|name| (name, "1".to_owned()));
     flags.chain(around.lighting.room().map(|room| ("GLISTEN_LIGHTS", room.to_string()))).collect()
 }
 

@@ -1,5 +1,5 @@
-//! The layers of a material that few have: fibers, brushed metal, thin films, glass, leaves, textures of coats and of what a dielectric
-//! mirrors, places of textures.
+//! The layers of a material that few have: fibers, brushed metal, thin films, glass, leaves, bodies that light travels in, pictures of lit
+//! balls, textures of coats and of what a dielectric mirrors, places of textures.
 //!
 //! *In:* the table of a material. *Out:* the macros of the program `standard` for it, and the values of the uniforms. *Holds:* a layer is
 //! compiled only for a material with one of its keys, so that no other pays for it; the tables here are the only list of them.
@@ -54,6 +54,8 @@ const MACROS: &[(&str, &[&str])] = &[
         ],
     ),
     ("GLISTEN_LEAF_MAPS", &["diffuse_transmission_map", "diffuse_transmission_color_map"]),
+    ("GLISTEN_SUBSURFACE", &["subsurface", "subsurface_radius"]),
+    ("GLISTEN_BALL", &["matcap"]),
 ];
 
 /// The kind of a key's value.
@@ -89,6 +91,8 @@ const VALUES: &[(&str, &str, Kind)] = &[
     ("dielectric_strength", "finish.dielectric_strength", Kind::Number(1.0)),
     ("diffuse_transmission", "finish.leaf", Kind::Number(0.0)),
     ("diffuse_transmission_color", "finish.leaf_color", Kind::Color([1.0; 3])),
+    ("subsurface", "finish.subsurface", Kind::Number(1.0)),
+    ("subsurface_radius", "finish.subsurface_radius", Kind::Color([1.0, 0.5, 0.25])),
 ];
 
 /// The textures of layers.
@@ -107,13 +111,18 @@ pub(super) const MAPS: &[&str] = &[
     "thickness_map",
     "diffuse_transmission_map",
     "diffuse_transmission_color_map",
+    "matcap",
 ];
 
 /// A sampler of the program `standard` that has a table, and the pattern that it is.
-pub(super) const TABLES: &[(&str, &str)] = &[("sheen_table", "sheen_albedo"), ("environment_table", "ltc_albedo")];
+pub(super) const TABLES: &[(&str, &str)] =
+    &[("sheen_table", "sheen_albedo"), ("albedo_table", "ltc_albedo"), ("area_table", "ltc_matrix")];
 
 /// The textures that may have a `transform`, besides those of layers: members of the uniform `places`.
 const PLACED: &[&str] = &["decal", "metallic_roughness", "emission_map", "occlusion_map", "normal_map"];
+
+/// The textures of layers that are not on a surface, and have no `transform`.
+const UNPLACED: &[&str] = &["matcap"];
 
 const TRANSFORM_KEYS: &[&str] = &["scale", "rotate", "translate", "set"];
 
@@ -129,7 +138,7 @@ pub(super) fn values() -> impl Iterator<Item = (&'static str, &'static str)> {
 
 /// The names of the textures that may have a `transform`.
 fn placed() -> impl Iterator<Item = &'static str> {
-    PLACED.iter().chain(MAPS).copied()
+    PLACED.iter().chain(MAPS).copied().filter(|map| !UNPLACED.contains(map))
 }
 
 /// The macros for a material.

@@ -4,6 +4,9 @@
 //! *Holds:* positions and directions are computed in f64, in world space or in the draw's eye space, and rounded
 //! once. Directions keep the length given in the scene.
 
+mod shapes;
+
+use self::shapes::Shape;
 use super::paste;
 use crate::fixed::LightSource;
 use crate::tables::{Node, Reader};
@@ -20,6 +23,10 @@ enum Kind {
     Point,
     Spot,
     Hemisphere,
+    Sphere = 5,
+    Tube,
+    Disk,
+    Rectangle,
 }
 
 const KINDS: &[(&str, Kind)] = &[
@@ -27,6 +34,10 @@ const KINDS: &[(&str, Kind)] = &[
     ("point", Kind::Point),
     ("spot", Kind::Spot),
     ("hemisphere", Kind::Hemisphere),
+    ("sphere", Kind::Sphere),
+    ("tube", Kind::Tube),
+    ("disk", Kind::Disk),
+    ("rectangle", Kind::Rectangle),
 ];
 
 impl Kind {
@@ -37,6 +48,10 @@ impl Kind {
             Self::Point => "a point light",
             Self::Spot => "a spot light",
             Self::Hemisphere => "a hemisphere light",
+            Self::Sphere => "a sphere light",
+            Self::Tube => "a tube light",
+            Self::Disk => "a disk light",
+            Self::Rectangle => "a rectangle light",
         }
     }
 
@@ -60,6 +75,24 @@ impl Kind {
                 "cone",
             ],
             Self::Hemisphere => &["kind", "axis", "sky", "ground"],
+            Self::Sphere => &["kind", "position", "radius", "color", "diffuse", "specular"],
+            Self::Tube => &["kind", "from", "to", "radius", "color", "diffuse", "specular"],
+            Self::Disk => {
+                &["kind", "position", "direction", "target", "radius", "two_sided", "color", "diffuse", "specular"]
+            }
+            Self::Rectangle => &[
+                "kind",
+                "position",
+                "direction",
+                "target",
+                "up",
+                "width",
+                "height",
+                "two_sided",
+                "color",
+                "diffuse",
+                "specular",
+            ],
         }
     }
 
@@ -68,10 +101,28 @@ impl Kind {
         match self {
             Self::Directional => &[("towards", "[0.5, 0.7, 0.6]")],
             Self::Point => &[("position", "[1.0, 2.0, 2.0]")],
+            Self::Sphere => &[("position", "[1.0, 2.0, 2.0]"), ("radius", "0.5")],
+            Self::Tube => &[("from", "[-1.0, 2.0, 0.0]"), ("to", "[1.0, 2.0, 0.0]"), ("radius", "0.05")],
+            Self::Disk if table.contains_key("target") => &[("position", "[0.0, 3.0, 2.0]"), ("radius", "0.5")],
+            Self::Disk => &[("position", "[0.0, 3.0, 2.0]"), ("direction", "[0.0, -3.0, -2.0]"), ("radius", "0.5")],
+            Self::Rectangle if table.contains_key("target") => {
+                &[("position", "[0.0, 3.0, 2.0]"), ("width", "2.0"), ("height", "1.0")]
+            }
+            Self::Rectangle => &[
+                ("position", "[0.0, 3.0, 2.0]"),
+                ("direction", "[0.0, -3.0, -2.0]"),
+                ("width", "2.0"),
+                ("height", "1.0"),
+            ],
             Self::Spot if table.contains_key("target") => &[("position", "[0.0, 3.0, 2.0]")],
             Self::Spot => &[("position", "[0.0, 3.0, 2.0]"), ("direction", "[0.0, -3.0, -2.0]")],
             Self::Hemisphere => &[],
         }
+    }
+
+    /// Whether a light of this kind has a shape, which the program `standard` has with the macro `GLISTEN_AREAS`.
+    fn has_shape(self) -> bool {
+        matches!(self, Self::Sphere | Self::Tube | Self::Disk | Self::Rectangle)
     }
 }
 
@@ -124,6 +175,7 @@ pub(super) struct Light {
     range: Option<f64>,
     /// The inner and the outer angle of a spot's cone in degrees, instead of `exponent`.
     cone: Option<[f64; 2]>,
+    shape: Shape,
 }
 
 impl Lighting {
@@ -150,6 +202,11 @@ impl Lighting {
     pub(super) fn has_cones(&self) -> bool {
         self.lights.iter().any(|light| light.range.is_some() || light.cone.is_some())
     }
+
+    /// Whether a light has a shape.
+    pub(super) fn has_areas(&self) -> bool {
+        self.lights.iter().any(|light| light.kind.has_shape())
+    }
 }
 
 impl Light {
@@ -162,7 +219,8 @@ impl Light {
             if reader.is_misspelled(table, "kind") {
                 return None;
             }
-            let help = "add `kind = \"directional\"`, or `point`, `spot`, `hemisphere`";
+            let help =
+                "add `kind = \"directional\"`, or `point`, `spot`, `hemisphere`, `sphere`, `tube`, `disk`, `rectangle`";
             reader.report(Diagnostic::new(&SCENE_MISSING_KEY, span, "a light names its kind").help(help));
             return None;
         };
@@ -170,7 +228,11 @@ impl Light {
         let (place, keys) = (kind.place(), kind.keys());
         reader.check_keys(table, place, keys);
         require(reader, table, span, place, kind)?;
-        let position = DVec3::from(reader.reals(table, "position", [0.0; 3]));
+        let shape = Shape::load(reader, table, kind)?;
+        let position = match kind {
+            Kind::Tube => shapes::middle(reader, table),
+            _ => DVec3::from(reader.reals(table, "position", [0.0; 3])),
+        };
         let direction = match kind {
             // In the struct, the direction is that of the light's travel.
             Kind::Directional => -DVec3::from(reader.reals(table, "towards", [0.0, 1.0, 0.0])),
@@ -179,12 +241,13 @@ impl Light {
             }
             Kind::Spot => reader.reals(table, "direction", [0.0, -1.0, 0.0]).into(),
             Kind::Hemisphere => reader.reals(table, "axis", [0.0, 1.0, 0.0]).into(),
-            Kind::Point => DVec3::ZERO,
+            Kind::Disk | Kind::Rectangle => shape.direction,
+            Kind::Point | Kind::Sphere | Kind::Tube => DVec3::ZERO,
         };
         let color = reader.reals(table, "color", [1.0; 3]);
         let (below, above) = match kind {
             Kind::Hemisphere => ("ground", "sky"),
-            Kind::Directional | Kind::Point | Kind::Spot => ("ambient", "diffuse"),
+            _ => ("ambient", "diffuse"),
         };
         Some(Self {
             span,
@@ -194,10 +257,11 @@ impl Light {
             ambient: reader.reals(table, below, [0.0; 3]),
             diffuse: reader.reals(table, above, color),
             specular: reader.reals(table, "specular", color),
-            attenuation: reader.reals(table, "attenuation", [1.0, 0.0, 0.0]),
+            attenuation: reader.reals(table, "attenuation", shape.attenuation(kind)),
             exponent: reader.real(table, "exponent", 1.0),
             range: load_range(reader, table),
             cone: load_cone(reader, table),
+            shape,
         })
     }
 
@@ -216,7 +280,7 @@ impl Light {
         };
         match self.kind {
             Kind::Directional => LightSource { position: (-direction).extend(0.0).to_array(), ..lit },
-            Kind::Point => lit,
+            Kind::Point | Kind::Sphere | Kind::Tube | Kind::Disk | Kind::Rectangle => lit,
             Kind::Spot => LightSource {
                 spot_direction: direction.normalize_or(DVec3::NEG_Z).to_array(),
                 spot_exponent: self.exponent,
@@ -231,11 +295,16 @@ impl Light {
     }
 
     /// The members of the struct `Light`, by name.
-    pub(super) fn members(&self, space: LightSpace, view: DMat4) -> [(&'static str, Member); 11] {
-        let (position, direction) = match space {
-            LightSpace::World => (self.position, self.direction),
-            LightSpace::Eye => (view.transform_point3(self.position), view.transform_vector3(self.direction)),
+    pub(super) fn members(&self, space: LightSpace, view: DMat4) -> [(&'static str, Member); 14] {
+        let turned = |vector: DVec3| match space {
+            LightSpace::World => vector,
+            LightSpace::Eye => view.transform_vector3(vector),
         };
+        let position = match space {
+            LightSpace::World => self.position,
+            LightSpace::Eye => view.transform_point3(self.position),
+        };
+        let [direction, x, y] = [self.direction, self.shape.x, self.shape.y].map(turned);
         [
             ("kind", Member::Int(self.kind as i32)),
             ("position", Member::Vector(position.to_array())),
@@ -248,6 +317,9 @@ impl Light {
             ("range", Member::Float(self.range.unwrap_or(0.0))),
             ("inner", Member::Float(self.cone.map_or(0.0, |[inner, _]| one_minus_cos(inner)))),
             ("outer", Member::Float(self.cone.map_or(0.0, |[_, outer]| one_minus_cos(outer)))),
+            ("x", Member::Vector(x.to_array())),
+            ("y", Member::Vector(y.to_array())),
+            ("radius", Member::Float(self.shape.radius)),
         ]
     }
 }

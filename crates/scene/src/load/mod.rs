@@ -10,6 +10,7 @@ mod depths;
 mod draw;
 mod fibers;
 mod fixed;
+mod harmonics;
 mod imported;
 mod layers;
 mod lights;
@@ -30,6 +31,7 @@ mod write;
 
 use self::draw::{load_defines, load_draw};
 use self::fixed::GENERATED;
+use self::harmonics::{HARMONICS, Harmonics};
 use self::lights::Lighting;
 use self::names::FORMATS;
 use self::sources::load_sources;
@@ -140,6 +142,8 @@ struct Surroundings<'t, 'i> {
     material: Option<&'t Node<'i>>,
     /// The map of the light from all around.
     environment: Option<&'t Node<'i>>,
+    /// The same by coefficients, instead of a map.
+    harmonics: Option<Harmonics>,
     lighting: Lighting,
     framebuffer: Framebuffer,
 }
@@ -220,6 +224,7 @@ impl Loader<'_> {
         let mut lighting = Lighting::load(&mut self.reader, table);
         let camera = self.reader.table_at(table, "camera");
         let environment = table.get(ENVIRONMENT);
+        let harmonics = environment.and_then(|node| harmonics::load(&mut self.reader, node));
         let wants =
             imported::Wants { camera: camera.is_none(), lights: !is_lit(table), surrounded: environment.is_some() };
         let written = imported::write(self, table, wants);
@@ -231,7 +236,8 @@ impl Loader<'_> {
         let around = Surroundings {
             camera: camera.or_else(|| read.iter().find_map(|one| one.camera.as_ref())),
             material: table.get("material"),
-            environment,
+            environment: environment.filter(|_| harmonics.is_none()),
+            harmonics: harmonics.flatten(),
             lighting,
             framebuffer,
         };
@@ -278,7 +284,11 @@ impl Loader<'_> {
 
     /// Warns about lights and a material that no program uses.
     fn warn_unlit(&mut self, table: &DeTable<'_>, draws: &[Draw]) {
-        let has_map = |draw: &Draw| draw.program.interface.samplers.iter().any(|slot| slot.name == ENVIRONMENT);
+        let has_map = |draw: &Draw| {
+            let interface = &draw.program.interface;
+            interface.samplers.iter().any(|slot| slot.name == ENVIRONMENT)
+                || interface.roots.iter().any(|root| root.name == HARMONICS)
+        };
         if let Some((name, _)) = table.get_key_value(ENVIRONMENT).filter(|_| !draws.iter().any(has_map)) {
             let span = self.reader.span_of(name);
             let message = format!("no program of the scene declares a sampler `{ENVIRONMENT}`");

@@ -3,6 +3,7 @@
 //! *Holds:* a uniform that is not listed keeps its initializer, or is 0 (GLSL 1.50 §4.3.5).
 
 use super::depths::DepthMap;
+use super::harmonics::{HARMONICS, Harmonics};
 use super::lights::{LightSpace, Lighting, Member};
 use super::material::Material;
 use super::matrices::{ROLES, View};
@@ -12,6 +13,7 @@ use crate::reads::is_leaf_read;
 use crate::roles::{MatrixRole, is_plain_transform, matrix_role};
 use crate::tables::{Node, Number, NumberValue, Reader, report_unknown_name};
 use crate::values::{Fill, UniformValues, bits, value_text};
+use glam::DVec3;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_UNSET_UNIFORM, SCENE_WRONG_KIND, SCENE_WRONG_SIZE, SCENE_WRONG_VALUE,
@@ -41,6 +43,8 @@ pub(super) struct Context<'a> {
     pub(super) program: &'a Program,
     pub(super) view: &'a View,
     pub(super) lighting: &'a Lighting,
+    /// The coefficients of the light from all around.
+    pub(super) harmonics: Option<&'a Harmonics>,
     pub(super) space: LightSpace,
     /// Whether matrices go to uniforms named after their roles, by the convention of the library's programs.
     pub(super) conventional: bool,
@@ -67,6 +71,7 @@ pub(super) fn load_uniforms(
         values.fill_roles(view);
     }
     values.fill_lights(reader, context, place);
+    values.fill_harmonics(reader, context.harmonics);
     if let Some((material, node)) = material {
         let span = reader.span_of(node);
         for (name, value) in material {
@@ -352,6 +357,20 @@ impl<'p> Values<'p> {
         }
         self.offer(reader, "lights", Member::Int(lights.len() as i32), place);
         self.offer(reader, "global_ambient", Member::Vector(*global_ambient), place);
+    }
+
+    /// Sets the uniform `harmonics` to the coefficients of the environment, if the program declares it.
+    fn fill_harmonics(&mut self, reader: &mut Reader, harmonics: Option<&Harmonics>) {
+        let Some(harmonics) = harmonics else { return };
+        let Some(leaf) = self.program.interface.uniforms.iter().find(|leaf| leaf.name == HARMONICS) else { return };
+        if self.program.types.get(leaf.ty) == Type::Vector(Scalar::Float, 3) && leaf.array_size == Some(9) {
+            let numbers = harmonics.coefficients.iter().flat_map(DVec3::to_array);
+            let scalars: Vec<ScalarValue> = numbers.map(|number| ScalarValue::Float(number as f32)).collect();
+            self.store(&Target { leaf, element: None }, &scalars);
+        } else {
+            let message = format!("the light from all around goes to a uniform `vec3 {HARMONICS}[9]`");
+            reader.error(&SCENE_WRONG_KIND, harmonics.span, message, "here it has another type");
+        }
     }
 
     /// Sets a leaf to a value, if there is one with this name.

@@ -64,6 +64,13 @@ const LIGHT: &[(&str, &str)] = &[
     ("exponent", "light.exponent"),
     ("range", "light.range"),
     ("cone", "light.outer"),
+    ("from", "light.x"),
+    ("to", "light.x"),
+    ("up", "light.x"),
+    ("width", "light.x"),
+    ("height", "light.y"),
+    ("radius", "light.radius"),
+    ("two_sided", "light.direction"),
 ];
 
 /// The models that the textbook's programs have by themselves: program, diffuse model, specular model.
