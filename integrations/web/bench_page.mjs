@@ -20,19 +20,25 @@ const KEYS = 15;
 const at = (times, part) => [...times].sort((a, b) => a - b)[Math.min(times.length - 1, Math.floor(times.length * part))];
 const told = (name, times) => console.log(`  ${name.padEnd(52)} ${String(times.length).padStart(4)} ${at(times, 0.5).toFixed(0).padStart(7)} ${at(times, 0.9).toFixed(0).padStart(7)}`);
 
-/** The time from the next key to the first change of an element, in the page. */
-const answered = (page, watched) => page.evaluate((watched) => new Promise((done, failed) => {
-  setTimeout(() => failed(new Error(`${watched} did not change within 30 s`)), 30000);
-  const element = document.querySelector(watched);
-  let begun = null;
-  addEventListener("keydown", () => { begun ??= performance.now(); }, { once: true, capture: true });
-  const observer = new MutationObserver(() => {
-    if (begun === null) return;
-    observer.disconnect();
-    done(performance.now() - begun);
-  });
-  observer.observe(element, { subtree: true, childList: true, characterData: true });
-}), watched);
+/** The time from a key to the first change of an element after it, in the page. */
+const answered = async (page, key, watched) => {
+  // The page watches before the key comes.
+  await page.evaluate((watched) => {
+    window.answer = new Promise((done, failed) => {
+      setTimeout(() => failed(new Error(`${watched} did not change within 30 s`)), 30000);
+      let begun = null;
+      addEventListener("keydown", () => { begun ??= performance.now(); }, { once: true, capture: true });
+      const observer = new MutationObserver(() => {
+        if (begun === null) return;
+        observer.disconnect();
+        done(performance.now() - begun);
+      });
+      observer.observe(document.querySelector(watched), { subtree: true, childList: true, characterData: true });
+    });
+  }, watched);
+  await page.keyboard.press(key);
+  return page.evaluate(() => window.answer);
+};
 
 const measure = async (name, address) => {
   const page = await browser.newPage({ viewport: { width: 1400, height: 1000 } });
@@ -59,13 +65,9 @@ const measure = async (name, address) => {
     const [wrong, right] = [[], []];
     for (let key = 0; key < KEYS; key += 1) {
       await idle();
-      const found = answered(page, "#findings");
-      await page.keyboard.press("q");
-      wrong.push(await found);
+      wrong.push(await answered(page, "q", "#findings"));
       await idle();
-      const drawn = answered(page, "#drawn");
-      await page.keyboard.press("Backspace");
-      right.push(await drawn);
+      right.push(await answered(page, "Backspace", "#drawn"));
     }
     told("from a key to its finding", wrong);
     told("from a fix to the picture", right);
@@ -124,3 +126,4 @@ if (existsSync(module)) {
   rmSync(place, { recursive: true });
 } else console.log("The page that computes by itself is not measured: `integrations/web/make page` builds its module.");
 await browser.close();
+process.exit();

@@ -223,7 +223,7 @@ fn word<T: Copy>(words: &[(&str, T)], value: &str) -> Result<T, String> {
 #[cfg(test)]
 mod tests {
     use super::{OPTIONS, Settings};
-    use glisten::Stage;
+    use glisten::{Source, Stage};
 
     #[test]
     fn options_take_their_words_and_no_others() {

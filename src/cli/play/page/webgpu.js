@@ -20,7 +20,7 @@ const openGpu = async () => {
   const limits = Object.fromEntries(LIMITS.filter((limit) => adapter.limits[limit] !== undefined).map((limit) => [limit, adapter.limits[limit]]));
   const device = await adapter.requestDevice({ requiredFeatures: features, requiredLimits: limits });
   const { vendor, architecture, device: model, description } = adapter.info ?? {};
-  const gpu = { device, features: new Set(features), name: description || [vendor, architecture, model].filter(Boolean).join(" ") || "a GPU", isLost: false };
+  const gpu = { device, features: new Set(features), name: description || [vendor, architecture, model].filter(Boolean).join(" ") || "a GPU", isLost: false, pipelines: new Map() };
   device.lost.then(() => { gpu.isLost = true; });
   return gpu;
 };
@@ -79,9 +79,12 @@ const drawByWebGpu = async (gpu, calls, bytes) => {
   const { device, features } = gpu;
   const part = ([offset, length]) => bytes.subarray(offset, offset + length);
   const depthFormat = features.has("depth32float-stencil8") ? "depth32float-stencil8" : "depth24plus-stencil8";
+  // What this picture alone needs is given back when it is read.
+  const owned = [];
+  const own = (resource) => { owned.push(resource); return resource; };
   const buffer = (content, usage) => {
     const size = Math.max(16, Math.ceil(content.length / 4) * 4);
-    const made = device.createBuffer({ size, usage: usage | GPUBufferUsage.COPY_DST });
+    const made = own(device.createBuffer({ size, usage: usage | GPUBufferUsage.COPY_DST }));
     const whole = new Uint8Array(size);
     whole.set(content);
     device.queue.writeBuffer(made, 0, whole);
@@ -90,7 +93,7 @@ const drawByWebGpu = async (gpu, calls, bytes) => {
   const textures = new Map();  // the levels of a texture are uploaded once
   const uploaded = (bound) => {
     const key = JSON.stringify([bound.format, bound.viewDimension, bound.levels.map((level) => level.bytes)]);
-    if (!textures.has(key)) textures.set(key, bound.isDepth ? depthTexture(bound) : colorTexture(bound));
+    if (!textures.has(key)) textures.set(key, own(bound.isDepth ? depthTexture(bound) : colorTexture(bound)));
     return textures.get(key);
   };
   const colorTexture = ({ format, dimension, size, levels }) => {
@@ -128,17 +131,29 @@ const drawByWebGpu = async (gpu, calls, bytes) => {
     if (entry.sampler) return device.createSampler(entry.bound);
     return uploaded(entry.bound).createView({ dimension: entry.bound.viewDimension });
   };
-  const prepared = (draw) => {
-    const layouts = draw.groups.map((entries) => device.createBindGroupLayout({ entries: entries.map(({ bound, ...entry }) => entry) }));
-    const groups = draw.groups.map((entries, index) => device.createBindGroup({ layout: layouts[index], entries: entries.map((entry) => ({ binding: entry.binding, resource: resource(entry) })) }));
+  // While numbers of a scene change, its programs stay: pipelines are kept by all that they are made of.
+  const built = new Map();
+  const pipelineOf = (draw) => {
+    const entries = draw.groups.map((group) => group.map(({ bound, ...entry }) => entry));
+    const buffers = draw.buffers.map(({ bytes, ...layout }) => layout);
+    const key = JSON.stringify([draw.vertex, draw.fragment, entries, buffers, draw.primitive, draw.depthStencil, draw.targets]);
+    const kept = gpu.pipelines.get(key) ?? built.get(key);
+    if (kept) return kept;
+    const layouts = entries.map((entries) => device.createBindGroupLayout({ entries }));
     const { cullMode, ...primitive } = draw.primitive;
     const pipeline = device.createRenderPipeline({
       layout: device.createPipelineLayout({ bindGroupLayouts: layouts }),
-      vertex: { module: device.createShaderModule({ code: draw.vertex }), buffers: draw.buffers.map(({ bytes, ...layout }) => layout) },
+      vertex: { module: device.createShaderModule({ code: draw.vertex }), buffers },
       primitive: { ...primitive, cullMode },
       depthStencil: { ...draw.depthStencil, format: depthFormat },
       fragment: { module: device.createShaderModule({ code: draw.fragment }), targets: draw.targets },
     });
+    built.set(key, { layouts, pipeline });
+    return { layouts, pipeline };
+  };
+  const prepared = (draw) => {
+    const { layouts, pipeline } = pipelineOf(draw);
+    const groups = draw.groups.map((entries, index) => device.createBindGroup({ layout: layouts[index], entries: entries.map((entry) => ({ binding: entry.binding, resource: resource(entry) })) }));
     return {
       ...draw, pipeline, groups,
       vertices: draw.buffers.map(({ bytes }) => buffer(part(bytes), GPUBufferUsage.VERTEX)),
@@ -152,7 +167,7 @@ const drawByWebGpu = async (gpu, calls, bytes) => {
   const readers = [];
   try {
     const { width, height, format, clear: [r, g, b, a] } = calls;
-    const attachment = (format) => device.createTexture({ format, size: [width, height], usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+    const attachment = (format) => own(device.createTexture({ format, size: [width, height], usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC }));
     const colors = Array.from({ length: calls.attachments }, () => attachment(format));
     const depth = attachment(depthFormat);
     const draws = calls.draws.map(prepared);
@@ -188,7 +203,10 @@ const drawByWebGpu = async (gpu, calls, bytes) => {
     if (error) failures.push(error.message);
   }
   if (failures.length) throw new Error(`the browser's WebGPU refuses it: ${failures[0]}`);
-  return Promise.all(readers.map(async ({ reader, bytesPerRow, used }) => {
+  // Those of this picture, and of the scenes before it as long as they are few.
+  if (gpu.pipelines.size + built.size > 64) gpu.pipelines.clear();
+  built.forEach((pipeline, key) => gpu.pipelines.set(key, pipeline));
+  const planes = await Promise.all(readers.map(async ({ reader, bytesPerRow, used }) => {
     await reader.mapAsync(GPUMapMode.READ);
     const all = new Uint8Array(reader.getMappedRange());
     const plane = new Uint8Array(used * calls.height);
@@ -196,4 +214,6 @@ const drawByWebGpu = async (gpu, calls, bytes) => {
     reader.destroy();
     return plane;
   }));
+  owned.forEach((resource) => resource.destroy());
+  return planes;
 };
