@@ -78,7 +78,8 @@ pub fn sums(text: &str) -> String {
         *executions += run.executions;
         *broken += run.broken;
     }
-    let mut table = "| target | CPU hours | executions | inputs that broke it |\n| --- | --- | --- | --- |\n".to_owned();
+    let mut table =
+        "| target | CPU hours | executions | inputs that broke it |\n| --- | --- | --- | --- |\n".to_owned();
     let mut all = (0.0, 0, 0);
     for (target, (minutes, executions, broken)) in targets {
         let _ = writeln!(table, "| `{target}` | {:.2} | {executions} | {broken} |", minutes / 60.0);

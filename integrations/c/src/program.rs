@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Kept, show};
 use crate::names::{self, FormatNumber, StageNumber, TargetNumber};
 use crate::pointers::{give, reference, slice, take_back, text};
 use crate::status::{Status, call};
-use glisten_binding::{Compiled, Error, Stage, compile};
+use glisten_binding::{Compiled, Error, compile};
 use std::ffi::c_char;
 
 /// The size of a text that ends with NUL.

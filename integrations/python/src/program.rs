@@ -2,7 +2,7 @@
 
 use crate::failure::raised;
 use crate::input::{Settings, format, reraised};
-use glisten_binding::{Compiled, Error, Source, guarded, stage_of_name, stage_of_word, target_of_word};
+use glisten_binding::{Compiled, Error, Source, guarded, stage_of_word, target_of_word};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 

@@ -5,7 +5,7 @@
 >>> "@fragment" in program.wgsl("fragment")
 True
 
-Sources are paths, or a mapping of names to texts. The extension of a name tells the stage. What is wrong with a shader raises
+Sources are paths, or a mapping of names to texts. The name tells the stage; of a text whose name tells none, macros in it do. What is wrong with a shader raises
 :class:`CompileError`, whose ``diagnostics`` say where; :func:`lint` returns them instead. NumPy is needed for pictures alone.
 """
 

@@ -3,7 +3,7 @@
 use crate::reply::Reply;
 use crate::request::Request;
 use glisten::format::{MAX_INDENT, Options, WIDTHS, formatted};
-use glisten_binding::{Error, Format, OPTIONS, Stage, Target, VERSION, targets, stage_of_name, stage_of_word};
+use glisten_binding::{Error, Format, OPTIONS, Stage, Target, VERSION, stage_of_name, stage_of_word, targets};
 
 /// Answers `upgrade`.
 pub(crate) fn upgrade(request: &Request) -> Result<Reply, Error> {
@@ -72,7 +72,8 @@ pub(crate) fn versions() -> Reply {
     reply.set("options", OPTIONS.iter().map(|(name, ..)| *name).collect::<Vec<_>>());
     // GLSL for Vulkan is written with the reference alone.
     let upgrades = glisten::upgrade::Target::ALL.into_iter();
-    let upgrades = upgrades.filter(|(_, target)| cfg!(feature = "reference") || *target != glisten::upgrade::Target::Vulkan);
+    let upgrades =
+        upgrades.filter(|(_, target)| cfg!(feature = "reference") || *target != glisten::upgrade::Target::Vulkan);
     reply.set("upgrades", upgrades.map(|(word, _)| word).collect::<Vec<_>>());
     reply.set("reference", cfg!(feature = "reference"));
     reply
