@@ -102,11 +102,12 @@ mod tests {
     #[test]
     fn what_tells_no_stage_is_refused() {
         let text = "void main() {}";
-        for error in [source_of("a.glsl", BOTH, None).unwrap_err(), sources_of("a.glsl", text, None).unwrap_err()] {
+        let single = source_of("a.glsl", BOTH, None).expect_err("one of two stages");
+        for error in [single, sources_of("a.glsl", text, None).expect_err("no stage")] {
             assert!(error.message.contains("`a.glsl`"), "{error:?}");
         }
         let two = "@vs a\nvoid main() {}\n@end\n@fs b\nvoid main() {}\n@end\n@program one a b\n@program two a b\n";
-        let error = sources_of("a.glsl", two, None).unwrap_err();
+        let error = sources_of("a.glsl", two, None).expect_err("two programs");
         assert!(error.message.ends_with("several programs: one, two"), "{error:?}");
     }
 }

@@ -71,6 +71,8 @@ const makeModule = ({ module, worker, files, request, seconds }) => {
     const planned = await draws({ ...job, ask: "plan" }, true);
     if (!planned.ok) return planned;
     try {
+      // A verdict is about what the browser makes of the programs now.
+      if (lane === judgements) gpu.pipelines.clear();
       const from = performance.now();
       const planes = await drawByWebGpu(gpu, planned.ok, planned.bytes);
       const milliseconds = performance.now() - from;
