@@ -39,11 +39,14 @@ const makeMatching = ({ editor, translation, shown, stage, files, open }) => {
     // What else its lines of the source have become.
     return show(all.filter((row) => mine.some((one) => one.file === row.file && one.from === row.from && one.to === row.to)));
   };
+  // What is shown while no pointer is in a text, and what is shown now.
   let kept = () => show([]);
+  let now = kept;
+  const shows = (work) => { now = work; return work(); };
   const firstLine = (chosen) => Math.min(...chosen.map((row) => row.line));
   const pointed = (of, reveal) => (line) => {
-    if (line === null) { kept(); return; }
-    const chosen = of(line);
+    if (line === null) { shows(kept); return; }
+    const chosen = shows(() => of(line));
     if (chosen.length) reveal(chosen);
   };
   return {
@@ -52,18 +55,18 @@ const makeMatching = ({ editor, translation, shown, stage, files, open }) => {
     // The cursor's partners stay, and come into sight if a person has moved it.
     movedInSource: (line, isPerson) => {
       kept = () => ofSource(line);
-      const chosen = kept();
+      const chosen = shows(kept);
       if (chosen.length && isPerson) translation.reveal(firstLine(chosen));
     },
     movedInTranslation: (line, isPerson) => {
       if (!isPerson) return;
       kept = () => ofTranslation(line);
-      const [first] = kept();
+      const [first] = shows(kept);
       if (!first) return;
       if (first.file !== shown()) { open(first.file); kept(); }
       editor.reveal(first.from);
     },
-    // Another text is shown.
-    forget: () => { kept = () => show([]); kept(); },
+    // The translation is another: the same lines of the source again.
+    refresh: () => { now(); },
   };
 };

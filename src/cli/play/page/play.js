@@ -190,7 +190,7 @@ const showTranslation = () => {
   const text = now ? now.text ?? now.error ?? "" : "";
   translated = now ?? null;
   translation.show(`translation.${target()}`, text, target() === "wgsl" ? "wgsl" : "glsl");
-  matching.forget();
+  matching.refresh();
 };
 const showReflection = () => {
   const row = (cells, tag = "td") => html("tr", {}, cells.map((cell) => html(tag, {}, cell)));
