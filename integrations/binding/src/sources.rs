@@ -58,7 +58,7 @@ pub(crate) fn share_a_text(sources: &[Source]) -> bool {
 
 fn no_stage(name: &str) -> Error {
     let help = "end it with .vert or .frag, or name the stage";
-    Error::argument(format!("neither the name `{name}` nor the text tells the stage: {help}"))
+    Error::argument(format!("the name `{name}` tells no stage, and neither does the text: {help}"))
 }
 
 #[cfg(test)]

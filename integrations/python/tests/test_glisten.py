@@ -69,7 +69,7 @@ def test_errors_are_raised_with_their_diagnostics():
             wrong()
     with pytest.raises(ValueError, match="did you mean `clip-z`"):
         glisten.compile(PROGRAM, clip_y="zero-to-one")
-    with pytest.raises(ValueError, match="no stage"):
+    with pytest.raises(ValueError, match="tells no stage"):
         glisten.compile({"a.txt": VERTEX})
     with pytest.raises(ValueError):
         glisten.compile({})

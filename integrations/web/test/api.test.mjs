@@ -89,7 +89,7 @@ test("names tell stages, and texts do where names do not", () => {
   // What stages share is told once.
   const wrong = both.replace("#ifdef", "float f() { return nothing; }\n#ifdef");
   assert.equal(compiler.lint({ "a.glsl": wrong }).diagnostics.filter(({ severity }) => severity === "error").length, 1);
-  assert.throws(() => compiler.compile({ "a.glsl": "void main() {}" }), { kind: "argument", message: /nor the text tells the stage/ });
+  assert.throws(() => compiler.compile({ "a.glsl": "void main() {}" }), { kind: "argument", message: /tells no stage, and neither does the text/ });
 });
 
 test("upgrade and format rewrite texts", () => {

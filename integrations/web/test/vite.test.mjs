@@ -98,5 +98,5 @@ test("a file may have both stages", async () => {
 });
 
 test("what tells no stage is refused", async () => {
-  await assert.rejects(imported({ "a.glsl": fragment }, "a.glsl"), /neither the name `.*a\.glsl` nor the text tells the stage/);
+  await assert.rejects(imported({ "a.glsl": fragment }, "a.glsl"), /the name `.*a\.glsl` tells no stage, and neither does the text/);
 });

@@ -69,10 +69,15 @@ const editor = Editor.create({
     textChanged();
   },
 });
+// While a control moves, the picture follows, and all that is read of the texts comes when it rests.
+let isMoving = false, rests = null;
 const textChanged = () => {
   edition += 1;
   isJudged = isJudging = false;
-  showFiles(); look(); draw(); inspector.refresh(); studies.age();
+  clearTimeout(rests);
+  if (isMoving) rests = setTimeout(look, 200);
+  else look();
+  showFiles(); draw(); inspector.refresh(); studies.age();
 };
 const translation = Editor.create({
   parent: byId("translation"), label: "Translation", words: start.words, readOnly: true,
@@ -232,7 +237,9 @@ const setControl = (control, values) => {
   for (const other of controls) {
     other.places = other.places.map(([from, to]) => { const begin = moved(from); return [begin, grown.has(from) ? begin + grown.get(from) : begin + (to - from)]; });
   }
+  isMoving = true;
   rewrite(scene, changes);
+  isMoving = false;
 };
 const hex = (values) => `#${values.slice(0, 3).map((value) => Math.round(255 * value).toString(16).padStart(2, "0")).join("")}`;
 const takeControls = (fresh) => {
