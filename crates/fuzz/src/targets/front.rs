@@ -3,8 +3,9 @@
 use super::{no_internal_error, no_internal_errors};
 use crate::Sections;
 use crate::sections::named;
+use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
 use glisten_front::diagnostic::write::{Finding, findings, human, json, sarif};
-use glisten_front::diagnostic::{Applicability, Diagnostic, Patch};
+use glisten_front::diagnostic::{Applicability, Code, Diagnostic, Patch};
 use glisten_front::source::{Completion, SourceMap};
 use glisten_front::{Compilation, Compiler, Options, Source, lint};
 
@@ -21,13 +22,18 @@ pub(super) fn compiler() -> Compiler {
     Compiler::new(Options { completion, ..Options::default() })
 }
 
+/// What says that a shader is a part of a program.
+static PARTS: [&Code; 2] = [&LONE_WITHOUT_MAIN, &LONE_WITHOUT_DEFINITION];
+
 /// A program or errors, which can be written.
 pub(super) fn check(input: &[u8]) {
     let text = String::from_utf8_lossy(input);
     let sources = Sections::of(&text).shaders();
     let compilation = compiled(&sources);
-    // A shader without `main` is a part of one; there are no programs of parts alone, and no error.
-    let is_part = !text.contains("main");
+    // A shader without `main`, or with a function that another shader defines, is a part of a program; there are no programs of parts
+    // alone, and no error.
+    let is_lone = |diagnostic: &Diagnostic| PARTS.contains(&diagnostic.code);
+    let is_part = !text.contains("main") || compilation.diagnostics.iter().any(is_lone);
     let is_decided = compilation.program.is_some() || compilation.diagnostics.has_errors();
     assert!(is_decided || is_part || sources.is_empty(), "neither a program nor an error");
     written(&compilation.sources, compilation.diagnostics.iter());
