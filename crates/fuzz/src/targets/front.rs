@@ -22,7 +22,7 @@ pub(super) fn compiler() -> Compiler {
     Compiler::new(Options { completion, ..Options::default() })
 }
 
-/// What says that a shader is a part of a program.
+/// Warnings about a shader that is a part of a program.
 static PARTS: [&Code; 2] = [&LONE_WITHOUT_MAIN, &LONE_WITHOUT_DEFINITION];
 
 /// A program or errors, which can be written.
