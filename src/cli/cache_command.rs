@@ -9,7 +9,6 @@ use super::exit::{Exit, Failure, Outcome};
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
-/// See what the cache of `compile` and `lint` holds, or clean it
 #[derive(Args, Debug)]
 pub(super) struct CacheCommandArgs {
     #[command(subcommand)]

@@ -22,7 +22,6 @@ use glisten_front::hir;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
 #[derive(Args, Debug)]
 pub(super) struct CompileArgs {
     /// Shaders, folders to search for shaders, or `-` for standard input

@@ -5,7 +5,6 @@ use super::exit::{Exit, Outcome};
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-/// Write a completion script for a shell to standard output
 #[derive(Args, Debug)]
 pub(super) struct CompletionsArgs {
     /// The shell

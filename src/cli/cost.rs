@@ -17,7 +17,6 @@ use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Count the operations of shaders by line and class, on the shortest and the longest path
 #[derive(Args, Debug)]
 pub(super) struct CostArgs {
     /// Shaders, folders, or `-` for standard input; with `--measure` scenes (default: those of the library)

@@ -4,6 +4,7 @@
 //! tests check both.
 
 use clap::Command;
+use std::ffi::OsString;
 
 /// The examples of each command: a line, and what it does.
 const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
@@ -207,9 +208,17 @@ const EXAMPLES: &[(&str, &[(&str, &str)])] = &[
 
 /// The command line with the examples of each command after its help.
 pub(super) fn with_examples(program: Command) -> Command {
-    EXAMPLES.iter().fold(program, |program, (name, examples)| {
-        program.mut_subcommand(*name, |command| command.after_help(text(examples)))
-    })
+    EXAMPLES.iter().fold(program, with)
+}
+
+/// The command line, with the examples of those commands that the arguments name.
+pub(super) fn with_examples_of(program: Command, arguments: &[OsString]) -> Command {
+    let named = EXAMPLES.iter().filter(|(name, _)| arguments.iter().any(|argument| argument == name));
+    named.fold(program, with)
+}
+
+fn with(program: Command, (name, examples): &(&'static str, &[(&str, &str)])) -> Command {
+    program.mut_subcommand(*name, |command| command.after_help(text(examples)))
 }
 
 fn text(examples: &[(&str, &str)]) -> String {

@@ -8,7 +8,6 @@ use glisten_front::diagnostic::{Code, Example, codes};
 use glisten_front::hir::Stage;
 use glisten_front::language::{EDITIONS, Edition, runs};
 
-/// Show what a diagnostic means, with a bad and a good example
 #[derive(Args, Debug)]
 pub(super) struct ExplainArgs {
     /// A code or its name: `E0301`, `undeclared-identifier`

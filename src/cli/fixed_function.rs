@@ -19,7 +19,6 @@ use glisten_scene::fixed::{
 };
 use std::path::PathBuf;
 
-/// Write the vertex and the fragment stage of OpenGL's fixed-function pipeline as GLSL
 #[derive(Args, Debug)]
 pub(super) struct FixedFunctionArgs {
     /// A scene with draws that name one stage: the other ones are written

@@ -23,7 +23,6 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Format shaders and includes
 #[derive(Args, Debug)]
 pub(super) struct FmtArgs {
     /// Sources, folders to search for them, or `-` for standard input (default: the current folder)

@@ -8,7 +8,6 @@ use crate::trace::{Shown, lines, told};
 use clap::{ArgGroup, Args, ValueEnum};
 use glisten_reference::trace::{Place, trace};
 
-/// Tell what each fragment of a pixel, or a vertex, computed: every expression with its value
 #[derive(Args, Debug)]
 #[command(group(ArgGroup::new("place").required(true).args(["pixel", "vertex"])))]
 pub(super) struct TraceArgs {

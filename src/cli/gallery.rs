@@ -28,7 +28,6 @@ const GAP: u32 = 4;
 /// The largest size of a picture, in pixels.
 const MAX_SIZE: i64 = 2048;
 
-/// Draw every scene of the library onto a page
 #[derive(Args, Debug)]
 pub(super) struct GalleryArgs {
     /// The folder for index.html, a picture of each scene, and gallery.png with all pictures

@@ -17,7 +17,6 @@ use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
 use serde::Serialize;
 
-/// Use the library of lighting models
 #[derive(Args, Debug)]
 pub(super) struct LibArgs {
     #[command(subcommand)]

@@ -9,7 +9,6 @@ use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::{Code, Group, LintInfo, codes, did_you_mean};
 use serde_json::json;
 
-/// List the lint rules: group, level, fixes
 #[derive(Args, Debug)]
 pub(super) struct RulesArgs {
     /// Only the rules of this group (correctness, port, numerics, performance, style, legacy)

@@ -12,7 +12,6 @@ use crate::lsp;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Serve an editor: the language server protocol over standard input and output
 #[derive(Args, Debug)]
 #[command(mut_arg("diagnostics", |argument| argument.hide(true)))]
 pub(super) struct LspArgs {

@@ -6,7 +6,6 @@ use super::files;
 use clap::{Args, Command};
 use std::path::PathBuf;
 
-/// Write manual pages: glisten.1, and one for each command
 #[derive(Args, Debug)]
 pub(super) struct ManArgs {
     /// The output folder (default: glisten.1 to standard output)

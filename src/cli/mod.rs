@@ -155,36 +155,68 @@ struct GlobalArgs {
     max_memory: Option<u64>,
 }
 
+/// The commands. Only the arguments of the one that is asked for are set up.
 #[derive(Debug, Subcommand)]
+#[command(defer = true)]
 enum Command {
+    /// Check shaders and the programs that they form
     Lint(lint::LintArgs),
+    /// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
     Compile(compile::CompileArgs),
+    /// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
     Reflect(reflect::ReflectArgs),
+    /// Count the operations of shaders by line and class, on the shortest and the longest path
     Cost(cost::CostArgs),
+    /// Show what a diagnostic means, with a bad and a good example
     Explain(explain::ExplainArgs),
+    /// List the lint rules: group, level, fixes
     Rules(lint_rules::RulesArgs),
+    /// Draw a scene
     Render(render::RenderArgs),
+    /// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
     Verify(verify::VerifyArgs),
+    /// Leave out of the programs of scenes what their pictures do not need
     Specialize(specialize::SpecializeArgs),
+    /// Find out where f32 arithmetic harms the picture of a scene, and why
     Stability(stability::StabilityArgs),
+    /// Tell what each fragment of a pixel, or a vertex, computed: every expression with its value
     Trace(follow::TraceArgs),
+    /// Measure variants of a scene's shading: error against work and run time
+    ///
+    /// Drawing takes seconds, timing up to half a minute more: `--seconds` sets the limit. Ctrl-C ends it early, with a report on what had
+    /// finished.
     Report(report::ReportArgs),
+    /// Draw every scene of the library onto a page
     Gallery(gallery::GalleryArgs),
+    /// Run .shader_test files, and the functions of shaders under a comment `//! test`
     Test(test::TestArgs),
+    /// Use the library of lighting models
     Lib(library::LibArgs),
+    /// Write a scene for a program, which draws at once
     NewScene(new_scene::NewSceneArgs),
+    /// Format shaders and includes
     Fmt(fmt::FmtArgs),
+    /// Serve an editor: the language server protocol over standard input and output
     #[cfg(feature = "lsp")]
     Lsp(lsp::LspArgs),
+    /// Show scenes in a browser, and draw them again while they change
     #[cfg(feature = "play")]
     Play(play::PlayArgs),
+    /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
     Upgrade(upgrade::UpgradeArgs),
+    /// Port a folder of shaders to another host: Minecraft on Vulkan, Vulkan, wgpu, Bevy, WebGL 2
     Port(port::PortArgs),
+    /// Write the vertex and the fragment stage of OpenGL's fixed-function pipeline as GLSL
     FixedFunction(fixed_function::FixedFunctionArgs),
+    /// Write a completion script for a shell to standard output
     Completions(completions::CompletionsArgs),
+    /// Run a command again whenever its files change
     Watch(watch::WatchArgs),
+    /// See what the cache of `compile` and `lint` holds, or clean it
     Cache(cache_command::CacheCommandArgs),
+    /// Review pending snapshots of tests
     Snapshots(snapshots::SnapshotsArgs),
+    /// Write manual pages: glisten.1, and one for each command
     Man(man::ManArgs),
 }
 
@@ -215,7 +247,7 @@ pub fn run_supervised(arguments: impl IntoIterator<Item = OsString>) -> ExitCode
 fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Console), Exit> {
     let arguments = responses::expanded(arguments.into_iter().collect())
         .map_err(|failure| end(Err(failure), &Console::new(false, ColorChoice::Auto)))?;
-    let parsed = examples::with_examples(Cli::command()).try_get_matches_from(arguments);
+    let parsed = examples::with_examples_of(Cli::command(), &arguments).try_get_matches_from(arguments);
     let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).map_err(|error| usage(&error))?;
     let console = Console::new(cli.global.quiet, cli.global.color);
     if let Some(folder) = &cli.global.sandbox {

@@ -16,7 +16,6 @@ use serde::Serialize;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
 #[derive(Args, Debug)]
 pub(super) struct ReflectArgs {
     /// Shaders, or `-` for standard input

@@ -17,7 +17,6 @@ use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
 use std::path::PathBuf;
 
-/// Draw a scene
 #[derive(Args, Debug)]
 pub(super) struct RenderArgs {
     /// The picture: .npy (float32), .png (8 bits) or .exr (float32); `%d` in the name counts attachments

@@ -23,10 +23,6 @@ use glisten_front::source::SourceMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Measure variants of a scene's shading: error against work and run time
-///
-/// Drawing takes seconds, timing up to half a minute more: `--seconds` sets the limit. Ctrl-C ends it early, with a report on what had
-/// finished.
 #[derive(Args, Debug)]
 #[command(mut_arg("scene", |scene| {
     let library = ArgPredicate::Equals("true".into());

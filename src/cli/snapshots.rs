@@ -11,7 +11,6 @@ use crate::snapshot::pending::{AllPending, Pending, find_all};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
-/// Review pending snapshots of tests
 #[derive(Args, Debug)]
 pub(super) struct SnapshotsArgs {
     #[command(subcommand)]

@@ -29,7 +29,6 @@ use glisten_scene::{Scene, ShaderFiles, write};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Leave out of the programs of scenes what their pictures do not need
 #[derive(Args, Debug)]
 pub(super) struct SpecializeArgs {
     /// Scene files

@@ -26,7 +26,6 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Find out where f32 arithmetic harms the picture of a scene, and why
 #[derive(Args, Debug)]
 pub(super) struct StabilityArgs {
     /// Scene files, or folders to search for them

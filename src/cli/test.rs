@@ -24,7 +24,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Run .shader_test files, and the functions of shaders under a comment `//! test`
 #[derive(Args, Debug)]
 pub(super) struct TestArgs {
     /// Test files and shaders, or folders to search for them

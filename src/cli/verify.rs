@@ -28,7 +28,6 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
 #[derive(Args, Debug)]
 pub(super) struct VerifyArgs {
     /// The form of the code that the GPU runs (default: both; with --with, those of the modules)

@@ -17,7 +17,6 @@ use std::process::Command;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-/// Run a command again whenever its files change
 #[derive(Args, Debug)]
 pub(super) struct WatchArgs {
     /// The command with its arguments, such as `lint shaders`
@@ -91,7 +90,8 @@ const INPUTS: [&str; 3] = ["files", "scene", "scenes"];
 /// Refuses inputs that do not exist: nothing tells when one of them comes into being.
 fn refuse_missing(matches: &clap::ArgMatches) -> Result<(), Failure> {
     let Some((name, matches)) = matches.subcommand() else { return Ok(()) };
-    let commands = super::Cli::command();
+    let mut commands = super::Cli::command();
+    commands.build();
     let Some(arguments) = commands.find_subcommand(name).map(clap::Command::get_positionals) else { return Ok(()) };
     let is_path = |argument: &clap::Arg| {
         argument.get_value_parser().type_id() == TypeId::of::<PathBuf>() || INPUTS.contains(&argument.get_id().as_str())

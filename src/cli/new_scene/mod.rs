@@ -39,7 +39,6 @@ use text::{Head, quoted};
 use trial::{BUDGET, Chosen, Trials, choose};
 use values::alternatives;
 
-/// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
 pub(super) struct NewSceneArgs {
     /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, a vertex shader

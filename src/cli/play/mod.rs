@@ -33,7 +33,6 @@ use super::scenes::MachineArgs;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Show scenes in a browser, and draw them again while they change
 #[derive(Args, Debug)]
 #[command(mut_arg("diagnostics", |argument| argument.hide(true)))]
 pub(super) struct PlayArgs {

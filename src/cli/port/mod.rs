@@ -39,7 +39,6 @@ use tree::NewFolder;
 /// The account's files in the new folder.
 const ACCOUNT: [&str; 2] = ["port.json", "port.html"];
 
-/// Port a folder of shaders to another host: Minecraft on Vulkan, Vulkan, wgpu, Bevy, WebGL 2
 #[derive(Args, Debug)]
 pub(super) struct PortArgs {
     /// The folder: a resource pack, or the shaders of an engine

@@ -23,7 +23,6 @@ use glisten_front::compiler::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
 #[derive(Args, Debug)]
 pub(super) struct UpgradeArgs {
     /// The shaders; files of one program are rewritten together, so that their stages still fit
