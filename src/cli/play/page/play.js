@@ -82,9 +82,11 @@ const textChanged = () => {
   edition += 1;
   isJudged = isJudging = false;
   clearTimeout(rests);
-  if (isMoving) rests = setTimeout(look, 200);
+  if (isMoving) rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
   else look();
-  showFiles(); draw(); inspector.refresh(); studies.age();
+  showFiles(); draw(); studies.age();
+  // A question about a pixel does not end the picture that was asked for before it.
+  if (!isMoving) inspector.refresh();
 };
 const translation = Editor.create({
   parent: byId("translation"), label: "Translation", words: start.words, readOnly: true,
