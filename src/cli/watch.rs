@@ -5,6 +5,7 @@
 //! files, start nothing. Changes that follow each other closely are one. Ctrl-C ends it.
 
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use clap::{Args, CommandFactory};
@@ -16,6 +17,12 @@ use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten watch lint shaders", "the findings again after each change"),
+    ("glisten watch render scene.toml -o picture.png", "the picture again after each change"),
+];
 
 #[derive(Args, Debug)]
 pub(super) struct WatchArgs {

@@ -7,7 +7,8 @@
 mod programs;
 mod prove;
 
-pub(super) use programs::{ByPlan, checker, plan, plan_of_newer, words};
+pub(super) use super::examples::Examples;
+use programs::{ByPlan, checker, plan, plan_of_newer, words};
 pub(super) use prove::NewFiles;
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
@@ -22,6 +23,13 @@ use clap::{Args, ValueEnum};
 use glisten_front::compiler::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten upgrade old.frag", "the text as GLSL 1.50 core"),
+    ("glisten upgrade a.vert a.frag --to 330 -o new", "a program as GLSL 3.30"),
+    ("glisten upgrade a.vert a.frag --in-place --scene a.toml", "if the picture of a scene stays the same"),
+];
 
 #[derive(Args, Debug)]
 pub(super) struct UpgradeArgs {

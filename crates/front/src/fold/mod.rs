@@ -21,6 +21,8 @@ mod builtins;
 mod construct;
 mod operators;
 
+pub use operators::{convert, scalar_binary, unary};
+
 use crate::hir::{Expr, ExprId, ExprKind, ScalarValue, Shader, Storage, Type, TypeId, Types, Value, VarRef};
 use smallvec::SmallVec;
 use std::cell::Cell;
