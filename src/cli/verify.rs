@@ -3,9 +3,9 @@
 mod folder;
 mod told;
 
+#[cfg(feature = "play")]
 use super::args::WithContractArgs;
 use super::console::Console;
-#[cfg(feature = "play")]
 use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;

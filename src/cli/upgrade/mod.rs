@@ -7,13 +7,13 @@
 mod programs;
 mod prove;
 
-pub(super) use super::examples::Examples;
-use programs::{ByPlan, checker, plan, plan_of_newer, words};
+pub(super) use programs::{ByPlan, checker, plan, plan_of_newer, words};
 pub(super) use prove::NewFiles;
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::batch::Batch;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Input, Inputs};
