@@ -186,6 +186,7 @@ impl Place<'_> {
         engine.arg(format!("-fork={}", arguments.jobs)).arg(format!("-dict={}", self.words.display()));
         engine.arg(format!("-max_total_time={}", (arguments.minutes * 60.0).ceil()));
         engine.args([found, begin]).stderr(Stdio::piped());
+        let start = record::cpu_of_children();
         let output = engine.output().map_err(|error| format!("the engine: {error}"))?;
         let log = String::from_utf8_lossy(&output.stderr).into_owned();
         write(&self.folder.join("logs").join(name), log.as_bytes())?;
@@ -198,7 +199,8 @@ impl Place<'_> {
         if let Some(file) = &arguments.record {
             let (minutes, jobs) = (arguments.minutes, arguments.jobs);
             let broken = broken.len().saturating_sub(before);
-            let run = Run { target: name.to_owned(), minutes, jobs, executions, broken };
+            let cpu = record::cpu_of_children().zip(start).map(|(end, start)| end - start);
+            let run = Run { target: name.to_owned(), minutes, jobs, executions, broken, cpu };
             record::add(file, root, &run)?;
         }
         Ok(broken.len())
