@@ -11,6 +11,9 @@
 //! Each ends in time and memory that grow with the input: what takes longer than the runner's limit is a finding.
 //! *Not done here:* making inputs; that is libFuzzer's work.
 
+mod chance;
+pub mod checks;
+pub mod generate;
 pub mod mutants;
 pub mod record;
 mod sections;
@@ -18,6 +21,7 @@ mod seeds;
 mod targets;
 mod words;
 
+pub use chance::Chance;
 pub use sections::Sections;
 pub use seeds::{Seed, seeds};
 pub use words::dictionary;

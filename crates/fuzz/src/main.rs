@@ -11,6 +11,7 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for developers")]
 
+mod generated;
 mod survey;
 
 use clap::Parser;
@@ -44,6 +45,18 @@ struct Arguments {
     /// Instead of fuzzing, change sources in so many ways, and compare the verdicts of glisten and of glslang
     #[arg(long, value_name = "N")]
     mutants: Option<usize>,
+    /// Instead of fuzzing, generate so many valid programs, and check what must hold for them
+    #[arg(long, value_name = "N")]
+    generate: Option<u64>,
+    /// Draw generated programs on a GPU, too
+    #[arg(long)]
+    draw: bool,
+    /// Make this check of generated programs alone
+    #[arg(long, value_name = "CHECK")]
+    check: Option<String>,
+    /// Print the program of this seed
+    #[arg(long, value_name = "SEED")]
+    program: Option<u64>,
     /// Add each run to this record, as rows of CSV
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
@@ -83,6 +96,13 @@ fn run(arguments: &Arguments) -> Result<usize> {
         println!("{table}");
         return Ok(bad);
     }
+    if let Some(seed) = arguments.program {
+        print!("{}", glisten_fuzz::generate::Program::new(seed).text());
+        return Ok(0);
+    }
+    if let Some(count) = arguments.generate {
+        return generate(arguments, count);
+    }
     if let Some(file) = &arguments.recorded {
         let text = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
         print!("{}", record::sums(&text));
@@ -106,6 +126,30 @@ fn run(arguments: &Arguments) -> Result<usize> {
         }
     }
     Ok(found)
+}
+
+/// Generates programs and checks them; returns the number of faults.
+fn generate(arguments: &Arguments, count: u64) -> Result<usize> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let start = record::cpu_of_process();
+    let sums = generated::run(generated::Wanted {
+        count,
+        seed: arguments.seed,
+        jobs: arguments.jobs,
+        draws: arguments.draw,
+        only: arguments.check.as_deref(),
+        first: false,
+        folder: &root.join("target/fuzz/generated"),
+    })?;
+    print!("{}", sums.text());
+    let broken = sums.found.len();
+    if let Some(file) = &arguments.record {
+        let cpu = record::cpu_of_process().zip(start).map(|(end, start)| end - start);
+        let (jobs, executions) = (arguments.jobs, sums.programs);
+        let run = Run { target: "generated".to_owned(), minutes: sums.seconds / 60.0, jobs, executions, broken, cpu };
+        record::add(file, &root, &run)?;
+    }
+    Ok(broken)
 }
 
 fn chosen(names: &[String]) -> Result<Vec<&'static Target>> {
