@@ -13,6 +13,7 @@
 
 mod chance;
 pub mod checks;
+pub mod faults;
 pub mod generate;
 pub mod mutants;
 pub mod record;

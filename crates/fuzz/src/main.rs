@@ -15,6 +15,7 @@ mod generated;
 mod survey;
 
 use clap::Parser;
+use glisten_fuzz::faults;
 use glisten_fuzz::record::{self, Run};
 use glisten_fuzz::{TARGETS, Target, dictionary, seeds, target};
 use std::path::{Path, PathBuf};
@@ -54,6 +55,15 @@ struct Arguments {
     /// Make this check of generated programs alone
     #[arg(long, value_name = "CHECK")]
     check: Option<String>,
+    /// Stop generating at the first fault, which is not made smaller
+    #[arg(long)]
+    first: bool,
+    /// Stop generating after so many seconds
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+    /// Instead of fuzzing, plant the faults of a table in a copy of the sources, and see which the generator finds
+    #[arg(long)]
+    faults: bool,
     /// Print the program of this seed
     #[arg(long, value_name = "SEED")]
     program: Option<u64>,
@@ -100,6 +110,13 @@ fn run(arguments: &Arguments) -> Result<usize> {
         print!("{}", glisten_fuzz::generate::Program::new(seed).text());
         return Ok(0);
     }
+    if arguments.faults {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let (seed, jobs) = (arguments.seed, arguments.jobs);
+        let wanted = faults::Wanted { seed, jobs, seconds: arguments.seconds.unwrap_or(60.0), root: &root };
+        print!("{}", faults::run(wanted)?);
+        return Ok(0);
+    }
     if let Some(count) = arguments.generate {
         return generate(arguments, count);
     }
@@ -138,7 +155,8 @@ fn generate(arguments: &Arguments, count: u64) -> Result<usize> {
         jobs: arguments.jobs,
         draws: arguments.draw,
         only: arguments.check.as_deref(),
-        first: false,
+        first: arguments.first,
+        seconds: arguments.seconds,
         folder: &root.join("target/fuzz/generated"),
     })?;
     print!("{}", sums.text());

@@ -39,3 +39,11 @@ fn generated_programs_hold() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// The texts of the faults that `--faults` plants are where the table says.
+#[test]
+fn faults_have_their_places() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let count = glisten_fuzz::faults::check(&root).expect("every text is once in its file");
+    assert!(count >= 50, "{count} faults");
+}

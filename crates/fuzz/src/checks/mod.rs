@@ -58,6 +58,9 @@ pub static CHECKS: &[Check] = &[
     Check { name: "outlined statement", run: pictures::outlined },
     Check { name: "parentheses", run: pictures::parentheses },
     Check { name: "uniforms for literals", run: pictures::uniforms },
+    Check { name: "bare operands", run: pictures::bare },
+    Check { name: "other words", run: pictures::spelled },
+    Check { name: "expanded", run: pictures::expanded },
 ];
 
 /// A check that needs a machine's GPU: the message of a difference.

@@ -157,6 +157,18 @@ pub(super) fn uniforms(drawn: &Drawn<'_>) -> Held {
     as_changed(drawn, Change::Uniforms)
 }
 
+pub(super) fn bare(drawn: &Drawn<'_>) -> Held {
+    as_changed(drawn, Change::Bare)
+}
+
+pub(super) fn spelled(drawn: &Drawn<'_>) -> Held {
+    as_changed(drawn, Change::Spelled)
+}
+
+pub(super) fn expanded(drawn: &Drawn<'_>) -> Held {
+    as_changed(drawn, Change::Expanded)
+}
+
 /// The program with a change that means nothing.
 fn as_changed(drawn: &Drawn<'_>, change: Change) -> Held {
     let Some(program) = drawn.program else { return Ok(()) };

@@ -1,9 +1,10 @@
 //! Changes that leave a picture as it is.
 //!
 //! *In:* a program. *Out:* another, which must draw the same bits. *Holds:* only rules of the language are used: a condition that is false, a
-//! loop that runs once, a name for a value, a function for a statement, a uniform for a number.
+//! loop that runs once, a name for a value, a function for a statement, a uniform for a number, and what `spelled` has.
 
 use super::Program;
+use super::spelled::{bare, bare_statement, expanded, respelled, respelled_statement, taken};
 use super::tree::{Expr, Role, Stmt, StmtPart, Use, Variable};
 use super::types::Ty;
 use crate::chance::Chance;
@@ -25,12 +26,27 @@ pub enum Change {
     Parentheses,
     /// Uniforms for literals.
     Uniforms,
+    /// No parentheses where precedence makes them needless.
+    Bare,
+    /// Operators by others, components by other names, `a += b` as `a = a + b`.
+    Spelled,
+    /// Macros and conditions of the preprocessor written out.
+    Expanded,
 }
 
 impl Change {
     /// All kinds.
-    pub const ALL: [Self; 6] =
-        [Self::DeadCode, Self::OneIteration, Self::Named, Self::Outlined, Self::Parentheses, Self::Uniforms];
+    pub const ALL: [Self; 9] = [
+        Self::DeadCode,
+        Self::OneIteration,
+        Self::Named,
+        Self::Outlined,
+        Self::Parentheses,
+        Self::Uniforms,
+        Self::Bare,
+        Self::Spelled,
+        Self::Expanded,
+    ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -41,6 +57,9 @@ impl Change {
             Self::Outlined => "outlined statement",
             Self::Parentheses => "parentheses",
             Self::Uniforms => "uniforms for literals",
+            Self::Bare => "bare operands",
+            Self::Spelled => "other words",
+            Self::Expanded => "expanded",
         }
     }
 }
@@ -102,6 +121,12 @@ impl Changer<'_> {
         let mut new = Vec::with_capacity(body.len());
         for mut statement in std::mem::take(body) {
             self.statement(&mut statement, false);
+            match self.change {
+                Change::Bare => bare_statement(&mut statement),
+                Change::Spelled => statement = respelled_statement(statement),
+                Change::Expanded => statement = taken(statement),
+                _ => {}
+            }
             if self.chance.once_in(3) {
                 self.place(statement, &mut new);
             } else {
@@ -186,6 +211,9 @@ impl Changer<'_> {
                 let inner = std::mem::replace(expr, Expr::leaf(ty.clone(), ""));
                 *expr = Expr::new(ty, "(@)", vec![inner]);
             }
+            Change::Bare => bare(expr),
+            Change::Spelled => respelled(expr),
+            Change::Expanded => expanded(expr, &self.program.macros),
             Change::Uniforms if expr.usage == Use::Literal && expr.ty != Ty::Vector(Scalar::Bool, 1) => {
                 self.uniform(expr)
             }

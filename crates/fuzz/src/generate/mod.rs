@@ -19,7 +19,7 @@
 //! | `expressions`, `calls`, `guards` | expressions, and arguments for which functions are defined |
 //! | `statements`, `stages` | statements, functions, whole stages |
 //! | `tree`, `types` | what programs are made of |
-//! | `change` | changes that leave the picture as it is |
+//! | `change`, `spelled` | changes that leave the picture as it is |
 //! | `shrink` | smaller programs |
 
 mod calls;
@@ -30,6 +30,7 @@ mod interface;
 mod language;
 mod samplers;
 mod shrink;
+mod spelled;
 mod stages;
 mod statements;
 mod tree;
@@ -62,6 +63,8 @@ pub struct Program {
     pub scene: Vec<String>,
     /// The constructs in it.
     pub constructs: BTreeSet<&'static str>,
+    /// Its macros with parameters.
+    macros: Vec<writer::Macro>,
 }
 
 impl Program {

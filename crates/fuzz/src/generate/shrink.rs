@@ -4,7 +4,7 @@
 //! place of what is around them, expressions become their operands or constants.
 
 use super::Program;
-use super::tree::{Expr, Stmt, StmtPart, Use};
+use super::tree::{Expr, Role, Stmt, StmtPart, Use};
 use super::types::Ty;
 use glisten_front::hir::Scalar;
 
@@ -77,10 +77,10 @@ fn remove(best: &mut Program, keep: &mut Keep<'_>) {
             while end > 0 {
                 let start = end.saturating_sub(width);
                 let mut smaller = best.clone();
-                with_list(&mut smaller, number, |list| {
-                    list.drain(start..end);
-                });
-                if keep(&smaller) {
+                // An output without a value is undefined.
+                let is_needed =
+                    with_list(&mut smaller, number, |list| list.drain(start..end).any(|one| one.role == Role::Output));
+                if is_needed != Some(true) && keep(&smaller) {
                     *best = smaller;
                 }
                 end = start;

@@ -7,7 +7,7 @@ use super::Program;
 use super::interface::{Interface, Varying};
 use super::language::Language;
 use super::tree::{Expr, Role, Stmt, Variable};
-use super::types::{FLOAT, INT, Members, Ty};
+use super::types::{BOOL, FLOAT, INT, Members, Ty};
 use super::writer::{Callable, Macro, Writer};
 use crate::chance::Chance;
 use glisten_front::hir::{ParamMode, Scalar, Stage};
@@ -22,16 +22,18 @@ pub(super) fn program(seed: u64, language: &'static Language) -> Program {
     let structs = structs(&mut chance, language);
     let interface = Interface::new(&mut chance, language, &structs);
     let mut used = std::collections::BTreeSet::new();
+    let mut macros = Vec::new();
     let mut stage = |stage| {
         let mut writer = Writer::new(Chance::new(chance.below(usize::MAX) as u64), language, stage);
         writer.structs.clone_from(&structs);
         writer.samplers.clone_from(&interface.samplers);
         let statements = writer.stage(&interface);
         used.append(&mut writer.used);
+        macros.append(&mut writer.macros);
         statements
     };
     let (vertex, fragment) = (stage(Stage::Vertex), stage(Stage::Fragment));
-    Program { seed, language, vertex, fragment, scene: interface.scene(), constructs: used }
+    Program { seed, language, vertex, fragment, scene: interface.scene(), constructs: used, macros }
 }
 
 fn structs(chance: &mut Chance, language: &Language) -> Vec<Members> {
@@ -87,24 +89,25 @@ impl Writer<'_> {
         if self.chance.once_in(2) {
             return;
         }
+        let pair = Ty::Vector(Scalar::Float, 2);
         let forms = [
-            ("(x, y)", "((x) * (y) + (x))", vec![FLOAT, FLOAT], FLOAT),
-            ("(x)", "(x) - \\\n    (x)", vec![INT], INT),
-            ("(a, b, c)", "((a) ? (b) : (c))", vec![super::types::BOOL, FLOAT, FLOAT], FLOAT),
-            ("(v)", "(v).yx", vec![Ty::Vector(Scalar::Float, 2)], Ty::Vector(Scalar::Float, 2)),
+            ("(x, y)", "((x) * (y) + (x))", vec![FLOAT, FLOAT], FLOAT, "((@) * (@) + (@))", vec![0, 1, 0]),
+            ("(x)", "(x) - \\\n    (x)", vec![INT], INT, "((@) - (@))", vec![0, 0]),
+            ("(a, b, c)", "((a) ? (b) : (c))", vec![BOOL, FLOAT, FLOAT], FLOAT, "((@) ? (@) : (@))", vec![0, 1, 2]),
+            ("(v)", "(v).yx", vec![pair.clone()], pair, "(@).yx", vec![0]),
         ];
         for _ in 0..1 + self.chance.below(2) {
             let index = self.chance.below(forms.len());
-            let Some((head, text, parameters, result)) = forms.get(index).cloned() else { continue };
+            let Some((head, text, parameters, result, pattern, order)) = forms.get(index).cloned() else { continue };
             let text = if self.language.has(Feature::LineContinuation) {
                 text.to_owned()
             } else {
                 text.replace("\\\n   ", "")
             };
-            let name = self.name("M");
+            let name = self.name(if self.stage == Stage::Vertex { "MV" } else { "M" });
             // A body that ends in an operator's operand is in parentheses.
             all.push(Stmt::text_only(format!("#define {name}{head} ({text})")).with(Role::Directive));
-            self.macros.push(Macro { name, result, parameters });
+            self.macros.push(Macro { name, result, parameters, pattern, order });
         }
         self.note("#define");
     }
@@ -195,7 +198,7 @@ impl Writer<'_> {
         let mut body = Vec::new();
         let outputs = interface.outputs(self.language);
         if self.stage == Stage::Fragment {
-            body.extend(outputs.iter().map(|one| Stmt::text_only(format!("{one} = vec4(0.25);"))));
+            body.extend(outputs.iter().map(|one| Stmt::text_only(format!("{one} = vec4(0.25);")).with(Role::Output)));
             self.note("main");
         }
         self.is_uniform = self.stage == Stage::Fragment;
@@ -225,10 +228,10 @@ impl Writer<'_> {
                     let place = if member.is_empty() { name.clone() } else { format!("{name}.{member}") };
                     self.expressions_left = 6;
                     let value = self.expr(ty, 2);
-                    body.push(Stmt::new(&format!("{place} = @;"), vec![value], Vec::new()));
+                    body.push(Stmt::new(&format!("{place} = @;"), vec![value], Vec::new()).with(Role::Output));
                 }
             }
-            body.push(Stmt::text_only("gl_Position = vec4(place * pw, 0.0, pw);"));
+            body.push(Stmt::text_only("gl_Position = vec4(place * pw, 0.0, pw);").with(Role::Output));
         } else {
             let numbers = self.numbers(outputs.len() * 4);
             for (output, four) in outputs.iter().zip(numbers.chunks(4)) {

@@ -260,16 +260,22 @@ impl Writer<'_> {
     /// Statements under `#if`.
     fn directives(&mut self, depth: usize) -> Stmt {
         self.note("#if");
-        let condition = self.chance.word(&[
-            "#if __VERSION__ >= 100",
-            "#ifdef UNKNOWN",
-            "#ifndef UNKNOWN",
-            "#if defined(GL_ES) || __VERSION__ >= 110 && !defined(UNKNOWN)",
-            "#if (1 << 3) % 5 == 3 && -1 < 0",
-        ]);
+        const CONDITIONS: &[(&str, bool)] = &[
+            ("#if __VERSION__ >= 100", true),
+            ("#ifdef UNKNOWN", false),
+            ("#ifndef UNKNOWN", true),
+            ("#if defined(GL_ES) || __VERSION__ >= 110 && !defined(UNKNOWN)", true),
+            ("#if (1 << 3) % 5 == 3 && -1 < 0", true),
+            ("#if 2 + 3 * 4 != 14 || (7 & 3) == 0", false),
+            ("#if 0x10 == 16 && 010 == 8 && 10 / 3 - 1 == 2", true),
+            ("#if ~0 == 0 || !1 || (5 ^ 1) != 4", false),
+            ("#if 0\nnever\n#elif 3 > 2", true),
+            ("#if 1 - 2 - 3 == 2", false),
+        ];
+        let (condition, is_taken) = self.chance.one(CONDITIONS).copied().unwrap_or(("#if 1", true));
         let (yes, no) = self.apart(|this| (this.body(depth), this.body(depth)));
         let pattern = format!("{{\n{condition}$#else$#endif\n}}");
-        Stmt::new(&pattern, Vec::new(), vec![yes, no]).with(Role::Directive)
+        Stmt::new(&pattern, Vec::new(), vec![yes, no]).with(Role::Conditional(is_taken))
     }
 
     /// A value of a type that is not evaluated before its statement: for `return`.

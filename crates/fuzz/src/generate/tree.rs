@@ -37,6 +37,40 @@ impl Expr {
         Self { ty, usage: Use::Value, texts, operands }
     }
 
+    /// The operator between its two operands, in parentheses.
+    pub(super) fn operator(&self) -> Option<&str> {
+        match self.texts.as_slice() {
+            [first, operator, last] if first == "(" && last == ")" => Some(operator.trim()),
+            _ => None,
+        }
+    }
+
+    /// The texts around its operands.
+    pub(super) fn texts(&self) -> &[String] {
+        &self.texts
+    }
+
+    /// The same without the parentheses around it.
+    pub(super) fn bared(&mut self) {
+        let has_parentheses = self.texts.first().is_some_and(|text| text.starts_with('('))
+            && self.texts.last().is_some_and(|text| text.ends_with(')'));
+        if has_parentheses {
+            self.texts.first_mut().into_iter().for_each(|text| *text = text.split_off(1));
+            self.texts.last_mut().into_iter().for_each(|text| text.truncate(text.len() - 1));
+        }
+    }
+
+    /// Whether a part of it writes something, or calls a function that may.
+    pub(super) fn has_effects(&self) -> bool {
+        let writes = |text: &String| {
+            ["++", "--", "(f", " = ", "+= ", "modf(", "frexp(", "Carry(", "Borrow(", "Extended("]
+                .iter()
+                .any(|word| text.contains(word))
+                || text.starts_with('f') && text.as_bytes().get(1).is_some_and(u8::is_ascii_digit)
+        };
+        self.texts.iter().any(writes) || self.operands.iter().any(Self::has_effects)
+    }
+
     /// An expression without operands.
     pub fn leaf(ty: Ty, text: impl Into<String>) -> Self {
         Self { ty, usage: Use::Value, texts: vec![text.into()], operands: Vec::new() }
@@ -95,6 +129,10 @@ pub enum Role {
     Declaration,
     /// A line for the preprocessor.
     Directive,
+    /// Statements under `#if` and `#else`, and whether the first are taken.
+    Conditional(bool),
+    /// It gives an output of the stage its value.
+    Output,
 }
 
 /// A statement, a declaration or a function.
@@ -142,6 +180,11 @@ impl Stmt {
     /// A statement without parts.
     pub fn text_only(text: impl Into<String>) -> Self {
         Self { role: Role::Other, texts: vec![text.into()], parts: Vec::new() }
+    }
+
+    /// The texts around its parts.
+    pub(super) fn texts(&self) -> &[String] {
+        &self.texts
     }
 
     /// The same in another role.

@@ -28,6 +28,9 @@ pub(super) struct Macro {
     pub(super) name: String,
     pub(super) result: Ty,
     pub(super) parameters: Vec<Ty>,
+    /// A use written out, and which arguments are in its places.
+    pub(super) pattern: &'static str,
+    pub(super) order: Vec<usize>,
 }
 
 /// The state.

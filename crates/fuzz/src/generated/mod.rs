@@ -34,8 +34,10 @@ pub(crate) struct Wanted<'a> {
     pub(crate) draws: bool,
     /// The check that is made alone.
     pub(crate) only: Option<&'a str>,
-    /// Whether to stop at the first fault.
+    /// Whether to stop at the first fault, which is not made smaller.
     pub(crate) first: bool,
+    /// After how many seconds to stop.
+    pub(crate) seconds: Option<f64>,
     /// The folder of the files.
     pub(crate) folder: &'a Path,
 }
@@ -69,7 +71,8 @@ pub(crate) fn run(wanted: Wanted<'_>) -> Result<Sums, String> {
         let mut own = Sums::default();
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
-            if number >= wanted.count {
+            let is_over = wanted.seconds.is_some_and(|seconds| start.elapsed().as_secs_f64() > seconds);
+            if number >= wanted.count || is_over {
                 break;
             }
             let seed = wanted.seed.wrapping_add(number);
@@ -83,7 +86,11 @@ pub(crate) fn run(wanted: Wanted<'_>) -> Result<Sums, String> {
                     *of_kind += 1;
                     *of_kind
                 };
-                let file = if so_far <= MOST_FILES { Some(smaller(&program, &fault, wanted, device)?) } else { None };
+                let file = if so_far <= MOST_FILES && !wanted.first {
+                    Some(smaller(&program, &fault, wanted, device)?)
+                } else {
+                    None
+                };
                 own.found.push(Found { seed, fault, file });
                 if wanted.first {
                     next.store(wanted.count, Ordering::Relaxed);
