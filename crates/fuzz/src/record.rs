@@ -37,7 +37,7 @@ pub fn cpu_of_process() -> Option<f64> {
     cpu_in(&std::fs::read_to_string(STAT).ok()?, 11)
 }
 
-/// What Linux tells of this process.
+/// The file in which Linux describes this process.
 const STAT: &str = "/proc/self/stat";
 
 /// Two fields behind the name of the program, which may have blanks and ends with the last parenthesis: hundredths of a second.

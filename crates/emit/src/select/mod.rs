@@ -49,11 +49,11 @@ struct Selection<'t> {
     names: FxHashSet<String>,
     /// How many expressions may still be added.
     left: usize,
-    /// What else takes a constant index.
+    /// The things that take a constant index.
     choice: Choice,
 }
 
-/// What takes constant indices alone.
+/// The things that take constant indices alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Choice {
     /// Samplers and blocks.

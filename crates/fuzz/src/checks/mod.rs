@@ -18,12 +18,12 @@ pub use drawn::{Bits, Drawn, Texts};
 use crate::generate::Program;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What is wrong with a program.
+/// A fault of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The name of the check.
     pub check: &'static str,
-    /// What it says.
+    /// Its message.
     pub message: String,
 }
 

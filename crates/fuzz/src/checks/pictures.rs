@@ -1,4 +1,4 @@
-//! What must draw the same picture.
+//! Forms of a program that must draw the same picture.
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where another picture is drawn.
 
@@ -89,10 +89,12 @@ fn written(drawn: &Drawn<'_>, glsl_version: GlslVersion) -> Held {
     drawn.same(texts)
 }
 
-/// The sources in each later version that takes them.
+/// The sources in each later version that takes them; of a generated program, in one that its seed chooses, since this takes longest.
 pub(super) fn upgrade(drawn: &Drawn<'_>) -> Held {
     let sources = &drawn.texts.sources;
-    for (word, target) in Version::ALL {
+    let all = Version::ALL;
+    let chosen = drawn.program.map(|program| Chance::new(program.seed).below(all.len()));
+    for (_, (word, target)) in all.into_iter().enumerate().filter(|(index, _)| chosen.is_none_or(|one| one == *index)) {
         match upgraded(compiler(), sources, target) {
             Ok(new) if target != Version::Vulkan => {
                 let mut texts = new.texts.iter().cloned();
@@ -105,7 +107,7 @@ pub(super) fn upgrade(drawn: &Drawn<'_>) -> Held {
     Ok(())
 }
 
-/// What is left for known values: of all uniforms, of some, of none.
+/// The rest for known values: of all uniforms, of some, of none.
 pub(super) fn specialize(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     let names: Vec<String> = draw.program.interface.uniforms.iter().map(|one| one.name.clone()).collect();
@@ -124,7 +126,7 @@ pub(super) fn specialize(drawn: &Drawn<'_>) -> Held {
     Ok(())
 }
 
-/// What `-O` leaves, and its text.
+/// The rest after `-O`, and its text.
 pub(super) fn optimize(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     let left = Arc::new(glisten_specialize::optimize(&draw.program));

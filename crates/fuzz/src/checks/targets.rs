@@ -1,4 +1,4 @@
-//! What the targets' own front ends must accept.
+//! Front ends of the targets, which must accept what is written.
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where what is written is refused. *Holds:* a target may lack something, and says so.
 
@@ -11,11 +11,12 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 type Held = Result<(), String>;
 
-/// Limits of naga's front end for SPIR-V: indices that are clamped without a sign, and logic of vectors.
-const LIMITS: [&str; 3] = [
+/// Limits of naga's front end for SPIR-V: indices that are clamped without a sign, logic of vectors, the layers of a size.
+const LIMITS: [&str; 4] = [
     "builtin Min has incorrect or ambiguous arguments",
     "Incompatible operands: LogicalAnd(vec",
     "Incompatible operands: LogicalOr(vec",
+    "Index 2 is out of bounds for expression",
 ];
 
 /// The vertex and the fragment stage.

@@ -18,7 +18,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 pub use table::{Planted, read};
 
-/// What to run.
+/// The runs that are asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted<'a> {
     /// The first of the seeds.

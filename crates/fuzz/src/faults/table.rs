@@ -5,7 +5,7 @@
 /// A fault to plant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Planted {
-    /// What it is, in words.
+    /// Its description.
     pub name: String,
     /// Where it is: `parser`.
     pub phase: String,

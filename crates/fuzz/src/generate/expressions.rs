@@ -96,7 +96,7 @@ impl Writer<'_> {
         Some(Expr::new(ty.clone(), "(@ ? @ : @)", vec![condition, yes, no]))
     }
 
-    /// What is not evaluated by all invocations.
+    /// Makes a part that not all invocations evaluate.
     pub(super) fn apart<T>(&mut self, make: impl FnOnce(&mut Self) -> T) -> T {
         let before = std::mem::replace(&mut self.is_uniform, false);
         let made = make(self);

@@ -35,7 +35,7 @@ struct Uniform {
     construct: &'static str,
 }
 
-/// What crosses the stages.
+/// The interface of the stages.
 #[derive(Clone, Debug)]
 pub(super) struct Interface {
     pub(super) varyings: Vec<Varying>,
@@ -51,8 +51,8 @@ impl Interface {
         let all: Vec<&'static Sampler> = Sampler::all(language).collect();
         let samplers = all.into_iter().filter(|_| chance.once_in(4)).take(4).collect();
         let mut uniforms = vec![
-            plain(chance, language, "uf", &FLOAT),
-            plain(chance, language, "ui", &INT),
+            plain(chance, "uf", &FLOAT),
+            plain(chance, "ui", &INT),
             Uniform {
                 declaration: "uniform bool never;".to_owned(),
                 variables: Vec::new(),
@@ -63,7 +63,7 @@ impl Interface {
         for number in 0..chance.below(4) {
             let basic = uniform_type(chance, language);
             let ty = if chance.once_in(3) { Ty::Array(Box::new(basic), 2 + chance.below(3) as u32) } else { basic };
-            uniforms.push(plain(chance, language, &format!("u{number}"), &ty));
+            uniforms.push(plain(chance, &format!("u{number}"), &ty));
         }
         if !structs.is_empty() && chance.once_in(2) {
             let number = chance.below(structs.len());
@@ -281,7 +281,7 @@ fn line(chance: &mut Chance, name: &str, ty: &Ty) -> String {
     }
 }
 
-fn plain(chance: &mut Chance, _language: &Language, name: &str, ty: &Ty) -> Uniform {
+fn plain(chance: &mut Chance, name: &str, ty: &Ty) -> Uniform {
     Uniform {
         declaration: format!("uniform {};", ty.declared(name)),
         variables: vec![(name.to_owned(), ty.clone())],

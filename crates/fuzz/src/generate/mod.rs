@@ -110,7 +110,7 @@ mod tests {
         assert_ne!(Program::new(5).text(), Program::new(6).text());
     }
 
-    /// What the versions of 4.50 and ES 3.10 have is generated sooner or later.
+    /// Each construct of 4.50 and ES 3.10 is generated sooner or later.
     #[test]
     fn every_construct_comes_up() {
         let mut seen = BTreeSet::new();

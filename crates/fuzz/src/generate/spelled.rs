@@ -1,4 +1,4 @@
-//! The same in other words: expressions and statements that the language defines by others.
+//! Other words for the same: expressions and statements that the language defines by others.
 //!
 //! *In:* an expression or a statement. *Out:* another with the same value: without parentheses that precedence makes needless, by another
 //! operator, with the components of a swizzle under their other names, a macro written out. *Holds:* what has effects is evaluated as often

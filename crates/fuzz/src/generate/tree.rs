@@ -5,7 +5,7 @@
 
 use super::types::Ty;
 
-/// What may be done with an expression.
+/// The ways in which an expression may be changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
     /// It is a value: another of its type may be in its place.
@@ -21,7 +21,7 @@ pub enum Use {
 pub struct Expr {
     /// Its type.
     pub ty: Ty,
-    /// What may be done with it.
+    /// How it may be changed.
     pub usage: Use,
     /// The texts around its operands: one more than these.
     texts: Vec<String>,
@@ -50,7 +50,7 @@ impl Expr {
         &self.texts
     }
 
-    /// The same without the parentheses around it.
+    /// Takes the parentheses around it away.
     pub(super) fn bared(&mut self) {
         let has_parentheses = self.texts.first().is_some_and(|text| text.starts_with('('))
             && self.texts.last().is_some_and(|text| text.ends_with(')'));
@@ -76,7 +76,7 @@ impl Expr {
         Self { ty, usage: Use::Value, texts: vec![text.into()], operands: Vec::new() }
     }
 
-    /// The same for another use.
+    /// This expression for another use.
     #[must_use]
     pub fn used(self, usage: Use) -> Self {
         Self { usage, ..self }
@@ -117,7 +117,7 @@ pub struct Variable {
     pub below: Option<u32>,
 }
 
-/// What a statement is, for what changes programs.
+/// The role of a statement, for what changes programs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Role {
     /// Anything else.
@@ -138,7 +138,7 @@ pub enum Role {
 /// A statement, a declaration or a function.
 #[derive(Clone, Debug)]
 pub struct Stmt {
-    /// What it is.
+    /// Its role.
     pub role: Role,
     /// The texts around its parts: one more than these.
     texts: Vec<String>,
@@ -187,7 +187,7 @@ impl Stmt {
         &self.texts
     }
 
-    /// The same in another role.
+    /// This statement in another role.
     #[must_use]
     pub fn with(self, role: Role) -> Self {
         Self { role, ..self }

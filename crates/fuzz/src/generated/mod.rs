@@ -21,7 +21,7 @@ const STACK: usize = 64 << 20;
 /// So many faults of a kind are made smaller; others are counted.
 const MOST_FILES: usize = 3;
 
-/// What to generate.
+/// The programs that are asked for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wanted<'a> {
     /// The number of programs.

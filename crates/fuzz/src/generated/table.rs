@@ -7,7 +7,7 @@ use glisten_fuzz::generate::{Language, Program};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// What was generated.
+/// The sums of programs and faults.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sums {
     pub(crate) programs: u64,
