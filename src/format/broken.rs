@@ -1,15 +1,12 @@
 //! [`formatted`]: a source whose errors are found and kept.
 
-use super::{Formatted, Options, format};
+use super::{Formatted, MOST_PASSES, Options, format};
 use glisten_front::Stage;
 use glisten_front::compiler::{self, Compiler, Source};
 use std::ops::Range;
 
 /// The codes of the grammar.
 const SYNTAX: &str = "E02";
-
-/// How often a text with errors is formatted until it stays the same.
-const MOST_PASSES: usize = 6;
 
 /// A text in the style of the options. Formatting the result changes nothing: which places of a wrong text do not parse depends on its
 /// lines, so it is formatted until it stays the same, and kept if it never does.

@@ -71,8 +71,30 @@ pub struct Formatted {
     pub kept: usize,
 }
 
-/// Formats a text. Declarations around `broken`, the places of errors, are kept as they are.
+/// How often a text with errors is formatted until it stays the same.
+const MOST_PASSES: usize = 6;
+
+/// Formats a text. Declarations around `broken`, the places of errors, are kept as they are. Where something is kept, it depends on the
+/// lines what is, so the text is formatted until it stays the same, and kept if it never does.
 pub fn format(text: &str, broken: &[Range<usize>], options: &Options) -> Formatted {
+    let once = pass(text, broken, options);
+    // The places are those of this text alone: who has them formats again with those of the new text.
+    if once.kept == 0 || !broken.is_empty() {
+        return once;
+    }
+    let mut done = once.text;
+    for _ in 0..MOST_PASSES {
+        let again = pass(&done, &[], options);
+        if again.text == done {
+            return Formatted { text: done, lines: once.lines, kept: again.kept };
+        }
+        done = again.text;
+    }
+    Formatted { text: text.to_owned(), lines: once.lines, kept: once.lines }
+}
+
+/// Formats a text once.
+fn pass(text: &str, broken: &[Range<usize>], options: &Options) -> Formatted {
     let lexemes = chunks::keep(text, scan(text), broken);
     let lines = text.lines().count();
     let kept = lexemes.iter().filter(|lexeme| lexeme.kind == Kind::Other);

@@ -55,6 +55,16 @@ fn branches_of_directives_begin_alike() {
     assert_eq!(formatted(text).replace("        ;", "    ;"), after);
 }
 
+/// What is kept of a text with mistakes depends on its lines: once it is formatted, it is another part.
+#[test]
+fn texts_with_mistakes_do_not_change_again() {
+    let corpus = concat!(env!("CARGO_MANIFEST_DIR"), "/crates/fuzz/corpus/format");
+    for name in ["kept_declarations_that_change_again", "kept_line_that_changes_again"] {
+        let bytes = std::fs::read(format!("{corpus}/{name}.glsl")).expect("a saved input");
+        formatted(&String::from_utf8_lossy(&bytes));
+    }
+}
+
 #[test]
 fn what_does_not_match_is_kept() {
     let text = "float   a ;\nvoid f() {\n   x  ) ;\n}\nfloat   b ;\n";

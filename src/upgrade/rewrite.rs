@@ -203,9 +203,12 @@ fn words(stage: Stage, plan: &Plan, all: &[Token<'_>], index: usize, own: &[&str
     } else if let Some((_, new)) = WORDS.iter().find(|(old, _)| *old == token.text) {
         edits.push((range, (*new).to_owned()));
     } else if let Some(new) = old_lookup {
-        edits.push((range, if new.is_shadow && after == Some("(") { format!("vec4({}", new.name) } else { new.name }));
+        edits.push((
+            range,
+            if new.is_shadow && after == Some("(") { format!("vec4(vec3({}", new.name) } else { new.name },
+        ));
         if let (true, Some("("), Some(end)) = (new.is_shadow, after, closing(all, index + 1)) {
-            edits.extend(all.get(end).map(|end| (end.range.end..end.range.end, ", 0.0, 0.0, 1.0)".to_owned())));
+            edits.extend(all.get(end).map(|end| (end.range.end..end.range.end, "), 1.0)".to_owned())));
         }
     }
 }
@@ -410,7 +413,7 @@ mod tests {
         let old = "vec4 texture2D(vec2 p) { return vec4(p, p); }\nvarying vec4 gl_TexCoord[1];\nvoid main() { shadow2D(s, f(c)).r; \
                    texture2D(vec2(1.0)); gl_TexCoord[0]; ftransform( ); }\n";
         let new = upgraded(old, Stage::Vertex, Target::Core330);
-        assert!(new.contains("vec4(texture(s, f(c)), 0.0, 0.0, 1.0).r; texture2D(vec2(1.0)); texCoord[0]; (modelViewProjectionMatrix * vertex);"), "{new}");
+        assert!(new.contains("vec4(vec3(texture(s, f(c))), 1.0).r; texture2D(vec2(1.0)); texCoord[0]; (modelViewProjectionMatrix * vertex);"), "{new}");
         assert!(new.starts_with("#version 330 core\n") && !new.contains("gl_TexCoord"), "{new}");
     }
 }

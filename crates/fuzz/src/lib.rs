@@ -11,18 +11,27 @@
 //! Each ends in time and memory that grow with the input: what takes longer than the runner's limit is a finding.
 //! *Not done here:* making inputs; that is libFuzzer's work.
 
+mod chance;
+#[cfg(feature = "checks")]
+pub mod checks;
+pub mod faults;
+pub mod fragments;
+pub mod generate;
 pub mod mutants;
 pub mod record;
 mod sections;
 mod seeds;
+#[cfg(feature = "checks")]
 mod targets;
 mod words;
 
+pub use chance::Chance;
 pub use sections::Sections;
 pub use seeds::{Seed, seeds};
 pub use words::dictionary;
 
 /// A promise.
+#[cfg(feature = "checks")]
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     /// Its name: `emit`.
@@ -36,9 +45,11 @@ pub struct Target {
 }
 
 /// All targets.
+#[cfg(feature = "checks")]
 pub static TARGETS: &[Target] = targets::ALL;
 
 /// The target of this name.
+#[cfg(feature = "checks")]
 pub fn target(name: &str) -> Option<&'static Target> {
     TARGETS.iter().find(|target| target.name == name)
 }

@@ -11,9 +11,11 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for developers")]
 
+mod generated;
 mod survey;
 
 use clap::Parser;
+use glisten_fuzz::faults;
 use glisten_fuzz::record::{self, Run};
 use glisten_fuzz::{TARGETS, Target, dictionary, seeds, target};
 use std::path::{Path, PathBuf};
@@ -44,6 +46,27 @@ struct Arguments {
     /// Instead of fuzzing, change sources in so many ways, and compare the verdicts of glisten and of glslang
     #[arg(long, value_name = "N")]
     mutants: Option<usize>,
+    /// Instead of fuzzing, generate so many valid programs, and check what must hold for them
+    #[arg(long, value_name = "N")]
+    generate: Option<u64>,
+    /// Draw generated programs on a GPU, too
+    #[arg(long)]
+    draw: bool,
+    /// Make this check of generated programs alone
+    #[arg(long, value_name = "CHECK")]
+    check: Option<String>,
+    /// Stop generating at the first fault, which is not made smaller
+    #[arg(long)]
+    first: bool,
+    /// Stop generating after so many seconds
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+    /// Instead of fuzzing, plant the faults of a table in a copy of the sources, and see which the generator finds
+    #[arg(long)]
+    faults: bool,
+    /// Print the program of this seed
+    #[arg(long, value_name = "SEED")]
+    program: Option<u64>,
     /// Add each run to this record, as rows of CSV
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
@@ -83,6 +106,20 @@ fn run(arguments: &Arguments) -> Result<usize> {
         println!("{table}");
         return Ok(bad);
     }
+    if let Some(seed) = arguments.program {
+        print!("{}", glisten_fuzz::generate::Program::new(seed).text());
+        return Ok(0);
+    }
+    if arguments.faults {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let (seed, jobs) = (arguments.seed, arguments.jobs);
+        let wanted = faults::Wanted { seed, jobs, seconds: arguments.seconds.unwrap_or(60.0), root: &root };
+        print!("{}", faults::run(wanted)?);
+        return Ok(0);
+    }
+    if let Some(count) = arguments.generate {
+        return generate(arguments, count);
+    }
     if let Some(file) = &arguments.recorded {
         let text = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
         print!("{}", record::sums(&text));
@@ -106,6 +143,31 @@ fn run(arguments: &Arguments) -> Result<usize> {
         }
     }
     Ok(found)
+}
+
+/// Generates programs and checks them; returns the number of faults.
+fn generate(arguments: &Arguments, count: u64) -> Result<usize> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let start = record::cpu_of_process();
+    let sums = generated::run(generated::Wanted {
+        count,
+        seed: arguments.seed,
+        jobs: arguments.jobs,
+        draws: arguments.draw,
+        only: arguments.check.as_deref(),
+        first: arguments.first,
+        seconds: arguments.seconds,
+        folder: &root.join("target/fuzz/generated"),
+    })?;
+    print!("{}", sums.text());
+    let broken = sums.found.len();
+    if let Some(file) = &arguments.record {
+        let cpu = record::cpu_of_process().zip(start).map(|(end, start)| end - start);
+        let (jobs, executions) = (arguments.jobs, sums.programs);
+        let run = Run { target: "generated".to_owned(), minutes: sums.seconds / 60.0, jobs, executions, broken, cpu };
+        record::add(file, &root, &run)?;
+    }
+    Ok(broken)
 }
 
 fn chosen(names: &[String]) -> Result<Vec<&'static Target>> {
@@ -186,6 +248,7 @@ impl Place<'_> {
         engine.arg(format!("-fork={}", arguments.jobs)).arg(format!("-dict={}", self.words.display()));
         engine.arg(format!("-max_total_time={}", (arguments.minutes * 60.0).ceil()));
         engine.args([found, begin]).stderr(Stdio::piped());
+        let start = record::cpu_of_children();
         let output = engine.output().map_err(|error| format!("the engine: {error}"))?;
         let log = String::from_utf8_lossy(&output.stderr).into_owned();
         write(&self.folder.join("logs").join(name), log.as_bytes())?;
@@ -198,7 +261,8 @@ impl Place<'_> {
         if let Some(file) = &arguments.record {
             let (minutes, jobs) = (arguments.minutes, arguments.jobs);
             let broken = broken.len().saturating_sub(before);
-            let run = Run { target: name.to_owned(), minutes, jobs, executions, broken };
+            let cpu = record::cpu_of_children().zip(start).map(|(end, start)| end - start);
+            let run = Run { target: name.to_owned(), minutes, jobs, executions, broken, cpu };
             record::add(file, root, &run)?;
         }
         Ok(broken.len())

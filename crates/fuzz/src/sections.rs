@@ -61,6 +61,7 @@ pub(crate) fn extension(stage: Stage) -> &'static str {
 }
 
 /// The texts of shaders, for a message.
+#[cfg(feature = "checks")]
 pub(crate) fn named(sources: &[Source]) -> String {
     sources.iter().map(|source| format!("{}{}\n", mark(source.stage.name()), source.text)).collect()
 }

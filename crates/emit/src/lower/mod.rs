@@ -52,6 +52,7 @@ mod uniforms;
 
 pub(crate) use operands::for_each_operand;
 
+use crate::select::{Choice, select};
 use crate::target::{Capabilities, Conventions, Target};
 use facts::Facts;
 use glisten_front::diagnostic::codes::{general, targets};
@@ -124,7 +125,7 @@ fn lower_with(
     if let Some(geometry) = program.stage(Stage::Geometry).filter(|_| stage != Stage::Fragment) {
         return Err(vec![no_geometry(geometry)]);
     }
-    let chosen = crate::select::select(&program.types, shader).map_err(|diagnostic| vec![*diagnostic])?;
+    let chosen = select(&program.types, shader, Choice::Samplers).map_err(|diagnostic| vec![*diagnostic])?;
     let shader = chosen.as_ref();
     let mut facts = Facts::of(shader, wanted.unwrap_or_default());
     if wanted.is_some() {

@@ -49,19 +49,30 @@ struct Selection<'t> {
     names: FxHashSet<String>,
     /// How many expressions may still be added.
     left: usize,
+    /// The things that take a constant index.
+    choice: Choice,
+}
+
+/// The things that take constant indices alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Choice {
+    /// Samplers and blocks.
+    Samplers,
+    /// The other members of a struct that has samplers, too: in a text, the index is that of the struct (GLSL ES 3.00 §4.1.7.1).
+    Structs,
 }
 
 /// Makes all indices of samplers and uniform blocks constant.
 ///
 /// # Errors
 /// If there is too much to choose from, or if a function changes its copy of what is chosen.
-pub(crate) fn select<'s>(types: &Types, shader: &'s Shader) -> Try<Cow<'s, Shader>> {
+pub(crate) fn select<'s>(types: &Types, shader: &'s Shader, choice: Choice) -> Try<Cow<'s, Shader>> {
     if !shader.exprs.iter().any(|expr| may_choose(types, shader, expr)) {
         return Ok(Cow::Borrowed(shader));
     }
     let shader = shader.clone();
     let (made, names) = (FxHashMap::default(), names_in(types, &shader));
-    let mut selection = Selection { types, shader, made, names, left: MOST_EXPRESSIONS };
+    let mut selection = Selection { types, shader, made, names, left: MOST_EXPRESSIONS, choice };
     selection.run()?;
     Ok(Cow::Owned(selection.shader))
 }
@@ -129,9 +140,10 @@ impl Selection<'_> {
                     self.lookup(function, id)?;
                 }
                 ExprKind::Call(..) => self.call(function, id)?,
+                ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => self.check_target(function, *target)?,
                 ExprKind::Index(base, _) | ExprKind::Member(base, _) | ExprKind::Swizzle(base, _) => {
                     inner.insert(*base);
-                    if !inner.contains(&id) && self.reads_chosen_block(id) {
+                    if !inner.contains(&id) && (self.reads_chosen_block(id) || self.reads_chosen_struct(id)) {
                         self.read(function, id)?;
                     }
                 }
@@ -149,6 +161,32 @@ impl Selection<'_> {
                 _ => return is_block_array(self.types, &self.shader, id),
             }
         }
+    }
+
+    /// Whether something without samplers is a part of something with samplers, and texts take no such index.
+    fn reads_chosen_struct(&self, mut id: ExprId) -> bool {
+        let has_sampler = |id: ExprId| self.types.contains_sampler(self.shader.expr(id).ty);
+        if self.choice == Choice::Samplers || has_sampler(id) {
+            return false;
+        }
+        while let ExprKind::Index(base, _) | ExprKind::Member(base, _) | ExprKind::Swizzle(base, _) =
+            self.shader.expr(id).kind
+        {
+            id = base;
+        }
+        has_sampler(id)
+    }
+
+    /// Refuses to change a part of a struct that is chosen: only a parameter can be changed, and no call denotes a part of it.
+    fn check_target(&self, function: Option<FunctionId>, target: ExprId) -> Try<()> {
+        if !self.reads_chosen_struct(target) || !self.chain(function, target).is_some_and(|chain| chain.is_chosen()) {
+            return Ok(());
+        }
+        let message = "an index that is not constant chooses what changes, of structs that contain samplers";
+        Err(Box::new(
+            Diagnostic::new(&general::NOT_SUPPORTED_YET, self.shader.expr(target).span, message)
+                .help("keep what changes in an array of its own"),
+        ))
     }
 
     /// The chain of an expression.

@@ -1,18 +1,22 @@
 //! Which functions are made, and what is refused.
 
-use super::select;
+use super::{Choice, select};
 use glisten_front::hir::{Shader, Types};
 use glisten_front::{Compiler, Options, Source, Stage};
 
 /// The stage after the selection, or the message that refuses it, and how many functions it had before.
 fn selected(stage: Stage, text: &str) -> (Result<Shader, String>, usize) {
+    selected_by(Choice::Samplers, stage, text)
+}
+
+fn selected_by(choice: Choice, stage: Stage, text: &str) -> (Result<Shader, String>, usize) {
     let source = Source { name: "shader".into(), text: format!("#version 430\n{text}").into(), stage };
     let compilation = Compiler::new(Options::default()).compile(&[source]);
     let messages: Vec<_> = compilation.diagnostics.iter().map(|found| found.message.clone()).collect();
     let program = compilation.program.unwrap_or_else(|| panic!("{messages:?}"));
     let shader = program.stage(stage).expect("the stage is in the program");
     let functions = shader.functions.len();
-    let after = select(&program.types, shader).map(std::borrow::Cow::into_owned);
+    let after = select(&program.types, shader, choice).map(std::borrow::Cow::into_owned);
     if let Ok(after) = &after {
         // What remains is constant if nothing had to be made.
         assert!(after.functions.len() == functions || remaining(&program.types, after) == 0, "{text}");
@@ -54,6 +58,19 @@ fn equal_lookups_share_a_function_and_others_do_not() {
     assert_eq!(made(&format!("{HEAD}{text}")), ["textureOffset_of_s", "textureOffset_of_s_2"]);
     let text = "void main() { c = texture(s[u], p) + texture(s[i], p); }";
     assert_eq!(made(&format!("{HEAD}{text}")), ["texture_of_s", "texture_of_s_2"]);
+}
+
+#[test]
+fn other_members_of_a_struct_with_samplers_are_chosen_too_in_texts() {
+    let text = "struct M { vec4 tint; sampler2D map; }; uniform M m[2]; uniform int i; in vec2 p; out vec4 c;\n\
+                void main() { c = texture(m[i].map, p) * m[i].tint.x; }";
+    let names = |choice| {
+        let (after, before) = selected_by(choice, Stage::Fragment, text);
+        let after = after.expect("nothing is refused");
+        after.functions.iter().skip(before).map(|function| function.name.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(names(Choice::Samplers), ["texture_of_m"]);
+    assert_eq!(names(Choice::Structs), ["part_of_m", "texture_of_m"]);
 }
 
 #[test]

@@ -9,12 +9,10 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 
-#[path = "../../../../tests/it/numeric/text.rs"]
-mod numeric;
-
 use glisten::scene::{DiskFiles, MemoryFiles, Scene, load};
 use glisten::{Compiler, Gpu, Precision, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
+use glisten_fuzz::fragments::numeric;
 use glisten_gpu::Via;
 use glisten_reference::{LineRule, populate};
 use glisten_scene::compare::evidence::Ruler;

@@ -306,7 +306,14 @@ impl<'m> Builder<'m> {
             self.mentioned.push((root, Use::Update));
         }
         let value = if self.is_full() { self.with_target(value, &target) } else { value };
-        let kind = loops::compound(StmtKind::Assign { target, op: None, value, whole });
+        let is_scalar = match self.info[pointer].ty.inner_with(&self.module.types) {
+            naga::TypeInner::Pointer { base, .. } => {
+                matches!(self.module.types[*base].inner, naga::TypeInner::Scalar(_))
+            }
+            naga::TypeInner::ValuePointer { size, .. } => size.is_none(),
+            _ => false,
+        };
+        let kind = loops::compound(StmtKind::Assign { target, op: None, value, whole }, is_scalar);
         self.push(kind, span);
         Ok(())
     }

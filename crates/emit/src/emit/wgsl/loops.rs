@@ -4,14 +4,15 @@
 
 use super::tree::{Block, Expr, StmtKind};
 
-/// `a = a + b` as `a += b`; by one, as `a++`.
-pub(super) fn compound(stmt: StmtKind<'_>) -> StmtKind<'_> {
+/// `a = a + b` as `a += b`; by one, as `a++`, which vectors do not have.
+pub(super) fn compound(stmt: StmtKind<'_>, is_scalar: bool) -> StmtKind<'_> {
     let StmtKind::Assign { target, op: None, value: Expr::Binary(op, left, right), whole } = stmt else { return stmt };
     let arithmetic = matches!(op, "+" | "-" | "*" | "/" | "%" | "&" | "|" | "^" | "<<" | ">>");
     if !arithmetic || *left != target || !target.is_plain_place() {
         return StmtKind::Assign { target, op: None, value: Expr::Binary(op, left, right), whole };
     }
-    let by_one = matches!(&*right, Expr::Number(one) if one.digits == "1" && matches!(one.suffix, "i" | "u"));
+    let by_one =
+        is_scalar && matches!(&*right, Expr::Number(one) if one.digits == "1" && matches!(one.suffix, "i" | "u"));
     match op {
         "+" if by_one => StmtKind::Step { target, op: "++" },
         "-" if by_one => StmtKind::Step { target, op: "--" },

@@ -276,6 +276,13 @@ fn what_a_store_would_overtake_has_a_name() {
     assert!(text.contains("let k_before = k;\nk++;\nlet a = f32(k_before) * uniforms.u;\n"), "{text}");
 }
 
+/// WGSL has `++` for scalars alone.
+#[test]
+fn a_vector_has_no_steps() {
+    let text = body_of("void main() { ivec2 k = ivec2(i.xy); k--; k.x++; c = vec4(k, k); }");
+    assert!(!text.contains("k--") && text.contains("k.x++;"), "{text}");
+}
+
 #[test]
 fn calls_with_effects_keep_their_order() {
     let text = "float n = 0.0; float next() { n += 1.0; return n; }\nvoid main() { float a = n; c = vec4(next() - next(), a, n, next()); }";

@@ -82,12 +82,12 @@ pub fn from_half(bits: u32) -> f64 {
 }
 
 impl Packing {
-    /// A component as the bits that it takes (GLSL 4.20 §8.4).
+    /// A component as the bits that it takes (GLSL 4.20 §8.4). The product is one of f32, as in a shader.
     pub fn packed(self, value: f64) -> u32 {
-        let one = f64::from(self.one());
+        let scaled = |value: f64| ((value * f64::from(self.one())) as f32).round_ties_even();
         let bits = match self.format {
-            Format::Unorm => (kernel::clamp(value, 0.0, 1.0) * one).round_ties_even() as u32,
-            Format::Snorm => (kernel::clamp(value, -1.0, 1.0) * one).round_ties_even() as i32 as u32,
+            Format::Unorm => scaled(kernel::clamp(value, 0.0, 1.0)) as u32,
+            Format::Snorm => scaled(kernel::clamp(value, -1.0, 1.0)) as i32 as u32,
             Format::Half => to_half(value),
         };
         bits & mask(self.bits())
@@ -140,6 +140,8 @@ mod tests {
     fn normalized_formats() {
         let unorm = Packing { unpacks: false, format: Format::Unorm, components: 4 };
         assert_eq!((unorm.packed(1.0), unorm.packed(2.0), unorm.packed(f64::NAN)), (255, 255, 0));
+        // 76.5 in f32, and more than that before it is rounded.
+        assert_eq!(unorm.packed(f64::from(0.3_f32)), 76);
         let snorm = Packing { format: Format::Snorm, ..unorm };
         assert_eq!((snorm.packed(-1.0), snorm.unpacked(0x80), snorm.unpacked(0x81)), (0x81, -1.0, -1.0));
     }

@@ -36,10 +36,8 @@ impl Printer<'_> {
         if bound && version.number < 420 {
             self.line("#extension GL_ARB_shading_language_420pack : enable");
         }
-        let nests = |ty| matches!(self.types.get(ty), Type::Array(element, _) if matches!(self.types.get(element), Type::Array(..)));
-        let locals = self.shader.functions.iter().flat_map(|function| &function.locals).map(|local| local.ty);
         let mut needed = self.needed_extensions(number);
-        if number < 430 && self.shader.globals.iter().map(|global| global.ty).chain(locals).any(nests) {
+        if number < 430 && version.profile != Profile::Es && self.nests_arrays() {
             needed.extend(Extensions::ARRAYS_OF_ARRAYS.name());
         }
         if number < 440 && self.has_places() {
@@ -49,6 +47,19 @@ impl Printer<'_> {
             self.line(&format!("#extension {name} : require"));
         }
         self.geometry_layout();
+    }
+
+    /// Whether something is an array of arrays: a variable, a member, a value.
+    fn nests_arrays(&self) -> bool {
+        let shader = self.shader;
+        let nests = |ty| matches!(self.types.get(ty), Type::Array(element, _) if matches!(self.types.get(element), Type::Array(..)));
+        let locals = shader.functions.iter().flat_map(|function| &function.locals).map(|local| local.ty);
+        let results = shader.functions.iter().map(|function| function.ret);
+        let values = shader.exprs.iter().map(|expr| expr.ty);
+        let structs = self.names.structs().iter().flat_map(|id| &self.types.structure(*id).members);
+        let members = structs.map(|member| member.ty);
+        let globals = shader.globals.iter().map(|global| global.ty);
+        globals.chain(locals).chain(results).chain(values).chain(members).any(nests)
     }
 
     /// Whether a member of a uniform block has an offset or an alignment of its own, or a varying a component.

@@ -122,8 +122,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let opening = self.expect(TokenKind::LeftParen)?;
         let mut ids = Vec::new();
         loop {
-            // Outside `layout(..)`, `packed` and `row_major` are reserved words.
-            if !matches!(self.kind(), TokenKind::Ident | TokenKind::Reserved) {
+            // Outside `layout(..)`, `packed` and `row_major` are reserved words, and `shared` is one of compute shaders from 4.30 on.
+            let is_shared = self.kind() == TokenKind::Foreign && self.session.spelling(self.current) == "shared";
+            if !is_shared && !matches!(self.kind(), TokenKind::Ident | TokenKind::Reserved) {
                 return Err(self.unexpected("the name of a layout"));
             }
             let token = self.bump();

@@ -54,12 +54,14 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
     lacks
 }
 
-/// The variables that are arrays of arrays.
+/// The variables, the values and the results that are arrays of arrays.
 fn arrays_of_arrays<'a>(types: &'a Types, shader: &'a Shader) -> impl Iterator<Item = Span> {
     let globals = shader.globals.iter().map(|global| (global.ty, global.span));
     let locals = shader.functions.iter().flat_map(|function| &function.locals).map(|local| (local.ty, local.span));
     let nests = |ty| matches!(types.get(ty), Type::Array(element, _) if matches!(types.get(element), Type::Array(..)));
-    globals.chain(locals).filter(move |(ty, _)| nests(*ty)).map(|(_, span)| span)
+    let results = shader.functions.iter().map(|function| (function.ret, function.span));
+    let values = shader.exprs.iter().map(|expr| (expr.ty, expr.span));
+    globals.chain(locals).chain(results).chain(values).filter(move |(ty, _)| nests(*ty)).map(|(_, span)| span)
 }
 
 /// The errors for what GLSL 3.30 lacks.

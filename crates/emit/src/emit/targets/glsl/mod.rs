@@ -11,11 +11,13 @@
 //! | --- | --- |
 //! | `limits` | what WebGL 2 lacks |
 //! | `blocks` | blocks between stages as varyings, for WebGL 2 |
+//! | `commas` | commas of constant expressions |
 //! | `rewrite` | what later versions have dropped, in terms of what they have |
 //! | `names` | names that are words of the version |
 //! | `vulkan` | what Vulkan's rules want: locations, sets, bindings, its coordinates |
 
 mod blocks;
+mod commas;
 mod limits;
 mod names;
 mod rewrite;
@@ -24,6 +26,7 @@ mod vulkan;
 pub(in crate::emit) use names::renamed;
 
 use super::super::emitted::Emitted;
+use crate::select::{Choice, select};
 use crate::target::{Conventions, GlslVersion};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::Diagnostic;
@@ -59,7 +62,7 @@ pub(in crate::emit) fn write(
         GlslVersion::Desktop450 | GlslVersion::Vulkan => shader.clone(),
         // Before 4.00, samplers and blocks take constant indices (3.30 §4.1.7, §4.3.7).
         GlslVersion::Desktop330 | GlslVersion::Es300 => {
-            crate::select::select(&types, shader).map_err(|diagnostic| vec![*diagnostic])?.into_owned()
+            select(&types, shader, Choice::Structs).map_err(|diagnostic| vec![*diagnostic])?.into_owned()
         }
     };
     shader.version = language(version, shader.version.span);

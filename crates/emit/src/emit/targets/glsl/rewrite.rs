@@ -1,9 +1,10 @@
 //! Says in terms of a later version what it has dropped or never had: `gl_FragColor` and `gl_FragData`, the `shadow`
-//! lookups, and in ES initializers that are not constant, initializers of uniforms, and noise.
+//! lookups, commas of constants, and in ES initializers that are not constant, initializers of uniforms, and noise.
 //!
 //! *In:* a copy of a stage. *Out:* the same stage, with the locations of the interface. *Holds:* it means the same.
 
 use super::blocks::flatten;
+use super::commas::plain_commas;
 use crate::target::GlslVersion;
 use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
@@ -32,6 +33,7 @@ pub(super) fn rewrite(types: &mut Types, shader: &mut Shader, program: &Program,
     }
     if version != GlslVersion::Desktop330 {
         outputs_alone_are_invariant(types, shader);
+        plain_commas(shader);
     }
     if version == GlslVersion::Es300 {
         late_initializers(shader);

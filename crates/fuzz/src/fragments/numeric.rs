@@ -5,10 +5,10 @@
 use std::fmt::Write;
 
 /// The scene of every program.
-pub(crate) const SCENE: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"n.vert\"\nfragment = \"n.frag\"\n\
+pub const SCENE: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"n.vert\"\nfragment = \"n.frag\"\n\
     primitive = \"triangles\"\nvertex_count = 3\n[draw.uniforms]\nu = [0.37, -1.9, 2.3]\n";
 /// The vertex stage of every program.
-pub(crate) const VERTEX: &str = "#version 150\nout vec2 a;\nout vec3 b;\nvoid main() { vec2 p = vec2(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 \
+pub const VERTEX: &str = "#version 150\nout vec2 a;\nout vec3 b;\nvoid main() { vec2 p = vec2(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 \
     * 4 - 1); a = p * vec2(1.3, 0.7) + 0.11; b = vec3(p.y * 2.1, 0.3 - p.x, p.x * 0.9 + 1.7); gl_Position = vec4(p, 0, 1); }\n";
 
 /// Functions of one number, defined for every argument.
@@ -76,7 +76,7 @@ const VECTORS: &[&str] = &[
 const LENGTHS: &[&str] = &["dot(@, @)", "length(@)", "distance(@, @)"];
 
 /// The fragment stage of a seed.
-pub(crate) fn fragment(seed: u64) -> String {
+pub fn fragment(seed: u64) -> String {
     Writer(seed * 7919 + 1).fragment()
 }
 

@@ -3,14 +3,13 @@
 //!
 //! Each program draws one point per pixel with its own inputs. `RANDOM_PROGRAMS=first..end` runs other seeds.
 
-pub(crate) mod text;
-
 use crate::drawing::{compiler, strict, verified};
 use crate::emit::Collected;
 use glisten::scene::{self, MemoryFiles, Scene};
 use glisten::verify;
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::hir::Stage;
+pub(crate) use glisten_fuzz::fragments::exact as text;
 use glisten_gpu::Gpu;
 use std::ops::Range;
 

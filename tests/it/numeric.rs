@@ -6,13 +6,12 @@
 
 #![expect(clippy::print_stdout, reason = "what was checked is printed here")]
 
-mod text;
-
 use crate::drawing::{from_texts, gpu, reference};
+use glisten_fuzz::fragments::numeric as text;
+use glisten_fuzz::fragments::numeric::{SCENE, VERTEX};
 use glisten_gpu::Via;
 use glisten_reference::Precision;
 use std::ops::Range;
-use text::{SCENE, VERTEX};
 
 fn seeds() -> Range<u64> {
     let Ok(asked) = std::env::var("NUMERIC_PROGRAMS") else { return 0..240 };

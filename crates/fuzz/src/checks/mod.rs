@@ -1,0 +1,112 @@
+//! The checks of generated programs: what must draw the same picture, and what must be accepted.
+//!
+//! ```text
+//!  Program ──► loaded, drawn in f32 and f64 ──┬──► formatted, printed, rewritten, specialized, optimized ──► the same bits?
+//!                                             ├──► changed by rules of the language ─────────────────────► the same bits?
+//!                                             ├──► drawn as an envelope ─────────────────────────────────► f32 inside?
+//!                                             └──► written for each target ──────────────────────────────► accepted?
+//! ```
+//!
+//! *In:* a program. *Out:* the first [`Fault`], if there is one. *Holds:* a panic is a fault. No GPU is needed.
+
+mod drawn;
+mod pictures;
+mod targets;
+
+pub use drawn::{Bits, Drawn, Texts};
+
+use crate::generate::Program;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// A fault of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The name of the check.
+    pub check: &'static str,
+    /// Its message.
+    pub message: String,
+}
+
+/// A check: what must hold for a program that has been drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Check {
+    /// Its name: `optimize`.
+    pub name: &'static str,
+    run: fn(&Drawn<'_>) -> Result<(), String>,
+}
+
+/// The check that every program begins with.
+pub const LOADED: &str = "loaded";
+
+/// All checks of programs that can be drawn.
+pub static CHECKS: &[Check] = &[
+    Check { name: "envelope", run: pictures::envelope },
+    Check { name: "format", run: pictures::format },
+    Check { name: "print", run: pictures::print },
+    Check { name: "print 330", run: pictures::print_330 },
+    Check { name: "print 450", run: pictures::print_450 },
+    Check { name: "print 300es", run: pictures::print_300es },
+    Check { name: "upgrade", run: pictures::upgrade },
+    Check { name: "specialize", run: pictures::specialize },
+    Check { name: "optimize", run: pictures::optimize },
+    Check { name: "wgsl", run: targets::wgsl },
+    Check { name: "spirv", run: targets::spirv },
+    Check { name: "others", run: targets::others },
+    Check { name: "dead code", run: pictures::dead_code },
+    Check { name: "one iteration", run: pictures::one_iteration },
+    Check { name: "named value", run: pictures::named },
+    Check { name: "outlined statement", run: pictures::outlined },
+    Check { name: "parentheses", run: pictures::parentheses },
+    Check { name: "uniforms for literals", run: pictures::uniforms },
+    Check { name: "bare operands", run: pictures::bare },
+    Check { name: "other words", run: pictures::spelled },
+    Check { name: "expanded", run: pictures::expanded },
+];
+
+/// A check that needs a machine's GPU: the message of a difference.
+pub type Device<'d> = &'d dyn Fn(&Drawn<'_>) -> Result<(), String>;
+
+/// The name of the check on a device.
+pub const DEVICE: &str = "device";
+
+/// The first fault of a program. With `only`, the check of this name alone is made.
+pub fn fault(program: &Program, only: Option<&str>, device: Option<Device<'_>>) -> Option<Fault> {
+    fault_of(Texts::from(program), Some(program), only, device)
+}
+
+/// The first fault of texts, which are not changed by rules of the language.
+pub fn fault_of_texts(texts: Texts) -> Option<Fault> {
+    fault_of(texts, None, None, None)
+}
+
+fn fault_of(texts: Texts, program: Option<&Program>, only: Option<&str>, device: Option<Device<'_>>) -> Option<Fault> {
+    let mut stage = LOADED;
+    let run = AssertUnwindSafe(|| {
+        let drawn = match Drawn::new(texts, program) {
+            Ok(drawn) => drawn,
+            Err(message) => return Some(Fault { check: LOADED, message }),
+        };
+        let is_wanted = |name: &str| only.is_none_or(|only| only == name);
+        for check in CHECKS.iter().filter(|check| is_wanted(check.name)) {
+            stage = check.name;
+            if let Err(message) = (check.run)(&drawn) {
+                return Some(Fault { check: check.name, message });
+            }
+        }
+        stage = DEVICE;
+        if let Some(device) = device.filter(|_| is_wanted(DEVICE))
+            && let Err(message) = device(&drawn)
+        {
+            return Some(Fault { check: DEVICE, message });
+        }
+        None
+    });
+    match catch_unwind(run) {
+        Ok(found) => found,
+        Err(panic) => {
+            let text = panic.downcast_ref::<String>().cloned();
+            let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+            Some(Fault { check: stage, message: format!("a panic: {}", text.unwrap_or_default()) })
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Valid programs by chance, in every version of the language, with the scenes that draw them.
+//!
+//! ```text
+//!  seed ──► a version ──► interface ──► stages, as trees ──► Program ──► texts and a scene
+//!             │                              ▲                  │
+//!             └── types, built-in functions ─┘                  ├──► change: what must draw the same
+//!                 (glisten's tables)                            └──► shrink: what a fault does not need
+//! ```
+//!
+//! *In:* a seed, and a version if it is to be one. *Out:* a [`Program`]. *Holds:* the same seed gives the same program. It is well-typed, and
+//! has nothing that GLSL leaves undefined: no index out of bounds, no integer divided by zero, no variable that is read before it is
+//! written, no derivative where invocations may have gone apart. What it contains is told by [`Program::constructs`].
+//!
+//! | file | contents |
+//! | --- | --- |
+//! | `language` | what a version has, from glisten's tables |
+//! | `interface`, `samplers` | uniforms, varyings, textures, and their values |
+//! | `writer` | what is visible, names, parts of variables |
+//! | `expressions`, `calls`, `guards` | expressions, and arguments for which functions are defined |
+//! | `statements`, `stages` | statements, functions, whole stages |
+//! | `tree`, `types` | what programs are made of |
+//! | `change`, `spelled` | changes that leave the picture as it is |
+//! | `shrink` | smaller programs |
+
+mod calls;
+mod change;
+mod expressions;
+mod guards;
+mod interface;
+mod language;
+mod samplers;
+mod shrink;
+mod spelled;
+mod stages;
+mod statements;
+mod tree;
+mod types;
+mod writer;
+
+pub use change::{Change, changed};
+pub use interface::SIDE;
+pub use language::{Language, VERSIONS};
+pub use shrink::shrunk;
+pub use tree::{Expr, Role, Stmt, StmtPart, Use, Variable, text_of};
+pub use types::Ty;
+
+use crate::chance::Chance;
+use glisten_front::{Source, Stage};
+use std::collections::BTreeSet;
+
+/// A program with its scene.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// The number that it follows from.
+    pub seed: u64,
+    /// Its version.
+    pub language: &'static Language,
+    /// The vertex stage.
+    pub vertex: Vec<Stmt>,
+    /// The fragment stage.
+    pub fragment: Vec<Stmt>,
+    /// The lines of the scene.
+    pub scene: Vec<String>,
+    /// The constructs in it.
+    pub constructs: BTreeSet<&'static str>,
+    /// Its macros with parameters.
+    macros: Vec<writer::Macro>,
+}
+
+impl Program {
+    /// The program of a seed, in a version that the seed chooses.
+    pub fn new(seed: u64) -> Self {
+        let mut chance = Chance::new(seed);
+        let all = Language::all();
+        let chosen = chance.below(all.len());
+        Self::of(seed, all.get(chosen).unwrap_or_else(|| &all[0]))
+    }
+
+    /// The program of a seed in a version.
+    pub fn of(seed: u64, language: &'static Language) -> Self {
+        stages::program(seed, language)
+    }
+
+    /// The text of the scene, which names `a.vert` and `a.frag`.
+    pub fn scene_text(&self) -> String {
+        self.scene.join("\n") + "\n"
+    }
+
+    /// The texts of the stages.
+    pub fn sources(&self) -> [Source; 2] {
+        [("a.vert", &self.vertex, Stage::Vertex), ("a.frag", &self.fragment, Stage::Fragment)]
+            .map(|(name, statements, stage)| Source { name: name.to_owned(), text: text_of(statements).into(), stage })
+    }
+
+    /// All in one text, as [`Sections`](crate::Sections) reads it.
+    pub fn text(&self) -> String {
+        let [vertex, fragment] = self.sources();
+        format!("//# vertex\n{}//# fragment\n{}//# scene\n{}", vertex.text, fragment.text, self.scene_text())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Language, Program};
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn a_seed_is_a_program() {
+        assert_eq!(Program::new(5).text(), Program::new(5).text());
+        assert_ne!(Program::new(5).text(), Program::new(6).text());
+    }
+
+    /// Each construct of 4.50 and ES 3.10 is generated sooner or later.
+    #[test]
+    fn every_construct_comes_up() {
+        let mut seen = BTreeSet::new();
+        for language in [Language::of(450, false), Language::of(310, true)].into_iter().flatten() {
+            for seed in 0..400 {
+                seen.extend(Program::of(seed, language).constructs);
+            }
+        }
+        for construct in [
+            "switch",
+            "fall through",
+            "do",
+            "discard",
+            "bitfieldInsert",
+            "texture",
+            "inverse",
+            "imulExtended",
+            "array of arrays",
+            "noperspective",
+            "interface block",
+            "macro",
+            "overload",
+            "swizzle as l-value",
+            "nested struct",
+            "matrixCompMult",
+        ] {
+            assert!(seen.contains(construct), "{construct}");
+        }
+    }
+}
