@@ -27,7 +27,7 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     (
         "crates/fuzz",
         &["glisten", "glisten-front", "glisten-emit", "glisten-scene", "glisten-reference", "glisten-specialize"],
-        &["naga", "wgpu"],
+        &["wgpu"],
     ),
     (
         "crates/studies",
@@ -35,6 +35,7 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
             "glisten",
             "glisten-features",
             "glisten-front",
+            "glisten-fuzz",
             "glisten-gpu",
             "glisten-reference",
             "glisten-scene",
