@@ -322,7 +322,6 @@ impl Cache {
     /// The size that the cache is kept below, in MiB.
     const LIMIT: u64 = 1;
 
-    #[expect(clippy::unnecessary_wraps, reason = "as the other subjects")]
     fn new(program: &Path) -> Result<Self, String> {
         Ok(Self { program: program.to_owned(), folder: folder()? })
     }
