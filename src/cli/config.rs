@@ -241,12 +241,6 @@ impl Nearest {
     }
 }
 
-/// The path as its user would write it: from the current folder on if it is in there.
-fn shown(path: &Path) -> PathBuf {
-    let inside = std::env::current_dir().ok().and_then(|folder| path.strip_prefix(folder).ok().map(Path::to_owned));
-    inside.unwrap_or_else(|| path.to_owned())
-}
-
 /// The patterns that the configuration at `path` excludes.
 pub(super) fn excluded(path: &Path) -> Option<Gitignore> {
     let configuration = Configuration::at(path)?;
@@ -352,7 +346,7 @@ impl Configs {
 
     /// The settings of a `glisten.toml`.
     fn read(&mut self, path: &Path) -> Settings {
-        let name = shown(path).to_string_lossy().into_owned();
+        let name = path.to_string_lossy().into_owned();
         let mut sources = SourceMap::default();
         let mut settings = Settings::default();
         let diagnostics = match files::read(&name, path) {
