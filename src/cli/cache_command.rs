@@ -16,6 +16,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten cache clean --cache .glisten-cache", "an empty cache"),
 ];
 
+/// See what the cache of `compile` and `lint` holds, or clean it
 #[derive(Args, Debug)]
 pub(super) struct CacheCommandArgs {
     #[command(subcommand)]

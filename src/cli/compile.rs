@@ -29,6 +29,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten compile a.vert a.frag -o out --target wgsl", "WGSL alone"),
 ];
 
+/// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
 #[derive(Args, Debug)]
 pub(super) struct CompileArgs {
     /// Shaders, folders to search for shaders, or `-` for standard input

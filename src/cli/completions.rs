@@ -14,6 +14,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten completions fish > ~/.config/fish/completions/glisten.fish", ""),
 ];
 
+/// Write a completion script for a shell to standard output
 #[derive(Args, Debug)]
 pub(super) struct CompletionsArgs {
     /// The shell

@@ -25,6 +25,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten cost --measure", "how well costs rank the times of the library's scenes here"),
 ];
 
+/// Count the operations of shaders by line and class, on the shortest and the longest path
 #[derive(Args, Debug)]
 pub(super) struct CostArgs {
     /// Shaders, folders, or `-` for standard input; with `--measure` scenes (default: those of the library)

@@ -13,6 +13,7 @@ use glisten_front::language::{EDITIONS, Edition, runs};
 pub(super) const EXAMPLES: Examples =
     &[("glisten explain E0301", "a code, with an example"), ("glisten explain --list", "all codes")];
 
+/// Show what a diagnostic means, with a bad and a good example
 #[derive(Args, Debug)]
 pub(super) struct ExplainArgs {
     /// A code or its name: `E0301`, `undeclared-identifier`

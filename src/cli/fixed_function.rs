@@ -26,6 +26,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten fixed-function scene.toml", "the stages that the draws of a scene do not name"),
 ];
 
+/// Write the vertex and the fragment stage of OpenGL's fixed-function pipeline as GLSL
 #[derive(Args, Debug)]
 pub(super) struct FixedFunctionArgs {
     /// A scene with draws that name one stage: the other ones are written

@@ -32,6 +32,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten fmt --stdin-filename a.frag -", "for editors"),
 ];
 
+/// Format shaders and includes
 #[derive(Args, Debug)]
 pub(super) struct FmtArgs {
     /// Sources, folders to search for them, or `-` for standard input (default: the current folder)

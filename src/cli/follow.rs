@@ -15,6 +15,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten trace scene.toml --vertex 3 --format json", "a vertex, for scripts"),
 ];
 
+/// Tell what each fragment of a pixel, or a vertex, computed: every expression with its value
 #[derive(Args, Debug)]
 #[command(group(ArgGroup::new("place").required(true).args(["pixel", "vertex"])))]
 pub(super) struct TraceArgs {

@@ -32,6 +32,7 @@ const MAX_SIZE: i64 = 2048;
 /// Examples of its use.
 pub(super) const EXAMPLES: Examples = &[("glisten gallery -o out", "a page with the pictures of the library's scenes")];
 
+/// Draw every scene of the library onto a page
 #[derive(Args, Debug)]
 pub(super) struct GalleryArgs {
     /// The folder for index.html, a picture of each scene, and gallery.png with all pictures

@@ -28,6 +28,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten lib prefilter room.hdr -o maps", "the light of a panorama, for the module `environment`"),
 ];
 
+/// Use the library of lighting models
 #[derive(Args, Debug)]
 pub(super) struct LibArgs {
     #[command(subcommand)]

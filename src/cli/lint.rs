@@ -42,6 +42,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten lint pack/ --engine iris", "sources that an engine completes"),
 ];
 
+/// Check shaders and the programs that they form
 #[derive(Args, Debug)]
 #[command(mut_arg("diagnostics", |argument| argument.hide(true)))]
 pub(super) struct LintArgs {

@@ -16,6 +16,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten rules --group numerics --format json", "those of a group, for a script"),
 ];
 
+/// List the lint rules: group, level, fixes
 #[derive(Args, Debug)]
 pub(super) struct RulesArgs {
     /// Only the rules of this group (correctness, port, numerics, performance, style, legacy)

@@ -19,6 +19,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten lsp -I include --engine minecraft", "with a search path and an engine, where glisten.toml has none"),
 ];
 
+/// Serve an editor: the language server protocol over standard input and output
 #[derive(Args, Debug)]
 #[command(mut_arg("diagnostics", |argument| argument.hide(true)))]
 pub(super) struct LspArgs {

@@ -11,6 +11,7 @@ use std::path::PathBuf;
 /// Examples of its use.
 pub(super) const EXAMPLES: Examples = &[("glisten man -o ~/.local/share/man/man1", "then: man glisten-lint")];
 
+/// Write manual pages: glisten.1, and one for each command
 #[derive(Args, Debug)]
 pub(super) struct ManArgs {
     /// The output folder (default: glisten.1 to standard output)

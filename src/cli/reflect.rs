@@ -24,6 +24,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten reflect a.vert a.frag --find light.position", "one name, as glGetUniformLocation"),
 ];
 
+/// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
 #[derive(Args, Debug)]
 pub(super) struct ReflectArgs {
     /// Shaders, or `-` for standard input

@@ -24,6 +24,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten render scene.toml -o picture.npy --backend cpu", "by the reference in f64"),
 ];
 
+/// Draw a scene
 #[derive(Args, Debug)]
 pub(super) struct RenderArgs {
     /// The picture: .npy (float32), .png (8 bits) or .exr (float32); `%d` in the name counts attachments

@@ -32,6 +32,10 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten report scene.toml -o out --budget rmse=1e-3", "the cheapest variant that is close enough"),
 ];
 
+/// Measure variants of a scene's shading: error against work and run time
+///
+/// Drawing takes seconds, timing up to half a minute more: `--seconds` sets the limit. Ctrl-C ends it early, with a report on what had
+/// finished.
 #[derive(Args, Debug)]
 #[command(mut_arg("scene", |scene| {
     let library = ArgPredicate::Equals("true".into());

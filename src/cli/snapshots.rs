@@ -18,6 +18,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten snapshots accept", "all of them become the stored ones"),
 ];
 
+/// Review pending snapshots of tests
 #[derive(Args, Debug)]
 pub(super) struct SnapshotsArgs {
     #[command(subcommand)]

@@ -37,6 +37,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten specialize scenes/*.toml --suggest", "which uniforms are worth fixing"),
 ];
 
+/// Leave out of the programs of scenes what their pictures do not need
 #[derive(Args, Debug)]
 pub(super) struct SpecializeArgs {
     /// Scene files

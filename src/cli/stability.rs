@@ -35,6 +35,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten stability scenes/ --format github", "in CI: annotations on the lines of all scenes"),
 ];
 
+/// Find out where f32 arithmetic harms the picture of a scene, and why
 #[derive(Args, Debug)]
 pub(super) struct StabilityArgs {
     /// Scene files, or folders to search for them

@@ -28,6 +28,7 @@ use std::time::Duration;
 /// Examples of its use.
 pub(super) const EXAMPLES: Examples = &[("glisten test tests/", "all .shader_test files of a folder")];
 
+/// Run .shader_test files, and the functions of shaders under a comment `//! test`
 #[derive(Args, Debug)]
 pub(super) struct TestArgs {
     /// Test files and shaders, or folders to search for them

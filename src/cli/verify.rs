@@ -37,6 +37,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten verify scene.toml --with fragment=a.spv", "the code of another translator"),
 ];
 
+/// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
 #[derive(Args, Debug)]
 pub(super) struct VerifyArgs {
     /// The form of the code that the GPU runs (default: both; with --with, those of the modules)

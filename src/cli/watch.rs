@@ -24,6 +24,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten watch render scene.toml -o picture.png", "the picture again after each change"),
 ];
 
+/// Run a command again whenever its files change
 #[derive(Args, Debug)]
 pub(super) struct WatchArgs {
     /// The command with its arguments, such as `lint shaders`

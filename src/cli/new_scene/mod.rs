@@ -44,6 +44,7 @@ use values::alternatives;
 pub(super) const EXAMPLES: Examples =
     &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")];
 
+/// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
 pub(super) struct NewSceneArgs {
     /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, a vertex shader

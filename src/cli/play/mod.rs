@@ -42,6 +42,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten play shaders --export page.html --module play.wasm.gz", "a page that computes by itself"),
 ];
 
+/// Show scenes in a browser, and draw them again while they change
 #[derive(Args, Debug)]
 #[command(mut_arg("diagnostics", |argument| argument.hide(true)))]
 pub(super) struct PlayArgs {

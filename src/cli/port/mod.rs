@@ -47,6 +47,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten port pack --for minecraft-26.2 --check", "exit 1 if something is left to port"),
 ];
 
+/// Port a folder of shaders to another host: Minecraft on Vulkan, Vulkan, wgpu, Bevy, WebGL 2
 #[derive(Args, Debug)]
 pub(super) struct PortArgs {
     /// The folder: a resource pack, or the shaders of an engine

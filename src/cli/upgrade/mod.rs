@@ -31,6 +31,7 @@ pub(super) const EXAMPLES: Examples = &[
     ("glisten upgrade a.vert a.frag --in-place --scene a.toml", "if the picture of a scene stays the same"),
 ];
 
+/// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
 #[derive(Args, Debug)]
 pub(super) struct UpgradeArgs {
     /// The shaders; files of one program are rewritten together, so that their stages still fit
