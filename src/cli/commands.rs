@@ -2,7 +2,7 @@
 //!
 //! *In:* for each command its sentence, its name, the arguments of its module, and whether it hands code to a driver: `never`, `always`, or
 //! `asked` (then its arguments tell). *Out:* `Command`, with its `run` and `draws_by_a_driver`, and `EXAMPLES`. *Holds:* a command is a file with `run`
-//! and `EXAMPLES`, and a row. The sentence stands at the arguments, too, for the command's own help: docs/commands.md, which a command checks, has both.
+//! and `EXAMPLES`, and a row. Its arguments have the sentence, too, for the command's own help: docs/commands.md, which a command checks, has both.
 
 /// Declares the commands.
 macro_rules! commands {
