@@ -339,7 +339,7 @@ const figure = (name, source, width, height, caption) => {
 };
 const showDrawn = (drawn) => {
   const old = byId("pictures").querySelector("img");
-  if (old && byId("pictures").children.length === 1 && old.width === drawn.width && old.dataset.kind === "drawn") old.src = drawn.picture;
+  if (old && byId("pictures").children.length === 1 && Number(old.getAttribute("width")) === drawn.width && old.dataset.kind === "drawn") old.src = drawn.picture;
   else {
     byId("pictures").replaceChildren(figure("picture", drawn.picture, drawn.width, drawn.height, ""));
     byId("pictures").querySelector("img").dataset.kind = "drawn";
