@@ -7,6 +7,9 @@ use std::path::Path;
 
 #[test]
 fn the_command_line_says_what_its_transcripts_say() {
+    let pages = std::fs::read_dir("fixtures/cli").expect("the transcripts").flatten();
+    let n_pages = pages.filter(|entry| entry.path().extension().is_some_and(|extension| extension == "md")).count();
+    assert!(n_pages >= 18, "only {n_pages} transcripts are there");
     let cases = trycmd::TestCases::new();
     cases.register_bin("glisten", Path::new(env!("CARGO_BIN_EXE_glisten")));
     cases.env("NO_COLOR", "1");
