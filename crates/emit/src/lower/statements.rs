@@ -59,8 +59,9 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// `discard`: naga's `Kill`. Where the invocation continues without effects, a loop around it could run forever and the end of a function would lack its result, so the function is
-    /// left, too. Loops in the callers, and later loops, check a flag (see [`Ctx::repeat`]).
+    /// `discard`: naga's `Kill`. Where the invocation continues without effects, a loop around it could run forever and the end
+    /// of a function would lack its result, so the function is left, too. Loops in the callers, and later loops, check a flag
+    /// (see [`Ctx::repeat`]).
     fn discard(&mut self) -> Try<()> {
         if let Some(variable) = self.low.discarded {
             let pointer = self.global_variable(variable);
