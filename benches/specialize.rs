@@ -10,11 +10,11 @@
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use glisten::emit::FloatWidth;
-use glisten::report::{Limits, Weights, paired, steps, work};
 use glisten::scene::{DiskFiles, Scene, load};
 use glisten::specialize::{Known, ScalarValue, specialize, specialize_scene};
 use glisten::{Compiler, Options, Program, Source, Stage};
 use glisten_gpu::{Gpu, Via};
+use glisten_report::{Limits, Weights, paired, steps, work};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 

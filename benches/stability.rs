@@ -6,9 +6,10 @@
 
 use glisten::library::Embedded;
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten::stability::{BOUND, ExamineOptions, errors_of, examine, trace};
+use glisten::stability::{ExamineOptions, examine, trace};
 use glisten_front::{Compiler, Options};
 use glisten_reference::{RenderOptions, render};
+use glisten_stability::{BOUND, errors_of};
 use std::time::Instant;
 
 const ROUNDS: usize = 15;

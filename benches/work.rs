@@ -8,10 +8,10 @@
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
-use glisten::report::{Weights, steps, work};
 use glisten::scene::{DiskFiles, Scene, load};
 use glisten::{Compiler, Options};
 use glisten_gpu::{Gpu, Prepared, Via};
+use glisten_report::{Weights, steps, work};
 use std::path::{Path, PathBuf};
 
 const ROUNDS: usize = 9;

@@ -1,4 +1,4 @@
-//! `glisten::build`: what it writes compiles without warnings, puts every value where the reflection says, and is not written
+//! `glisten_build`: what it writes compiles without warnings, puts every value where the reflection says, and is not written
 //! again without need; what it refuses.
 
 use crate::support::{files_under, root, stage_of};

@@ -4,11 +4,12 @@
 //! for WGSL, and `spirv-val` for SPIR-V. If an external judge is missing, the test says so; if `CI` is set, it fails.
 
 use crate::support::{compile_files, compiler, files_under, root, stage_of};
-use glisten::library::{Embedded, programs, shader};
+use glisten::library::{Embedded, programs};
 use glisten_emit::{ClipZ, Conventions, Emitted, SpirvEnv, Target, WindowOrigin, emit, notes};
 use glisten_front::Source;
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
+use glisten_library::shader;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;

@@ -8,13 +8,14 @@
 use crate::drawing::{as_on_vulkan, from_disk, from_texts, gpu, loaded, reference, strict};
 use crate::support::{compiler, fixture};
 use glisten::scene::{MemoryFiles, Scene, load};
-use glisten::verify::{Expected, Options};
+use glisten::verify::Options;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
 use glisten_reference::domain::faults::Faults;
 use glisten_reference::domain::{Profile, rules};
 use glisten_scene::compare::{Criterion, Verdict, shares};
 use glisten_scene::picture::Picture;
+use glisten_verify::verify::Expected;
 
 /// A square over the window, 64x64, drawn by a fragment shader.
 fn square(fragment: &str, format: &str) -> Scene {

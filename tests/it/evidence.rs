@@ -6,8 +6,9 @@ use crate::drawing::{gpu, strict};
 use crate::scenes;
 use crate::support::compiler;
 use glisten::scene::{DiskFiles, load};
-use glisten::verify::{Conclusion, Expected};
+use glisten::verify::Conclusion;
 use glisten_gpu::Via;
+use glisten_verify::verify::Expected;
 use serde_json::Value;
 use std::fs;
 

@@ -2,10 +2,10 @@
 
 use crate::drawing::{complaint, from_texts, strict};
 use crate::support::{compiler, root};
-use glisten::gallery::{Entry, entries};
 use glisten::library::{programs, scenes};
 use glisten::scene::{DiskFiles, Scene, load};
 use glisten_gpu::Gpu;
+use glisten_report::gallery::{Entry, entries};
 use glisten_scene::picture::Image;
 use std::collections::BTreeSet;
 use std::fs;

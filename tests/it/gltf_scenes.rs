@@ -6,8 +6,9 @@ use crate::scenes::{the_error, told};
 use crate::support::compiler;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use glisten::scene::{BlendFactor, Cull, Loaded, MemoryFiles, load};
+use glisten::scene::{Loaded, MemoryFiles, load};
 use glisten_scene::picture::Image;
+use glisten_verify::scene::{BlendFactor, Cull};
 use std::collections::BTreeMap;
 use std::f32::consts::PI;
 use std::fs;
@@ -300,7 +301,7 @@ fn extensions_become_layers() {
     near(&value(none, "places.decal.s"), &[2.0, 0.0, 0.25]);
     // t grows upwards, from the lower edge: 1 - 0.5 - 3 (1 - t).
     near(&value(none, "places.decal.t"), &[0.0, 3.0, -2.5]);
-    let names = |draw: &glisten::scene::Draw| {
+    let names = |draw: &glisten_verify::scene::Draw| {
         draw.program.interface.uniforms.iter().map(|leaf| leaf.name.clone()).collect::<Vec<_>>().join(" ")
     };
     for member in ["sheen", "anisotropy", "film", "transmission"] {

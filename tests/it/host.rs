@@ -5,13 +5,14 @@
 
 use crate::drawing;
 use crate::support::root;
-use glisten::scene::{self, DiskFiles};
+use glisten::scene::DiskFiles;
 use glisten_emit::Reflection;
 use glisten_emit::reflection::{Attribute, Binding, Sampler, Uniform};
 use glisten_front::{Compiler, Options};
 use glisten_reference::Precision;
 use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
+use glisten_verify::scene;
 use std::path::Path;
 use std::process::Command;
 use wgpu::util::DeviceExt;

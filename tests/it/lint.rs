@@ -1,9 +1,10 @@
 //! Tests of the lint rules: their pages' examples, their fixtures, and no warnings on ordinary programs.
 
 use crate::support::{Settings, Shader, library_compiler, root, shaders_under};
-use glisten::{Compiler, Options, Source, lint};
+use glisten::{Compiler, Options, Source};
 use glisten_front::diagnostic::{Code, Example, Level, Levels, Severity};
 use glisten_front::hir::Stage;
+use glisten_front::lint;
 use std::collections::BTreeMap;
 use std::path::Path;
 

@@ -2,9 +2,10 @@
 
 use crate::cli::{Folder, code, err, out};
 use crate::support::{Shader, library_compiler};
-use glisten::{Source, lint};
+use glisten::Source;
 use glisten_front::diagnostic::{Applicability, Code, Example, Fixable, Group, Patch, codes, write};
 use glisten_front::hir::Stage;
+use glisten_front::lint;
 use std::collections::BTreeSet;
 use std::fs;
 

@@ -1,9 +1,9 @@
 //! Tests of the rules on the domains of functions: what is told, and what is proven or unknown and therefore not.
 
 use crate::support::compile_text;
-use glisten::lint;
 use glisten_front::diagnostic::Group;
 use glisten_front::hir::Stage;
+use glisten_front::lint;
 
 /// The names of the rules of numerics that find something in an expression.
 fn told(body: &str) -> Vec<&'static str> {

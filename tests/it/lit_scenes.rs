@@ -3,9 +3,10 @@
 
 use crate::scenes::{the_error, told};
 use crate::support::compiler;
-use glisten::scene::{Draw, Loaded, MemoryFiles, Texels, Wrap, load};
+use glisten::scene::{Loaded, MemoryFiles, load};
 use glisten_front::diagnostic::Severity;
 use glisten_front::hir::ScalarValue;
+use glisten_verify::scene::{Draw, Texels, Wrap};
 
 const GOOD: &str = r#"
 global_ambient = [0.1, 0.2, 0.3]

@@ -2,7 +2,8 @@
 
 use crate::support::compiler;
 use glisten::library::Embedded;
-use glisten::scene::{Loaded, MemoryFiles, Scene, Texels, Texture, load};
+use glisten::scene::{Loaded, MemoryFiles, Scene, load};
+use glisten_verify::scene::{Texels, Texture};
 
 const FRAGMENT: &str = "#version 150
 uniform sampler2D map;

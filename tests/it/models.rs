@@ -3,8 +3,9 @@
 use crate::cli::{Folder, code, err};
 use crate::scenes::{the_error, told};
 use crate::support::{compiler, root};
-use glisten::scene::{Draw, FileError, FileSource, Loaded, MemoryFiles, load};
+use glisten::scene::{FileError, FileSource, Loaded, MemoryFiles, load};
 use glisten_scene::picture::Image;
+use glisten_verify::scene::Draw;
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -33,7 +34,7 @@ pub(crate) fn rows(draw: &Draw, name: &str) -> Vec<Vec<f32>> {
     let index =
         draw.program.interface.attributes.iter().position(|attribute| attribute.name == name).expect("declared");
     let data = draw.attributes[index].as_ref().expect("it has data");
-    let glisten::scene::AttributeValues::Float(values) = &data.values else { panic!("floats") };
+    let glisten_verify::scene::AttributeValues::Float(values) = &data.values else { panic!("floats") };
     values.chunks(data.size as usize).map(<[f32]>::to_vec).collect()
 }
 

@@ -149,9 +149,10 @@ mod drawn {
     use super::optimized_scene;
     use crate::random::{scene, seeds, text};
     use crate::specialize::{Instead, bits, load, share};
-    use glisten::verify::{Demands, OnGpu, Options, Runner, verify};
+    use glisten::verify::{OnGpu, Options, Runner, verify};
     use glisten_emit::{Conventions, Target, emit};
     use glisten_gpu::Gpu;
+    use glisten_verify::verify::Demands;
 
     #[test]
     fn random_programs_draw_the_same_bytes() {

@@ -1,13 +1,14 @@
-//! `glisten::snapshot`, by which the programs and scenes of the fixtures are asserted: emitted code, reflection, diagnostics,
+//! `glisten_snapshot`, by which the programs and scenes of the fixtures are asserted: emitted code, reflection, diagnostics,
 //! account, pictures; and its workflow: what a picture that no longer fits leaves behind, and what decides about it.
 
 use crate::cli::{Folder, code, err, out};
 use crate::support::{compiler, root};
 use glisten::emit::Target;
 use glisten::scene::{DiskFiles, load};
-use glisten::snapshot::pending::find;
-use glisten::snapshot::{Criterion, Place, check_picture};
+use glisten::snapshot::Criterion;
 use glisten::{Compilation, Picture, RenderOptions, Source, Stage, render};
+use glisten_snapshot::pending::find;
+use glisten_snapshot::{Place, check_picture};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -157,9 +158,9 @@ fn a_scene_that_changed_is_noticed() {
     let stored = picture.encode(0, glisten_scene::picture::ImageFormat::Png).expect("encoded");
     fs::create_dir_all(folder.path().join("snapshots")).expect("made");
     fs::write(folder.path().join("snapshots/a__scene.png"), stored).expect("written");
-    glisten::snapshot::check_scene(&place, &scene("0.0625"));
+    glisten_snapshot::check_scene(&place, &scene("0.0625"));
     let changed = scene("0.125");
-    let failed = catch_unwind(AssertUnwindSafe(|| glisten::snapshot::check_scene(&place, &changed)));
+    let failed = catch_unwind(AssertUnwindSafe(|| glisten_snapshot::check_scene(&place, &changed)));
     let told = failed.expect_err("another picture").downcast_ref::<String>().cloned().unwrap_or_default();
     assert!(told.contains("outside of the envelope"), "{told}");
 }

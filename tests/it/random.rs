@@ -5,12 +5,13 @@
 
 use crate::drawing::{compiler, strict, verified};
 use crate::emit::Collected;
-use glisten::scene::{self, MemoryFiles, Scene};
-use glisten::verify;
+use glisten::scene::{MemoryFiles, Scene};
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::hir::Stage;
 pub(crate) use glisten_fuzz::fragments::exact as text;
 use glisten_gpu::Gpu;
+use glisten_verify::scene;
+use glisten_verify::verify;
 use std::ops::Range;
 
 const VERTEX: &str = "#version 150\nin vec2 place;\nin vec4 av;\nin ivec4 bv;\nflat out vec4 a;\nflat out ivec4 b;\n\

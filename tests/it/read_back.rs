@@ -5,10 +5,11 @@
 
 use crate::layouts::{declarations, member};
 use crate::support::{compiler, fragment_program};
-use glisten::scene::{self, MemoryFiles, Scene};
+use glisten::scene::{MemoryFiles, Scene};
 use glisten_front::hir::{Type, Types};
 use glisten_front::link::UniformLeaf;
 use glisten_gpu::Via;
+use glisten_verify::scene;
 use proptest::strategy::{Strategy, ValueTree};
 
 const WIDTH: usize = 64;

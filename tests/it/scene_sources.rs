@@ -1,8 +1,9 @@
 //! The keys of a draw that say how its sources are completed: `engine`, `assume_version`, `includes`, `preludes`, `defines`.
 
 use crate::cli::{Folder, code, err};
-use glisten::scene::{self, DiskFiles};
+use glisten::scene::DiskFiles;
 use glisten::{Compiler, Options, RenderOptions, render};
+use glisten_verify::scene;
 use std::fs;
 
 const FULL: &str = "#version 300 es\nvoid main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }\n";

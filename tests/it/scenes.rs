@@ -1,9 +1,10 @@
 //! Scene files: what they mean, and the diagnostics for their errors.
 
 use crate::support::{compiler, root};
-use glisten::scene::{AttributeValues, DiskFiles, Format, Loaded, MemoryFiles, Texels, load};
+use glisten::scene::{DiskFiles, Loaded, MemoryFiles, load};
 use glisten_front::diagnostic::{Diagnostic, Severity};
 use glisten_front::hir::ScalarValue;
+use glisten_verify::scene::{AttributeValues, Format, Texels};
 
 const VERTEX: &str = "#version 150\n\
     struct Light { vec4 position; float power; };\n\

@@ -48,7 +48,7 @@ fn every_function_holds_its_bound_and_every_naive_form_is_told() {
     let judged = found.iter().filter(|function| !is_program(function));
     let judged: BTreeSet<String> =
         judged.map(|function| function["signature"].as_str().unwrap_or_default().to_owned()).collect();
-    let forms = glisten::measure::forms().filter(|form| form.module != "naive");
+    let forms = glisten_verify::measure::forms().filter(|form| form.module != "naive");
     let expected: BTreeSet<String> = forms.map(|form| form.signature.to_owned()).collect();
     assert_eq!(judged, expected, "every function is called");
     let programs: Vec<&Value> = found.iter().filter(is_program).collect();

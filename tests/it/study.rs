@@ -5,9 +5,10 @@
 use crate::drawing::{gpu, loaded};
 use crate::support::{compiler, root};
 use glisten::scene::{DiskFiles, FileError, FileSource, Scene, load};
-use glisten::verify::{Conclusion, Expected, Options};
+use glisten::verify::{Conclusion, Options};
 use glisten_gpu::Via;
 use glisten_scene::compare::Verdict;
+use glisten_verify::verify::Expected;
 use std::path::Path;
 
 /// The files of the disk with the edits of a case.

@@ -5,7 +5,8 @@ use crate::scenes::told;
 use crate::support::compiler;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use glisten::scene::{Draw, MemoryFiles, load};
+use glisten::scene::{MemoryFiles, load};
+use glisten_verify::scene::Draw;
 use std::collections::BTreeMap;
 
 /// A program that reads tangents, and one that does not.

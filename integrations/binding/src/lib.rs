@@ -26,11 +26,11 @@ pub use upgrade::{Upgraded, upgrade};
 #[cfg(feature = "render")]
 pub use glisten::Precision;
 pub use glisten::diagnostic::Severity as FoundSeverity;
-pub use glisten::diagnostic::write::Finding;
 pub use glisten::emit::Target;
 #[cfg(feature = "render")]
 pub use glisten::scene::FileError;
 pub use glisten::{Source, Stage};
+pub use glisten_front::diagnostic::write::Finding;
 
 /// The version of glisten.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

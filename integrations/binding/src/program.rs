@@ -4,12 +4,16 @@
 
 use crate::error::Error;
 use crate::settings::Settings;
-use glisten::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
-use glisten::diagnostic::write::{self, Finding};
-use glisten::diagnostic::{Diagnostic, Severity};
-use glisten::emit::{self, Emitted, Reflection, Target};
+use glisten::diagnostic::Severity;
+use glisten::emit::{Emitted, Reflection, Target};
 use glisten::source::SourceMap;
-use glisten::{Program, Source, Stage, lint};
+use glisten::{Program, Source, Stage};
+use glisten_emit as emit;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
+use glisten_front::diagnostic::write;
+use glisten_front::diagnostic::write::Finding;
+use glisten_front::lint;
 use std::collections::HashSet;
 use std::sync::OnceLock;
 
@@ -154,7 +158,7 @@ impl Compiled {
     fn program_for(&self, target: Target) -> Result<&Program, Error> {
         let program = self.program()?;
         Ok(match self.settings.optimizes(target) {
-            true => self.optimized.get_or_init(|| emit::optimize(program)),
+            true => self.optimized.get_or_init(|| glisten::emit::optimize(program)),
             false => program,
         })
     }

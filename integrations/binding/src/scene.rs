@@ -6,9 +6,11 @@
 use crate::error::{Error, Kind, Unreadable};
 use crate::program::{Format, Report};
 use crate::settings::Settings;
-use glisten::diagnostic::write::{self, Finding};
-use glisten::scene::{self, DiskFiles, FileError, FileSource, Scene};
+use glisten::scene::{DiskFiles, FileError, FileSource, Scene};
 use glisten::{Precision, RenderOptions, render};
+use glisten_front::diagnostic::write;
+use glisten_front::diagnostic::write::Finding;
+use glisten_verify::scene;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A host's function for files: the bytes at a path, or why there are none.
@@ -138,7 +140,8 @@ impl Scenery {
     /// The scene has errors, or something that the reference does not support.
     #[cfg(feature = "stability")]
     pub fn stability(&self) -> Result<String, Error> {
-        use glisten::stability::{BOUND, ExamineOptions, find};
+        use glisten::stability::{ExamineOptions, find};
+        use glisten_stability::BOUND;
         let scene = self.scene()?;
         let mut go_on = |_, _| true;
         let mut options =

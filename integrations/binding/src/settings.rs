@@ -3,11 +3,15 @@
 use crate::error::Error;
 use crate::includes::Includes;
 use crate::sources::share_a_text;
-use glisten::diagnostic::{Key, Level, Levels, Severity, did_you_mean};
+use glisten::diagnostic::{Level, Levels, Severity};
 use glisten::emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, WindowOrigin};
-use glisten::engines::{self, STYLES};
 use glisten::source::Prelude;
-use glisten::{Compiler, Options, Search, Source, SourceSettings, completing};
+use glisten::{Compiler, Options, Source};
+use glisten_front::compiler::SourceSettings;
+use glisten_front::diagnostic::{Key, did_you_mean};
+use glisten_sources::engines;
+use glisten_sources::engines::STYLES;
+use glisten_sources::{Search, completing};
 
 /// Everything that is set before a compilation.
 #[derive(Clone, Default)]

@@ -4,8 +4,8 @@
 //! the stages that macros or marks choose in it (docs/engines.md); all of them have its name and the whole text.
 
 use crate::error::Error;
-use glisten::engines::combined;
 use glisten::{Source, Stage};
+use glisten_sources::engines::combined;
 use std::collections::BTreeSet;
 
 /// The stage that the name of a file tells.

@@ -4,9 +4,9 @@ use crate::error::Error;
 use crate::program::{Format, Report};
 use crate::settings::Settings;
 use crate::sources::share_a_text;
-use glisten::diagnostic::write::Finding;
 use glisten::upgrade::{Refused, Target};
 use glisten::{Compilation, Source};
+use glisten_front::diagnostic::write::Finding;
 
 /// The sources of a program in another language; or what is wrong with them.
 #[derive(Debug, Default)]

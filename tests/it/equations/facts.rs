@@ -1,8 +1,8 @@
 //! The facts of a draw: the values of its uniforms, and its vertices.
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
-use glisten::scene::{AttributeValues, Draw};
 use glisten_front::hir::ScalarValue;
+use glisten_verify::scene::{AttributeValues, Draw};
 
 /// A vertex, as the library's vertex shaders see it.
 #[derive(Clone, Copy, Debug, PartialEq)]

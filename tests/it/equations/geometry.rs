@@ -6,8 +6,9 @@ use super::points::{RIM, alone};
 use super::sample::Sample;
 use super::tex::{Definition, Value, Values};
 use glam::{DVec2, DVec3};
-use glisten::scene::{AttributeValues, Primitive, Scene};
+use glisten::scene::Scene;
 use glisten_reference::{RenderOptions, render};
+use glisten_verify::scene::{AttributeValues, Primitive};
 
 /// The pixels in which the vertices of an outline stand.
 pub(super) fn compare_outline(

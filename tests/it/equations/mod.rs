@@ -135,7 +135,7 @@ type Used = RefCell<BTreeSet<String>>;
 /// Compares a scene with equations. Says what differs.
 fn compare(name: &str, text: &str, shown: Shown, equations: &[String]) -> Result<(), String> {
     if let Shown::ByValue(functions) = shown {
-        let has_form = |function: &&&str| glisten::measure::forms().any(|form| form.signature == **function);
+        let has_form = |function: &&&str| glisten_verify::measure::forms().any(|form| form.signature == **function);
         let lost = functions.iter().find(|function| !has_form(function));
         return lost.map_or(Ok(()), |lost| Err(format!("`{lost}` has no closed form")));
     }

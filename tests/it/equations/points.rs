@@ -4,8 +4,9 @@ use super::Used;
 use super::facts::{Vertex, vector, vertices};
 use super::sample::Sample;
 use super::tex::Definition;
-use glisten::scene::{Cull, Draw, Primitive, Scene};
+use glisten::scene::Scene;
 use glisten_reference::{RenderOptions, render};
+use glisten_verify::scene::{Cull, Draw, Primitive};
 use std::collections::BTreeMap;
 
 /// The error that a formula may have: both sides are computed in f64, the library's tables and powers by other ways.

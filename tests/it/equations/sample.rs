@@ -8,7 +8,7 @@ use super::Used;
 use super::facts::{matrix, uniform, vector};
 use super::tex::{Definition, Node, Value, Values, definitions, dot, evaluate};
 use glam::DVec3;
-use glisten::scene::{Draw, Texels};
+use glisten_verify::scene::{Draw, Texels};
 use std::cell::Cell;
 use std::sync::LazyLock;
 

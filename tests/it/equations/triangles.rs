@@ -6,8 +6,9 @@ use super::points::{alone, same};
 use super::sample::Sample;
 use super::tex::{Definition, Value};
 use glam::{DVec2, DVec3};
-use glisten::scene::{Draw, Scene};
+use glisten::scene::Scene;
 use glisten_reference::{RenderOptions, render};
+use glisten_verify::scene::Draw;
 
 /// A fragment shader that shows the coordinates that reach it.
 pub(super) const COORDINATES: &str = "#version 150\n#ifndef INTERPOLATION\n#define INTERPOLATION smooth\n#endif\n\

@@ -163,7 +163,7 @@ fn measure_prints_a_row_a_function() {
 fn the_docs_have_a_row_for_every_function() {
     let path = root().join("docs/library.md");
     let page = fs::read_to_string(path).expect("the page is there");
-    let missing: Vec<&str> = glisten::measure::forms()
+    let missing: Vec<&str> = glisten_verify::measure::forms()
         .map(|form| form.signature)
         .filter(|signature| !page.contains(&format!("| `{signature}` ")))
         .collect();

@@ -2,8 +2,9 @@
 
 use super::call;
 use crate::support::compiler;
-use glisten::evaluate::{Evaluator, signatures};
+use glisten::evaluate::Evaluator;
 use glisten_reference::Precision;
+use glisten_verify::evaluate::signatures;
 
 fn evaluator(text: &str, signature: &str) -> Evaluator {
     Evaluator::new(&compiler(), text, signature, &[]).unwrap_or_else(|error| panic!("{error}"))

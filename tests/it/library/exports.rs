@@ -3,8 +3,8 @@
 use super::command::{err, out, run};
 use crate::cli::{Folder, code};
 use crate::emit::{Collected, missing};
-use glisten::library::{Entry, FunctionEntry, entries};
 use glisten_emit::Emitted;
+use glisten_library::{Entry, FunctionEntry, entries};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

@@ -3,8 +3,9 @@
 use super::function;
 use super::ltc::errors::tables;
 use glisten::evaluate::Evaluator;
-use glisten::scene::{MemoryFiles, Texture, load};
+use glisten::scene::{MemoryFiles, load};
 use glisten_reference::Precision;
+use glisten_verify::scene::Texture;
 use std::f64::consts::PI;
 use std::io::Write;
 use std::sync::Arc;

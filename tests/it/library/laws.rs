@@ -1,9 +1,10 @@
 //! Properties of the models beyond their values: symmetry, limits, poles, peaks, rates.
 
 use super::{call, function};
-use glisten::evaluate::{Evaluator, table};
-use glisten::scene::Filter;
+use glisten::evaluate::Evaluator;
 use glisten_reference::Precision;
+use glisten_verify::evaluate::table;
+use glisten_verify::scene::Filter;
 use std::sync::Arc;
 
 type V = [f32; 3];

@@ -2,9 +2,10 @@
 
 use super::command::{err, out, run};
 use super::function;
-use glisten::scene::{DiskFiles, Texture, load};
+use glisten::scene::{DiskFiles, load};
 use glisten_reference::Precision;
 use glisten_scene::picture::Image;
+use glisten_verify::scene::Texture;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -2,9 +2,9 @@
 //! library.
 
 use super::{call, function};
-use glisten::evaluate::table;
-use glisten::scene::Filter;
 use glisten_reference::Precision;
+use glisten_verify::evaluate::table;
+use glisten_verify::scene::Filter;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

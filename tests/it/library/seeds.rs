@@ -2,7 +2,7 @@
 
 use super::{call, function};
 use crate::support::root;
-use glisten::library::{shader, shader_files};
+use glisten_library::{shader, shader_files};
 
 fn page() -> String {
     std::fs::read_to_string(root().join("docs/seeds.md")).expect("the page is there")

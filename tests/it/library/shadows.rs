@@ -1,10 +1,11 @@
 //! Shadows of a map, measured: how much light leaks through two moments where casters overlap, and how half shadows grow.
 
 use crate::support::compiler;
-use glisten::evaluate::{Evaluator, table};
+use glisten::evaluate::Evaluator;
 use glisten::library::{Embedded, scenes};
-use glisten::scene::{Filter, Texture};
 use glisten_reference::Precision;
+use glisten_verify::evaluate::table;
+use glisten_verify::scene::{Filter, Texture};
 use std::sync::Arc;
 
 /// The light that arrives by comparisons and by moments over one disk, and the mean depth there.

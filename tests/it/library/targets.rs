@@ -3,11 +3,11 @@
 use crate::emit::Collected;
 use crate::support::compiler;
 use glisten::library::Embedded;
-use glisten::measure::{Trial, forms};
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::Source;
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
+use glisten_verify::measure::{Trial, forms};
 
 const FRAGMENT: &str =
     "#version 150\nflat in vec4 glisten_result;\nout vec4 color;\nvoid main() { color = glisten_result; }\n";

@@ -1,10 +1,11 @@
 //! Compares every function with its closed form, on the reference and on the GPU, and checks that its results are
 //! finite for all inputs.
 
-use glisten::library::{Entry, entries, modules};
-use glisten::measure::{Form, Trial, forms};
+use glisten::library::modules;
 use glisten_gpu::Via;
+use glisten_library::{Entry, entries};
 use glisten_reference::Precision;
+use glisten_verify::measure::{Form, Trial, forms};
 use std::collections::BTreeSet;
 
 const ROWS: usize = 1024;

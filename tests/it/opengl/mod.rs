@@ -18,13 +18,14 @@ use crate::drawing::{from_disk, from_texts};
 use crate::emit::missing;
 use crate::support::{compiler, files_with, root};
 use glisten::scene::Scene;
-use glisten::shader_test::{self, TestBackend, TestResult};
-use glisten::verify;
 use glisten_front::hir::{ArraySize, Stage, Type};
 use glisten_gl::{Error, Gl};
 use glisten_reference::LineRule;
 use glisten_scene::compare::{self, Criterion, Verdict};
 use glisten_scene::picture::Picture;
+use glisten_verify::shader_test;
+use glisten_verify::shader_test::{TestBackend, TestResult};
+use glisten_verify::verify;
 use std::path::{Path, PathBuf};
 
 /// Larger scenes are scaled down.

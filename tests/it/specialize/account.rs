@@ -2,10 +2,10 @@
 
 use super::{load, scene_files};
 use crate::support::root;
-use glisten::account::{SceneOnPage, page};
-use glisten::specialize::{Contract, account, picture_error, pictures, specialize_scene_by};
 use glisten_front::hir::Stage;
 use glisten_reference::Precision;
+use glisten_report::account::{SceneOnPage, page};
+use glisten_verify::specialize::{Contract, account, picture_error, pictures, specialize_scene_by};
 use std::path::Path;
 
 const BOTH: Contract = Contract { fast_math: true, move_to_vertex: true };

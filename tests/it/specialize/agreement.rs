@@ -2,8 +2,9 @@
 
 use super::{load, scene_files};
 use glisten::emit::{left_out, optimize};
-use glisten::specialize::{Extent, Kind, LeftOut, SpecializedDraw, specialize_scene};
+use glisten::specialize::specialize_scene;
 use glisten_scene::Draw;
+use glisten_verify::specialize::{Extent, Kind, LeftOut, SpecializedDraw};
 use std::collections::BTreeSet;
 
 /// One scene in this many is looked at; `SPECIALIZE_ALL=1` looks at all.

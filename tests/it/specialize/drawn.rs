@@ -5,8 +5,9 @@
 use super::{load, scene_files};
 use glisten::scene::Scene;
 use glisten::specialize::specialize_scene;
-use glisten::verify::{Drawn, Failure, OnGpu, Options, Runner, verify};
+use glisten::verify::{OnGpu, Options, Runner, verify};
 use glisten_emit::{Conventions, Target, emit};
+use glisten_verify::verify::{Drawn, Failure};
 
 /// One scene in this many is drawn.
 const SHARE: usize = 12;

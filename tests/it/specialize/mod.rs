@@ -21,10 +21,12 @@ pub(crate) use drawn::{Instead, share};
 
 use crate::optimize::places;
 use glisten::Compiler;
-use glisten::scene::{self, DiskFiles, Scene};
+use glisten::scene::{DiskFiles, Scene};
 use glisten::source::SourceMap;
-use glisten::specialize::{SpecializedScene, specialize_scene};
+use glisten::specialize::specialize_scene;
 use glisten_reference::{LineRule, Precision, RenderOptions, render};
+use glisten_verify::scene;
+use glisten_verify::specialize::SpecializedScene;
 use std::path::{Path, PathBuf};
 
 /// The folders of scenes. Each of `families` has an uber-shader and scenes that fix different options of it.

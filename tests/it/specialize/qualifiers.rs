@@ -5,9 +5,10 @@
 
 use super::difference;
 use crate::drawing::compiler;
-use glisten::scene::{self, MemoryFiles, Scene};
+use glisten::scene::{MemoryFiles, Scene};
 use glisten::specialize::specialize_scene;
 use glisten_front::source::SourceMap;
+use glisten_verify::scene;
 use std::fmt::Write;
 
 const PRIMITIVES: [&str; 7] =

@@ -5,8 +5,9 @@
 
 use super::difference;
 use crate::random::{scene, seeds, text};
-use glisten::specialize::{Contract, specialize_scene, specialize_scene_by};
+use glisten::specialize::specialize_scene;
 use glisten_front::source::SourceMap;
+use glisten_verify::specialize::{Contract, specialize_scene_by};
 
 /// Seeds of programs that were once specialized wrongly: initializers of globals that assign to others, and a loop that was
 /// written out although a `continue` in it was open, an argument that does something for a call that does nothing.

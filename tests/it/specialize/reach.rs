@@ -2,10 +2,11 @@
 
 use super::difference;
 use glisten::Compiler;
-use glisten::scene::{self, MemoryFiles};
+use glisten::scene::MemoryFiles;
 use glisten::source::SourceMap;
 use glisten::specialize::specialize_scene;
 use glisten_front::hir::Stage;
+use glisten_verify::scene;
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin vec2 q;\nuniform mat2 turn;\nout vec2 v;\n\
     void main() { v = q; gl_Position = vec4(turn * p.xy, p.zw); }\n";

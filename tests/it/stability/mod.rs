@@ -7,7 +7,8 @@ mod command;
 
 use crate::support::{NextTo, compiler};
 use glisten::scene::{DiskFiles, load};
-use glisten::stability::{BOUND, ExamineOptions, Findings, find};
+use glisten::stability::{ExamineOptions, find};
+use glisten_stability::{BOUND, Findings};
 
 use rayon::prelude::*;
 use serde::Deserialize;

@@ -5,11 +5,11 @@
 use crate::Sections;
 use crate::generate::Program;
 use glisten::scene::{Loaded, MemoryFiles, Scene, load};
-use glisten::specialize::with_program;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{Compiler, Options, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::picture::Picture;
+use glisten_verify::specialize::with_program;
 use std::sync::{Arc, OnceLock};
 
 /// The values of a picture as bits.

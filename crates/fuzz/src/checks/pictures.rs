@@ -6,13 +6,15 @@ use super::drawn::{Drawn, Texts, bits, compiler, scene_of};
 use super::targets::{is_refusal, stages};
 use crate::chance::Chance;
 use crate::generate::{Change, changed};
-use glisten::format::{self, has_same_lexemes};
 use glisten::specialize::specialize_scene;
 use glisten::upgrade::{Target as Version, upgrade as upgraded};
-use glisten::verify::{Cpu, Failure, Options, Runner, verify};
+use glisten::verify::{Options, Runner, verify};
 use glisten_emit::{Conventions, Emitted, GlslVersion, Target, emit};
+use glisten_format as format;
+use glisten_format::has_same_lexemes;
 use glisten_front::hir;
 use glisten_reference::Precision;
+use glisten_verify::verify::{Cpu, Failure};
 use std::sync::Arc;
 
 type Held = Result<(), String>;

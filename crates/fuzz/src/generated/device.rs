@@ -3,8 +3,9 @@
 //! *In:* a program that the reference has drawn. *Out:* a sentence where a picture differs. *Holds:* what a device lacks is no fault.
 
 use glisten::Gpu;
-use glisten::verify::{Failure, OnGpu, Options, Runner, verify};
+use glisten::verify::{OnGpu, Options, Runner, verify};
 use glisten_fuzz::checks::Drawn;
+use glisten_verify::verify::Failure;
 
 /// A check on a device.
 type Check = Box<dyn Fn(&Drawn<'_>) -> Result<(), String>>;

@@ -3,11 +3,13 @@
 use super::front::compiler;
 use super::{no_internal_error, no_internal_errors};
 use crate::Sections;
-use glisten::scene::{Format, Loaded, MemoryFiles, Scene, load};
+use glisten::scene::{Loaded, MemoryFiles, Scene, load};
 use glisten::specialize::specialize_scene;
-use glisten::verify::{Cpu, Failure, Options, Runner, verify};
+use glisten::verify::{Options, Runner, verify};
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::picture::Picture;
+use glisten_verify::scene::Format;
+use glisten_verify::verify::{Cpu, Failure};
 
 /// A picture for fuzzing is so wide at most.
 const SIDE: u32 = 12;

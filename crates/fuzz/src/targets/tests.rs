@@ -1,11 +1,11 @@
 //! Tests: `.shader_test`, and functions under `//! test`.
 
 use super::front::compiler;
-use glisten::shader_test::{TestBackend, TestResult, run};
-use glisten::unit_test::tests;
 use glisten_reference::{LineRule, Precision, RenderOptions, render};
 use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
+use glisten_verify::shader_test::{TestBackend, TestResult, run};
+use glisten_verify::unit_test::tests;
 
 /// More than this takes too long to draw again and again.
 const MAX_PIXELS: u32 = 64 * 64;

@@ -3,8 +3,8 @@
 use super::emit::accepted;
 use super::front::compiler;
 use crate::Sections;
-use glisten::format::{Options, format as formatted, has_same_lexemes};
 use glisten::upgrade::{Target, upgrade as upgraded};
+use glisten_format::{Options, format as formatted, has_same_lexemes};
 use glisten_front::Source;
 
 /// The style of a project.

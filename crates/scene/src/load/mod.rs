@@ -145,7 +145,7 @@ fn loaded(
 /// The identity of a program: draws with the same key share it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct ProgramKey {
-    files: Vec<(Stage, String)>,
+    pub files: Vec<(Stage, String)>,
     attribute_locations: Vec<(String, u32)>,
     frag_data_locations: Vec<(String, u32)>,
     defines: Vec<(String, String)>,

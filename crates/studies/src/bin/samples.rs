@@ -11,10 +11,11 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a table")]
 
 use glisten::library::Embedded;
-use glisten::scene::{DiskFiles, Draw, Scene, load};
+use glisten::scene::{DiskFiles, Scene, load};
 use glisten::{Compiler, Gpu, Picture, Precision, RenderOptions, render};
 use glisten_gpu::Via;
 use glisten_scene::picture::byte;
+use glisten_verify::scene::Draw;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::ExitCode;

@@ -15,9 +15,11 @@
 mod tools;
 
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten::specialize::{Account, SpecializedScene, account, specialize_scene};
-use glisten::verify::{Conclusion, Drawn, Failure, OnGpu, OnOpenGl, Options, Runner, verify};
+use glisten::specialize::specialize_scene;
+use glisten::verify::{Conclusion, OnGpu, OnOpenGl, Options, Runner, verify};
 use glisten::{Compiler, Gl, Gpu, Precision, RenderOptions, render};
+use glisten_verify::specialize::{Account, SpecializedScene, account};
+use glisten_verify::verify::{Drawn, Failure};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};

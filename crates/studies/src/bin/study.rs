@@ -12,11 +12,12 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 
 use glisten::scene::{DiskFiles, Scene, load};
-use glisten::verify::{Conclusion, Expected, Options};
+use glisten::verify::{Conclusion, Options};
 use glisten::{Compiler, Gpu};
 use glisten_gpu::Via;
 use glisten_scene::compare::{Comparison, Criterion, Verdict};
 use glisten_scene::{FileError, FileSource};
+use glisten_verify::verify::Expected;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -14,10 +14,12 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints a report")]
 
 use glisten::emit::{Conventions, Emitted, Target, emit};
-use glisten::scene::{DiskFiles, Draw, Scene, load};
-use glisten::verify::{Conclusion, Expected, Options};
+use glisten::scene::{DiskFiles, Scene, load};
+use glisten::verify::{Conclusion, Options};
 use glisten::{Compiler, Gpu, Stage};
 use glisten_gpu::{Foreign, Via};
+use glisten_verify::scene::Draw;
+use glisten_verify::verify::Expected;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 

@@ -5,8 +5,8 @@
 use crate::program::tell;
 use crate::reply::Reply;
 use crate::request::{Request, Text};
-use glisten::diagnostic::{Applicability, Patch};
 use glisten_binding::{Compiled, Error, FoundSeverity, Settings, Source};
+use glisten_front::diagnostic::{Applicability, Patch};
 use std::collections::BTreeSet;
 
 /// How often the sources are checked again.

@@ -5,9 +5,10 @@
 use crate::includes::{Asked, joined};
 use crate::reply::Reply;
 use crate::request::Request;
-use glisten::play::{self, Job, Kept, OwnLevels, Pictures, Wish, answer};
 use glisten::scene::{FileError, FileSource};
 use glisten_binding::Error;
+use glisten_play as play;
+use glisten_play::{Job, Kept, OwnLevels, Pictures, Wish, answer};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};

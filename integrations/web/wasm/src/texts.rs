@@ -2,8 +2,8 @@
 
 use crate::reply::Reply;
 use crate::request::Request;
-use glisten::format::{MAX_INDENT, Options, WIDTHS, formatted};
 use glisten_binding::{Error, Format, OPTIONS, Stage, Target, VERSION, stage_of_name, stage_of_word, targets};
+use glisten_format::{MAX_INDENT, Options, WIDTHS, formatted};
 
 /// Answers `upgrade`.
 pub(crate) fn upgrade(request: &Request) -> Result<Reply, Error> {

@@ -1,9 +1,10 @@
 //! Is a table faster? Work by count, and GPU time as a ratio.
 
 use super::scenes::{Ball, By, Highlight, Place, errors, files, picture, scene};
-use glisten::report::{self, Weights};
 use glisten::{Compiler, Gpu, Options};
 use glisten_gpu::Via;
+use glisten_report as report;
+use glisten_report::Weights;
 use std::fmt::Write;
 use std::time::Duration;
 

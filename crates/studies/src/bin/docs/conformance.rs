@@ -5,9 +5,9 @@
 //! Markdown. *Holds:* a section that has neither a code nor a row of a table is listed as not covered, with the reason.
 
 use super::sections::{OWN_CODES, SECTIONS, Section};
-use glisten::diagnostic::{Code, codes};
 use glisten::{Compiler, Options, Source};
 use glisten_front::builtin::{constants, functions, variables};
+use glisten_front::diagnostic::{Code, codes};
 use glisten_front::language::{FEATURES, FeatureRow, NEVER, Stage};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;

@@ -4,9 +4,10 @@
 //! name, which says whether its text is the same on every machine. Measured text is generated only on request.
 
 use super::regions::Maker;
-use glisten::diagnostic::{Severity, codes};
-use glisten::library;
+use glisten::diagnostic::Severity;
 use glisten_front::builtin;
+use glisten_front::diagnostic::codes;
+use glisten_library as library;
 use glisten_reference::domain::{faults, fitted, rules};
 use std::fmt::Write;
 use std::path::PathBuf;

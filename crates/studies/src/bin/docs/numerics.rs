@@ -3,7 +3,7 @@
 //! *In:* `glisten stability --library`. *Out:* Markdown. *Holds:* figures come from the examination; only the column that says
 //! where an equation breaks is written here.
 
-use glisten::stability::library::{FunctionFound, LibraryOptions, Verdict, examine_library};
+use glisten_stability::library::{FunctionFound, LibraryOptions, Verdict, examine_library};
 use std::fmt::Write;
 
 /// The calls of each function.

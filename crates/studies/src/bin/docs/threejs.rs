@@ -3,7 +3,7 @@
 //! *In:* the rows below, and the library's catalogue. *Out:* Markdown with the error that each function's comment promises and the
 //! weight of a call. *Holds:* a row names functions that there are.
 
-use glisten::library::{Entry, FunctionEntry, entries};
+use glisten_library::{Entry, FunctionEntry, entries};
 use std::fmt::Write;
 
 /// A row: what three.js calls it, the modules here, the keys of a scene, and the functions. A function is a name, or a signature where

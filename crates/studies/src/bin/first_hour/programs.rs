@@ -4,8 +4,8 @@
 //! texts count once; sources that do not compile are left out, as the study of repositories is about them.
 
 use crate::list::{List, Repository};
-use glisten::cli::survey::{Survey, Surveyed};
 use glisten::{Program, Stage};
+use glisten_cli::survey::{Survey, Surveyed};
 use glisten_scene::ColorDependence;
 use glisten_scene::fixed::has_fixed_function;
 use std::collections::BTreeSet;

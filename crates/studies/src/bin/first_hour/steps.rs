@@ -4,8 +4,8 @@
 //! limit; after `new-scene`, no flag is repeated.
 
 use crate::programs::{Found, of_sources};
-use glisten::cli::survey;
 use glisten::{Precision, RenderOptions, render};
+use glisten_cli::survey;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};

@@ -7,8 +7,9 @@
 use super::ggx::{Ggx, V, add, cross, dot, scale, spread, unit};
 use glisten::evaluate::Evaluator;
 use glisten::library::Embedded;
-use glisten::scene::{MemoryFiles, Texture, load};
+use glisten::scene::{MemoryFiles, load};
 use glisten::{Compiler, Options, Precision};
+use glisten_verify::scene::Texture;
 use std::fmt;
 use std::sync::Arc;
 

@@ -6,9 +6,9 @@
 use crate::scenery;
 use crate::tasks::AS_DEVICE;
 use crate::tools::{Ended, run};
-use glisten::cli::survey::{Surveyed, covering};
 use glisten::emit::{Conventions, Emitted, Target, emit};
 use glisten::{Compiler, Program, Source, Stage};
+use glisten_cli::survey::{Surveyed, covering};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::{SourceMap, version_line};
 use naga::valid::{Capabilities, ValidationFlags, Validator};

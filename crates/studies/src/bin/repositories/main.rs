@@ -22,7 +22,7 @@ mod tools;
 
 use checks::Checked;
 use glisten::Stage;
-use glisten::cli::survey::{Survey, Surveyed};
+use glisten_cli::survey::{Survey, Surveyed};
 use list::{List, Repository};
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};

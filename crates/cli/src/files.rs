@@ -1,0 +1,289 @@
+//! Reads files completely, with a clear message for each possible failure, and writes them completely or not at all.
+
+use super::exit::Failure;
+use super::{buffers, trace, unfinished};
+use glisten_front::diagnostic::codes::general;
+use glisten_front::diagnostic::{Code, Diagnostic};
+use glisten_front::source::{Prelude, SourceMap, Span};
+use glisten_scene::{confined_to, is_allowed};
+use glisten_verify::scene::{DiskFiles, FileError, FileSource};
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The largest file that is read at all. Sources have a smaller limit of their own, with its own code.
+const MAX_BYTES: u64 = 64 << 20;
+
+/// Why a file cannot be read: a code, and a sentence that names the file.
+#[derive(Debug)]
+pub(super) struct ReadError {
+    /// The code.
+    pub(super) code: &'static Code,
+    /// The message.
+    pub(super) message: String,
+    /// The help text.
+    pub(super) help: Option<String>,
+}
+
+impl ReadError {
+    fn new(code: &'static Code, message: String) -> Self {
+        Self { code, message, help: None }
+    }
+
+    /// The error as a diagnostic about the whole file `name`.
+    pub(super) fn diagnostic(self, sources: &mut SourceMap, name: &str) -> Diagnostic {
+        let base = sources.add(name, "").map_or(0, |id| sources.file(id).base());
+        Diagnostic::new(self.code, Span::new(base, base), self.message).maybe_help(self.help)
+    }
+}
+
+/// Reads a source text. Bytes that are not UTF-8 become U+FFFD.
+pub(super) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
+    let bytes = match path {
+        Some(path) => read(name, path)?,
+        None => read_all(name, io::stdin().lock(), 0)?,
+    };
+    text_of(name, bytes)
+}
+
+/// Reads a text to put before sources. It may be empty.
+pub(super) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
+    let name = path.to_string_lossy().into_owned();
+    let bytes = read(&name, path)?;
+    let text = if bytes.is_empty() { "".into() } else { text_of(&name, bytes)? };
+    Ok(Prelude { name, text })
+}
+
+/// Reads a file of any kind.
+pub(super) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
+    let bytes = read_whole(name, path);
+    trace::read(path, bytes.as_deref().ok());
+    bytes
+}
+
+/// The arguments that confine a process of this program to the sandbox of this one.
+pub(super) fn sandbox() -> impl Iterator<Item = OsString> {
+    confined_to().into_iter().flat_map(|folder| ["--sandbox".into(), folder.into()])
+}
+
+/// The files of the disk for scenes, or the texts in their place; it notes what is read.
+pub(super) struct SceneFiles;
+
+impl FileSource for SceneFiles {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        let bytes = match buffers::get(Path::new(path)) {
+            Some(bytes) => Ok(bytes.to_vec()),
+            None => DiskFiles.read(path),
+        };
+        trace::read(Path::new(path), bytes.as_deref().ok());
+        bytes
+    }
+}
+
+fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
+    if let Some(bytes) = buffers::get(path) {
+        return Ok(bytes.to_vec());
+    }
+    if !is_allowed(path) {
+        let message = format!("`{name}` is outside of the sandbox, and is not read");
+        return Err(ReadError::new(&general::FILE_UNREADABLE, message));
+    }
+    let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;
+    // Room for all of it: otherwise a file is read in pieces.
+    let room = metadata.len().min(MAX_BYTES) as usize + 1;
+    if metadata.is_dir() {
+        return Err(ReadError::new(&general::FILE_IS_FOLDER, format!("`{name}` is a folder, not a file")));
+    }
+    if metadata.len() > MAX_BYTES {
+        return Err(too_large(name));
+    }
+    let file = fs::File::open(path).map_err(|error| read_error(name, path, &error))?;
+    read_all(name, file, room)
+}
+
+fn read_all(name: &str, reader: impl Read, room: usize) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::with_capacity(room);
+    reader
+        .take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| ReadError::new(&general::FILE_UNREADABLE, format!("cannot read `{name}`: {error}")))?;
+    if bytes.len() as u64 > MAX_BYTES { Err(too_large(name)) } else { Ok(bytes) }
+}
+
+fn too_large(name: &str) -> ReadError {
+    ReadError::new(&general::TOO_LARGE, format!("`{name}` is larger than {} MiB", MAX_BYTES >> 20))
+}
+
+fn read_error(name: &str, path: &Path, error: &io::Error) -> ReadError {
+    if error.kind() != io::ErrorKind::NotFound {
+        return ReadError::new(&general::FILE_UNREADABLE, format!("cannot read `{name}`: {error}"));
+    }
+    let mut not_found = ReadError::new(&general::FILE_NOT_FOUND, format!("there is no file `{name}`"));
+    not_found.help = nearest_file(path).map(|nearest| format!("there is `{}`", nearest.display()));
+    not_found
+}
+
+/// A file next to the missing one whose name is similar.
+fn nearest_file(path: &Path) -> Option<PathBuf> {
+    let folder = path.parent()?;
+    let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let mut names: Vec<String> = fs::read_dir(listed)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .take(10_000)
+        .collect();
+    names.sort();
+    let wanted = path.file_name()?.to_str()?;
+    glisten_front::diagnostic::did_you_mean(wanted, names.iter().map(String::as_str)).map(|name| folder.join(name))
+}
+
+/// The text of `bytes`, if they are text.
+pub(super) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError> {
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        let mut empty = ReadError::new(&general::EMPTY_SOURCE, format!("`{name}` is empty"));
+        empty.help = Some("a shader starts with a line `#version 150`".to_owned());
+        return Err(empty);
+    }
+    if let Some(looks_like) = binary(&bytes) {
+        let mut binary = ReadError::new(&general::BINARY_SOURCE, format!("`{name}` is binary, not text"));
+        binary.help = looks_like.map(str::to_owned);
+        return Err(binary);
+    }
+    let mut bytes = bytes;
+    bytes.pop_if(|last| *last == END_OF_FILE);
+    Ok(match String::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(error) => String::from_utf8_lossy(error.as_bytes()).into(),
+    })
+}
+
+/// `None` for text; otherwise the apparent file type, if it is known.
+fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
+    static MAGIC: &[(&[u8], &str)] = &[
+        (&[0x03, 0x02, 0x23, 0x07], "it looks like SPIR-V; glisten takes the GLSL text"),
+        (&[0x07, 0x23, 0x02, 0x03], "it looks like SPIR-V; glisten takes the GLSL text"),
+        (&[0x89, b'P', b'N', b'G'], "it looks like a PNG picture"),
+        (&[0xff, 0xfe], "it looks like text in UTF-16; save it as UTF-8"),
+        (&[0xfe, 0xff], "it looks like text in UTF-16; save it as UTF-8"),
+    ];
+    let known = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
+    // Comments may hold anything but NUL (§3.1), in any encoding, so bytes above 127 say nothing. No text has control
+    // bytes besides white space; one at the end is the mark of old systems for the end of a file.
+    let text = bytes.strip_suffix(&[END_OF_FILE]).unwrap_or(bytes);
+    let controls = text.iter().any(|byte| *byte < b' ' && !WHITE_SPACE.contains(byte));
+    (controls || known.is_some()).then_some(known)
+}
+
+/// The white space of GLSL (§3.1), the escape of a terminal or a two-byte encoding excluded.
+const WHITE_SPACE: &[u8] = b"\t\n\x0b\x0c\r";
+/// The beginning of the names of temporary files. Each exists for the time of one write.
+const TEMPORARY: &str = ".glisten-";
+/// Control-Z.
+const END_OF_FILE: u8 = 0x1a;
+
+/// Makes sure that a file can be written, before the work that makes it.
+///
+/// # Errors
+/// It cannot.
+pub(super) fn check_writable(path: &Path) -> Result<(), Failure> {
+    if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
+        return Ok(());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    builder().tempfile_in(folder).map(drop).map_err(|error| unwritable(path, &error))
+}
+
+/// The failure to write a file. The name of a temporary file is nobody's business.
+fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    let reason = error.to_string();
+    let reason = reason.split(" at path ").next().unwrap_or_default();
+    Failure::usage(format!("cannot write `{}`: {reason}", path.display()))
+}
+
+/// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
+/// pipe, `/dev/null`) is written to directly.
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |error: &io::Error| unwritable(path, error);
+    let target = match fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => {
+            return Err(Failure::usage(format!("cannot write `{}`: it is a folder", path.display())));
+        }
+        Ok(metadata) if !metadata.is_file() => {
+            let mut file = fs::OpenOptions::new().write(true).open(path).map_err(|error| failed(&error))?;
+            return file.write_all(bytes).map_err(|error| failed(&error));
+        }
+        // A link is followed, so that it remains a link.
+        Ok(_) => fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()),
+        Err(_) => path.to_owned(),
+    };
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    sweep(folder);
+    let mut file = unfinished::create(&builder(), folder).map_err(|error| failed(&error))?;
+    file.write_all(bytes).map_err(|error| failed(&error))?;
+    file.persist(&target).map(drop).map_err(|error| failed(&error.error))
+}
+
+/// Gives temporary files the permissions of any new file rather than restricted ones.
+fn builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(TEMPORARY);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder
+}
+
+/// Removes what killed commands left in a folder of outputs, once in a run.
+fn sweep(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let is_new = SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned());
+    if is_new {
+        unfinished::sweep(folder, TEMPORARY);
+    }
+}
+
+/// Creates a folder of outputs and its parents.
+pub(super) fn make_folder(path: &Path) -> Result<(), Failure> {
+    if path.exists() && !path.is_dir() {
+        return Err(Failure::usage(format!("`{}` is a file, not a folder", path.display())));
+    }
+    if path.is_dir() {
+        sweep(path);
+        return Ok(());
+    }
+    fs::create_dir_all(path)
+        .map_err(|error| Failure::usage(format!("cannot make the folder `{}`: {error}", path.display())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::text_of;
+
+    #[test]
+    fn text_and_binary_are_told_apart() {
+        assert!(text_of("x", b"#version 150\n".to_vec()).is_ok());
+        assert!(text_of("x", "// こんにちは\n".as_bytes().to_vec()).is_ok());
+        let latin1 = text_of("x", b"// caf\xe9\nvoid main() {}\n".to_vec()).expect("one odd byte is forgiven");
+        assert!(latin1.contains('\u{fffd}'));
+        let shift_jis = b"// \x83e\x83N\x83X\x83`\x83\x83\x8d\xc0\x95W\n\x0bvoid main() {}\x0c".to_vec();
+        assert!(text_of("x", shift_jis).is_ok());
+        assert!(text_of("x", b"\x80\x81\x82\x83\x84\x85abc".to_vec()).is_ok());
+        assert!(text_of("x", b"void main() {}\n\x1a".to_vec()).is_ok_and(|text| text.ends_with("}\n")));
+        for (bytes, code) in [
+            (&b""[..], "E0013"),
+            (b" \n\t", "E0013"),
+            (b"void\0main", "E0014"),
+            (b"\x03\x02\x23\x07abc", "E0014"),
+            (b"\xff\xfe#\0v\0", "E0014"),
+            (b"void \x01 main", "E0014"),
+            (b"void \x1b[31m main", "E0014"),
+        ] {
+            assert_eq!(text_of("x", bytes.to_vec()).expect_err("not text").code.id, code, "{bytes:?}");
+        }
+    }
+}

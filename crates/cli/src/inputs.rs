@@ -1,0 +1,438 @@
+//! Which files a command works on, and which of them form one program.
+//!
+//! *In:* names on the command line. *Out:* [`Group`]s in the order of their first names: files with the same folder
+//! and stem and different stages, and each `--program`.
+//!
+//! *Holds:* a file that is named twice counts once; a file in a `--program` forms no group of its own.
+
+use super::args::{ProgramArgs, SourceArgs};
+use super::console::Console;
+use super::engine::{Engines, STDIN as SHOWN_STDIN};
+use super::exit::Failure;
+use super::files;
+use super::search::{self, Left};
+use glisten_front::hir::Stage;
+use glisten_sources::embedded::{self, Filling, Host};
+use glisten_sources::engines::combined;
+use glisten_sources::{members, stages};
+use ignore::WalkBuilder;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The name of standard input on the command line.
+const STDIN: &str = "-";
+
+/// A shader to read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Input {
+    /// The name that diagnostics show.
+    pub(super) name: String,
+    /// The file; `None` for standard input.
+    pub(super) path: Option<PathBuf>,
+    /// The stage.
+    pub(super) stage: Stage,
+    /// The program of the file, if it contains several stages.
+    pub(super) part: Option<PartOf>,
+}
+
+/// A program of a file that contains several stages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct PartOf {
+    /// Its index.
+    index: usize,
+    /// Its name, if the file has several programs.
+    name: Option<String>,
+    /// The language of the file, if the program is in its strings, and what stands for interpolations.
+    string: Option<(Host, Filling)>,
+}
+
+impl PartOf {
+    /// A program in the strings of a file.
+    pub(super) fn in_string(index: usize, name: String, host: Host) -> Self {
+        Self { index, name: Some(name), string: Some((host, Filling::default())) }
+    }
+
+    /// The language of the file, and the index of the program among those in its strings.
+    pub(super) fn host(&self) -> Option<(usize, Host)> {
+        self.string.map(|(host, _)| (self.index, host))
+    }
+
+    /// Changes what stands for interpolations.
+    pub(super) fn fill(&mut self, filling: Filling) {
+        self.string = self.string.map(|(host, _)| (host, filling));
+    }
+
+    /// The macros that select a stage in a file, and those that select the others.
+    pub(super) fn macros(&self, file: &str, stage: Stage) -> (Vec<String>, Vec<String>) {
+        if self.string.is_some() {
+            return Default::default();
+        }
+        let members = combined::members(file);
+        let parts = members.get(self.index).map(|member| member.parts.as_slice()).unwrap_or_default();
+        let of = |is_own: bool| {
+            let parts = parts.iter().filter(move |part| (part.stage == stage) == is_own);
+            parts.flat_map(|part| &part.defines).map(|(name, _)| name.clone()).collect::<Vec<_>>()
+        };
+        let (set, others) = (of(true), of(false));
+        let unset = others.into_iter().filter(|name| !set.contains(name)).collect();
+        (set, unset)
+    }
+
+    /// The text of a stage, where the file has several programs; otherwise the whole text, which is taken apart later.
+    pub(super) fn text(&self, text: &Arc<str>, stage: Stage) -> Arc<str> {
+        if let Some((host, filling)) = self.string {
+            let program = embedded::programs(host, text).into_iter().nth(self.index);
+            let own = program.and_then(|program| Some(program.shader(stage)?.text(text, filling)));
+            return own.unwrap_or_else(|| Arc::clone(text));
+        }
+        let members = self.name.as_ref().map(|_| combined::members(text)).unwrap_or_default();
+        let part = members.get(self.index).and_then(|member| member.part(stage));
+        part.map_or_else(|| Arc::clone(text), |part| part.text(text))
+    }
+}
+
+impl Input {
+    /// The name for its outputs: `phong.vert`; for standard input, `stdin.vert`.
+    pub(super) fn file_name(&self) -> String {
+        match &self.path {
+            Some(_) if self.part.is_some() => format!("{}.{}", self.stem(), stages::extension(self.stage)),
+            Some(path) => path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
+            None => format!("stdin.{}", stages::extension(self.stage)),
+        }
+    }
+
+    /// Whether it is of a program after the first of its file.
+    fn is_later(&self) -> bool {
+        self.part.as_ref().is_some_and(|part| part.index > 0)
+    }
+
+    /// The name without the part that says the stage.
+    pub(super) fn stem(&self) -> String {
+        let named = self.part.as_ref().and_then(|part| part.name.clone());
+        named.or(self.path.as_deref().map(stages::stem)).unwrap_or("stdin".to_owned())
+    }
+}
+
+/// Files that form one program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Group {
+    /// The stem of the first file.
+    pub(super) name: String,
+    /// The inputs, at least one.
+    pub(super) inputs: Vec<Input>,
+}
+
+impl Group {
+    /// Whether it has only one stage, which will need a partner.
+    pub(super) fn is_lone(&self) -> bool {
+        self.inputs.iter().all(|input| Some(input.stage) == self.inputs.first().map(|first| first.stage))
+    }
+}
+
+/// The inputs that the command line names.
+#[derive(Debug, Default)]
+pub(super) struct Inputs {
+    /// The programs.
+    pub(super) groups: Vec<Group>,
+    /// Folders that contain no shader.
+    pub(super) empty_folders: Vec<String>,
+    /// The files that a search found and the command line does not name.
+    pub(super) found: BTreeSet<PathBuf>,
+    /// The files that a search saw and did not take.
+    pub(super) left: Vec<Left>,
+    /// The folders of files that a search found, below the folder that was searched.
+    below: BTreeMap<PathBuf, PathBuf>,
+}
+
+impl Inputs {
+    /// Whether a folder was searched.
+    pub(super) fn has_search(&self) -> bool {
+        !self.found.is_empty() || !self.left.is_empty() || !self.empty_folders.is_empty()
+    }
+
+    /// Tells which of the folders have no shader.
+    pub(super) fn tell_empty_folders(&self, console: &Console) {
+        for folder in &self.empty_folders {
+            console.remark(&format!("no shader was found in `{folder}`"));
+        }
+    }
+
+    /// The folder of a program's outputs below that of all outputs: outputs of a searched folder lie as its files do.
+    pub(super) fn below(&self) -> impl Fn(&Group) -> PathBuf + Sync + use<> {
+        let below = self.below.clone();
+        move |group| {
+            let first = group.inputs.first().and_then(|input| input.path.as_ref());
+            first.and_then(|path| below.get(path)).cloned().unwrap_or_default()
+        }
+    }
+}
+
+/// The files of the command line, or the current folder if it names nothing.
+pub(super) fn named_or_here(files: &[PathBuf], args: &ProgramArgs) -> Vec<PathBuf> {
+    if files.is_empty() && args.programs.is_empty() { vec![PathBuf::from(".")] } else { files.to_vec() }
+}
+
+/// The scene files that the command line names: files as they are, folders searched for `.toml` files that draw.
+///
+/// # Errors
+/// A folder that cannot be read, or that contains no scene.
+pub(super) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
+    let mut files = Vec::new();
+    for name in names {
+        let path = Path::new(name);
+        if !path.is_dir() {
+            files.push(name.clone());
+            continue;
+        }
+        let mut found: Vec<String> = WalkBuilder::new(path)
+            .build()
+            .filter_map(Result::ok)
+            .filter(|entry| entry.path().extension().is_some_and(|extension| extension == "toml"))
+            .filter(|entry| fs::read_to_string(entry.path()).is_ok_and(|text| text.contains("[[draw]]")))
+            .map(|entry| entry.path().to_string_lossy().into_owned())
+            .collect();
+        if found.is_empty() {
+            return Err(Failure::usage(format!("there is no scene in `{name}`")));
+        }
+        found.sort();
+        files.append(&mut found);
+    }
+    Ok(files)
+}
+
+/// Collects the inputs of a command. Folders are searched only if `scans` is set. Otherwise they stay in the list,
+/// and reading them gives the error.
+pub(super) fn collect(
+    files: &[PathBuf],
+    args: &ProgramArgs,
+    sources: &SourceArgs,
+    scans: bool,
+) -> Result<Inputs, Failure> {
+    let engines = Engines::new(sources)?;
+    let mut inputs = Inputs::default();
+    let mut named: Vec<PathBuf> = Vec::new();
+    for file in files {
+        if scans && file.is_dir() {
+            let search = search::folder(file, &engines)?;
+            if search.found.is_empty() {
+                inputs.empty_folders.push(file.to_string_lossy().into_owned());
+            }
+            for path in &search.found {
+                let folder =
+                    path.strip_prefix(file).or(Ok::<_, ()>(path)).ok().and_then(Path::parent).unwrap_or(Path::new(""));
+                inputs.below.insert(path.clone(), folder.to_owned());
+            }
+            inputs.found.extend(search.found.iter().cloned());
+            inputs.left.extend(search.left);
+            named.extend(search.found);
+        } else {
+            named.push(file.clone());
+        }
+    }
+    let by_name: BTreeSet<PathBuf> = files.iter().filter(|file| !file.is_dir()).map(|name| identity(name)).collect();
+    if !by_name.is_empty() {
+        inputs.found.retain(|name| !by_name.contains(&identity(name)));
+        inputs.left.retain(|left| !by_name.contains(&identity(&left.path)));
+    }
+    let mut in_programs = BTreeSet::new();
+    let mut groups = Vec::new();
+    for program in &args.programs {
+        let names: Vec<&str> = program.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+        if names.is_empty() {
+            return Err(Failure::usage("--program names no file").help("write `--program a.vert,b.frag`"));
+        }
+        in_programs.extend(names.iter().map(|name| identity(Path::new(name))));
+        let mut listed = Vec::new();
+        for name in names {
+            listed.extend(
+                stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()),
+            );
+        }
+        groups.push(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed });
+    }
+    let mut seen = BTreeSet::new();
+    let alone = named.len() == 1 && args.programs.is_empty();
+    let mut listed = Vec::new();
+    for name in &named {
+        let identity = identity(name);
+        if !in_programs.contains(&identity) && seen.insert(identity) {
+            listed.extend(stages_of(name, args, &engines, alone)?);
+        }
+    }
+    inputs.groups = group(listed);
+    inputs.groups.extend(groups);
+    Ok(inputs)
+}
+
+/// The program of these files, whatever their names are.
+pub(super) fn program(names: &[String], args: &ProgramArgs, sources: &SourceArgs) -> Result<Group, Failure> {
+    let engines = Engines::new(sources)?;
+    let mut listed = Vec::new();
+    for name in names {
+        listed.extend(stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()));
+    }
+    Ok(in_pipeline_order(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed }))
+}
+
+/// A key that is equal for two names of the same file.
+pub(super) fn identity(name: &Path) -> PathBuf {
+    if name.as_os_str() == STDIN {
+        PathBuf::from(STDIN)
+    } else {
+        fs::canonicalize(name).unwrap_or_else(|_| name.into())
+    }
+}
+
+/// The stages of a file: one, unless it contains several.
+fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) -> Result<Vec<Input>, Failure> {
+    let given = args.stage.map(Stage::from);
+    if path.as_os_str() == STDIN {
+        let stage = given.ok_or_else(|| {
+            Failure::usage("cannot tell the shader stage of standard input").help("add `--stage vertex` or another")
+        })?;
+        return Ok(vec![Input { name: SHOWN_STDIN.to_owned(), path: None, stage, part: None }]);
+    }
+    let name = &path.to_string_lossy().into_owned();
+    let told = stages::by_name(path);
+    if told.is_none() {
+        let parts = parts(path);
+        let wanted = |input: &Input| given.is_none_or(|stage| stage == input.stage);
+        if parts.iter().any(wanted) {
+            return Ok(parts.into_iter().filter(wanted).collect());
+        }
+    }
+    let stage = if alone { given.or(told) } else { told.or(given) }.or_else(|| engines.stage(path));
+    // Reading reports what is not a readable file; its stage does not matter then.
+    let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
+    match stage {
+        Some(stage) => Ok(vec![Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: None }]),
+        None => Err(Failure::usage(format!("cannot tell the shader stage of `{name}`")).help(match Host::of(path) {
+            Some(_) => "`glisten lint --embedded` reads the shaders in its strings".to_owned(),
+            None if path.extension().is_some_and(|extension| extension == "toml") => {
+                "`glisten verify` and `glisten render` take scenes; this command takes the shaders that a scene names"
+                    .to_owned()
+            }
+            None => format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()),
+        })),
+    }
+}
+
+/// The stages in a file that contains several.
+pub(super) fn parts(path: &Path) -> Vec<Input> {
+    let name = path.to_string_lossy();
+    files::read_source(&name, Some(path)).map_or_else(|_| Vec::new(), |text| parts_in(path, &text))
+}
+
+/// The stages in the text of a file that contains several.
+pub(super) fn parts_in(path: &Path, text: &str) -> Vec<Input> {
+    let name = path.to_string_lossy();
+    let mut inputs = Vec::new();
+    for (index, member) in members(Some(path), text).into_iter().enumerate() {
+        let part = PartOf { index, name: member.name, string: None };
+        let input =
+            |stage| Input { name: name.to_string(), path: Some(path.to_owned()), stage, part: Some(part.clone()) };
+        inputs.extend(member.parts.iter().map(|part| input(part.stage)));
+    }
+    inputs
+}
+
+/// Groups files by folder and stem; each stage occurs at most once in a group. What tessellation stages stand between is no pair.
+pub(super) fn group(inputs: Vec<Input>) -> Vec<Group> {
+    let mut groups: Vec<((PathBuf, String, String), Group)> = Vec::new();
+    let mut of_key: BTreeMap<(PathBuf, String, String), Vec<usize>> = BTreeMap::new();
+    let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
+    for input in inputs {
+        let folder = input.path.as_deref().and_then(Path::parent).map(Path::to_owned).unwrap_or_default();
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        let real = |folder: &PathBuf| fs::canonicalize(folder).unwrap_or_else(|_| folder.clone());
+        let folder = folders.entry(folder).or_insert_with_key(real).clone();
+        // The stages of one file belong to each other, whatever files of the same stem there are.
+        let own = input.part.as_ref().map_or(String::new(), |part| format!("{}:{}", input.name, part.index));
+        let key = (folder, input.stem(), own);
+        let fits = |group: &Group| group.inputs.iter().all(|other| other.stage != input.stage);
+        let known = of_key.entry(key.clone()).or_default();
+        let at = known.iter().copied().find(|&at| groups.get(at).is_some_and(|(_, group)| fits(group)));
+        match at.and_then(|at| groups.get_mut(at)) {
+            Some((_, group)) => group.inputs.push(input),
+            None => {
+                known.push(groups.len());
+                groups.push((key, Group { name: input.stem(), inputs: vec![input] }));
+            }
+        }
+    }
+    let groups = groups.into_iter().flat_map(|((folder, stem, own), group)| {
+        if own.is_empty() && group.inputs.len() > 1 && stages::is_tessellated(&folder, &stem) {
+            let alone = |input: Input| Group { name: group.name.clone(), inputs: vec![input] };
+            group.inputs.iter().cloned().map(alone).collect()
+        } else {
+            vec![group]
+        }
+    });
+    groups.map(in_pipeline_order).collect()
+}
+
+/// Sorts the stages in pipeline order, so that the order on the command line does not matter.
+fn in_pipeline_order(mut group: Group) -> Group {
+    group.inputs.sort_by_key(|input| input.stage);
+    group
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Input, group};
+    use glisten_front::hir::Stage;
+    use glisten_sources::stages;
+    use std::path::{Path, PathBuf};
+
+    fn inputs(names: &[&str]) -> Vec<Input> {
+        let input = |name: &&str| Input {
+            name: (*name).to_owned(),
+            path: Some(PathBuf::from(name)),
+            stage: stages::by_name(Path::new(name)).expect("the name tells the stage"),
+            part: None,
+        };
+        names.iter().map(input).collect()
+    }
+
+    #[test]
+    fn files_are_grouped_by_folder_and_stem() {
+        let groups = group(inputs(&["b.frag", "a.vert", "x/a.frag", "b.vs", "a.frag", "b.vert"]));
+        let shown: Vec<Vec<&str>> =
+            groups.iter().map(|group| group.inputs.iter().map(|input| input.name.as_str()).collect()).collect();
+        assert_eq!(shown, [vec!["b.vs", "b.frag"], vec!["a.vert", "a.frag"], vec!["x/a.frag"], vec!["b.vert"]]);
+        assert!(groups[2].is_lone() && !groups[0].is_lone());
+    }
+
+    #[test]
+    fn stems_leave_out_what_tells_the_stage() {
+        for (name, stem, stage) in [
+            ("dir/phong.vert", "phong", Some(Stage::Vertex)),
+            ("phong.vert.glsl", "phong", Some(Stage::Vertex)),
+            ("a.b.fs", "a.b", Some(Stage::Fragment)),
+            ("lib.glsl", "lib", None),
+            ("X.GEOM", "X", Some(Stage::Geometry)),
+            ("a/phong_vs.glsl", "phong", Some(Stage::Vertex)),
+            ("phong-FS.GLSL", "phong", Some(Stage::Fragment)),
+            ("PhongVert.glsl", "Phong", Some(Stage::Vertex)),
+            ("lightFS.glsl", "light", Some(Stage::Fragment)),
+            ("advert.glsl", "advert", None),
+            ("vs_phong.glsl", "phong", Some(Stage::Vertex)),
+            ("deferred_light_vertex.glsl", "deferred_light", Some(Stage::Vertex)),
+            ("fragment.glsl", "program", Some(Stage::Fragment)),
+            ("a.vertex", "a", Some(Stage::Vertex)),
+            ("a.fragmentshader", "a", Some(Stage::Fragment)),
+            ("a.ps", "a", None),
+            ("old.vp", "old", Some(Stage::Vertex)),
+            ("old_fp.glsl", "old", Some(Stage::Fragment)),
+            ("deferred-f.sdr", "deferred", Some(Stage::Fragment)),
+            ("light_v.glsl", "light_v", None),
+            ("waves.glsl", "waves", None),
+            ("_vs.glsl", "_vs", None),
+        ] {
+            assert_eq!(stages::stem(Path::new(name)), stem, "{name}");
+            assert_eq!(stages::by_name(Path::new(name)), stage, "{name}");
+        }
+    }
+}

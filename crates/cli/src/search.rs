@@ -1,0 +1,144 @@
+//! Searches a folder for shaders.
+//!
+//! *In:* a folder. *Out:* the shaders in it and in its subfolders, and the files that look like shaders and were not taken, each with
+//! the reason. *Holds:* both are in the order of their names. What `.gitignore` or the `exclude` of a configuration names is in
+//! neither, nor is a `.glsl` file that is there to be included.
+
+use super::config::{self, Nearest};
+use super::engine::Engines;
+use super::exit::Failure;
+use super::inputs;
+use glisten_sources::stages;
+use ignore::WalkBuilder;
+use ignore::gitignore::Gitignore;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// A file that a search saw and did not take.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Left {
+    /// The file.
+    pub(super) path: PathBuf,
+    /// The reason.
+    pub(super) why: Why,
+}
+
+/// Why a search does not take a file that looks like a shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Why {
+    /// Its name tells a stage, and it has no `main`: it is there to be included.
+    NoMain,
+    /// It is in the assembly language of ARB_vertex_program.
+    Assembly,
+    /// It has a `main`, and neither its name nor its text tells its stage.
+    NoStage,
+    /// Its stage is none that glisten reads.
+    Stage(&'static str),
+}
+
+/// The result of a search.
+#[derive(Debug, Default)]
+pub(super) struct Search {
+    /// The shaders.
+    pub(super) found: Vec<PathBuf>,
+    /// The files that were not taken.
+    pub(super) left: Vec<Left>,
+}
+
+/// Searches a folder. Hidden folders are skipped, and links to folders are not followed, so that a cycle of links does no harm.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub(super) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> {
+    let mut search = Search::default();
+    for path in files(root)? {
+        match classify(&path, engines) {
+            Some(Ok(())) => search.found.push(path),
+            Some(Err(why)) => search.left.push(Left { path, why }),
+            None => {}
+        }
+    }
+    search.found.sort();
+    search.left.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(search)
+}
+
+/// The sources in a folder that have a style: all shaders, and what is there to be included.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub(super) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let is_source = |path: &PathBuf| {
+        let named = stages::by_name(path).is_some() || stages::unread(path).is_some() || stages::may_be_included(path);
+        named && !stages::is_assembly(path)
+    };
+    let mut found: Vec<PathBuf> = files(root)?.into_iter().filter(is_source).collect();
+    found.sort();
+    Ok(found)
+}
+
+/// The files in a folder that look like shaders, but for those that are excluded.
+pub(super) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let mut excludes = Excludes::default();
+    let mut walk = WalkBuilder::new(root);
+    // Without a repository, `.gitignore` says as much about what is generated.
+    walk.hidden(false).require_git(false).filter_entry(|entry| entry.depth() == 0 || !is_hidden_folder(entry));
+    let mut files = Vec::new();
+    for entry in walk.build() {
+        let entry =
+            entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
+        if entry.file_type().is_some_and(|kind| kind.is_dir()) || excludes.has(entry.path()) {
+            continue;
+        }
+        let path = entry.into_path();
+        // `./a.frag` is `a.frag` to services that show findings.
+        files.push(path.strip_prefix(".").map(Path::to_owned).unwrap_or(path));
+    }
+    Ok(files)
+}
+
+/// Whether a search takes a file: its name tells its stage, or its engine does, or it contains several stages. `None` for a file
+/// that does not look like a shader.
+pub(super) fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>> {
+    if engines.is_part(path) {
+        return None;
+    }
+    if let Some(stage) = stages::unread(path) {
+        return Some(Err(Why::Stage(stage)));
+    }
+    let is_whole = stages::by_name(path).is_some() || engines.stage(path).is_some() && stages::may_be_included(path);
+    if is_whole {
+        return Some(match () {
+            () if stages::is_part(path) => Err(Why::NoMain),
+            () if stages::is_assembly(path) => Err(Why::Assembly),
+            () => Ok(()),
+        });
+    }
+    if stages::may_be_combined(path) && !inputs::parts(path).is_empty() {
+        return Some(Ok(()));
+    }
+    (stages::may_be_included(path) && !stages::is_part(path)).then_some(Err(Why::NoStage))
+}
+
+fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {
+    entry.file_type().is_some_and(|kind| kind.is_dir()) && entry.file_name().to_string_lossy().starts_with('.')
+}
+
+/// The patterns that configurations exclude.
+#[derive(Default)]
+struct Excludes {
+    nearest: Nearest,
+    by_file: HashMap<PathBuf, Option<Gitignore>>,
+}
+
+impl Excludes {
+    /// Whether the nearest configuration excludes a file or a folder that it is in.
+    fn has(&mut self, path: &Path) -> bool {
+        let Some(file) = self.nearest.of(path.parent().unwrap_or(Path::new(""))) else { return false };
+        let patterns = self.by_file.entry(file).or_insert_with_key(|file| config::excluded(file));
+        patterns.as_ref().is_some_and(|patterns| {
+            let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+            absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
+        })
+    }
+}
