@@ -1,30 +1,85 @@
-//! The interface that users of the library rely on stays: every public declaration in `api.txt` is still there, word by word.
+//! The interface that users of the library rely on stays: every public declaration in `api.txt` is still there, word by word, and
+//! `docs/api.md` says of each type who uses it.
 //!
-//! *In:* the sources of `glisten`, and of what it re-exports. *Out:* declarations that changed or are missing. New ones are no
+//! *In:* `src/lib.rs`, and the sources of what it re-exports. *Out:* declarations that changed or are missing. New ones are no
 //! failure; `UPDATE_API=1 cargo test --test it -- public_declarations` writes the list, which a release does (`integrations/release`).
 //!
 //! This is a list and not `cargo semver-checks`: that compares with a published version, and there is none; and it takes longer to
 //! build than glisten. The list needs nothing but the sources, and shows a change of the interface in the diff that makes it.
 
-use super::architecture::{code_lines, name_of, rust_files, text_of};
+use super::architecture::{name_of, rust_files, source_folders, text_of};
 use super::support::root;
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::PathBuf;
 
-/// The sources of what `glisten` offers: its own, and those of other crates that it re-exports.
-static OFFERED: &[&str] = &[
-    "src",
-    "crates/front/src/compiler",
-    "crates/front/src/diagnostic",
-    "crates/front/src/lint",
-    "crates/front/src/source",
-    "crates/emit/src/target",
-    "crates/emit/src/emit/reflection",
-    "crates/scene/src/picture",
-];
+/// Types that the library may have.
+const MOST_TYPES: usize = 60;
 
-/// Parts of them that no user can name.
-static HIDDEN: &[&str] = &["src/cli/", "src/main.rs", "crates/front/src/diagnostic/codes/"];
+/// A name that `glisten` re-exports.
+struct Offered {
+    /// The name below `glisten`: `emit::Target`.
+    shown: String,
+    /// The folder of the sources that may declare it.
+    folder: String,
+    /// The name that is declared there.
+    name: String,
+}
+
+impl Offered {
+    fn is_type(&self) -> bool {
+        self.name.starts_with(char::is_uppercase)
+    }
+}
+
+/// All names that `src/lib.rs` re-exports, but for the command line, which no host names.
+fn offered() -> Vec<Offered> {
+    let text = text_of(&root().join("src/lib.rs"));
+    let lines = text.lines().map(str::trim).filter(|line| !line.starts_with("//") && !line.starts_with('#'));
+    let text = lines.collect::<Vec<_>>().join(" ");
+    let (mut found, mut modules) = (Vec::new(), Vec::new());
+    let mut rest = text.as_str();
+    while let Some(at) = rest.find(['}', 'p']) {
+        rest = &rest[at..];
+        if let Some(after) = rest.strip_prefix("pub mod ") {
+            let (name, after) = after.split_once(" {").expect("a module has a body");
+            modules.push(name.to_owned());
+            rest = after;
+        } else if let Some(after) = rest.strip_prefix("pub use ") {
+            let (tree, after) = after.split_once(';').expect("a declaration ends");
+            found.extend(leaves(tree).into_iter().map(|path| as_offered(&modules, &path)));
+            rest = after;
+        } else {
+            if rest.starts_with('}') {
+                modules.pop();
+            }
+            rest = &rest[1..];
+        }
+    }
+    found.retain(|one| one.shown != "cli");
+    found
+}
+
+/// The paths of a tree of uses, whose braces are not nested.
+fn leaves(tree: &str) -> Vec<String> {
+    let Some((head, list)) = tree.split_once('{') else { return vec![tree.trim().to_owned()] };
+    let names = list.trim_end_matches('}').split(',').map(str::trim).filter(|name| !name.is_empty());
+    names.map(|name| format!("{head}{name}")).collect()
+}
+
+fn as_offered(modules: &[String], path: &str) -> Offered {
+    let (path, alias) = path.split_once(" as ").map_or((path, None), |(path, alias)| (path, Some(alias)));
+    let parts: Vec<&str> = path.split("::").collect();
+    let (name, place) = parts.split_last().expect("a path has a name");
+    let crate_name = place.first().map_or("", |first| first.trim_start_matches("glisten_"));
+    let source = match crate_name {
+        "library" => "shader_lib/src".to_owned(),
+        other => format!("crates/{other}/src"),
+    };
+    let folder = place.iter().skip(1).fold(source, |folder, part| format!("{folder}/{part}"));
+    let shown = modules.iter().map(String::as_str).chain([alias.unwrap_or(name)]).collect::<Vec<_>>().join("::");
+    Offered { shown, folder, name: (*name).to_owned() }
+}
 
 /// A declaration that is being read.
 #[derive(Default)]
@@ -83,27 +138,68 @@ fn head(text: &str) -> &str {
     text.trim_end_matches(['{', ';', ',']).trim()
 }
 
-/// The module that offers what a file declares. Files within it may be divided in other ways.
-fn module_of(name: &str) -> &str {
-    let folder = OFFERED.iter().skip(1).find(|folder| name.starts_with(*folder));
-    let own = || name.split('/').nth(1).map_or(name, |module| module.trim_end_matches(".rs"));
-    folder.copied().unwrap_or_else(own)
+/// Whether a declaration, or its owner, has this name: `pub fn name(`, `impl Name: pub fn`, `pub struct Name<T>: pub field`.
+fn is_of(declaration: &str, name: &str) -> bool {
+    let owner = declaration.split_once(": pub ").map_or(declaration, |(owner, _)| owner);
+    let owner = owner.rsplit_once(" for ").map_or(owner, |(_, of)| of);
+    let mut words = owner.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+    let is_head = |word: &&str| {
+        !["pub", "const", "unsafe", "async", "impl", "a", "fn", "struct", "enum", "trait", "type"].contains(word)
+    };
+    words.find(is_head) == Some(name)
+}
+
+/// The declarations of a name in these files.
+fn declared(one: &Offered, files: &[PathBuf]) -> Vec<String> {
+    let mut all = Vec::new();
+    for path in files.iter().filter(|path| !name_of(path).contains("/tests")) {
+        let mut reader = Reader::default();
+        let text = text_of(path);
+        let lines = text.lines().take_while(|line| *line != "mod tests {");
+        lines.filter(|line| !line.trim_start().starts_with("//")).for_each(|line| reader.line(line));
+        all.extend(reader.found.into_iter().filter(|found| is_of(found, &one.name)));
+    }
+    all.into_iter().map(|found| format!("{}: {found}", one.shown)).collect()
 }
 
 fn declarations() -> BTreeSet<String> {
-    let files = OFFERED.iter().flat_map(|folder| rust_files(folder));
+    let every: Vec<PathBuf> = source_folders().flat_map(|folder| rust_files(&folder)).collect();
     let mut all = BTreeSet::new();
-    for path in files {
-        let name = name_of(&path);
-        if HIDDEN.iter().any(|hidden| name.starts_with(hidden)) || name.contains("/tests") {
-            continue;
-        }
-        let mut reader = Reader::default();
-        code_lines(&text_of(&path)).for_each(|(_, line)| reader.line(line));
-        let module = module_of(&name);
-        all.extend(reader.found.into_iter().map(|found| format!("{module}: {found}")));
+    for one in offered() {
+        let mut files = rust_files(&one.folder);
+        let file = root().join(format!("{}.rs", one.folder));
+        files.extend(file.exists().then_some(file));
+        // A crate may re-export it itself.
+        let found = Some(declared(&one, &files)).filter(|found| !found.is_empty());
+        let found = found.unwrap_or_else(|| declared(&one, &every));
+        assert!(!found.is_empty() || one.shown.starts_with("assert_"), "{} is declared nowhere", one.shown);
+        all.extend(found);
     }
     all
+}
+
+#[test]
+fn every_type_has_a_user() {
+    let types: BTreeSet<String> = offered().into_iter().filter(Offered::is_type).map(|one| one.shown).collect();
+    assert!(types.len() <= MOST_TYPES, "the library has {} types", types.len());
+    assert!(types.len() > 40, "only {} types were found", types.len());
+    let page = text_of(&root().join("docs/api.md"));
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| `"));
+    let rows: Vec<(&str, &str)> = rows.filter_map(|row| row.split_once("` | ")).collect();
+    let listed: BTreeSet<String> = rows.iter().map(|(name, _)| (*name).to_owned()).collect();
+    assert_eq!(listed, types, "docs/api.md and src/lib.rs list other types");
+    for (name, rest) in rows {
+        let user = rest.split_once(" | ").map_or("", |(_, user)| user).trim_end_matches(" |");
+        let last = name.rsplit("::").next().expect("a name");
+        if user.starts_with("returned by ") || user.starts_with("a field of ") {
+            continue;
+        }
+        let path = match user.split_once("](") {
+            Some((_, link)) => format!("docs/{}", link.trim_end_matches(')')),
+            None => user.trim_matches('`').to_owned(),
+        };
+        assert!(text_of(&root().join(&path)).contains(last), "{path} does not use {name}");
+    }
 }
 
 #[test]

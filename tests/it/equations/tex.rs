@@ -1,4 +1,4 @@
-//! The formulas of the gallery as numbers: parses the subset of TeX that `src/gallery/math.rs` typesets, and evaluates
+//! The formulas of the gallery as numbers: parses the subset of TeX that `crates/report/src/gallery/math.rs` typesets, and evaluates
 //! it over scalars and vectors.
 //!
 //! *In:* a formula as a scene prints it, and the values of its symbols. *Out:* its definitions, and their values.
