@@ -77,8 +77,9 @@ pub(super) struct ReportArgs {
 /// Which variants to compare.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum WaysArg {
-    /// Those of the scene's [report] table, or the scene alone
+    /// Those that the scene declares.
     #[default]
+    #[value(help = "Those of the scene's [report] table, or the scene alone")]
     Declared,
     /// Those that are found by themselves as well
     Auto,
