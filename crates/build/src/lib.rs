@@ -1,6 +1,6 @@
 //! Compiles shaders in build scripts: three lines in `build.rs`, and a Rust module with code, types and layouts.
 //!
-//! ```no_run
+//! ```ignore
 //! // The whole of build.rs, inside of `fn main`.
 //! glisten::build::Build::new().folder("shaders").run();
 //! ```

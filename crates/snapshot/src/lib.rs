@@ -1,5 +1,5 @@
 //! Snapshots of shaders: tests that notice when code, reflection, diagnostics, what specialization leaves out, or a picture
-//! changes.
+//! changes. Hosts find all of it in `glisten::snapshot`, and the macros in `glisten`.
 //!
 //! *In:* a program, a compilation, a scene, a picture. *Out:* a comparison with the snapshot that is stored next to the test.
 //! Texts are snapshots of [`insta`]: `cargo insta review` shows and accepts them. Pictures are PNG files next to those, with
@@ -7,21 +7,22 @@
 //! review` shows them, `glisten snapshots accept` accepts them. `INSTA_UPDATE` means the same to both.
 //!
 //! ```no_run
-//! use glisten::emit::Target;
-//! use glisten::scene::{DiskFiles, load};
-//! use glisten::snapshot::Criterion;
-//! use glisten::{Compiler, Options};
+//! use glisten_emit::Target;
+//! use glisten_front::{Compiler, Options};
+//! use glisten_reference::{RenderOptions, render};
+//! use glisten_snapshot::{Criterion, assert_emitted, assert_picture, assert_reflection, assert_scene};
+//! use glisten_verify::scene::{DiskFiles, load};
 //!
 //! # fn test() {
 //! let loaded = load("shaders/lit.toml", &DiskFiles, &Compiler::new(Options::default()));
 //! let scene = loaded.scene.expect("the scene is valid");
-//! glisten::assert_emitted!("lit", *scene.draws[0].program, Target::Wgsl);
-//! glisten::assert_reflection!("lit-reflection", *scene.draws[0].program);
+//! assert_emitted!("lit", *scene.draws[0].program, Target::Wgsl);
+//! assert_reflection!("lit-reflection", *scene.draws[0].program);
 //! // The stored picture has to be one that a conforming GPU may draw.
-//! glisten::assert_scene!("lit", scene);
+//! assert_scene!("lit", scene);
 //! // The picture of a renderer has to look like the stored one.
-//! let picture = glisten::render(&scene, &glisten::RenderOptions::default()).expect("it can be drawn");
-//! glisten::assert_picture!("lit-picture", picture, Criterion::Flip(0.01));
+//! let picture = render(&scene, &RenderOptions::default()).expect("it can be drawn");
+//! assert_picture!("lit-picture", picture, Criterion::Flip(0.01));
 //! # }
 //! ```
 //!

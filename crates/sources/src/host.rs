@@ -25,7 +25,9 @@ pub enum Search {
 /// The compiler for sources with these settings: it completes them as their engine does.
 ///
 /// ```
-/// use glisten::{Compiler, Options, Search, Source, SourceSettings, Stage, completing};
+/// use glisten_front::compiler::SourceSettings;
+/// use glisten_front::{Compiler, Options, Source, Stage};
+/// use glisten_sources::{Search, completing};
 ///
 /// let settings = SourceSettings { engine: Some("three".into()), ..SourceSettings::default() };
 /// let compiler = completing(Compiler::new(Options::default()), &settings, Search::CompilerAlone);

@@ -92,7 +92,8 @@ fn is_word_of_capital(name: &str, place: usize) -> bool {
 /// The stage that the name of a file tells, and the name without the part that tells it, which the other stages of a program share.
 ///
 /// ```
-/// use glisten::{Stage, stage_of_name};
+/// use glisten_front::Stage;
+/// use glisten_sources::stage_of_name;
 ///
 /// assert_eq!(stage_of_name("shaders/waveFrag.glsl"), Some((Stage::Fragment, "wave".to_owned())));
 /// assert_eq!(stage_of_name("wave.glsl"), None);

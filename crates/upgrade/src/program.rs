@@ -66,8 +66,8 @@ pub struct Upgraded {
 /// Rewrites the sources of a program. The compiler has no [`Preparation`].
 ///
 /// ```
-/// use glisten::upgrade::{Target, upgrade};
-/// use glisten::{Compiler, Options, Source, Stage};
+/// use glisten_front::{Compiler, Options, Source, Stage};
+/// use glisten_upgrade::{Target, upgrade};
 ///
 /// let text = "void main() { gl_FragColor = vec4(1.0); }\n";
 /// let source = Source { name: "a.frag".into(), text: text.into(), stage: Stage::Fragment };

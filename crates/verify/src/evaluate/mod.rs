@@ -5,14 +5,15 @@
 //! domain.
 //!
 //! ```
-//! use glisten::evaluate::Evaluator;
-//! use glisten::{Compiler, Options, Precision};
+//! use glisten_front::{Compiler, Options};
+//! use glisten_reference::Precision;
+//! use glisten_verify::evaluate::Evaluator;
 //!
 //! let text = "float lerp(float a, float b, float t) { return a + t * (b - a); }";
 //! let lerp = Evaluator::new(&Compiler::new(Options::default()), text, "lerp(float,float,float)", &[])?;
 //! let results = lerp.reference(&[0.0, 10.0, 0.25, 1.0, 3.0, 0.5], &[], Precision::F64)?;
 //! assert_eq!(results, [[2.5], [2.0]]);
-//! # Ok::<(), glisten::evaluate::EvaluateError>(())
+//! # Ok::<(), glisten_verify::evaluate::EvaluateError>(())
 //! ```
 
 mod generate;

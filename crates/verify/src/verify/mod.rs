@@ -13,9 +13,10 @@
 //! A test suite of a renderer calls it like this (`examples/verify.rs` is a complete one):
 //!
 //! ```
-//! use glisten::scene::{MemoryFiles, load};
-//! use glisten::verify::{Cpu, Options, Runner, verify};
-//! use glisten::{Compiler, Precision};
+//! use glisten_front::Compiler;
+//! use glisten_reference::Precision;
+//! use glisten_verify::scene::{MemoryFiles, load};
+//! use glisten_verify::verify::{Cpu, Options, Runner, verify};
 //!
 //! let files = MemoryFiles::new([
 //!     ("a.toml", "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
