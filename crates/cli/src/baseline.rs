@@ -4,11 +4,11 @@
 //! finding is known by its file, code, message and line of text, so it stays known when lines above it come and go. Of several
 //! equal ones in a file, as many are left out as the file counts.
 
-use super::batch::Batch;
-use super::console::Console;
-use super::exit::Failure;
-use super::files;
-use super::session::Unit;
+use crate::batch::Batch;
+use crate::console::Console;
+use crate::exit::Failure;
+use crate::files;
+use crate::session::Unit;
 use clap::Args;
 use glisten_front::diagnostic::write::{Finding, Region, fingerprints};
 use glisten_front::source::SourceMap;
@@ -22,7 +22,7 @@ const VERSION: u32 = 1;
 /// Where the known findings are.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Baseline")]
-pub(super) struct BaselineArgs {
+pub(crate) struct BaselineArgs {
     /// Leave out the findings that this file lists (default: `baseline` in `[lint]` of `glisten.toml`)
     #[arg(long, value_name = "FILE")]
     baseline: Option<PathBuf>,
@@ -34,17 +34,17 @@ pub(super) struct BaselineArgs {
 impl BaselineArgs {
     /// The arguments that name a baseline, and do not write it.
     #[cfg(feature = "lsp")]
-    pub(super) fn of(baseline: Option<PathBuf>) -> Self {
+    pub(crate) fn of(baseline: Option<PathBuf>) -> Self {
         Self { baseline, update_baseline: false }
     }
 
     /// The same arguments for another file.
-    pub(super) fn at(&self, path: PathBuf) -> Self {
+    pub(crate) fn at(&self, path: PathBuf) -> Self {
         Self { baseline: Some(path), ..self.clone() }
     }
 
     /// Whether the file is written.
-    pub(super) fn updates(&self) -> bool {
+    pub(crate) fn updates(&self) -> bool {
         self.update_baseline
     }
 }
@@ -72,7 +72,7 @@ struct Document {
 type Told = (Region, &'static str, String);
 
 /// The known findings.
-pub(super) struct Baseline {
+pub(crate) struct Baseline {
     path: PathBuf,
     known: Vec<Entry>,
 }
@@ -82,7 +82,7 @@ impl Baseline {
     ///
     /// # Errors
     /// The file cannot be read or is none.
-    pub(super) fn new(args: &BaselineArgs) -> Result<Option<Self>, Failure> {
+    pub(crate) fn new(args: &BaselineArgs) -> Result<Option<Self>, Failure> {
         let Some(path) = args.baseline.clone() else { return Ok(None) };
         if args.update_baseline && !path.exists() {
             return Ok(Some(Self { path, known: Vec::new() }));
@@ -102,12 +102,12 @@ impl Baseline {
     }
 
     /// The file.
-    pub(super) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// Removes the known findings from the units. Tells how many there were, and how many are gone from the files of the run.
-    pub(super) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
+    pub(crate) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
         let found = self.entries(&units.iter().map(|unit| &unit.batch).collect::<Vec<_>>());
         let known: BTreeSet<(&str, &str)> = self.known.iter().map(Entry::key).collect();
         let mut left_out = 0;
@@ -132,7 +132,7 @@ impl Baseline {
 
     /// Removes the known findings of one program.
     #[cfg(feature = "lsp")]
-    pub(super) fn keep_new(&self, batch: &mut Batch) {
+    pub(crate) fn keep_new(&self, batch: &mut Batch) {
         let found = self.entries(&[&*batch]);
         let known: BTreeSet<(&str, &str)> = self.known.iter().map(Entry::key).collect();
         keep_new(batch, &found, &known);
@@ -142,7 +142,7 @@ impl Baseline {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn update(&self, units: &[&Unit], console: &Console) -> Result<(), Failure> {
+    pub(crate) fn update(&self, units: &[&Unit], console: &Console) -> Result<(), Failure> {
         let checked = self.checked(units);
         let folder = self.folder();
         let elsewhere = |entry: &&Entry| !checked.contains(&entry.file) && folder.join(&entry.file).exists();

@@ -3,14 +3,14 @@
 //! *In:* arguments, `baseline` in `[lint]` of `glisten.toml`. *Out:* units without the findings that are known; the files, written. *Holds:*
 //! a flag takes precedence. A finding that any of the baselines has is known: names of files tell them apart.
 
-use super::baseline::{Baseline, BaselineArgs};
-use super::console::Console;
-use super::exit::Failure;
-use super::session::{Session, Unit};
+use crate::baseline::{Baseline, BaselineArgs};
+use crate::console::Console;
+use crate::exit::Failure;
+use crate::session::{Session, Unit};
 use std::path::PathBuf;
 
 /// The baselines of a run.
-pub(super) struct Baselines {
+pub(crate) struct Baselines {
     /// Each with whether a configuration names it.
     list: Vec<(Baseline, bool)>,
 }
@@ -20,7 +20,7 @@ impl Baselines {
     ///
     /// # Errors
     /// The file cannot be read or is none.
-    pub(super) fn given(args: &BaselineArgs) -> Result<Self, Failure> {
+    pub(crate) fn given(args: &BaselineArgs) -> Result<Self, Failure> {
         let given = Baseline::new(args)?;
         Ok(Self { list: given.into_iter().map(|baseline| (baseline, false)).collect() })
     }
@@ -29,7 +29,7 @@ impl Baselines {
     ///
     /// # Errors
     /// A file that cannot be read or is none; an update without any.
-    pub(super) fn complete(
+    pub(crate) fn complete(
         &mut self,
         args: &BaselineArgs,
         session: &mut Session<'_>,
@@ -53,7 +53,7 @@ impl Baselines {
     }
 
     /// Removes the known findings from the units.
-    pub(super) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
+    pub(crate) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
         for (baseline, _) in &self.list {
             baseline.apply(units, console);
         }
@@ -63,7 +63,7 @@ impl Baselines {
     ///
     /// # Errors
     /// A file cannot be written.
-    pub(super) fn update(&self, session: &mut Session<'_>, units: &[Unit], console: &Console) -> Result<(), Failure> {
+    pub(crate) fn update(&self, session: &mut Session<'_>, units: &[Unit], console: &Console) -> Result<(), Failure> {
         for (baseline, by_configuration) in &self.list {
             let mut own =
                 |unit: &&Unit| !by_configuration || of_unit(session, unit).is_some_and(|path| path == baseline.path());

@@ -5,9 +5,9 @@ use glisten_front::source::SourceMap;
 
 /// Diagnostics with the texts that they refer to.
 #[derive(Debug, Default)]
-pub(super) struct Batch {
+pub(crate) struct Batch {
     /// The texts.
-    pub(super) sources: SourceMap,
+    pub(crate) sources: SourceMap,
     /// The diagnostics.
-    pub(super) diagnostics: Vec<Diagnostic>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
 }

@@ -1,6 +1,6 @@
 //! Texts in place of files: what an editor shows, or what a fix made and nobody has written yet.
 //!
-//! *In:* a path and its text. *Out:* that text, to whoever reads the file in this process ([`super::files::read`]). *Holds:* a
+//! *In:* a path and its text. *Out:* that text, to whoever reads the file in this process ([`crate::files::read`]). *Holds:* a
 //! path is known by its canonical form, so every spelling of it gives the same text; without any buffer, a look-up costs one
 //! atomic read.
 
@@ -14,20 +14,20 @@ static ANY: AtomicBool = AtomicBool::new(false);
 static BUFFERS: RwLock<BTreeMap<PathBuf, Arc<[u8]>>> = RwLock::new(BTreeMap::new());
 
 /// Puts a text in place of a file.
-pub(super) fn put(path: &Path, bytes: impl Into<Arc<[u8]>>) {
+pub(crate) fn put(path: &Path, bytes: impl Into<Arc<[u8]>>) {
     BUFFERS.write().unwrap_or_else(PoisonError::into_inner).insert(key(path), bytes.into());
     ANY.store(true, Ordering::Release);
 }
 
 /// Takes all texts away: files count again.
 #[cfg(feature = "play")]
-pub(super) fn clear() {
+pub(crate) fn clear() {
     BUFFERS.write().unwrap_or_else(PoisonError::into_inner).clear();
     ANY.store(false, Ordering::Release);
 }
 
 /// The text in place of a file, if there is one.
-pub(super) fn get(path: &Path) -> Option<Arc<[u8]>> {
+pub(crate) fn get(path: &Path) -> Option<Arc<[u8]>> {
     if !ANY.load(Ordering::Acquire) {
         return None;
     }

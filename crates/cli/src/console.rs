@@ -3,13 +3,13 @@
 //! *Holds:* results go to standard output, everything else to standard error. If the reader of standard output goes
 //! away, the program ends silently; any other failure to write is reported.
 
-use super::exit::Failure;
+use crate::exit::Failure;
 use clap::ValueEnum;
 use std::io::{self, IsTerminal, Write};
 
 /// When to use colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum ColorChoice {
+pub(crate) enum ColorChoice {
     /// If the output is a terminal and `NO_COLOR` is not set.
     #[default]
     Auto,
@@ -21,34 +21,34 @@ pub(super) enum ColorChoice {
 
 /// Standard output and standard error, with the user's settings for them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Console {
+pub(crate) struct Console {
     quiet: bool,
     color: ColorChoice,
 }
 
 impl Console {
     /// A console with `--quiet` and `--color` as given.
-    pub(super) fn new(quiet: bool, color: ColorChoice) -> Self {
+    pub(crate) fn new(quiet: bool, color: ColorChoice) -> Self {
         Self { quiet, color }
     }
 
     /// Whether to omit progress and summaries.
-    pub(super) fn is_quiet(&self) -> bool {
+    pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }
 
     /// Whether standard error is a terminal.
-    pub(super) fn is_watched(&self) -> bool {
+    pub(crate) fn is_watched(&self) -> bool {
         !self.quiet && io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
     }
 
     /// Whether to color standard output.
-    pub(super) fn colors_output(&self) -> bool {
+    pub(crate) fn colors_output(&self) -> bool {
         self.colors(&io::stdout())
     }
 
     /// Whether to color standard error.
-    pub(super) fn colors_messages(&self) -> bool {
+    pub(crate) fn colors_messages(&self) -> bool {
         self.colors(&io::stderr())
     }
 
@@ -65,12 +65,12 @@ impl Console {
     }
 
     /// Writes a result to standard output.
-    pub(super) fn output(&self, text: &str) -> Result<(), Failure> {
+    pub(crate) fn output(&self, text: &str) -> Result<(), Failure> {
         self.output_bytes(text.as_bytes())
     }
 
     /// Writes a result that need not be text to standard output.
-    pub(super) fn output_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
+    pub(crate) fn output_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
         let mut stdout = io::stdout().lock();
         match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
             Ok(()) => Ok(()),
@@ -80,27 +80,27 @@ impl Console {
     }
 
     /// Writes to standard error. A failure is ignored, since there is no other place to report it.
-    pub(super) fn message(&self, text: &str) {
+    pub(crate) fn message(&self, text: &str) {
         let mut stderr = io::stderr().lock();
         let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
     }
 
     /// Writes a line to standard error, which `--quiet` omits.
-    pub(super) fn remark(&self, text: &str) {
+    pub(crate) fn remark(&self, text: &str) {
         if !self.quiet {
             self.message(&format!("{text}\n"));
         }
     }
 
     /// Clears what a process that is gone may have left of its progress on this line.
-    pub(super) fn clear_line(&self) {
+    pub(crate) fn clear_line(&self) {
         if self.is_watched() {
             self.message("\r\x1b[2K");
         }
     }
 
     /// Reports a failure.
-    pub(super) fn failure(&self, message: &str, help: Option<&str>) {
+    pub(crate) fn failure(&self, message: &str, help: Option<&str>) {
         let mut text = painted("error", "", message, self.colors_messages());
         if let Some(help) = help {
             text.push_str(&format!("  help: {help}\n"));
@@ -110,7 +110,7 @@ impl Console {
 }
 
 /// The first line of a message: its severity, a code, and what it says.
-pub(super) fn painted(severity: &str, code: &str, message: &str, color: bool) -> String {
+pub(crate) fn painted(severity: &str, code: &str, message: &str, color: bool) -> String {
     if !color {
         return format!("{severity}{code}: {message}\n");
     }

@@ -4,10 +4,10 @@
 //! JSON. *Holds:* both name the same files in the same order, whatever `-j` is; the modules of the library and standard input
 //! are no files.
 
-use super::digest::Digest;
-use super::files;
-use super::inputs::Group;
-use super::outputs::Output;
+use crate::digest::Digest;
+use crate::files;
+use crate::inputs::Group;
+use crate::outputs::Output;
 use glisten_front::source::SourceMap;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,18 +15,18 @@ use std::path::Path;
 
 /// The files of one program.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Made {
+pub(crate) struct Made {
     /// The name of the program.
-    pub(super) program: String,
+    pub(crate) program: String,
     /// The paths of the outputs, with their bytes' digests and sizes.
-    pub(super) outputs: Vec<(String, Digest, usize)>,
+    pub(crate) outputs: Vec<(String, Digest, usize)>,
     /// The files that were read.
-    pub(super) sources: Vec<String>,
+    pub(crate) sources: Vec<String>,
 }
 
 impl Made {
     /// The outputs of a program in a folder.
-    pub(super) fn new(group: &Group, folder: &Path, outputs: &[Output], sources: &SourceMap) -> Self {
+    pub(crate) fn new(group: &Group, folder: &Path, outputs: &[Output], sources: &SourceMap) -> Self {
         let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
         let outputs = outputs.iter().map(|(name, digest, bytes)| (path(name), *digest, bytes.len())).collect();
         Self { program: group.name.clone(), outputs, sources: files_read(group, sources) }
@@ -34,7 +34,7 @@ impl Made {
 }
 
 /// The names of the files that a program was read from.
-pub(super) fn files_read(group: &Group, sources: &SourceMap) -> Vec<String> {
+pub(crate) fn files_read(group: &Group, sources: &SourceMap) -> Vec<String> {
     let standard_input = |name: &str| group.inputs.iter().any(|input| input.path.is_none() && input.name == name);
     let names = sources.files().map(|(_, file)| file.name());
     let is_file =
@@ -43,7 +43,7 @@ pub(super) fn files_read(group: &Group, sources: &SourceMap) -> Vec<String> {
 }
 
 /// One rule: all outputs, then all inputs and includes without repetitions.
-pub(super) fn make_rule(
+pub(crate) fn make_rule(
     outputs: impl IntoIterator<Item = String>,
     sources: impl IntoIterator<Item = String>,
 ) -> String {
@@ -84,7 +84,7 @@ struct ManifestSource<'a> {
 }
 
 /// The manifest: for each output the program, the digest, and the sources with theirs.
-pub(super) fn manifest(made: &[Made]) -> String {
+pub(crate) fn manifest(made: &[Made]) -> String {
     let mut digests: BTreeMap<&str, Option<Digest>> = BTreeMap::new();
     for name in made.iter().flat_map(|made| &made.sources) {
         let digest = || files::read(name, Path::new(name)).ok().map(|bytes| Digest::of(&bytes));

@@ -11,16 +11,16 @@ use std::hash::Hash;
 /// The SHA-256 of bytes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
-pub(super) struct Digest([u8; 32]);
+pub(crate) struct Digest([u8; 32]);
 
 impl Digest {
     /// The digest of bytes.
-    pub(super) fn of(bytes: &[u8]) -> Self {
+    pub(crate) fn of(bytes: &[u8]) -> Self {
         Self(Sha256::digest(bytes).into())
     }
 
     /// The digest that 64 hexadecimal digits name.
-    pub(super) fn from_hex(text: &str) -> Option<Self> {
+    pub(crate) fn from_hex(text: &str) -> Option<Self> {
         let digits = text.as_bytes();
         let mut bytes = [0; 32];
         if digits.len() != 64 || !digits.iter().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f')) {
@@ -65,7 +65,7 @@ impl TryFrom<String> for Digest {
 }
 
 /// The digest of what a value tells a hasher: equal digests mean that the values are alike.
-pub(super) fn of_structure(value: &impl Hash) -> Digest {
+pub(crate) fn of_structure(value: &impl Hash) -> Digest {
     let mut structure = Structure(Vec::with_capacity(1 << 14));
     value.hash(&mut structure);
     Digest::of(&structure.0)
@@ -86,24 +86,24 @@ impl std::hash::Hasher for Structure {
 }
 
 /// The digest of a list of parts.
-pub(super) struct Hasher(Sha256);
+pub(crate) struct Hasher(Sha256);
 
 impl Hasher {
     /// An empty list. Lists of different `kind` never have the same digest.
-    pub(super) fn new(kind: &str) -> Self {
+    pub(crate) fn new(kind: &str) -> Self {
         Self(Sha256::new()).with(kind.as_bytes())
     }
 
     /// Adds a part.
     #[must_use]
-    pub(super) fn with(mut self, part: &[u8]) -> Self {
+    pub(crate) fn with(mut self, part: &[u8]) -> Self {
         self.0.update((part.len() as u64).to_le_bytes());
         self.0.update(part);
         self
     }
 
     /// The digest.
-    pub(super) fn finish(self) -> Digest {
+    pub(crate) fn finish(self) -> Digest {
         Digest(self.0.finalize().into())
     }
 }

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 /// The exit codes, from the best to the worst. The worst one that applies is returned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Exit {
+pub(crate) enum Exit {
     /// 0: success, nothing wrong found.
     #[default]
     Ok,
@@ -31,12 +31,12 @@ static FILE_CODES: &[&str] = &[
 
 impl Exit {
     /// The exit code of a list of diagnostics.
-    pub(super) fn of<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Self {
+    pub(crate) fn of<'a>(diagnostics: impl IntoIterator<Item = &'a Diagnostic>) -> Self {
         diagnostics.into_iter().filter(|diagnostic| diagnostic.is_error()).map(Self::of_error).max().unwrap_or_default()
     }
 
     /// The exit with this code.
-    pub(super) fn of_code(code: u8) -> Self {
+    pub(crate) fn of_code(code: u8) -> Self {
         let known = [Self::Ok, Self::Usage, Self::Machine, Self::Interrupted];
         known.into_iter().find(|exit| *exit as u8 == code).unwrap_or(Self::Content)
     }
@@ -54,7 +54,7 @@ impl From<Exit> for ExitCode {
 
 /// Why a command cannot continue.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Failure {
+pub(crate) enum Failure {
     /// A failure to report to the user.
     Told {
         /// The exit code.
@@ -70,17 +70,17 @@ pub(super) enum Failure {
 
 impl Failure {
     /// Wrong usage, or a file that cannot be read or written.
-    pub(super) fn usage(message: impl Into<String>) -> Self {
+    pub(crate) fn usage(message: impl Into<String>) -> Self {
         Self::new(Exit::Usage, message)
     }
 
     /// A failure with any exit code.
-    pub(super) fn new(exit: Exit, message: impl Into<String>) -> Self {
+    pub(crate) fn new(exit: Exit, message: impl Into<String>) -> Self {
         Self::Told { exit, message: message.into(), help: None }
     }
 
     /// The message.
-    pub(super) fn message(&self) -> &str {
+    pub(crate) fn message(&self) -> &str {
         match self {
             Self::Told { message, .. } => message,
             Self::OutputClosed => "standard output was closed",
@@ -88,7 +88,7 @@ impl Failure {
     }
 
     /// Adds a help text.
-    pub(super) fn help(self, help: impl Into<String>) -> Self {
+    pub(crate) fn help(self, help: impl Into<String>) -> Self {
         match self {
             Self::Told { exit, message, .. } => Self::Told { exit, message, help: Some(help.into()) },
             Self::OutputClosed => self,
@@ -97,4 +97,4 @@ impl Failure {
 }
 
 /// The result of a command.
-pub(super) type Outcome = Result<Exit, Failure>;
+pub(crate) type Outcome = Result<Exit, Failure>;

@@ -1,7 +1,9 @@
 //! Reads files completely, with a clear message for each possible failure, and writes them completely or not at all.
 
-use super::exit::Failure;
-use super::{buffers, trace, unfinished};
+use crate::buffers;
+use crate::exit::Failure;
+use crate::trace;
+use crate::unfinished;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
@@ -19,13 +21,13 @@ const MAX_BYTES: u64 = 64 << 20;
 
 /// Why a file cannot be read: a code, and a sentence that names the file.
 #[derive(Debug)]
-pub(super) struct ReadError {
+pub(crate) struct ReadError {
     /// The code.
-    pub(super) code: &'static Code,
+    pub(crate) code: &'static Code,
     /// The message.
-    pub(super) message: String,
+    pub(crate) message: String,
     /// The help text.
-    pub(super) help: Option<String>,
+    pub(crate) help: Option<String>,
 }
 
 impl ReadError {
@@ -34,14 +36,14 @@ impl ReadError {
     }
 
     /// The error as a diagnostic about the whole file `name`.
-    pub(super) fn diagnostic(self, sources: &mut SourceMap, name: &str) -> Diagnostic {
+    pub(crate) fn diagnostic(self, sources: &mut SourceMap, name: &str) -> Diagnostic {
         let base = sources.add(name, "").map_or(0, |id| sources.file(id).base());
         Diagnostic::new(self.code, Span::new(base, base), self.message).maybe_help(self.help)
     }
 }
 
 /// Reads a source text. Bytes that are not UTF-8 become U+FFFD.
-pub(super) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
+pub(crate) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
     let bytes = match path {
         Some(path) => read(name, path)?,
         None => read_all(name, io::stdin().lock(), 0)?,
@@ -50,7 +52,7 @@ pub(super) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, R
 }
 
 /// Reads a text to put before sources. It may be empty.
-pub(super) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
+pub(crate) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
     let name = path.to_string_lossy().into_owned();
     let bytes = read(&name, path)?;
     let text = if bytes.is_empty() { "".into() } else { text_of(&name, bytes)? };
@@ -58,19 +60,19 @@ pub(super) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
 }
 
 /// Reads a file of any kind.
-pub(super) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
+pub(crate) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = read_whole(name, path);
     trace::read(path, bytes.as_deref().ok());
     bytes
 }
 
 /// The arguments that confine a process of this program to the sandbox of this one.
-pub(super) fn sandbox() -> impl Iterator<Item = OsString> {
+pub(crate) fn sandbox() -> impl Iterator<Item = OsString> {
     confined_to().into_iter().flat_map(|folder| ["--sandbox".into(), folder.into()])
 }
 
 /// The files of the disk for scenes, or the texts in their place; it notes what is read.
-pub(super) struct SceneFiles;
+pub(crate) struct SceneFiles;
 
 impl FileSource for SceneFiles {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
@@ -141,7 +143,7 @@ fn nearest_file(path: &Path) -> Option<PathBuf> {
 }
 
 /// The text of `bytes`, if they are text.
-pub(super) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError> {
+pub(crate) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         let mut empty = ReadError::new(&general::EMPTY_SOURCE, format!("`{name}` is empty"));
         empty.help = Some("a shader starts with a line `#version 150`".to_owned());
@@ -188,7 +190,7 @@ const END_OF_FILE: u8 = 0x1a;
 ///
 /// # Errors
 /// It cannot.
-pub(super) fn check_writable(path: &Path) -> Result<(), Failure> {
+pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
     if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
         return Ok(());
     }
@@ -205,7 +207,7 @@ fn unwritable(path: &Path, error: &io::Error) -> Failure {
 
 /// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
 /// pipe, `/dev/null`) is written to directly.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: &io::Error| unwritable(path, error);
     let target = match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => {
@@ -248,7 +250,7 @@ fn sweep(folder: &Path) {
 }
 
 /// Creates a folder of outputs and its parents.
-pub(super) fn make_folder(path: &Path) -> Result<(), Failure> {
+pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     if path.exists() && !path.is_dir() {
         return Err(Failure::usage(format!("`{}` is a file, not a folder", path.display())));
     }

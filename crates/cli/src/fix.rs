@@ -1,16 +1,16 @@
 //! `glisten lint --fix`: applies the fixes of findings until nothing changes.
 //!
-//! *In:* the checked units of a round. *Out:* texts in place of the files ([`super::buffers`]), and in the end the files themselves,
+//! *In:* the checked units of a round. *Out:* texts in place of the files ([`crate::buffers`]), and in the end the files themselves,
 //! or what would change in them. *Holds:* each fix is applied whole or not at all, and only where the text on the disk is the one
 //! that was checked; a round after which there are more errors than before is taken back, and its fixes are tried in smaller
 //! groups; a file is replaced at once or not at all, and one that somebody else changed meanwhile is left.
 
-use super::buffers;
-use super::console::Console;
-use super::exit::Failure;
-use super::files;
-use super::session::Unit;
-use super::texts::{Text, diff};
+use crate::buffers;
+use crate::console::Console;
+use crate::exit::Failure;
+use crate::files;
+use crate::session::Unit;
+use crate::texts::{Text, diff};
 use clap::Args;
 use glisten_front::diagnostic::write::{Finding, FindingFix};
 use glisten_front::diagnostic::{Applicability, Patch};
@@ -24,7 +24,7 @@ const MAX_ROUNDS: usize = 100;
 /// Which fixes to apply, and where to.
 #[derive(Args, Clone, Copy, Debug, Default)]
 #[command(next_help_heading = "Fixes")]
-pub(super) struct FixArgs {
+pub(crate) struct FixArgs {
     /// Apply the safe fixes until nothing changes: they keep what is drawn, or are the only reading of a wrong text
     #[arg(long)]
     fix: bool,
@@ -38,12 +38,12 @@ pub(super) struct FixArgs {
 
 impl FixArgs {
     /// Whether fixes are applied.
-    pub(super) fn any(self) -> bool {
+    pub(crate) fn any(self) -> bool {
         self.fix || self.unsafe_fixes || self.diff
     }
 
     /// Whether standard output is for what would change.
-    pub(super) fn prints(self) -> bool {
+    pub(crate) fn prints(self) -> bool {
         self.diff
     }
 }
@@ -71,7 +71,7 @@ struct Offer {
 }
 
 /// Applies fixes round by round.
-pub(super) struct Fixer {
+pub(crate) struct Fixer {
     args: FixArgs,
     files: BTreeMap<PathBuf, Changed>,
     /// The fixes of the last round.
@@ -88,14 +88,14 @@ pub(super) struct Fixer {
 
 impl Fixer {
     /// Nothing is applied yet.
-    pub(super) fn new(args: FixArgs) -> Self {
+    pub(crate) fn new(args: FixArgs) -> Self {
         let (files, applied) = (BTreeMap::new(), BTreeMap::new());
         let (last, refused) = (Vec::new(), BTreeSet::new());
         Self { args, files, last, refused, at_once: usize::MAX, errors: usize::MAX, round: 0, applied }
     }
 
     /// Applies the fixes of findings to the texts; returns whether the sources are to be checked again.
-    pub(super) fn advance(&mut self, units: &[Unit]) -> bool {
+    pub(crate) fn advance(&mut self, units: &[Unit]) -> bool {
         let errors = n_errors(units);
         if errors > self.errors {
             self.take_back();
@@ -206,7 +206,7 @@ impl Fixer {
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub(super) fn finish(self, console: &Console) -> Result<(), Failure> {
+    pub(crate) fn finish(self, console: &Console) -> Result<(), Failure> {
         let changed: Vec<(&PathBuf, &Changed)> =
             self.files.iter().filter(|(_, file)| file.current() != file.text.text).collect();
         let mut n_written = 0;

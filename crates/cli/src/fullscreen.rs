@@ -5,7 +5,7 @@
 //! integers are 0. The elements of an array and the members of a block are like variables. By their names, a normal is that of a bulge, and directions and places are in front of it; a square matrix is the
 //! identity.
 
-use super::exit::{Exit, Failure};
+use crate::exit::{Exit, Failure};
 use glisten_front::hir::{ArraySize, Global, Interpolation, Scalar, Shader, Storage, Type, TypeId, Types};
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use std::fmt::Write;
 const MAX_ELEMENTS: u32 = 32;
 
 /// The attribute for the corners of the triangle, where there is no `gl_VertexID` (ES 1.00).
-pub(super) const CORNER: &str = "corner";
+pub(crate) const CORNER: &str = "corner";
 
 /// The `#version` line of the vertex shader: both stages are of OpenGL or both are of OpenGL ES.
 fn version_line(fragment: &Shader, has_fixed: bool) -> &'static str {
@@ -132,7 +132,7 @@ fn missing(types: &Types, global: &Global) -> Failure {
 ///
 /// # Errors
 /// The fragment shader reads something that a full-screen triangle has no values for.
-pub(super) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, Failure> {
+pub(crate) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, Failure> {
     let is_input = |global: &&Global| global.storage == Storage::In && global.builtin.is_none();
     let has_fixed = fragment.globals.iter().filter(is_input).any(Global::is_fixed);
     let version = version_line(fragment, has_fixed);

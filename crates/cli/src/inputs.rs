@@ -5,12 +5,12 @@
 //!
 //! *Holds:* a file that is named twice counts once; a file in a `--program` forms no group of its own.
 
-use super::args::{ProgramArgs, SourceArgs};
-use super::console::Console;
-use super::engine::{Engines, STDIN as SHOWN_STDIN};
-use super::exit::Failure;
-use super::files;
-use super::search::{self, Left};
+use crate::arguments::args::{ProgramArgs, SourceArgs};
+use crate::arguments::engine::{Engines, STDIN as SHOWN_STDIN};
+use crate::console::Console;
+use crate::exit::Failure;
+use crate::files;
+use crate::search::{self, Left};
 use glisten_front::hir::Stage;
 use glisten_sources::embedded::{self, Filling, Host};
 use glisten_sources::engines::combined;
@@ -26,20 +26,20 @@ const STDIN: &str = "-";
 
 /// A shader to read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Input {
+pub(crate) struct Input {
     /// The name that diagnostics show.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// The file; `None` for standard input.
-    pub(super) path: Option<PathBuf>,
+    pub(crate) path: Option<PathBuf>,
     /// The stage.
-    pub(super) stage: Stage,
+    pub(crate) stage: Stage,
     /// The program of the file, if it contains several stages.
-    pub(super) part: Option<PartOf>,
+    pub(crate) part: Option<PartOf>,
 }
 
 /// A program of a file that contains several stages.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct PartOf {
+pub(crate) struct PartOf {
     /// Its index.
     index: usize,
     /// Its name, if the file has several programs.
@@ -50,22 +50,22 @@ pub(super) struct PartOf {
 
 impl PartOf {
     /// A program in the strings of a file.
-    pub(super) fn in_string(index: usize, name: String, host: Host) -> Self {
+    pub(crate) fn in_string(index: usize, name: String, host: Host) -> Self {
         Self { index, name: Some(name), string: Some((host, Filling::default())) }
     }
 
     /// The language of the file, and the index of the program among those in its strings.
-    pub(super) fn host(&self) -> Option<(usize, Host)> {
+    pub(crate) fn host(&self) -> Option<(usize, Host)> {
         self.string.map(|(host, _)| (self.index, host))
     }
 
     /// Changes what stands for interpolations.
-    pub(super) fn fill(&mut self, filling: Filling) {
+    pub(crate) fn fill(&mut self, filling: Filling) {
         self.string = self.string.map(|(host, _)| (host, filling));
     }
 
     /// The macros that select a stage in a file, and those that select the others.
-    pub(super) fn macros(&self, file: &str, stage: Stage) -> (Vec<String>, Vec<String>) {
+    pub(crate) fn macros(&self, file: &str, stage: Stage) -> (Vec<String>, Vec<String>) {
         if self.string.is_some() {
             return Default::default();
         }
@@ -81,7 +81,7 @@ impl PartOf {
     }
 
     /// The text of a stage, where the file has several programs; otherwise the whole text, which is taken apart later.
-    pub(super) fn text(&self, text: &Arc<str>, stage: Stage) -> Arc<str> {
+    pub(crate) fn text(&self, text: &Arc<str>, stage: Stage) -> Arc<str> {
         if let Some((host, filling)) = self.string {
             let program = embedded::programs(host, text).into_iter().nth(self.index);
             let own = program.and_then(|program| Some(program.shader(stage)?.text(text, filling)));
@@ -95,7 +95,7 @@ impl PartOf {
 
 impl Input {
     /// The name for its outputs: `phong.vert`; for standard input, `stdin.vert`.
-    pub(super) fn file_name(&self) -> String {
+    pub(crate) fn file_name(&self) -> String {
         match &self.path {
             Some(_) if self.part.is_some() => format!("{}.{}", self.stem(), stages::extension(self.stage)),
             Some(path) => path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
@@ -109,7 +109,7 @@ impl Input {
     }
 
     /// The name without the part that says the stage.
-    pub(super) fn stem(&self) -> String {
+    pub(crate) fn stem(&self) -> String {
         let named = self.part.as_ref().and_then(|part| part.name.clone());
         named.or(self.path.as_deref().map(stages::stem)).unwrap_or("stdin".to_owned())
     }
@@ -117,50 +117,50 @@ impl Input {
 
 /// Files that form one program.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Group {
+pub(crate) struct Group {
     /// The stem of the first file.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// The inputs, at least one.
-    pub(super) inputs: Vec<Input>,
+    pub(crate) inputs: Vec<Input>,
 }
 
 impl Group {
     /// Whether it has only one stage, which will need a partner.
-    pub(super) fn is_lone(&self) -> bool {
+    pub(crate) fn is_lone(&self) -> bool {
         self.inputs.iter().all(|input| Some(input.stage) == self.inputs.first().map(|first| first.stage))
     }
 }
 
 /// The inputs that the command line names.
 #[derive(Debug, Default)]
-pub(super) struct Inputs {
+pub(crate) struct Inputs {
     /// The programs.
-    pub(super) groups: Vec<Group>,
+    pub(crate) groups: Vec<Group>,
     /// Folders that contain no shader.
-    pub(super) empty_folders: Vec<String>,
+    pub(crate) empty_folders: Vec<String>,
     /// The files that a search found and the command line does not name.
-    pub(super) found: BTreeSet<PathBuf>,
+    pub(crate) found: BTreeSet<PathBuf>,
     /// The files that a search saw and did not take.
-    pub(super) left: Vec<Left>,
+    pub(crate) left: Vec<Left>,
     /// The folders of files that a search found, below the folder that was searched.
     below: BTreeMap<PathBuf, PathBuf>,
 }
 
 impl Inputs {
     /// Whether a folder was searched.
-    pub(super) fn has_search(&self) -> bool {
+    pub(crate) fn has_search(&self) -> bool {
         !self.found.is_empty() || !self.left.is_empty() || !self.empty_folders.is_empty()
     }
 
     /// Tells which of the folders have no shader.
-    pub(super) fn tell_empty_folders(&self, console: &Console) {
+    pub(crate) fn tell_empty_folders(&self, console: &Console) {
         for folder in &self.empty_folders {
             console.remark(&format!("no shader was found in `{folder}`"));
         }
     }
 
     /// The folder of a program's outputs below that of all outputs: outputs of a searched folder lie as its files do.
-    pub(super) fn below(&self) -> impl Fn(&Group) -> PathBuf + Sync + use<> {
+    pub(crate) fn below(&self) -> impl Fn(&Group) -> PathBuf + Sync + use<> {
         let below = self.below.clone();
         move |group| {
             let first = group.inputs.first().and_then(|input| input.path.as_ref());
@@ -170,7 +170,7 @@ impl Inputs {
 }
 
 /// The files of the command line, or the current folder if it names nothing.
-pub(super) fn named_or_here(files: &[PathBuf], args: &ProgramArgs) -> Vec<PathBuf> {
+pub(crate) fn named_or_here(files: &[PathBuf], args: &ProgramArgs) -> Vec<PathBuf> {
     if files.is_empty() && args.programs.is_empty() { vec![PathBuf::from(".")] } else { files.to_vec() }
 }
 
@@ -178,7 +178,7 @@ pub(super) fn named_or_here(files: &[PathBuf], args: &ProgramArgs) -> Vec<PathBu
 ///
 /// # Errors
 /// A folder that cannot be read, or that contains no scene.
-pub(super) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
+pub(crate) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
     let mut files = Vec::new();
     for name in names {
         let path = Path::new(name);
@@ -204,7 +204,7 @@ pub(super) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
 
 /// Collects the inputs of a command. Folders are searched only if `scans` is set. Otherwise they stay in the list,
 /// and reading them gives the error.
-pub(super) fn collect(
+pub(crate) fn collect(
     files: &[PathBuf],
     args: &ProgramArgs,
     sources: &SourceArgs,
@@ -267,7 +267,7 @@ pub(super) fn collect(
 }
 
 /// The program of these files, whatever their names are.
-pub(super) fn program(names: &[String], args: &ProgramArgs, sources: &SourceArgs) -> Result<Group, Failure> {
+pub(crate) fn program(names: &[String], args: &ProgramArgs, sources: &SourceArgs) -> Result<Group, Failure> {
     let engines = Engines::new(sources)?;
     let mut listed = Vec::new();
     for name in names {
@@ -277,7 +277,7 @@ pub(super) fn program(names: &[String], args: &ProgramArgs, sources: &SourceArgs
 }
 
 /// A key that is equal for two names of the same file.
-pub(super) fn identity(name: &Path) -> PathBuf {
+pub(crate) fn identity(name: &Path) -> PathBuf {
     if name.as_os_str() == STDIN {
         PathBuf::from(STDIN)
     } else {
@@ -320,13 +320,13 @@ fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) ->
 }
 
 /// The stages in a file that contains several.
-pub(super) fn parts(path: &Path) -> Vec<Input> {
+pub(crate) fn parts(path: &Path) -> Vec<Input> {
     let name = path.to_string_lossy();
     files::read_source(&name, Some(path)).map_or_else(|_| Vec::new(), |text| parts_in(path, &text))
 }
 
 /// The stages in the text of a file that contains several.
-pub(super) fn parts_in(path: &Path, text: &str) -> Vec<Input> {
+pub(crate) fn parts_in(path: &Path, text: &str) -> Vec<Input> {
     let name = path.to_string_lossy();
     let mut inputs = Vec::new();
     for (index, member) in members(Some(path), text).into_iter().enumerate() {
@@ -339,7 +339,7 @@ pub(super) fn parts_in(path: &Path, text: &str) -> Vec<Input> {
 }
 
 /// Groups files by folder and stem; each stage occurs at most once in a group. What tessellation stages stand between is no pair.
-pub(super) fn group(inputs: Vec<Input>) -> Vec<Group> {
+pub(crate) fn group(inputs: Vec<Input>) -> Vec<Group> {
     let mut groups: Vec<((PathBuf, String, String), Group)> = Vec::new();
     let mut of_key: BTreeMap<(PathBuf, String, String), Vec<usize>> = BTreeMap::new();
     let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();

@@ -7,124 +7,57 @@
 //!
 //! *Holds:* no panics, no half-written files, and the same bytes for the same input with any `-j`.
 
-#[macro_use]
-mod commands;
-
-mod args;
+mod arguments;
 mod baseline;
 mod baselines;
 mod batch;
-mod bounds;
 mod buffers;
 mod cache;
-mod cache_command;
-mod child;
-mod compile;
-mod completions;
-mod config;
+mod commands;
 mod configurations;
 mod console;
-mod cost;
-mod cost_rank;
-mod cost_table;
 mod depfile;
 mod digest;
-mod engine;
-mod examples;
 mod exit;
-mod explain;
 mod files;
 mod fix;
-mod fixed_function;
-mod fmt;
-mod follow;
 mod fullscreen;
-mod gallery;
-mod guard;
 mod inputs;
-mod interrupt;
-mod journal;
-mod library;
-mod library_export;
-mod library_prefilter;
-mod lint;
-mod lint_rules;
 mod lone;
-#[cfg(feature = "lsp")]
-mod lsp;
-#[cfg(feature = "lsp")]
-mod lsp_channel;
-#[cfg(feature = "lsp")]
-mod lsp_drawing;
-#[cfg(feature = "lsp")]
-mod lsp_files;
-#[cfg(feature = "lsp")]
-mod lsp_judged;
-#[cfg(feature = "lsp")]
-mod lsp_project;
-#[cfg(feature = "lsp")]
-mod lsp_shown;
-mod machine;
 mod made;
-mod man;
 mod memo;
-pub mod memory;
-mod new_scene;
-mod new_scene_model;
 mod not_checked;
 mod opengl;
 mod optimize;
 mod outputs;
-mod permutations;
 mod pictures;
-#[cfg(feature = "play")]
-mod play;
-mod port;
-mod profile;
+mod process;
 mod progress;
 mod recall;
-mod reflect;
-mod render;
-mod report;
-mod report_checks;
-mod responses;
-mod rules;
 mod scene_ranges;
 mod scenes;
 mod search;
 mod session;
-mod settings;
-mod sizes;
-mod snapshots;
-mod specialize;
-mod stability;
-mod stability_library;
-mod stages;
 mod strings;
-mod suggest;
-mod supervisor;
 pub mod survey;
-mod test;
 mod texts;
-mod timed;
 mod trace;
 mod unfinished;
-mod upgrade;
 mod variants;
-mod varyings;
-mod verify;
-mod watch;
-mod with;
 mod witness;
 
-use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use arguments::{examples, responses, sizes};
+use clap::{Args, CommandFactory, FromArgMatches, Parser};
+use commands::Command;
 use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
 use glisten_scene::confine_to;
+use process::guard;
+pub use process::memory;
+use process::supervisor::Supervised;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use supervisor::Supervised;
 
 /// The stack size of the thread that runs a command.
 const STACK_BYTES: usize = 16 << 20;
@@ -156,69 +89,6 @@ struct GlobalArgs {
     /// End when more memory would be needed, such as 512M or 2G (Linux)
     #[arg(long, global = true, value_name = "SIZE", value_parser = sizes::parse)]
     max_memory: Option<u64>,
-}
-
-// A server outlives its workers, which draw: `play` itself does not.
-commands! {
-    /// Check shaders and the programs that they form
-    Lint(lint::LintArgs) draws never;
-    /// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
-    Compile(compile::CompileArgs) draws never;
-    /// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
-    Reflect(reflect::ReflectArgs) draws never;
-    /// Count the operations of shaders by line and class, on the shortest and the longest path
-    Cost(cost::CostArgs) draws asked;
-    /// Show what a diagnostic means, with a bad and a good example
-    Explain(explain::ExplainArgs) draws never;
-    /// List the lint rules: group, level, fixes
-    Rules(lint_rules::RulesArgs) draws never;
-    /// Draw a scene
-    Render(render::RenderArgs) draws asked;
-    /// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
-    Verify(verify::VerifyArgs) draws always;
-    /// Leave out of the programs of scenes what their pictures do not need
-    Specialize(specialize::SpecializeArgs) draws never;
-    /// Find out where f32 arithmetic harms the picture of a scene, and why
-    Stability(stability::StabilityArgs) draws never;
-    /// Tell what each fragment of a pixel, or a vertex, computed: every expression with its value
-    Trace(follow::TraceArgs) draws never;
-    /// Measure variants of a scene's shading: error against work and run time
-    ///
-    /// Drawing takes seconds, timing up to half a minute more: `--seconds` sets the limit. Ctrl-C ends it early, with a report on what had
-    /// finished.
-    Report(report::ReportArgs) draws always;
-    /// Draw every scene of the library onto a page
-    Gallery(gallery::GalleryArgs) draws asked;
-    /// Run .shader_test files, and the functions of shaders under a comment `//! test`
-    Test(test::TestArgs) draws asked;
-    /// Use the library of lighting models
-    Lib(library::LibArgs) draws asked;
-    /// Write a scene for a program, which draws at once
-    NewScene(new_scene::NewSceneArgs) draws never;
-    /// Format shaders and includes
-    Fmt(fmt::FmtArgs) draws never;
-    /// Serve an editor: the language server protocol over standard input and output
-    #[cfg(feature = "lsp")]
-    Lsp(lsp::LspArgs) draws never;
-    /// Show scenes in a browser, and draw them again while they change
-    #[cfg(feature = "play")]
-    Play(play::PlayArgs) draws never;
-    /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
-    Upgrade(upgrade::UpgradeArgs) draws never;
-    /// Port a folder of shaders to another host: Minecraft on Vulkan, Vulkan, wgpu, Bevy, WebGL 2
-    Port(port::PortArgs) draws asked;
-    /// Write the vertex and the fragment stage of OpenGL's fixed-function pipeline as GLSL
-    FixedFunction(fixed_function::FixedFunctionArgs) draws never;
-    /// Write a completion script for a shell to standard output
-    Completions(completions::CompletionsArgs) draws never;
-    /// Run a command again whenever its files change
-    Watch(watch::WatchArgs) draws never;
-    /// See what the cache of `compile` and `lint` holds, or clean it
-    Cache(cache_command::CacheCommandArgs) draws never;
-    /// Review pending snapshots of tests
-    Snapshots(snapshots::SnapshotsArgs) draws never;
-    /// Write manual pages: glisten.1, and one for each command
-    Man(man::ManArgs) draws never;
 }
 
 /// Runs the program with these arguments, the first being its own name, in this process.
@@ -258,7 +128,7 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
         })?;
     }
     if let Some(bytes) = cli.global.max_memory {
-        memory::limit(bytes).map_err(|failure| end(Err(failure), &console))?;
+        process::memory::limit(bytes).map_err(|failure| end(Err(failure), &console))?;
     }
     Ok((cli.command, console))
 }

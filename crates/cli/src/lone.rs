@@ -3,9 +3,9 @@
 //! *In:* a compiled unit. *Out:* a warning, or errors instead of warnings. *Holds:* such a shader is valid as a part of a program,
 //! which `lint` accepts; these are the rules for emitting it.
 
-use super::engine::Engines;
-use super::inputs::Input;
-use super::session::Unit;
+use crate::arguments::engine::Engines;
+use crate::inputs::Input;
+use crate::session::Unit;
 use glisten_front::diagnostic::codes::general::LONE_STAGE;
 use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
 use glisten_front::diagnostic::{Diagnostic, Severity};
@@ -13,7 +13,7 @@ use glisten_front::source::Span;
 
 /// Turns the warnings of a single shader that lacks a function into errors. Such a shader is valid as part of a
 /// program, which `lint` accepts, but nothing can be emitted for it.
-pub(super) fn refuse_what_is_no_program(unit: &mut Unit) {
+pub(crate) fn refuse_what_is_no_program(unit: &mut Unit) {
     if unit.is_program() {
         return;
     }
@@ -25,7 +25,7 @@ pub(super) fn refuse_what_is_no_program(unit: &mut Unit) {
 }
 
 /// The warning about a program of a single stage.
-pub(super) fn warning(unit: &Unit, engines: &Engines) -> Option<Diagnostic> {
+pub(crate) fn warning(unit: &Unit, engines: &Engines) -> Option<Diagnostic> {
     let has_no_partner = |input: &Input| input.path.as_ref().is_some_and(|path| engines.is_whole(path));
     if !unit.group.is_lone() || !unit.is_program() || unit.group.inputs.iter().all(has_no_partner) {
         return None;

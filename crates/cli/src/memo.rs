@@ -4,7 +4,7 @@
 //! *Holds:* a result is found by the digest of all that it is made from, and is made from nothing else. A stage of GLSL depends on
 //! the others, and so does one before a geometry stage: these are made each time.
 
-use super::digest::{Digest, of_structure};
+use crate::digest::{Digest, of_structure};
 use glisten_emit::{self as emit, Conventions, Emitted, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{Shader, Stage, Types};
@@ -15,18 +15,18 @@ use std::collections::HashMap;
 use std::sync::{Arc, PoisonError, RwLock};
 
 /// The bytes of an output with their digest.
-pub(super) type Code = (Digest, Arc<[u8]>);
+pub(crate) type Code = (Digest, Arc<[u8]>);
 
 /// The stages that are known so far.
 #[derive(Default)]
-pub(super) struct Memo {
+pub(crate) struct Memo {
     optimized: Known<Shader>,
     emitted: Known<Code>,
 }
 
 impl Memo {
     /// The program without what reaches no output.
-    pub(super) fn optimized(&self, program: &Program) -> Program {
+    pub(crate) fn optimized(&self, program: &Program) -> Program {
         let types = of_structure(&program.types);
         specialize::optimize_by(program, &|_: &Types, shader, live| {
             let make = || Ok(specialize::without_unreached(&program.types, shader, live));
@@ -42,7 +42,7 @@ impl Memo {
     ///
     /// # Errors
     /// Those of the writer.
-    pub(super) fn code(
+    pub(crate) fn code(
         &self,
         program: &Program,
         stage: Stage,
@@ -67,7 +67,7 @@ impl Memo {
 }
 
 /// The bytes of what was emitted, with their digest.
-pub(super) fn code(emitted: Emitted) -> Code {
+pub(crate) fn code(emitted: Emitted) -> Code {
     let bytes = emitted.into_bytes();
     (Digest::of(&bytes), bytes.into())
 }

@@ -5,10 +5,10 @@
 //! version is missing (`E0120`), or if a file that stays includes it, so that its errors are found there. A file without an error
 //! stays, as does every file that the command line names.
 
-use super::console::painted;
-use super::inputs::{Inputs, identity};
-use super::search::Why;
-use super::session::{Session, Unit};
+use crate::console::painted;
+use crate::inputs::{Inputs, identity};
+use crate::search::Why;
+use crate::session::{Session, Unit};
 use glisten_front::diagnostic::codes::general::NOT_CHECKED;
 use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHOUT_MAIN};
 use glisten_front::diagnostic::codes::preprocess::MISSING_VERSION;
@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 const SHOWN: usize = 20;
 
 /// Takes the files that are not checked out of the units, and lets the session tell what was checked and what was not.
-pub(super) fn settle(session: &mut Session<'_>, units: &mut Vec<Unit>, inputs: &Inputs) {
+pub(crate) fn settle(session: &mut Session<'_>, units: &mut Vec<Unit>, inputs: &Inputs) {
     let mut not_checked = pass_over(units, inputs);
     not_checked.retain_mut(|one| {
         let level = session.level(&one.region.file, &NOT_CHECKED);
@@ -210,7 +210,7 @@ fn because(why: Why) -> String {
 }
 
 /// The files for people.
-pub(super) fn told(scope: &Scope, color: bool) -> String {
+pub(crate) fn told(scope: &Scope, color: bool) -> String {
     let files = &scope.not_checked;
     let is_denied = files.iter().any(|one| one.is_denied);
     let count = if files.len() == 1 { "1 file was".to_owned() } else { format!("{} files were", files.len()) };

@@ -1,19 +1,19 @@
 //! Draws scenes by OpenGL, if that backend is built in.
 
-use super::exit::Failure;
-use super::scenes::{DrawError, MachineArgs};
+use crate::exit::Failure;
+use crate::scenes::{DrawError, MachineArgs};
 use glisten_scene::picture::Picture;
 use glisten_verify::scene::Scene;
 
 #[cfg(feature = "gl")]
-use super::exit::Exit;
+use crate::exit::Exit;
 #[cfg(feature = "gl")]
-use super::journal::{self, Note};
+use crate::process::journal::{self, Note};
 #[cfg(feature = "gl")]
 use glisten_gl::{Error, Gl};
 
 /// Reports an error if the backend is not built in.
-pub(super) fn require() -> Result<(), Failure> {
+pub(crate) fn require() -> Result<(), Failure> {
     if cfg!(feature = "gl") { Ok(()) } else { Err(not_built()) }
 }
 
@@ -24,13 +24,13 @@ fn not_built() -> Failure {
 
 /// Draws a scene.
 #[cfg(not(feature = "gl"))]
-pub(super) fn draw(_: &MachineArgs, _: &str, _: Scene) -> Result<Picture, DrawError> {
+pub(crate) fn draw(_: &MachineArgs, _: &str, _: Scene) -> Result<Picture, DrawError> {
     Err(not_built().into())
 }
 
 /// Draws a scene.
 #[cfg(feature = "gl")]
-pub(super) fn draw(machine: &MachineArgs, name: &str, scene: Scene) -> Result<Picture, DrawError> {
+pub(crate) fn draw(machine: &MachineArgs, name: &str, scene: Scene) -> Result<Picture, DrawError> {
     journal::note(&Note::Driver("of OpenGL".to_owned()));
     let work = journal::drawing(name);
     // A context belongs to its thread.
@@ -44,6 +44,6 @@ pub(super) fn draw(machine: &MachineArgs, name: &str, scene: Scene) -> Result<Pi
 impl From<Error> for DrawError {
     fn from(error: Error) -> Self {
         let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
-        Self::Failure(super::scenes::told(exit, &error.to_string()))
+        Self::Failure(crate::scenes::told(exit, &error.to_string()))
     }
 }

@@ -14,7 +14,7 @@ use std::borrow::Cow;
 /// Whether to leave out what reaches no output.
 #[derive(Args, Clone, Copy, Debug, Default)]
 #[command(next_help_heading = "Optimization")]
-pub(super) struct OptimizeArgs {
+pub(crate) struct OptimizeArgs {
     /// Leave out what reaches no output (default for WGSL and SPIR-V, unless -g is given; -O0 turns it off)
     #[arg(short = 'O', long)]
     optimize: bool,
@@ -31,24 +31,24 @@ pub(super) struct OptimizeArgs {
 
 impl OptimizeArgs {
     /// Whether the flags leave it out for a target.
-    pub(super) fn applies(self, target: Target, debug_lines: bool) -> bool {
+    pub(crate) fn applies(self, target: Target, debug_lines: bool) -> bool {
         let by_default = !debug_lines && matches!(target, Target::Wgsl | Target::Spirv);
         !self.no_optimize && !self.level_0 && (self.optimize || by_default)
     }
 
     /// Whether `-O` itself was given.
-    pub(super) fn is_given(self) -> bool {
+    pub(crate) fn is_given(self) -> bool {
         self.optimize && !self.level_0
     }
 }
 
 /// The program that is emitted.
-pub(super) fn optimized(program: &Program, applies: bool) -> Cow<'_, Program> {
+pub(crate) fn optimized(program: &Program, applies: bool) -> Cow<'_, Program> {
     if applies { Cow::Owned(specialize::optimize(program)) } else { Cow::Borrowed(program) }
 }
 
 /// A note on each thing that is left out.
-pub(super) fn notes(program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
+pub(crate) fn notes(program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
     let optimized = specialize::optimize(program);
     let list = specialize::left_out(program, &optimized, Some(sources));
     let note = |one: &specialize::LeftOut| {

@@ -4,13 +4,13 @@
 //! reflection, as bytes with names. *Holds:* the names of all outputs are known before any work begins, so two programs that
 //! would write the same file are rejected at once. Nothing is written here.
 
-use super::args::ConventionArgs;
-use super::digest::Digest;
-use super::exit::Failure;
-use super::guard;
-use super::inputs::Group;
-use super::memo::{Code, Memo, code};
-use super::optimize::{self, OptimizeArgs};
+use crate::arguments::args::ConventionArgs;
+use crate::digest::Digest;
+use crate::exit::Failure;
+use crate::inputs::Group;
+use crate::memo::{Code, Memo, code};
+use crate::optimize::{self, OptimizeArgs};
+use crate::process::guard;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glisten_emit::reflection::StageFiles;
@@ -27,16 +27,16 @@ use std::sync::Arc;
 
 /// The parts of a program to write.
 #[derive(Args, Clone, Debug)]
-pub(super) struct OutputArgs {
+pub(crate) struct OutputArgs {
     /// The target to write (repeatable; default: wgsl and spirv)
     #[arg(long = "target", value_parser = target_words())]
-    pub(super) targets: Vec<Target>,
+    pub(crate) targets: Vec<Target>,
     /// Write one file for each target, with the entry points `vs_main` and `fs_main` (wgsl, msl, hlsl; default: wgsl)
     #[arg(long)]
-    pub(super) single_file: bool,
+    pub(crate) single_file: bool,
     /// Write source lines into SPIR-V
     #[arg(short = 'g')]
-    pub(super) debug_lines: bool,
+    pub(crate) debug_lines: bool,
     /// Report what -O leaves out
     #[arg(long)]
     left_out: bool,
@@ -44,30 +44,30 @@ pub(super) struct OutputArgs {
     #[arg(long)]
     flat: bool,
     #[command(flatten)]
-    pub(super) optimize: OptimizeArgs,
+    pub(crate) optimize: OptimizeArgs,
     #[command(flatten)]
     conventions: ConventionArgs,
 }
 
 /// Reads the word of a target.
-pub(super) fn target_words() -> impl TypedValueParser<Value = Target> {
+pub(crate) fn target_words() -> impl TypedValueParser<Value = Target> {
     let words = Target::ALL.iter().map(|target| target.word());
     PossibleValuesParser::new(words).try_map(|word| Target::from_word(&word).ok_or("no such target"))
 }
 
 /// A file to write: its name, the digest of its bytes, its bytes.
-pub(super) type Output = (String, Digest, Arc<[u8]>);
+pub(crate) type Output = (String, Digest, Arc<[u8]>);
 
 /// The parts of a program to write, in full.
 #[derive(Clone, Debug)]
-pub(super) struct OutputPlan {
-    pub(super) targets: BTreeSet<Target>,
+pub(crate) struct OutputPlan {
+    pub(crate) targets: BTreeSet<Target>,
     conventions: Conventions,
     optimize: OptimizeArgs,
     left_out: bool,
     flat: bool,
     /// Whether all stages of a program are in one file.
-    pub(super) single_file: bool,
+    pub(crate) single_file: bool,
     /// Whether outputs have names that the reflection can tell.
     named: bool,
 }
@@ -77,7 +77,7 @@ impl OutputPlan {
     ///
     /// # Errors
     /// `--single-file` for a target that has one file for each stage.
-    pub(super) fn new(args: &OutputArgs) -> Result<Self, Failure> {
+    pub(crate) fn new(args: &OutputArgs) -> Result<Self, Failure> {
         let mut targets: BTreeSet<Target> = args.targets.iter().copied().collect();
         if targets.is_empty() {
             targets.insert(Target::Wgsl);
@@ -95,17 +95,17 @@ impl OutputPlan {
     }
 
     /// The plan for outputs whose names depend on their bytes: the reflection does not tell them.
-    pub(super) fn unnamed(self) -> Self {
+    pub(crate) fn unnamed(self) -> Self {
         Self { named: false, ..self }
     }
 
     /// Whether source lines are in the outputs.
-    pub(super) fn has_lines(&self) -> bool {
+    pub(crate) fn has_lines(&self) -> bool {
         self.conventions.debug_lines
     }
 
     /// The names of a program's outputs, the reflection last.
-    pub(super) fn names(&self, group: &Group) -> Vec<String> {
+    pub(crate) fn names(&self, group: &Group) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         if self.single_file {
             names.extend(self.targets.iter().map(|target| single_name(group, *target)));
@@ -122,7 +122,7 @@ impl OutputPlan {
     }
 
     /// The stages and the target of each of a program's outputs but the reflection, by their names.
-    pub(super) fn kinds(&self, group: &Group) -> BTreeMap<String, (Vec<Stage>, Target)> {
+    pub(crate) fn kinds(&self, group: &Group) -> BTreeMap<String, (Vec<Stage>, Target)> {
         let mut kinds: BTreeMap<String, (Vec<Stage>, Target)> = BTreeMap::new();
         for stage in Stage::ALL {
             let Some(input) = group.inputs.iter().find(|input| input.stage == stage) else { continue };
@@ -141,7 +141,7 @@ impl OutputPlan {
     ///
     /// # Errors
     /// They would, in this folder.
-    pub(super) fn refuse_collisions(
+    pub(crate) fn refuse_collisions(
         &self,
         folder: &Path,
         below: impl Fn(&Group) -> PathBuf,
@@ -180,7 +180,7 @@ impl OutputPlan {
     }
 
     /// Notes on what is not in the outputs.
-    pub(super) fn notes(&self, program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
+    pub(crate) fn notes(&self, program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
         let mut notes = emit::notes(program, &self.conventions);
         if self.left_out && self.targets.iter().any(|target| self.optimizes(*target)) {
             notes.extend(optimize::notes(program, sources));
@@ -189,7 +189,7 @@ impl OutputPlan {
     }
 
     /// The outputs of one program. An internal error is a diagnostic of its first text.
-    pub(super) fn emit(
+    pub(crate) fn emit(
         &self,
         group: &Group,
         program: &Program,
@@ -199,7 +199,7 @@ impl OutputPlan {
     }
 
     /// The same, with what is known of the stages of other programs of this plan.
-    pub(super) fn emit_by(
+    pub(crate) fn emit_by(
         &self,
         group: &Group,
         program: &Program,
@@ -290,7 +290,7 @@ fn output(name: String, (digest, bytes): Code) -> Output {
 }
 
 /// The files of each stage for the reflection, with the outputs for these targets.
-pub(super) fn files_of_stages(
+pub(crate) fn files_of_stages(
     group: &Group,
     targets: &BTreeSet<Target>,
     single_file: bool,

@@ -2,21 +2,21 @@
 //!
 //! *In:* a [`Picture`] and a file name, from the command line. *Out:* names and bytes of files.
 
-use super::exit::Failure;
+use crate::exit::Failure;
 use glisten_scene::picture::{Encoding, ImageFormat, Picture};
 use glisten_verify::scene::Format;
 use std::path::{Path, PathBuf};
 
 /// Where to write pictures: one file for the first attachment or, with `%d` in the name, one for each.
 #[derive(Clone, Debug)]
-pub(super) struct Target {
+pub(crate) struct Target {
     name: String,
     format: ImageFormat,
 }
 
 impl Target {
     /// The target of a file name.
-    pub(super) fn parse(name: &Path) -> Result<Self, Failure> {
+    pub(crate) fn parse(name: &Path) -> Result<Self, Failure> {
         let text = name.to_string_lossy().into_owned();
         let Some(format) = ImageFormat::of_name(name) else {
             let failure = Failure::usage(format!("the name `{text}` does not tell the format of the picture"));
@@ -26,7 +26,7 @@ impl Target {
     }
 
     /// Reports what the file format cannot represent.
-    pub(super) fn check(&self, format: Format) -> Result<(), Failure> {
+    pub(crate) fn check(&self, format: Format) -> Result<(), Failure> {
         let integer = matches!(format, Format::Rgba32Sint | Format::Rgba32Uint);
         if self.format == ImageFormat::Png && integer {
             let failure = Failure::usage("a PNG cannot hold the numbers of an integer framebuffer");
@@ -36,7 +36,7 @@ impl Target {
     }
 
     /// The files with their contents, and how many numbers were not representable (NaN in a PNG).
-    pub(super) fn encode(&self, picture: &Picture, by: impl Into<Encoding>) -> Result<(Vec<File>, usize), Failure> {
+    pub(crate) fn encode(&self, picture: &Picture, by: impl Into<Encoding>) -> Result<(Vec<File>, usize), Failure> {
         let by = by.into();
         let mut files = Vec::new();
         let mut nans = 0;

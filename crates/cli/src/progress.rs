@@ -3,7 +3,7 @@
 //! *Holds:* it is drawn on standard error, only if that is a terminal, only without `--quiet`, and never in the first two
 //! seconds; after that also in the middle of a long step. It disappears when the work is done.
 
-use super::console::Console;
+use crate::console::Console;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
@@ -13,7 +13,7 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Counts steps of a piece of work.
-pub(super) struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     /// Held while the work goes on.
     working: Option<Sender<()>>,
@@ -21,7 +21,7 @@ pub(super) struct Progress {
 
 impl Progress {
     /// A bar for work of `steps` steps.
-    pub(super) fn new(console: &Console, steps: usize) -> Self {
+    pub(crate) fn new(console: &Console, steps: usize) -> Self {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{wide_msg} [{bar:30}] {pos}/{len} {elapsed}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
@@ -30,7 +30,7 @@ impl Progress {
     }
 
     /// This bar, but never shown if the result is for a program.
-    pub(super) fn unless(mut self, is_for_program: bool) -> Self {
+    pub(crate) fn unless(mut self, is_for_program: bool) -> Self {
         if is_for_program {
             self.working = None;
         }
@@ -38,35 +38,35 @@ impl Progress {
     }
 
     /// This bar with an estimate of the time that is left.
-    pub(super) fn with_estimate(self) -> Self {
+    pub(crate) fn with_estimate(self) -> Self {
         let style = ProgressStyle::with_template("{wide_msg} [{bar:30}] {pos}/{len} {elapsed}, about {eta} left");
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
         self
     }
 
     /// Sets the number of steps.
-    pub(super) fn extend_to(&self, steps: usize) {
+    pub(crate) fn extend_to(&self, steps: usize) {
         self.bar.set_length(steps as u64);
     }
 
     /// Adds steps.
-    pub(super) fn extend_by(&self, steps: usize) {
+    pub(crate) fn extend_by(&self, steps: usize) {
         self.bar.inc_length(steps as u64);
     }
 
     /// Sets how many steps of how many are done.
-    pub(super) fn reach(&self, done: usize, steps: usize) {
+    pub(crate) fn reach(&self, done: usize, steps: usize) {
         self.bar.set_length(steps as u64);
         self.bar.set_position(done as u64);
     }
 
     /// Shows the current step.
-    pub(super) fn say(&self, what: &str) {
+    pub(crate) fn say(&self, what: &str) {
         self.bar.set_message(what.to_owned());
     }
 
     /// Completes a step.
-    pub(super) fn step(&self) {
+    pub(crate) fn step(&self) {
         self.bar.inc(1);
     }
 }

@@ -4,16 +4,16 @@
 //! kept. *Holds:* the key of a program has every flag that may change its outputs, so that a new flag cannot be forgotten: it
 //! is the text of all of them. Standard input is never kept.
 
-use super::args::{BindingArgs, SourceArgs};
-use super::cache::{Cache, CacheArgs, Kept};
-use super::console::Console;
-use super::digest::Digest;
-use super::engine::Engines;
-use super::exit::Failure;
-use super::inputs::Group;
-use super::outputs::{Output, OutputPlan};
-use super::session::{Fresh, Unit, compile_group};
-use super::trace::{self, Trace};
+use crate::arguments::args::{BindingArgs, SourceArgs};
+use crate::arguments::engine::Engines;
+use crate::cache::{Cache, CacheArgs, Kept};
+use crate::console::Console;
+use crate::digest::Digest;
+use crate::exit::Failure;
+use crate::inputs::Group;
+use crate::outputs::{Output, OutputPlan};
+use crate::session::{Fresh, Unit, compile_group};
+use crate::trace::{self, Trace};
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general::INTERNAL;
@@ -21,7 +21,7 @@ use std::fs;
 use std::path::Path;
 
 /// A cache with the options of a command.
-pub(super) struct Recall {
+pub(crate) struct Recall {
     cache: Option<Cache>,
     engines: Engines,
     options: String,
@@ -34,7 +34,7 @@ impl Recall {
     ///
     /// # Errors
     /// A size or an address that is none.
-    pub(super) fn new(
+    pub(crate) fn new(
         args: &CacheArgs,
         engines: &Engines,
         sources: &SourceArgs,
@@ -49,7 +49,7 @@ impl Recall {
     ///
     /// # Errors
     /// A size or an address that is none.
-    pub(super) fn of_findings(
+    pub(crate) fn of_findings(
         args: &CacheArgs,
         engines: &Engines,
         sources: &SourceArgs,
@@ -61,12 +61,12 @@ impl Recall {
     }
 
     /// Takes a program from the cache, or compiles it. `variant` tells apart programs that differ in their compilers.
-    pub(super) fn compile(&self, compiler: &Compiler, group: Group, variant: &str) -> (Unit, usize) {
+    pub(crate) fn compile(&self, compiler: &Compiler, group: Group, variant: &str) -> (Unit, usize) {
         self.compile_by(group, variant, |group| compile_group(compiler, group))
     }
 
     /// The same, compiled by `by`.
-    pub(super) fn compile_by(
+    pub(crate) fn compile_by(
         &self,
         group: Group,
         variant: &str,
@@ -88,12 +88,12 @@ impl Recall {
     }
 
     /// Keeps what was made of a program, if it was compiled.
-    pub(super) fn keep(&self, unit: &Unit, outputs: &[Output], notes: &[Diagnostic]) {
+    pub(crate) fn keep(&self, unit: &Unit, outputs: &[Output], notes: &[Diagnostic]) {
         self.keep_all(unit, &Trace::default(), outputs, notes);
     }
 
     /// Keeps what was found in a program, if it was compiled, which depends on what `trace` has, too.
-    pub(super) fn keep_found(&self, unit: &Unit, trace: &Trace, notes: &[Diagnostic]) {
+    pub(crate) fn keep_found(&self, unit: &Unit, trace: &Trace, notes: &[Diagnostic]) {
         self.keep_all(unit, trace, &[], notes);
     }
 
@@ -112,21 +112,21 @@ impl Recall {
     }
 
     /// Tells what went wrong with the cache, and cleans it.
-    pub(super) fn close(&self, console: &Console) {
+    pub(crate) fn close(&self, console: &Console) {
         if let Some(cache) = &self.cache {
             cache.close(console);
         }
     }
 
     /// The earlier result of a scene, or else a place for a new one.
-    pub(super) fn scene(&self, path: &str, options: &str) -> (Option<Kept>, Option<Digest>) {
+    pub(crate) fn scene(&self, path: &str, options: &str) -> (Option<Kept>, Option<Digest>) {
         let Some(cache) = &self.cache else { return (None, None) };
         let key = cache.key(&[&self.options, "scene", path, options, &self.folder_that_matters([Path::new(path)])]);
         (cache.find(key), Some(key))
     }
 
     /// Keeps what was made of a scene.
-    pub(super) fn keep_scene(&self, key: Option<Digest>, trace: &Trace, kept: &Kept) {
+    pub(crate) fn keep_scene(&self, key: Option<Digest>, trace: &Trace, kept: &Kept) {
         if let (Some(cache), Some(key)) = (&self.cache, key) {
             cache.keep(key, trace, kept);
         }

@@ -3,9 +3,9 @@
 //! *In:* scene files. *Out:* for the files that a scene draws, the least and the greatest number of each uniform and attribute, by name.
 //! *Holds:* the numbers of several scenes and draws are joined. A matrix has no range: its elements do not vary by themselves.
 
-use super::bounds::Bounds;
-use super::exit::{Exit, Failure};
-use super::inputs::identity;
+use crate::arguments::bounds::Bounds;
+use crate::exit::{Exit, Failure};
+use crate::inputs::identity;
 use glisten_front::compiler::Compiler;
 use glisten_front::hir::ScalarValue;
 use glisten_scene::values::{LeafShape, of_leaf};
@@ -15,14 +15,14 @@ use std::path::{Path, PathBuf};
 
 /// The ranges of the files that scenes draw.
 #[derive(Debug, Default)]
-pub(super) struct SceneRanges(BTreeMap<PathBuf, BTreeMap<String, [f64; 2]>>);
+pub(crate) struct SceneRanges(BTreeMap<PathBuf, BTreeMap<String, [f64; 2]>>);
 
 impl SceneRanges {
     /// The ranges of these scenes.
     ///
     /// # Errors
     /// A scene that cannot be loaded.
-    pub(super) fn read(scenes: &[PathBuf], compiler: &Compiler) -> Result<Self, Failure> {
+    pub(crate) fn read(scenes: &[PathBuf], compiler: &Compiler) -> Result<Self, Failure> {
         let mut ranges = Self::default();
         for path in scenes {
             let name = path.to_string_lossy();
@@ -43,7 +43,7 @@ impl SceneRanges {
     }
 
     /// The ranges of a file.
-    pub(super) fn of(&self, file: &Path) -> Vec<(String, Bounds)> {
+    pub(crate) fn of(&self, file: &Path) -> Vec<(String, Bounds)> {
         if self.0.is_empty() {
             return Vec::new();
         }

@@ -1,13 +1,13 @@
 //! Shared by `render`, `verify` and `report`: reading a scene with its shaders, and running work with a time limit.
 
-use super::args::{BindingArgs, LevelArgs, SourceArgs};
-use super::batch::Batch;
-use super::console::Console;
-use super::exit::{Exit, Failure};
-use super::files;
-use super::guard;
-use super::journal::{self, Note};
-use super::session::Session;
+use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
+use crate::batch::Batch;
+use crate::console::Console;
+use crate::exit::{Exit, Failure};
+use crate::files;
+use crate::process::guard;
+use crate::process::journal::{self, Note};
+use crate::session::Session;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::NOTHING_COVERED;
@@ -27,12 +27,12 @@ const STACK_BYTES: usize = 16 << 20;
 
 /// The scene, and how to read its shaders.
 #[derive(Args, Clone, Debug)]
-pub(super) struct SceneArgs {
+pub(crate) struct SceneArgs {
     /// A scene file, or a model (.obj, .gltf, .glb), which gets a camera and lights; `verify` also takes a folder of scenes
     #[arg(value_name = "SCENE.toml")]
-    pub(super) scene: String,
+    pub(crate) scene: String,
     #[command(flatten)]
-    pub(super) machine: MachineArgs,
+    pub(crate) machine: MachineArgs,
     #[command(flatten)]
     sources: SourceArgs,
     #[command(flatten)]
@@ -41,7 +41,7 @@ pub(super) struct SceneArgs {
 
 /// The GPU, and the time limit for a scene.
 #[derive(Args, Clone, Debug)]
-pub(super) struct MachineArgs {
+pub(crate) struct MachineArgs {
     /// Give up after this many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = parse_seconds)]
     timeout: f64,
@@ -53,7 +53,7 @@ pub(super) struct MachineArgs {
 
 /// The form of the emitted code that the GPU runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum ViaArg {
+pub(crate) enum ViaArg {
     /// SPIR-V, passed to the driver unchanged
     #[default]
     Spirv,
@@ -78,21 +78,21 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 }
 
 /// A scene that was read, with the texts that its diagnostics refer to.
-pub(super) struct Read<'a> {
+pub(crate) struct Read<'a> {
     /// The scene.
-    pub(super) scene: Scene,
+    pub(crate) scene: Scene,
     session: Session<'a>,
     batch: Batch,
 }
 
 impl Read<'_> {
     /// The scene without what its picture does not need.
-    pub(super) fn specialized(&self, contract: Contract) -> Scene {
+    pub(crate) fn specialized(&self, contract: Contract) -> Scene {
         specialize_scene_by(contract, &self.scene, self.sources(), &[]).scene
     }
 
     /// The scene at `path` with another text for one of its files.
-    pub(super) fn reloaded(&self, path: &str, file: &str, text: &str) -> Option<Scene> {
+    pub(crate) fn reloaded(&self, path: &str, file: &str, text: &str) -> Option<Scene> {
         let files = Changed { file, text, was_read: Cell::new(false) };
         let loaded = guard::guarded(|| scene::load(path, &files, self.session.compiler()));
         // The text of an include comes from elsewhere.
@@ -100,17 +100,17 @@ impl Read<'_> {
     }
 
     /// The texts of the scene and its shaders.
-    pub(super) fn sources(&self) -> &SourceMap {
+    pub(crate) fn sources(&self) -> &SourceMap {
         &self.batch.sources
     }
 
     /// Whether lines for people may stand between the diagnostics.
-    pub(super) fn is_human(&self) -> bool {
+    pub(crate) fn is_human(&self) -> bool {
         self.session.is_human()
     }
 
     /// Reports a failure to draw the scene.
-    pub(super) fn failed(self, error: DrawError) -> Result<Exit, Failure> {
+    pub(crate) fn failed(self, error: DrawError) -> Result<Exit, Failure> {
         match error {
             DrawError::Failure(failure) => self.finish(Vec::new()).and(Err(failure)),
             DrawError::Diagnostics(diagnostics) => Ok(self.finish(diagnostics)?.max(Exit::Content)),
@@ -118,7 +118,7 @@ impl Read<'_> {
     }
 
     /// Reports what drawing found, and what has not been reported yet, as one list. Returns the exit code.
-    pub(super) fn finish(mut self, found: Vec<Diagnostic>) -> Result<Exit, Failure> {
+    pub(crate) fn finish(mut self, found: Vec<Diagnostic>) -> Result<Exit, Failure> {
         if self.is_human() && found.is_empty() {
             return Ok(Exit::Ok);
         }
@@ -127,7 +127,7 @@ impl Read<'_> {
     }
 
     /// The note after the name of the GPU that drew the scene.
-    pub(super) fn host_part(&self) -> &'static str {
+    pub(crate) fn host_part(&self) -> &'static str {
         if glisten_reference::has_geometry_stage(&self.scene) {
             "; the geometry stage ran on the host, and the GPU drew what it emitted"
         } else {
@@ -136,7 +136,7 @@ impl Read<'_> {
     }
 
     /// The warning that nothing was drawn: no pixel is covered.
-    pub(super) fn nothing_covered(&self) -> Diagnostic {
+    pub(crate) fn nothing_covered(&self) -> Diagnostic {
         let scene = self.sources().files().next().map(|(id, _)| self.sources().file(id));
         let span = scene.map_or_else(Span::default, |scene| {
             let at = scene.text().find("[[draw").map_or(0..0, |at| at..at + "[[draw".len());
@@ -167,7 +167,7 @@ impl FileSource for Changed<'_> {
 }
 
 /// Why a scene was not drawn.
-pub(super) enum DrawError {
+pub(crate) enum DrawError {
     /// Errors in its shaders.
     Diagnostics(Vec<Diagnostic>),
     /// Any other failure.
@@ -197,7 +197,7 @@ impl From<Error> for DrawError {
 }
 
 /// The failure for a GPU that is missing or does not draw.
-pub(super) fn gpu_failure(error: Error) -> Failure {
+pub(crate) fn gpu_failure(error: Error) -> Failure {
     let exit = if error.is_environment() { Exit::Machine } else { Exit::Content };
     told(exit, &error.to_string())
 }
@@ -222,7 +222,7 @@ fn refuse_shader(path: &str) -> Result<(), Failure> {
 }
 
 /// A failure from the message of a runner, whose second line is the help text.
-pub(super) fn told(exit: Exit, text: &str) -> Failure {
+pub(crate) fn told(exit: Exit, text: &str) -> Failure {
     match text.split_once("\nhelp: ") {
         Some((message, help)) => Failure::new(exit, message).help(help),
         None => Failure::new(exit, text),
@@ -230,7 +230,7 @@ pub(super) fn told(exit: Exit, text: &str) -> Failure {
 }
 
 /// The GPU with that name, or the first one.
-pub(super) fn open_gpu(name: Option<&str>) -> Result<Gpu, Error> {
+pub(crate) fn open_gpu(name: Option<&str>) -> Result<Gpu, Error> {
     let _work = journal::at_work("listing the adapters");
     let gpu = Gpu::new(name)?;
     journal::note(&Note::Driver(gpu.adapter().driver.clone()));
@@ -239,22 +239,22 @@ pub(super) fn open_gpu(name: Option<&str>) -> Result<Gpu, Error> {
 
 impl SceneArgs {
     /// The arguments for one scene of several.
-    pub(super) fn of(scene: &str, machine: &MachineArgs, sources: &SourceArgs, levels: &LevelArgs) -> Self {
+    pub(crate) fn of(scene: &str, machine: &MachineArgs, sources: &SourceArgs, levels: &LevelArgs) -> Self {
         Self { scene: scene.to_owned(), machine: machine.clone(), sources: sources.clone(), levels: levels.clone() }
     }
 
     /// The same arguments for another scene.
-    pub(super) fn at(&self, scene: &str) -> Self {
+    pub(crate) fn at(&self, scene: &str) -> Self {
         Self { scene: scene.to_owned(), ..self.clone() }
     }
 
     /// A session that compiles as the arguments say.
-    pub(super) fn session<'a>(&self, console: &'a Console) -> Result<Session<'a>, Failure> {
+    pub(crate) fn session<'a>(&self, console: &'a Console) -> Result<Session<'a>, Failure> {
         Session::new(console, &self.sources, &BindingArgs::default(), &self.levels, 0)
     }
 
     /// Reads the scene and reports its diagnostics. Without a scene, returns the exit code.
-    pub(super) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
+    pub(crate) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         Ok(match self.begin(console)? {
             Ok(mut read) if !read.is_human() => {
                 read.session.tell(&[&read.batch], false)?;
@@ -267,7 +267,7 @@ impl SceneArgs {
 
     /// Reads the scene. Its diagnostics are reported, for people at once, otherwise together with those of drawing
     /// ([`Read::finish`]), so that they are one list. Without a scene, returns the exit code.
-    pub(super) fn begin<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
+    pub(crate) fn begin<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         let mut session = self.session(console)?;
         refuse_shader(&self.scene)?;
         let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
@@ -293,12 +293,12 @@ impl SceneArgs {
     }
 
     /// See [`MachineArgs::gpu`].
-    pub(super) fn gpu(&self) -> Result<Gpu, DrawError> {
+    pub(crate) fn gpu(&self) -> Result<Gpu, DrawError> {
         self.machine.gpu()
     }
 
     /// See [`MachineArgs::within_time`].
-    pub(super) fn within_time<R: Send + 'static>(
+    pub(crate) fn within_time<R: Send + 'static>(
         &self,
         work: impl FnOnce() -> Result<R, DrawError> + Send + 'static,
     ) -> Result<R, DrawError> {
@@ -308,23 +308,23 @@ impl SceneArgs {
 
 impl MachineArgs {
     /// The GPU that the arguments name.
-    pub(super) fn gpu(&self) -> Result<Gpu, DrawError> {
+    pub(crate) fn gpu(&self) -> Result<Gpu, DrawError> {
         let gpu = open_gpu(self.adapter.as_deref())?;
         Ok(gpu.with_timeout(Duration::from_secs_f64(self.timeout)))
     }
 
     /// The name of the GPU that the arguments name.
-    pub(super) fn adapter(&self) -> Option<&str> {
+    pub(crate) fn adapter(&self) -> Option<&str> {
         self.adapter.as_deref()
     }
 
     /// The time limit for a scene.
-    pub(super) fn time_limit(&self) -> Duration {
+    pub(crate) fn time_limit(&self) -> Duration {
         Duration::from_secs_f64(self.timeout)
     }
 
     /// Runs work on a thread of its own and gives up when the time limit is reached.
-    pub(super) fn within_time<R: Send + 'static>(
+    pub(crate) fn within_time<R: Send + 'static>(
         &self,
         work: impl FnOnce() -> Result<R, DrawError> + Send + 'static,
     ) -> Result<R, DrawError> {

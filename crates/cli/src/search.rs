@@ -4,10 +4,10 @@
 //! the reason. *Holds:* both are in the order of their names. What `.gitignore` or the `exclude` of a configuration names is in
 //! neither, nor is a `.glsl` file that is there to be included.
 
-use super::config::{self, Nearest};
-use super::engine::Engines;
-use super::exit::Failure;
-use super::inputs;
+use crate::arguments::config::{self, Nearest};
+use crate::arguments::engine::Engines;
+use crate::exit::Failure;
+use crate::inputs;
 use glisten_sources::stages;
 use ignore::WalkBuilder;
 use ignore::gitignore::Gitignore;
@@ -16,16 +16,16 @@ use std::path::{Path, PathBuf};
 
 /// A file that a search saw and did not take.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Left {
+pub(crate) struct Left {
     /// The file.
-    pub(super) path: PathBuf,
+    pub(crate) path: PathBuf,
     /// The reason.
-    pub(super) why: Why,
+    pub(crate) why: Why,
 }
 
 /// Why a search does not take a file that looks like a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Why {
+pub(crate) enum Why {
     /// Its name tells a stage, and it has no `main`: it is there to be included.
     NoMain,
     /// It is in the assembly language of ARB_vertex_program.
@@ -38,18 +38,18 @@ pub(super) enum Why {
 
 /// The result of a search.
 #[derive(Debug, Default)]
-pub(super) struct Search {
+pub(crate) struct Search {
     /// The shaders.
-    pub(super) found: Vec<PathBuf>,
+    pub(crate) found: Vec<PathBuf>,
     /// The files that were not taken.
-    pub(super) left: Vec<Left>,
+    pub(crate) left: Vec<Left>,
 }
 
 /// Searches a folder. Hidden folders are skipped, and links to folders are not followed, so that a cycle of links does no harm.
 ///
 /// # Errors
 /// A folder that cannot be read.
-pub(super) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> {
+pub(crate) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> {
     let mut search = Search::default();
     for path in files(root)? {
         match classify(&path, engines) {
@@ -67,7 +67,7 @@ pub(super) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> 
 ///
 /// # Errors
 /// A folder that cannot be read.
-pub(super) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     let is_source = |path: &PathBuf| {
         let named = stages::by_name(path).is_some() || stages::unread(path).is_some() || stages::may_be_included(path);
         named && !stages::is_assembly(path)
@@ -78,7 +78,7 @@ pub(super) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// The files in a folder that look like shaders, but for those that are excluded.
-pub(super) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut excludes = Excludes::default();
     let mut walk = WalkBuilder::new(root);
     // Without a repository, `.gitignore` says as much about what is generated.
@@ -99,7 +99,7 @@ pub(super) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Whether a search takes a file: its name tells its stage, or its engine does, or it contains several stages. `None` for a file
 /// that does not look like a shader.
-pub(super) fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>> {
+pub(crate) fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>> {
     if engines.is_part(path) {
         return None;
     }

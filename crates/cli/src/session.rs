@@ -2,21 +2,21 @@
 //!
 //! *Holds:* results are in the order of the groups, whatever `-j` is.
 
-use super::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
-use super::batch::Batch;
-use super::cache::Kept;
-use super::config::{Configs, Settings};
-use super::console::Console;
-use super::digest::Digest;
-use super::engine::Engines;
-use super::exit::{Exit, Failure};
-use super::files;
-use super::guard;
-use super::inputs::{Group, Input};
-use super::not_checked;
-use super::progress::Progress;
-use super::strings;
-use super::trace::Trace;
+use crate::arguments::args::{BindingArgs, DiagnosticFormat, LevelArgs, SourceArgs};
+use crate::arguments::config::{Configs, Settings};
+use crate::arguments::engine::Engines;
+use crate::batch::Batch;
+use crate::cache::Kept;
+use crate::console::Console;
+use crate::digest::Digest;
+use crate::exit::{Exit, Failure};
+use crate::files;
+use crate::inputs::{Group, Input};
+use crate::not_checked;
+use crate::process::guard;
+use crate::progress::Progress;
+use crate::strings;
+use crate::trace::Trace;
 use glisten_front::compiler::{Compilation, Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::preprocess::INCLUDE_WITHOUT_EXTENSION;
@@ -36,64 +36,64 @@ const STACK_BYTES: usize = 16 << 20;
 
 /// The result for a group of files.
 #[derive(Debug)]
-pub(super) struct Unit {
+pub(crate) struct Unit {
     /// The files.
-    pub(super) group: Group,
+    pub(crate) group: Group,
     /// Files that could not be read, one batch each.
-    pub(super) unread: Vec<Batch>,
+    pub(crate) unread: Vec<Batch>,
     /// The diagnostics of the compiler, and those that commands add.
-    pub(super) batch: Batch,
+    pub(crate) batch: Batch,
     /// The linked program, if there are no errors and it was compiled.
-    pub(super) program: Option<Program>,
+    pub(crate) program: Option<Program>,
     /// The outputs, if they come from a cache.
-    pub(super) kept: Option<Kept>,
+    pub(crate) kept: Option<Kept>,
     /// The facts that a cache needs to keep the result.
-    pub(super) fresh: Option<Fresh>,
+    pub(crate) fresh: Option<Fresh>,
     /// The watched macros that the result depends on.
-    pub(super) asked: BTreeSet<String>,
+    pub(crate) asked: BTreeSet<String>,
     /// The files of each input, its own first; none for one that could not be read.
-    pub(super) read: Vec<Vec<FileId>>,
+    pub(crate) read: Vec<Vec<FileId>>,
 }
 
 /// A result that a cache does not have yet.
 #[derive(Debug)]
-pub(super) struct Fresh {
+pub(crate) struct Fresh {
     /// The key of its options.
-    pub(super) key: Digest,
+    pub(crate) key: Digest,
     /// All that was read.
-    pub(super) trace: Trace,
+    pub(crate) trace: Trace,
     /// The diagnostics before any level.
-    pub(super) diagnostics: Vec<Diagnostic>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
     /// How many diagnostics past the limit there were.
-    pub(super) dropped: usize,
+    pub(crate) dropped: usize,
 }
 
 impl Unit {
     /// The unit of a group before anything is known.
-    pub(super) fn new(group: Group) -> Self {
+    pub(crate) fn new(group: Group) -> Self {
         let (unread, batch, asked) = (Vec::new(), Batch::default(), BTreeSet::new());
         Self { group, unread, batch, program: None, kept: None, fresh: None, asked, read: Vec::new() }
     }
 
     /// Whether there is a program, compiled or from a cache.
-    pub(super) fn is_program(&self) -> bool {
+    pub(crate) fn is_program(&self) -> bool {
         self.program.is_some() || self.kept.is_some()
     }
 
     /// The exit code of the diagnostics.
-    pub(super) fn exit(&self) -> Exit {
+    pub(crate) fn exit(&self) -> Exit {
         let unread = self.unread.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default();
         unread.max(Exit::of(&self.batch.diagnostics))
     }
 
     /// The program, unless it has any error (which may be a denied warning).
-    pub(super) fn sound_program(&self) -> Option<&Program> {
+    pub(crate) fn sound_program(&self) -> Option<&Program> {
         self.program.as_ref().filter(|_| self.exit() == Exit::Ok)
     }
 }
 
 /// The state of a command that reads shaders.
-pub(super) struct Session<'a> {
+pub(crate) struct Session<'a> {
     console: &'a Console,
     compiler: Compiler,
     engines: Engines,
@@ -107,7 +107,7 @@ pub(super) struct Session<'a> {
 
 impl<'a> Session<'a> {
     /// A session with `jobs` threads (0: one per core).
-    pub(super) fn new(
+    pub(crate) fn new(
         console: &'a Console,
         sources: &SourceArgs,
         bindings: &BindingArgs,
@@ -133,78 +133,78 @@ impl<'a> Session<'a> {
     }
 
     /// The levels of a file.
-    pub(super) fn levels_of(&mut self, name: &str) -> Levels {
+    pub(crate) fn levels_of(&mut self, name: &str) -> Levels {
         self.configs.levels(name).clone()
     }
 
     /// The settings that `lint` obeys for a file.
-    pub(super) fn settings_of(&mut self, name: &str) -> Arc<Settings> {
+    pub(crate) fn settings_of(&mut self, name: &str) -> Arc<Settings> {
         Arc::clone(self.configs.settings(name))
     }
 
     /// The errors in configurations so far.
     #[cfg(feature = "lsp")]
-    pub(super) fn configuration_errors(&self) -> &[Batch] {
+    pub(crate) fn configuration_errors(&self) -> &[Batch] {
         &self.configs.errors
     }
 
     /// This session with other engines, whose compiler is made again.
     #[cfg(feature = "lsp")]
     #[must_use]
-    pub(super) fn with_engines(self, engines: Engines, sources: &SourceArgs, bindings: &BindingArgs) -> Self {
+    pub(crate) fn with_engines(self, engines: Engines, sources: &SourceArgs, bindings: &BindingArgs) -> Self {
         Self { compiler: compiler(sources, bindings, &engines), engines, ..self }
     }
 
     /// The compiler with the options of the command line.
-    pub(super) fn compiler(&self) -> &Compiler {
+    pub(crate) fn compiler(&self) -> &Compiler {
         &self.compiler
     }
 
     /// How sources are completed.
-    pub(super) fn engines(&self) -> &Engines {
+    pub(crate) fn engines(&self) -> &Engines {
         &self.engines
     }
 
     /// The thread pool.
-    pub(super) fn pool(&self) -> &rayon::ThreadPool {
+    pub(crate) fn pool(&self) -> &rayon::ThreadPool {
         &self.pool
     }
 
     /// Sets the format of diagnostics.
-    pub(super) fn set_format(&mut self, format: DiagnosticFormat) {
+    pub(crate) fn set_format(&mut self, format: DiagnosticFormat) {
         self.format = format;
     }
 
     /// Sets what the run looks at, which is told with the diagnostics.
-    pub(super) fn set_scope(&mut self, scope: Scope) {
+    pub(crate) fn set_scope(&mut self, scope: Scope) {
         self.scope = Some(scope);
     }
 
     /// The level of a code in a file.
-    pub(super) fn level(&mut self, name: &str, code: &Code) -> Option<Level> {
+    pub(crate) fn level(&mut self, name: &str, code: &Code) -> Option<Level> {
         self.configs.levels(name).get(code)
     }
 
     /// Whether diagnostics are for people, so that they may be told bit by bit and other lines may stand between them.
-    pub(super) fn is_human(&self) -> bool {
+    pub(crate) fn is_human(&self) -> bool {
         self.format == DiagnosticFormat::Human
     }
 
     /// The exit code of the diagnostics of a batch and of the configurations.
-    pub(super) fn exit(&self, batch: &Batch) -> Exit {
+    pub(crate) fn exit(&self, batch: &Batch) -> Exit {
         let batches = self.configs.errors.iter().chain([batch]);
         batches.map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default()
     }
 
     /// Compiles every group and applies the levels.
-    pub(super) fn compile(&mut self, groups: Vec<Group>) -> Vec<Unit> {
+    pub(crate) fn compile(&mut self, groups: Vec<Group>) -> Vec<Unit> {
         self.dropped = 0;
         let engines = self.engines.clone();
         self.compile_by(groups, |compiler, group| compile_anywhere(compiler, &engines, group))
     }
 
     /// Compiles every group by `by`, which also counts the diagnostics past the compiler's limit, and applies the levels.
-    pub(super) fn compile_by(
+    pub(crate) fn compile_by(
         &mut self,
         groups: Vec<Group>,
         by: impl Fn(&Compiler, Group) -> (Unit, usize) + Sync,
@@ -223,7 +223,7 @@ impl<'a> Session<'a> {
     }
 
     /// Applies the levels to units that were compiled, each with the number of its diagnostics past the compiler's limit.
-    pub(super) fn adopt(&mut self, mut units: Vec<(Unit, usize)>) -> Vec<Unit> {
+    pub(crate) fn adopt(&mut self, mut units: Vec<(Unit, usize)>) -> Vec<Unit> {
         keep_bindings_that_fit_nowhere(&mut units);
         for (unit, dropped) in &mut units {
             // Errors in a configuration are reported even if there are no diagnostics that it applies to.
@@ -238,13 +238,13 @@ impl<'a> Session<'a> {
     }
 
     /// Reads the configuration for a file, so that its errors are reported even if the file has none.
-    pub(super) fn read_configuration(&mut self, name: &str) {
+    pub(crate) fn read_configuration(&mut self, name: &str) {
         self.configs.levels(name);
     }
 
     /// Adds diagnostics to a batch by the levels of the files that they are in, and sorts the batch by position in the
     /// text. What a scene lacks comes last, since another diagnostic may be the reason for it.
-    pub(super) fn add(&mut self, batch: &mut Batch, found: impl IntoIterator<Item = Diagnostic>) {
+    pub(crate) fn add(&mut self, batch: &mut Batch, found: impl IntoIterator<Item = Diagnostic>) {
         let sources = &batch.sources;
         for mut diagnostic in found {
             let file = sources.file_of(sources.call_site(diagnostic.primary.span));
@@ -270,7 +270,7 @@ impl<'a> Session<'a> {
 
     /// The diagnostics of the configurations and of a batch as values, each once.
     #[cfg(feature = "play")]
-    pub(super) fn findings(&self, batch: &Batch) -> Vec<Finding> {
+    pub(crate) fn findings(&self, batch: &Batch) -> Vec<Finding> {
         let mut told = Told::default();
         for batch in self.configs.errors.iter().chain([batch]) {
             told.add(batch);
@@ -280,7 +280,7 @@ impl<'a> Session<'a> {
 
     /// Reports all diagnostics, to standard output if `to_output` (as `lint` does), otherwise to standard error. Each
     /// is reported once, though several programs may share a file. Returns the exit code.
-    pub(super) fn tell(&self, batches: &[&Batch], to_output: bool) -> Result<Exit, Failure> {
+    pub(crate) fn tell(&self, batches: &[&Batch], to_output: bool) -> Result<Exit, Failure> {
         let all: Vec<&Batch> = self.configs.errors.iter().chain(batches.iter().copied()).collect();
         let color = if to_output { self.console.colors_output() } else { self.console.colors_messages() };
         let mut told = Told::default();
@@ -331,7 +331,7 @@ impl<'a> Session<'a> {
     }
 
     /// Reports the diagnostics of these units; see [`Self::tell`].
-    pub(super) fn tell_units(&self, units: &[Unit], to_output: bool) -> Result<Exit, Failure> {
+    pub(crate) fn tell_units(&self, units: &[Unit], to_output: bool) -> Result<Exit, Failure> {
         let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
         self.tell(&batches, to_output)
     }
@@ -376,7 +376,7 @@ fn is_told_last(diagnostic: &Diagnostic) -> bool {
 }
 
 /// The compiler of the command line. It reports everything: the session applies the levels of each file.
-pub(super) fn compiler(sources: &SourceArgs, bindings: &BindingArgs, engines: &Engines) -> Compiler {
+pub(crate) fn compiler(sources: &SourceArgs, bindings: &BindingArgs, engines: &Engines) -> Compiler {
     let compiler = Compiler::new(sources.options(bindings)).with_includes(engines.includes());
     compiler.with_preparation(engines.clone()).without_levels()
 }
@@ -443,13 +443,13 @@ fn summary(findings: &[Finding], dropped: usize) -> Option<String> {
 }
 
 /// Reads and compiles a group. The second value counts diagnostics past the compiler's limit.
-pub(super) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
+pub(crate) fn compile_group(compiler: &Compiler, group: Group) -> (Unit, usize) {
     let (unit, dropped, ()) = compile_group_by(group, |sources| (compiler.compile(sources), ()));
     (unit, dropped)
 }
 
 /// The same by `work`, which tells something besides.
-pub(super) fn compile_group_by<T: Default>(
+pub(crate) fn compile_group_by<T: Default>(
     group: Group,
     work: impl FnOnce(&[Source]) -> (Compilation, T),
 ) -> (Unit, usize, T) {
@@ -471,7 +471,7 @@ pub(super) fn compile_group_by<T: Default>(
 }
 
 /// Compiles a group whose sources were read before, one for each input.
-pub(super) fn compile_sources(
+pub(crate) fn compile_sources(
     group: Group,
     sources: &[Source],
     work: impl FnOnce(&[Source]) -> Compilation,
@@ -516,7 +516,7 @@ fn text_of(input: &Input) -> Option<Arc<str>> {
 }
 
 /// Reads and compiles a group, whether its shaders are files or in the strings of one.
-pub(super) fn compile_anywhere(by: &Compiler, engines: &Engines, group: Group) -> (Unit, usize) {
+pub(crate) fn compile_anywhere(by: &Compiler, engines: &Engines, group: Group) -> (Unit, usize) {
     let text = group.inputs.first().filter(|input| strings::is_in_string(input)).and_then(text_of);
     let compiler = text.and_then(|text| strings::compiler(by, engines, &group, &text));
     compile_group(compiler.as_ref().unwrap_or(by), group)
@@ -534,7 +534,7 @@ fn internal(sources: &[Source], panic: &str) -> Batch {
     Batch { sources: map, diagnostics: vec![guard::diagnostic(panic, span)] }
 }
 
-pub(super) fn read(input: &Input) -> Result<Source, Batch> {
+pub(crate) fn read(input: &Input) -> Result<Source, Batch> {
     match files::read_source(&input.name, input.path.as_deref()) {
         Ok(text) => {
             let text = input.part.as_ref().map_or(text.clone(), |part| part.text(&text, input.stage));

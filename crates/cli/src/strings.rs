@@ -4,12 +4,12 @@
 //! the strings lack ([`glisten_sources::embedded::doubt`]). *Holds:* the tables of `glisten.toml` count for them by the name of their file; what the
 //! file itself shows (three.js, WebGL) counts where they say nothing.
 
-use super::batch::Batch;
-use super::engine::Engines;
-use super::exit::Failure;
-use super::files;
-use super::inputs::{self, Group, Input, Inputs, PartOf};
-use super::search;
+use crate::arguments::engine::Engines;
+use crate::batch::Batch;
+use crate::exit::Failure;
+use crate::files;
+use crate::inputs::{self, Group, Input, Inputs, PartOf};
+use crate::search;
 use glisten_front::compiler::Compiler;
 use glisten_front::source::SourceMap;
 use glisten_sources::Settings;
@@ -23,7 +23,7 @@ use std::sync::Arc;
 const CHUNKS: [&str; 2] = ["node_modules/three/src/renderers/shaders/ShaderChunk", "src/renderers/shaders/ShaderChunk"];
 
 /// The inputs in the text of a file.
-pub(super) fn inputs_in(path: &Path, text: &str) -> Vec<Input> {
+pub(crate) fn inputs_in(path: &Path, text: &str) -> Vec<Input> {
     let Some(host) = Host::of(path) else { return Vec::new() };
     let stem = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let mut inputs = Vec::new();
@@ -38,7 +38,7 @@ pub(super) fn inputs_in(path: &Path, text: &str) -> Vec<Input> {
 }
 
 /// The files whose strings are looked at, and the others.
-pub(super) fn split(named: Vec<PathBuf>) -> (Vec<PathBuf>, Vec<PathBuf>) {
+pub(crate) fn split(named: Vec<PathBuf>) -> (Vec<PathBuf>, Vec<PathBuf>) {
     named.into_iter().partition(|path| Host::of(path).is_some() && !path.is_dir())
 }
 
@@ -46,7 +46,7 @@ pub(super) fn split(named: Vec<PathBuf>) -> (Vec<PathBuf>, Vec<PathBuf>) {
 ///
 /// # Errors
 /// A file or a folder that cannot be read.
-pub(super) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> Result<(), Failure> {
+pub(crate) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> Result<(), Failure> {
     let mut all: Vec<PathBuf> = hosts.to_vec();
     for folder in named.iter().filter(|path| path.is_dir()) {
         let found = hosts_in(folder)?;
@@ -76,7 +76,7 @@ pub(super) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> 
 ///
 /// # Errors
 /// A folder that cannot be read.
-pub(super) fn hosts_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn hosts_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut found = search::files(folder)?;
     found.retain(|path| Host::of(path).is_some());
     found.sort();
@@ -85,7 +85,7 @@ pub(super) fn hosts_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// The programs in the strings of a file, if it is one of their languages.
 #[cfg(feature = "lsp")]
-pub(super) fn programs(path: &Path, text: &str) -> Option<Vec<Program>> {
+pub(crate) fn programs(path: &Path, text: &str) -> Option<Vec<Program>> {
     Host::of(path).map(|host| embedded::programs(host, text))
 }
 
@@ -112,14 +112,14 @@ fn fallback(program: &Program, file: &Path) -> Settings {
 }
 
 /// The compiler for a group whose shaders are in the strings of this file.
-pub(super) fn compiler(compiler: &Compiler, engines: &Engines, group: &Group, text: &str) -> Option<Compiler> {
+pub(crate) fn compiler(compiler: &Compiler, engines: &Engines, group: &Group, text: &str) -> Option<Compiler> {
     let program = program_of(group, text)?;
     let file = group.inputs.first()?.path.as_deref()?;
     Some(compiler.clone().with_preparation(engines.with_fallback(fallback(&program, file))))
 }
 
 /// Whether a shader is in a string.
-pub(super) fn is_in_string(input: &Input) -> bool {
+pub(crate) fn is_in_string(input: &Input) -> bool {
     input.part.as_ref().is_some_and(|part| part.host().is_some())
 }
 
@@ -133,7 +133,7 @@ fn filled(group: &Group, filling: Filling) -> Group {
 }
 
 /// Drops the findings of a group that depend on what its strings leave open. `compile` tells the findings of other fillings.
-pub(super) fn keep_certain(
+pub(crate) fn keep_certain(
     group: &Group,
     text: &str,
     batch: &mut Batch,
@@ -154,7 +154,7 @@ pub(super) fn keep_certain(
 }
 
 /// Lets findings in a part of a file show the lines of the file, whose text `text` gives.
-pub(super) fn show_files(group: &Group, sources: &mut SourceMap, text: impl Fn(&Input) -> Option<Arc<str>>) {
+pub(crate) fn show_files(group: &Group, sources: &mut SourceMap, text: impl Fn(&Input) -> Option<Arc<str>>) {
     for input in group.inputs.iter().filter(|input| input.part.is_some()) {
         if let Some(text) = text(input) {
             sources.show(&input.name, &text);

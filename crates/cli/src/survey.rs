@@ -3,13 +3,13 @@
 //! *In:* arguments as those of `glisten lint`. *Out:* each program, compiled, with the texts that a driver gets. *Holds:* a panic is a
 //! message; nothing is printed.
 
-use super::args::{BindingArgs, ProgramArgs, SourceArgs};
-use super::engine::Engines;
-use super::exit::Failure;
-use super::fullscreen;
-use super::guard;
-use super::inputs::{self, Group};
-use super::session;
+use crate::arguments::args::{BindingArgs, ProgramArgs, SourceArgs};
+use crate::arguments::engine::Engines;
+use crate::exit::Failure;
+use crate::fullscreen;
+use crate::inputs::{self, Group};
+use crate::process::guard;
+use crate::session;
 use clap::Parser;
 use glisten_front::compiler::{Compilation, Compiler};
 use glisten_front::hir::Stage;

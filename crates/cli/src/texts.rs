@@ -5,15 +5,15 @@
 use similar::TextDiff;
 
 /// The bytes of a file as a text, and back.
-pub(super) struct Text {
+pub(crate) struct Text {
     /// The text.
-    pub(super) text: String,
+    pub(crate) text: String,
     is_utf8: bool,
 }
 
 impl Text {
     /// The text of these bytes.
-    pub(super) fn new(bytes: Vec<u8>) -> Self {
+    pub(crate) fn new(bytes: Vec<u8>) -> Self {
         match String::from_utf8(bytes) {
             Ok(text) => Self { text, is_utf8: true },
             // A character for each byte: comments may be in any encoding, tokens are in ASCII.
@@ -22,12 +22,12 @@ impl Text {
     }
 
     /// The bytes of another text of the file.
-    pub(super) fn bytes(&self, text: &str) -> Vec<u8> {
+    pub(crate) fn bytes(&self, text: &str) -> Vec<u8> {
         if self.is_utf8 { text.as_bytes().to_vec() } else { text.chars().map(|byte| byte as u8).collect() }
     }
 }
 
 /// The changes of a file, as a unified diff.
-pub(super) fn diff(name: &str, before: &str, after: &str) -> String {
+pub(crate) fn diff(name: &str, before: &str, after: &str) -> String {
     TextDiff::from_lines(before, after).unified_diff().header(name, name).to_string()
 }

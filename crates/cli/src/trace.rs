@@ -4,7 +4,7 @@
 //! the order of their first use, each with what was found there. *Holds:* a trace belongs to the thread that works; without
 //! [`recorded`], nothing is kept. The digests are of the bytes that the work saw: a file that changes later has another digest.
 
-use super::digest::Digest;
+use crate::digest::Digest;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// A place on disk that a result depends on.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub(super) enum Place {
+pub(crate) enum Place {
     /// The bytes of a file, or that it cannot be read.
     File(String),
     /// Whether there is a file or a folder.
@@ -25,7 +25,7 @@ pub(super) enum Place {
 
 /// The state of a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Found {
+pub(crate) enum Found {
     /// Nothing, or nothing that can be read.
     Nothing,
     /// A folder.
@@ -40,7 +40,7 @@ pub(super) enum Found {
 
 impl Found {
     /// The state of a path.
-    pub(super) fn at(path: &Path) -> Self {
+    pub(crate) fn at(path: &Path) -> Self {
         match std::fs::metadata(path) {
             Ok(found) if found.is_dir() => Self::Folder,
             Ok(_) => Self::File,
@@ -51,7 +51,7 @@ impl Found {
 
 /// All that a piece of work depends on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Trace {
+pub(crate) struct Trace {
     places: Vec<(Place, Found)>,
     seen: BTreeSet<Place>,
     /// Whether it depends on more than the places.
@@ -60,12 +60,12 @@ pub(super) struct Trace {
 
 impl Trace {
     /// The places, if they are all that the work depends on.
-    pub(super) fn places(&self) -> Option<&[(Place, Found)]> {
+    pub(crate) fn places(&self) -> Option<&[(Place, Found)]> {
         (!self.beyond).then_some(&self.places)
     }
 
     /// The files that were read.
-    pub(super) fn files(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn files(&self) -> impl Iterator<Item = &str> {
         self.places.iter().filter_map(|place| match place {
             (Place::File(name), Found::Bytes(_)) => Some(name.as_str()),
             _ => None,
@@ -74,7 +74,7 @@ impl Trace {
 
     /// This trace, and what another piece of work depends on.
     #[must_use]
-    pub(super) fn with(&self, other: &Self) -> Self {
+    pub(crate) fn with(&self, other: &Self) -> Self {
         let mut both = self.clone();
         both.take(other);
         both
@@ -98,7 +98,7 @@ thread_local! {
 }
 
 /// Runs a piece of work and records what it reads.
-pub(super) fn recorded<R>(work: impl FnOnce() -> R) -> (R, Trace) {
+pub(crate) fn recorded<R>(work: impl FnOnce() -> R) -> (R, Trace) {
     /// Ends the recording even if the work panics.
     struct Ended;
     impl Drop for Ended {
@@ -115,18 +115,18 @@ pub(super) fn recorded<R>(work: impl FnOnce() -> R) -> (R, Trace) {
 }
 
 /// Notes that a file is read: its bytes, or `None` if it cannot be read.
-pub(super) fn read(path: &Path, bytes: Option<&[u8]>) {
+pub(crate) fn read(path: &Path, bytes: Option<&[u8]>) {
     let found = || bytes.map_or(Found::Nothing, |bytes| Found::Bytes(Digest::of(bytes)));
     note(|| Place::File(path.to_string_lossy().into_owned()), found);
 }
 
 /// Notes that it matters whether there is a file.
-pub(super) fn looked_for(path: &Path) {
+pub(crate) fn looked_for(path: &Path) {
     note(|| Place::Kind(path.to_string_lossy().into_owned()), || Found::at(path));
 }
 
 /// Notes again what another piece of work has read.
-pub(super) fn again(trace: &Trace) {
+pub(crate) fn again(trace: &Trace) {
     ACTIVE.with_borrow_mut(|active| {
         if let Some(own) = active.last_mut() {
             own.take(trace);
@@ -135,17 +135,17 @@ pub(super) fn again(trace: &Trace) {
 }
 
 /// Notes that the rules of a folder matter.
-pub(super) fn rules_of(folder: &Path) {
+pub(crate) fn rules_of(folder: &Path) {
     note(|| Place::Rules(folder.to_string_lossy().into_owned()), || Found::Said);
 }
 
 /// Notes that it matters what `lint` obeys for a file.
-pub(super) fn settings_of(name: &str) {
+pub(crate) fn settings_of(name: &str) {
     note(|| Place::Settings(name.to_owned()), || Found::Said);
 }
 
 /// Notes that more matters than can be told.
-pub(super) fn beyond() {
+pub(crate) fn beyond() {
     ACTIVE.with_borrow_mut(|active| {
         if let Some(trace) = active.last_mut() {
             trace.beyond = true;

@@ -27,7 +27,7 @@ enum Lock {
 ///
 /// # Errors
 /// The folder cannot be written to.
-pub(super) fn create(builder: &Builder<'_, '_>, folder: &Path) -> io::Result<NamedTempFile> {
+pub(crate) fn create(builder: &Builder<'_, '_>, folder: &Path) -> io::Result<NamedTempFile> {
     loop {
         let file = builder.tempfile_in(folder)?;
         // Between its creation and its lock, another command may take it for one that was left.
@@ -38,7 +38,7 @@ pub(super) fn create(builder: &Builder<'_, '_>, folder: &Path) -> io::Result<Nam
 }
 
 /// Removes the temporary files of a folder that nobody writes to. Their names begin with `prefix`.
-pub(super) fn sweep(folder: &Path, prefix: &str) {
+pub(crate) fn sweep(folder: &Path, prefix: &str) {
     let entries = fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
     let named = entries.filter(|entry| entry.file_name().as_encoded_bytes().starts_with(prefix.as_bytes()));
     for entry in named.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_file())) {

@@ -2,8 +2,8 @@
 //!
 //! *In:* flags, and the environment where a flag is not given. *Out:* a folder, a limit, an address.
 
+use crate::arguments::sizes;
 use crate::exit::Failure;
-use crate::sizes;
 use clap::Args;
 use std::env;
 use std::path::PathBuf;

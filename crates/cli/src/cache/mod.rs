@@ -16,17 +16,17 @@ mod remote;
 mod result;
 mod store;
 
-pub(super) use args::CacheArgs;
-pub(super) use result::Kept;
-pub(super) use store::{Kind, Store};
+pub(crate) use args::CacheArgs;
+pub(crate) use result::Kept;
+pub(crate) use store::{Kind, Store};
 
-use super::config::Configs;
-use super::console::Console;
-use super::digest::{Digest, Hasher};
-use super::engine::Engines;
-use super::exit::Failure;
-use super::files;
-use super::trace::{Found, Place, Trace};
+use crate::arguments::config::Configs;
+use crate::arguments::engine::Engines;
+use crate::console::Console;
+use crate::digest::{Digest, Hasher};
+use crate::exit::Failure;
+use crate::files;
+use crate::trace::{Found, Place, Trace};
 use action::ActionResult;
 use glisten_front::diagnostic::Levels;
 use prost::Message;
@@ -44,7 +44,7 @@ const FORMAT: &str = "glisten result 1";
 const MAX_LISTS: usize = 16;
 
 /// The results of earlier runs.
-pub(super) struct Cache {
+pub(crate) struct Cache {
     store: Option<Store>,
     remote: Option<Remote>,
     limit: u64,
@@ -68,7 +68,7 @@ impl Cache {
     ///
     /// # Errors
     /// A size or an address that is none.
-    pub(super) fn open(args: &CacheArgs, engines: Engines) -> Result<Option<Self>, Failure> {
+    pub(crate) fn open(args: &CacheArgs, engines: Engines) -> Result<Option<Self>, Failure> {
         let store = args.folder().map(|folder| Store::new(&folder));
         let remote = args.remote().map(|address| Remote::new(&address).map_err(Failure::usage)).transpose()?;
         if store.is_none() && remote.is_none() {
@@ -99,13 +99,13 @@ impl Cache {
     }
 
     /// The key of a program with options, as the parts of a list.
-    pub(super) fn key(&self, parts: &[&str]) -> Digest {
+    pub(crate) fn key(&self, parts: &[&str]) -> Digest {
         let own = Hasher::new(FORMAT).with(self.program.to_string().as_bytes());
         parts.iter().fold(own, |hasher, part| hasher.with(part.as_bytes())).finish()
     }
 
     /// The result that fits what is on disk now.
-    pub(super) fn find(&self, key: Digest) -> Option<Kept> {
+    pub(crate) fn find(&self, key: Digest) -> Option<Kept> {
         let found = self.find_in(&self.own_lists(key)).or_else(|| {
             let remote = self.remote_lists(key);
             let found = self.find_in(&remote)?;
@@ -127,7 +127,7 @@ impl Cache {
     }
 
     /// Keeps the result of a run that read what the trace says.
-    pub(super) fn keep(&self, key: Digest, trace: &Trace, kept: &Kept) {
+    pub(crate) fn keep(&self, key: Digest, trace: &Trace, kept: &Kept) {
         let Some(places) = trace.places() else { return };
         let resolved: Vec<(&Place, Found)> =
             places.iter().map(|(place, found)| (place, self.resolved(place, found))).collect();
@@ -152,7 +152,7 @@ impl Cache {
     }
 
     /// Tells what went wrong, and keeps the folder below its limit.
-    pub(super) fn close(&self, console: &Console) {
+    pub(crate) fn close(&self, console: &Console) {
         let failures = [
             self.failure.lock().unwrap_or_else(PoisonError::into_inner).take(),
             self.remote.as_ref().and_then(Remote::failure),

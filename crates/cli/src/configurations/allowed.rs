@@ -3,9 +3,9 @@
 //! *In:* a configuration, and the conditions of `[lint.configurations]`. *Out:* the configuration, or one like it that the
 //! conditions allow, or nothing if none is found.
 
-use super::super::variants::stated::{Broken, Stated};
-use super::super::variants::{Condition, Variant};
 use super::choices::Choice;
+use crate::variants::stated::{Broken, Stated};
+use crate::variants::{Condition, Variant};
 
 /// How many conditions are mended, one after the other.
 const MAX_MENDED: usize = 8;

@@ -5,9 +5,9 @@
 //! have not; macros of the conditions around the finding come first. A finding of a rule is compared among programs without
 //! errors, since rules look at no others. A finding that some configurations do not have has no fix: it might break those.
 
-use super::super::session::Unit;
-use super::super::variants::Variant;
 use super::choices::Conditions;
+use crate::session::Unit;
+use crate::variants::Variant;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::write::{Finding, Region};
 use glisten_front::source::SourceMap;

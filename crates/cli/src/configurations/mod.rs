@@ -18,11 +18,11 @@ mod choices;
 mod cover;
 mod merge;
 
-use super::config;
-use super::inputs::Group;
-use super::session::{self, Session, Unit};
-use super::variants::Variant;
-use super::variants::stated::{Stated, Values};
+use crate::arguments::config;
+use crate::inputs::Group;
+use crate::session::{self, Session, Unit};
+use crate::variants::Variant;
+use crate::variants::stated::{Stated, Values};
 use allowed::allowed;
 use choices::{Choice, Conditions, choices_of, conditions};
 use glisten_front::compiler::{Compiler, Options};
@@ -52,15 +52,15 @@ type Lints = fn(&mut Session<'_>, &[Unit], &[Compiler]) -> Vec<Vec<Diagnostic>>;
 
 /// How much was looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Extent {
+pub(crate) struct Extent {
     /// The programs that have configurations.
-    pub(super) programs: usize,
+    pub(crate) programs: usize,
     /// Their configurations, and how many of them were compiled.
-    pub(super) configurations: usize,
-    pub(super) compiled: usize,
+    pub(crate) configurations: usize,
+    pub(crate) compiled: usize,
     /// The branches in their texts that macros from outside decide, and how many of them no configuration reaches.
-    pub(super) branches: usize,
-    pub(super) unreached: usize,
+    pub(crate) branches: usize,
+    pub(crate) unreached: usize,
 }
 
 /// A configuration and its result.
@@ -81,18 +81,18 @@ struct Found {
 /// The macros that the conditions of these texts ask for and that come from outside, with the values that make a difference; not
 /// those of `given`.
 #[cfg(feature = "lsp")]
-pub(super) fn asked(texts: &[&str], given: &BTreeSet<String>) -> Vec<(String, Vec<Option<String>>)> {
+pub(crate) fn asked(texts: &[&str], given: &BTreeSet<String>) -> Vec<(String, Vec<Option<String>>)> {
     let texts: Vec<Conditions> = texts.iter().map(|text| conditions(text)).collect();
     let choices = choices_of(&texts, given, MAX_CHOICES).into_iter();
     choices.map(|choice| (choice.name, choice.values)).collect()
 }
 
 /// The variants of programs by the names of these.
-pub(super) type Listed = BTreeMap<String, Vec<Variant>>;
+pub(crate) type Listed = BTreeMap<String, Vec<Variant>>;
 
 /// The units with the findings of all configurations, which for programs in `listed` are these. `lints` gives the findings of the
 /// rules.
-pub(super) fn explored(
+pub(crate) fn explored(
     session: &mut Session<'_>,
     units: Vec<Unit>,
     listed: &Listed,

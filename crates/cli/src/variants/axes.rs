@@ -74,7 +74,7 @@ impl Axis {
 
 /// A macro: `NAME` or `NAME=VALUE`.
 pub(crate) fn define(text: &str) -> Result<(String, String), String> {
-    crate::args::parse_define(text)
+    crate::arguments::args::parse_define(text)
 }
 
 /// A condition on variants: all of `A` (defined), `A=1` (with this value), `!A` (not defined).

@@ -3,7 +3,7 @@
 //! *In:* tables of TOML. *Out:* the values of macros and the conditions on them ([`stated`]), and all variants that these
 //! allow ([`axes`]).
 
-pub(super) mod axes;
-pub(super) mod stated;
+pub(crate) mod axes;
+pub(crate) mod stated;
 
-pub(super) use axes::{Condition, Variant};
+pub(crate) use axes::{Condition, Variant};

@@ -3,7 +3,7 @@
 //! *In:* a stage of a program, its texts, ranges by name. *Out:* [`Inputs`]: variables in the order in which a row has their numbers. *Holds:*
 //! a range in a comment at the declaration takes precedence over one by name.
 
-use crate::bounds::Bounds;
+use crate::arguments::bounds::Bounds;
 use glisten_front::hir::{Global, GlobalId, Interpolation, Scalar, Shader, Stage, Storage, Type, Types};
 use glisten_front::link::Program;
 use glisten_front::source::SourceMap;

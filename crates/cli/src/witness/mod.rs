@@ -19,8 +19,8 @@ mod samples;
 mod stand;
 mod trial;
 
-use super::bounds::Bounds;
-use super::inputs::Group;
+use crate::arguments::bounds::Bounds;
+use crate::inputs::Group;
 use depends::inputs_of;
 use glisten_cost::{Assumptions, cost};
 use glisten_front::Compiler;
@@ -55,13 +55,13 @@ const MOST_NAMED: usize = 6;
 
 /// A scene that shows a finding.
 #[derive(Debug)]
-pub(super) struct Shown {
+pub(crate) struct Shown {
     /// The name for its files, without an extension.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// The scene; its shaders are where the name of the file is `{made}` or the source.
-    pub(super) scene: String,
+    pub(crate) scene: String,
     /// The extension and the text of the stage that was made for it.
-    pub(super) made: (&'static str, String),
+    pub(crate) made: (&'static str, String),
 }
 
 /// A place as it is known in several compilations: the name of the file without folders, and the bytes.
@@ -74,37 +74,37 @@ fn place(sources: &SourceMap, span: Span) -> Option<Place> {
 }
 
 /// A program whose findings are judged.
-pub(super) struct Case<'a> {
+pub(crate) struct Case<'a> {
     /// Its files.
-    pub(super) group: &'a Group,
+    pub(crate) group: &'a Group,
     /// The program.
-    pub(super) program: &'a Program,
+    pub(crate) program: &'a Program,
     /// Its texts.
-    pub(super) sources: &'a SourceMap,
+    pub(crate) sources: &'a SourceMap,
     /// The stated ranges of inputs, by name.
-    pub(super) ranges: &'a [(String, Bounds)],
+    pub(crate) ranges: &'a [(String, Bounds)],
     /// The compiler that made it.
-    pub(super) compiler: &'a Compiler,
+    pub(crate) compiler: &'a Compiler,
     /// Where its files are read again.
-    pub(super) files: &'a dyn FileSource,
+    pub(crate) files: &'a dyn FileSource,
     /// By how much the work of a trial is divided.
-    pub(super) haste: u64,
+    pub(crate) haste: u64,
 }
 
 /// Whether a finding is told only with a witness.
 #[cfg(feature = "lsp")]
-pub(super) fn is_judged(finding: &Diagnostic) -> bool {
+pub(crate) fn is_judged(finding: &Diagnostic) -> bool {
     JUDGED.iter().any(|code| code.id == finding.code.id)
 }
 
 /// Whether anything is stated about the inputs of a program.
 #[cfg(feature = "lsp")]
-pub(super) fn has_ranges(program: &Program, sources: &SourceMap, ranges: &[(String, Bounds)]) -> bool {
+pub(crate) fn has_ranges(program: &Program, sources: &SourceMap, ranges: &[(String, Bounds)]) -> bool {
     program.stages.iter().any(|shader| Inputs::of(program, shader, sources, ranges).any_stated())
 }
 
 /// Judges the findings of a program by runs, and adds what stated ranges lead to.
-pub(super) fn settle(
+pub(crate) fn settle(
     case: &Case<'_>,
     wanted: impl Fn(&Code) -> bool,
     mut found: Vec<Diagnostic>,

@@ -3,7 +3,7 @@
 //! *In:* inputs. *Out:* rows of numbers. *Holds:* what is stated about an input is kept; the rows are the same every time.
 
 use super::inputs::{Input, InputKind, Inputs};
-use crate::bounds::Bounds;
+use crate::arguments::bounds::Bounds;
 use glisten_front::hir::Scalar;
 use glisten_scene::random::SplitMix64;
 

@@ -4,7 +4,7 @@
 //! that passes attributes on; a vertex stage gets a fragment stage that does nothing. *Holds:* the stage's text is that of the file.
 
 use super::inputs::{Input, InputKind, Inputs};
-use crate::new_scene::textures;
+use crate::commands::new_scene::textures;
 use glisten_front::Compiler;
 use glisten_front::hir::{Scalar, ScalarValue, Shader, Stage, Type};
 use glisten_front::source::SourceMap;

@@ -1,0 +1,317 @@
+//! `glisten new-scene`: writes a scene for a program, with a line for everything that the program reads, that draws at once.
+//!
+//! *In:* the shaders of a program, a fragment shader alone, or one of the fixed-function pipeline's time. *Out:* TOML that loads without a
+//! diagnostic and keeps what the command line says about the sources. The phases: what the program reads (`reads`), geometries and
+//! cameras that may suit it (`forms`), what its numbers mean (`meanings`), their values (`values`, `textures`), the text
+//! (`text`), and trials on the reference, which decide (`trial`).
+
+mod choice;
+mod forms;
+mod meanings;
+mod model;
+mod reads;
+mod text;
+pub(crate) mod textures;
+mod trial;
+mod values;
+mod varyings;
+
+use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
+use crate::arguments::examples::Examples;
+use crate::console::Console;
+use crate::exit::{Exit, Failure, Outcome};
+use crate::files;
+use crate::fullscreen;
+use crate::inputs::{Group, Input};
+use crate::session::{Session, Unit};
+use choice::{Choice, Taste};
+use clap::Args;
+use forms::{Shape, forms, shape_of};
+use glisten_front::hir::{Global, Shader, Stage, Storage};
+use glisten_front::link::Program;
+use glisten_sources::engines::{Member, STYLES};
+use glisten_sources::{members, stages};
+use glisten_verify::scene::is_model_file;
+use reads::Reads;
+use std::fmt::Write;
+use std::path::{Component, Path, PathBuf};
+use std::time::Instant;
+use text::{Head, quoted};
+use trial::{BUDGET, Chosen, Trials, choose};
+use values::alternatives;
+
+/// Examples of its use.
+pub(crate) const EXAMPLES: Examples =
+    &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")];
+
+/// Write a scene for a program, which draws at once
+#[derive(Args, Debug)]
+pub(crate) struct NewSceneArgs {
+    /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, a vertex shader
+    /// alone a fragment shader that shows its varyings, and either the fixed-function pipeline's where that fits; or a model (.obj, .gltf, .glb), which gets a camera and lights
+    #[arg(num_args = 1..=3, required = true, value_names = ["A.vert", "B.frag"])]
+    files: Vec<String>,
+    /// The scene file to create (default: standard output)
+    #[arg(short, long, value_name = "SCENE.toml")]
+    output: Option<PathBuf>,
+    /// Draw this mesh: a file, or a shape such as `torus`
+    #[arg(long, value_name = "FILE|SHAPE")]
+    mesh: Option<String>,
+    /// The width and height of the window
+    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    size: u32,
+    /// Whether findings are not told: another command has told them.
+    #[arg(skip)]
+    is_silent: bool,
+    #[command(flatten)]
+    sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
+}
+
+impl NewSceneArgs {
+    /// The arguments for the files of a program, without a mesh.
+    pub(crate) fn of(files: Vec<String>, output: PathBuf, size: u32, sources: &SourceArgs, levels: &LevelArgs) -> Self {
+        let (sources, levels) = (sources.clone(), levels.clone());
+        Self { files, output: Some(output), mesh: None, size, is_silent: true, sources, levels }
+    }
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
+    if let Some(output) = args.output.as_deref().filter(|output| output.exists()) {
+        let failure = Failure::usage(format!("`{}` exists already", output.display()));
+        return Err(failure.help("name a new file, or remove the old one"));
+    }
+    if let [model] = args.files.as_slice()
+        && is_model_file(model)
+    {
+        let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
+        return model::run(model, &relative(model, folder), args.output.as_deref(), console);
+    }
+    let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
+    let inputs = match stages_of(args, &mut session, console)? {
+        Ok(inputs) => inputs,
+        Err(exit) => return Ok(exit),
+    };
+    let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
+    let stages = inputs.iter().map(|input| (input.stage, relative(&input.name, folder))).collect();
+    let name = inputs.first().map(Input::stem).unwrap_or_default();
+    let units = session.compile(vec![Group { name, inputs }]);
+    let exit = if args.is_silent { Exit::Ok } else { session.tell_units(&units, false)? };
+    let Some((unit, program)) = units.first().and_then(|unit| Some((unit, unit.sound_program()?))) else {
+        return Ok(exit.max(Exit::Content));
+    };
+    let head = Head { stages, sources: source_lines(&args.sources, folder) };
+    let text = written(args, &session, (unit, program), &head, folder, console);
+    match &args.output {
+        Some(output) => {
+            files::write(output, text.as_bytes())?;
+            let path = output.display();
+            // A PNG holds no numbers of an integer framebuffer.
+            let picture = output.with_extension(if text.contains("\nformat = ") { "npy" } else { "png" });
+            console.remark(&format!("wrote {path}; draw it: glisten render {path} -o {}", picture.display()));
+        }
+        None => console.output(&text)?,
+    }
+    Ok(exit)
+}
+
+/// The text of the scene that shows most.
+fn written(
+    args: &NewSceneArgs,
+    session: &Session<'_>,
+    (unit, program): (&Unit, &Program),
+    head: &Head,
+    folder: Option<&Path>,
+    console: &Console,
+) -> String {
+    let reads = Reads::new(program, &unit.batch.sources);
+    let mesh = args.mesh.as_deref().map(|word| match shape_of(word) {
+        Shape::File(file) => Shape::File(relative(&file, folder)),
+        shape => shape,
+    });
+    let is_flat_engine =
+        args.sources.engine.as_deref().is_some_and(|engine| ["libretro", "minecraft", "isf"].contains(&engine));
+    let forms = forms(&reads, mesh, is_flat_engine);
+    let path = args.output.clone().unwrap_or_else(|| PathBuf::from("scene.toml"));
+    let text = |choice: &Choice| text::scene(&reads, head, choice);
+    let has_colors = reads.dependence.color || reads.dependence.alpha;
+    let trials = Trials {
+        path: &path.to_string_lossy(),
+        compiler: session.compiler(),
+        text: &text,
+        has_colors,
+        deadline: Instant::now() + BUDGET,
+        alternatives: &alternatives(&reads),
+    };
+    let Some(Chosen { choice, shown }) = choose(&trials, &forms, args.size) else {
+        let form = forms::Form::Count("triangles", 3);
+        return text(&Choice { form, taste: Taste::default(), side: args.size, changed: None });
+    };
+    let words = choice.form.words();
+    console.remark(&match shown {
+        Some(shown) if shown.covered == 0.0 => {
+            "no geometry that was tried covers a pixel: fill in what the program needs".to_owned()
+        }
+        Some(shown) => {
+            let flat = match (shown.is_flat(), has_colors, reads.dependence.written) {
+                (false, ..) => "",
+                (true, true, _) => ", in one color",
+                (true, false, true) => {
+                    ", in one color: that of the program depends on no varying and not on `gl_FragCoord`"
+                }
+                (true, false, false) => ", in one color: the program writes none",
+            };
+            format!("drew {words}: it covers {:.0} % of the window{flat}", shown.covered * 100.0)
+        }
+        None => {
+            format!("chose {words}, which was not drawn: the program takes long, or the reference does not draw it")
+        }
+    });
+    text(&choice)
+}
+
+/// The stages of the program; a vertex shader is written for a fragment shader that needs one. The inner `Err` is the exit code of sources
+/// with errors.
+fn stages_of(
+    args: &NewSceneArgs,
+    session: &mut Session<'_>,
+    console: &Console,
+) -> Result<Result<Vec<Input>, Exit>, Failure> {
+    let input = |name: &str, stage| Input { name: name.to_owned(), path: Some(PathBuf::from(name)), stage, part: None };
+    if let [both] = args.files.as_slice() {
+        if contains_both(both) {
+            return Ok(Ok(vec![input(both, Stage::Vertex), input(both, Stage::Fragment)]));
+        }
+        let stage = stages::by_name(Path::new(both)).unwrap_or(Stage::Fragment);
+        return alone(args, input(both, stage), session, console);
+    }
+    let order = match args.files.len() {
+        2 => &[Stage::Vertex, Stage::Fragment][..],
+        _ => &[Stage::Vertex, Stage::Geometry, Stage::Fragment],
+    };
+    let told = args.files.iter().map(|file| stages::by_name(Path::new(file)));
+    let told: Vec<Option<Stage>> = told.collect();
+    let stage = |index: usize| told.get(index).copied().flatten().or(order.get(index).copied());
+    let mut inputs: Vec<Input> =
+        args.files.iter().enumerate().filter_map(|(index, file)| Some(input(file, stage(index)?))).collect();
+    inputs.sort_by_key(|input| order.iter().position(|stage| *stage == input.stage));
+    if inputs.windows(2).any(|pair| matches!(pair, [a, b] if a.stage == b.stage)) {
+        let failure = Failure::usage("two of the files are of one stage");
+        return Err(failure.help("name a vertex and a fragment shader, and a geometry shader if there is one"));
+    }
+    Ok(Ok(inputs))
+}
+
+/// Whether a file contains the vertex and the fragment shader.
+fn contains_both(file: &str) -> bool {
+    let path = Path::new(file);
+    let text = files::read_source(file, Some(path)).ok();
+    let members = text.map(|text| members(Some(path), &text)).unwrap_or_default();
+    let has = |member: &Member, stage| member.part(stage).is_some();
+    members.first().is_some_and(|member| has(member, Stage::Vertex) && has(member, Stage::Fragment))
+}
+
+/// The stages for a shader that comes alone: with the fixed-function pipeline's other one, or with a vertex shader that is written.
+fn alone(
+    args: &NewSceneArgs,
+    input: Input,
+    session: &mut Session<'_>,
+    console: &Console,
+) -> Result<Result<Vec<Input>, Exit>, Failure> {
+    let units = session.compile(vec![Group { name: input.stem(), inputs: vec![input.clone()] }]);
+    let Some(program) = units.first().and_then(Unit::sound_program) else {
+        return Ok(Err(session.tell_units(&units, false)?.max(Exit::Content)));
+    };
+    let Some(shader) = program.stages.first() else { return Ok(Err(Exit::Content)) };
+    if suits_pipeline(shader) {
+        return Ok(Ok(vec![input]));
+    }
+    let (stage, ending) = match input.stage {
+        Stage::Fragment => (Stage::Vertex, "fullscreen.vert"),
+        Stage::Vertex => (Stage::Fragment, "varyings.frag"),
+        Stage::Geometry => {
+            let failure = Failure::usage(format!("`{}` is a geometry shader alone", input.name));
+            return Err(failure.help("name all shaders of the program"));
+        }
+    };
+    let (own, other) = (input.stage.name(), stage.name());
+    let Some(output) = &args.output else {
+        let message = format!("a {own} shader alone needs a {other} shader, which is written next to the scene");
+        return Err(Failure::usage(message).help(format!("add `-o SCENE.toml`, or name the {other} shader, too")));
+    };
+    let path = output.with_file_name(format!("{}_{ending}", input.stem()));
+    if path.exists() {
+        let failure = Failure::usage(format!("`{}` exists already", path.display()));
+        return Err(failure.help(format!("name it with the {own} shader")));
+    }
+    let text = match stage {
+        Stage::Vertex => fullscreen::vertex_shader(&program.types, shader)?,
+        _ => varyings::fragment_shader(&program.types, shader),
+    };
+    files::write(&path, text.as_bytes())?;
+    console.remark(&format!("wrote {}", path.display()));
+    let name = path.to_string_lossy().into_owned();
+    let written = Input { name, path: Some(path), stage, part: None };
+    Ok(Ok(if stage == Stage::Vertex { vec![written, input] } else { vec![input, written] }))
+}
+
+/// Whether the fixed-function pipeline completes a shader: a vertex shader of its time, or a fragment shader that reads nothing but the
+/// pipeline's varyings.
+fn suits_pipeline(shader: &Shader) -> bool {
+    let read = |global: &&Global| global.storage == Storage::In && global.builtin.is_none() && global.used;
+    let mut inputs = shader.globals.iter().filter(read).peekable();
+    glisten_scene::fixed::has_fixed_function(shader)
+        && (shader.stage == Stage::Vertex || (inputs.peek().is_some() && inputs.all(Global::is_fixed)))
+}
+
+/// The lines of a draw for what the command line says about sources.
+fn source_lines(args: &SourceArgs, folder: Option<&Path>) -> String {
+    let mut lines = String::new();
+    let paths = |paths: &[PathBuf]| {
+        let names = paths.iter().map(|path| quoted(&relative(&path.to_string_lossy(), folder)));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let style = args.include_style.and_then(|style| STYLES.iter().find(|row| row.style == style));
+    let texts = [
+        ("engine", args.engine.as_deref()),
+        ("assume_version", args.assume_version.as_deref()),
+        ("include_style", style.map(|row| row.name)),
+    ];
+    for (key, value) in texts {
+        if let Some(value) = value {
+            let _ = writeln!(lines, "{key} = {}", quoted(value));
+        }
+    }
+    for (key, list) in [("includes", &args.include_dirs), ("preludes", &args.preludes)] {
+        if !list.is_empty() {
+            let _ = writeln!(lines, "{key} = [{}]", paths(list));
+        }
+    }
+    if !args.defines.is_empty() {
+        let defines = args.defines.iter().map(|(name, value)| format!("{name} = {}", quoted(value)));
+        let _ = writeln!(lines, "defines = {{ {} }}", defines.collect::<Vec<_>>().join(", "));
+    }
+    lines
+}
+
+/// The name of a file as a scene in `folder` gives it: relative, unless the two have no folder in common but the root.
+fn relative(file: &str, folder: Option<&Path>) -> String {
+    let Some(folder) = folder else { return file.to_owned() };
+    let parts = |path: &Path| {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        path.components()
+            .filter(|part| *part != Component::CurDir)
+            .map(|part| part.as_os_str().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let folder = parts(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    let file = parts(Path::new(file));
+    let common = file.iter().zip(&folder).take_while(|(ours, theirs)| ours == theirs).count();
+    let is_near = common > 1 && !folder.iter().any(|part| part == "..");
+    let up = if is_near { folder.len() - common } else { 0 };
+    let down = if is_near { common } else { 0 };
+    let path: PathBuf = std::iter::repeat_n("..".into(), up).chain(file.into_iter().skip(down)).collect();
+    path.to_string_lossy().into_owned()
+}

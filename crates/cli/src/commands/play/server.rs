@@ -1,0 +1,393 @@
+//! The server: requests of the page, and their answers.
+//!
+//! *In:* HTTP on 127.0.0.1. *Out:* the page, lists of files, the answers of workers, files. *Holds:* every request is checked
+//! ([`super::access`]) before anything else; a request that takes long keeps no other one waiting; bodies and the number of
+//! requests at a time are limited.
+
+use super::PlayArgs;
+use super::access::{Asking, Folders, Token, check};
+use super::files::{self, Changes, NotSaved};
+use super::lanes::{Lane, NoAnswer};
+use super::page::page;
+use crate::console::Console;
+use crate::exit::{Exit, Failure, Outcome};
+use crate::files::sandbox;
+use crate::process::interrupt::Interrupt;
+use percent_encoding::percent_decode_str;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+use tiny_http::{Header, Method, Request, Response};
+
+/// The largest body of a request.
+const MAX_BYTES: u64 = 32 << 20;
+/// The most requests at a time.
+const MAX_REQUESTS: usize = 64;
+/// How long a question for changes waits for one.
+const WAIT: Duration = Duration::from_secs(20);
+/// How often Ctrl-C is looked for.
+const POLL: Duration = Duration::from_millis(40);
+
+/// The state of a server.
+struct Server {
+    token: Token,
+    port: u16,
+    /// The folder of the page's files.
+    root: String,
+    /// The scene that the page begins with.
+    scene: Option<String>,
+    folders: Folders,
+    changes: Changes,
+    /// Answers about texts.
+    looks: Lane,
+    /// Draws.
+    draws: Lane,
+    /// Studies costs and errors.
+    studies: Lane,
+    /// The arguments that say how sources are read, for other commands.
+    source_args: Vec<String>,
+}
+
+/// An answer: a status, the type of the body, the body.
+struct Answer {
+    status: u16,
+    kind: &'static str,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    fn json(value: &Value) -> Self {
+        Self { status: 200, kind: "application/json", body: value.to_string().into_bytes() }
+    }
+
+    fn refused(status: u16, reason: &str) -> Self {
+        let body = json!({ "error": reason }).to_string().into_bytes();
+        Self { status, kind: "application/json", body }
+    }
+
+    fn outside() -> Self {
+        Self::refused(403, "the file is in none of the folders of `glisten play`")
+    }
+}
+
+/// Runs the server until Ctrl-C.
+pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
+    let interrupt = Interrupt::watch();
+    let http = listening(args.port).map_err(|error| {
+        let failure = Failure::new(Exit::Machine, format!("port {} cannot be used: {error}", args.port));
+        failure.help("leave `--port` out, and a free one is taken")
+    })?;
+    let port = http.server_addr().to_ip().map_or(args.port, |address| address.port());
+    let server = Arc::new(Server::new(args, port));
+    let address = format!("http://127.0.0.1:{port}/?token={}", server.token.text());
+    console.output(&format!("{address}\n"))?;
+    console.remark(&format!("serving `{}` (Ctrl-C to stop)", server.root));
+    if args.open
+        && let Err(error) = open::that_detached(&address)
+    {
+        console.remark(&format!("no browser opens ({error}); open the address above"));
+    }
+    let answering = Arc::clone(&server);
+    let spawned = std::thread::Builder::new().spawn(move || accept(&http, &answering));
+    spawned.map_err(|error| Failure::new(Exit::Machine, format!("the system gives no thread: {error}")))?;
+    while !interrupt.is_pressed() {
+        std::thread::sleep(POLL);
+    }
+    server.looks.stop();
+    server.draws.stop();
+    server.studies.stop();
+    Ok(Exit::Interrupted)
+}
+
+/// A server at a port. An answer is written in several parts, of which none waits until the part before it is acknowledged: that takes the
+/// other side 40 ms.
+fn listening(port: u16) -> Result<tiny_http::Server, Box<dyn std::error::Error + Send + Sync>> {
+    let listener = TcpListener::bind(("127.0.0.1", port))?;
+    // Connections take it over from what listens. Without it, answers are later, and the same.
+    #[cfg(unix)]
+    let _ = rustix::net::sockopt::set_tcp_nodelay(&listener, true);
+    tiny_http::Server::from_listener(listener, None)
+}
+
+/// Answers each request on a thread of its own.
+fn accept(http: &tiny_http::Server, server: &Arc<Server>) {
+    let running = Arc::new(AtomicUsize::new(0));
+    while let Ok(request) = http.recv() {
+        if running.fetch_add(1, Ordering::AcqRel) >= MAX_REQUESTS {
+            running.fetch_sub(1, Ordering::AcqRel);
+            respond(request, Answer::refused(503, "too many requests at a time"));
+            continue;
+        }
+        let (server, running) = (Arc::clone(server), Arc::clone(&running));
+        std::thread::spawn(move || {
+            let mut request = request;
+            let answer = server.answer(&mut request);
+            respond(request, answer);
+            running.fetch_sub(1, Ordering::AcqRel);
+        });
+    }
+}
+
+/// The headers of every answer: nothing is kept, and the page may ask this server alone.
+const HEADERS: [(&str, &str); 5] = [
+    ("Cache-Control", "no-store"),
+    ("X-Content-Type-Options", "nosniff"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    (
+        "Content-Security-Policy",
+        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
+         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+];
+
+fn respond(request: Request, answer: Answer) {
+    let header = |name: &str, value: &str| Header::from_bytes(name, value).ok();
+    let mut response = Response::from_data(answer.body).with_status_code(answer.status);
+    let kind = [("Content-Type", answer.kind)];
+    for header in kind.iter().chain(&HEADERS).filter_map(|(name, value)| header(name, value)) {
+        response.add_header(header);
+    }
+    // A browser that left does not wait for it.
+    let _ = request.respond(response);
+}
+
+impl Server {
+    fn new(args: &PlayArgs, port: u16) -> Self {
+        let start = Path::new(&args.start);
+        let (root, scene) = match start.is_dir() {
+            true => (start, None),
+            false => (start.parent().unwrap_or(Path::new("")), Some(args.start.clone())),
+        };
+        let mut folders = Folders::default();
+        folders.add(root);
+        args.sources.include_dirs.iter().for_each(|folder| folders.add(folder));
+        let limit = args.machine.time_limit();
+        let looks = Lane::new(worker, limit);
+        if let Some(scene) = &scene {
+            for name in sources_of(&looks, scene) {
+                folders.add(Path::new(&name).parent().unwrap_or(Path::new("")));
+            }
+        }
+        let root = if root.as_os_str().is_empty() { Path::new(".") } else { root };
+        Self {
+            token: Token::new(),
+            port,
+            root: root.to_string_lossy().into_owned(),
+            scene,
+            changes: Changes::watch(&folders),
+            folders,
+            looks,
+            draws: Lane::new(worker, limit),
+            studies: Lane::new(worker, limit),
+            source_args: source_args(args),
+        }
+    }
+
+    fn answer(&self, request: &mut Request) -> Answer {
+        let url = request.url().to_owned();
+        let (path, query) = url.split_once('?').unwrap_or((&url, ""));
+        let query = queries(query);
+        let header = |name: &'static str| {
+            let found = request.headers().iter().find(|header| header.field.equiv(name));
+            found.map(|header| header.value.as_str().to_owned())
+        };
+        let (host, origin, token) = (header("Host"), header("Origin"), header("X-Glisten-Token"));
+        let token = token.as_deref().or(query.get("token").map(String::as_str));
+        let asking = Asking { host: host.as_deref(), origin: origin.as_deref(), token };
+        if let Err(reason) = check(asking, &self.token, self.port) {
+            return Answer::refused(403, reason);
+        }
+        match (request.method(), path) {
+            (Method::Get, "/") => self.page(),
+            (Method::Get, "/api/list") => Answer::json(&files::list(&self.root)),
+            (Method::Get, "/api/changes") => {
+                let since = query.get("since").and_then(|since| since.parse().ok()).unwrap_or(0);
+                Answer::json(&json!({ "number": self.changes.after(since, WAIT) }))
+            }
+            (Method::Get, path) => self.file(path),
+            (Method::Post, "/api/ask" | "/api/save" | "/api/new-scene") => {
+                let path = path.to_owned();
+                match body(request) {
+                    Ok(body) => self.post(&path, &body),
+                    Err(refused) => refused,
+                }
+            }
+            _ => Answer::refused(405, "there is no such request"),
+        }
+    }
+
+    fn page(&self) -> Answer {
+        let start = json!({
+            "mode": "server",
+            "token": self.token.text(),
+            "scene": self.scene,
+            "list": files::list(&self.root),
+        });
+        match page("glisten play", start) {
+            Ok(html) => Answer { status: 200, kind: "text/html; charset=utf-8", body: html.into_bytes() },
+            Err(error) => Answer::refused(500, &error),
+        }
+    }
+
+    /// A file of the folders, as text.
+    fn file(&self, path: &str) -> Answer {
+        let name = percent_decode_str(path.trim_start_matches('/')).decode_utf8_lossy().into_owned();
+        let name = Path::new(&self.root).join(name).to_string_lossy().into_owned();
+        let Some(path) = self.folders.path(&name) else { return Answer::outside() };
+        match std::fs::read(&path) {
+            Ok(body) => Answer { status: 200, kind: "text/plain; charset=utf-8", body },
+            Err(_) => Answer::refused(404, "there is no such file"),
+        }
+    }
+
+    fn post(&self, path: &str, body: &str) -> Answer {
+        match path {
+            "/api/ask" => self.ask(body),
+            "/api/save" => self.save(body),
+            _ => self.new_scene(body),
+        }
+    }
+
+    /// Hands a job to its worker.
+    fn ask(&self, body: &str) -> Answer {
+        let Ok(job) = serde_json::from_str::<Value>(body) else { return Answer::refused(400, "it is not JSON") };
+        let scene = job.get("scene").and_then(Value::as_str).unwrap_or_default();
+        let texts = job.get("texts").and_then(Value::as_object).into_iter().flat_map(|texts| texts.keys());
+        let ask = job.get("ask").and_then(Value::as_str).unwrap_or_default();
+        let names = texts.map(String::as_str).chain((ask != "pixel").then_some(scene));
+        for name in names {
+            if self.folders.path(name).is_none() {
+                return Answer::outside();
+            }
+        }
+        // Each job is one line.
+        let line = job.to_string();
+        let answer = match ask {
+            "look" => self.looks.ask(&line),
+            "pixel" | "trace" => self.draws.ask_behind(&line),
+            "needs" | "stability" | "variants" => self.studies.ask(&line),
+            _ => self.draws.ask(&line),
+        };
+        match answer {
+            Ok(text) => self.told(&text),
+            Err(NoAnswer::Superseded) => Answer::refused(409, "a newer question came"),
+            Err(NoAnswer::TimeOver) => {
+                Answer::refused(200, "it took longer than the limit (`--timeout` gives more time)")
+            }
+            Err(NoAnswer::Crashed(how)) => {
+                Answer::refused(200, &format!("the worker ended ({how}); a driver that crashes does so"))
+            }
+            Err(NoAnswer::NoWorker(error)) => Answer::refused(500, &format!("no worker starts: {error}")),
+        }
+    }
+
+    /// A worker's answer, with whether each file may be saved.
+    fn told(&self, text: &str) -> Answer {
+        let mut answer: Value = serde_json::from_str(text).unwrap_or_default();
+        let files = answer.get_mut("ok").and_then(|ok| ok.get_mut("files")).and_then(Value::as_array_mut);
+        for file in files.into_iter().flatten().filter_map(Value::as_object_mut) {
+            let name = file.get("name").and_then(Value::as_str).unwrap_or_default();
+            let is_writable = self.folders.path(name).is_some();
+            file.insert("is_writable".into(), is_writable.into());
+        }
+        Answer::json(&answer)
+    }
+
+    fn save(&self, body: &str) -> Answer {
+        #[derive(Deserialize)]
+        struct Save {
+            name: String,
+            text: String,
+            was: Option<String>,
+        }
+        let Ok(save) = serde_json::from_str::<Save>(body) else { return Answer::refused(400, "it is not a text") };
+        match files::save(&self.folders, &save.name, &save.text, save.was.as_deref()) {
+            Ok(()) => Answer::json(&json!({ "ok": true })),
+            Err(NotSaved::Outside) => Answer::outside(),
+            Err(NotSaved::Changed) => Answer::refused(409, "the file changed on disk meanwhile"),
+            Err(NotSaved::Failed(reason)) => Answer::refused(500, &reason),
+        }
+    }
+
+    /// The text of a scene that draws some shaders.
+    fn new_scene(&self, body: &str) -> Answer {
+        let Ok(names) = serde_json::from_str::<Vec<String>>(body) else {
+            return Answer::refused(400, "it is not a list of files");
+        };
+        let Some(paths) = names.iter().map(|name| self.folders.path(name)).collect::<Option<Vec<_>>>() else {
+            return Answer::outside();
+        };
+        let folder = paths.first().and_then(|path| path.parent()).unwrap_or(Path::new(".")).to_owned();
+        let files = paths.iter().filter_map(|path| path.file_name());
+        let made = std::env::current_exe().and_then(|program| {
+            let mut command = Command::new(program);
+            command.current_dir(&folder).arg("new-scene").args(files).args(&self.source_args).args(sandbox());
+            command.stdin(Stdio::null()).output()
+        });
+        let stem = names.first().map(|name| Path::new(name).with_extension("toml"));
+        match made {
+            Ok(made) if made.status.success() => {
+                let text = String::from_utf8_lossy(&made.stdout).into_owned();
+                Answer::json(&json!({ "name": stem, "text": text }))
+            }
+            Ok(made) => Answer::refused(200, String::from_utf8_lossy(&made.stderr).trim()),
+            Err(error) => Answer::refused(500, &error.to_string()),
+        }
+    }
+}
+
+/// A copy of this process that answers jobs.
+fn worker() -> std::io::Result<Command> {
+    let mut command = Command::new(std::env::current_exe()?);
+    command.args(std::env::args_os().skip(1)).arg("--worker");
+    Ok(command)
+}
+
+/// The files that a scene reads.
+fn sources_of(looks: &Lane, scene: &str) -> Vec<String> {
+    let job = json!({ "ask": "look", "scene": scene }).to_string();
+    let answer: Value = looks.ask(&job).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
+    let files = answer.pointer("/ok/files").and_then(Value::as_array);
+    let names = files.into_iter().flatten().filter_map(|file| file.get("name").and_then(Value::as_str));
+    names.map(str::to_owned).collect()
+}
+
+/// The arguments that say how sources are read, with absolute paths.
+fn source_args(args: &PlayArgs) -> Vec<String> {
+    let sources = &args.sources;
+    let path = |path: &Path| std::path::absolute(path).unwrap_or_default().to_string_lossy().into_owned();
+    let defines = sources.defines.iter().flat_map(|(name, value)| ["-D".to_owned(), format!("{name}={value}")]);
+    let includes = sources.include_dirs.iter().flat_map(|folder| ["-I".to_owned(), path(folder)]);
+    let preludes = sources.preludes.iter().flat_map(|file| ["--prelude".to_owned(), path(file)]);
+    let version = sources.assume_version.iter().flat_map(|version| ["--assume-version".to_owned(), version.clone()]);
+    let engine = sources.engine.iter().flat_map(|engine| ["--engine".to_owned(), engine.clone()]);
+    defines.chain(includes).chain(preludes).chain(version).chain(engine).collect()
+}
+
+/// The parts of a query.
+fn queries(query: &str) -> BTreeMap<String, String> {
+    let decoded = |text: &str| percent_decode_str(text).decode_utf8_lossy().into_owned();
+    let parts = query.split('&').filter_map(|part| part.split_once('='));
+    parts.map(|(name, value)| (decoded(name), decoded(value))).collect()
+}
+
+/// The body of a request as text.
+fn body(request: &mut Request) -> Result<String, Answer> {
+    let mut bytes = Vec::new();
+    let read = request.as_reader().take(MAX_BYTES + 1).read_to_end(&mut bytes);
+    if read.is_err() {
+        return Err(Answer::refused(400, "the request does not end"));
+    }
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(Answer::refused(413, "the request is too large"));
+    }
+    String::from_utf8(bytes).map_err(|_| Answer::refused(400, "the request is not UTF-8"))
+}

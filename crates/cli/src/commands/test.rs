@@ -1,0 +1,338 @@
+//! `glisten test`: runs `.shader_test` files, and the functions of sources under `//! test`, on the GPU and with the CPU reference.
+
+use crate::arguments::args::{ResultFormat, SourceArgs};
+use crate::arguments::engine::Engines;
+use crate::arguments::examples::Examples;
+use crate::console::Console;
+use crate::exit::{Exit, Failure, Outcome};
+use crate::files;
+use crate::process::guard;
+use crate::process::journal::{self, Note};
+use crate::progress::Progress;
+use crate::scenes::{gpu_failure, open_gpu};
+use crate::search;
+use clap::{Args, ValueEnum};
+use glisten_front::compiler::{Compiler, Options};
+use glisten_front::diagnostic::Diagnostic;
+use glisten_gpu::{Gpu, Via};
+use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_scene::picture::Picture;
+use glisten_verify::scene::Scene;
+use glisten_verify::shader_test::{self, TestBackend, TestResult};
+use glisten_verify::unit_test::{UnitTest, has_tests, tests};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Examples of its use.
+pub(crate) const EXAMPLES: Examples = &[("glisten test tests/", "all .shader_test files of a folder")];
+
+/// Run .shader_test files, and the functions of shaders under a comment `//! test`
+#[derive(Args, Debug)]
+pub(crate) struct TestArgs {
+    /// Test files and shaders, or folders to search for them
+    #[arg(required = true, value_name = "FILE|DIR")]
+    paths: Vec<PathBuf>,
+    /// The backend
+    #[arg(long, value_enum, default_value_t)]
+    backend: TestBackends,
+    /// The form of the code that the GPU runs
+    #[arg(long, value_enum, default_value_t)]
+    via: crate::scenes::ViaArg,
+    /// The GPU to use, by a part of its name, or `software`
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Give up on a draw after this many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    timeout: u64,
+    /// The format of the results
+    #[arg(long, value_enum, default_value_t)]
+    format: ResultFormat,
+    #[command(flatten)]
+    sources: SourceArgs,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum TestBackends {
+    /// Vulkan through wgpu
+    Gpu,
+    /// The CPU reference
+    Cpu,
+    /// Both, one after the other
+    #[default]
+    Both,
+}
+
+impl TestArgs {
+    /// Whether a driver draws.
+    pub(crate) fn draws_by_a_driver(&self) -> bool {
+        self.backend != TestBackends::Cpu
+    }
+}
+
+/// The result of a test on a backend.
+#[derive(Debug, Deserialize, Serialize)]
+struct TestRow {
+    file: String,
+    backend: String,
+    result: String,
+    reason: Option<String>,
+    /// The function, of a test in GLSL.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    test: Option<String>,
+    /// The line of its comment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    line: Option<u32>,
+    /// How many calls it makes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cases: Option<usize>,
+}
+
+/// The name of the backend that a driver is.
+const GPU: &str = "gpu";
+/// The extension of test files.
+const EXTENSION: &str = "shader_test";
+/// How deep folders are searched.
+const MOST_FOLDERS: u32 = 64;
+
+/// Runs the command.
+pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
+    let mut files = Vec::new();
+    for path in &args.paths {
+        collect(path, &mut files, 0)?;
+    }
+    if files.is_empty() {
+        return Err(Failure::usage(format!("there is no .{EXTENSION} file, and no shader with `//! test`")));
+    }
+    let engines = Engines::new(&args.sources)?;
+    let options = Options { defines: args.sources.defines.clone(), strict: args.sources.strict, ..Options::default() };
+    let compiler = Compiler::new(options).with_includes(engines.includes()).with_preparation(engines.clone());
+    let mut backends = backends(args)?;
+    let progress = Progress::new(console, files.len());
+    let mut results = Vec::new();
+    let mut known = Known::read();
+    for path in &files {
+        let name = path.display().to_string();
+        progress.say(&name);
+        let bytes = files::read(&name, path).map_err(|_| Failure::usage(format!("cannot read `{name}`")))?;
+        let text = String::from_utf8_lossy(&bytes);
+        if is_source(path) && has_tests(&text) {
+            results.extend(units(&name, &text, &compiler, &mut backends, &mut known));
+            progress.step();
+            continue;
+        }
+        for (backend, draws) in &mut backends {
+            let row = known.take(&name, backend).unwrap_or_else(|| {
+                let _work = (*backend == GPU).then(|| journal::at_work(&journal::drawing(&name)));
+                let row = TestRow::new(&name, backend, &one(&name, &text, draws.as_mut()));
+                row.keep();
+                row
+            });
+            results.push(row);
+        }
+        progress.step();
+    }
+    drop(progress);
+    let text = match args.format {
+        ResultFormat::Json => serde_json::to_string_pretty(&results).expect("results are always JSON") + "\n",
+        ResultFormat::Human => human(&results),
+    };
+    console.output(&text)?;
+    let failed = results.iter().any(|result| result.result == "fail");
+    Ok(if failed { Exit::Content } else { Exit::Ok })
+}
+
+/// Whether a file is a shader, and not a test file.
+fn is_source(path: &Path) -> bool {
+    path.extension().is_none_or(|extension| extension != EXTENSION)
+}
+
+/// Runs the tests in the functions of a source.
+fn units(name: &str, text: &str, compiler: &Compiler, backends: &mut [Named], known: &mut Known) -> Vec<TestRow> {
+    let found = match guard::guarded(|| tests(name, text, compiler)) {
+        Ok(found) => found,
+        Err(panic) => return vec![TestRow::new(name, "cpu", &TestResult::Fail(format!("internal error: {panic}")))],
+    };
+    let mut rows = Vec::new();
+    for test in &found {
+        for (backend, draws) in &mut *backends {
+            let key = format!("{name}:{}", test.line);
+            let row = known.take(&key, backend).unwrap_or_else(|| {
+                let _work = (*backend == GPU).then(|| journal::at_work(&journal::drawing(&key)));
+                let result = guard::guarded(|| match *backend {
+                    GPU => test.run(Some(draws.as_mut())),
+                    _ => test.run(None),
+                });
+                let result = result.unwrap_or_else(|panic| TestResult::Fail(format!("internal error: {panic}")));
+                let row = TestRow { file: key, ..TestRow::new(name, backend, &result) };
+                row.keep();
+                row
+            });
+            rows.push(row.of(name, test));
+        }
+    }
+    rows
+}
+
+/// The results of processes before this one, which a driver took down.
+#[derive(Default)]
+struct Known {
+    rows: BTreeMap<(String, String), TestRow>,
+    /// The work at which they crashed, and the sentence that says so.
+    crashes: BTreeMap<String, String>,
+}
+
+impl Known {
+    fn read() -> Self {
+        let mut known = Self::default();
+        for note in journal::notes() {
+            match note {
+                Note::Result(row) => {
+                    let row: Option<TestRow> = serde_json::from_value(row).ok();
+                    known.rows.extend(row.map(|row| ((row.file.clone(), row.backend.clone()), row)));
+                }
+                Note::Crash { work, what } => {
+                    known.crashes.insert(work, what);
+                }
+                Note::Driver(_) | Note::Begin(_) | Note::End | Note::Done(_) => {}
+            }
+        }
+        known
+    }
+
+    fn take(&mut self, file: &str, backend: &str) -> Option<TestRow> {
+        let crash = || {
+            let what = self.crashes.get(&journal::drawing(file)).filter(|_| backend == GPU)?;
+            Some(TestRow::new(file, backend, &TestResult::Fail(what.clone())))
+        };
+        crash().or_else(|| self.rows.remove(&(file.to_owned(), backend.to_owned())))
+    }
+}
+
+impl TestRow {
+    fn new(file: &str, backend: &str, found: &TestResult) -> Self {
+        let (result, reason) = (found.name().to_owned(), found.reason().map(str::to_owned));
+        let (file, backend) = (file.to_owned(), backend.to_owned());
+        Self { file, backend, result, reason, test: None, line: None, cases: None }
+    }
+
+    /// The row of a test in the source `file`.
+    fn of(self, file: &str, test: &UnitTest) -> Self {
+        let (name, line, cases) = (Some(test.name.clone()), Some(test.line), Some(test.cases()));
+        Self { file: file.to_owned(), test: name, line, cases, ..self }
+    }
+
+    /// Keeps the result for a process after this one.
+    fn keep(&self) {
+        journal::note(&Note::Result(serde_json::to_value(self).expect("a row is always JSON")));
+    }
+}
+
+/// Runs a test. A panic fails it and does not affect the others.
+fn one(name: &str, text: &str, backend: &mut dyn TestBackend) -> TestResult {
+    let compiler = Compiler::new(Options::default());
+    guard::guarded(|| shader_test::run(name, text, &compiler, backend))
+        .unwrap_or_else(|panic| TestResult::Fail(format!("internal error: {panic}")))
+}
+
+/// Collects the files at a path: the path itself, or the files in it, in the order of their names.
+fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: u32) -> Result<(), Failure> {
+    let unreadable = |error: std::io::Error| Failure::usage(format!("cannot read `{}`: {error}", path.display()));
+    if !std::fs::metadata(path).map_err(unreadable)?.is_dir() {
+        files.push(path.to_owned());
+        return Ok(());
+    }
+    if depth == 0 {
+        let with_tests =
+            |path: &PathBuf| std::fs::read(path).is_ok_and(|text| has_tests(&String::from_utf8_lossy(&text)));
+        files.extend(search::texts(path)?.into_iter().filter(with_tests));
+    }
+    let mut entries = std::fs::read_dir(path)
+        .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>())
+        .map_err(unreadable)?;
+    entries.sort();
+    for entry in entries {
+        let is_test = entry.extension().is_some_and(|extension| extension == EXTENSION);
+        // A link to a parent folder would make the search endless.
+        let is_folder = entry.is_dir() && !entry.is_symlink() && depth < MOST_FOLDERS;
+        if is_test || is_folder {
+            collect(&entry, files, depth + 1)?;
+        }
+    }
+    Ok(())
+}
+
+/// A backend and its name.
+type Named = (&'static str, Box<dyn TestBackend>);
+
+fn backends(args: &TestArgs) -> Result<Vec<Named>, Failure> {
+    let mut backends: Vec<Named> = Vec::new();
+    if args.backend != TestBackends::Cpu {
+        let gpu = open_gpu(args.adapter.as_deref()).map_err(gpu_failure)?;
+        let gpu = gpu.with_timeout(Duration::from_secs(args.timeout));
+        backends.push((GPU, Box::new(GpuBackend { gpu, via: args.via.into() })));
+    }
+    if args.backend != TestBackends::Gpu {
+        backends.push(("cpu", Box::new(CpuBackend)));
+    }
+    Ok(backends)
+}
+
+/// The errors that say what a target or glisten lacks.
+const LIMITS: [&str; 3] = ["E0001", "E0801", "E0802"];
+
+struct GpuBackend {
+    gpu: Gpu,
+    via: Via,
+}
+
+impl TestBackend for GpuBackend {
+    fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
+        // What a geometry stage emits may be more than a vertex stage passes on.
+        let scene = glisten_reference::expand(scene).map_err(|found| TestResult::Skip(first(&found)))?;
+        match self.gpu.render(&scene, self.via) {
+            Ok(rendered) => Ok(rendered.picture),
+            // What the target lacks, or what is not supported yet, is no mistake of the program.
+            Err(glisten_gpu::Error::Emit(found)) if found.iter().any(|one| LIMITS.contains(&one.code.id)) => {
+                Err(TestResult::Skip(first(&found)))
+            }
+            Err(glisten_gpu::Error::Emit(diagnostics)) => Err(TestResult::Fail(first(&diagnostics))),
+            Err(error @ glisten_gpu::Error::Unsupported(_)) => Err(TestResult::Skip(error.to_string())),
+            Err(error) => Err(TestResult::Fail(error.to_string())),
+        }
+    }
+}
+
+struct CpuBackend;
+
+impl TestBackend for CpuBackend {
+    fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
+        // A test states the results of 32-bit floats, for example where they underflow.
+        let options = RenderOptions {
+            precision: Precision::F32,
+            lines: LineRule::OpenGl,
+            mark_edges: false,
+            ..RenderOptions::default()
+        };
+        glisten_reference::render(scene, &options).map_err(|diagnostics| TestResult::Fail(first(&diagnostics)))
+    }
+}
+
+fn first(diagnostics: &[Diagnostic]) -> String {
+    diagnostics
+        .first()
+        .map_or_else(|| "it cannot be drawn".to_owned(), |first| format!("{} ({})", first.message, first.code))
+}
+
+/// One line for each test that did not pass, then the number of those that did.
+fn human(results: &[TestRow]) -> String {
+    let mut text = String::new();
+    for result in results.iter().filter(|result| result.result != "pass") {
+        let reason = result.reason.as_deref().unwrap_or_default();
+        let test = result.test.as_ref().map_or_else(String::new, |test| format!(" {test}"));
+        text.push_str(&format!("{} {} {}{test}: {reason}\n", result.result, result.backend, result.file));
+    }
+    let count = |name: &str| results.iter().filter(|result| result.result == name).count();
+    text + &format!("{} passed, {} failed, {} skipped\n", count("pass"), count("fail"), count("skip"))
+}
