@@ -40,15 +40,17 @@ mod search;
 mod session;
 mod strings;
 pub mod survey;
+mod texels;
 mod texts;
 mod trace;
 mod unfinished;
 mod variants;
+mod with;
 mod witness;
 
-use arguments::{examples, responses, sizes};
+use arguments::{responses, sizes};
 use clap::{Args, CommandFactory, FromArgMatches, Parser};
-use commands::Command;
+use commands::{Command, examples};
 use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
 use glisten_scene::confine_to;
@@ -128,7 +130,7 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
         })?;
     }
     if let Some(bytes) = cli.global.max_memory {
-        process::memory::limit(bytes).map_err(|failure| end(Err(failure), &console))?;
+        memory::limit(bytes).map_err(|failure| end(Err(failure), &console))?;
     }
     Ok((cli.command, console))
 }

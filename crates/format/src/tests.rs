@@ -58,7 +58,7 @@ fn branches_of_directives_begin_alike() {
 /// The part of a text with mistakes that is kept depends on its lines: once it is formatted, it is another part.
 #[test]
 fn texts_with_mistakes_do_not_change_again() {
-    let corpus = concat!(env!("CARGO_MANIFEST_DIR"), "/crates/fuzz/corpus/format");
+    let corpus = concat!(env!("CARGO_MANIFEST_DIR"), "/../fuzz/corpus/format");
     for name in ["kept_declarations_that_change_again", "kept_line_that_changes_again"] {
         let bytes = std::fs::read(format!("{corpus}/{name}.glsl")).expect("a saved input");
         formatted(&String::from_utf8_lossy(&bytes));

@@ -4,7 +4,7 @@
 import { build } from "esbuild";
 import { existsSync, readFileSync } from "node:fs";
 
-const out = "../../../crates/cli/src/play/page";
+const out = "../../../crates/cli/src/commands/play/page";
 const common = { bundle: true, minify: true, format: "iife", target: "es2022", metafile: true };
 const editor = { ...common, entryPoints: ["editor.mjs"], globalName: "Editor" };
 const tried = await build({ ...editor, write: false });

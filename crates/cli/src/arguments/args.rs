@@ -2,6 +2,7 @@
 
 use crate::arguments::stages::StageArg;
 use crate::exit::Failure;
+use crate::variants::axes::define;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use glisten_emit::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
@@ -48,7 +49,7 @@ pub(crate) enum DiagnosticFormat {
 #[command(next_help_heading = "Sources")]
 pub(crate) struct SourceArgs {
     /// Define a macro before the first line (without a value: 1)
-    #[arg(short = 'D', value_name = "NAME[=VALUE]", value_parser = parse_define)]
+    #[arg(short = 'D', value_name = "NAME[=VALUE]", value_parser = define)]
     pub(crate) defines: Vec<(String, String)>,
     /// Search this folder for included files
     #[arg(short = 'I', value_name = "DIR")]
@@ -330,18 +331,6 @@ enum GlslVersionArg {
     Vulkan,
 }
 
-pub(crate) fn parse_define(text: &str) -> Result<(String, String), String> {
-    let (name, value) = text.split_once('=').unwrap_or((text, "1"));
-    let starts_well = name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
-    if !starts_well || !name.chars().all(|character| character.is_ascii_alphanumeric() || character == '_') {
-        return Err(format!("`{name}` is not a name for a macro"));
-    }
-    if value.contains(['\n', '\r']) {
-        return Err("a macro's value is one line".to_owned());
-    }
-    Ok((name.to_owned(), value.to_owned()))
-}
-
 /// Reads the name of an include style.
 fn style_words() -> impl TypedValueParser<Value = Style> {
     let names = engines::STYLES.iter().map(|row| row.name);
@@ -381,7 +370,8 @@ fn parse_binding(text: &str) -> Result<(String, u32), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{parse_binding, parse_define};
+    use super::parse_binding;
+    use crate::variants::axes::define;
     use glisten_sources::parse_version;
 
     #[test]
@@ -395,10 +385,10 @@ mod tests {
 
     #[test]
     fn defines_and_bindings() {
-        assert_eq!(parse_define("A"), Ok(("A".into(), "1".into())));
-        assert_eq!(parse_define("A=b=c"), Ok(("A".into(), "b=c".into())));
-        assert_eq!(parse_define("A="), Ok(("A".into(), String::new())));
-        assert!(parse_define("1A").is_err() && parse_define("").is_err() && parse_define("A=\n#x").is_err());
+        assert_eq!(define("A"), Ok(("A".into(), "1".into())));
+        assert_eq!(define("A=b=c"), Ok(("A".into(), "b=c".into())));
+        assert_eq!(define("A="), Ok(("A".into(), String::new())));
+        assert!(define("1A").is_err() && define("").is_err() && define("A=\n#x").is_err());
         assert_eq!(parse_binding("pv=0"), Ok(("pv".into(), 0)));
         assert!(parse_binding("pv").is_err() && parse_binding("=1").is_err() && parse_binding("pv=-1").is_err());
     }

@@ -1,4 +1,4 @@
-//! What commands share of their arguments: flags, examples, files of settings, the tables of `glisten.toml`.
+//! Arguments that commands share: flags, files of settings, the tables of `glisten.toml`.
 //!
 //! *In:* words of a command line, texts of files. *Out:* typed choices, or what is wrong with them. *Not done here:* no command runs.
 
@@ -6,11 +6,9 @@ pub(crate) mod args;
 pub(crate) mod bounds;
 pub(crate) mod config;
 pub(crate) mod engine;
-pub(crate) mod examples;
 pub(crate) mod profile;
 pub(crate) mod responses;
 pub(crate) mod rules;
 pub(crate) mod settings;
 pub(crate) mod sizes;
 pub(crate) mod stages;
-pub(crate) mod with;

@@ -15,9 +15,9 @@
 //! *In:* the tables. *Out:* a [`Rule`] each, and what is wrong with them. *Holds:* all tables that fit a file count; a later one
 //! takes precedence, lists add up. Paths are relative to the file's folder.
 
-use crate::arguments::args::parse_define;
 use crate::arguments::stages::StageArg;
 use crate::files;
+use crate::variants::axes::define;
 use clap::ValueEnum;
 use glisten_front::diagnostic::codes::general::{BAD_CONFIG, FILE_NOT_FOUND};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
@@ -192,7 +192,7 @@ impl<'a> RuleReader<'a> {
             return read;
         }
         for (text, span) in self.reader.texts_at(table, "defines") {
-            match parse_define(text) {
+            match define(text) {
                 Ok(define) => read.push(define),
                 Err(message) => self.wrong(span, message, Some("write `{ A = 1 }` or `[\"A\", \"B=2\"]`".into())),
             }

@@ -3,8 +3,8 @@
 //! *Holds:* only a folder that glisten has marked as a cache is cleaned.
 
 use crate::arguments::args::ResultFormat;
-use crate::arguments::examples::Examples;
 use crate::cache::{CacheArgs, Kind, Store};
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use clap::{Args, Subcommand};

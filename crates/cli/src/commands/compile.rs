@@ -3,8 +3,8 @@
 //! *Holds:* nothing is written for a program with errors. What a cache holds is written like what is compiled.
 
 use crate::arguments::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
-use crate::arguments::examples::Examples;
 use crate::cache::CacheArgs;
+use crate::commands::examples::Examples;
 use crate::commands::permutations::{self, Job};
 use crate::console::Console;
 use crate::depfile::{self, Made};

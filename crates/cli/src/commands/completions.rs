@@ -1,7 +1,7 @@
 //! `glisten completions`: a script that completes glisten's commands, flags and their values in a shell.
 
 use crate::Cli;
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Outcome};
 use clap::{Args, CommandFactory};

@@ -1,7 +1,7 @@
 //! `glisten explain`: prints the page of a diagnostic from the registry of codes.
 
 use crate::arguments::args::nearest_code;
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use clap::Args;

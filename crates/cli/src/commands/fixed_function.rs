@@ -4,8 +4,8 @@
 //! or in files.
 
 use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
-use crate::arguments::examples::Examples;
 use crate::batch::Batch;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

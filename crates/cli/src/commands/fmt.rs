@@ -5,7 +5,7 @@
 //! are shaders.
 
 use crate::arguments::config::{self, Configs};
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

@@ -1,7 +1,7 @@
 //! `glisten gallery`: draws every scene of the library onto one page.
 
 use crate::arguments::args::WithContractArgs;
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::commands::render::Backend;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};

@@ -2,11 +2,11 @@
 
 use crate::arguments::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use crate::arguments::config::Settings;
-use crate::arguments::examples::Examples;
 use crate::arguments::settings::numbers;
 use crate::baseline::BaselineArgs;
 use crate::baselines::Baselines;
 use crate::cache::CacheArgs;
+use crate::commands::examples::Examples;
 use crate::commands::permutations;
 use crate::configurations::{Extent, Listed, explored};
 use crate::console::Console;

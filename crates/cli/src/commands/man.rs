@@ -1,7 +1,7 @@
 //! `glisten man`: manual pages of the program and its commands.
 
 use crate::Cli;
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
@@ -21,7 +21,7 @@ pub(crate) struct ManArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &ManArgs, console: &Console) -> Outcome {
-    let mut program = crate::arguments::examples::with_examples(Cli::command());
+    let mut program = crate::commands::examples::with_examples(Cli::command());
     program.build();
     let Some(folder) = &args.output else {
         console.output_bytes(&page(program)?)?;

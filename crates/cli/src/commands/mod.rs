@@ -8,6 +8,7 @@ pub(crate) mod cache;
 pub(crate) mod compile;
 pub(crate) mod completions;
 pub(crate) mod cost;
+pub(crate) mod examples;
 pub(crate) mod explain;
 pub(crate) mod fixed_function;
 pub(crate) mod fmt;
@@ -35,7 +36,6 @@ pub(crate) mod upgrade;
 pub(crate) mod verify;
 pub(crate) mod watch;
 
-use crate::arguments::examples;
 use crate::console::Console;
 use crate::exit::Outcome;
 use clap::Subcommand;

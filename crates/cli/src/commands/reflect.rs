@@ -1,7 +1,7 @@
 //! `glisten reflect`: what a host needs to know about a program, as a table or as JSON, or what one name is.
 
 use crate::arguments::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, ResultFormat, SourceArgs};
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Outcome};
 use crate::inputs;

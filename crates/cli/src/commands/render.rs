@@ -1,8 +1,7 @@
 //! `glisten render`: draws a scene to a picture on the GPU, with the CPU reference or by OpenGL.
 
 use crate::arguments::args::WithContractArgs;
-use crate::arguments::examples::Examples;
-use crate::arguments::with::WithArgs;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Failure, Outcome};
 use crate::files;
@@ -11,6 +10,7 @@ use crate::pictures::Target;
 use crate::process::journal;
 use crate::progress::Progress;
 use crate::scenes::{DrawError, SceneArgs, ViaArg};
+use crate::with::WithArgs;
 use clap::{Args, ValueEnum};
 use glisten_gpu::Via;
 use glisten_reference::{LineRule, Precision, RenderOptions};

@@ -3,7 +3,7 @@
 //! *In:* the registry of codes. *Out:* a table, or JSON: an array of objects with the keys `code`, `name`, `group`, `level`,
 //! `fixable`, `since`.
 
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use clap::{Args, ValueEnum};

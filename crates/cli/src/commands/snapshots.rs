@@ -3,7 +3,7 @@
 //! *In:* a folder, names. *Out:* a list, a page that shows what changed, or accepted and rejected pictures. *Holds:* nothing is
 //! accepted without the command; texts are insta's: they are listed and shown, and accepted by `cargo insta review`.
 
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

@@ -2,7 +2,7 @@
 
 use crate::arguments::args::{ResultFormat, SourceArgs};
 use crate::arguments::engine::Engines;
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

@@ -1,6 +1,6 @@
 //! `glisten trace`: tells what each fragment of a pixel, or a vertex, computed: every expression with its value.
 
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Progress;

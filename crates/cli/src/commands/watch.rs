@@ -4,7 +4,7 @@
 //! and folders among the arguments are watched, with everything below them; what the command writes to its `-o`, and hidden
 //! files, start nothing. Changes that follow each other closely are one. Ctrl-C ends it.
 
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

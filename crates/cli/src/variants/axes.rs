@@ -74,7 +74,15 @@ impl Axis {
 
 /// A macro: `NAME` or `NAME=VALUE`.
 pub(crate) fn define(text: &str) -> Result<(String, String), String> {
-    crate::arguments::args::parse_define(text)
+    let (name, value) = text.split_once('=').unwrap_or((text, "1"));
+    let starts_well = name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+    if !starts_well || !name.chars().all(|character| character.is_ascii_alphanumeric() || character == '_') {
+        return Err(format!("`{name}` is not a name for a macro"));
+    }
+    if value.contains(['\n', '\r']) {
+        return Err("a macro's value is one line".to_owned());
+    }
+    Ok((name.to_owned(), value.to_owned()))
 }
 
 /// A condition on variants: all of `A` (defined), `A=1` (with this value), `!A` (not defined).

@@ -4,7 +4,7 @@
 //! that passes attributes on; a vertex stage gets a fragment stage that does nothing. *Holds:* the stage's text is that of the file.
 
 use super::inputs::{Input, InputKind, Inputs};
-use crate::commands::new_scene::textures;
+use crate::texels;
 use glisten_front::Compiler;
 use glisten_front::hir::{Scalar, ScalarValue, Shader, Stage, Type};
 use glisten_front::source::SourceMap;
@@ -234,7 +234,7 @@ fn toml_textures(draw: &Draw) -> String {
     let mut text = String::new();
     for slot in &draw.program.interface.samplers {
         if let Type::Sampler(kind) = draw.program.types.get(slot.ty) {
-            let _ = writeln!(text, "{:?} = {}", slot.name, textures::values(kind));
+            let _ = writeln!(text, "{:?} = {}", slot.name, texels::values(kind));
         }
     }
     if text.is_empty() { text } else { format!("[draw.textures]\n{text}") }

@@ -250,7 +250,7 @@ fn every_way_of_a_scene_draws() {
             .map(|entries| entries.filter_map(|entry| Some(entry.ok()?.path())).collect())
             .unwrap_or_else(|_| vec![PathBuf::from(folder)]),
         None => ["core/fog.toml", "core/arcs.toml", "triangle.toml"]
-            .map(|scene| Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes").join(scene))
+            .map(|scene| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/scenes").join(scene))
             .into(),
     };
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));

@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn a_picture_with_an_excused_pixel_is_compared_with_the_population() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/scenes/core/behind_the_eye_noperspective.toml");
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/scenes/core/behind_the_eye_noperspective.toml");
         let scene = load(path, &DiskFiles, &Compiler::new(CompilerOptions::default())).scene.expect("a fixture");
         let options = Options::default();
         let mut expected = Expected::new(&scene, &options).expect("it can be drawn");

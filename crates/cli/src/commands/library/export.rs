@@ -2,10 +2,10 @@
 //!
 //! *In:* a folder and a form. *Out:* GLSL with or without includes, WGSL, or the structs of the programs' uniforms in Rust or C.
 
-use crate::arguments::args::parse_define;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
+use crate::variants::axes::define;
 use clap::Args;
 use glisten_build::{c_structs, rust_structs};
 use glisten_front::diagnostic::write::human;
@@ -21,7 +21,7 @@ pub(crate) struct ExportArgs {
     #[command(flatten)]
     form: FormArgs,
     /// Define a macro before the texts are read (repeatable): `GLISTEN_LIGHTS=16`, `GLISTEN_CONES`
-    #[arg(short = 'D', value_name = "NAME[=VALUE]", value_parser = parse_define, requires = "form")]
+    #[arg(short = 'D', value_name = "NAME[=VALUE]", value_parser = define, requires = "form")]
     defines: Vec<(String, String)>,
     /// The output folder
     #[arg(value_name = "DIR")]

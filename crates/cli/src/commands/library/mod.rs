@@ -4,7 +4,7 @@
 mod export;
 mod prefilter;
 use crate::arguments::args::ResultFormat;
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::commands::library::export::{ExportArgs, export};
 use crate::commands::library::prefilter::{PrefilterArgs, prefilter};
 use crate::console::Console;

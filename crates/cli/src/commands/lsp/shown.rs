@@ -3,12 +3,12 @@
 //! *In:* texts, programs, scene files. *Out:* choices, texts, picture files. *Holds:* a picture is drawn by another process, from the files
 //! as they are on disk; it ends with the server.
 
-use crate::arguments::args::parse_define;
 use crate::commands::lsp::drawing::{finished, start};
 use crate::commands::lsp::project::Files;
 use crate::configurations;
 use crate::optimize;
 use crate::process::guard;
+use crate::variants::axes::define;
 use glisten_emit::{Conventions, Emitted, Target, emit};
 use glisten_front::link::Program;
 use glisten_front::source::SourceMap;
@@ -38,7 +38,7 @@ impl Shown for Files<'_> {
     fn choose(&mut self, name: &str, value: Option<String>) -> Result<(), String> {
         let text = value.map_or(name.to_owned(), |value| format!("{name}={value}"));
         let is_defined = text.contains('=');
-        let (name, value) = parse_define(&text)?;
+        let (name, value) = define(&text)?;
         if is_defined {
             self.chosen.insert(name, value);
         } else {

@@ -17,7 +17,7 @@ mod values;
 mod varyings;
 
 use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

@@ -27,7 +27,7 @@ mod variants;
 mod worker;
 
 use crate::arguments::args::{LevelArgs, SourceArgs};
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Failure, Outcome};
 use crate::scenes::MachineArgs;

@@ -22,7 +22,7 @@ mod proof;
 mod tree;
 
 use crate::arguments::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

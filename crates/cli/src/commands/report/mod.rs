@@ -4,8 +4,8 @@
 
 mod checks;
 use crate::arguments::args::WithContractArgs;
-use crate::arguments::examples::Examples;
 use crate::batch::Batch;
+use crate::commands::examples::Examples;
 use crate::commands::report::checks::CheckArgs;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};

@@ -7,7 +7,7 @@ mod time;
 
 use self::time::Clock;
 use crate::arguments::args::{ContractArgs, ConventionArgs, LevelArgs, ResultFormat, SourceArgs};
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

@@ -5,7 +5,7 @@ mod page;
 
 use crate::arguments::args::{LevelArgs, SourceArgs};
 use crate::arguments::config;
-use crate::arguments::examples::Examples;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

@@ -11,8 +11,8 @@ pub(crate) use programs::{ByPlan, checker, plan, plan_of_newer, words};
 pub(crate) use prove::NewFiles;
 
 use crate::arguments::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
-use crate::arguments::examples::Examples;
 use crate::batch::Batch;
+use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;

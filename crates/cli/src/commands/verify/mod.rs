@@ -4,11 +4,9 @@ mod folder;
 mod timed;
 mod told;
 
-#[cfg(feature = "play")]
 use crate::arguments::args::WithContractArgs;
-use crate::arguments::examples::Examples;
 use crate::arguments::profile::ProfileChoice;
-use crate::arguments::with::WithArgs;
+use crate::commands::examples::Examples;
 use crate::commands::verify::timed::{TimedGpu, TimedReference};
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
@@ -17,6 +15,7 @@ use crate::inputs;
 use crate::pictures::Target;
 use crate::progress::Progress;
 use crate::scenes::{DrawError, Read, SceneArgs};
+use crate::with::WithArgs;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::write;
 use glisten_front::source::SourceMap;
