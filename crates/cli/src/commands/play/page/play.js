@@ -69,21 +69,21 @@ const editor = Editor.create({
   valueAt: (name, line, column) => inspector.valueAt(name, line, column),
   moved: (line, isPerson) => matching.movedInSource(line, isPerson),
   pointed: (line) => matching.pointedInSource(line),
-  changed: (name, text) => {
-    const doc = docs.get(name);
-    if (!doc) return;
-    doc.text = text;
-    textChanged();
-  },
+  // The question is asked before the editor shows the text: a worker answers it meanwhile.
+  changes: (name, text) => { if (docs.has(name)) setText(name, text); },
+  changed: (name) => { if (docs.has(name)) textChanged(); },
 });
 // While a control moves, the picture follows, and all that is read of the texts comes when it rests.
 let isMoving = false, rests = null;
-const textChanged = () => {
+const setText = (name, text) => {
+  docs.get(name).text = text;
   edition += 1;
+  if (!isMoving) look();
+};
+const textChanged = () => {
   isJudged = isJudging = false;
   clearTimeout(rests);
   if (isMoving) rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
-  else look();
   showFiles(); draw(); studies.age();
   // A question about a pixel does not end the picture that was asked for before it.
   if (!isMoving) inspector.refresh();
@@ -156,7 +156,7 @@ const rewrite = (name, changes) => {
   if (name === shown) { editor.rewrite(changes); return; }
   let text = "", at = 0;
   for (const { from, to, text: by } of changes) { text += doc.text.slice(at, from) + by; at = to; }
-  doc.text = text + doc.text.slice(at);
+  setText(name, text + doc.text.slice(at));
   textChanged();
 };
 
