@@ -28,15 +28,14 @@ mod integer;
 mod lanes;
 pub mod limits;
 mod number;
+mod plain;
 mod profile;
 pub mod rules;
 mod shadow;
 mod simulated;
-mod single;
 #[cfg(any(test, feature = "stability"))]
 mod stepwise;
 mod unit;
-mod wide;
 
 #[cfg(any(test, feature = "stability"))]
 pub use big::{BITS as EXACT_BITS, Big};

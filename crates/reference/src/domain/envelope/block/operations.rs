@@ -37,6 +37,44 @@ impl EnvelopeBlock {
     }
 }
 
+/// Operations of one block: the scalar's for the value and for lanes with a NaN, and the bounds.
+macro_rules! of_one {
+    ($($name:ident($a:ident) = $bounds:expr;)*) => {
+        $(
+            #[inline(always)]
+            fn $name(&self) -> Self {
+                self.by_parts(
+                    Number::$name,
+                    #[inline(always)]
+                    |$a| $bounds,
+                    Number::$name,
+                )
+            }
+        )*
+    };
+}
+
+/// Operations of two blocks. `dropping NaN`: a lane may drop a NaN, and is the scalar's then.
+macro_rules! of_two {
+    ($($name:ident($a:ident, $b:ident) $(dropping $nan:ident)? = $bounds:expr;)*) => {
+        $(
+            #[inline(always)]
+            fn $name(&self, other: &Self) -> Self {
+                self.by_both(
+                    other,
+                    of_two!(@scalar self, other $($nan)?),
+                    Number::$name,
+                    #[inline(always)]
+                    |$a, $b| $bounds,
+                    Number::$name,
+                )
+            }
+        )*
+    };
+    (@scalar $self:ident, $other:ident) => { 0 };
+    (@scalar $self:ident, $other:ident NaN) => { $self.nan | $other.nan };
+}
+
 impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
     const OWN: bool = true;
     #[inline(always)]
@@ -59,169 +97,28 @@ impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
     fn sum(count: usize, term: impl Fn(usize) -> Self) -> Self {
         Sum::of(count, term)
     }
-    #[inline(always)]
-    fn neg(&self) -> Self {
-        self.by_parts(
-            Number::neg,
-            #[inline(always)]
-            |a| a.neg(),
-            Number::neg,
-        )
+    // A row has the scalar's name, and the bounds of a lane.
+    of_one! {
+        neg(a) = a.neg();
+        abs(a) = a.abs();
+        square(a) = a.square();
+        floor(bounds) = bounds.rising(f64::floor);
+        fract(a) = a.fract();
+        sqrt(a) = a.square_root();
+        inversesqrt(a) = a.inverse_square_root();
+        exp(bounds) = bounds.exponential(#[inline(always)] |end| powers::exp2(end * LOG2_E));
+        exp2(bounds) = bounds.exponential(powers::exp2);
+        log(bounds) = bounds.logarithm(#[inline(always)] |end| powers::log2(end) * LN_2);
+        log2(bounds) = bounds.logarithm(powers::log2);
     }
-    #[inline(always)]
-    fn abs(&self) -> Self {
-        self.by_parts(
-            Number::abs,
-            #[inline(always)]
-            |a| a.abs(),
-            Number::abs,
-        )
-    }
-    #[inline(always)]
-    fn add(&self, other: &Self) -> Self {
-        self.by_both(
-            other,
-            0,
-            Number::add,
-            #[inline(always)]
-            |a, b| a.add(b),
-            Number::add,
-        )
-    }
-    #[inline(always)]
-    fn sub(&self, other: &Self) -> Self {
-        self.by_both(
-            other,
-            0,
-            Number::sub,
-            #[inline(always)]
-            |a, b| a.sub(b),
-            Number::sub,
-        )
-    }
-    #[inline(always)]
-    fn mul(&self, other: &Self) -> Self {
-        self.by_both(
-            other,
-            0,
-            Number::mul,
-            #[inline(always)]
-            |a, b| a.mul(b),
-            Number::mul,
-        )
-    }
-    #[inline(always)]
-    fn square(&self) -> Self {
-        self.by_parts(
-            Number::square,
-            #[inline(always)]
-            |a| a.square(),
-            Number::square,
-        )
-    }
-    #[inline(always)]
-    fn div(&self, other: &Self) -> Self {
-        self.by_both(
-            other,
-            0,
-            Number::div,
-            #[inline(always)]
-            |a, b| a.div(b),
-            Number::div,
-        )
-    }
-    #[inline(always)]
-    fn floor(&self) -> Self {
-        self.by_parts(
-            Number::floor,
-            #[inline(always)]
-            |bounds| bounds.rising(f64::floor),
-            Number::floor,
-        )
-    }
-    #[inline(always)]
-    fn fract(&self) -> Self {
-        self.by_parts(
-            Number::fract,
-            #[inline(always)]
-            |a| a.fract(),
-            Number::fract,
-        )
-    }
-    #[inline(always)]
-    fn sqrt(&self) -> Self {
-        self.by_parts(
-            Number::sqrt,
-            #[inline(always)]
-            |a| a.square_root(),
-            Number::sqrt,
-        )
-    }
-    #[inline(always)]
-    fn inversesqrt(&self) -> Self {
-        self.by_parts(
-            Number::inversesqrt,
-            #[inline(always)]
-            |a| a.inverse_square_root(),
-            Number::inversesqrt,
-        )
-    }
-    #[inline(always)]
-    fn exp(&self) -> Self {
-        self.by_parts(
-            Number::exp,
-            #[inline(always)]
-            |bounds| {
-                bounds.exponential(
-                    #[inline(always)]
-                    |end| powers::exp2(end * LOG2_E),
-                )
-            },
-            Number::exp,
-        )
-    }
-    #[inline(always)]
-    fn exp2(&self) -> Self {
-        self.by_parts(
-            Number::exp2,
-            #[inline(always)]
-            |bounds| bounds.exponential(powers::exp2),
-            Number::exp2,
-        )
-    }
-    #[inline(always)]
-    fn log(&self) -> Self {
-        self.by_parts(
-            Number::log,
-            #[inline(always)]
-            |bounds| {
-                bounds.logarithm(
-                    #[inline(always)]
-                    |end| powers::log2(end) * LN_2,
-                )
-            },
-            Number::log,
-        )
-    }
-    #[inline(always)]
-    fn log2(&self) -> Self {
-        self.by_parts(
-            Number::log2,
-            #[inline(always)]
-            |bounds| bounds.logarithm(powers::log2),
-            Number::log2,
-        )
-    }
-    #[inline(always)]
-    fn pow(&self, exponent: &Self) -> Self {
-        self.by_both(
-            exponent,
-            0,
-            Number::pow,
-            #[inline(always)]
-            |a, b| a.power(b),
-            Number::pow,
-        )
+    of_two! {
+        add(a, b) = a.add(b);
+        sub(a, b) = a.sub(b);
+        mul(a, b) = a.mul(b);
+        div(a, b) = a.div(b);
+        pow(a, b) = a.power(b);
+        min(a, b) dropping NaN = a.min(b);
+        max(a, b) dropping NaN = a.max(b);
     }
     fn sinh(&self) -> Self {
         self.between_ends(&rules::SINH, |x, ends| x.rising_between(&rules::SINH, f64::sinh, ends))
@@ -287,28 +184,6 @@ impl NumberBlock<EnvelopeFloat> for EnvelopeBlock {
             #[inline(always)]
             |a| a.cosine_at_most(),
             Number::cosine_at_most,
-        )
-    }
-    #[inline(always)]
-    fn min(&self, other: &Self) -> Self {
-        self.by_both(
-            other,
-            self.nan | other.nan,
-            Number::min,
-            #[inline(always)]
-            |a, b| a.min(b),
-            Number::min,
-        )
-    }
-    #[inline(always)]
-    fn max(&self, other: &Self) -> Self {
-        self.by_both(
-            other,
-            self.nan | other.nan,
-            Number::max,
-            #[inline(always)]
-            |a, b| a.max(b),
-            Number::max,
         )
     }
     #[inline(always)]
