@@ -302,6 +302,36 @@ fn crates_depend_on_what_the_walls_allow() {
     }
 }
 
+/// Whether the documentation of a file has an example that runs.
+fn has_examples(text: &str) -> bool {
+    let docs = text.lines().filter_map(|line| line.trim_start().strip_prefix("//")?.strip_prefix(['/', '!']));
+    let mut fences = docs.filter_map(|line| line.trim_start().strip_prefix("```"));
+    let mut any = false;
+    while let Some(kind) = fences.next() {
+        any |= !["text", "ignore", "toml", "sh", "glsl", "wgsl", "json"].contains(&kind);
+        // The end of the block.
+        fences.next();
+    }
+    any
+}
+
+#[test]
+fn crates_whose_examples_are_not_run_have_none() {
+    let mut count = 0;
+    for (folder, _, _) in CRATES {
+        let manifest: toml::Table = text_of(&root().join(folder).join("Cargo.toml")).parse().expect("a manifest");
+        if manifest.get("lib").and_then(|lib| lib.get("doctest")?.as_bool()) != Some(false) {
+            continue;
+        }
+        count += 1;
+        for path in rust_files(&format!("{folder}/src")) {
+            assert!(!has_examples(&text_of(&path)), "{} has an example; `doctest = false` must go", name_of(&path));
+        }
+    }
+    assert!(count > 10, "only {count} crates were looked at");
+    assert!(has_examples("/// ```\n/// f();\n/// ```\n") && !has_examples("//! ```text\n//! a\n//! ```\n"));
+}
+
 /// Whether a file under a `src` holds unit tests alone.
 fn is_of_tests(name: &str) -> bool {
     name.contains("/tests/") || name.ends_with("/tests.rs")
