@@ -80,13 +80,23 @@ const setText = (name, text) => {
   edition += 1;
   if (!isMoving) look();
 };
+// With few cores, the findings come before the picture: it is asked for when they are there, or when they take long.
+const PATIENCE = (navigator.hardwareConcurrency ?? 1) > 3 ? 0 : 40;
+let due = null;
+const drawNow = () => {
+  clearTimeout(due);
+  due = null;
+  draw();
+  // A question about a pixel does not end the picture that was asked for before it.
+  if (!isMoving) inspector.refresh();
+};
 const textChanged = () => {
   isJudged = isJudging = false;
   clearTimeout(rests);
   if (isMoving) rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
-  showFiles(); draw(); studies.age();
-  // A question about a pixel does not end the picture that was asked for before it.
-  if (!isMoving) inspector.refresh();
+  showFiles(); studies.age();
+  if (isMoving || PATIENCE === 0) drawNow();
+  else if (due === null) due = setTimeout(drawNow, PATIENCE);
 };
 const translation = Editor.create({
   parent: byId("translation"), label: "Translation", words: start.words, readOnly: true,
@@ -197,6 +207,7 @@ const take = (answer, isOutdated = false) => {
 const look = isLive ? latest(async () => {
   const asked = edition;
   const answer = await ask({ ask: "look", target: target(), leaves_out: byId("leaves-out").checked });
+  if (due !== null) drawNow();
   if (answer.ok) { take(answer.ok, asked !== edition); const errors = findings.filter((one) => one.severity === "error").length; say(errors ? `${errors} error${errors > 1 ? "s" : ""}: the picture is the last one that could be drawn` : ""); }
   else if (answer.status !== 409) say(answer.error, true);
 }, 400) : () => {};
