@@ -4,7 +4,10 @@ use super::{load, scene_files};
 use glisten::emit::{left_out, optimize};
 use glisten::specialize::specialize_scene;
 use glisten_scene::Draw;
-use glisten_verify::specialize::{Extent, Kind, LeftOut, SpecializedDraw};
+use glisten_specialize::Extent;
+use glisten_specialize::Kind;
+use glisten_specialize::LeftOut;
+use glisten_verify::specialize::SpecializedDraw;
 use std::collections::BTreeSet;
 
 /// One scene in this many is looked at; `SPECIALIZE_ALL=1` looks at all.

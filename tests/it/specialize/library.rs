@@ -6,7 +6,9 @@ use glisten::emit::{Conventions, Emitted, Target, optimize};
 use glisten::specialize::{Known, ScalarValue, SpecializeOptions, Variants, specialize_smallest, specialize_with};
 use glisten::{Compiler, Options, Program, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, work};
-use glisten_verify::specialize::{Extent, Suggestion, spirv_instructions, suggest};
+use glisten_specialize::Extent;
+use glisten_variants::spirv_instructions;
+use glisten_verify::specialize::{Suggestion, suggest};
 use std::sync::Arc;
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nout vec4 v;\nvoid main() { v = p; gl_Position = p; }\n";

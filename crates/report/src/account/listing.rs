@@ -8,7 +8,8 @@ use glisten_front::hir::{Function, Shader, Stage, StructId, Types};
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
 use glisten_page::highlight::Comments;
-use glisten_verify::specialize::{LeftOut, SpecializedDraw};
+use glisten_specialize::LeftOut;
+use glisten_verify::specialize::SpecializedDraw;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A part of a listing.

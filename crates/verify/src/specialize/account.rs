@@ -10,7 +10,7 @@ use glisten_front::{hir::Stage, link::Program, source::SourceMap};
 use glisten_reference::{Precision, Work, work};
 use glisten_scene::{Draw, Scene};
 use glisten_specialize::{Extent, Moved};
-pub use glisten_variants::{body_instructions, spirv_instructions};
+use glisten_variants::spirv_instructions;
 use serde::Serialize;
 
 /// The account of a scene.

@@ -1,6 +1,4 @@
-//! Programs without what a host's values do not need, and scenes without what their pictures do not need.
-//!
-//! [`specialize`] takes a program and what is [`Known`] of its inputs; it needs no feature. The rest is for scenes:
+//! Scenes without what their pictures do not need.
 //!
 //! *In:* a `Scene`. *Out:* a scene that draws the same picture with residual programs and only the data that they read; its
 //! text in the explicit core; the account of what went and what that saves.
@@ -14,22 +12,10 @@ mod known;
 mod residual;
 mod suggest;
 
-pub use glisten_front::hir::ScalarValue;
-pub use glisten_specialize::Extent;
-/// Options of [`specialize_with`].
-pub use glisten_specialize::Options as SpecializeOptions;
-pub use glisten_specialize::{
-    Input, Kind, Known, KnownState, KnownTexture, LeftOut, Moved, Residual, specialize, specialize_with,
-};
-
 #[cfg(feature = "stability")]
 pub use account::files_of;
-pub use account::{
-    Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account, body_instructions, spirv_instructions,
-};
+pub use account::{Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account};
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
-pub use glisten_variants::specialize_smallest;
-pub use glisten_variants::{Variant, Variants};
 pub use known::known;
 pub use residual::{
     Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, unspecialized_scene,
