@@ -60,7 +60,6 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
             "glisten-specialize",
             "glisten-stability",
             "glisten-upgrade",
-            "glisten-variants",
             "glisten-verify",
         ],
         &[],
@@ -124,7 +123,6 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     (
         "crates/verify",
         &[
-            "glisten-emit",
             "glisten-front",
             "glisten-gl",
             "glisten-gpu",
