@@ -61,6 +61,7 @@ pub static CHECKS: &[Check] = &[
     Check { name: "bare operands", run: pictures::bare },
     Check { name: "other words", run: pictures::spelled },
     Check { name: "expanded", run: pictures::expanded },
+    Check { name: "renamed overloads", run: pictures::renamed },
 ];
 
 /// A check that needs a machine's GPU: the message of a difference.

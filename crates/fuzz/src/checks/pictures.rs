@@ -171,6 +171,10 @@ pub(super) fn expanded(drawn: &Drawn<'_>) -> Held {
     as_changed(drawn, Change::Expanded)
 }
 
+pub(super) fn renamed(drawn: &Drawn<'_>) -> Held {
+    as_changed(drawn, Change::Renamed)
+}
+
 /// The program with a change that means nothing.
 fn as_changed(drawn: &Drawn<'_>, change: Change) -> Held {
     let Some(program) = drawn.program else { return Ok(()) };

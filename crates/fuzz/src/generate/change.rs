@@ -32,11 +32,13 @@ pub enum Change {
     Spelled,
     /// Macros and conditions of the preprocessor written out.
     Expanded,
+    /// A name for each overload.
+    Renamed,
 }
 
 impl Change {
     /// All kinds.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::DeadCode,
         Self::OneIteration,
         Self::Named,
@@ -46,6 +48,7 @@ impl Change {
         Self::Bare,
         Self::Spelled,
         Self::Expanded,
+        Self::Renamed,
     ];
 
     /// Its name.
@@ -60,6 +63,7 @@ impl Change {
             Self::Bare => "bare operands",
             Self::Spelled => "other words",
             Self::Expanded => "expanded",
+            Self::Renamed => "renamed overloads",
         }
     }
 }
@@ -107,6 +111,12 @@ struct Changer<'p> {
 
 impl Changer<'_> {
     fn statement(&mut self, statement: &mut Stmt, is_global: bool) {
+        match self.change {
+            Change::Renamed => statement.renamed(),
+            // Nothing is folded then.
+            Change::Uniforms if !is_global => statement.varied(),
+            _ => {}
+        }
         let is_constant = is_global || statement.text().trim_start().starts_with("const ");
         for part in &mut statement.parts {
             match part {
@@ -212,6 +222,7 @@ impl Changer<'_> {
                 *expr = Expr::new(ty, "(@)", vec![inner]);
             }
             Change::Bare => bare(expr),
+            Change::Renamed => expr.renamed(),
             Change::Spelled => respelled(expr),
             Change::Expanded => expanded(expr, &self.program.macros),
             Change::Uniforms if expr.usage == Use::Literal && expr.ty != Ty::Vector(Scalar::Bool, 1) => {

@@ -156,20 +156,18 @@ impl Writer<'_> {
             self.declare(variable);
             parameters.push((mode, ty));
         }
-        let overloaded: Vec<String> = self
-            .functions
-            .iter()
-            .filter(|one| differs(&one.parameters, &parameters))
-            .map(|one| one.name.clone())
-            .collect();
-        let same = |name: &String| {
-            self.functions.iter().filter(|one| one.name == *name).all(|one| differs(&one.parameters, &parameters))
+        // Overloads have one name, with blanks behind it, so that they can be told apart.
+        let is_other = |name: &str| {
+            let same = self.functions.iter().filter(|one| one.name.trim_end() == name);
+            same.clone().count() > 0 && same.into_iter().all(|one| differs(&one.parameters, &parameters))
         };
-        let overloaded: Vec<String> = overloaded.into_iter().filter(same).collect();
-        let name = match self.chance.one(&overloaded).cloned().filter(|_| self.chance.once_in(3)) {
+        let names: std::collections::BTreeSet<&str> = self.functions.iter().map(|one| one.name.trim_end()).collect();
+        let overloaded: Vec<String> = names.into_iter().filter(|name| is_other(name)).map(str::to_owned).collect();
+        let name = match self.chance.one(&overloaded).cloned().filter(|_| self.chance.once_in(2)) {
             Some(name) => {
                 self.note("overload");
-                name
+                let others = self.functions.iter().filter(|one| one.name.trim_end() == name).count();
+                name + &" ".repeat(others)
             }
             None => self.name("f"),
         };
@@ -299,11 +297,7 @@ impl Writer<'_> {
     }
 }
 
-/// Whether no call fits both lists of parameters, whatever is converted.
+/// Whether two lists of parameters differ in their types: a call has the very types of one of them.
 fn differs(left: &[(ParamMode, Ty)], right: &[(ParamMode, Ty)]) -> bool {
-    let is_far = |((_, left), (_, right)): (&(ParamMode, Ty), &(ParamMode, Ty))| match (left, right) {
-        (Ty::Vector(_, left), Ty::Vector(_, right)) => left != right,
-        _ => left != right,
-    };
-    left.len() != right.len() || left.iter().zip(right).any(is_far)
+    left.len() != right.len() || left.iter().zip(right).any(|((_, left), (_, right))| left != right)
 }

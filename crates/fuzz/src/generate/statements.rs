@@ -124,7 +124,7 @@ impl Writer<'_> {
         let ty = if self.chance.once_in(3) { FLOAT } else { INT };
         let Some(place) = self.part(&ty, true) else { return self.assignment() };
         self.note("increment");
-        Stmt::new(self.chance.word(&["@++;", "++@;", "@--;"]), vec![place.used(Use::Fixed)], Vec::new())
+        Stmt::new(self.chance.word(&["@++;", "++@;", "@--;", "--@;"]), vec![place.used(Use::Fixed)], Vec::new())
     }
 
     fn jump(&mut self) -> Stmt {
@@ -264,6 +264,7 @@ impl Writer<'_> {
             ("#if __VERSION__ >= 100", true),
             ("#ifdef UNKNOWN", false),
             ("#ifndef UNKNOWN", true),
+            ("#if defined(UNKNOWN) || defined UNKNOWN", false),
             ("#if defined(GL_ES) || __VERSION__ >= 110 && !defined(UNKNOWN)", true),
             ("#if (1 << 3) % 5 == 3 && -1 < 0", true),
             ("#if 2 + 3 * 4 != 14 || (7 & 3) == 0", false),
