@@ -7,6 +7,8 @@ mod models;
 use crate::engines;
 use crate::library::Embedded;
 use crate::sources::{Search, completing, parse_version};
+#[cfg(feature = "stability")]
+use glisten_front::compiler::Kept;
 use glisten_front::compiler::SourceSettings;
 use glisten_front::source::IncludeResolver;
 use glisten_front::{Compiler, Program};
@@ -23,11 +25,17 @@ pub use glisten_scene::{
 /// Loads the scene at `path`, whose draws may name programs of the library, and engines that complete their sources.
 /// A model gets a scene of its own.
 pub fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Loaded {
-    if is_model_file(path) { models::load(path, files, compiler) } else { load_scene(path, files, compiler) }
+    loaded(path, files, |path, files| glisten_scene::load(path, files, &WithEngines, compiler))
 }
 
-fn load_scene(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Loaded {
-    glisten_scene::load(path, files, &WithEngines, compiler)
+/// Loads like [`load`]. Programs whose sources did not change are those that were kept.
+#[cfg(feature = "stability")]
+pub(crate) fn load_kept(path: &str, files: &dyn FileSource, compiler: &Compiler, kept: &mut Kept) -> Loaded {
+    loaded(path, files, |path, files| glisten_scene::load_kept(path, files, (&WithEngines, compiler), kept))
+}
+
+fn loaded(path: &str, files: &dyn FileSource, load: impl FnOnce(&str, &dyn FileSource) -> Loaded) -> Loaded {
+    if is_model_file(path) { models::load(path, files, load) } else { load(path, files) }
 }
 
 /// The library, and the engines.

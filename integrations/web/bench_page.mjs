@@ -2,8 +2,9 @@
 //
 // PROGRAM is glisten (target/release/glisten), FOLDER has scenes (fixtures/scenes/library). For the page that the program serves, and for the page
 // that computes by itself if `integrations/web/make page` has built its module: the time from a key to its finding, from a fix of the text to the
-// picture of the reference, and, while a slider moves, the pictures a second of the reference and of the GPU (SwiftShader in the page, lavapipe from
-// the program). It needs Debian's chromium, and playwright-core in target/browser. Medians and the slowest tenth, in ms.
+// picture of the reference; of each scene, from its choice to its first look and to its picture; and, while a slider moves, the pictures a second of
+// the reference and of the GPU (SwiftShader in the page, lavapipe from the program), with the time that the page itself takes of each: all but the
+// GPU's. It needs Debian's chromium, and playwright-core in target/browser. Medians and the slowest tenth, in ms.
 
 import { spawn, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
@@ -48,11 +49,22 @@ const measure = async (name, address) => {
   console.log(`${name}\n  ${"".padEnd(52)}    n  median     9/10`);
   const idle = () => page.waitForTimeout(900);
   const scenes = await page.locator("#scenes option").evaluateAll((options) => options.map((option) => option.value));
+  // Shows a scene; returns the times to its first look, if it has one, and to its picture.
   const shows = async (scene) => {
-    const before = await page.locator("#drawn").textContent();
-    if ((await page.locator("#scenes").inputValue()) === scene) return;
-    await page.selectOption("#scenes", scene);
-    await page.waitForFunction((before) => document.querySelector("#drawn").textContent !== before && / ms$/.test(document.querySelector("#drawn").textContent), before).catch(() => null);
+    if ((await page.locator("#scenes").inputValue()) === scene) return null;
+    return page.evaluate((scene) => new Promise((done) => {
+      const begun = performance.now();
+      let first = null;
+      const observer = new MutationObserver(() => {
+        const text = document.querySelector("#drawn").textContent;
+        if (/first look/.test(text)) first ??= performance.now() - begun;
+        else { observer.disconnect(); done({ first, whole: performance.now() - begun }); }
+      });
+      observer.observe(document.querySelector("#drawn"), { subtree: true, childList: true, characterData: true });
+      const scenes = document.querySelector("#scenes");
+      scenes.value = scene;
+      scenes.dispatchEvent(new Event("change", { bubbles: true }));
+    }), scene);
   };
   // A scene with a fragment shader of its own, which can be changed.
   const fragment = page.locator("#files button:not(.is-fixed)", { hasText: ".frag" }).first();
@@ -73,11 +85,16 @@ const measure = async (name, address) => {
     told("from a fix to the picture", right);
   }
   // Each scene once: what the page says of the reference's picture.
-  const pictures = [];
+  const pictures = [], soon = [], whole = [];
   for (const scene of scenes) {
-    await shows(scene);
+    const times = await shows(scene);
+    if (times) { soon.push(times.first ?? times.whole); whole.push(times.whole); }
     const [, width, height, time] = /(\d+) × (\d+).* in (\d+) ms/.exec(await page.locator("#drawn").textContent()) ?? [];
     if (time !== undefined) pictures.push({ scene, time: Number(time), pixels: width * height });
+  }
+  if (soon.length) {
+    told("from the choice of a scene to its first look", soon);
+    told("the same to its picture", whole);
   }
   told("the reference's picture of a scene", pictures.map(({ time }) => time));
   told("the same for 256 × 256 pixels", pictures.map(({ time, pixels }) => (time * 256 * 256) / pixels));
@@ -88,22 +105,29 @@ const measure = async (name, address) => {
   for (const by of ["reference", "gpu"]) {
     await page.check(`input[name=by][value=${by}]`);
     await page.waitForTimeout(3000);
-    const [count, seconds] = await slider.evaluate((slider) => new Promise((done) => {
-      let count = 0;
-      const observer = new MutationObserver(() => { count += 1; });
-      observer.observe(document.querySelector("#drawn"), { subtree: true, childList: true, characterData: true });
+    const shown = await slider.evaluate((slider) => new Promise((done) => {
+      const shown = [];
+      const drawn = document.querySelector("#drawn");
+      const observer = new MutationObserver(() => shown.push([performance.now(), Number(/in (\d+) ms/.exec(drawn.textContent)?.[1])]));
+      observer.observe(drawn, { subtree: true, childList: true, characterData: true });
       const begun = performance.now();
       const [low, high] = [Number(slider.min), Number(slider.max)];
       const move = () => {
         const passed = performance.now() - begun;
-        if (passed > 4000) { observer.disconnect(); done([count, passed / 1000]); return; }
+        if (passed > 4000) { observer.disconnect(); done(shown); return; }
         slider.value = low + (high - low) * (0.5 + 0.4 * Math.sin(passed / 300));
         slider.dispatchEvent(new Event("input", { bubbles: true }));
         requestAnimationFrame(move);
       };
       move();
     }));
-    console.log(`  ${`pictures a second while a slider moves, by ${by}`.padEnd(52)} ${String(count).padStart(4)} ${(count / seconds).toFixed(1).padStart(7)}`);
+    // The first pictures make the programs.
+    const steady = shown.slice(Math.floor(shown.length / 4));
+    const whole = steady.slice(1).map(([now], index) => now - steady[index][0]);
+    const own = steady.slice(1).map(([now, drawing], index) => now - steady[index][0] - drawing);
+    if (!whole.length) { console.log(`  while a slider moves, by ${by}: not drawn`); continue; }
+    console.log(`  ${`pictures a second while a slider moves, by ${by}`.padEnd(52)} ${String(whole.length).padStart(4)} ${(1000 * whole.length / whole.reduce((sum, one) => sum + one)).toFixed(1).padStart(7)}`);
+    told(`the page's own time of such a picture, by ${by}`, own);
   }
   await page.close();
 };

@@ -5,9 +5,16 @@
 use super::args::ResultFormat;
 use super::cache::{CacheArgs, Kind, Store};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use clap::{Args, Subcommand};
 use serde::Serialize;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten cache stats --cache .glisten-cache", "how much a cache holds"),
+    ("glisten cache clean --cache .glisten-cache", "an empty cache"),
+];
 
 /// See what the cache of `compile` and `lint` holds, or clean it
 #[derive(Args, Debug)]

@@ -6,6 +6,7 @@ use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::cache::CacheArgs;
 use super::console::Console;
 use super::depfile::{self, Made};
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Group};
@@ -21,6 +22,12 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten compile a.vert a.frag -o out", "WGSL, SPIR-V and reflection of a program"),
+    ("glisten compile a.vert a.frag -o out --target wgsl", "WGSL alone"),
+];
 
 /// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
 #[derive(Args, Debug)]

@@ -1,9 +1,18 @@
 //! `glisten completions`: a script that completes glisten's commands, flags and their values in a shell.
 
+use super::Cli;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Outcome};
-use clap::{Args, Command};
+use clap::{Args, CommandFactory};
 use clap_complete::Shell;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten completions bash > ~/.local/share/bash-completion/completions/glisten", ""),
+    ("glisten completions zsh > ~/.zfunc/_glisten", ""),
+    ("glisten completions fish > ~/.config/fish/completions/glisten.fish", ""),
+];
 
 /// Write a completion script for a shell to standard output
 #[derive(Args, Debug)]
@@ -13,8 +22,9 @@ pub(super) struct CompletionsArgs {
     shell: Shell,
 }
 
-/// Runs the command; `program` is the whole command line.
-pub(super) fn run(args: &CompletionsArgs, mut program: Command, console: &Console) -> Outcome {
+/// Runs the command.
+pub(super) fn run(args: &CompletionsArgs, console: &Console) -> Outcome {
+    let mut program = Cli::command();
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut program, "glisten", &mut script);
     console.output_bytes(&script)?;

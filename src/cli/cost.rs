@@ -7,6 +7,7 @@ use super::bounds::Bounds;
 use super::console::Console;
 use super::cost_rank::{self, Measuring};
 use super::cost_table::table;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::inputs;
 use super::scenes::MachineArgs;
@@ -16,6 +17,13 @@ use crate::cost::{Assumptions, ProgramCost, cost};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten cost a.vert a.frag", "operations on the shortest and the longest path, and the dearest lines"),
+    ("glisten cost shaders --range lights=0..4 --format json", "with a limit for the rounds of loops, for scripts"),
+    ("glisten cost --measure", "how well costs rank the times of the library's scenes here"),
+];
 
 /// Count the operations of shaders by line and class, on the shortest and the longest path
 #[derive(Args, Debug)]

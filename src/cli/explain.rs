@@ -2,11 +2,16 @@
 
 use super::args::nearest_code;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use clap::Args;
 use glisten_front::diagnostic::{Code, Example, codes};
 use glisten_front::hir::Stage;
 use glisten_front::language::{EDITIONS, Edition, runs};
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples =
+    &[("glisten explain E0301", "a code, with an example"), ("glisten explain --list", "all codes")];
 
 /// Show what a diagnostic means, with a bad and a good example
 #[derive(Args, Debug)]

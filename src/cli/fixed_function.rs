@@ -6,6 +6,7 @@
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::batch::Batch;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::session::Session;
@@ -18,6 +19,12 @@ use glisten_scene::fixed::{
     TextureUnit, UNITS,
 };
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten fixed-function --lights 2 --fog exp --unit modulate", "both stages, with their switches"),
+    ("glisten fixed-function scene.toml", "the stages that the draws of a scene do not name"),
+];
 
 /// Write the vertex and the fragment stage of OpenGL's fixed-function pipeline as GLSL
 #[derive(Args, Debug)]

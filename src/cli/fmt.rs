@@ -6,6 +6,7 @@
 
 use super::config::{self, Configs};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
@@ -22,6 +23,14 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten fmt", "all sources of this folder"),
+    ("glisten fmt --check shaders", "which files would change, in CI"),
+    ("glisten fmt --diff a.frag", "what would change"),
+    ("glisten fmt --stdin-filename a.frag -", "for editors"),
+];
 
 /// Format shaders and includes
 #[derive(Args, Debug)]

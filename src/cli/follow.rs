@@ -1,12 +1,19 @@
 //! `glisten trace`: tells what each fragment of a pixel, or a vertex, computed: every expression with its value.
 
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Failure, Outcome};
 use super::progress::Progress;
 use super::scenes::{DrawError, SceneArgs};
 use crate::trace::{Shown, lines, told};
 use clap::{ArgGroup, Args, ValueEnum};
 use glisten_reference::trace::{Place, trace};
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten trace scene.toml --pixel 120,80", "what each fragment of the pixel computed, line by line"),
+    ("glisten trace scene.toml --vertex 3 --format json", "a vertex, for scripts"),
+];
 
 /// Tell what each fragment of a pixel, or a vertex, computed: every expression with its value
 #[derive(Args, Debug)]

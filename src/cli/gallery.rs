@@ -2,6 +2,7 @@
 
 use super::args::WithContractArgs;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::journal;
@@ -27,6 +28,9 @@ const SIDE: u32 = 156;
 const GAP: u32 = 4;
 /// The largest size of a picture, in pixels.
 const MAX_SIZE: i64 = 2048;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[("glisten gallery -o out", "a page with the pictures of the library's scenes")];
 
 /// Draw every scene of the library onto a page
 #[derive(Args, Debug)]

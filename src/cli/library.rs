@@ -3,6 +3,7 @@
 
 use super::args::ResultFormat;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::journal;
 use super::library_export::{ExportArgs, export};
@@ -16,6 +17,16 @@ use glisten_front::diagnostic::did_you_mean;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
 use serde::Serialize;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten lib list", "the modules of the library"),
+    ("glisten lib show phong", "what a module computes"),
+    ("glisten lib export shaders/glisten", "the texts of all modules"),
+    ("glisten lib export --wgsl src/shaders", "the modules as WGSL, for shaders that are written in it"),
+    ("glisten lib export --rust -D GLISTEN_LIGHTS=16 src", "the structs of the uniforms, with 16 lights"),
+    ("glisten lib prefilter room.hdr -o maps", "the light of a panorama, for the module `environment`"),
+];
 
 /// Use the library of lighting models
 #[derive(Args, Debug)]

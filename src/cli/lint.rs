@@ -7,6 +7,7 @@ use super::cache::CacheArgs;
 use super::config::Settings;
 use super::configurations::{Extent, Listed, explored};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::fix::{FixArgs, Fixer};
@@ -32,6 +33,14 @@ use glisten_front::source::{SourceMap, Span};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten lint shaders/", "all shaders of a folder, and the programs that they form"),
+    ("glisten lint a.vert a.frag -D MAX_LIGHTS=4 -I include", "one program, with a macro and a folder of includes"),
+    ("glisten lint . --deny warnings --format github", "in CI: annotations on the changed lines"),
+    ("glisten lint pack/ --engine iris", "sources that an engine completes"),
+];
 
 /// Check shaders and the programs that they form
 #[derive(Args, Debug)]

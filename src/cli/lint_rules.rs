@@ -4,10 +4,17 @@
 //! `fixable`, `since`.
 
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::{Code, Group, LintInfo, codes, did_you_mean};
 use serde_json::json;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten rules", "all lint rules with their groups, levels and fixes"),
+    ("glisten rules --group numerics --format json", "those of a group, for a script"),
+];
 
 /// List the lint rules: group, level, fixes
 #[derive(Args, Debug)]

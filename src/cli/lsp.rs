@@ -5,12 +5,19 @@
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::baseline::{Baseline, BaselineArgs};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Outcome};
 use super::lsp_channel;
 use super::lsp_project::Files;
 use crate::lsp;
 use clap::Args;
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten lsp", "what an editor starts: docs/editors.md"),
+    ("glisten lsp -I include --engine minecraft", "with a search path and an engine, where glisten.toml has none"),
+];
 
 /// Serve an editor: the language server protocol over standard input and output
 #[derive(Args, Debug)]

@@ -1,10 +1,15 @@
 //! `glisten man`: manual pages of the program and its commands.
 
+use super::Cli;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
-use clap::{Args, Command};
+use clap::{Args, Command, CommandFactory};
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[("glisten man -o ~/.local/share/man/man1", "then: man glisten-lint")];
 
 /// Write manual pages: glisten.1, and one for each command
 #[derive(Args, Debug)]
@@ -14,8 +19,9 @@ pub(super) struct ManArgs {
     output: Option<PathBuf>,
 }
 
-/// Runs the command; `program` is the whole command line.
-pub(super) fn run(args: &ManArgs, mut program: Command, console: &Console) -> Outcome {
+/// Runs the command.
+pub(super) fn run(args: &ManArgs, console: &Console) -> Outcome {
+    let mut program = super::examples::with_examples(Cli::command());
     program.build();
     let Some(folder) = &args.output else {
         console.output_bytes(&page(program)?)?;

@@ -55,7 +55,7 @@ impl Memo {
         let part = program.stage(stage).zip(emit::interface_of(program, stage, target));
         let Some((shader, interface)) = part else { return make(program) };
         // Comments and names of files come from the texts.
-        let reads_texts = target != Target::Spirv || conventions.debug_lines;
+        let reads_texts = target.is_text() || conventions.debug_lines;
         let texts = reads_texts.then_some((sources, &shader.texts));
         let key = of_structure(&(target.word(), shader, &program.types, &interface, texts));
         let make_alone = || {

@@ -7,6 +7,9 @@
 //!
 //! *Holds:* no panics, no half-written files, and the same bytes for the same input with any `-j`.
 
+#[macro_use]
+mod commands;
+
 mod args;
 mod baseline;
 mod baselines;
@@ -155,37 +158,67 @@ struct GlobalArgs {
     max_memory: Option<u64>,
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
-    Lint(lint::LintArgs),
-    Compile(compile::CompileArgs),
-    Reflect(reflect::ReflectArgs),
-    Cost(cost::CostArgs),
-    Explain(explain::ExplainArgs),
-    Rules(lint_rules::RulesArgs),
-    Render(render::RenderArgs),
-    Verify(verify::VerifyArgs),
-    Specialize(specialize::SpecializeArgs),
-    Stability(stability::StabilityArgs),
-    Trace(follow::TraceArgs),
-    Report(report::ReportArgs),
-    Gallery(gallery::GalleryArgs),
-    Test(test::TestArgs),
-    Lib(library::LibArgs),
-    NewScene(new_scene::NewSceneArgs),
-    Fmt(fmt::FmtArgs),
+// A server outlives its workers, which draw: `play` itself does not.
+commands! {
+    /// Check shaders and the programs that they form
+    Lint(lint::LintArgs) draws never;
+    /// Translate programs to WGSL, SPIR-V and other targets, and write their reflection
+    Compile(compile::CompileArgs) draws never;
+    /// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
+    Reflect(reflect::ReflectArgs) draws never;
+    /// Count the operations of shaders by line and class, on the shortest and the longest path
+    Cost(cost::CostArgs) draws asked;
+    /// Show what a diagnostic means, with a bad and a good example
+    Explain(explain::ExplainArgs) draws never;
+    /// List the lint rules: group, level, fixes
+    Rules(lint_rules::RulesArgs) draws never;
+    /// Draw a scene
+    Render(render::RenderArgs) draws asked;
+    /// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
+    Verify(verify::VerifyArgs) draws always;
+    /// Leave out of the programs of scenes what their pictures do not need
+    Specialize(specialize::SpecializeArgs) draws never;
+    /// Find out where f32 arithmetic harms the picture of a scene, and why
+    Stability(stability::StabilityArgs) draws never;
+    /// Tell what each fragment of a pixel, or a vertex, computed: every expression with its value
+    Trace(follow::TraceArgs) draws never;
+    /// Measure variants of a scene's shading: error against work and run time
+    ///
+    /// Drawing takes seconds, timing up to half a minute more: `--seconds` sets the limit. Ctrl-C ends it early, with a report on what had
+    /// finished.
+    Report(report::ReportArgs) draws always;
+    /// Draw every scene of the library onto a page
+    Gallery(gallery::GalleryArgs) draws asked;
+    /// Run .shader_test files, and the functions of shaders under a comment `//! test`
+    Test(test::TestArgs) draws asked;
+    /// Use the library of lighting models
+    Lib(library::LibArgs) draws asked;
+    /// Write a scene for a program, which draws at once
+    NewScene(new_scene::NewSceneArgs) draws never;
+    /// Format shaders and includes
+    Fmt(fmt::FmtArgs) draws never;
+    /// Serve an editor: the language server protocol over standard input and output
     #[cfg(feature = "lsp")]
-    Lsp(lsp::LspArgs),
+    Lsp(lsp::LspArgs) draws never;
+    /// Show scenes in a browser, and draw them again while they change
     #[cfg(feature = "play")]
-    Play(play::PlayArgs),
-    Upgrade(upgrade::UpgradeArgs),
-    Port(port::PortArgs),
-    FixedFunction(fixed_function::FixedFunctionArgs),
-    Completions(completions::CompletionsArgs),
-    Watch(watch::WatchArgs),
-    Cache(cache_command::CacheCommandArgs),
-    Snapshots(snapshots::SnapshotsArgs),
-    Man(man::ManArgs),
+    Play(play::PlayArgs) draws never;
+    /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
+    Upgrade(upgrade::UpgradeArgs) draws never;
+    /// Port a folder of shaders to another host: Minecraft on Vulkan, Vulkan, wgpu, Bevy, WebGL 2
+    Port(port::PortArgs) draws asked;
+    /// Write the vertex and the fragment stage of OpenGL's fixed-function pipeline as GLSL
+    FixedFunction(fixed_function::FixedFunctionArgs) draws never;
+    /// Write a completion script for a shell to standard output
+    Completions(completions::CompletionsArgs) draws never;
+    /// Run a command again whenever its files change
+    Watch(watch::WatchArgs) draws never;
+    /// See what the cache of `compile` and `lint` holds, or clean it
+    Cache(cache_command::CacheCommandArgs) draws never;
+    /// Review pending snapshots of tests
+    Snapshots(snapshots::SnapshotsArgs) draws never;
+    /// Write manual pages: glisten.1, and one for each command
+    Man(man::ManArgs) draws never;
 }
 
 /// Runs the program with these arguments, the first being its own name, in this process.
@@ -215,7 +248,7 @@ pub fn run_supervised(arguments: impl IntoIterator<Item = OsString>) -> ExitCode
 fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Console), Exit> {
     let arguments = responses::expanded(arguments.into_iter().collect())
         .map_err(|failure| end(Err(failure), &Console::new(false, ColorChoice::Auto)))?;
-    let parsed = examples::with_examples(Cli::command()).try_get_matches_from(arguments);
+    let parsed = examples::with_examples_of(Cli::command(), &arguments).try_get_matches_from(arguments);
     let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).map_err(|error| usage(&error))?;
     let console = Console::new(cli.global.quiet, cli.global.color);
     if let Some(folder) = &cli.global.sandbox {
@@ -233,7 +266,7 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
 /// Runs a command on a thread with a large stack, and reports a failure.
 fn carry_out(command: &Command, console: Console) -> Exit {
     guard::silence_panics();
-    let work = || guard::guarded(|| dispatch(command, &console));
+    let work = || guard::guarded(|| command.run(&console));
     let joined = std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, work);
         thread.map(std::thread::ScopedJoinHandle::join)
@@ -249,77 +282,6 @@ fn carry_out(command: &Command, console: Console) -> Exit {
         Err(error) => Err(Failure::new(Exit::Machine, format!("the system gives no thread: {error}"))),
     };
     end(outcome, &console)
-}
-
-impl Command {
-    /// Whether the command hands code to a driver.
-    fn draws_by_a_driver(&self) -> bool {
-        match self {
-            Self::Verify(_) | Self::Report(_) => true,
-            Self::Render(args) => args.draws_by_a_driver(),
-            Self::Gallery(args) => args.draws_by_a_driver(),
-            Self::Test(args) => args.draws_by_a_driver(),
-            Self::Lib(args) => args.draws_by_a_driver(),
-            Self::Cost(args) => args.draws_by_a_driver(),
-            Self::Port(args) => args.draws_by_a_driver(),
-            Self::Lint(_)
-            | Self::Compile(_)
-            | Self::Reflect(_)
-            | Self::Explain(_)
-            | Self::Rules(_)
-            | Self::Specialize(_)
-            | Self::Stability(_)
-            | Self::Trace(_)
-            | Self::NewScene(_)
-            | Self::Fmt(_)
-            | Self::Upgrade(_)
-            | Self::FixedFunction(_)
-            | Self::Completions(_)
-            | Self::Watch(_)
-            | Self::Cache(_)
-            | Self::Snapshots(_)
-            | Self::Man(_) => false,
-            #[cfg(feature = "lsp")]
-            Self::Lsp(_) => false,
-            // Its workers draw, and it outlives them.
-            #[cfg(feature = "play")]
-            Self::Play(_) => false,
-        }
-    }
-}
-
-fn dispatch(command: &Command, console: &Console) -> Outcome {
-    match command {
-        Command::Lint(args) => lint::run(args, console),
-        Command::Compile(args) => compile::run(args, console),
-        Command::Reflect(args) => reflect::run(args, console),
-        Command::Cost(args) => cost::run(args, console),
-        Command::Explain(args) => explain::run(args, console),
-        Command::Rules(args) => lint_rules::run(args, console),
-        Command::Render(args) => render::run(args, console),
-        Command::Verify(args) => verify::run(args, console),
-        Command::Specialize(args) => specialize::run(args, console),
-        Command::Stability(args) => stability::run(args, console),
-        Command::Trace(args) => follow::run(args, console),
-        Command::Report(args) => report::run(args, console),
-        Command::Gallery(args) => gallery::run(args, console),
-        Command::Test(args) => test::run(args, console),
-        Command::Lib(args) => library::run(args, console),
-        Command::NewScene(args) => new_scene::run(args, console),
-        Command::Fmt(args) => fmt::run(args, console),
-        #[cfg(feature = "lsp")]
-        Command::Lsp(args) => lsp::run(args, console),
-        #[cfg(feature = "play")]
-        Command::Play(args) => play::run(args, console),
-        Command::Upgrade(args) => upgrade::run(args, console),
-        Command::Port(args) => port::run(args, console),
-        Command::FixedFunction(args) => fixed_function::run(args, console),
-        Command::Completions(args) => completions::run(args, Cli::command(), console),
-        Command::Watch(args) => watch::run(args, console),
-        Command::Cache(args) => cache_command::run(args, console),
-        Command::Snapshots(args) => snapshots::run(args, console),
-        Command::Man(args) => man::run(args, examples::with_examples(Cli::command()), console),
-    }
 }
 
 /// Reports wrong arguments, or prints the requested help or version.

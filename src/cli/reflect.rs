@@ -2,6 +2,7 @@
 
 use super::args::{BindingArgs, ConventionArgs, LevelArgs, ProgramArgs, ResultFormat, SourceArgs};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Outcome};
 use super::inputs;
 use super::optimize::{self, OptimizeArgs};
@@ -15,6 +16,13 @@ use indexmap::IndexMap;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten reflect a.vert a.frag", "attributes, uniforms, blocks, textures and outputs as a table"),
+    ("glisten reflect a.vert a.frag --format json", "the same for a program"),
+    ("glisten reflect a.vert a.frag --find light.position", "one name, as glGetUniformLocation"),
+];
 
 /// Show what a host needs to know: attributes, varyings, outputs, blocks, uniforms, samplers
 #[derive(Args, Debug)]

@@ -2,6 +2,7 @@
 
 use super::args::WithContractArgs;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Failure, Outcome};
 use super::files;
 use super::journal;
@@ -16,6 +17,12 @@ use glisten_gpu::Via;
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten render scene.toml -o picture.png", "on the GPU"),
+    ("glisten render scene.toml -o picture.npy --backend cpu", "by the reference in f64"),
+];
 
 /// Draw a scene
 #[derive(Args, Debug)]

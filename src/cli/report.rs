@@ -5,6 +5,7 @@
 use super::args::WithContractArgs;
 use super::batch::Batch;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::interrupt::Interrupt;
@@ -22,6 +23,14 @@ use clap::{Args, ValueEnum};
 use glisten_front::source::SourceMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten report scene.toml -o out", "error against work and run time, as a page and a table"),
+    ("glisten report scene.toml -o out --ways auto", "with variants that are found automatically"),
+    ("glisten report scene.toml -o out --compare old.json", "in CI: what got worse"),
+    ("glisten report scene.toml -o out --budget rmse=1e-3", "the cheapest variant that is close enough"),
+];
 
 /// Measure variants of a scene's shading: error against work and run time
 ///

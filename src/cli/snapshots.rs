@@ -4,12 +4,19 @@
 //! accepted without the command; texts are insta's: they are listed and shown, and accepted by `cargo insta review`.
 
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use crate::snapshot::page::page;
 use crate::snapshot::pending::{AllPending, Pending, find_all};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten snapshots review -o page.html", "the pictures of tests that wait for a decision"),
+    ("glisten snapshots accept", "all of them become the stored ones"),
+];
 
 /// Review pending snapshots of tests
 #[derive(Args, Debug)]

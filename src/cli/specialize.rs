@@ -7,6 +7,7 @@ mod time;
 use self::time::Clock;
 use super::args::{ContractArgs, ConventionArgs, LevelArgs, ResultFormat, SourceArgs};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::outputs::target_words;
@@ -28,6 +29,13 @@ use glisten_scene::dynamic::names_anything;
 use glisten_scene::{Scene, ShaderFiles, write};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten specialize scene.toml -o out", "programs of which nothing is left but what the scene needs"),
+    ("glisten specialize scene.toml --check", "whether anything could be left out"),
+    ("glisten specialize scenes/*.toml --suggest", "which uniforms are worth fixing"),
+];
 
 /// Leave out of the programs of scenes what their pictures do not need
 #[derive(Args, Debug)]

@@ -5,6 +5,7 @@ mod page;
 use super::args::{LevelArgs, SourceArgs};
 use super::config;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs;
@@ -25,6 +26,14 @@ use serde::Serialize;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten stability scene.toml", "where f32 arithmetic harms the picture, and why"),
+    ("glisten stability scene.toml --sweep material.shininess=1..10000:32", "with 32 values of a uniform"),
+    ("glisten stability scene.toml --stiff --worst worst.toml", "with the worst inputs that can be found"),
+    ("glisten stability scenes/ --format github", "in CI: annotations on the lines of all scenes"),
+];
 
 /// Find out where f32 arithmetic harms the picture of a scene, and why
 #[derive(Args, Debug)]

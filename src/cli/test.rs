@@ -3,6 +3,7 @@
 use super::args::{ResultFormat, SourceArgs};
 use super::console::Console;
 use super::engine::Engines;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::guard;
@@ -23,6 +24,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[("glisten test tests/", "all .shader_test files of a folder")];
 
 /// Run .shader_test files, and the functions of shaders under a comment `//! test`
 #[derive(Args, Debug)]

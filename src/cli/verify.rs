@@ -6,6 +6,7 @@ mod told;
 #[cfg(feature = "play")]
 use super::args::WithContractArgs;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs;
@@ -27,6 +28,14 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten verify scene.toml", "the GPU's picture against the reference"),
+    ("glisten verify scene.toml --difference off.png", "with a picture of the differences"),
+    ("glisten verify scene.toml --evidence seen.png", "with a picture of how much was judged"),
+    ("glisten verify scene.toml --with fragment=a.spv", "the code of another translator"),
+];
 
 /// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures
 #[derive(Args, Debug)]

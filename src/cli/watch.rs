@@ -5,6 +5,7 @@
 //! files, start nothing. Changes that follow each other closely are one. Ctrl-C ends it.
 
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use clap::{Args, CommandFactory};
@@ -16,6 +17,12 @@ use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten watch lint shaders", "the findings again after each change"),
+    ("glisten watch render scene.toml -o picture.png", "the picture again after each change"),
+];
 
 /// Run a command again whenever its files change
 #[derive(Args, Debug)]
@@ -91,7 +98,8 @@ const INPUTS: [&str; 3] = ["files", "scene", "scenes"];
 /// Refuses inputs that do not exist: nothing tells when one of them comes into being.
 fn refuse_missing(matches: &clap::ArgMatches) -> Result<(), Failure> {
     let Some((name, matches)) = matches.subcommand() else { return Ok(()) };
-    let commands = super::Cli::command();
+    let mut commands = super::Cli::command();
+    commands.build();
     let Some(arguments) = commands.find_subcommand(name).map(clap::Command::get_positionals) else { return Ok(()) };
     let is_path = |argument: &clap::Arg| {
         argument.get_value_parser().type_id() == TypeId::of::<PathBuf>() || INPUTS.contains(&argument.get_id().as_str())

@@ -55,7 +55,7 @@ fn branches_of_directives_begin_alike() {
     assert_eq!(formatted(text).replace("        ;", "    ;"), after);
 }
 
-/// What is kept of a text with mistakes depends on its lines: once it is formatted, it is another part.
+/// The part of a text with mistakes that is kept depends on its lines: once it is formatted, it is another part.
 #[test]
 fn texts_with_mistakes_do_not_change_again() {
     let corpus = concat!(env!("CARGO_MANIFEST_DIR"), "/crates/fuzz/corpus/format");

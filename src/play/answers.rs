@@ -48,8 +48,9 @@ pub fn answer<C: Criteria>(
             let loaded = load(criteria);
             Ok(look(criteria, &job.scene, loaded, Shown { target, leaves_out: *leaves_out }).0)
         }
-        Wish::Draw { gpu: false } => pictures.reference(&drawable(load(criteria))?.0),
-        Wish::Draw { gpu: true } | Wish::Judge | Wish::Variants => Err("there is no driver here".to_owned()),
+        Wish::Draw { gpu: false, coarse: true } => pictures.first_look(&drawable(load(criteria))?.0),
+        Wish::Draw { gpu: false, coarse: false } => pictures.reference(&drawable(load(criteria))?.0),
+        Wish::Draw { gpu: true, .. } | Wish::Judge | Wish::Variants => Err("there is no driver here".to_owned()),
         Wish::Needs => {
             let (scene, sources) = drawable(load(criteria))?;
             needs(&job.scene, &scene, &sources)
@@ -119,11 +120,34 @@ mod tests {
         let drawn = ask(r#""ask":"draw""#).expect("a picture");
         assert_eq!((&drawn["width"], &drawn["height"], &drawn["is_empty"]), (&4.into(), &2.into(), &false.into()));
         assert!(drawn["picture"].as_str().is_some_and(|uri| uri.starts_with("data:image/png;base64,iVBOR")));
+        assert!(drawn["block"].is_null());
         let pixel = ask(r#""ask":"pixel","x":1,"y":1"#).expect("an answer");
         assert_eq!(pixel["reference"]["values"][1], "0.2500000", "{pixel}");
         let traced = ask(r#""ask":"trace","x":1,"y":1"#).expect("steps");
         assert!(traced["invocations"].as_array().is_some_and(|all| !all.is_empty()), "{traced}");
         assert!(ask(r#""ask":"judge""#).is_err() && ask(r#""ask":"draw","gpu":true"#).is_err());
+    }
+
+    #[test]
+    fn a_first_look_is_one_pixel_of_each_block() {
+        let mut pictures = Pictures::default();
+        let fragment =
+            "#version 150\nout vec4 color;\nvoid main() { color = vec4(step(8.0, gl_FragCoord.x), 0.0, 0.0, 1.0); }\n";
+        let mut ask = |wish: &str| {
+            let job: Job = serde_json::from_str(&format!("{{\"scene\":\"s.toml\",{wish}}}")).expect("a job");
+            let scene = SCENE.replace("width = 4\nheight = 2", "width = 16\nheight = 8").replace("tint", "# tint");
+            let files = MemoryFiles::new([("s.toml", scene.as_str()), ("a.vert", VERTEX), ("a.frag", fragment)]);
+            let compiler = Compiler::new(Options::default());
+            answer(&job, &mut OwnLevels, &mut pictures, |_| scene::load("s.toml", &files, &compiler))
+                .expect("an answer")
+        };
+        let coarse = ask(r#""ask":"draw","coarse":true"#);
+        assert_eq!(coarse["block"], 8);
+        assert!(ask(r#""ask":"pixel","x":1,"y":1"#)["reference"].is_null(), "it is not the picture");
+        let whole = ask(r#""ask":"draw""#);
+        // The middles of both blocks are like all of their pixels.
+        assert_eq!(coarse["picture"], whole["picture"]);
+        assert_eq!(ask(r#""ask":"pixel","x":9,"y":1"#)["reference"]["values"][0], "1.0000000");
     }
 
     #[test]

@@ -7,14 +7,13 @@
 use super::answers::drawable;
 use super::criteria::told;
 use super::verdict::judged;
-use super::{Pictures, Positions, drawn};
+use super::{Kept, Pictures, Positions, drawn};
 use crate::scene::{Loaded, Scene};
 use crate::verify::{self, Drawn, Failure, Options, Runner};
 use glisten_front::source::SourceMap;
 use glisten_plan::Plan;
 use glisten_plan::pixels::picture;
 use glisten_reference::domain::Profile;
-
 use glisten_scene::picture::Picture;
 use serde_json::Value;
 
@@ -35,10 +34,10 @@ impl Runner for Given {
 ///
 /// # Errors
 /// The scene has errors, or WebGPU lacks something that it needs.
-pub fn plan(loaded: Loaded) -> Result<Plan, String> {
+pub fn plan(loaded: Loaded, kept: &mut Kept) -> Result<Plan, String> {
     let (scene, _) = drawable(loaded)?;
     let scene = glisten_reference::expand(&scene).map_err(|errors| told(&errors))?;
-    Plan::of(&scene).map_err(|error| error.to_string())
+    Plan::with(&scene, &mut kept.written).map_err(|error| error.to_string())
 }
 
 /// The picture that the browser drew, from the planes of its attachments and of the stencil.
@@ -89,7 +88,7 @@ fn verified(
 #[cfg(test)]
 mod tests {
     use super::{compare, plan, show};
-    use crate::play::{Pictures, Positions};
+    use crate::play::{Kept, Pictures, Positions};
     use crate::scene::{self, Loaded, MemoryFiles};
     use crate::{Compiler, Options};
 
@@ -112,7 +111,7 @@ mod tests {
 
     #[test]
     fn a_right_picture_holds_and_a_wrong_one_fails() {
-        let calls = plan(loaded()).expect("a plan").calls;
+        let calls = plan(loaded(), &mut Kept::default()).expect("a plan").calls;
         assert!(calls["draws"][0]["fragment"].as_str().is_some_and(|text| text.contains("@fragment")), "{calls}");
         let mut pictures = Pictures::default();
         let shown = show(loaded(), planes([51, 102, 255, 255]), "a GPU", &mut pictures).expect("a picture");

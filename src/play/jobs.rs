@@ -34,6 +34,9 @@ pub enum Wish {
         /// Whether a driver draws it; otherwise the reference does.
         #[serde(default)]
         gpu: bool,
+        /// Whether the reference draws one pixel of each block, for a first look at a picture that takes long.
+        #[serde(default)]
+        coarse: bool,
     },
     /// The pictures of reference and driver, and the verdict on the latter.
     Judge,

@@ -5,9 +5,12 @@
 
 use super::told;
 use crate::scene::Scene;
-use glisten_reference::{LineRule, Precision, RenderOptions};
+use glisten_reference::{LineRule, Precision, RenderOptions, Sample};
 use glisten_scene::picture::{Picture, color_uri};
 use serde_json::{Value, json};
+
+/// The side of the blocks of a first look, in pixels: since quads of pixels are drawn, it takes a sixteenth of the whole picture's time.
+const BLOCK: u32 = 8;
 
 /// The pictures that were drawn last.
 #[derive(Default)]
@@ -24,15 +27,19 @@ impl Pictures {
     /// # Errors
     /// The reason why it cannot be drawn.
     pub fn reference(&mut self, scene: &Scene) -> Result<Value, String> {
-        let options = RenderOptions {
-            precision: Precision::F64,
-            lines: LineRule::OpenGl,
-            mark_edges: false,
-            ..RenderOptions::default()
-        };
-        let picture = glisten_reference::render(scene, &options).map_err(|errors| told(&errors))?;
-        let drawn = drawn(&picture, scene, "the reference, in f64");
+        let (picture, drawn) = by_reference(scene, Sample::ALL)?;
         (self.reference, self.driver, self.shares) = (Some(picture), None, Vec::new());
+        Ok(drawn)
+    }
+
+    /// Draws one pixel of each block by the reference, which stands for all of it. No pixel has numbers then.
+    ///
+    /// # Errors
+    /// The reason why it cannot be drawn.
+    pub fn first_look(&mut self, scene: &Scene) -> Result<Value, String> {
+        let (_, mut drawn) = by_reference(scene, Sample::lattice(BLOCK))?;
+        drawn["block"] = BLOCK.into();
+        *self = Self::default();
         Ok(drawn)
     }
 
@@ -55,6 +62,20 @@ impl Pictures {
         });
         json!({ "x": x, "y": y, "reference": value(&self.reference), "driver": value(&self.driver), "share": share })
     }
+}
+
+fn by_reference(scene: &Scene, sample: Sample) -> Result<(Picture, Value), String> {
+    let options = RenderOptions {
+        precision: Precision::F64,
+        lines: LineRule::OpenGl,
+        mark_edges: false,
+        sample,
+        ..RenderOptions::default()
+    };
+    let mut picture = glisten_reference::render(scene, &options).map_err(|errors| told(&errors))?;
+    sample.spread(&mut picture);
+    let drawn = drawn(&picture, scene, "the reference, in f64");
+    Ok((picture, drawn))
 }
 
 /// A picture for the page, and who drew it.

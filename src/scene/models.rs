@@ -3,16 +3,14 @@
 //! *In:* the path of an OBJ or glTF file. *Out:* the scene of [`portrait`], loaded; what it leaves out is a note. *Holds:* nothing is written:
 //! the scene is in memory, next to the model.
 
-use super::load_scene;
-use glisten_front::Compiler;
 use glisten_front::diagnostic::codes::scenes::{MODEL_SIMPLIFIED, SCENE_BAD_ASSET, SCENE_FILE_UNREADABLE};
 use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::source::{SourceMap, Span};
 use glisten_scene::{FileError, FileSource, Loaded, PortraitError, portrait};
 use std::path::Path;
 
-/// Loads the scene of the model at `path`.
-pub(super) fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> Loaded {
+/// The scene of the model at `path`, as `load` loads it.
+pub(super) fn load(path: &str, files: &dyn FileSource, load: impl FnOnce(&str, &dyn FileSource) -> Loaded) -> Loaded {
     let name = Path::new(path).file_name().map_or_else(|| path.to_owned(), |name| name.to_string_lossy().into_owned());
     let made = match portrait(path, &name, files) {
         Ok(made) => made,
@@ -21,7 +19,7 @@ pub(super) fn load(path: &str, files: &dyn FileSource, compiler: &Compiler) -> L
     // Next to the model, where its files are found.
     let place = Path::new(path).with_file_name(format!("{name} (made scene)"));
     let place = place.to_string_lossy();
-    let mut loaded = load_scene(&place, &WithScene { place: &place, text: &made.text, files }, compiler);
+    let mut loaded = load(&place, &WithScene { place: &place, text: &made.text, files });
     for remark in made.remarks {
         let message = format!("`{path}`: {remark}");
         loaded.diagnostics.push_beside(Diagnostic::new(&MODEL_SIMPLIFIED, Span::default(), message));

@@ -107,35 +107,6 @@ fn wrong_usage_is_2_and_help_is_0() {
     }
 }
 
-#[test]
-fn each_kind_of_bad_file_has_its_own_word_and_code() {
-    let folder = Folder::new(&[("empty.vert", b""), ("binary.vert", b"\x03\x02\x23\x07\0\0\0\0"), ("folder/x", b"")]);
-    for (file, id, exit, word) in [
-        ("missing.vert", "E0010", 2, "there is no file"),
-        ("empty.vert", "E0013", 1, "is empty"),
-        ("binary.vert", "E0014", 1, "binary"),
-    ] {
-        let (findings, exit_code) = folder.lint(&[file]);
-        assert_eq!((codes(&findings), exit_code), (vec![id], exit), "{file}");
-        assert!(findings[0]["message"].as_str().is_some_and(|message| message.contains(word)), "{findings:?}");
-        assert_eq!(findings[0]["file"], file);
-    }
-    for file in ["missing.vert", "folder"] {
-        let output = folder.run(&["compile", file, "-o", "out"]);
-        assert_eq!(code(&output), 2, "{file}");
-        assert!(err(&output).contains(file), "{}", err(&output));
-    }
-    assert!(folder.names("out").is_empty());
-}
-
-#[test]
-fn the_worst_exit_code_wins_and_all_files_are_told_of() {
-    let folder = Folder::new(&[("empty.vert", b"")]);
-    let (findings, exit) = folder.lint(&["empty.vert", "missing.frag"]);
-    assert_eq!(codes(&findings), ["E0013", "E0010"]);
-    assert_eq!(exit, 2);
-}
-
 #[cfg(unix)]
 #[test]
 fn an_unreadable_file_is_told() {
@@ -181,32 +152,6 @@ fn explain_shows_pages_and_the_nearest_of_unknown_codes() {
         "{}",
         out(&list)
     );
-}
-
-#[test]
-fn levels_with_unknown_codes_are_refused() {
-    let folder = Folder::triangle();
-    for (arguments, word) in [
-        (["--allow", "W9999"], "there is no code"),
-        (["--deny", "lone-stag"], "lone-stage"),
-        (["--allow", "E0001"], "no level"),
-        (["--warn", "warnings"], "only be denied"),
-    ] {
-        let output = folder.run(&[&["lint", "tri.vert"][..], &arguments].concat());
-        assert_eq!(code(&output), 2, "{arguments:?}");
-        assert!(err(&output).contains(word), "{}", err(&output));
-    }
-}
-
-#[test]
-fn a_broken_configuration_is_an_error_at_its_place() {
-    let folder = Folder::triangle();
-    fs::write(folder.path("glisten.toml"), "[lint]\nallow = [\"lone-stag\"]\n").expect("written");
-    let (findings, exit) = folder.lint(&["tri.vert", "tri.frag"]);
-    assert_eq!(exit, 1);
-    let finding = findings.iter().find(|finding| finding["code"] == "E0015").expect("it is told");
-    assert_eq!((finding["line"].as_u64(), finding["column"].as_u64()), (Some(2), Some(10)));
-    assert!(finding["help"].as_str().is_some_and(|help| help.contains("lone-stage")), "{finding}");
 }
 
 #[test]
@@ -379,49 +324,6 @@ fn lint_tells_all_errors_of_all_stages_with_their_places() {
 }
 
 #[test]
-fn a_link_error_stands_at_the_fragment_side_with_the_other_as_a_label() {
-    let folder = Folder::triangle();
-    fs::write(
-        folder.path("tri.frag"),
-        FRAGMENT.replace("in vec4 vc;", "in vec3 vc;").replace("= vc", "= vec4(vc, 1.0)"),
-    )
-    .expect("written");
-    let (findings, exit) = folder.lint(&["tri.vert", "tri.frag"]);
-    assert_eq!((findings.len(), exit), (1, 1), "{findings:#?}");
-    assert_eq!(findings[0]["file"], "tri.frag");
-    let labels = findings[0]["labels"].as_array().expect("labels");
-    assert!(labels.iter().any(|label| label["file"] == "tri.vert"), "{labels:#?}");
-}
-
-#[test]
-fn an_error_in_an_included_file_is_told_once() {
-    let with_include = |text: &str| {
-        text.replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"bad.glsl\"\n")
-    };
-    let folder = Folder::new(&[
-        ("tri.vert", with_include(VERTEX).as_bytes()),
-        ("tri.frag", with_include(FRAGMENT).as_bytes()),
-        ("two.vert", with_include(VERTEX).as_bytes()),
-        ("bad.glsl", b"float f() { return true; }\n"),
-    ]);
-    let (findings, exit) = folder.lint(&["."]);
-    assert_eq!(exit, 1);
-    let in_include =
-        findings.iter().filter(|finding| finding["file"].as_str().is_some_and(|f| f.ends_with("bad.glsl")));
-    assert_eq!(in_include.count(), 1, "{findings:#?}");
-}
-
-#[test]
-fn a_missing_include_is_2() {
-    let text =
-        VERTEX.replace("core\n", "core\n#extension GL_ARB_shading_language_include : require\n#include \"no.glsl\"\n");
-    let folder = Folder::new(&[("tri.vert", text.as_bytes())]);
-    let (findings, exit) = folder.lint(&["tri.vert"]);
-    assert_eq!(exit, 2, "{findings:#?}");
-    assert_eq!(findings[0]["line"], 3);
-}
-
-#[test]
 fn every_format_of_diagnostics_is_written() {
     let folder = Folder::triangle();
     fs::write(folder.path("tri.frag"), FRAGMENT.replace("fc = vc", "fc = vd")).expect("written");
@@ -438,53 +340,6 @@ fn every_format_of_diagnostics_is_written() {
         let output = folder.run(&["compile", "tri.vert", "tri.frag", "--check", "--diagnostics", format]);
         assert!(err(&output).contains(word), "{format}: {}", err(&output));
     }
-}
-
-#[test]
-fn reflect_answers_what_a_name_is() {
-    let folder = Folder::triangle();
-    let find = |name: &str| folder.run(&["reflect", "tri.vert", "tri.frag", "--find", name]);
-    let attribute = find("cv");
-    assert_eq!(code(&attribute), 0, "{}", err(&attribute));
-    assert!(out(&attribute).contains("attribute") && out(&attribute).contains("location 1"), "{}", out(&attribute));
-    assert!(out(&find("mc")).contains("uniform"));
-    assert!(out(&find("vc")).contains("varying"));
-    assert!(out(&find("fc")).contains("output"));
-    let unknown = find("mcc");
-    assert_eq!(code(&unknown), 1);
-    assert!(err(&unknown).contains("`mc`"), "{}", err(&unknown));
-}
-
-#[test]
-fn reflect_of_several_programs_is_an_object_by_stem() {
-    let folder = Folder::triangle();
-    fs::write(folder.path("lone.frag"), FRAGMENT).expect("written");
-    let output = folder.run(&["reflect", "tri.vert", "tri.frag", "lone.frag", "--format", "json"]);
-    assert_eq!(code(&output), 0, "{}", err(&output));
-    let json: Value = serde_json::from_str(&out(&output)).expect("JSON");
-    assert_eq!(json["tri"]["entry_points"]["vertex"], "main");
-    assert_eq!(json["lone"]["outputs"][0]["name"], "fc");
-    let one = folder.run(&["reflect", "tri.vert", "tri.frag", "--format", "json"]);
-    let json: Value = serde_json::from_str(&out(&one)).expect("JSON");
-    assert_eq!(json["uniforms"][0]["name"], "mc");
-}
-
-#[test]
-fn macros_come_from_the_command_line() {
-    let folder = Folder::new(&[("a.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(VALUE); }\n")]);
-    assert_eq!(code(&folder.run(&["lint", "a.frag"])), 1);
-    assert_eq!(code(&folder.run(&["lint", "a.frag", "-D", "VALUE=0.5"])), 0);
-    assert_eq!(code(&folder.run(&["lint", "a.frag", "-DVALUE"])), 0);
-    assert_eq!(code(&folder.run(&["lint", "a.frag", "-D", "1X"])), 2);
-}
-
-#[test]
-fn a_scene_in_place_of_a_shader_is_told_who_takes_it() {
-    let folder = Folder::triangle();
-    fs::write(folder.path("s.toml"), SCENE).expect("written");
-    let output = folder.run(&["lint", "s.toml"]);
-    assert_eq!(code(&output), 2, "{}", err(&output));
-    assert!(err(&output).contains("`glisten verify` and `glisten render` take scenes"), "{}", err(&output));
 }
 
 /// A scene that contains the triangle.

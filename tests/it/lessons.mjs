@@ -32,6 +32,7 @@ try {
   await page.getByRole("slider", { name: "towardsLight x", exact: true }).focus();
   await page.keyboard.press("Home");
   await drawnAnew(before);
+  seen.number = await page.getByLabel("towardsLight x, number", { exact: true }).inputValue();
   seen.dot = (await page.locator("#files button", { hasText: "globe.toml" }).textContent()).includes("•");
 
   // Where a pixel comes from.

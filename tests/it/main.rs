@@ -177,6 +177,8 @@ mod tangents;
 mod targets;
 #[cfg(feature = "cli")]
 mod trace;
+#[cfg(feature = "cli")]
+mod transcripts;
 #[cfg(feature = "gpu")]
 mod tutorial;
 #[cfg(feature = "cli")]

@@ -218,7 +218,7 @@ impl Place<'_> {
 
     fn engine(&self) -> Result<Command> {
         let mut engine = Command::new(self.engine);
-        engine.env("GLISTEN_FUZZ_TARGET", self.chosen.name).arg("-timeout=30").arg("-rss_limit_mb=3072");
+        engine.env("GLISTEN_FUZZ_TARGET", self.chosen.name).arg("-timeout=120").arg("-rss_limit_mb=3072");
         engine.arg(format!("-artifact_prefix={}/", self.folder("crashes")?.display()));
         Ok(engine)
     }

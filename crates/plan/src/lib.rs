@@ -31,4 +31,4 @@ pub mod visibility;
 mod words;
 
 pub use error::Error;
-pub use plan::Plan;
+pub use plan::{Plan, Written};

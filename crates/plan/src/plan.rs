@@ -11,11 +11,12 @@ use crate::vertices::{self, Rows};
 use crate::visibility::Visibility;
 use crate::words::{dimension, format, word};
 use crate::{Error, assembly, beyond, slots, sprites, uniforms};
-use glisten_emit::{Emitted, Target, emit};
+use glisten_emit::{Conventions, Emitted, Target, emit};
 use glisten_front::hir::{SamplerDim, SamplerType, Stage};
-use glisten_front::link::SlotBinding;
+use glisten_front::link::{Program, SlotBinding};
 use glisten_scene::{Draw, Framebuffer, Scene, Texture};
 use serde_json::{Value, json};
+use std::sync::Arc;
 use wgpu_types as wgpu;
 
 /// The calls that draw a scene.
@@ -33,10 +34,18 @@ impl Plan {
     /// # Errors
     /// WebGPU lacks something that the scene needs, or WGSL does.
     pub fn of(scene: &Scene) -> Result<Self, Error> {
+        Self::with(scene, &mut Written::default())
+    }
+
+    /// The plan of a scene, with the programs that were written for the last ones.
+    ///
+    /// # Errors
+    /// WebGPU lacks something that the scene needs, or WGSL does.
+    pub fn with(scene: &Scene, written: &mut Written) -> Result<Self, Error> {
         let framebuffer = &scene.framebuffer;
         let mut bytes = Bytes::default();
         let draws: Vec<Value> =
-            scene.draws.iter().map(|draw| planned(framebuffer, draw, &mut bytes)).collect::<Result<_, _>>()?;
+            scene.draws.iter().map(|draw| planned(framebuffer, draw, &mut bytes, written)).collect::<Result<_, _>>()?;
         let calls = json!({
             "width": framebuffer.width,
             "height": framebuffer.height,
@@ -76,19 +85,53 @@ impl Bytes {
     }
 }
 
-fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes) -> Result<Value, Error> {
+/// Programs in WGSL, for plans of scenes that share them.
+#[derive(Debug, Default)]
+pub struct Written {
+    programs: Vec<WrittenProgram>,
+}
+
+#[derive(Debug)]
+struct WrittenProgram {
+    /// The program, which stays as long as it is known by its address.
+    program: Arc<Program>,
+    conventions: Conventions,
+    /// The texts of the vertex and the fragment stage.
+    texts: [String; 2],
+}
+
+impl Written {
+    /// How many programs are kept; the oldest goes first.
+    const MOST: usize = 64;
+
+    /// The vertex and the fragment stage.
+    fn texts(&mut self, program: &Arc<Program>, conventions: Conventions) -> Result<[String; 2], Error> {
+        let is_known = |one: &&WrittenProgram| Arc::ptr_eq(&one.program, program) && one.conventions == conventions;
+        if let Some(known) = self.programs.iter().find(is_known) {
+            return Ok(known.texts.clone());
+        }
+        let code = |stage: Stage| match emit(program, stage, Target::Wgsl, &conventions) {
+            Ok(Emitted::Text(text)) => Ok(text),
+            Ok(Emitted::Words(_)) => Err(Error::Refused("the code is no text".to_owned())),
+            Err(diagnostics) => Err(Error::Emit(diagnostics)),
+        };
+        let texts = [code(Stage::Vertex)?, code(Stage::Fragment)?];
+        if self.programs.len() >= Self::MOST {
+            self.programs.remove(0);
+        }
+        self.programs.push(WrittenProgram { program: Arc::clone(program), conventions, texts: texts.clone() });
+        Ok(texts)
+    }
+}
+
+fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes, written: &mut Written) -> Result<Value, Error> {
     let program = &draw.program;
     beyond::refuse(draw)?;
     bindings::refuse_levels(draw)?;
     let sprites = sprites::applies(draw, Target::Wgsl);
     let all = bindings(program, sprites)?;
     let conventions = conventions(draw, Target::Wgsl);
-    let code = |stage: Stage| match emit(program, stage, Target::Wgsl, &conventions) {
-        Ok(Emitted::Text(text)) => Ok(text),
-        Ok(Emitted::Words(_)) => Err(Error::Refused("the code is no text".to_owned())),
-        Err(diagnostics) => Err(Error::Emit(diagnostics)),
-    };
-    let (vertex, fragment) = (code(Stage::Vertex)?, code(Stage::Fragment)?);
+    let [vertex, fragment] = written.texts(program, conventions)?;
     let rows = if sprites { vertices::rows_of_points(draw) } else { vertices::rows(draw) };
     let buffers: Vec<Value> = rows.iter().map(|rows| vertex_buffer(rows, bytes)).collect();
     let primitive = if sprites { sprites::primitive_state() } else { primitive_state(&draw.state) };

@@ -29,7 +29,9 @@ pub mod values;
 pub use dependence::ColorDependence;
 pub use files::{DiskFiles, FileError, FileSource, MAX_FILE_BYTES, MemoryFiles, confine_to, confined_to, is_allowed};
 pub use library::{Library, NoLibrary};
-pub use load::{Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, write};
+pub use load::{
+    Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, load_kept, write,
+};
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer,
     Primitive, Sampling, Scene, State, Texels, Texture, TextureLevel, Wrap,

@@ -16,6 +16,7 @@ mod values;
 
 use super::args::{BindingArgs, LevelArgs, SourceArgs};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::fullscreen;
@@ -38,6 +39,10 @@ use std::time::Instant;
 use text::{Head, quoted};
 use trial::{BUDGET, Chosen, Trials, choose};
 use values::alternatives;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples =
+    &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")];
 
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]

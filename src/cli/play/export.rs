@@ -71,7 +71,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
 /// The texts of the page, with the programs in every language, whole and without what the picture does not need.
 fn looks(args: &PlayArgs, of: &SceneArgs, console: &Console) -> Result<Value, Failure> {
     let (mut first, mut programs) = (Value::Null, Map::new());
-    for target in Target::ALL.iter().copied().filter(|target| *target != Target::Spirv) {
+    for target in Target::ALL.iter().copied().filter(|target| target.is_text()) {
         for leaves_out in [false, true] {
             let mut session = of.session(console)?;
             let loaded = scene::load(&args.start, &files::SceneFiles, session.compiler());

@@ -28,10 +28,19 @@ mod worker;
 
 use super::args::{LevelArgs, SourceArgs};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Failure, Outcome};
 use super::scenes::MachineArgs;
 use clap::Args;
 use std::path::PathBuf;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten play shaders", "the scenes of a folder, in a browser; the address is printed"),
+    ("glisten play scene.toml --open", "one scene, and a browser that shows it"),
+    ("glisten play --export page.html scene.toml", "a page to hand on"),
+    ("glisten play shaders --export page.html --module play.wasm.gz", "a page that computes by itself"),
+];
 
 /// Show scenes in a browser, and draw them again while they change
 #[derive(Args, Debug)]

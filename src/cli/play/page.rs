@@ -28,7 +28,7 @@ const PLAY: Page = Page {
 pub(super) fn page(title: &str, mut start: Value) -> Result<String, String> {
     let targets: Vec<Value> = Target::ALL
         .iter()
-        .filter(|target| **target != Target::Spirv)
+        .filter(|target| target.is_text())
         .map(|target| json!({ "word": target.word(), "name": target.name() }))
         .collect();
     if let Some(start) = start.as_object_mut() {

@@ -18,6 +18,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::Read;
+use std::net::TcpListener;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
@@ -79,7 +80,7 @@ impl Answer {
 /// Runs the server until Ctrl-C.
 pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     let interrupt = Interrupt::watch();
-    let http = tiny_http::Server::http(("127.0.0.1", args.port)).map_err(|error| {
+    let http = listening(args.port).map_err(|error| {
         let failure = Failure::new(Exit::Machine, format!("port {} cannot be used: {error}", args.port));
         failure.help("leave `--port` out, and a free one is taken")
     })?;
@@ -103,6 +104,16 @@ pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     server.draws.stop();
     server.studies.stop();
     Ok(Exit::Interrupted)
+}
+
+/// A server at a port. An answer is written in several parts, of which none waits until the part before it is acknowledged: that takes the
+/// other side 40 ms.
+fn listening(port: u16) -> Result<tiny_http::Server, Box<dyn std::error::Error + Send + Sync>> {
+    let listener = TcpListener::bind(("127.0.0.1", port))?;
+    // Connections take it over from what listens. Without it, answers are later, and the same.
+    #[cfg(unix)]
+    let _ = rustix::net::sockopt::set_tcp_nodelay(&listener, true);
+    tiny_http::Server::from_listener(listener, None)
 }
 
 /// Answers each request on a thread of its own.

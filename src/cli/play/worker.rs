@@ -13,8 +13,7 @@ use super::super::session::Session;
 use super::PlayArgs;
 use super::driver::{Driver, timed};
 use super::variants::variants;
-use crate::play::{Job, Pictures, Wish, drawable};
-use crate::scene;
+use crate::play::{self, Job, Pictures, Wish, drawable};
 use serde_json::{Value, json};
 use std::io::BufRead;
 use std::path::Path;
@@ -60,11 +59,12 @@ fn end() {
 struct Kept {
     driver: Driver,
     pictures: Pictures,
+    programs: play::Kept,
 }
 
 fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Result<Value, String> {
     let job: Job = serde_json::from_str(line).map_err(|error| format!("the job is not understood: {error}"))?;
-    let Kept { driver, pictures } = kept;
+    let Kept { driver, pictures, programs } = kept;
     if let Wish::Pixel { x, y } = job.wish {
         return Ok(pictures.pixel(x, y));
     }
@@ -78,9 +78,9 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Re
         Failure::OutputClosed => String::new(),
     };
     let mut session = of.session(console).map_err(failed)?;
-    let load = |session: &mut Session<'_>| scene::load(&job.scene, &SceneFiles, session.compiler());
+    let mut load = |session: &mut Session<'_>| programs.load(&job.scene, &SceneFiles, session.compiler());
     match job.wish {
-        Wish::Draw { gpu: true } => {
+        Wish::Draw { gpu: true, .. } => {
             let (scene, _) = drawable(load(&mut session))?;
             timed(|| driver.draw(&scene, &args.machine, pictures))
         }
@@ -89,7 +89,7 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Re
             driver.compare(&scene, &sources, &args.machine, pictures)
         }
         Wish::Variants => variants(&job.scene, session.compiler(), driver.gpu(&args.machine)?),
-        Wish::Draw { gpu: false } => timed(|| crate::play::answer(&job, &mut session, pictures, load)),
-        _ => crate::play::answer(&job, &mut session, pictures, load),
+        Wish::Draw { gpu: false, .. } => timed(|| play::answer(&job, &mut session, pictures, load)),
+        _ => play::answer(&job, &mut session, pictures, load),
     }
 }

@@ -23,6 +23,7 @@ mod tree;
 
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs;
@@ -38,6 +39,13 @@ use tree::NewFolder;
 
 /// The account's files in the new folder.
 const ACCOUNT: [&str; 2] = ["port.json", "port.html"];
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten port pack --for minecraft-26.2 -o ported", "a resource pack for Minecraft's Vulkan"),
+    ("glisten port shaders --for wgpu -o ported --prove", "an engine's shaders for wgpu, with their pictures compared"),
+    ("glisten port pack --for minecraft-26.2 --check", "exit 1 if something is left to port"),
+];
 
 /// Port a folder of shaders to another host: Minecraft on Vulkan, Vulkan, wgpu, Bevy, WebGL 2
 #[derive(Args, Debug)]

@@ -13,6 +13,7 @@ pub(super) use prove::NewFiles;
 use super::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
 use super::batch::Batch;
 use super::console::Console;
+use super::examples::Examples;
 use super::exit::{Exit, Failure, Outcome};
 use super::files;
 use super::inputs::{self, Input, Inputs};
@@ -22,6 +23,13 @@ use clap::{Args, ValueEnum};
 use glisten_front::compiler::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Examples of its use.
+pub(super) const EXAMPLES: Examples = &[
+    ("glisten upgrade old.frag", "the text as GLSL 1.50 core"),
+    ("glisten upgrade a.vert a.frag --to 330 -o new", "a program as GLSL 3.30"),
+    ("glisten upgrade a.vert a.frag --in-place --scene a.toml", "if the picture of a scene stays the same"),
+];
 
 /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
 #[derive(Args, Debug)]

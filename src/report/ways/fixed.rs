@@ -6,9 +6,10 @@
 
 use super::names::Names;
 use crate::specialize::known;
+use glisten_front::fold;
 use glisten_front::hir::{
-    BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, GlobalId, Scalar, ScalarValue, Shader, Stage, Storage, Type,
-    TypeId, Types, UnaryOp, VarRef,
+    BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, GlobalId, ScalarValue, Shader, Stage, Storage, Type, TypeId,
+    Types, UnaryOp, VarRef,
 };
 use glisten_scene::{Draw, Framebuffer};
 
@@ -18,7 +19,7 @@ const MOST_PARTS: u32 = 64;
 /// The numbers that a draw fixes in one stage.
 pub(super) struct Fixed {
     /// For each global its scalars, as far as they are fixed.
-    globals: Vec<Vec<Option<f64>>>,
+    globals: Vec<Vec<Option<ScalarValue>>>,
 }
 
 impl Fixed {
@@ -27,11 +28,11 @@ impl Fixed {
         let program = &draw.program;
         let Some(shader) = program.stage(stage) else { return Self { globals: Vec::new() } };
         let len = |ty: TypeId| program.types.flat_len(ty) as usize;
-        let mut globals: Vec<Vec<Option<f64>>> =
+        let mut globals: Vec<Vec<Option<ScalarValue>>> =
             shader.globals.iter().map(|global| vec![None; len(global.ty)]).collect();
         for (index, global) in shader.globals.iter().enumerate() {
             if let (Storage::Const, Some(value), Some(cell)) = (global.storage, &global.value, globals.get_mut(index)) {
-                *cell = value.scalars.iter().map(|scalar| Some(number(*scalar))).collect();
+                *cell = value.scalars.iter().copied().map(Some).collect();
             }
         }
         let known = known(draw, framebuffer, &[]);
@@ -41,7 +42,7 @@ impl Fixed {
             let global = root.and_then(|root| root.globals.iter().find(|(of, _)| *of == stage));
             let Some(cell) = global.and_then(|(_, id)| globals.get_mut(id.index())) else { continue };
             let slots = cell.iter_mut().skip(leaf.flat_offset as usize);
-            slots.zip(values).for_each(|(slot, value)| *slot = Some(number(*value)));
+            slots.zip(values).for_each(|(slot, value)| *slot = Some(*value));
         }
         Self { globals }
     }
@@ -49,7 +50,7 @@ impl Fixed {
     /// The scalars of an expression of a function; `None` if one of them is not fixed.
     pub(super) fn value(&self, at: &Place<'_>, function: FunctionId, id: ExprId) -> Option<Vec<f64>> {
         let mut parts = MOST_PARTS;
-        self.of_expr(at, function, id, &mut parts)
+        Some(self.of_expr(at, function, id, &mut parts)?.into_iter().map(number).collect())
     }
 
     /// The one number of a scalar, or of a vector of equal components.
@@ -59,16 +60,16 @@ impl Fixed {
         values.iter().all(|value| *value == first).then_some(first)
     }
 
-    fn of_expr(&self, at: &Place<'_>, function: FunctionId, id: ExprId, parts: &mut u32) -> Option<Vec<f64>> {
+    fn of_expr(&self, at: &Place<'_>, function: FunctionId, id: ExprId, parts: &mut u32) -> Option<Vec<ScalarValue>> {
         *parts = parts.checked_sub(1)?;
         let expr = at.shader.expr(id);
         let mut of = |id: ExprId| self.of_expr(at, function, id, parts);
         Some(match &expr.kind {
-            ExprKind::Literal(value) => vec![number(*value)],
+            ExprKind::Literal(value) => vec![*value],
             ExprKind::Var(VarRef::Global(global)) => self.global(*global)?,
             ExprKind::Var(VarRef::Local(local)) => {
                 if let Some(value) = &at.shader.function(function).local(*local).value {
-                    return Some(value.scalars.iter().copied().map(number).collect());
+                    return Some(value.scalars.clone());
                 }
                 let (function, value) = at.names.get(function, *local)?;
                 return self.of_expr(at, function, value, parts);
@@ -78,7 +79,7 @@ impl Fixed {
                 self.part(at, *base, start, len)?
             }
             ExprKind::Index(base, index) => {
-                let index = *of(*index)?.first()? as usize;
+                let index = number(*of(*index)?.first()?) as usize;
                 let len = at.types.flat_len(expr.ty) as usize;
                 self.part(at, *base, index.checked_mul(len)?, len)?
             }
@@ -86,7 +87,10 @@ impl Fixed {
                 let values = of(*base)?;
                 swizzle.as_slice().iter().map(|part| values.get(usize::from(*part)).copied()).collect::<Option<_>>()?
             }
-            ExprKind::Convert(base) => held(at.types.scalar_of(expr.ty)?, of(*base)?)?,
+            ExprKind::Convert(base) => {
+                let to = at.types.scalar_of(expr.ty)?;
+                of(*base)?.into_iter().map(|value| fold::convert(value, to)).collect()
+            }
             ExprKind::Construct(ConstructKind::Splat, list) => {
                 vec![*of(*list.first()?)?.first()?; at.types.flat_len(expr.ty) as usize]
             }
@@ -98,10 +102,10 @@ impl Fixed {
                 values.truncate(at.types.flat_len(expr.ty) as usize);
                 values
             }
-            ExprKind::Unary(UnaryOp::Negate, base) => {
-                held(at.types.scalar_of(expr.ty)?, of(*base)?.into_iter().map(|value| -value).collect())?
+            ExprKind::Unary(op @ UnaryOp::Negate, base) => {
+                of(*base)?.into_iter().map(|value| fold::unary(*op, value)).collect::<Option<_>>()?
             }
-            ExprKind::Binary(op, a, b) => held(at.types.scalar_of(expr.ty)?, combined(*op, &of(*a)?, &of(*b)?)?)?,
+            ExprKind::Binary(op, a, b) => combined(*op, &of(*a)?, &of(*b)?)?,
             _ => return None,
         })
     }
@@ -111,12 +115,12 @@ impl Fixed {
         self.global(id).is_some()
     }
 
-    fn global(&self, id: GlobalId) -> Option<Vec<f64>> {
+    fn global(&self, id: GlobalId) -> Option<Vec<ScalarValue>> {
         self.globals.get(id.index())?.iter().copied().collect()
     }
 
     /// A part of a variable, of which other parts need not be fixed.
-    fn part(&self, at: &Place<'_>, base: ExprId, start: usize, len: usize) -> Option<Vec<f64>> {
+    fn part(&self, at: &Place<'_>, base: ExprId, start: usize, len: usize) -> Option<Vec<ScalarValue>> {
         let (mut base, mut start) = (base, start);
         loop {
             let expr = at.shader.expr(base);
@@ -166,48 +170,33 @@ fn number(value: ScalarValue) -> f64 {
     }
 }
 
-/// An operation component by component; a scalar goes with every component.
-fn combined(op: BinaryOp, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
-    let apply: fn(f64, f64) -> f64 = match op {
-        BinaryOp::Add => |a, b| a + b,
-        BinaryOp::Sub => |a, b| a - b,
-        BinaryOp::Mul => |a, b| a * b,
-        BinaryOp::Div => |a, b| a / b,
-        _ => return None,
+/// An operation component by component; a scalar goes with every component. `None` for a division of integers by zero.
+fn combined(op: BinaryOp, a: &[ScalarValue], b: &[ScalarValue]) -> Option<Vec<ScalarValue>> {
+    let is_known = matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div);
+    let get = |list: &[ScalarValue], index: usize| {
+        if list.len() == 1 { list.first().copied() } else { list.get(index).copied() }
     };
-    let len = a.len().max(b.len());
-    let get =
-        |list: &[f64], index: usize| if list.len() == 1 { list.first().copied() } else { list.get(index).copied() };
-    (0..len).map(|index| Some(apply(get(a, index)?, get(b, index)?))).collect()
-}
-
-/// Numbers as a type holds them: floats rounded to f32, integers truncated (GLSL 1.50 §5.4.1, §5.9). `None` for an integer that
-/// does not fit, such as that of a division by zero.
-fn held(scalar: Scalar, values: Vec<f64>) -> Option<Vec<f64>> {
-    let fits = |value: f64, low: f64, high: f64| (low..=high).contains(&value).then_some(value);
-    let hold = |value: f64| match scalar {
-        Scalar::Bool => Some(f64::from(u8::from(value != 0.0))),
-        Scalar::Int => fits(value.trunc(), f64::from(i32::MIN), f64::from(i32::MAX)),
-        Scalar::Uint => fits(value.trunc(), 0.0, f64::from(u32::MAX)),
-        Scalar::Float => Some(f64::from(value as f32)),
+    let apply = |index: usize| match (get(a, index)?, get(b, index)?) {
+        (_, ScalarValue::Int(0) | ScalarValue::Uint(0)) if op == BinaryOp::Div => None,
+        (a, b) => fold::scalar_binary(op, a, b),
     };
-    values.into_iter().map(hold).collect()
+    if is_known { (0..a.len().max(b.len())).map(apply).collect() } else { None }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{combined, held};
-    use glisten_front::hir::{BinaryOp, Scalar};
+    use super::combined;
+    use glisten_front::hir::BinaryOp;
+    use glisten_front::hir::ScalarValue::{Float, Int};
 
     #[test]
     fn integers_divide_as_integers() {
-        let quotient = |scalar, a, b| held(scalar, combined(BinaryOp::Div, &[a], &[b]).unwrap_or_default());
-        assert_eq!(quotient(Scalar::Int, 7.0, 2.0), Some(vec![3.0]));
-        assert_eq!(quotient(Scalar::Int, -7.0, 2.0), Some(vec![-3.0]));
-        assert_eq!(quotient(Scalar::Float, 7.0, 2.0), Some(vec![3.5]));
-        assert_eq!(quotient(Scalar::Int, 7.0, 0.0), None);
-        assert_eq!(held(Scalar::Int, vec![2.7, -2.7]), Some(vec![2.0, -2.0]));
-        assert_eq!(held(Scalar::Uint, vec![-1.0]), None);
-        assert_eq!(held(Scalar::Int, vec![16_777_217.0]), Some(vec![16_777_217.0]));
+        let quotient = |a, b| combined(BinaryOp::Div, &[a], &[b]);
+        assert_eq!(quotient(Int(7), Int(2)), Some(vec![Int(3)]));
+        assert_eq!(quotient(Int(-7), Int(2)), Some(vec![Int(-3)]));
+        assert_eq!(quotient(Float(7.0), Float(2.0)), Some(vec![Float(3.5)]));
+        assert_eq!(quotient(Int(7), Int(0)), None);
+        assert_eq!(combined(BinaryOp::Mul, &[Int(2)], &[Int(3), Int(4)]), Some(vec![Int(6), Int(8)]));
+        assert_eq!(combined(BinaryOp::Less, &[Int(2)], &[Int(3)]), None);
     }
 }

@@ -11,7 +11,7 @@ use glisten_front::link::{Interface, Program, Varying, VaryingEnd};
 ///
 /// Without the facts that [`reflect`](crate::reflect) alone tells.
 pub fn interface_of(program: &Program, stage: Stage, target: Target) -> Option<Interface> {
-    if target == Target::Glsl || program.stage(Stage::Geometry).is_some() {
+    if !target.capabilities().is_written_by_stage || program.stage(Stage::Geometry).is_some() {
         return None;
     }
     let (is_vertex, whole) = (stage == Stage::Vertex, &program.interface);

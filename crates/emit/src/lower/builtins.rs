@@ -6,7 +6,7 @@
 use super::function::Ctx;
 use super::operators::Typed;
 use super::{Try, unsupported};
-use crate::target::{Target, WindowOrigin};
+use crate::target::WindowOrigin;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::operations::{
     self, Binary, BooleanFunction, Class, Composite, Derivative, Emission, MatrixFunction, Numbers, Relation, Ternary,
@@ -212,7 +212,7 @@ impl Ctx<'_, '_> {
             Composite::Distance => Ok(self.math(MathFunction::Distance, values)),
             Composite::Cross => Ok(self.math(MathFunction::Cross, values)),
             Composite::Determinant => Ok(self.math(MathFunction::Determinant, values)),
-            Composite::Inverse if matches!(self.low.target, Target::Msl | Target::Hlsl) => {
+            Composite::Inverse if !self.low.can().inverts_matrices => {
                 let [matrix] = self.of(values)?;
                 self.inverse(matrix.0, matrix.1)
             }

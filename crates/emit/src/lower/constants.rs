@@ -7,7 +7,6 @@
 use super::function::Ctx;
 use super::slots::{GlobalSlot, LocalSlot};
 use super::{Lower, Try, for_each_operand, internal};
-use crate::target::Target;
 use glisten_front::hir::{
     ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Storage, Type, TypeId, Value, VarRef,
 };
@@ -170,7 +169,7 @@ impl Ctx<'_, '_> {
         let naga::TypeInner::Vector { size, .. } = self.low.module.types[*ty].inner else { return expression };
         let complete = components.len() == size as usize;
         if complete
-            || self.low.target != Target::Spirv
+            || !self.low.can().wants_scalar_constituents
             || !components.iter().all(|part| self.is_constant_to_naga(*part))
         {
             return expression;

@@ -5,7 +5,6 @@
 
 use super::slots::{Corner, LocalSlot, Lowered, OutputMember, SamplerValue};
 use super::{Lower, Try, for_each_operand, internal, naga_span};
-use crate::target::Target;
 use glisten_front::hir::{FunctionId, GlobalId, LocalId, LocalKind, ParamMode, ScalarValue, Shader, Stage, TypeId};
 use glisten_front::source::Span;
 use naga::{Arena, Block, Expression, Handle, Literal, LocalVariable, Statement};
@@ -192,11 +191,11 @@ impl<'l, 'a> Ctx<'l, 'a> {
         self.blocks.len() <= 1
     }
 
-    /// Whether the target sees that the end of the function cannot be reached. Only in SPIR-V does a `discard` end a
-    /// function.
+    /// Whether the target sees that the end of the function cannot be reached. A `discard` ends a
+    /// function in some of them.
     pub(super) fn has_returned(&mut self) -> bool {
         self.flush();
-        let kill_ends = self.low.target == Target::Spirv || self.out.result.is_none();
+        let kill_ends = self.low.can().ends_at_discard || self.out.result.is_none();
         self.is_over() || self.blocks.last().is_some_and(|block| terminates(block, kill_ends))
     }
 

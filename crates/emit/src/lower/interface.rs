@@ -8,7 +8,7 @@ use super::constants::is_constant;
 use super::function::Ctx;
 use super::slots::{GlobalSlot, LocalSlot};
 use super::{Lower, Try, internal, lacking, naga_span, unsupported};
-use crate::target::{Target, WindowOrigin};
+use crate::target::WindowOrigin;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{
@@ -69,8 +69,7 @@ impl Lower<'_> {
     /// Declares the flag of discarded invocations. In these targets an invocation continues after a `discard`, and a
     /// loop that it would have left might never end.
     fn declare_discarded(&mut self) -> Try<()> {
-        let goes_on = matches!(self.target, Target::Wgsl | Target::Msl | Target::Hlsl);
-        if goes_on && !self.facts.loops_after_discard.is_empty() {
+        if !self.can().ends_at_discard && !self.facts.loops_after_discard.is_empty() {
             let init = self
                 .module
                 .global_expressions
@@ -407,7 +406,7 @@ impl Ctx<'_, '_> {
                 Ok(self.argument(&global.name, ty, Some(Binding::BuiltIn(BuiltIn::FrontFacing))))
             }
             B::PointCoord if self.low.draws_sprites() => self.sprite_coordinate(),
-            B::PointCoord if target == Target::Wgsl || target == Target::Hlsl => Err(lacking(
+            B::PointCoord if !self.low.can().has_large_points => Err(lacking(
                 global.span,
                 format!("{} has no `gl_PointCoord`", target.name()),
                 "draw points as quads with `--point-sprites`, or compile for SPIR-V",

@@ -53,7 +53,7 @@ mod uniforms;
 pub(crate) use operands::for_each_operand;
 
 use crate::select::{Choice, select};
-use crate::target::{Conventions, Target};
+use crate::target::{Capabilities, Conventions, Target};
 use facts::Facts;
 use glisten_front::diagnostic::codes::{general, targets};
 use glisten_front::diagnostic::{Advice, Diagnostic};
@@ -177,6 +177,11 @@ struct Lower<'a> {
 }
 
 impl<'a> Lower<'a> {
+    /// The means of the target.
+    fn can(&self) -> Capabilities {
+        self.target.capabilities()
+    }
+
     fn new(
         program: &'a Program,
         shader: &'a Shader,

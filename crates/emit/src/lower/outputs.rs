@@ -9,7 +9,7 @@ use super::interface::{path_name, plain_location, varying_binding};
 use super::slots::{GlobalSlot, LocalSlot, OutputMember, OutputSource};
 use super::sprites::{coordinate_binding, coordinate_location};
 use super::{Try, lacking};
-use crate::target::{ClipZ, SpirvEnv, Target, WindowOrigin};
+use crate::target::{ClipZ, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{ArraySize, GlobalId, Scalar, ScalarValue, Storage, Swizzle, Type, TypeId};
 use glisten_front::link::{Varying, VaryingEnd};
@@ -118,7 +118,7 @@ impl Ctx<'_, '_> {
             return Ok(());
         }
         let target = self.low.target;
-        if matches!(target, Target::Wgsl | Target::Hlsl) {
+        if !self.low.can().has_large_points {
             let declared = self.shader.global(global).span;
             let span = if declared.is_known() { declared } else { self.shader.function(self.id).span };
             return Err(lacking(
@@ -364,7 +364,7 @@ impl Ctx<'_, '_> {
         let Some(global) = self.low.builtin_global(BuiltinVariable::Position) else { return Ok(self.zero(ty)) };
         let pointer = self.output_pointer(global)?;
         let conventions = self.low.conventions;
-        let down = self.low.target == Target::Spirv && conventions.spirv_env == SpirvEnv::Vulkan;
+        let down = self.low.can().may_count_rows_down && conventions.spirv_env == SpirvEnv::Vulkan;
         let flip = (conventions.window_origin == WindowOrigin::LowerLeft) != down;
         let halve = conventions.clip_z == ClipZ::ZeroToOne;
         if !flip && !halve {
@@ -379,7 +379,7 @@ impl Ctx<'_, '_> {
             y = self.add(Expression::Unary { op: UnaryOperator::Negate, expr: y });
         }
         if halve {
-            if self.low.target != Target::Wgsl {
+            if !self.low.can().repeats_values {
                 self.name(w, "w");
             }
             let sum = self.op(BinaryOperator::Add, z, w);

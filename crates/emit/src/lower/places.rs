@@ -5,7 +5,6 @@ use super::slots::{GlobalSlot, HostId, LocalSlot};
 use super::types::vector_size;
 use super::uniforms::HostKind;
 use super::{Try, internal};
-use crate::target::Target;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{
     ArraySize, ExprId, ExprKind, LocalKind, MatrixLayout, Scalar, ScalarValue, Storage, Swizzle, Type, TypeId, VarRef,
@@ -523,8 +522,8 @@ impl Ctx<'_, '_> {
     pub(super) fn store_place(&mut self, place: &Place, value: Handle<Expression>) -> Try<()> {
         match place {
             Place::Pointer(pointer, _) => self.store(*pointer, value),
-            // WGSL cannot store to several components: one store of the whole vector is shorter.
-            Place::Swizzle(pointer, ty, swizzle) if self.low.target == Target::Wgsl && swizzle.len > 1 => {
+            // One store of the whole vector is shorter than one for each component.
+            Place::Swizzle(pointer, ty, swizzle) if !self.low.can().stores_components && swizzle.len > 1 => {
                 let whole = self.with_components(*pointer, *ty, *swizzle, value)?;
                 self.store(*pointer, whole);
             }

@@ -14,7 +14,6 @@ use super::function::Ctx;
 use super::slots::SamplerValue;
 use super::types::naga_scalar;
 use super::{Lower, Try, internal, lacking, unsupported};
-use crate::target::Target;
 use glisten_front::hir::{
     ArraySize, ExprId, ExprKind, Local, SamplerDim, SamplerType, ScalarValue, Type, TypeId, VarRef,
 };
@@ -67,10 +66,10 @@ impl Lower<'_> {
 
     /// Reports kinds for which the target has no type.
     fn check_kind(&self, ty: SamplerType, span: Span) -> Try<()> {
-        if self.target == Target::Wgsl && ty.dim == SamplerDim::Multisample && ty.arrayed {
+        if !self.can().has_multisample_arrays && ty.dim == SamplerDim::Multisample && ty.arrayed {
             return Err(lacking(
                 span,
-                format!("WGSL has no texture for `{}`", ty.name()),
+                format!("{} has no texture for `{}`", self.target.name(), ty.name()),
                 "compile for SPIR-V (`--target spirv`), or use a `sampler2DMS` for each layer",
             ));
         }

@@ -11,7 +11,7 @@
 use super::function::Ctx;
 use super::slots::Corner;
 use super::{Lower, Try};
-use crate::target::{Target, WindowOrigin, viewport_slot};
+use crate::target::{WindowOrigin, viewport_slot};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Stage, TypeId};
 use glisten_front::link::Interface;
@@ -25,7 +25,7 @@ pub(crate) fn coordinate_location(interface: &Interface) -> u32 {
 impl Lower<'_> {
     /// Whether points are drawn as quads.
     pub(super) fn draws_sprites(&self) -> bool {
-        self.conventions.point_sprites && matches!(self.target, Target::Wgsl | Target::Hlsl)
+        self.conventions.point_sprites && !self.can().has_large_points
     }
 
     /// Declares the uniform buffer with the viewport's size.

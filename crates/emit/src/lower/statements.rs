@@ -3,7 +3,7 @@
 use super::Try;
 use super::function::Ctx;
 use super::slots::LocalSlot;
-use crate::target::{FloatWidth, Target};
+use crate::target::FloatWidth;
 use glisten_front::hir::{ExprId, LocalId, LocalKind, Scalar, Stmt, StmtKind, Type, TypeId};
 use naga::{Block, Expression, Handle, Statement};
 
@@ -59,9 +59,9 @@ impl Ctx<'_, '_> {
         }
     }
 
-    /// `discard`. naga's `Kill` ends the invocation in SPIR-V; in WGSL the invocation continues without effects.
-    /// There, a loop around it could run forever and the end of a function would lack its result, so the function is
-    /// left, too. Loops in the callers, and later loops, check a flag (see [`Ctx::repeat`]).
+    /// `discard`: naga's `Kill`. Where the invocation continues without effects, a loop around it could run forever and the end
+    /// of a function would lack its result, so the function is left, too. Loops in the callers, and later loops, check a flag
+    /// (see [`Ctx::repeat`]).
     fn discard(&mut self) -> Try<()> {
         if let Some(variable) = self.low.discarded {
             let pointer = self.global_variable(variable);
@@ -69,7 +69,7 @@ impl Ctx<'_, '_> {
             self.store(pointer, yes);
         }
         let wants_result = self.out.result.is_some() && self.is_outermost();
-        if self.low.target == Target::Spirv || (self.loops == 0 && !wants_result) {
+        if self.low.can().ends_at_discard || (self.loops == 0 && !wants_result) {
             self.statement(Statement::Kill);
             return Ok(());
         }
@@ -143,9 +143,9 @@ impl Ctx<'_, '_> {
         Ok(())
     }
 
-    /// A value that may have a second name: in WGSL, a conversion to its own type, which is written as the value.
+    /// A value that may have a second name: a conversion to its own type, which is written as the value.
     fn with_own_name(&mut self, value: Handle<Expression>, ty: TypeId) -> Handle<Expression> {
-        let applies = self.low.target == Target::Wgsl && self.low.conventions.floats == FloatWidth::Single;
+        let applies = self.low.can().names_conversions && self.low.conventions.floats == FloatWidth::Single;
         let is_value = matches!(self.low.types.get(ty), Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..));
         let (kind, convert) = match self.low.types.scalar_of(ty) {
             Some(Scalar::Float) => (naga::ScalarKind::Float, Some(4)),

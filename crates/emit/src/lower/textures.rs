@@ -7,7 +7,7 @@
 use super::function::Ctx;
 use super::slots::SamplerValue;
 use super::{Try, internal, lacking};
-use crate::target::{BUFFER_WIDTH, Target};
+use crate::target::BUFFER_WIDTH;
 use glisten_front::builtin::operations::{Lookup as How, TextureArgument as Role, TextureForm};
 use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar, ScalarValue, Swizzle, TypeId};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, SampleLevel};
@@ -103,8 +103,8 @@ impl Ctx<'_, '_> {
         }
         let Some((p, p_size)) = p else { return Err(self.internal_error("a texture function lacks an argument")) };
         if self.is_vertex() && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_)) {
-            // Outside the fragment stage, the base level is read (§8.7). naga's HLSL has no level zero but for comparisons.
-            let spelled = self.low.target == Target::Hlsl && !ty.shadow;
+            // Outside the fragment stage, the base level is read (§8.7).
+            let spelled = !self.low.can().names_base_level && !ty.shadow;
             level = if spelled { SampleLevel::Exact(self.float(0.0)) } else { SampleLevel::Zero };
         }
         let (coordinate, layer, reference) = self.coordinates(ty, form, p, p_size);

@@ -64,13 +64,11 @@ fn equal_lookups_share_a_function_and_others_do_not() {
 fn other_members_of_a_struct_with_samplers_are_chosen_too_in_texts() {
     let text = "struct M { vec4 tint; sampler2D map; }; uniform M m[2]; uniform int i; in vec2 p; out vec4 c;\n\
                 void main() { c = texture(m[i].map, p) * m[i].tint.x; }";
-    let names = |choice| {
-        let (after, before) = selected_by(choice, Stage::Fragment, text);
-        let after = after.expect("nothing is refused");
-        after.functions.iter().skip(before).map(|function| function.name.clone()).collect::<Vec<_>>()
-    };
-    assert_eq!(names(Choice::Samplers), ["texture_of_m"]);
-    assert_eq!(names(Choice::Structs), ["part_of_m", "texture_of_m"]);
+    let (after, before) = selected_by(Choice::Structs, Stage::Fragment, text);
+    let after = after.expect("nothing is refused");
+    let mut names: Vec<&str> = after.functions.iter().skip(before).map(|function| &*function.name).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["part_of_m", "texture_of_m"]);
 }
 
 #[test]

@@ -55,6 +55,14 @@ impl Target {
         }
     }
 
+    /// Whether programs in it are texts.
+    pub fn is_text(self) -> bool {
+        match self {
+            Self::Wgsl | Self::Msl | Self::Hlsl | Self::Glsl => true,
+            Self::Spirv => false,
+        }
+    }
+
     /// Whether its writer is there: a module for the web may leave out those of MSL and HLSL (the feature `native` of this crate).
     pub fn is_there(self) -> bool {
         match self {

@@ -3,11 +3,13 @@
 //!
 //! *In:* nothing. *Out:* the terms that lowering, emission and reflection share. *Holds:* none of them is known here.
 
+mod capabilities;
 mod conventions;
 mod language;
 mod slots;
 mod textures;
 
+pub(crate) use capabilities::Capabilities;
 pub use conventions::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
 pub use language::Target;
 #[cfg_attr(target_family = "wasm", allow(unused_imports, reason = "MSL alone has kinds"))]

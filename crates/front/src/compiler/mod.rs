@@ -1,8 +1,10 @@
 //! [`Compiler`] turns texts into a [`Program`] and diagnostics. It is the only entry to the front end.
 
+mod kept;
 mod parts;
 mod preparation;
 
+pub use kept::{Kept, Shared};
 pub use parts::{Before, Begun, OtherState, Part};
 use preparation::Changed;
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
@@ -20,7 +22,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The options of a compilation.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// Macros defined before the first line: name and replacement text (`-D NAME=VALUE`).
     pub defines: Vec<(String, String)>,
@@ -48,7 +50,7 @@ impl Options {
 }
 
 /// The text of a shader.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// The name for diagnostics and for resolving includes: the path as the user wrote it.
     pub name: String,

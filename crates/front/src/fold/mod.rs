@@ -21,6 +21,8 @@ mod builtins;
 mod construct;
 mod operators;
 
+pub use operators::{convert, scalar_binary, unary};
+
 use crate::hir::{Expr, ExprId, ExprKind, ScalarValue, Shader, Storage, Type, TypeId, Types, Value, VarRef};
 use smallvec::SmallVec;
 use std::cell::Cell;
@@ -177,10 +179,10 @@ impl<'a> Context<'a> {
             }
             ExprKind::Convert(_) => {
                 let to = self.types.scalar_of(expr.ty)?;
-                Some(scalars(0)?.iter().map(|&scalar| operators::convert(scalar, to)).collect())
+                Some(scalars(0)?.iter().map(|&scalar| convert(scalar, to)).collect())
             }
             ExprKind::Construct(kind, _) => construct::construct(self.types, *kind, expr.ty, operands),
-            ExprKind::Unary(op, _) => scalars(0)?.iter().map(|&scalar| operators::unary(*op, scalar)).collect(),
+            ExprKind::Unary(op, _) => scalars(0)?.iter().map(|&scalar| unary(*op, scalar)).collect(),
             ExprKind::Binary(op, ..) => operators::binary(self.types, *op, operands.first()?, operands.get(1)?),
             ExprKind::Logical(op, ..) => {
                 let value = operators::logical(*op, boolean(scalars(0)?)?, boolean(scalars(1)?)?);

@@ -4,8 +4,8 @@ use super::{Operand, Scalars};
 use crate::hir::{BinaryOp, LogicalOp, Scalar, ScalarValue, Type, Types, UnaryOp};
 use ScalarValue::{Bool, Float, Int, Uint};
 
-/// Converts a scalar to another scalar type. Between `int` and `uint` the bits are unchanged.
-pub(super) fn convert(value: ScalarValue, to: Scalar) -> ScalarValue {
+/// A scalar as another scalar type (§5.4.1). Between `int` and `uint` the bits are unchanged.
+pub fn convert(value: ScalarValue, to: Scalar) -> ScalarValue {
     match (to, value) {
         (Scalar::Bool, Bool(a)) => Bool(a),
         (Scalar::Bool, Int(a)) => Bool(a != 0),
@@ -26,7 +26,8 @@ pub(super) fn convert(value: ScalarValue, to: Scalar) -> ScalarValue {
     }
 }
 
-pub(super) fn unary(op: UnaryOp, value: ScalarValue) -> Option<ScalarValue> {
+/// An operator on a scalar; `None` if there is none for its type.
+pub fn unary(op: UnaryOp, value: ScalarValue) -> Option<ScalarValue> {
     match (op, value) {
         (UnaryOp::Negate, Int(a)) => Some(Int(a.wrapping_neg())),
         (UnaryOp::Negate, Uint(a)) => Some(Uint(a.wrapping_neg())),
@@ -52,7 +53,7 @@ pub(super) fn binary(types: &Types, op: BinaryOp, left: &Operand<'_>, right: &Op
         BinaryOp::MatMul => mat_mul(types, left, right),
         BinaryOp::Equal => Some(Scalars::from_slice(&[Bool(equal(left, right))])),
         BinaryOp::NotEqual => Some(Scalars::from_slice(&[Bool(!equal(left, right))])),
-        _ => componentwise(left, right, |a, b| scalar(op, a, b)),
+        _ => componentwise(left, right, |a, b| scalar_binary(op, a, b)),
     }
 }
 
@@ -74,7 +75,8 @@ fn equal(left: &Operand<'_>, right: &Operand<'_>) -> bool {
     left.scalars.len() == right.scalars.len() && left.scalars.iter().zip(&*right.scalars).all(|(a, b)| a == b)
 }
 
-fn scalar(op: BinaryOp, left: ScalarValue, right: ScalarValue) -> Option<ScalarValue> {
+/// An operator on two scalars; `None` if there is none for their types, and for those that compare or multiply whole values.
+pub fn scalar_binary(op: BinaryOp, left: ScalarValue, right: ScalarValue) -> Option<ScalarValue> {
     match (left, right) {
         (Float(a), Float(b)) => float(op, a, b),
         (Int(a), Int(b)) => int(op, a, b),

@@ -3,6 +3,11 @@
 //! *In:* a stage and an expression. *Out:* the l-values that the expression itself writes. *Holds:* who asks what is written asks here,
 //! so that a built-in function with a result in an argument is known everywhere.
 
+#![deny(
+    clippy::wildcard_enum_match_arm,
+    reason = "what is added to the language does not pass until it is judged here"
+)]
+
 use super::{ExprId, ExprKind, ParamMode, Shader};
 
 /// Calls `f` with every l-value that an expression itself writes: the target of an assignment, of `++` or `--`, and
@@ -23,7 +28,19 @@ pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
                 f(argument);
             }
         }
-        _ => {}
+        ExprKind::Error
+        | ExprKind::Literal(_)
+        | ExprKind::Var(_)
+        | ExprKind::Member(..)
+        | ExprKind::Index(..)
+        | ExprKind::Swizzle(..)
+        | ExprKind::Convert(_)
+        | ExprKind::Construct(..)
+        | ExprKind::Unary(..)
+        | ExprKind::Binary(..)
+        | ExprKind::Logical(..)
+        | ExprKind::Ternary(..)
+        | ExprKind::Comma(..) => {}
     }
 }
 

@@ -1,5 +1,10 @@
 //! Static use: which globals a body reads, and which it may write (GLSL 1.50 §4.3.4, "actually read").
 
+#![deny(
+    clippy::wildcard_enum_match_arm,
+    reason = "what is added to the language does not pass until it is judged here"
+)]
+
 use crate::hir::{ExprKind, GlobalId, Shader, VarRef, written_by};
 use crate::source::Span;
 

@@ -28,6 +28,8 @@ pub struct SourceFile {
     shown: Option<Arc<str>>,
     base: u32,
     line_starts: Vec<u32>,
+    /// Whether there is room behind it.
+    is_changing: bool,
 }
 
 impl SourceFile {
@@ -175,7 +177,7 @@ impl Hash for SourceMap {
     fn hash<H: Hasher>(&self, state: &mut H) {
         let Self { files, expansions, renumberings, languages } = self;
         files.len().hash(state);
-        for SourceFile { name, text, shown, base, line_starts: _ } in files {
+        for SourceFile { name, text, shown, base, line_starts: _, is_changing: _ } in files {
             let written = (name != Self::COMMAND_LINE).then_some((text, shown));
             (name, written, base).hash(state);
         }
@@ -202,16 +204,26 @@ impl SourceMap {
         }
         let line_starts = line_starts(&text);
         let id = FileId(self.files.len() as u32);
-        self.files.push(SourceFile { name: name.into(), text, shown: None, base, line_starts });
+        let name = name.into();
+        let is_changing = name == Self::COMMAND_LINE;
+        self.files.push(SourceFile { name, text, shown: None, base, line_starts, is_changing });
         Some(id)
     }
 
-    /// The offset of the next text. Behind the macros of the command line there is room, so that the places of later texts do not
-    /// depend on the macros' values.
+    /// Adds a text that changes more often than those that are added later. There is room behind it, so that the places of later
+    /// texts stay. Returns `None` if the map has no room for it.
+    pub fn add_changing(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> Option<FileId> {
+        let id = self.add(name, text)?;
+        self.files.iter_mut().skip(id.index()).for_each(|file| file.is_changing = true);
+        Some(id)
+    }
+
+    /// The offset of the next text. The macros of the command line change, too: the places of later texts do not depend on their
+    /// values.
     fn next_base(&self) -> u32 {
         const ROOM: u32 = 4096;
         self.files.last().map_or(1, |file| match file.end() + 1 {
-            end if file.name == Self::COMMAND_LINE => end.next_multiple_of(ROOM),
+            end if file.is_changing => end.next_multiple_of(ROOM),
             end => end,
         })
     }

@@ -1,6 +1,6 @@
 //! Whole stages: what is declared, functions, `main`, and the scene that gives values to all of it.
 //!
-//! *In:* a seed and a language. *Out:* [`Program`](super::Program). *Holds:* both stages declare the same uniforms and varyings; the scene has
+//! *In:* a seed and a language. *Out:* [`Program`]. *Holds:* both stages declare the same uniforms and varyings; the scene has
 //! a value for each.
 
 use super::Program;

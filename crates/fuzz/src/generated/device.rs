@@ -6,8 +6,11 @@ use glisten::Gpu;
 use glisten::verify::{Failure, OnGpu, Options, Runner, verify};
 use glisten_fuzz::checks::Drawn;
 
+/// A check on a device.
+type Check = Box<dyn Fn(&Drawn<'_>) -> Result<(), String>>;
+
 /// The check on the device that the environment names, or on the first one.
-pub(super) fn new() -> Result<Box<dyn Fn(&Drawn<'_>) -> Result<(), String>>, String> {
+pub(super) fn new() -> Result<Check, String> {
     let adapter = std::env::var("GLISTEN_ADAPTER").ok();
     let gpu = Gpu::new(adapter.as_deref()).map_err(|error| error.to_string())?;
     Ok(Box::new(move |drawn| {

@@ -43,7 +43,7 @@ use crate::library::{Library, WithLibrary};
 use crate::model::{Draw, Format, Framebuffer, Scene, Texture};
 use crate::picture::{Encoding, Tone, Transfer};
 use crate::tables::{self, Node, Reader};
-use glisten_front::compiler::{Compiler, Options, Source, SourceSettings};
+use glisten_front::compiler::{Compiler, Kept, Options, Shared, Source, SourceSettings};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_CANNOT_DRAW, SCENE_FILE_UNREADABLE, SCENE_MISSING_KEY, SCENE_SYNTAX, SCENE_UNUSED_LIGHT, SCENE_WITHOUT_DRAW,
@@ -98,11 +98,31 @@ pub struct Loaded {
 
 /// Loads the scene at `path`.
 pub fn load(path: &str, files: &dyn FileSource, library: &dyn Library, compiler: &Compiler) -> Loaded {
+    loaded(path, files, (library, compiler), None)
+}
+
+/// Loads the scene at `path`. Its programs are those that were kept, if their sources did not change.
+pub fn load_kept(
+    path: &str,
+    files: &dyn FileSource,
+    (library, compiler): (&dyn Library, &Compiler),
+    kept: &mut Kept,
+) -> Loaded {
+    loaded(path, files, (library, compiler), Some(kept))
+}
+
+fn loaded(
+    path: &str,
+    files: &dyn FileSource,
+    (library, compiler): (&dyn Library, &Compiler),
+    kept: Option<&mut Kept>,
+) -> Loaded {
     let mut loader = Loader {
         path,
         files,
         library,
         compiler,
+        kept,
         reader: Reader::new(&tables::SCENE, 0, Arc::default()),
         sources: SourceMap::default(),
         programs: Vec::new(),
@@ -189,6 +209,8 @@ struct Loader<'a> {
     files: &'a dyn FileSource,
     library: &'a dyn Library,
     compiler: &'a Compiler,
+    /// The programs of earlier scenes.
+    kept: Option<&'a mut Kept>,
     reader: Reader,
     sources: SourceMap,
     programs: Vec<(ProgramKey, Option<Arc<Program>>)>,
@@ -210,7 +232,7 @@ struct Loader<'a> {
 impl Loader<'_> {
     fn scene(&mut self) -> Option<Scene> {
         let text = self.scene_text()?;
-        let file = self.sources.add(self.path, Arc::clone(&text))?;
+        let file = self.sources.add_changing(self.path, Arc::clone(&text))?;
         self.reader.base = self.sources.file(file).base();
         self.reader.text = Arc::clone(&text);
         let table = &self.reader.document(&text)?;
@@ -457,12 +479,15 @@ impl Loader<'_> {
         } else {
             compiler
         };
-        let compilation = compiler.compile_into(sources, &shaders);
-        self.sources = compilation.sources;
+        let Shared { sources, program, diagnostics } = match &mut self.kept {
+            Some(kept) => compiler.compile_kept(sources, &shaders, kept),
+            None => compiler.compile_shared(sources, &shaders),
+        };
+        self.sources = sources;
         // A name that is bound and not there is an error in a scene, which the draw reports.
-        let found = compilation.diagnostics.into_iter().filter(|found| found.code.id != BINDING_WITHOUT_VARIABLE.id);
+        let found = diagnostics.into_iter().filter(|found| found.code.id != BINDING_WITHOUT_VARIABLE.id);
         self.reader.diagnostics.extend(found);
-        compilation.program.map(Arc::new)
+        program
     }
 
     /// The only stage that a draw names, if its language has the fixed-function pipeline. Its diagnostics are those of

@@ -1,10 +1,11 @@
 //! Exact folding: what every conforming target computes alike.
 //!
-//! *In:* exact operands. *Out:* the result, or `None` where a target may compute another: a quotient (2.5 ULP), a root, a
+//! *In:* exact operands. *Out:* the result of [`fold`], or `None` where a target may compute another: a quotient (2.5 ULP), a root, a
 //! function, a sum of products that rounds, a subnormal (which may be flushed), what is infinite or NaN, and what GLSL
 //! leaves undefined (division by zero, shifts by 32 or more, floats that no integer holds).
 
 use ScalarValue::{Bool, Float, Int, Uint};
+use glisten_front::fold;
 use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, UnaryOp};
 
 /// Whether no target can see another number in its place.
@@ -12,114 +13,47 @@ pub(super) fn is_plain(value: f32) -> bool {
     value.is_normal() || value == 0.0
 }
 
-fn plain(value: f32) -> Option<ScalarValue> {
-    is_plain(value).then_some(Float(value))
+/// Whether no target can see another value in its place.
+fn is_exact(value: &ScalarValue) -> bool {
+    !matches!(value, Float(value) if !is_plain(*value))
 }
 
 /// A scalar as another scalar type (§5.4.1).
 pub(super) fn convert(value: ScalarValue, to: Scalar) -> Option<ScalarValue> {
-    Some(match (to, value) {
-        (Scalar::Bool, Bool(a)) => Bool(a),
-        (Scalar::Bool, Int(a)) => Bool(a != 0),
-        (Scalar::Bool, Uint(a)) => Bool(a != 0),
-        (Scalar::Bool, Float(a)) if is_plain(a) => Bool(a != 0.0),
-        (Scalar::Int, Bool(a)) => Int(i32::from(a)),
-        (Scalar::Int, Int(a)) => Int(a),
-        (Scalar::Int, Uint(a)) => Int(a as i32),
-        (Scalar::Int, Float(a)) if is_plain(a) && a.abs() < 2_147_483_600.0 => Int(a as i32),
-        (Scalar::Uint, Bool(a)) => Uint(u32::from(a)),
-        (Scalar::Uint, Int(a)) => Uint(a as u32),
-        (Scalar::Uint, Uint(a)) => Uint(a),
-        (Scalar::Uint, Float(a)) if is_plain(a) && (0.0..4_294_967_000.0).contains(&a) => Uint(a as u32),
-        (Scalar::Float, Bool(a)) => Float(f32::from(u8::from(a))),
-        (Scalar::Float, Int(a)) => Float(a as f32),
-        (Scalar::Float, Uint(a)) => Float(a as f32),
-        (Scalar::Float, Float(a)) => Float(a),
-        (Scalar::Bool | Scalar::Int | Scalar::Uint, Float(_)) => return None,
-    })
+    let is_defined = match (to, value) {
+        (Scalar::Bool, Float(a)) => is_plain(a),
+        (Scalar::Int, Float(a)) => is_plain(a) && a.abs() < 2_147_483_600.0,
+        (Scalar::Uint, Float(a)) => is_plain(a) && (0.0..4_294_967_000.0).contains(&a),
+        (Scalar::Float, Float(_)) | (_, Bool(_) | Int(_) | Uint(_)) => true,
+    };
+    is_defined.then(|| fold::convert(value, to))
 }
 
 /// One operand.
 pub(super) fn unary(op: UnaryOp, value: ScalarValue) -> Option<ScalarValue> {
-    match (op, value) {
-        (UnaryOp::Negate, Int(a)) => Some(Int(a.wrapping_neg())),
-        (UnaryOp::Negate, Uint(a)) => Some(Uint(a.wrapping_neg())),
-        (UnaryOp::Negate, Float(a)) => plain(-a),
-        (UnaryOp::Not, Bool(a)) => Some(Bool(!a)),
-        (UnaryOp::BitNot, Int(a)) => Some(Int(!a)),
-        (UnaryOp::BitNot, Uint(a)) => Some(Uint(!a)),
-        _ => None,
-    }
+    fold::unary(op, value).filter(is_exact)
 }
 
 /// Two operands, component by component.
 pub(super) fn binary(op: BinaryOp, left: ScalarValue, right: ScalarValue) -> Option<ScalarValue> {
-    match (left, right) {
-        (Float(a), Float(b)) if is_plain(a) && is_plain(b) => float(op, a, b),
-        (Int(a), Int(b)) => int(op, a, b),
-        (Uint(a), Uint(b)) => uint(op, a, b),
-        // Only shifts mix signs (§5.9).
-        (Int(a), Uint(b)) => int(op, a, i32::try_from(b).ok()?),
-        (Uint(a), Int(b)) => uint(op, a, u32::try_from(b).ok()?),
-        (Bool(a), Bool(b)) if op == BinaryOp::LogicalXor => Some(Bool(a ^ b)),
-        _ => None,
-    }
+    let is_known = is_exact(&left) && is_exact(&right) && is_defined(op, left, right);
+    is_known.then(|| fold::scalar_binary(op, left, right)).flatten().filter(is_exact)
 }
 
-fn float(op: BinaryOp, a: f32, b: f32) -> Option<ScalarValue> {
-    Some(match op {
-        BinaryOp::Add => return plain(a + b),
-        BinaryOp::Sub => return plain(a - b),
-        // A product that vanishes might be a subnormal elsewhere.
-        BinaryOp::Mul if a * b == 0.0 && a != 0.0 && b != 0.0 => return None,
-        BinaryOp::Mul => return plain(a * b),
-        BinaryOp::Less => Bool(a < b),
-        BinaryOp::Greater => Bool(a > b),
-        BinaryOp::LessEqual => Bool(a <= b),
-        BinaryOp::GreaterEqual => Bool(a >= b),
-        _ => return None,
-    })
-}
-
-fn int(op: BinaryOp, a: i32, b: i32) -> Option<ScalarValue> {
-    Some(match op {
-        BinaryOp::Add => Int(a.wrapping_add(b)),
-        BinaryOp::Sub => Int(a.wrapping_sub(b)),
-        BinaryOp::Mul => Int(a.wrapping_mul(b)),
-        BinaryOp::Div => Int(a.checked_div(b)?),
+/// Whether GLSL defines the result, and every target computes it alike.
+fn is_defined(op: BinaryOp, left: ScalarValue, right: ScalarValue) -> bool {
+    match (op, left, right) {
+        (BinaryOp::Div, Int(a), Int(b)) => a.checked_div(b).is_some(),
         // The sign of a remainder is undefined where an operand is negative (§5.9).
-        BinaryOp::Rem if a >= 0 && b > 0 => Int(a.checked_rem(b)?),
-        BinaryOp::Shl if (0..32).contains(&b) => Int(a.wrapping_shl(b as u32)),
-        BinaryOp::Shr if (0..32).contains(&b) => Int(a.wrapping_shr(b as u32)),
-        BinaryOp::BitAnd => Int(a & b),
-        BinaryOp::BitXor => Int(a ^ b),
-        BinaryOp::BitOr => Int(a | b),
-        BinaryOp::Less => Bool(a < b),
-        BinaryOp::Greater => Bool(a > b),
-        BinaryOp::LessEqual => Bool(a <= b),
-        BinaryOp::GreaterEqual => Bool(a >= b),
-        _ => return None,
-    })
-}
-
-fn uint(op: BinaryOp, a: u32, b: u32) -> Option<ScalarValue> {
-    Some(match op {
-        BinaryOp::Add => Uint(a.wrapping_add(b)),
-        BinaryOp::Sub => Uint(a.wrapping_sub(b)),
-        BinaryOp::Mul => Uint(a.wrapping_mul(b)),
-        BinaryOp::Div => Uint(a.checked_div(b)?),
-        BinaryOp::Rem => Uint(a.checked_rem(b)?),
-        BinaryOp::Shl if b < 32 => Uint(a.wrapping_shl(b)),
-        BinaryOp::Shr if b < 32 => Uint(a.wrapping_shr(b)),
-        BinaryOp::BitAnd => Uint(a & b),
-        BinaryOp::BitXor => Uint(a ^ b),
-        BinaryOp::BitOr => Uint(a | b),
-        BinaryOp::Less => Bool(a < b),
-        BinaryOp::Greater => Bool(a > b),
-        BinaryOp::LessEqual => Bool(a <= b),
-        BinaryOp::GreaterEqual => Bool(a >= b),
-        _ => return None,
-    })
+        (BinaryOp::Rem, Int(a), Int(b)) => a >= 0 && b > 0,
+        (BinaryOp::Div | BinaryOp::Rem, Uint(_), Uint(b)) => b != 0,
+        (BinaryOp::Div | BinaryOp::Rem, ..) => false,
+        (BinaryOp::Shl | BinaryOp::Shr, _, Int(b)) => (0..32).contains(&b),
+        (BinaryOp::Shl | BinaryOp::Shr, _, Uint(b)) => b < 32,
+        // A product that vanishes might be a subnormal elsewhere.
+        (BinaryOp::Mul, Float(a), Float(b)) => a * b != 0.0 || a == 0.0 || b == 0.0,
+        _ => true,
+    }
 }
 
 /// Whether two scalars are equal, as `==` has it (-0 equals 0).

@@ -10,16 +10,22 @@ use glisten_front::hir::{ExprId, GlobalId, Shader, Storage, Types, may_act};
 /// Leaves out what reaches no output. `live` says for each global whether somebody reads it when the stage has ended.
 pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -> Shader {
     let mut shader = shader.clone();
+    // Whether the last round took neither functions nor parameters: without a change, there is nothing to compact then.
+    let mut is_compact = false;
     for _ in 0..super::ROUNDS {
         let parameters = |shader: &Shader| shader.functions.iter().map(|function| function.param_count).sum::<usize>();
         let before = (shader.functions.len(), parameters(&shader));
         let mut changed = sweep::sweep(types, &mut shader, live);
         changed |= overwritten_in(&mut shader);
         changed |= forget_initializers(types, &mut shader);
+        if !changed && is_compact {
+            break;
+        }
         // Nobody asks where the functions came from.
         let mut origins = Vec::new();
         shader = compact::compact(types, &shader, &|_| true, &mut origins).0;
-        if !changed && before == (shader.functions.len(), parameters(&shader)) {
+        is_compact = before == (shader.functions.len(), parameters(&shader));
+        if !changed && is_compact {
             break;
         }
     }

@@ -16,6 +16,11 @@
 //! | `smoothstep`, `mod`, lookups with a divisor | divide by it at once | kept unless that is defined |
 //! | `bitfieldExtract` and so on | refuse what is out of range | kept unless it is known to be in range |
 
+#![deny(
+    clippy::wildcard_enum_match_arm,
+    reason = "what is added to the language does not pass until it is judged here"
+)]
+
 use super::Demand;
 use super::operands::{Operands, Own, has_reciprocal, keep_unless, product, quotient, sum, whole, zero_unless};
 use crate::facts::{Fact, Range, at};

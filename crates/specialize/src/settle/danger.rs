@@ -14,6 +14,11 @@
 //! | any, of constants alone | compute it, by other rules | kept unless the result is finite |
 //! | integer division, shifts | refuse or leave undefined | kept where the specification leaves it undefined |
 
+#![deny(
+    clippy::wildcard_enum_match_arm,
+    reason = "what is added to the language does not pass until it is judged here"
+)]
+
 use super::operands::{Operands, Own, keep_unless, product, quotient, spread_or_any, sum, whole, zero_unless};
 use super::{Demand, builtins};
 use crate::facts::Fact;
@@ -68,7 +73,20 @@ fn is_constant_without_value(walked: &Walked, id: ExprId, types: &Types) -> bool
         ExprKind::BuiltinCall(function, _) => {
             matches!(function.class(), Class::Unary(_) | Class::Binary(_) | Class::Ternary(_) | Class::Numbers(_))
         }
-        _ => return false,
+        ExprKind::Error
+        | ExprKind::Literal(_)
+        | ExprKind::Var(_)
+        | ExprKind::Member(..)
+        | ExprKind::Index(..)
+        | ExprKind::Swizzle(..)
+        | ExprKind::Construct(..)
+        | ExprKind::Unary(..)
+        | ExprKind::Logical(..)
+        | ExprKind::Ternary(..)
+        | ExprKind::Comma(..)
+        | ExprKind::Call(..)
+        | ExprKind::IncDec(..)
+        | ExprKind::Assign(..) => return false,
     };
     let facts = walked.facts(id);
     let float = types.scalar_of(expr.ty) == Some(Scalar::Float);

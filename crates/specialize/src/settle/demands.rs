@@ -90,7 +90,14 @@ impl Demands {
         match kind {
             StmtKind::Local(local, _) => self.of_variable(function, VarRef::Local(*local)),
             StmtKind::Return(_) => self.results.get(function.index()).copied().unwrap_or_default(),
-            _ => Demand::NONE,
+            StmtKind::Expr(_)
+            | StmtKind::Block(_)
+            | StmtKind::If { .. }
+            | StmtKind::Switch { .. }
+            | StmtKind::Loop { .. }
+            | StmtKind::Break
+            | StmtKind::Continue
+            | StmtKind::Discard => Demand::NONE,
         }
     }
 

@@ -1,23 +1,30 @@
 //! `play`: the answers of the page of `glisten play`, for files that the page holds.
 //!
-//! *Holds:* the last pictures stay in the instance, for questions about single pixels. What the browser draws by WebGPU comes as planes of bytes.
+//! *Holds:* the last pictures stay in the instance, for questions about single pixels, and so do the programs. What the browser draws by WebGPU comes as planes of bytes.
 
 use crate::includes::{Asked, joined};
 use crate::reply::Reply;
 use crate::request::Request;
-use glisten::play::{self, Job, OwnLevels, Pictures, Wish, answer};
-use glisten::scene::{self, FileError, FileSource};
+use glisten::play::{self, Job, Kept, OwnLevels, Pictures, Wish, answer};
+use glisten::scene::{FileError, FileSource};
 use glisten_binding::Error;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 thread_local! {
-    static PICTURES: RefCell<Pictures> = RefCell::default();
+    static STATE: RefCell<(Pictures, Kept)> = RefCell::default();
 }
 
 /// The files of the page; texts that were changed there count instead.
 struct Held(BTreeMap<String, Vec<u8>>);
+
+impl Held {
+    /// The files as texts, for includes.
+    fn texts(&self) -> BTreeMap<String, String> {
+        self.0.iter().map(|(name, bytes)| (name.clone(), String::from_utf8_lossy(bytes).into_owned())).collect()
+    }
+}
 
 impl FileSource for Held {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
@@ -31,25 +38,27 @@ pub(crate) fn play(request: &Request, blob: &[u8]) -> Result<Reply, Error> {
         .map_err(|error| Error::argument(format!("the job is not understood: {error}")))?;
     let mut files = request.files(blob)?;
     files.extend(job.texts.iter().map(|(name, text)| (joined("", name), text.clone().into_bytes())));
-    let held = Held(files);
+    let held = Arc::new(Held(files));
     let (mut settings, _) = request.settings()?;
-    let texts: BTreeMap<String, String> =
-        held.0.iter().map(|(name, bytes)| (name.clone(), String::from_utf8_lossy(bytes).into_owned())).collect();
     let (asked, folders) = (Asked::new(false), request.folders.clone());
-    settings.includes.ask =
-        Some(Arc::new(move |path, angled, from| asked.resolve_in(&folders, &texts, &[], path, angled, from)));
+    let (files, texts) = (Arc::clone(&held), OnceLock::new());
+    settings.includes.ask = Some(Arc::new(move |path, angled, from| {
+        asked.resolve_in(&folders, texts.get_or_init(|| files.texts()), &[], path, angled, from)
+    }));
     let compiler = settings.compiler().without_levels();
-    let loaded = || scene::load(&job.scene, &held, &compiler);
+    let load = |kept: &mut Kept| kept.load(&job.scene, &*held, &compiler);
     let mut reply = Reply::default();
-    let answered = PICTURES.with_borrow_mut(|pictures| match &job.wish {
-        Wish::Plan => play::plan(loaded()).map(|plan| {
+    let answered = STATE.with_borrow_mut(|(pictures, kept)| match &job.wish {
+        Wish::Plan => play::plan(load(kept), kept).map(|plan| {
             let bytes = reply.bytes(&plan.bytes);
             reply.set("bytes_of_answer", bytes);
             plan.calls
         }),
-        Wish::Show { by } => play::show(loaded(), request.planes(blob), by, pictures),
-        Wish::JudgeShown { by, positions } => play::compare(loaded(), request.planes(blob), (by, *positions), pictures),
-        _ => answer(&job, &mut OwnLevels, pictures, |_| loaded()),
+        Wish::Show { by } => play::show(load(kept), request.planes(blob), by, pictures),
+        Wish::JudgeShown { by, positions } => {
+            play::compare(load(kept), request.planes(blob), (by, *positions), pictures)
+        }
+        _ => answer(&job, &mut OwnLevels, pictures, |_| load(kept)),
     });
     reply.set("answer", answered.map_err(Error::content)?);
     Ok(reply)

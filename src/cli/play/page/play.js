@@ -35,22 +35,29 @@ const askAny = computing?.ask ?? ((job) => request("POST", "/api/ask", job));
 const ask = (job) => askAny({ scene, texts: changedTexts(), ...job });
 
 // Runs a question so that at most one is under way and the newest always runs; `patience` is how long (ms) a running one may take
-// when a newer one waits. The server ends the older one.
+// when a newer one waits, unless its turn yields. The server ends the older one.
 const latest = (work, patience) => {
-  let running = 0, waiting = false, begun = 0;
+  let running = 0, waiting = false, begun = 0, limit = patience, timer = null, newest = 0;
   const run = async () => {
-    running += 1; begun = performance.now(); waiting = false;
-    try { await work(); } catch (error) { say(`no answer: ${error.message}`, true); }
+    running += 1; begun = performance.now(); limit = patience; waiting = false;
+    const own = newest += 1;
+    const isOld = () => waiting || own !== newest;
+    try { await work({ isOld, yields: () => { if (!isOld()) limit = 0; } }); } catch (error) { say(`no answer: ${error.message}`, true); }
     running -= 1;
     if (waiting && running === 0) run();
   };
+  // The time of the one that runs now, not of one before it.
+  const check = () => {
+    timer = null;
+    if (!waiting || running === 0) return;
+    const left = limit - (performance.now() - begun);
+    if (left <= 0) run();
+    else timer = setTimeout(check, left);
+  };
   const ask = () => {
-    if (running === 0) run();
-    else if (performance.now() - begun > patience) run();
-    else {
-      waiting = true;
-      setTimeout(() => { if (waiting && running > 0) run(); }, patience);
-    }
+    if (running === 0) { run(); return; }
+    waiting = true;
+    if (timer === null || limit === 0) { clearTimeout(timer); check(); }
   };
   ask.forget = () => { waiting = false; };
   return ask;
@@ -75,9 +82,11 @@ const textChanged = () => {
   edition += 1;
   isJudged = isJudging = false;
   clearTimeout(rests);
-  if (isMoving) rests = setTimeout(look, 200);
+  if (isMoving) rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
   else look();
-  showFiles(); draw(); inspector.refresh(); studies.age();
+  showFiles(); draw(); studies.age();
+  // A question about a pixel does not end the picture that was asked for before it.
+  if (!isMoving) inspector.refresh();
 };
 const translation = Editor.create({
   parent: byId("translation"), label: "Translation", words: start.words, readOnly: true,
@@ -101,8 +110,13 @@ const mark = () => {
   editor.cross(studies.linesOf(shown));
 };
 
+let filesShown = null;
 const showFiles = () => {
   const base = (name) => name.split(/[\\/]/).at(-1);
+  // While a number changes, the list does not.
+  const now = JSON.stringify([shown, [...docs].map(([name, doc]) => [name, doc.isWritable, doc.text !== doc.saved, ofFile(name).map((one) => one.severity)])]);
+  if (now === filesShown) return;
+  filesShown = now;
   const bases = [...docs.keys()].map(base);
   byId("files").replaceChildren(...[...docs].map(([name, doc]) => {
     const found = ofFile(name);
@@ -325,14 +339,16 @@ const figure = (name, source, width, height, caption) => {
 };
 const showDrawn = (drawn) => {
   const old = byId("pictures").querySelector("img");
-  if (old && byId("pictures").children.length === 1 && old.width === drawn.width && old.dataset.kind === "drawn") old.src = drawn.picture;
+  if (old && byId("pictures").children.length === 1 && Number(old.getAttribute("width")) === drawn.width && old.dataset.kind === "drawn") old.src = drawn.picture;
   else {
     byId("pictures").replaceChildren(figure("picture", drawn.picture, drawn.width, drawn.height, ""));
     byId("pictures").querySelector("img").dataset.kind = "drawn";
   }
   // The numbers of a pixel were those of the last picture.
   byId("pixel").textContent = HINT;
-  byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}, in ${drawn.milliseconds.toFixed(0)} ms${drawn.is_empty ? "; nothing is covered: no fragment reached a pixel" : ""}`;
+  const time = `in ${drawn.milliseconds.toFixed(0)} ms`;
+  const empty = drawn.is_empty ? "; nothing is covered: no fragment reached a pixel" : "";
+  byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}, ${drawn.block > 1 ? `a first look ${time}: one pixel of ${drawn.block ** 2}` : time + empty}`;
 };
 const showJudged = (judged) => {
   const { width, height } = judged;
@@ -355,13 +371,27 @@ const showJudged = (judged) => {
     offer("verdict.json", JSON.stringify(report, null, 2));
   };
 };
-const draw = isLive ? latest(async () => {
-  const by = document.querySelector("input[name=by]:checked").value;
-  const answer = await ask({ ask: "draw", gpu: by === "gpu" });
-  if (answer.ok) {
-    byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
-    showDrawn(answer.ok);
-  } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn, so this is the last picture: ${answer.error}`;
+// A picture of the reference that takes longer (ms) is drawn coarsely first, and so is the first one of a scene.
+const SLOW = 100;
+let pace = { scene: null, milliseconds: 0 };
+const draw = isLive ? latest(async ({ isOld, yields }) => {
+  const gpu = document.querySelector("input[name=by]:checked").value === "gpu";
+  const asked = scene;
+  const show = (answer) => {
+    if (answer.ok) {
+      byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
+      showDrawn(answer.ok);
+    } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn, so this is the last picture: ${answer.error}`;
+    return Boolean(answer.ok);
+  };
+  if (!gpu && (pace.scene !== scene || pace.milliseconds > SLOW)) {
+    const isShown = show(await ask({ ask: "draw", gpu, coarse: true }));
+    // The whole picture is for a text that rests.
+    if (!isShown || isOld()) return;
+    yields();
+  }
+  const answer = await ask({ ask: "draw", gpu });
+  if (show(answer) && !gpu) pace = { scene: asked, milliseconds: answer.ok.milliseconds };
 }, 600) : () => {};
 // The judgement draws too: a picture that waits for its turn would only end it. A change of a text ends it and draws.
 const judge = async () => {

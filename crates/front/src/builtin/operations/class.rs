@@ -1,6 +1,11 @@
 //! [`Class`]: the kind of computation of a built-in function. Folding, the executor and lowering match it without a
 //! wildcard.
 
+#![deny(
+    clippy::wildcard_enum_match_arm,
+    reason = "what is added to the language does not pass until it is judged here"
+)]
+
 use super::{Binary, Composite, Ternary, TextureForm, Unary};
 
 /// The kind of computation of a built-in function.

@@ -343,7 +343,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         if !matches!(self.kind(), TokenKind::RightParen | TokenKind::LeftBrace) {
             params.push(self.parameter()?);
-            while self.another_parameter() {
+            while self.another_parameter()? {
                 params.push(self.parameter()?);
             }
         }
@@ -351,16 +351,20 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// Reads the comma before another parameter. A missing comma before the start of a parameter is reported and
-    /// assumed.
-    fn another_parameter(&mut self) -> bool {
+    /// assumed, unless the error is that the list was left unfinished on a line before.
+    fn another_parameter(&mut self) -> Parse<bool> {
         if self.eat(TokenKind::Comma).is_some() {
-            return true;
+            return Ok(true);
         }
         let forgotten = matches!(self.kind(), TokenKind::Type | TokenKind::Struct) || is_qualifier(self.kind());
         if forgotten {
-            let _: Reported = self.unexpected("`,` or `)`");
+            let before = self.consumed;
+            let reported = self.unexpected("`,` or `)`");
+            if self.consumed < before {
+                return Err(reported);
+            }
         }
-        forgotten
+        Ok(forgotten)
     }
 
     /// parameter_declaration

@@ -162,6 +162,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// could be instead of the next token.
     pub(super) fn left_unfinished(&mut self, expected: &str) -> Option<Reported> {
         let number = self.unfinished_before()?;
+        let target = self.token(number).span;
+        if !self.returned_to.insert(target) {
+            return None;
+        }
         let is_next = number == self.taken.len();
         let before = self.token(number - 1);
         let open = self.open_bracket(number);

@@ -84,6 +84,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     sought_brace: bool,
     /// Whether the error that is being propagated leaves nothing to skip.
     recovered: bool,
+    /// The tokens to which the parser went back. It goes back to none twice, so it ends.
+    returned_to: FxHashSet<Span>,
     /// Whether something nests too deeply: the rest of the block around it is skipped.
     overdeep: bool,
     /// Whether a closing brace was assumed for that reason.
@@ -124,6 +126,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             leaving_function: false,
             sought_brace: false,
             recovered: false,
+            returned_to: FxHashSet::default(),
             overdeep: false,
             assumed_brace: false,
             declaring: Vec::new(),
