@@ -79,12 +79,12 @@ pub fn run(wanted: Wanted<'_>) -> Result<String, String> {
 /// Builds the copy; returns its program.
 fn built(source: &Path, build: &Path) -> Result<PathBuf, String> {
     let mut cargo = Command::new("cargo");
-    cargo.args(["build", "-p", "glisten-fuzz", "--manifest-path"]).arg(source.join("Cargo.toml"));
+    cargo.args(["build", "--release", "-p", "glisten-fuzz", "--manifest-path"]).arg(source.join("Cargo.toml"));
     cargo.arg("--target-dir").arg(build).env_remove(SWITCH);
     // What the planted expressions do not use is no matter.
     cargo.env("RUSTFLAGS", "--cap-lints=allow");
     let status = cargo.status().map_err(|error| format!("cargo: {error}"))?;
-    if status.success() { Ok(build.join("debug/fuzz")) } else { Err("the copy cannot be built".to_owned()) }
+    if status.success() { Ok(build.join("release/fuzz")) } else { Err("the copy cannot be built".to_owned()) }
 }
 
 /// The result of a search.
