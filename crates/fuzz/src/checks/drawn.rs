@@ -2,6 +2,7 @@
 //!
 //! *In:* a program, or other texts for it. *Out:* pictures as [`Bits`]. *Holds:* a picture that is not a number is the same as any other such.
 
+use super::again::Read;
 use crate::Sections;
 use crate::generate::Program;
 use glisten::scene::{Loaded, MemoryFiles, Scene, load};
@@ -10,6 +11,9 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{Compiler, Options, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::picture::Picture;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
 /// The values of a picture as bits.
@@ -21,6 +25,15 @@ impl Bits {
     pub fn of(picture: &Picture) -> Self {
         let bits = |value: &f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
         Self(picture.attachments.iter().flatten().flatten().map(bits).collect())
+    }
+
+    /// Whether all numbers are nearly the same.
+    pub(super) fn is_near(&self, other: &Self, near: f64) -> bool {
+        let both = self.0.iter().zip(&other.0).map(|(left, right)| (f64::from_bits(*left), f64::from_bits(*right)));
+        let is_near = |(left, right): (f64, f64)| {
+            left.to_bits() == right.to_bits() || (left - right).abs() <= near * left.abs().max(1.0)
+        };
+        self.0.len() == other.0.len() && both.into_iter().all(is_near)
     }
 
     /// The first difference, as a sentence.
@@ -41,8 +54,8 @@ impl Bits {
 /// The texts of a program and its scene.
 #[derive(Clone, Debug)]
 pub struct Texts {
-    /// The vertex and the fragment stage: `a.vert` and `a.frag`.
-    pub sources: [Source; 2],
+    /// The stages: `a.vert`, `a.geom` if there is one, and `a.frag`.
+    pub sources: Vec<Source>,
     /// The scene.
     pub scene: String,
 }
@@ -51,16 +64,12 @@ impl Texts {
     /// The sections `vertex`, `fragment` and `scene` of a text.
     pub fn of(text: &str) -> Self {
         let sections = Sections::of(text);
-        let source = |name: &str, stage| {
-            let text = sections.text(stage).unwrap_or_default().into();
-            Source {
-                name: name.to_owned(),
-                text,
-                stage: if stage == "vertex" { Stage::Vertex } else { Stage::Fragment },
-            }
-        };
-        let sources = [source("a.vert", "vertex"), source("a.frag", "fragment")];
-        Self { sources, scene: sections.text("scene").unwrap_or_default().to_owned() }
+        let all = [("a.vert", Stage::Vertex), ("a.geom", Stage::Geometry), ("a.frag", Stage::Fragment)];
+        let sources = all.into_iter().filter_map(|(name, stage)| {
+            let text = sections.text(stage.name())?.into();
+            Some(Source { name: name.to_owned(), text, stage })
+        });
+        Self { sources: sources.collect(), scene: sections.text("scene").unwrap_or_default().to_owned() }
     }
 }
 
@@ -82,12 +91,22 @@ pub struct Drawn<'p> {
     pub scene: Scene,
     pub(super) single: Bits,
     exact: OnceLock<Result<Bits, String>>,
+    /// The texts that have been drawn, by their hashes.
+    seen: RefCell<BTreeSet<u64>>,
+    /// The stages as naga reads them in the emitted WGSL.
+    pub(super) wgsl: OnceLock<Result<Vec<Read>, String>>,
 }
 
 /// The compiler of generated programs.
 pub(super) fn compiler() -> &'static Compiler {
     static COMPILER: OnceLock<Compiler> = OnceLock::new();
     COMPILER.get_or_init(|| Compiler::new(Options::default()))
+}
+
+fn hash(texts: &[String]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    texts.hash(&mut hasher);
+    hasher.finish()
 }
 
 fn first_error<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> String {
@@ -97,14 +116,21 @@ fn first_error<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> String 
 
 /// Draws a scene.
 pub(super) fn bits(scene: &Scene, precision: Precision) -> Result<Bits, String> {
+    bits_of(scene, precision, usize::MAX)
+}
+
+/// Draws the first so many attachments of a scene.
+pub(super) fn bits_of(scene: &Scene, precision: Precision, attachments: usize) -> Result<Bits, String> {
     let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
-    render(scene, &options).map(|picture| Bits::of(&picture)).map_err(|errors| first_error(errors.iter()))
+    let mut picture = render(scene, &options).map_err(|errors| first_error(errors.iter()))?;
+    picture.attachments.truncate(attachments);
+    Ok(Bits::of(&picture))
 }
 
 /// The scene of texts.
 pub(super) fn scene_of(texts: &Texts) -> Result<(Loaded, Scene), String> {
-    let [vertex, fragment] = &texts.sources;
-    let files = [("a.toml", texts.scene.as_str()), ("a.vert", &*vertex.text), ("a.frag", &*fragment.text)];
+    let stages = texts.sources.iter().map(|source| (source.name.as_str(), &*source.text));
+    let files = std::iter::once(("a.toml", texts.scene.as_str())).chain(stages);
     let loaded = load("a.toml", &MemoryFiles::new(files), compiler());
     match loaded.scene.clone() {
         Some(scene) => Ok((loaded, scene)),
@@ -116,7 +142,15 @@ impl<'p> Drawn<'p> {
     pub(super) fn new(texts: Texts, program: Option<&'p Program>) -> Result<Self, String> {
         let (loaded, scene) = scene_of(&texts)?;
         let single = bits(&scene, Precision::F32)?;
-        Ok(Self { texts, program, loaded, scene, single, exact: OnceLock::new() })
+        let own: Vec<String> = texts.sources.iter().map(|source| source.text.to_string()).collect();
+        let own = hash(&own);
+        let seen = RefCell::new(BTreeSet::from([own]));
+        Ok(Self { texts, program, loaded, scene, single, exact: OnceLock::new(), seen, wgsl: OnceLock::new() })
+    }
+
+    /// Whether these texts of the stages have not been drawn yet. From now on, they have.
+    pub(super) fn is_new(&self, texts: &[String]) -> bool {
+        self.seen.borrow_mut().insert(hash(texts))
     }
 
     /// Whether the texts are of OpenGL ES.
@@ -131,12 +165,12 @@ impl<'p> Drawn<'p> {
     }
 
     /// The scene with other texts of its stages.
-    pub(super) fn with_texts(&self, texts: [String; 2]) -> Result<Scene, String> {
+    pub(super) fn with_texts(&self, texts: &[String]) -> Result<Scene, String> {
         let sources: Vec<Source> = self
             .texts
             .sources
             .iter()
-            .zip(&texts)
+            .zip(texts)
             .map(|(source, text)| Source { text: text.as_str().into(), ..source.clone() })
             .collect();
         let compilation = compiler().compile(&sources);
@@ -157,8 +191,11 @@ impl<'p> Drawn<'p> {
     }
 
     /// Whether other texts draw the same bits.
-    pub(super) fn same(&self, texts: [String; 2]) -> Result<(), String> {
-        let scene = self.with_texts(texts.clone())?;
+    pub(super) fn same(&self, texts: &[String]) -> Result<(), String> {
+        if !self.is_new(texts) {
+            return Ok(());
+        }
+        let scene = self.with_texts(texts)?;
         self.same_scene(&scene).map_err(|message| format!("{message}\n{}", texts.join("\n")))
     }
 
