@@ -10,6 +10,7 @@ use glisten::specialize::with_program;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{Compiler, Options, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, render};
+use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -25,15 +26,6 @@ impl Bits {
     pub fn of(picture: &Picture) -> Self {
         let bits = |value: &f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
         Self(picture.attachments.iter().flatten().flatten().map(bits).collect())
-    }
-
-    /// Whether all numbers are nearly the same.
-    pub(super) fn is_near(&self, other: &Self, near: f64) -> bool {
-        let both = self.0.iter().zip(&other.0).map(|(left, right)| (f64::from_bits(*left), f64::from_bits(*right)));
-        let is_near = |(left, right): (f64, f64)| {
-            left.to_bits() == right.to_bits() || (left - right).abs() <= near * left.abs().max(1.0)
-        };
-        self.0.len() == other.0.len() && both.into_iter().all(is_near)
     }
 
     /// The first difference, as a sentence.
@@ -90,6 +82,9 @@ pub struct Drawn<'p> {
     /// The scene.
     pub scene: Scene,
     pub(super) single: Bits,
+    /// The picture in f32.
+    pub(super) picture: Picture,
+    envelope: OnceLock<Result<Picture, String>>,
     exact: OnceLock<Result<Bits, String>>,
     /// The texts that have been drawn, by their hashes.
     seen: RefCell<BTreeSet<u64>>,
@@ -109,22 +104,24 @@ fn hash(texts: &[String]) -> u64 {
     hasher.finish()
 }
 
-fn first_error<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> String {
+/// The first error, as a sentence.
+pub(super) fn first_error<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> String {
     let mut errors = diagnostics.filter(|one| one.is_error());
     errors.next().map_or("no reason".to_owned(), |one| format!("{}: {}", one.code.id, one.message))
 }
 
 /// Draws a scene.
 pub(super) fn bits(scene: &Scene, precision: Precision) -> Result<Bits, String> {
-    bits_of(scene, precision, usize::MAX)
+    picture_of(scene, precision, usize::MAX).map(|picture| Bits::of(&picture))
 }
 
 /// Draws the first so many attachments of a scene.
-pub(super) fn bits_of(scene: &Scene, precision: Precision, attachments: usize) -> Result<Bits, String> {
-    let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
+pub(super) fn picture_of(scene: &Scene, precision: Precision, attachments: usize) -> Result<Picture, String> {
+    let mark_edges = precision == Precision::Envelope;
+    let options = RenderOptions { precision, mark_edges, ..RenderOptions::default() };
     let mut picture = render(scene, &options).map_err(|errors| first_error(errors.iter()))?;
     picture.attachments.truncate(attachments);
-    Ok(Bits::of(&picture))
+    Ok(picture)
 }
 
 /// The scene of texts.
@@ -141,11 +138,13 @@ pub(super) fn scene_of(texts: &Texts) -> Result<(Loaded, Scene), String> {
 impl<'p> Drawn<'p> {
     pub(super) fn new(texts: Texts, program: Option<&'p Program>) -> Result<Self, String> {
         let (loaded, scene) = scene_of(&texts)?;
-        let single = bits(&scene, Precision::F32)?;
+        let picture = picture_of(&scene, Precision::F32, usize::MAX)?;
+        let single = Bits::of(&picture);
         let own: Vec<String> = texts.sources.iter().map(|source| source.text.to_string()).collect();
         let own = hash(&own);
         let seen = RefCell::new(BTreeSet::from([own]));
-        Ok(Self { texts, program, loaded, scene, single, exact: OnceLock::new(), seen, wgsl: OnceLock::new() })
+        let (exact, envelope, wgsl) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Ok(Self { texts, program, loaded, scene, single, picture, exact, envelope, seen, wgsl })
     }
 
     /// Whether these texts of the stages have not been drawn yet. From now on, they have.
@@ -162,6 +161,13 @@ impl<'p> Drawn<'p> {
     /// The picture in f64.
     pub(super) fn exact(&self) -> Result<&Bits, String> {
         self.exact.get_or_init(|| bits(&self.scene, Precision::F64)).as_ref().map_err(Clone::clone)
+    }
+
+    /// Whether a picture is inside of the envelope, as far as that is without a doubt.
+    pub(super) fn is_inside(&self, picture: &Picture) -> Result<bool, String> {
+        let envelope = self.envelope.get_or_init(|| picture_of(&self.scene, Precision::Envelope, usize::MAX));
+        let envelope = envelope.as_ref().map_err(Clone::clone)?;
+        Ok(Verdict::new(picture, envelope, Criterion::Envelope).outside == 0)
     }
 
     /// The scene with other texts of its stages.

@@ -2,13 +2,13 @@
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where another picture is drawn.
 
-use super::drawn::{Drawn, Texts, bits, compiler, scene_of};
+use super::drawn::{Drawn, Texts, bits, compiler, first_error, scene_of};
 use super::targets::{is_refusal, stages};
 use crate::chance::Chance;
 use crate::generate::{Change, changed};
 use glisten::format::{self, has_same_lexemes};
 use glisten::specialize::specialize_scene;
-use glisten::upgrade::{Target as Version, upgrade as upgraded};
+use glisten::upgrade::{Refused, Target as Version, upgrade as upgraded};
 use glisten::verify::{Cpu, Failure, Options, Runner, verify};
 use glisten_emit::{Conventions, Emitted, GlslVersion, Target, emit};
 use glisten_front::hir;
@@ -19,9 +19,16 @@ type Held = Result<(), String>;
 
 /// f32 without any freedom is what a conforming GPU may draw.
 pub(super) fn envelope(drawn: &Drawn<'_>) -> Held {
-    let runner = Cpu::new(Precision::F32);
+    if drawn.is_inside(&drawn.picture)? {
+        return Ok(());
+    }
+    inside(drawn, &Cpu::new(Precision::F32))
+}
+
+/// Whether `verify` finds nothing wrong: it knows what is undefined, too.
+pub(super) fn inside(drawn: &Drawn<'_>, runner: &dyn Runner) -> Held {
     let options = Options { sources: Some(&drawn.loaded.sources), allow_inconclusive: true, ..Options::default() };
-    match verify(&drawn.scene, &[&runner as &dyn Runner], &options) {
+    match verify(&drawn.scene, &[runner], &options) {
         Ok(verification) => {
             let outside: u64 = verification.runs.iter().map(|run| run.verdict.outside).sum();
             if outside == 0 { Ok(()) } else { Err(format!("f32 is outside of the envelope:\n{verification}")) }
@@ -34,9 +41,10 @@ pub(super) fn envelope(drawn: &Drawn<'_>) -> Held {
 /// Formatted texts.
 pub(super) fn format(drawn: &Drawn<'_>) -> Held {
     let odd = format::Options { indent: None, width: 40, braces_below: true };
-    // Their lexemes are the same, so that one style is drawn.
-    let drawn_style = drawn.program.map(|program| program.seed as usize % 2);
-    for (style, options) in [format::Options::default(), odd].into_iter().enumerate() {
+    // Of the two styles, the seed chooses one.
+    let styles = [format::Options::default(), odd];
+    let left_out = drawn.program.map(|program| program.seed as usize % 2);
+    for (_, options) in styles.into_iter().enumerate().filter(|(index, _)| left_out != Some(*index)) {
         let mut texts = Vec::new();
         for source in &drawn.texts.sources {
             let once = format::format(&source.text, &[], &options);
@@ -48,9 +56,7 @@ pub(super) fn format(drawn: &Drawn<'_>) -> Held {
             }
             texts.push(once.text);
         }
-        if drawn_style.is_none_or(|one| one == style) {
-            drawn.same(&texts)?;
-        }
+        drawn.same(&texts)?;
     }
     Ok(())
 }
@@ -102,6 +108,10 @@ pub(super) fn upgrade(drawn: &Drawn<'_>) -> Held {
             Ok(new) if target != Version::Vulkan => {
                 drawn.same(&new.texts).map_err(|message| format!("for {word}: {message}"))?;
             }
+            Err(Refused::NotValid(compilation)) => {
+                let error = first_error(compilation.diagnostics.iter());
+                return Err(format!("for {word}, what is rewritten is not valid: {error}"));
+            }
             _ => {}
         }
     }
@@ -114,7 +124,10 @@ pub(super) fn specialize(drawn: &Drawn<'_>) -> Held {
     let names: Vec<String> = draw.program.interface.uniforms.iter().map(|one| one.name.clone()).collect();
     let mut chance = Chance::new(names.len() as u64);
     let some = names.iter().filter(|_| chance.once_in(2)).cloned().collect();
-    for dynamic in [Vec::new(), some, names] {
+    // Of the latter two, the seed chooses one.
+    let all = [Vec::new(), some, names];
+    let left_out = drawn.program.map(|program| 1 + program.seed as usize % 2);
+    for (_, dynamic) in all.into_iter().enumerate().filter(|(index, _)| left_out != Some(*index)) {
         let left = specialize_scene(&drawn.scene, &drawn.loaded.sources, &dynamic);
         let texts =
             || left.draws.iter().flat_map(|draw| &draw.texts).map(|(_, text)| text.as_str()).collect::<String>();

@@ -59,7 +59,8 @@ pub fn run(wanted: Wanted<'_>) -> Result<String, String> {
     let source = folder.join("source");
     copy::copy(wanted.root, &source)?;
     copy::plant(wanted.root, &source, &faults)?;
-    let program = built(&source, &folder.join("build"))?;
+    let draws = faults.iter().any(|fault| fault.device);
+    let program = built(&source, &folder.join("build"), draws)?;
     let without = search(&program, None, wanted)?;
     if let Some(kind) = without.found {
         return Err(format!("without a fault, the generator finds: {kind}"));
@@ -76,10 +77,11 @@ pub fn run(wanted: Wanted<'_>) -> Result<String, String> {
     Ok(text)
 }
 
-/// Builds the copy; returns its program.
-fn built(source: &Path, build: &Path) -> Result<PathBuf, String> {
+/// Builds the copy, with what draws on a GPU if a fault needs one; returns its program.
+fn built(source: &Path, build: &Path, draws: bool) -> Result<PathBuf, String> {
     let mut cargo = Command::new("cargo");
     cargo.args(["build", "--release", "-p", "glisten-fuzz", "--manifest-path"]).arg(source.join("Cargo.toml"));
+    cargo.args(["--no-default-features", "--features", if draws { "draw" } else { "checks" }]);
     cargo.arg("--target-dir").arg(build).env_remove(SWITCH);
     // What the planted expressions do not use is no matter.
     cargo.env("RUSTFLAGS", "--cap-lints=allow");
