@@ -114,7 +114,7 @@ pub(super) fn spirv(drawn: &Drawn<'_>) -> Held {
     again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?)
 }
 
-/// What is left after `-O`, with the lines of the source, in one of the two; and 16-bit floats, which naga accepts.
+/// The rest after `-O`, with the lines of the source, as WGSL or as SPIR-V; and 16-bit floats, which naga accepts.
 pub(super) fn options(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     let left = glisten_specialize::optimize(&draw.program);

@@ -18,7 +18,7 @@ pub const SIDE: usize = 4;
 /// The varying that passes the sum of the vertex stage on.
 pub(super) const PASSED: &str = "ya";
 
-/// What the names of varyings begin with behind a geometry stage.
+/// The beginning of the names of varyings behind a geometry stage.
 const LATER: &str = "z";
 
 /// A varying, or a block of them.

@@ -160,6 +160,18 @@ mod tests {
             "swizzle as l-value",
             "nested struct",
             "matrixCompMult",
+            "geometry stage",
+            "gl_ClipDistance",
+            "uniform array of structs",
+            "array of uniform blocks",
+            "comment",
+            "isampler3D",
+            "sampler2DMS",
+            "overload with a conversion",
+            "function that differs in one place",
+            "comparison at a bound",
+            "assignment of an operation on itself",
+            "operation on a neutral number",
         ] {
             assert!(seen.contains(construct), "{construct}");
         }
