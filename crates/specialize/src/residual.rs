@@ -201,7 +201,8 @@ fn assemble(
     moved: Vec<Moved>,
 ) -> Residual {
     let mut types = program.types.clone();
-    prune::finish(&mut types, &mut pruned);
+    // A geometry stage stays as it is, and has structs and arrays of the others.
+    prune::finish(&mut types, &mut pruned, program.stage(Stage::Geometry).is_none());
     let mut shaders: Vec<Shader> = pruned.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
     shaders.extend(program.stage(Stage::Geometry).cloned());
     shaders.sort_by_key(|shader| shader.stage);

@@ -4,7 +4,7 @@
 //! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
 
 use super::names::{FUNCTIONS, lookup};
-use super::tokens::{closing, tokens};
+use super::tokens::{Token, closing, tokens};
 use glisten_front::Stage;
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
 use glisten_front::builtin::functions;
@@ -497,6 +497,8 @@ fn keyword_uses<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
             let follows = match token.text {
                 "layout" => next.text == "(",
                 "default" => next.text == ":",
+                // A keyword since 4.30, and still the word of a layout (GLSL 4.60 §4.4.5).
+                "shared" => is_in_layout(&all, index),
                 "switch" => {
                     closing(&all, index + 1).and_then(|end| all.get(end + 1)).is_some_and(|one| one.text == "{")
                 }
@@ -508,6 +510,16 @@ fn keyword_uses<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
         }
     }
     found
+}
+
+/// Whether a word is between the parentheses of a layout.
+fn is_in_layout(all: &[Token<'_>], index: usize) -> bool {
+    let before = all.get(..index).unwrap_or_default();
+    before.iter().rposition(|one| matches!(one.text, "(" | ")" | ";" | "{")).is_some_and(|open| {
+        let opens = before.get(open).is_some_and(|one| one.text == "(");
+        let word = open.checked_sub(1).and_then(|word| before.get(word));
+        opens && word.is_some_and(|word| word.text == "layout")
+    })
 }
 
 /// The name of a variable for all stages: what a fragment shader reads as `gl_Color` is written as `gl_FrontColor`.
@@ -581,6 +593,8 @@ mod tests {
             text("precision mediump float; flat in vec4 a; layout(location = 0) out vec4 c;", Stage::Fragment);
         let plan = Plan::new(&[guarded], Target::Es300);
         assert_eq!(["precision", "mediump", "flat", "layout"].map(|word| plan.word(Stage::Fragment, word)), [None; 4]);
+        let block = text("layout(std140, shared) uniform B { vec4 a; };", Stage::Fragment);
+        assert_eq!(Plan::new(&[block], Target::Core460).word(Stage::Fragment, "shared"), None);
         let plan = Plan::new(&[text("float centroid, row_major, sample, x;", Stage::Vertex)], Target::Core150);
         assert_eq!(plan.word(Stage::Vertex, "centroid"), Some("centroid_"));
         assert_eq!(plan.word(Stage::Vertex, "x"), None);

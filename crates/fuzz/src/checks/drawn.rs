@@ -2,14 +2,19 @@
 //!
 //! *In:* a program, or other texts for it. *Out:* pictures as [`Bits`]. *Holds:* a picture that is not a number is the same as any other such.
 
+use super::again::Read;
 use crate::Sections;
 use crate::generate::Program;
 use glisten::scene::{Loaded, MemoryFiles, Scene, load};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{Compiler, Options, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, render};
+use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use glisten_verify::specialize::with_program;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
 /// The values of a picture as bits.
@@ -41,8 +46,8 @@ impl Bits {
 /// The texts of a program and its scene.
 #[derive(Clone, Debug)]
 pub struct Texts {
-    /// The vertex and the fragment stage: `a.vert` and `a.frag`.
-    pub sources: [Source; 2],
+    /// The stages: `a.vert`, `a.geom` if there is one, and `a.frag`.
+    pub sources: Vec<Source>,
     /// The scene.
     pub scene: String,
 }
@@ -51,16 +56,12 @@ impl Texts {
     /// The sections `vertex`, `fragment` and `scene` of a text.
     pub fn of(text: &str) -> Self {
         let sections = Sections::of(text);
-        let source = |name: &str, stage| {
-            let text = sections.text(stage).unwrap_or_default().into();
-            Source {
-                name: name.to_owned(),
-                text,
-                stage: if stage == "vertex" { Stage::Vertex } else { Stage::Fragment },
-            }
-        };
-        let sources = [source("a.vert", "vertex"), source("a.frag", "fragment")];
-        Self { sources, scene: sections.text("scene").unwrap_or_default().to_owned() }
+        let all = [("a.vert", Stage::Vertex), ("a.geom", Stage::Geometry), ("a.frag", Stage::Fragment)];
+        let sources = all.into_iter().filter_map(|(name, stage)| {
+            let text = sections.text(stage.name())?.into();
+            Some(Source { name: name.to_owned(), text, stage })
+        });
+        Self { sources: sources.collect(), scene: sections.text("scene").unwrap_or_default().to_owned() }
     }
 }
 
@@ -81,7 +82,14 @@ pub struct Drawn<'p> {
     /// The scene.
     pub scene: Scene,
     pub(super) single: Bits,
+    /// The picture in f32.
+    pub(super) picture: Picture,
+    envelope: OnceLock<Result<Picture, String>>,
     exact: OnceLock<Result<Bits, String>>,
+    /// The texts that have been drawn, by their hashes.
+    seen: RefCell<BTreeSet<u64>>,
+    /// The stages as naga reads them in the emitted WGSL.
+    pub(super) wgsl: OnceLock<Result<Vec<Read>, String>>,
 }
 
 /// The compiler of generated programs.
@@ -90,21 +98,36 @@ pub(super) fn compiler() -> &'static Compiler {
     COMPILER.get_or_init(|| Compiler::new(Options::default()))
 }
 
-fn first_error<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> String {
+fn hash(texts: &[String]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    texts.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// The first error, as a sentence.
+pub(super) fn first_error<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> String {
     let mut errors = diagnostics.filter(|one| one.is_error());
     errors.next().map_or("no reason".to_owned(), |one| format!("{}: {}", one.code.id, one.message))
 }
 
 /// Draws a scene.
 pub(super) fn bits(scene: &Scene, precision: Precision) -> Result<Bits, String> {
-    let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
-    render(scene, &options).map(|picture| Bits::of(&picture)).map_err(|errors| first_error(errors.iter()))
+    picture_of(scene, precision, usize::MAX).map(|picture| Bits::of(&picture))
+}
+
+/// Draws the first so many attachments of a scene.
+pub(super) fn picture_of(scene: &Scene, precision: Precision, attachments: usize) -> Result<Picture, String> {
+    let mark_edges = precision == Precision::Envelope;
+    let options = RenderOptions { precision, mark_edges, ..RenderOptions::default() };
+    let mut picture = render(scene, &options).map_err(|errors| first_error(errors.iter()))?;
+    picture.attachments.truncate(attachments);
+    Ok(picture)
 }
 
 /// The scene of texts.
 pub(super) fn scene_of(texts: &Texts) -> Result<(Loaded, Scene), String> {
-    let [vertex, fragment] = &texts.sources;
-    let files = [("a.toml", texts.scene.as_str()), ("a.vert", &*vertex.text), ("a.frag", &*fragment.text)];
+    let stages = texts.sources.iter().map(|source| (source.name.as_str(), &*source.text));
+    let files = std::iter::once(("a.toml", texts.scene.as_str())).chain(stages);
     let loaded = load("a.toml", &MemoryFiles::new(files), compiler());
     match loaded.scene.clone() {
         Some(scene) => Ok((loaded, scene)),
@@ -115,8 +138,18 @@ pub(super) fn scene_of(texts: &Texts) -> Result<(Loaded, Scene), String> {
 impl<'p> Drawn<'p> {
     pub(super) fn new(texts: Texts, program: Option<&'p Program>) -> Result<Self, String> {
         let (loaded, scene) = scene_of(&texts)?;
-        let single = bits(&scene, Precision::F32)?;
-        Ok(Self { texts, program, loaded, scene, single, exact: OnceLock::new() })
+        let picture = picture_of(&scene, Precision::F32, usize::MAX)?;
+        let single = Bits::of(&picture);
+        let own: Vec<String> = texts.sources.iter().map(|source| source.text.to_string()).collect();
+        let own = hash(&own);
+        let seen = RefCell::new(BTreeSet::from([own]));
+        let (exact, envelope, wgsl) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
+        Ok(Self { texts, program, loaded, scene, single, picture, exact, envelope, seen, wgsl })
+    }
+
+    /// Whether these texts of the stages have not been drawn yet. From now on, they have.
+    pub(super) fn is_new(&self, texts: &[String]) -> bool {
+        self.seen.borrow_mut().insert(hash(texts))
     }
 
     /// Whether the texts are of OpenGL ES.
@@ -130,13 +163,20 @@ impl<'p> Drawn<'p> {
         self.exact.get_or_init(|| bits(&self.scene, Precision::F64)).as_ref().map_err(Clone::clone)
     }
 
+    /// Whether a picture is inside of the envelope, as far as that is without a doubt.
+    pub(super) fn is_inside(&self, picture: &Picture) -> Result<bool, String> {
+        let envelope = self.envelope.get_or_init(|| picture_of(&self.scene, Precision::Envelope, usize::MAX));
+        let envelope = envelope.as_ref().map_err(Clone::clone)?;
+        Ok(Verdict::new(picture, envelope, Criterion::Envelope).outside == 0)
+    }
+
     /// The scene with other texts of its stages.
-    pub(super) fn with_texts(&self, texts: [String; 2]) -> Result<Scene, String> {
+    pub(super) fn with_texts(&self, texts: &[String]) -> Result<Scene, String> {
         let sources: Vec<Source> = self
             .texts
             .sources
             .iter()
-            .zip(&texts)
+            .zip(texts)
             .map(|(source, text)| Source { text: text.as_str().into(), ..source.clone() })
             .collect();
         let compilation = compiler().compile(&sources);
@@ -157,8 +197,11 @@ impl<'p> Drawn<'p> {
     }
 
     /// Whether other texts draw the same bits.
-    pub(super) fn same(&self, texts: [String; 2]) -> Result<(), String> {
-        let scene = self.with_texts(texts.clone())?;
+    pub(super) fn same(&self, texts: &[String]) -> Result<(), String> {
+        if !self.is_new(texts) {
+            return Ok(());
+        }
+        let scene = self.with_texts(texts)?;
         self.same_scene(&scene).map_err(|message| format!("{message}\n{}", texts.join("\n")))
     }
 

@@ -9,14 +9,19 @@
 //!
 //! *In:* a program. *Out:* the first [`Fault`], if there is one. *Holds:* a panic is a fault. No GPU is needed.
 
+mod again;
 mod drawn;
 mod pictures;
+mod reflection;
 mod targets;
 
 pub use drawn::{Bits, Drawn, Texts};
 
 use crate::generate::Program;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
 
 /// A fault of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,6 +56,8 @@ pub static CHECKS: &[Check] = &[
     Check { name: "optimize", run: pictures::optimize },
     Check { name: "wgsl", run: targets::wgsl },
     Check { name: "spirv", run: targets::spirv },
+    Check { name: "options of compile", run: targets::options },
+    Check { name: "reflection", run: reflection::check },
     Check { name: "others", run: targets::others },
     Check { name: "dead code", run: pictures::dead_code },
     Check { name: "one iteration", run: pictures::one_iteration },
@@ -61,6 +68,9 @@ pub static CHECKS: &[Check] = &[
     Check { name: "bare operands", run: pictures::bare },
     Check { name: "other words", run: pictures::spelled },
     Check { name: "expanded", run: pictures::expanded },
+    Check { name: "renamed overloads", run: pictures::renamed },
+    Check { name: "by components", run: pictures::components },
+    Check { name: "other digits", run: pictures::digits },
 ];
 
 /// A check that needs a machine's GPU: the message of a difference.
@@ -69,27 +79,66 @@ pub type Device<'d> = &'d dyn Fn(&Drawn<'_>) -> Result<(), String>;
 /// The name of the check on a device.
 pub const DEVICE: &str = "device";
 
+thread_local! {
+    /// The place of the last panic.
+    static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// From now on, panics print nothing; a [`Fault`] has their places.
+pub fn silence_panics() {
+    std::panic::set_hook(Box::new(|info| {
+        let place = info.location().map_or(String::new(), |place| format!("{}:{}", place.file(), place.line()));
+        PLACE.with(|last| *last.borrow_mut() = place);
+    }));
+}
+
+/// How long each check took.
+pub type Times = BTreeMap<&'static str, Duration>;
+
 /// The first fault of a program. With `only`, the check of this name alone is made.
 pub fn fault(program: &Program, only: Option<&str>, device: Option<Device<'_>>) -> Option<Fault> {
-    fault_of(Texts::from(program), Some(program), only, device)
+    timed_fault(program, only, device, &mut Times::new())
+}
+
+/// The first fault of a program as [`fault`] finds it; adds the times of the checks.
+pub fn timed_fault(
+    program: &Program,
+    only: Option<&str>,
+    device: Option<Device<'_>>,
+    times: &mut Times,
+) -> Option<Fault> {
+    fault_of(Texts::from(program), Some(program), (only, device), times)
 }
 
 /// The first fault of texts, which are not changed by rules of the language.
 pub fn fault_of_texts(texts: Texts) -> Option<Fault> {
-    fault_of(texts, None, None, None)
+    fault_of(texts, None, (None, None), &mut Times::new())
 }
 
-fn fault_of(texts: Texts, program: Option<&Program>, only: Option<&str>, device: Option<Device<'_>>) -> Option<Fault> {
+fn fault_of(
+    texts: Texts,
+    program: Option<&Program>,
+    (only, device): (Option<&str>, Option<Device<'_>>),
+    times: &mut Times,
+) -> Option<Fault> {
     let mut stage = LOADED;
+    let mut start = Instant::now();
+    let mut ended = |name: &'static str| {
+        *times.entry(name).or_default() += start.elapsed();
+        start = Instant::now();
+    };
     let run = AssertUnwindSafe(|| {
         let drawn = match Drawn::new(texts, program) {
             Ok(drawn) => drawn,
             Err(message) => return Some(Fault { check: LOADED, message }),
         };
+        ended(LOADED);
         let is_wanted = |name: &str| only.is_none_or(|only| only == name);
         for check in CHECKS.iter().filter(|check| is_wanted(check.name)) {
             stage = check.name;
-            if let Err(message) = (check.run)(&drawn) {
+            let held = (check.run)(&drawn);
+            ended(check.name);
+            if let Err(message) = held {
                 return Some(Fault { check: check.name, message });
             }
         }
@@ -106,7 +155,8 @@ fn fault_of(texts: Texts, program: Option<&Program>, only: Option<&str>, device:
         Err(panic) => {
             let text = panic.downcast_ref::<String>().cloned();
             let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
-            Some(Fault { check: stage, message: format!("a panic: {}", text.unwrap_or_default()) })
+            let place = PLACE.with(|last| last.borrow().clone());
+            Some(Fault { check: stage, message: format!("a panic: {} ({place})", text.unwrap_or_default()) })
         }
     }
 }

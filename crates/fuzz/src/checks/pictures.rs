@@ -2,12 +2,12 @@
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where another picture is drawn.
 
-use super::drawn::{Drawn, Texts, bits, compiler, scene_of};
+use super::drawn::{Drawn, Texts, bits, compiler, first_error, scene_of};
 use super::targets::{is_refusal, stages};
 use crate::chance::Chance;
 use crate::generate::{Change, changed};
 use glisten::specialize::specialize_scene;
-use glisten::upgrade::{Target as Version, upgrade as upgraded};
+use glisten::upgrade::{Refused, Target as Version, upgrade as upgraded};
 use glisten::verify::{Options, Runner, verify};
 use glisten_emit::{Conventions, Emitted, GlslVersion, Target, emit};
 use glisten_format as format;
@@ -21,9 +21,16 @@ type Held = Result<(), String>;
 
 /// f32 without any freedom is what a conforming GPU may draw.
 pub(super) fn envelope(drawn: &Drawn<'_>) -> Held {
-    let runner = Cpu::new(Precision::F32);
+    if drawn.is_inside(&drawn.picture)? {
+        return Ok(());
+    }
+    inside(drawn, &Cpu::new(Precision::F32))
+}
+
+/// Whether `verify` finds nothing wrong: it knows what is undefined, too.
+pub(super) fn inside(drawn: &Drawn<'_>, runner: &dyn Runner) -> Held {
     let options = Options { sources: Some(&drawn.loaded.sources), allow_inconclusive: true, ..Options::default() };
-    match verify(&drawn.scene, &[&runner as &dyn Runner], &options) {
+    match verify(&drawn.scene, &[runner], &options) {
         Ok(verification) => {
             let outside: u64 = verification.runs.iter().map(|run| run.verdict.outside).sum();
             if outside == 0 { Ok(()) } else { Err(format!("f32 is outside of the envelope:\n{verification}")) }
@@ -36,9 +43,12 @@ pub(super) fn envelope(drawn: &Drawn<'_>) -> Held {
 /// Formatted texts.
 pub(super) fn format(drawn: &Drawn<'_>) -> Held {
     let odd = format::Options { indent: None, width: 40, braces_below: true };
-    for options in [format::Options::default(), odd] {
-        let mut texts = [String::new(), String::new()];
-        for (place, source) in texts.iter_mut().zip(&drawn.texts.sources) {
+    // Of the two styles, the seed chooses one.
+    let styles = [format::Options::default(), odd];
+    let left_out = drawn.program.map(|program| program.seed as usize % 2);
+    for (_, options) in styles.into_iter().enumerate().filter(|(index, _)| left_out != Some(*index)) {
+        let mut texts = Vec::new();
+        for source in &drawn.texts.sources {
             let once = format::format(&source.text, &[], &options);
             if once.kept > 0 || !has_same_lexemes(&source.text, &once.text) {
                 return Err(format!("{} lines are kept:\n{}", once.kept, once.text));
@@ -46,9 +56,9 @@ pub(super) fn format(drawn: &Drawn<'_>) -> Held {
             if format::format(&once.text, &[], &options).text != once.text {
                 return Err(format!("formatted again, it is different:\n{}", once.text));
             }
-            *place = once.text;
+            texts.push(once.text);
         }
-        drawn.same(texts)?;
+        drawn.same(&texts)?;
     }
     Ok(())
 }
@@ -56,11 +66,11 @@ pub(super) fn format(drawn: &Drawn<'_>) -> Held {
 /// The typed program as text of its version. Texts of ES have precisions, which are for [`print_300es`] to write.
 pub(super) fn print(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first().filter(|_| !drawn.is_es()) else { return Ok(()) };
-    drawn.same(printed(&draw.program))
+    drawn.same(&printed(&draw.program))
 }
 
-fn printed(program: &glisten_front::Program) -> [String; 2] {
-    stages(program).map(|shader| shader.map_or(String::new(), |shader| hir::print(&program.types, shader)))
+fn printed(program: &glisten_front::Program) -> Vec<String> {
+    stages(program).map(|shader| hir::print(&program.types, shader)).collect()
 }
 
 pub(super) fn print_330(drawn: &Drawn<'_>) -> Held {
@@ -79,16 +89,15 @@ pub(super) fn print_300es(drawn: &Drawn<'_>) -> Held {
 fn written(drawn: &Drawn<'_>, glsl_version: GlslVersion) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     let conventions = Conventions { glsl_version, ..Conventions::default() };
-    let mut texts = [String::new(), String::new()];
-    for (place, shader) in texts.iter_mut().zip(stages(&draw.program)) {
-        let Some(shader) = shader else { continue };
+    let mut texts = Vec::new();
+    for shader in stages(&draw.program) {
         match emit(&draw.program, shader.stage, Target::Glsl, &conventions) {
-            Ok(Emitted::Text(text)) => *place = text,
+            Ok(Emitted::Text(text)) => texts.push(text),
             Ok(Emitted::Words(_)) => return Err("words instead of text".to_owned()),
             Err(errors) => return is_refusal(&errors),
         }
     }
-    drawn.same(texts)
+    drawn.same(&texts)
 }
 
 /// The sources in each later version that takes them; of a generated program, in one that its seed chooses, since this takes longest.
@@ -99,9 +108,14 @@ pub(super) fn upgrade(drawn: &Drawn<'_>) -> Held {
     for (_, (word, target)) in all.into_iter().enumerate().filter(|(index, _)| chosen.is_none_or(|one| one == *index)) {
         match upgraded(compiler(), sources, target) {
             Ok(new) if target != Version::Vulkan => {
-                let mut texts = new.texts.iter().cloned();
-                let texts = [texts.next().unwrap_or_default(), texts.next().unwrap_or_default()];
-                drawn.same(texts).map_err(|message| format!("for {word}: {message}"))?;
+                drawn.same(&new.texts).map_err(|message| format!("for {word}: {message}"))?;
+            }
+            // ES is another language, and from 4.60 on, a constant has no comma.
+            Err(Refused::NotValid(compilation)) if !drawn.is_es() && !word.ends_with("es") => {
+                let error = first_error(compilation.diagnostics.iter());
+                if !error.starts_with("E0408") {
+                    return Err(format!("for {word}, what is rewritten is not valid: {error}"));
+                }
             }
             _ => {}
         }
@@ -115,7 +129,10 @@ pub(super) fn specialize(drawn: &Drawn<'_>) -> Held {
     let names: Vec<String> = draw.program.interface.uniforms.iter().map(|one| one.name.clone()).collect();
     let mut chance = Chance::new(names.len() as u64);
     let some = names.iter().filter(|_| chance.once_in(2)).cloned().collect();
-    for dynamic in [Vec::new(), some, names] {
+    // Of the latter two, the seed chooses one.
+    let all = [Vec::new(), some, names];
+    let left_out = drawn.program.map(|program| 1 + program.seed as usize % 2);
+    for (_, dynamic) in all.into_iter().enumerate().filter(|(index, _)| left_out != Some(*index)) {
         let left = specialize_scene(&drawn.scene, &drawn.loaded.sources, &dynamic);
         let texts =
             || left.draws.iter().flat_map(|draw| &draw.texts).map(|(_, text)| text.as_str()).collect::<String>();
@@ -134,7 +151,7 @@ pub(super) fn optimize(drawn: &Drawn<'_>) -> Held {
     let left = Arc::new(glisten_specialize::optimize(&draw.program));
     let texts = printed(&left);
     drawn.same_scene(&drawn.with(left)).map_err(|message| format!("{message}\n{}", texts.join("\n")))?;
-    if drawn.is_es() { Ok(()) } else { drawn.same(texts) }
+    if drawn.is_es() { Ok(()) } else { drawn.same(&texts) }
 }
 
 pub(super) fn dead_code(drawn: &Drawn<'_>) -> Held {
@@ -173,15 +190,36 @@ pub(super) fn expanded(drawn: &Drawn<'_>) -> Held {
     as_changed(drawn, Change::Expanded)
 }
 
+pub(super) fn renamed(drawn: &Drawn<'_>) -> Held {
+    as_changed(drawn, Change::Renamed)
+}
+
+pub(super) fn components(drawn: &Drawn<'_>) -> Held {
+    as_changed(drawn, Change::Components)
+}
+
+pub(super) fn digits(drawn: &Drawn<'_>) -> Held {
+    as_changed(drawn, Change::Digits)
+}
+
 /// The program with a change that means nothing.
 fn as_changed(drawn: &Drawn<'_>, change: Change) -> Held {
     let Some(program) = drawn.program else { return Ok(()) };
     let other = changed(program, change, program.seed);
     let in_other = |message: String| format!("{message}\n{}", other.text());
-    let (_, scene) = scene_of(&Texts::from(&other)).map_err(in_other)?;
+    let texts = Texts::from(&other);
+    let scene = if texts.scene == drawn.texts.scene {
+        let texts: Vec<String> = texts.sources.iter().map(|source| source.text.to_string()).collect();
+        if !drawn.is_new(&texts) {
+            return Ok(());
+        }
+        drawn.with_texts(&texts).map_err(in_other)?
+    } else {
+        scene_of(&texts).map_err(in_other)?.1
+    };
     drawn.same_scene(&scene).map_err(in_other)?;
-    // Constants are folded in f32.
-    if change == Change::Uniforms {
+    // Constants are folded in f32. Of the others, one in three is drawn in f64, too, as its seed chooses.
+    if change == Change::Uniforms || !(program.seed.wrapping_add(change as u64)).is_multiple_of(3) {
         return Ok(());
     }
     drawn.exact()?.difference(&bits(&scene, Precision::F64)?).map_err(|message| in_other(format!("in f64, {message}")))

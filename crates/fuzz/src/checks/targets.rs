@@ -2,12 +2,15 @@
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where what is written is refused. *Holds:* a target may lack something, and says so.
 
+use super::again::{self, Read};
 use super::drawn::Drawn;
-use glisten_emit::{Conventions, Emitted, Target, emit};
+use glisten_emit::{Conventions, Emitted, FloatWidth, Target, emit};
+use glisten_front::Program;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general::INTERNAL;
 use glisten_front::hir::{Shader, Stage};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::Module;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 type Held = Result<(), String>;
 
@@ -19,9 +22,9 @@ const LIMITS: [&str; 4] = [
     "Index 2 is out of bounds for expression",
 ];
 
-/// The vertex and the fragment stage.
-pub(super) fn stages(program: &glisten_front::Program) -> [Option<&Shader>; 2] {
-    [Stage::Vertex, Stage::Fragment].map(|stage| program.stage(stage))
+/// The stages in the order of the texts.
+pub(super) fn stages(program: &Program) -> impl Iterator<Item = &Shader> {
+    [Stage::Vertex, Stage::Geometry, Stage::Fragment].into_iter().filter_map(|stage| program.stage(stage))
 }
 
 /// Whether a target says what it lacks, which is no fault.
@@ -36,7 +39,7 @@ pub(super) fn is_refusal(errors: &[Diagnostic]) -> Held {
 /// Each stage as a target has it.
 fn all(drawn: &Drawn<'_>, target: Target, accepted: &dyn Fn(Emitted) -> Held) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
-    for shader in stages(&draw.program).into_iter().flatten() {
+    for shader in stages(&draw.program) {
         match emit(&draw.program, shader.stage, target, &Conventions::default()) {
             Ok(written) => accepted(written)?,
             Err(errors) => is_refusal(&errors)?,
@@ -45,30 +48,86 @@ fn all(drawn: &Drawn<'_>, target: Target, accepted: &dyn Fn(Emitted) -> Held) ->
     Ok(())
 }
 
-fn valid(module: &naga::Module) -> Held {
+fn valid(module: &Module) -> Result<ModuleInfo, String> {
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::all());
-    validator.validate(module).map(|_| ()).map_err(|error| error.emit_to_string(""))
+    validator.validate(module).map_err(|error| error.emit_to_string(""))
+}
+
+/// Reads what is emitted, as far as it is.
+fn read(
+    program: &Program,
+    (target, conventions): (Target, &Conventions),
+    reads: &Reads<'_>,
+) -> Result<Vec<Read>, String> {
+    let mut modules = Vec::new();
+    for shader in stages(program) {
+        match emit(program, shader.stage, target, conventions) {
+            Ok(written) => {
+                modules.extend(reads(written)?.map(|(module, info)| Read { stage: shader.stage, module, info }))
+            }
+            Err(errors) => is_refusal(&errors)?,
+        }
+    }
+    Ok(modules)
+}
+
+/// Reads a stage; none where naga has a limit.
+type Reads<'r> = dyn Fn(Emitted) -> Result<Option<(Module, ModuleInfo)>, String> + 'r;
+
+/// The modules that naga reads in the emitted WGSL.
+pub(super) fn wgsl_modules<'d>(drawn: &'d Drawn<'_>) -> Result<&'d [Read], String> {
+    let modules = drawn.wgsl.get_or_init(|| match drawn.scene.draws.first() {
+        Some(draw) => read(&draw.program, (Target::Wgsl, &Conventions::default()), &read_wgsl),
+        None => Ok(Vec::new()),
+    });
+    modules.as_deref().map_err(Clone::clone)
+}
+
+fn read_wgsl(written: Emitted) -> Result<Option<(Module, ModuleInfo)>, String> {
+    let Emitted::Text(text) = written else { return Err("no text".to_owned()) };
+    let module = naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string(&text))?;
+    let info = valid(&module).map_err(|message| format!("{message}\n{text}"))?;
+    Ok(Some((module, info)))
+}
+
+fn read_spirv(written: Emitted) -> Result<Option<(Module, ModuleInfo)>, String> {
+    let Emitted::Words(words) = written else { return Err("no words".to_owned()) };
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let options = naga::front::spv::Options { adjust_coordinate_space: false, ..Default::default() };
+    let module = naga::front::spv::parse_u8_slice(&bytes, &options).map_err(|error| error.emit_to_string(""))?;
+    let is_limit = |message: &String| LIMITS.iter().any(|limit| message.contains(limit));
+    match valid(&module) {
+        Ok(info) => Ok(Some((module, info))),
+        Err(message) if is_limit(&message) => Ok(None),
+        Err(message) => Err(message),
+    }
 }
 
 /// WGSL, which naga reads.
 pub(super) fn wgsl(drawn: &Drawn<'_>) -> Held {
-    all(drawn, Target::Wgsl, &|written| {
-        let Emitted::Text(text) = written else { return Err("no text".to_owned()) };
-        let module = naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string(&text))?;
-        valid(&module).map_err(|message| format!("{message}\n{text}"))
-    })
+    again::same(drawn, wgsl_modules(drawn)?)
 }
 
 /// SPIR-V, which naga reads.
 pub(super) fn spirv(drawn: &Drawn<'_>) -> Held {
-    all(drawn, Target::Spirv, &|written| {
-        let Emitted::Words(words) = written else { return Err("no words".to_owned()) };
-        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-        let options = naga::front::spv::Options::default();
-        let module = naga::front::spv::parse_u8_slice(&bytes, &options).map_err(|error| error.emit_to_string(""))?;
-        let is_limit = |message: &String| LIMITS.iter().any(|limit| message.contains(limit));
-        valid(&module).or_else(|message| if is_limit(&message) { Ok(()) } else { Err(message) })
-    })
+    let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
+    again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?)
+}
+
+/// The rest after `-O`, with the lines of the source, as WGSL or as SPIR-V; and 16-bit floats, which naga accepts.
+pub(super) fn options(drawn: &Drawn<'_>) -> Held {
+    let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
+    let left = glisten_specialize::optimize(&draw.program);
+    let lines = Conventions { debug_lines: true, ..Conventions::default() };
+    let half = Conventions { floats: FloatWidth::Half, ..Conventions::default() };
+    let is_even = drawn.program.is_none_or(|program| program.seed.is_multiple_of(2));
+    let (target, reads): (Target, &Reads<'_>) =
+        if is_even { (Target::Wgsl, &read_wgsl) } else { (Target::Spirv, &read_spirv) };
+    // Of SPIR-V's capabilities, naga's front end does not know those of 16 bits.
+    if is_even {
+        read(&draw.program, (target, &half), reads).map_err(|message| format!("in 16 bits: {message}"))?;
+    }
+    again::same(drawn, &read(&left, (target, &lines), reads)?)
 }
 
 /// MSL and HLSL, which are written or refused.

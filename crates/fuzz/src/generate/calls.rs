@@ -5,6 +5,7 @@
 
 use super::guards::{Guard, guard, lookup_guard};
 use super::language::Overload;
+use super::samplers::Sampler;
 use super::tree::{Expr, Stmt, Use};
 use super::types::Ty;
 use super::writer::{Callable, Writer};
@@ -29,6 +30,18 @@ impl Writer<'_> {
             }
         }
         None
+    }
+
+    /// A lookup of a texture with a result of this type.
+    pub(super) fn lookup(&mut self, ty: &Ty, sampler: &Sampler, depth: usize) -> Option<Expr> {
+        let (language, wanted) = (self.language, sampler.ty()?);
+        let takes = |one: &Overload| one.signature.params().iter().any(|(id, _)| *id == wanted);
+        let named = language.functions(self.stage, Some(ty)).iter().flatten().filter(|one| takes(one));
+        let fitting: Vec<Overload> = named.copied().filter(|one| self.may_call(*one)).collect();
+        let overload = *self.chance.one(&fitting)?;
+        let (text, arguments) = self.arguments(overload, depth)?;
+        self.note(overload.row.name);
+        Some(Expr::new(ty.clone(), &text, arguments))
     }
 
     /// A call of a built-in function without a result.
@@ -117,9 +130,15 @@ impl Writer<'_> {
     fn call_of(&mut self, result: Option<&Ty>, depth: usize) -> Option<(String, Vec<Expr>)> {
         let is_fitting = |one: &&Callable| one.result.as_ref() == result && (self.is_uniform || !one.is_uniform);
         let fitting: Vec<Callable> = self.functions.iter().filter(is_fitting).cloned().collect();
-        let Callable { name, parameters, .. } = self.chance.one(&fitting)?.clone();
+        let chosen = self.chance.one(&fitting)?.clone();
+        self.call_to(&chosen, depth)
+    }
+
+    /// The pattern of a call to a function, and its arguments.
+    pub(super) fn call_to(&mut self, chosen: &Callable, depth: usize) -> Option<(String, Vec<Expr>)> {
+        let Callable { name, parameters, .. } = chosen;
         let mut arguments = Vec::with_capacity(parameters.len());
-        for (mode, ty) in &parameters {
+        for (mode, ty) in parameters {
             arguments.push(match mode {
                 ParamMode::Out | ParamMode::Inout => self.part(ty, true)?.used(Use::Fixed),
                 ParamMode::In | ParamMode::ConstIn => self.expr(ty, depth),

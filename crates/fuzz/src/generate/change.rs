@@ -4,6 +4,7 @@
 //! loop that runs once, a name for a value, a function for a statement, a uniform for a number, and what `spelled` has.
 
 use super::Program;
+use super::components::{by_components, in_other_digits};
 use super::spelled::{bare, bare_statement, expanded, respelled, respelled_statement, taken};
 use super::tree::{Expr, Role, Stmt, StmtPart, Use, Variable};
 use super::types::Ty;
@@ -32,11 +33,17 @@ pub enum Change {
     Spelled,
     /// Macros and conditions of the preprocessor written out.
     Expanded,
+    /// A name for each overload.
+    Renamed,
+    /// Constructors, comparisons and matrices by their components.
+    Components,
+    /// Numbers in other digits.
+    Digits,
 }
 
 impl Change {
     /// All kinds.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 12] = [
         Self::DeadCode,
         Self::OneIteration,
         Self::Named,
@@ -46,6 +53,9 @@ impl Change {
         Self::Bare,
         Self::Spelled,
         Self::Expanded,
+        Self::Renamed,
+        Self::Components,
+        Self::Digits,
     ];
 
     /// Its name.
@@ -60,6 +70,9 @@ impl Change {
             Self::Bare => "bare operands",
             Self::Spelled => "other words",
             Self::Expanded => "expanded",
+            Self::Renamed => "renamed overloads",
+            Self::Components => "by components",
+            Self::Digits => "other digits",
         }
     }
 }
@@ -69,7 +82,7 @@ pub fn changed(program: &Program, change: Change, seed: u64) -> Program {
     let mut changed = program.clone();
     let mut changer =
         Changer { change, chance: Chance::new(seed), names: 0, functions: Vec::new(), lines: Vec::new(), program };
-    for stage in [&mut changed.vertex, &mut changed.fragment] {
+    for stage in changed.stages_mut().into_iter().filter(|stage| !stage.is_empty()) {
         let mut index = 0;
         while index < stage.len() {
             if let Some(item) = stage.get_mut(index) {
@@ -107,10 +120,16 @@ struct Changer<'p> {
 
 impl Changer<'_> {
     fn statement(&mut self, statement: &mut Stmt, is_global: bool) {
+        match self.change {
+            Change::Renamed => statement.renamed(),
+            // Nothing is folded then.
+            Change::Uniforms if !is_global => statement.varied(),
+            _ => {}
+        }
         let is_constant = is_global || statement.text().trim_start().starts_with("const ");
         for part in &mut statement.parts {
             match part {
-                StmtPart::Expr(expr) if !is_constant => self.expr(expr),
+                StmtPart::Expr(expr) if !is_constant || self.change == Change::Digits => self.expr(expr),
                 StmtPart::Expr(_) => {}
                 StmtPart::Body(body) => self.body(body),
             }
@@ -212,6 +231,9 @@ impl Changer<'_> {
                 *expr = Expr::new(ty, "(@)", vec![inner]);
             }
             Change::Bare => bare(expr),
+            Change::Renamed => expr.renamed(),
+            Change::Components => by_components(expr),
+            Change::Digits => in_other_digits(expr),
             Change::Spelled => respelled(expr),
             Change::Expanded => expanded(expr, &self.program.macros),
             Change::Uniforms if expr.usage == Use::Literal && expr.ty != Ty::Vector(Scalar::Bool, 1) => {

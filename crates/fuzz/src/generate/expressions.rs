@@ -9,6 +9,16 @@ use super::writer::Writer;
 use glisten_front::hir::Scalar;
 use glisten_front::language::Feature;
 
+/// Integers that have bounds, and the largest that they may be.
+const BOUNDED: &[(&str, usize)] = &[
+    ("((@ & 0xffff) % 7)", 6),
+    ("(@ & 3)", 3),
+    ("clamp(@, -2, 4)", 4),
+    ("((@ & 0xff) >> 4)", 15),
+    ("((@ & 0xff) / 32)", 7),
+    ("min(@, 5)", 5),
+];
+
 impl Writer<'_> {
     /// An expression of a type.
     pub(super) fn expr(&mut self, ty: &Ty, depth: usize) -> Expr {
@@ -76,6 +86,9 @@ impl Writer<'_> {
         ];
         const INTS: &[&str] = &["0", "1", "2", "-1", "3", "-7", "5", "0x1f", "017", "100", "-32768", "12345"];
         const UINTS: &[&str] = &["0u", "1u", "2u", "7u", "0xffU", "4000000000u", "31u"];
+        if self.chance.once_in(3) {
+            return self.long_number(scalar);
+        }
         let (text, parenthesized) = match scalar {
             Scalar::Float => (self.chance.word(FLOATS), true),
             Scalar::Int => (self.chance.word(INTS), true),
@@ -83,6 +96,21 @@ impl Writer<'_> {
             Scalar::Bool => (self.chance.word(&["true", "false"]), false),
         };
         if parenthesized && text.starts_with('-') { format!("({text})") } else { text.to_owned() }
+    }
+
+    /// A number of any digits.
+    fn long_number(&mut self, scalar: Scalar) -> String {
+        let number = self.chance.below(100_000);
+        match scalar {
+            Scalar::Float => format!("{}.{number:05}", self.chance.below(4)),
+            Scalar::Int => match self.chance.below(3) {
+                0 => format!("0x{:x}", number % 4096),
+                1 => format!("0{:o}", number % 512),
+                _ => (number % 1000).to_string(),
+            },
+            Scalar::Uint => format!("{number}u"),
+            Scalar::Bool => if number % 2 == 0 { "true" } else { "false" }.to_owned(),
+        }
     }
 
     /// `(c ? a : b)`
@@ -172,8 +200,17 @@ impl Writer<'_> {
                 let (left, right) = self.mixed(ty, depth);
                 Expr::new(ty.clone(), pattern, vec![left, right])
             }
+            4 if self.chance.once_in(2) => {
+                let divisor = self.chance.word(&["(@ / 2.0)", "(@ / 3.0)", "(@ / 0.5)", "(@ / 1.0)"]);
+                Expr::new(ty.clone(), divisor, vec![one(self, ty)])
+            }
             4 => Expr::new(ty.clone(), "(@ / (abs(@) + 0.75))", vec![one(self, ty), one(self, ty)])
                 .or_plain(self.is_constant),
+            5 if self.chance.once_in(2) => {
+                self.note("operation on a neutral number");
+                let pattern = self.chance.word(&["(@ - 0.0)", "(0.0 - @)", "(@ * 1.0)", "(@ + 0.0)", "(1.0 * @)"]);
+                Expr::new(ty.clone(), pattern, vec![one(self, ty)])
+            }
             5 => Expr::new(ty.clone(), "(- @)", vec![one(self, ty)]),
             6 | 7 => self.conversion(ty, Scalar::Float, size, depth),
             8 if self.matrices_with(size) => {
@@ -292,7 +329,8 @@ impl Writer<'_> {
 
     fn truth(&mut self, depth: usize) -> Expr {
         let operands = |this: &mut Self, ty: &Ty| vec![this.expr(ty, depth), this.expr(ty, depth)];
-        match self.chance.below(8) {
+        match self.chance.below(9) {
+            8 if self.language.has(Feature::IntegerOperators) => self.at_a_bound(depth),
             0..=2 => {
                 self.note("comparison");
                 let ty = if self.chance.once_in(2) { FLOAT } else { INT };
@@ -315,6 +353,23 @@ impl Writer<'_> {
             }
             _ => Expr::new(BOOL, "(!@)", vec![self.expr(&BOOL, depth)]),
         }
+    }
+
+    /// A comparison of what has bounds with a number at one of them.
+    fn at_a_bound(&mut self, depth: usize) -> Expr {
+        self.note("comparison at a bound");
+        let (pattern, most) = self.chance.one(BOUNDED).copied().unwrap_or(("(@ & 3)", 3));
+        let near = (most + self.chance.below(3)).saturating_sub(1);
+        let operator = self.chance.word(&["<", "<=", ">", ">=", "==", "!="]);
+        let bounded = if self.is_constant && (pattern.contains("clamp") || pattern.contains("min")) {
+            "(@ & 3)"
+        } else {
+            pattern
+        };
+        let bounded = Expr::new(INT, bounded, vec![self.expr(&INT, depth)]);
+        let bound = Expr::leaf(INT, near.to_string()).used(Use::Literal);
+        let operands = if self.chance.once_in(3) { vec![bound, bounded] } else { vec![bounded, bound] };
+        Expr::new(BOOL, &format!("(@ {operator} @)"), operands)
     }
 
     fn matrix(&mut self, ty: &Ty, columns: u8, rows: u8, depth: usize) -> Expr {

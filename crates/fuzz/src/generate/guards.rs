@@ -40,7 +40,9 @@ pub(super) fn guard(name: &str, index: usize, count: usize, ty: &Ty) -> Guard {
         ("smoothstep", 0) => Constant("-1.0"),
         ("smoothstep", 1) => Constant("1.5"),
         ("ldexp", 1) => Pattern("clamp(@, -6, 6)"),
-        ("frexp" | "modf", 0) | ("floatBitsToInt" | "floatBitsToUint", 0) => Pattern("clamp(@, -100.0, 100.0)"),
+        ("frexp" | "modf", 0) => Pattern("clamp(@, -100.0, 100.0)"),
+        // The sign of a sum of products that is 0 is that of the order in which they are added.
+        ("floatBitsToInt" | "floatBitsToUint", 0) => Pattern("(clamp(@, -100.0, 100.0) + 0.0)"),
         ("packHalf2x16", 0) => Pattern("clamp(@, -1000.0, 1000.0)"),
         ("bitfieldExtract", 1) => Constant("3"),
         ("bitfieldExtract", 2) => Constant("7"),

@@ -7,12 +7,19 @@ use super::language::Language;
 use super::samplers::Sampler;
 use super::tree::Variable;
 use super::types::{BOOL, FLOAT, INT, Members, Ty};
+use super::uniforms::Uniform;
 use crate::chance::Chance;
 use glisten_front::hir::{Scalar, Stage};
 use glisten_front::language::Feature;
 
 /// The side of the picture, in pixels.
 pub const SIDE: usize = 4;
+
+/// The varying that passes the sum of the vertex stage on.
+pub(super) const PASSED: &str = "ya";
+
+/// The beginning of the names of varyings behind a geometry stage.
+const LATER: &str = "z";
 
 /// A varying, or a block of them.
 #[derive(Clone, Debug)]
@@ -25,16 +32,6 @@ pub(super) struct Varying {
     is_block: bool,
 }
 
-/// A uniform, or a block of them.
-#[derive(Clone, Debug)]
-struct Uniform {
-    declaration: String,
-    variables: Vec<(String, Ty)>,
-    /// Lines of `[draw.uniforms]`.
-    lines: Vec<String>,
-    construct: &'static str,
-}
-
 /// The interface of the stages.
 #[derive(Clone, Debug)]
 pub(super) struct Interface {
@@ -43,6 +40,10 @@ pub(super) struct Interface {
     uniforms: Vec<Uniform>,
     outputs: usize,
     has_integers: bool,
+    /// Whether there is a geometry stage.
+    pub(super) has_geometry: bool,
+    /// How many clip distances are enabled, if the vertex stage writes two of them.
+    clips: Option<usize>,
 }
 
 impl Interface {
@@ -50,33 +51,18 @@ impl Interface {
         let outputs = if language.version.is_es() && !language.since(110, 300) { 1 } else { 1 + chance.below(4) };
         let all: Vec<&'static Sampler> = Sampler::all(language).collect();
         let samplers = all.into_iter().filter(|_| chance.once_in(4)).take(4).collect();
-        let mut uniforms = vec![
-            plain(chance, "uf", &FLOAT),
-            plain(chance, "ui", &INT),
-            Uniform {
-                declaration: "uniform bool never;".to_owned(),
-                variables: Vec::new(),
-                lines: vec!["never = false".to_owned()],
-                construct: "uniform",
-            },
-        ];
-        for number in 0..chance.below(4) {
-            let basic = uniform_type(chance, language);
-            let ty = if chance.once_in(3) { Ty::Array(Box::new(basic), 2 + chance.below(3) as u32) } else { basic };
-            uniforms.push(plain(chance, &format!("u{number}"), &ty));
-        }
-        if !structs.is_empty() && chance.once_in(2) {
-            let number = chance.below(structs.len());
-            uniforms.extend(of_struct(chance, number, structs));
-        }
-        if language.has(Feature::UniformBlocks) && chance.once_in(2) {
-            uniforms.push(block(chance, language));
-        }
+        let uniforms = Uniform::all(chance, language, structs);
+        let has_geometry = language.since(150, u16::MAX) && chance.once_in(4);
         let mut varyings = Vec::new();
         for number in 0..1 + chance.below(4) {
-            varyings.push(varying(chance, language, structs, number));
+            varyings.push(varying(chance, language, structs, (number, has_geometry)));
         }
-        Self { varyings, samplers, uniforms, outputs, has_integers: language.has(Feature::IntegerInterfaces) }
+        let qualifiers = if language.has(Feature::InOut) { chance.word(&["", "flat "]) } else { "" };
+        let parts = vec![(String::new(), Ty::Vector(Scalar::Float, 4))];
+        varyings.push(Varying { name: PASSED.to_owned(), parts, qualifiers, is_block: false });
+        let clips = (language.since(130, u16::MAX) && !has_geometry && chance.once_in(5)).then(|| chance.below(3));
+        let has_integers = language.has(Feature::IntegerInterfaces);
+        Self { varyings, samplers, uniforms, outputs, has_integers, has_geometry, clips }
     }
 
     /// The names of the outputs.
@@ -90,6 +76,31 @@ impl Interface {
         (0..self.outputs).map(name).collect()
     }
 
+    /// The varyings that a stage writes.
+    pub(super) fn written(&self, stage: Stage) -> Vec<Varying> {
+        let is_last = stage == Stage::Geometry;
+        self.varyings.iter().map(|one| if is_last { one.passed_on() } else { one.clone() }).collect()
+    }
+
+    /// The varyings that a stage reads; those of a geometry stage are arrays of them.
+    fn read(&self, stage: Stage) -> Vec<Varying> {
+        match stage {
+            Stage::Vertex => Vec::new(),
+            Stage::Geometry => self.varyings.clone(),
+            Stage::Fragment => self.written(if self.has_geometry { Stage::Geometry } else { Stage::Vertex }),
+        }
+    }
+
+    /// The varying that carries the sum into a fragment stage.
+    pub(super) fn passed(&self) -> String {
+        if self.has_geometry { format!("{LATER}{PASSED}") } else { PASSED.to_owned() }
+    }
+
+    /// Whether the vertex stage writes clip distances.
+    pub(super) fn has_clips(&self) -> bool {
+        self.clips.is_some()
+    }
+
     /// The constructs that the interface has.
     pub(super) fn constructs(&self) -> Vec<&'static str> {
         let mut all: Vec<&'static str> = self.uniforms.iter().map(|one| one.construct).collect();
@@ -101,6 +112,8 @@ impl Interface {
             }
         }
         all.extend(self.samplers.iter().map(|one| one.word));
+        all.extend(self.clips.map(|_| "gl_ClipDistance"));
+        all.extend(self.has_geometry.then_some("geometry stage"));
         all
     }
 
@@ -117,8 +130,7 @@ impl Interface {
         };
         let mut all = Vec::new();
         for one in &self.uniforms {
-            let variables = one.variables.iter().map(|(name, ty)| variable(name, ty)).collect();
-            all.push((one.declaration.clone(), variables));
+            all.push((one.declaration.clone(), one.visible(&variable)));
         }
         for one in &self.samplers {
             all.push((format!("uniform {} {};", one.word, one.name), Vec::new()));
@@ -136,19 +148,31 @@ impl Interface {
                 all.push((format!("{word} {};", ty.declared(name)), vec![variable(name, &ty)]));
             }
         }
-        let direction = match (is_new, is_vertex) {
-            (false, _) => "varying",
-            (true, true) => "out",
-            (true, false) => "in",
-        };
-        for one in &self.varyings {
-            let variables = if is_vertex { Vec::new() } else { one.variables(&variable) };
-            all.push((one.declaration(direction), variables));
+        if is_vertex && self.clips.is_some() {
+            all.push(("out float gl_ClipDistance[2];".to_owned(), Vec::new()));
+        }
+        let is_geometry = stage == Stage::Geometry;
+        if is_geometry {
+            all.push(("layout(triangles) in;".to_owned(), Vec::new()));
+            all.push(("layout(triangle_strip, max_vertices = 3) out;".to_owned(), Vec::new()));
+        }
+        for one in self.read(stage) {
+            let word = if is_new { "in" } else { "varying" };
+            let corners: Vec<String> =
+                if is_geometry { (0..3).map(|corner| format!("[{corner}]")).collect() } else { vec![String::new()] };
+            let variables = corners.iter().flat_map(|corner| one.variables(corner, &variable)).collect();
+            all.push((one.declaration(word, if is_geometry { "[]" } else { "" }), variables));
+        }
+        if stage != Stage::Fragment {
+            let word = if is_new { "out" } else { "varying" };
+            all.extend(self.written(stage).iter().map(|one| (one.declaration(word, ""), Vec::new())));
         }
         let mut built_in = Vec::new();
         if is_vertex {
             built_in.extend(language.since(130, 300).then(|| variable("gl_VertexID", &INT)));
             built_in.extend(language.since(140, 300).then(|| variable("gl_InstanceID", &INT)));
+        } else if is_geometry {
+            built_in.push(variable("gl_PrimitiveIDIn", &INT));
         } else {
             built_in.push(variable("gl_FragCoord", &Ty::Vector(Scalar::Float, 4)));
             built_in.push(variable("gl_FrontFacing", &BOOL));
@@ -178,6 +202,8 @@ impl Interface {
             "vertex = \"a.vert\"".to_owned(),
             "fragment = \"a.frag\"".to_owned(),
             "primitive = \"triangles\"".to_owned(),
+            if self.has_geometry { "geometry = \"a.geom\"".to_owned() } else { String::new() },
+            format!("clip_distances = {}", self.clips.unwrap_or(0)),
             "[draw.attributes]".to_owned(),
             "place = { size = 2, values = [-1, -1, 3, -1, -1, 3] }".to_owned(),
             "pw = { size = 1, values = [1, 2, 1.5] }".to_owned(),
@@ -195,7 +221,21 @@ impl Interface {
 }
 
 impl Varying {
-    fn declaration(&self, direction: &str) -> String {
+    /// The varying that a geometry stage writes for this one.
+    fn passed_on(&self) -> Self {
+        Self { name: format!("{LATER}{}", self.name), ..self.clone() }
+    }
+
+    /// The names of its parts behind an index.
+    pub(super) fn places(&self, index: &str) -> Vec<String> {
+        let name = &self.name;
+        let place = |member: &String| {
+            if self.is_block { format!("{name}{index}.{member}") } else { format!("{name}{index}") }
+        };
+        self.parts.iter().map(|(member, _)| place(member)).collect()
+    }
+
+    fn declaration(&self, direction: &str, brackets: &str) -> String {
         if self.is_block {
             let members: Vec<String> = self
                 .parts
@@ -205,19 +245,24 @@ impl Varying {
                     format!("{flat}{};", ty.declared(name))
                 })
                 .collect();
-            return format!("{direction} Io{} {{ {} }} {};", self.name, members.join(" "), self.name);
+            let (name, members) = (&self.name, members.join(" "));
+            return format!("{direction} Io{name} {{ {members} }} {name}{brackets};");
         }
         let declared = self.parts.first().map_or(String::new(), |(_, ty)| ty.declared(&self.name));
-        format!("{}{direction} {declared};", self.qualifiers)
+        format!("{}{direction} {declared}{brackets};", self.qualifiers)
     }
 
-    fn variables(&self, variable: &dyn Fn(&str, &Ty) -> Variable) -> Vec<Variable> {
-        let name = |member: &str| if self.is_block { format!("{}.{member}", self.name) } else { self.name.clone() };
-        self.parts.iter().map(|(member, ty)| variable(&name(member), ty)).collect()
+    fn variables(&self, index: &str, variable: &dyn Fn(&str, &Ty) -> Variable) -> Vec<Variable> {
+        self.places(index).iter().zip(&self.parts).map(|(place, (_, ty))| variable(place, ty)).collect()
     }
 }
 
-fn varying(chance: &mut Chance, language: &Language, structs: &[Members], number: usize) -> Varying {
+fn varying(
+    chance: &mut Chance,
+    language: &Language,
+    structs: &[Members],
+    (number, is_one_of_many): (usize, bool),
+) -> Varying {
     let float = |chance: &mut Chance| Ty::Vector(Scalar::Float, 1 + chance.below(4) as u8);
     let name = format!("y{number}");
     let is_new = language.has(Feature::InOut);
@@ -232,7 +277,7 @@ fn varying(chance: &mut Chance, language: &Language, structs: &[Members], number
         .collect();
     let ty = match chance.below(6) {
         0 if language.has(Feature::IntegerInterfaces) => Ty::Vector(Scalar::Int, 1 + chance.below(4) as u8),
-        1 if language.has(Feature::ArrayObjects) => Ty::Array(Box::new(float(chance)), 2),
+        1 if language.has(Feature::ArrayObjects) && !is_one_of_many => Ty::Array(Box::new(float(chance)), 2),
         2 => Ty::Matrix(2, 2),
         3 if language.has(Feature::StructInterfaces) && !plain.is_empty() => {
             Ty::Struct(chance.one(&plain).copied().unwrap_or(0))
@@ -246,91 +291,4 @@ fn varying(chance: &mut Chance, language: &Language, structs: &[Members], number
         (true, true) => chance.word(&["", "smooth ", "flat "]),
     };
     Varying { name, parts: vec![(String::new(), ty)], qualifiers, is_block: false }
-}
-
-fn uniform_type(chance: &mut Chance, language: &Language) -> Ty {
-    let fitting: Vec<Ty> = language.basics.iter().filter(|ty| ty.scalar() != Some(Scalar::Bool)).cloned().collect();
-    chance.one(&fitting).cloned().unwrap_or(FLOAT)
-}
-
-/// Numbers for a type, as the scene writes them.
-fn numbers(chance: &mut Chance, ty: &Ty) -> Vec<String> {
-    const FLOATS: &[&str] = &["0.5", "-2.0", "3.0", "0.25", "1.0", "-0.75", "0.0", "0.3", "1.5"];
-    match ty {
-        Ty::Vector(scalar, size) => {
-            let words: &[&'static str] = match scalar {
-                Scalar::Float => FLOATS,
-                Scalar::Int => &["3", "-5", "0", "1", "7", "100"],
-                Scalar::Uint => &["3", "5", "0", "255", "65537"],
-                Scalar::Bool => &["true", "false"],
-            };
-            (0..*size).map(|_| chance.word(words).to_owned()).collect()
-        }
-        Ty::Matrix(columns, rows) => (0..columns * rows).map(|_| chance.word(FLOATS).to_owned()).collect(),
-        Ty::Array(element, size) => (0..*size).flat_map(|_| numbers(chance, element)).collect(),
-        Ty::Struct(_) => Vec::new(),
-    }
-}
-
-/// The line of a uniform in the scene.
-fn line(chance: &mut Chance, name: &str, ty: &Ty) -> String {
-    let numbers = numbers(chance, ty);
-    match ty {
-        Ty::Vector(_, 1) => format!("\"{name}\" = {}", numbers.concat()),
-        _ => format!("\"{name}\" = [{}]", numbers.join(", ")),
-    }
-}
-
-fn plain(chance: &mut Chance, name: &str, ty: &Ty) -> Uniform {
-    Uniform {
-        declaration: format!("uniform {};", ty.declared(name)),
-        variables: vec![(name.to_owned(), ty.clone())],
-        lines: vec![line(chance, name, ty)],
-        construct: if matches!(ty, Ty::Array(..)) { "uniform array" } else { "uniform" },
-    }
-}
-
-/// A uniform of a struct, if the scene can name its members.
-fn of_struct(chance: &mut Chance, number: usize, structs: &[Members]) -> Option<Uniform> {
-    let mut lines = Vec::new();
-    for (name, ty) in structs.get(number)? {
-        if matches!(ty, Ty::Struct(_)) || ty.scalar() == Some(Scalar::Bool) || ty.has_array(structs) {
-            return None;
-        }
-        lines.push(line(chance, &format!("us.{name}"), ty));
-    }
-    Some(Uniform {
-        declaration: format!("uniform S{number} us;"),
-        variables: vec![("us".to_owned(), Ty::Struct(number))],
-        lines,
-        construct: "uniform of a struct",
-    })
-}
-
-fn block(chance: &mut Chance, language: &Language) -> Uniform {
-    let layout = chance.word(&["", "layout(std140) ", "layout(std140, row_major) ", "layout(shared) "]);
-    let has_instance = language.has(Feature::BlockInstances) && chance.once_in(2);
-    let (mut members, mut variables, mut lines) = (String::new(), Vec::new(), Vec::new());
-    for index in 0..2 + chance.below(3) {
-        let basic = uniform_type(chance, language);
-        let ty = if chance.once_in(3) { Ty::Array(Box::new(basic), 2) } else { basic };
-        let name = format!("k{index}");
-        let order = if matches!(ty, Ty::Matrix(..)) {
-            chance.word(&["", "layout(row_major) ", "layout(column_major) "])
-        } else {
-            ""
-        };
-        members.push_str(&format!(" {order}{};", ty.declared(&name)));
-        // OpenGL names the members of a block by its own name if it has an instance.
-        let path = if has_instance { format!("Block.{name}") } else { name.clone() };
-        lines.push(line(chance, &path, &ty));
-        variables.push((if has_instance { format!("block.{name}") } else { name }, ty));
-    }
-    let instance = if has_instance { " block" } else { "" };
-    Uniform {
-        declaration: format!("{layout}uniform Block {{{members} }}{instance};"),
-        variables,
-        lines,
-        construct: if has_instance { "uniform block with an instance" } else { "uniform block" },
-    }
 }

@@ -113,7 +113,7 @@ impl Language {
     /// The functions of a stage with a result, or without one.
     pub(super) fn functions(&self, stage: Stage, result: Option<&Ty>) -> &[Named] {
         let [vertex, fragment] = &self.functions;
-        let all = if stage == Stage::Vertex { vertex } else { fragment };
+        let all = if stage == Stage::Fragment { fragment } else { vertex };
         all.get(&result.cloned()).map_or(&[], Vec::as_slice)
     }
 }

@@ -14,27 +14,32 @@
 //! | file | contents |
 //! | --- | --- |
 //! | `language` | what a version has, from glisten's tables |
-//! | `interface`, `samplers` | uniforms, varyings, textures, and their values |
+//! | `interface`, `uniforms`, `samplers` | varyings, uniforms, textures, and their values |
 //! | `writer` | what is visible, names, parts of variables |
 //! | `expressions`, `calls`, `guards` | expressions, and arguments for which functions are defined |
-//! | `statements`, `stages` | statements, functions, whole stages |
+//! | `statements`, `functions`, `stages` | statements, functions, whole stages |
+//! | `sink` | sums of what is computed, so that it reaches the picture |
 //! | `tree`, `types` | what programs are made of |
-//! | `change`, `spelled` | changes that leave the picture as it is |
+//! | `change`, `spelled`, `components` | changes that leave the picture as it is |
 //! | `shrink` | smaller programs |
 
 mod calls;
 mod change;
+mod components;
 mod expressions;
+mod functions;
 mod guards;
 mod interface;
 mod language;
 mod samplers;
 mod shrink;
+mod sink;
 mod spelled;
 mod stages;
 mod statements;
 mod tree;
 mod types;
+mod uniforms;
 mod writer;
 
 pub use change::{Change, changed};
@@ -57,6 +62,8 @@ pub struct Program {
     pub language: &'static Language,
     /// The vertex stage.
     pub vertex: Vec<Stmt>,
+    /// The geometry stage; nothing if there is none.
+    pub geometry: Vec<Stmt>,
     /// The fragment stage.
     pub fragment: Vec<Stmt>,
     /// The lines of the scene.
@@ -81,21 +88,37 @@ impl Program {
         stages::program(seed, language)
     }
 
-    /// The text of the scene, which names `a.vert` and `a.frag`.
+    /// The text of the scene, which names `a.vert`, `a.frag`, and `a.geom` if there is one.
     pub fn scene_text(&self) -> String {
         self.scene.join("\n") + "\n"
     }
 
     /// The texts of the stages.
-    pub fn sources(&self) -> [Source; 2] {
-        [("a.vert", &self.vertex, Stage::Vertex), ("a.frag", &self.fragment, Stage::Fragment)]
-            .map(|(name, statements, stage)| Source { name: name.to_owned(), text: text_of(statements).into(), stage })
+    pub fn sources(&self) -> Vec<Source> {
+        let all = [
+            ("a.vert", &self.vertex, Stage::Vertex),
+            ("a.geom", &self.geometry, Stage::Geometry),
+            ("a.frag", &self.fragment, Stage::Fragment),
+        ];
+        let written = all.into_iter().filter(|(_, statements, _)| !statements.is_empty());
+        let source = |(name, statements, stage): (&str, &Vec<Stmt>, _)| Source {
+            name: name.to_owned(),
+            text: text_of(statements).into(),
+            stage,
+        };
+        written.map(source).collect()
+    }
+
+    /// The statements of the stages.
+    fn stages_mut(&mut self) -> [&mut Vec<Stmt>; 3] {
+        [&mut self.vertex, &mut self.geometry, &mut self.fragment]
     }
 
     /// All in one text, as [`Sections`](crate::Sections) reads it.
     pub fn text(&self) -> String {
-        let [vertex, fragment] = self.sources();
-        format!("//# vertex\n{}//# fragment\n{}//# scene\n{}", vertex.text, fragment.text, self.scene_text())
+        let sources = self.sources();
+        let text = |one: &Source| format!("//# {}\n{}", one.stage.name(), one.text);
+        format!("{}//# scene\n{}", sources.iter().map(text).collect::<String>(), self.scene_text())
     }
 }
 
@@ -137,6 +160,18 @@ mod tests {
             "swizzle as l-value",
             "nested struct",
             "matrixCompMult",
+            "geometry stage",
+            "gl_ClipDistance",
+            "uniform array of structs",
+            "array of uniform blocks",
+            "comment",
+            "isampler3D",
+            "sampler2DMS",
+            "overload with a conversion",
+            "function that differs in one place",
+            "comparison at a bound",
+            "assignment of an operation on itself",
+            "operation on a neutral number",
         ] {
             assert!(seen.contains(construct), "{construct}");
         }

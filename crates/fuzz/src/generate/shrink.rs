@@ -59,12 +59,7 @@ fn with_list<T>(program: &mut Program, number: usize, f: impl FnOnce(&mut Vec<St
         None
     }
     let mut left = number;
-    let Program { vertex, fragment, .. } = program;
-    let found = match find(fragment, &mut left) {
-        Some(found) => Some(found),
-        None => find(vertex, &mut left),
-    };
-    found.map(f)
+    program.stages_mut().into_iter().rev().find_map(|list| find(list, &mut left)).map(f)
 }
 
 /// Leaves statements out: runs of them first, then each.
@@ -133,13 +128,7 @@ fn with_expr<T>(program: &mut Program, number: usize, f: impl FnOnce(&mut Expr) 
         })
     }
     let mut left = number;
-    let Program { vertex, fragment, .. } = program;
-    let found = in_list(fragment, &mut left);
-    let found = match found {
-        Some(found) => Some(found),
-        None => in_list(vertex, &mut left),
-    };
-    found.map(f)
+    program.stages_mut().into_iter().rev().find_map(|list| in_list(list, &mut left)).map(f)
 }
 
 /// Expressions become one of their operands, or a constant.

@@ -4,17 +4,15 @@
 //! a value for each.
 
 use super::Program;
-use super::interface::{Interface, Varying};
+use super::interface::{Interface, PASSED, Varying};
 use super::language::Language;
-use super::tree::{Expr, Role, Stmt, Variable};
+use super::sink::SUM;
+use super::tree::{Role, Stmt, Variable};
 use super::types::{BOOL, FLOAT, INT, Members, Ty};
-use super::writer::{Callable, Macro, Writer};
+use super::writer::{Macro, Writer};
 use crate::chance::Chance;
-use glisten_front::hir::{ParamMode, Scalar, Stage};
+use glisten_front::hir::{Scalar, Stage};
 use glisten_front::language::Feature;
-
-/// The most numbers that a stage's outputs have together.
-const NUMBERS: usize = 16;
 
 /// The program of a seed.
 pub(super) fn program(seed: u64, language: &'static Language) -> Program {
@@ -32,8 +30,10 @@ pub(super) fn program(seed: u64, language: &'static Language) -> Program {
         macros.append(&mut writer.macros);
         statements
     };
-    let (vertex, fragment) = (stage(Stage::Vertex), stage(Stage::Fragment));
-    Program { seed, language, vertex, fragment, scene: interface.scene(), constructs: used, macros }
+    let vertex = stage(Stage::Vertex);
+    let geometry = if interface.has_geometry { stage(Stage::Geometry) } else { Vec::new() };
+    let fragment = stage(Stage::Fragment);
+    Program { seed, language, vertex, geometry, fragment, scene: interface.scene(), constructs: used, macros }
 }
 
 fn structs(chance: &mut Chance, language: &Language) -> Vec<Members> {
@@ -77,6 +77,7 @@ impl Writer<'_> {
         for construct in interface.constructs() {
             self.note(construct);
         }
+        all.push(Stmt::text_only(format!("vec4 {SUM} = vec4(0.0);")));
         self.globals(&mut all);
         for _ in 0..self.chance.below(4) {
             self.function(&mut all);
@@ -104,7 +105,11 @@ impl Writer<'_> {
             } else {
                 text.replace("\\\n   ", "")
             };
-            let name = self.name(if self.stage == Stage::Vertex { "MV" } else { "M" });
+            let name = self.name(match self.stage {
+                Stage::Vertex => "MV",
+                Stage::Geometry => "MG",
+                Stage::Fragment => "M",
+            });
             // A body that ends in an operator's operand is in parentheses.
             all.push(Stmt::text_only(format!("#define {name}{head} ({text})")).with(Role::Directive));
             self.macros.push(Macro { name, result, parameters, pattern, order });
@@ -130,69 +135,6 @@ impl Writer<'_> {
         }
     }
 
-    fn function(&mut self, all: &mut Vec<Stmt>) {
-        let result = if self.chance.once_in(4) { None } else { Some(self.value_type()) };
-        let result =
-            result.filter(|ty| self.is_value(ty) && (self.language.since(120, 300) || !ty.has_array(&self.structs)));
-        let (mut parameters, mut heads, mut first) = (Vec::new(), Vec::new(), Vec::new());
-        self.scopes.push(Vec::new());
-        for _ in 0..self.chance.below(4) {
-            let ty = self.value_type();
-            let (word, mode) = match self.chance.below(6) {
-                0 => ("out ", ParamMode::Out),
-                1 => ("inout ", ParamMode::Inout),
-                2 => ("const in ", ParamMode::ConstIn),
-                3 => ("in ", ParamMode::In),
-                _ => ("", ParamMode::In),
-            };
-            self.note(if word.is_empty() { "parameter" } else { word.trim() });
-            let name = self.name("p");
-            heads.push(format!("{word}{}", ty.declared(&name)));
-            if mode == ParamMode::Out {
-                let value = self.literal(&ty);
-                first.push(Stmt::new(&format!("{name} = @;"), vec![value], Vec::new()));
-            }
-            let variable = self.variable(&name, &ty, mode != ParamMode::ConstIn);
-            self.declare(variable);
-            parameters.push((mode, ty));
-        }
-        let overloaded: Vec<String> = self
-            .functions
-            .iter()
-            .filter(|one| differs(&one.parameters, &parameters))
-            .map(|one| one.name.clone())
-            .collect();
-        let same = |name: &String| {
-            self.functions.iter().filter(|one| one.name == *name).all(|one| differs(&one.parameters, &parameters))
-        };
-        let overloaded: Vec<String> = overloaded.into_iter().filter(same).collect();
-        let name = match self.chance.one(&overloaded).cloned().filter(|_| self.chance.once_in(3)) {
-            Some(name) => {
-                self.note("overload");
-                name
-            }
-            None => self.name("f"),
-        };
-        self.is_uniform = self.stage == Stage::Fragment && self.chance.once_in(4);
-        let is_uniform = self.is_uniform;
-        self.result.clone_from(&result);
-        self.statements_left = 2 + self.chance.below(5);
-        self.may_return = true;
-        // The body's own scope is that of the parameters.
-        let mut body = first;
-        body.extend(self.statements(2));
-        if let Some(ty) = &result {
-            let value = self.returned(ty);
-            body.push(Stmt::new("return @;", vec![value], Vec::new()));
-        }
-        self.scopes.pop();
-        self.result = None;
-        self.note("function");
-        let word = result.as_ref().map_or("void".to_owned(), Ty::name);
-        all.push(Stmt::new(&format!("{word} {name}({}) {{$}}", heads.join(", ")), Vec::new(), vec![body]));
-        self.functions.push(Callable { name, result, parameters, is_uniform });
-    }
-
     fn main(&mut self, interface: &Interface) -> Stmt {
         self.scopes.push(Vec::new());
         let mut body = Vec::new();
@@ -214,6 +156,13 @@ impl Writer<'_> {
             let declared = Stmt::new(&format!("{} = @;", ty.declared(&name)), vec![value], Vec::new());
             body.push(declared.with(Role::Declaration));
         }
+        self.calls(&mut body);
+        self.lookups(&mut body);
+        if self.stage == Stage::Fragment {
+            let pattern = format!("{SUM} += {};", interface.passed());
+            body.push(Stmt::text_only(pattern));
+            self.early = outputs.first().map_or(String::new(), |one| format!("{one} = {SUM}; "));
+        }
         // A vertex stage that returns early leaves its outputs without values.
         self.may_return = self.stage == Stage::Fragment;
         self.statements_left =
@@ -221,9 +170,18 @@ impl Writer<'_> {
         while self.statements_left > 0 {
             body.extend(self.statements(3));
         }
-        if self.stage == Stage::Vertex {
+        self.early = String::new();
+        self.sink(&mut body);
+        if self.stage == Stage::Geometry {
+            body.push(emitted(interface));
+            body.push(Stmt::text_only("EndPrimitive();").with(Role::Output));
+        } else if self.stage == Stage::Vertex {
             self.expressions_left = 0;
             for Varying { name, parts, .. } in &interface.varyings {
+                if name == PASSED {
+                    body.push(Stmt::text_only(format!("{name} = {SUM};")).with(Role::Output));
+                    continue;
+                }
                 for (member, ty) in parts {
                     let place = if member.is_empty() { name.clone() } else { format!("{name}.{member}") };
                     self.expressions_left = 6;
@@ -231,79 +189,36 @@ impl Writer<'_> {
                     body.push(Stmt::new(&format!("{place} = @;"), vec![value], Vec::new()).with(Role::Output));
                 }
             }
+            if interface.has_clips() {
+                self.expressions_left = 3;
+                let value = self.expr(&FLOAT, 2);
+                body.push(Stmt::new("gl_ClipDistance[0] = @;", vec![value], Vec::new()).with(Role::Output));
+                body.push(Stmt::text_only("gl_ClipDistance[1] = place.x + 1.5;").with(Role::Output));
+            }
             body.push(Stmt::text_only("gl_Position = vec4(place * pw, 0.0, pw);").with(Role::Output));
         } else {
             let numbers = self.numbers(outputs.len() * 4);
             for (output, four) in outputs.iter().zip(numbers.chunks(4)) {
-                let pattern = format!("{output} = vec4(@, @, @, @);");
+                let sum = if outputs.first() == Some(output) { format!("{SUM} + ") } else { String::new() };
+                let pattern = format!("{output} = {sum}vec4(@, @, @, @);");
                 body.push(Stmt::new(&pattern, four.to_vec(), Vec::new()));
             }
         }
         self.scopes.pop();
         Stmt::new("void main() {$}", Vec::new(), vec![body])
     }
-
-    /// Numbers from everything that is visible, for the outputs: so many.
-    fn numbers(&mut self, count: usize) -> Vec<Expr> {
-        let mut all = Vec::new();
-        let is_own = |one: &Variable| (one.local || one.writable) && !one.constant;
-        for variable in self.visible().into_iter().filter(is_own) {
-            let whole = Expr::leaf(variable.ty.clone(), variable.name);
-            self.scalars(whole, &mut all);
-        }
-        let mut chosen = Vec::new();
-        while chosen.len() < count.min(NUMBERS) {
-            if all.is_empty() {
-                chosen.push(Expr::leaf(FLOAT, "uf"));
-            } else {
-                chosen.push(all.swap_remove(self.chance.below(all.len())));
-            }
-        }
-        chosen
-    }
-
-    fn scalars(&mut self, whole: Expr, all: &mut Vec<Expr>) {
-        match whole.ty.clone() {
-            Ty::Vector(Scalar::Float, 1) => all.push(whole),
-            Ty::Vector(Scalar::Int, 1) if self.language.has(Feature::IntegerOperators) => {
-                all.push(Expr::new(FLOAT, "float(@ & 0xffff)", vec![whole.clone()]));
-                all.push(Expr::new(FLOAT, "float((@ >> 16) & 0xffff)", vec![whole]));
-            }
-            Ty::Vector(Scalar::Uint, 1) => {
-                all.push(Expr::new(FLOAT, "float(@ & 0xffffu)", vec![whole.clone()]));
-                all.push(Expr::new(FLOAT, "float(@ >> 16u)", vec![whole]));
-            }
-            Ty::Vector(_, 1) => all.push(Expr::new(FLOAT, "float(@)", vec![whole])),
-            Ty::Vector(scalar, size) => {
-                for letter in "xyzw".chars().take(usize::from(size)) {
-                    self.scalars(Expr::new(Ty::Vector(scalar, 1), &format!("@.{letter}"), vec![whole.clone()]), all);
-                }
-            }
-            Ty::Matrix(columns, rows) => {
-                for column in 0..columns {
-                    let pattern = format!("@[{column}]");
-                    self.scalars(Expr::new(Ty::Vector(Scalar::Float, rows), &pattern, vec![whole.clone()]), all);
-                }
-            }
-            Ty::Array(element, size) => {
-                for index in 0..size {
-                    self.scalars(Expr::new((*element).clone(), &format!("@[{index}]"), vec![whole.clone()]), all);
-                }
-            }
-            Ty::Struct(number) => {
-                for (name, ty) in self.structs.get(number).cloned().unwrap_or_default() {
-                    self.scalars(Expr::new(ty, &format!("@.{name}"), vec![whole.clone()]), all);
-                }
-            }
-        }
-    }
 }
 
-/// Whether no call fits both lists of parameters, whatever is converted.
-fn differs(left: &[(ParamMode, Ty)], right: &[(ParamMode, Ty)]) -> bool {
-    let is_far = |((_, left), (_, right)): (&(ParamMode, Ty), &(ParamMode, Ty))| match (left, right) {
-        (Ty::Vector(_, left), Ty::Vector(_, right)) => left != right,
-        _ => left != right,
-    };
-    left.len() != right.len() || left.iter().zip(right).any(is_far)
+/// The loop of a geometry stage that emits the triangle with the sum added.
+fn emitted(interface: &Interface) -> Stmt {
+    let mut body = Vec::new();
+    for (from, to) in interface.varyings.iter().zip(interface.written(Stage::Geometry)) {
+        for (from, to) in from.places("[corner]").iter().zip(to.places("")) {
+            let sum = if to == interface.passed() { format!(" + {SUM}") } else { String::new() };
+            body.push(Stmt::text_only(format!("{to} = {from}{sum};")).with(Role::Output));
+        }
+    }
+    body.push(Stmt::text_only("gl_Position = gl_in[corner].gl_Position;").with(Role::Output));
+    body.push(Stmt::text_only("EmitVertex();").with(Role::Output));
+    Stmt::new("for (int corner = 0; corner < 3; corner++) {$}", Vec::new(), vec![body]).with(Role::Output)
 }

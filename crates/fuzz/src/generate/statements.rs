@@ -3,6 +3,7 @@
 //! *In:* how deep they may nest. *Out:* statements. *Holds:* every loop ends after a few iterations; every variable has a value from its
 //! declaration on; ES 1.00 gets the loops that its appendix A allows.
 
+use super::sink::SUM;
 use super::tree::{Expr, Role, Stmt, Use, Variable};
 use super::types::{BOOL, FLOAT, INT, Ty, UINT};
 use super::writer::Writer;
@@ -13,7 +14,8 @@ impl Writer<'_> {
     /// Statements in a scope of their own.
     pub(super) fn body(&mut self, depth: usize) -> Vec<Stmt> {
         self.scopes.push(Vec::new());
-        let statements = self.statements(depth);
+        let mut statements = self.statements(depth);
+        self.sink(&mut statements);
         self.scopes.pop();
         statements
     }
@@ -27,6 +29,12 @@ impl Writer<'_> {
                 break;
             }
             self.statements_left -= 1;
+            if self.chance.once_in(12) {
+                self.note("comment");
+                let text =
+                    self.chance.word(&["// a line; with { signs }", "/* one */", "/* two\n   lines */", "; // empty"]);
+                statements.push(Stmt::text_only(text));
+            }
             statements.push(self.statement(depth));
         }
         statements
@@ -116,15 +124,28 @@ impl Writer<'_> {
             return Stmt::new(&format!("@ {operator}= @;"), vec![place, value], Vec::new());
         }
         self.note("assignment");
+        if is_number && self.chance.once_in(4) {
+            self.note("assignment of an operation on itself");
+            let other = self.expr(&ty, 2);
+            let pattern = self.chance.word(&["(@ - @)", "(@ + @)"]);
+            let operands = if self.chance.once_in(2) { vec![place.clone(), other] } else { vec![other, place.clone()] };
+            let value = Expr::new(ty, pattern, operands);
+            return Stmt::new("@ = @;", vec![place, value], Vec::new()).with(Role::Assignment(locals));
+        }
         let value = self.expr(&ty, 3);
         Stmt::new("@ = @;", vec![place, value], Vec::new()).with(Role::Assignment(locals))
     }
 
     fn increment(&mut self) -> Stmt {
-        let ty = if self.chance.once_in(3) { FLOAT } else { INT };
+        let ty = match self.chance.below(4) {
+            0 => FLOAT,
+            1 => self.basic_type(),
+            _ => INT,
+        };
+        let ty = if ty.scalar() == Some(Scalar::Bool) { INT } else { ty };
         let Some(place) = self.part(&ty, true) else { return self.assignment() };
         self.note("increment");
-        Stmt::new(self.chance.word(&["@++;", "++@;", "@--;"]), vec![place.used(Use::Fixed)], Vec::new())
+        Stmt::new(self.chance.word(&["@++;", "++@;", "@--;", "--@;"]), vec![place.used(Use::Fixed)], Vec::new())
     }
 
     fn jump(&mut self) -> Stmt {
@@ -141,8 +162,12 @@ impl Writer<'_> {
         if word == "return"
             && let Some(ty) = self.result.clone()
         {
-            let value = self.expr(&ty, 2);
+            self.expressions_left = self.expressions_left.max(3);
+            let value = self.returned(&ty);
             return Stmt::new("if (@) return @;", vec![condition, value], Vec::new());
+        }
+        if word == "return" && !self.early.is_empty() {
+            return Stmt::new(&format!("if (@) {{ {}return; }}", self.early), vec![condition], Vec::new());
         }
         Stmt::new(&format!("if (@) {word};"), vec![condition], Vec::new())
     }
@@ -264,6 +289,7 @@ impl Writer<'_> {
             ("#if __VERSION__ >= 100", true),
             ("#ifdef UNKNOWN", false),
             ("#ifndef UNKNOWN", true),
+            ("#if defined(UNKNOWN) || defined UNKNOWN", false),
             ("#if defined(GL_ES) || __VERSION__ >= 110 && !defined(UNKNOWN)", true),
             ("#if (1 << 3) % 5 == 3 && -1 < 0", true),
             ("#if 2 + 3 * 4 != 14 || (7 & 3) == 0", false),
@@ -278,10 +304,24 @@ impl Writer<'_> {
         Stmt::new(&pattern, Vec::new(), vec![yes, no]).with(Role::Conditional(is_taken))
     }
 
-    /// A value of a type that is not evaluated before its statement: for `return`.
+    /// A result of a function, with its sum if it has one of its own.
     pub(super) fn returned(&mut self, ty: &Ty) -> Expr {
         self.expressions_left = self.expressions_left.max(6);
-        self.expr(ty, 3)
+        let value = self.expr(ty, 3);
+        if !self.is_alone {
+            return value;
+        }
+        let name = ty.name();
+        let all = |size: u8| "xyzw".get(..usize::from(size)).unwrap_or("x");
+        let pattern = match ty {
+            Ty::Vector(Scalar::Float, size) => format!("(@ + {SUM}.{})", all(*size)),
+            Ty::Vector(Scalar::Int, size) => format!("(@ + {name}({SUM}.{}))", all(*size)),
+            Ty::Vector(Scalar::Uint, size) => format!("(@ + {name}(abs({SUM}.{})))", all(*size)),
+            Ty::Vector(Scalar::Bool, 1) => format!("(@ != ({SUM}.x > 1.0))"),
+            Ty::Matrix(..) => format!("(@ + {SUM}.x)"),
+            _ => return value,
+        };
+        Expr::new(ty.clone(), &pattern, vec![value])
     }
 }
 

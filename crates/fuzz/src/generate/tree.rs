@@ -60,6 +60,11 @@ impl Expr {
         }
     }
 
+    /// Gives the overload that it calls a name of its own.
+    pub(super) fn renamed(&mut self) {
+        self.texts.iter_mut().for_each(|text| *text = own_name(text));
+    }
+
     /// Whether a part of it writes something, or calls a function that may.
     pub(super) fn has_effects(&self) -> bool {
         let writes = |text: &String| {
@@ -182,6 +187,20 @@ impl Stmt {
         Self { role: Role::Other, texts: vec![text.into()], parts: Vec::new() }
     }
 
+    /// Gives the overload that it defines or calls a name of its own.
+    pub(super) fn renamed(&mut self) {
+        self.texts.iter_mut().for_each(|text| *text = own_name(text));
+    }
+
+    /// Makes a constant a variable.
+    pub(super) fn varied(&mut self) {
+        if let Some(first) = self.texts.first_mut()
+            && let Some(rest) = first.strip_prefix("const ")
+        {
+            *first = rest.to_owned();
+        }
+    }
+
     /// The texts around its parts.
     pub(super) fn texts(&self) -> &[String] {
         &self.texts
@@ -230,5 +249,16 @@ fn write_all(statements: &[Stmt], indent: usize, text: &mut String) {
     for statement in statements {
         statement.write(indent, text);
         text.push('\n');
+    }
+}
+
+/// A text in which blanks between a name and `(` are a part of the name.
+fn own_name(text: &str) -> String {
+    match text.split_once(" (") {
+        Some((head, tail)) if head.trim_end().ends_with(|letter: char| letter.is_ascii_digit()) => {
+            let name = head.trim_end();
+            format!("{name}_{}({tail}", head.len() - name.len() + 1)
+        }
+        _ => text.to_owned(),
     }
 }

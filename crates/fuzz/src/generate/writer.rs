@@ -54,6 +54,10 @@ pub(super) struct Writer<'l> {
     pub(super) may_return: bool,
     /// Whether a local may hide another.
     pub(super) hides: bool,
+    /// Whether the function has a sum of its own, which is in its result.
+    pub(super) is_alone: bool,
+    /// Statements before a `return` of `main`.
+    pub(super) early: String,
     /// The result of the function.
     pub(super) result: Option<Ty>,
     pub(super) names: usize,
@@ -81,6 +85,8 @@ impl<'l> Writer<'l> {
             in_switch: false,
             may_return: false,
             hides: true,
+            is_alone: false,
+            early: String::new(),
             result: None,
             names: 0,
             statements_left: 0,

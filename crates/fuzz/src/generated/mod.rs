@@ -8,7 +8,7 @@
 mod device;
 mod table;
 
-use glisten_fuzz::checks::{Device, Fault, LOADED, fault};
+use glisten_fuzz::checks::{Device, Fault, LOADED, fault, silence_panics, timed_fault};
 use glisten_fuzz::generate::{Program, shrunk};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -56,7 +56,7 @@ pub(crate) struct Found {
 /// There is no GPU, or a file cannot be written.
 pub(crate) fn run(wanted: Wanted<'_>) -> Result<Sums, String> {
     // A panic is a fault, which the table tells.
-    std::panic::set_hook(Box::new(|_| {}));
+    silence_panics();
     std::fs::create_dir_all(wanted.folder).map_err(|error| format!("{}: {error}", wanted.folder.display()))?;
     let start = Instant::now();
     let next = AtomicU64::new(0);
@@ -78,7 +78,7 @@ pub(crate) fn run(wanted: Wanted<'_>) -> Result<Sums, String> {
             let seed = wanted.seed.wrapping_add(number);
             let program = Program::new(seed);
             own.count(&program);
-            if let Some(fault) = fault(&program, wanted.only, device) {
+            if let Some(fault) = timed_fault(&program, wanted.only, device, &mut own.times) {
                 let known = kind(&fault);
                 let so_far = {
                     let Ok(mut sums) = sums.lock() else { break };

@@ -3,6 +3,7 @@
 //! *In:* programs and faults. *Out:* Markdown. *Holds:* rows are in the order of versions, and of names.
 
 use super::{Found, kind};
+use glisten_fuzz::checks::Times;
 use glisten_fuzz::generate::{Language, Program};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -18,6 +19,8 @@ pub(crate) struct Sums {
     pub(crate) kinds: BTreeMap<String, usize>,
     pub(crate) found: Vec<Found>,
     pub(crate) seconds: f64,
+    /// How long each check took, in all threads.
+    pub(crate) times: Times,
 }
 
 impl Sums {
@@ -40,6 +43,9 @@ impl Sums {
             *self.constructs.entry(name).or_default() += count;
         }
         self.found.extend(other.found);
+        for (name, time) in other.times {
+            *self.times.entry(name).or_default() += time;
+        }
     }
 
     /// The tables.
@@ -55,6 +61,10 @@ impl Sums {
         let _ = writeln!(text, "\n| construct | programs |\n| --- | --- |");
         for (name, count) in &self.constructs {
             let _ = writeln!(text, "| {} | {count} |", name.replace('|', "\\|"));
+        }
+        let _ = writeln!(text, "\n| check | milliseconds a program |\n| --- | --- |");
+        for (name, time) in &self.times {
+            let _ = writeln!(text, "| {name} | {:.2} |", time.as_secs_f64() * 1000.0 / self.programs.max(1) as f64);
         }
         let mut kinds: BTreeMap<String, Vec<&Found>> = BTreeMap::new();
         for found in &self.found {

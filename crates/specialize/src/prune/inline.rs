@@ -60,7 +60,8 @@ fn small(shader: &Shader, callee: FunctionId) -> Option<Small> {
                 Some(uses) => *uses += 1,
                 None => plain = false,
             },
-            ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) => plain = false,
+            // A built-in function may write to a parameter, which an argument need not allow (GLSL 1.50 §6.1.1).
+            ref kind if may_act(kind) => plain = false,
             _ => {}
         }
     });

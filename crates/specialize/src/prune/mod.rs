@@ -133,14 +133,15 @@ fn overwritten_in(shader: &mut Shader) -> bool {
     changed
 }
 
-/// Trims the types that the stages share, then gives functions their names.
-pub(super) fn finish(types: &mut Types, stages: &mut [(Pruned, Vec<bool>)]) {
+/// Trims the types that the stages share, if it `trims` any, then gives functions their names.
+pub(super) fn finish(types: &mut Types, stages: &mut [(Pruned, Vec<bool>)], trims: bool) {
     let mut reach: BTreeMap<String, u32> = BTreeMap::new();
     for (name, elements) in stages.iter().flat_map(|(pruned, _)| &pruned.reach) {
         let known = reach.entry(name.clone()).or_default();
         *known = (*known).max(*elements);
     }
-    for _ in 0..3 {
+    let rounds = if trims { 3 } else { 0 };
+    for _ in 0..rounds {
         let mut shaders: Vec<Shader> = stages.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
         let changed = trim::trim(types, &mut shaders, &reach);
         for ((pruned, live), shader) in stages.iter_mut().zip(shaders) {

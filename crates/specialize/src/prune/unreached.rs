@@ -2,9 +2,10 @@
 //!
 //! *In:* a stage as it was written, and the outputs that somebody reads. *Out:* the stage without the rest.
 //! *Holds:* globals keep their handles, so that an interface still describes the stage; functions are numbered anew. Nothing
-//! is evaluated: names, types and the order of what stays are those of the source.
+//! is evaluated: names, types and the order of what stays are those of the source, but for the names of overloads that have the same
+//! parameters now.
 
-use super::{compact, overwritten_in, sweep, uses};
+use super::{compact, merge, overwritten_in, sweep, uses};
 use glisten_front::hir::{ExprId, GlobalId, Shader, Storage, Types, may_act};
 
 /// Leaves out what reaches no output. `live` says for each global whether somebody reads it when the stage has ended.
@@ -29,6 +30,8 @@ pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -
             break;
         }
     }
+    // Overloads whose parameters are gone would differ in their results alone (GLSL 1.50 §6.1).
+    merge::name(&mut shader);
     shader.mark_static_use();
     shader
 }

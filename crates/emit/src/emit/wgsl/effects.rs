@@ -115,16 +115,22 @@ pub(super) fn classes(
     };
     let mut classes: Vec<Class> = function.expressions.iter().map(class).collect();
     if style == Style::Full {
-        open(function, &mut classes);
+        open(module, function, &mut classes);
     }
     classes
 }
 
-/// Finds the arrays of parameters of which only single elements are read.
-fn open(function: &Function, classes: &mut [Class]) {
+/// Finds the arrays of parameters of which only single elements are read. A vector may be composed of shorter ones, which are not its
+/// components (GLSL 1.50 §5.4.2).
+fn open(module: &naga::Module, function: &Function, classes: &mut [Class]) {
+    let is_by_components = |ty: Handle<naga::Type>, parts: usize| match module.types[ty].inner {
+        TypeInner::Vector { size, .. } => size as usize == parts,
+        _ => true,
+    };
     let mut found: Vec<Handle<Expression>> = Vec::new();
     for (handle, expression) in function.expressions.iter() {
-        if let Expression::Compose { components, .. } = expression
+        if let Expression::Compose { ty, components } = expression
+            && is_by_components(*ty, components.len())
             && function.named_expressions.contains_key(&handle)
             && components
                 .iter()

@@ -6,7 +6,7 @@
 use crate::target::GlslVersion;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::builtin::functions::Row;
-use glisten_front::builtin::operations::Class;
+use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
 use glisten_front::hir::{
@@ -90,8 +90,13 @@ fn later_functions(shader: &Shader, is_es: bool) -> Vec<(&'static str, Span)> {
             since(row) <= if is_es { 300 } else { 330 } || !is_es && !row.availability.extensions.is_empty()
         };
         // What ES never had is said in other words, or refused by its types.
-        let is_derivative = is_es && matches!(function.operation().class, Class::Derivative(_));
-        let came_later = (is_derivative || rows.iter().any(|row| since(row) != NEVER)) && !rows.iter().any(is_in);
+        let has_no_words = is_es
+            && match function.operation().class {
+                Class::Derivative(_) => true,
+                Class::Texture(form) => matches!(form.lookup, Lookup::QueryLod | Lookup::Levels),
+                _ => false,
+            };
+        let came_later = (has_no_words || rows.iter().any(|row| since(row) != NEVER)) && !rows.iter().any(is_in);
         if came_later && !found.iter().any(|(other, _)| *other == name) {
             found.push((name, expr.span));
         }
