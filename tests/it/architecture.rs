@@ -147,6 +147,7 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
             "glisten-emit",
             "glisten-format",
             "glisten-front",
+            "glisten-plan",
             "glisten-reference",
             "glisten-scene",
             "glisten-specialize",

@@ -9,8 +9,7 @@
 //! go as bytes, as a host writes them: an offset that the code does not have shows. *Not done here:* textures that emitted code has in another
 //! shape, such as those of one dimension or of buffers; what naga's GLSL lacks.
 
-use super::drawn::{Bits, Drawn, compiler, picture_of};
-use super::pictures::inside;
+use super::drawn::{Bits, Drawn, Read, compiler, inside, picture_of};
 use glisten::scene::Scene;
 use glisten::verify::Runner;
 use glisten_front::hir::{ScalarValue, Type};
@@ -23,19 +22,11 @@ use glisten_verify::verify;
 use glisten_verify::verify::{Cpu, Failure};
 use naga::back::glsl;
 use naga::proc::BoundsCheckPolicies;
-use naga::valid::ModuleInfo;
 use naga::{Handle, Module, ScalarKind, TypeInner};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 type Held = Result<(), String>;
-
-/// A stage as naga has it.
-pub(super) struct Read {
-    pub(super) stage: Stage,
-    pub(super) module: Module,
-    pub(super) info: ModuleInfo,
-}
 
 /// A stage as naga writes it.
 struct Written {

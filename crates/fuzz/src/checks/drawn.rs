@@ -2,20 +2,30 @@
 //!
 //! *In:* a program, or other texts for it. *Out:* pictures as [`Bits`]. *Holds:* a picture that is not a number is the same as any other such.
 
-use super::again::Read;
 use crate::Sections;
 use crate::generate::Program;
 use glisten::scene::{Loaded, MemoryFiles, Scene, load};
+use glisten::verify::{Options as VerifyOptions, Runner, verify};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{Compiler, Options, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::compare::{Criterion, Verdict};
 use glisten_scene::picture::Picture;
 use glisten_verify::specialize::with_program;
+use glisten_verify::verify::Failure;
+use naga::Module;
+use naga::valid::ModuleInfo;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
+
+/// A stage as naga has it.
+pub(super) struct Read {
+    pub(super) stage: Stage,
+    pub(super) module: Module,
+    pub(super) info: ModuleInfo,
+}
 
 /// The values of a picture as bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -208,5 +218,19 @@ impl<'p> Drawn<'p> {
     /// Whether another scene draws the same bits in f32.
     pub(super) fn same_scene(&self, scene: &Scene) -> Result<(), String> {
         self.single.difference(&bits(scene, Precision::F32)?)
+    }
+}
+
+/// Whether `verify` finds nothing wrong: it knows what is undefined, too.
+pub(super) fn inside(drawn: &Drawn<'_>, runner: &dyn Runner) -> Result<(), String> {
+    let options =
+        VerifyOptions { sources: Some(&drawn.loaded.sources), allow_inconclusive: true, ..VerifyOptions::default() };
+    match verify(&drawn.scene, &[runner], &options) {
+        Ok(verification) => {
+            let outside: u64 = verification.runs.iter().map(|run| run.verdict.outside).sum();
+            if outside == 0 { Ok(()) } else { Err(format!("f32 is outside of the envelope:\n{verification}")) }
+        }
+        Err(Failure::Diagnostics(errors)) => Err(errors.first().map_or(String::new(), |error| error.message.clone())),
+        Err(_) => Ok(()),
     }
 }

@@ -2,19 +2,18 @@
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where another picture is drawn.
 
-use super::drawn::{Drawn, Texts, bits, compiler, first_error, scene_of};
+use super::drawn::{Drawn, Texts, bits, compiler, first_error, inside, scene_of};
 use super::targets::{is_refusal, stages};
 use crate::chance::Chance;
 use crate::generate::{Change, changed};
 use glisten::specialize::specialize_scene;
 use glisten::upgrade::{Refused, Target as Version, upgrade as upgraded};
-use glisten::verify::{Options, Runner, verify};
 use glisten_emit::{Conventions, Emitted, GlslVersion, Target, emit};
 use glisten_format as format;
 use glisten_format::has_same_lexemes;
 use glisten_front::hir;
 use glisten_reference::Precision;
-use glisten_verify::verify::{Cpu, Failure};
+use glisten_verify::verify::Cpu;
 use std::sync::Arc;
 
 type Held = Result<(), String>;
@@ -25,19 +24,6 @@ pub(super) fn envelope(drawn: &Drawn<'_>) -> Held {
         return Ok(());
     }
     inside(drawn, &Cpu::new(Precision::F32))
-}
-
-/// Whether `verify` finds nothing wrong: it knows what is undefined, too.
-pub(super) fn inside(drawn: &Drawn<'_>, runner: &dyn Runner) -> Held {
-    let options = Options { sources: Some(&drawn.loaded.sources), allow_inconclusive: true, ..Options::default() };
-    match verify(&drawn.scene, &[runner], &options) {
-        Ok(verification) => {
-            let outside: u64 = verification.runs.iter().map(|run| run.verdict.outside).sum();
-            if outside == 0 { Ok(()) } else { Err(format!("f32 is outside of the envelope:\n{verification}")) }
-        }
-        Err(Failure::Diagnostics(errors)) => Err(errors.first().map_or(String::new(), |error| error.message.clone())),
-        Err(_) => Ok(()),
-    }
 }
 
 /// Formatted texts.

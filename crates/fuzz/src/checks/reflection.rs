@@ -3,8 +3,7 @@
 //! *In:* a program that has been drawn. *Out:* a sentence where an offset, a stride, a binding or a location is another one. *Holds:* offsets are
 //! computed here once more from the types alone (OpenGL 3.2 §2.11.4), so that a wrong layout on which all of glisten agrees shows.
 
-use super::again::Read;
-use super::drawn::Drawn;
+use super::drawn::{Drawn, Read};
 use super::targets::wgsl_modules;
 use glisten_emit::{Conventions, Reflection, reflect, reflection};
 use glisten_front::Stage;

@@ -2,8 +2,8 @@
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where what is written is refused. *Holds:* a target may lack something, and says so.
 
-use super::again::{self, Read};
-use super::drawn::Drawn;
+use super::again;
+use super::drawn::{Drawn, Read};
 use glisten_emit::{Conventions, Emitted, FloatWidth, Target, emit};
 use glisten_front::Program;
 use glisten_front::diagnostic::Diagnostic;

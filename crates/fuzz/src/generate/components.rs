@@ -162,7 +162,7 @@ fn whole(digits: &str) -> Option<String> {
         return u32::from_str_radix(octal, 8).ok().map(|value| format!("{value}{suffix}"));
     }
     let value: u32 = plain.parse().ok()?;
-    Some(if value % 2 == 0 { format!("0x{value:X}{suffix}") } else { format!("0{value:o}{suffix}") })
+    Some(if value.is_multiple_of(2) { format!("0x{value:X}{suffix}") } else { format!("0{value:o}{suffix}") })
 }
 
 #[cfg(test)]

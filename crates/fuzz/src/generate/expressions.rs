@@ -109,7 +109,7 @@ impl Writer<'_> {
                 _ => (number % 1000).to_string(),
             },
             Scalar::Uint => format!("{number}u"),
-            Scalar::Bool => if number % 2 == 0 { "true" } else { "false" }.to_owned(),
+            Scalar::Bool => if number.is_multiple_of(2) { "true" } else { "false" }.to_owned(),
         }
     }
 
