@@ -29,7 +29,7 @@ macro_rules! rows {
     (@result $result:ty) => { $result };
 }
 
-/// What each float does by itself.
+/// Methods that each float has by itself.
 macro_rules! own {
     ($float:ty) => {
         type Int = u32;
