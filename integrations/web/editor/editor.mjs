@@ -110,15 +110,15 @@ const linesOf = (name) => {
 const needless = linesOf("cm-needless");
 const matching = linesOf("cm-match");
 
-// An editor in `parent`, whose texts nobody can change if it is `readOnly`. `changes` is called with the name and the new text when a person, a fix or a control changes it, before it is shown, and `changed` with the name after that; `moved` with the line
+// An editor in `parent`, whose texts nobody can change if it is `readOnly`. `changed` is called with the text when a person, a fix or a control changes it; `moved` with the line
 // where the cursor is, and whether a person moved it there; `pointed` with the line under the pointer, or null; `valueAt` gives the text to show for a place of a text, by its name, line and column (in characters), or null.
-export const create = ({ parent, readOnly = false, label = "", words = {}, changes = () => {}, changed = () => {}, moved = () => {}, pointed = () => {}, valueAt = () => null }) => {
+export const create = ({ parent, readOnly = false, label = "", words = {}, changed = () => {}, moved = () => {}, pointed = () => {}, valueAt = () => null }) => {
   const spoken = new Compartment();
   const states = new Map();
   let current = null;
   const listen = EditorView.updateListener.of((update) => {
     const byPage = update.transactions.some((one) => one.annotation(ofPage));
-    if (update.docChanged && !byPage) changed(current);
+    if (update.docChanged && !byPage) changed(current, update.state.doc.toString());
     if (update.selectionSet || update.docChanged) moved(update.state.doc.lineAt(update.state.selection.main.head).number, update.transactions.some((one) => one.isUserEvent("select")));
   });
   let under = null;
@@ -155,14 +155,7 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
     EditorState.readOnly.of(readOnly), EditorView.editable.of(true),
     EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false" }),
   ];
-  const view = new EditorView({
-    parent,
-    dispatchTransactions: (transactions, view) => {
-      const byPage = transactions.some((one) => one.annotation(ofPage));
-      if (!byPage && transactions.some((one) => one.docChanged)) changes(current, transactions.at(-1).newDoc.toString());
-      view.update(transactions);
-    },
-  });
+  const view = new EditorView({ parent });
   const fresh = (text, kind, readOnly) => EditorState.create({ doc: text, extensions: extensions(kind, readOnly) });
   const clamp = (place) => Math.max(0, Math.min(view.state.doc.length, place));
   const placeOf = (line, column) => {

@@ -6,8 +6,7 @@ const through = async (bytes, transform) => new Uint8Array(await new Response(ne
 
 // A worker with the module. It is ended with what it does, and the next question starts another.
 const makeLane = (begun, milliseconds) => {
-  let worker = null, count = 0, ready = null;
-  begun.then((start) => { ready = start; }, () => {});
+  let worker = null, count = 0;
   const waiting = new Map();
   const settle = (number, answer) => {
     const one = waiting.get(number);
@@ -27,7 +26,8 @@ const makeLane = (begun, milliseconds) => {
     worker.onerror = (event) => end({ status: 500, error: event.message ?? "the worker ended" });
     worker.postMessage(first);
   };
-  const post = (start, job, endsOlder, planes) => {
+  return async (job, endsOlder, planes = []) => {
+    const start = await begun;
     if (endsOlder && waiting.size) end({ status: 409, error: "a newer question came" });
     if (!worker) begin(start);
     const number = count += 1;
@@ -37,8 +37,6 @@ const makeLane = (begun, milliseconds) => {
       worker.postMessage({ number, job, planes });
     });
   };
-  // Once the module is there, a question is on its way before this returns.
-  return (job, endsOlder, planes = []) => (ready ? post(ready, job, endsOlder, planes) : begun.then((start) => post(start, job, endsOlder, planes)));
 };
 
 const plainName = (name) => {

@@ -69,34 +69,24 @@ const editor = Editor.create({
   valueAt: (name, line, column) => inspector.valueAt(name, line, column),
   moved: (line, isPerson) => matching.movedInSource(line, isPerson),
   pointed: (line) => matching.pointedInSource(line),
-  // The question is asked before the editor shows the text: a worker answers it meanwhile.
-  changes: (name, text) => { if (docs.has(name)) setText(name, text); },
-  changed: (name) => { if (docs.has(name)) textChanged(); },
+  changed: (name, text) => {
+    const doc = docs.get(name);
+    if (!doc) return;
+    doc.text = text;
+    textChanged();
+  },
 });
 // While a control moves, the picture follows, and all that is read of the texts comes when it rests.
 let isMoving = false, rests = null;
-const setText = (name, text) => {
-  docs.get(name).text = text;
-  edition += 1;
-  if (!isMoving) look();
-};
-// With few cores, the findings come before the picture: it is asked for when they are there, or when they take long.
-const PATIENCE = (navigator.hardwareConcurrency ?? 1) > 3 ? 0 : 40;
-let due = null;
-const drawNow = () => {
-  clearTimeout(due);
-  due = null;
-  draw();
-  // A question about a pixel does not end the picture that was asked for before it.
-  if (!isMoving) inspector.refresh();
-};
 const textChanged = () => {
+  edition += 1;
   isJudged = isJudging = false;
   clearTimeout(rests);
   if (isMoving) rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
-  showFiles(); studies.age();
-  if (isMoving || PATIENCE === 0) drawNow();
-  else if (due === null) due = setTimeout(drawNow, PATIENCE);
+  else look();
+  showFiles(); draw(); studies.age();
+  // A question about a pixel does not end the picture that was asked for before it.
+  if (!isMoving) inspector.refresh();
 };
 const translation = Editor.create({
   parent: byId("translation"), label: "Translation", words: start.words, readOnly: true,
@@ -166,7 +156,7 @@ const rewrite = (name, changes) => {
   if (name === shown) { editor.rewrite(changes); return; }
   let text = "", at = 0;
   for (const { from, to, text: by } of changes) { text += doc.text.slice(at, from) + by; at = to; }
-  setText(name, text + doc.text.slice(at));
+  doc.text = text + doc.text.slice(at);
   textChanged();
 };
 
@@ -207,7 +197,6 @@ const take = (answer, isOutdated = false) => {
 const look = isLive ? latest(async () => {
   const asked = edition;
   const answer = await ask({ ask: "look", target: target(), leaves_out: byId("leaves-out").checked });
-  if (due !== null) drawNow();
   if (answer.ok) { take(answer.ok, asked !== edition); const errors = findings.filter((one) => one.severity === "error").length; say(errors ? `${errors} error${errors > 1 ? "s" : ""}: the picture is the last one that could be drawn` : ""); }
   else if (answer.status !== 409) say(answer.error, true);
 }, 400) : () => {};
