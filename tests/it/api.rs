@@ -183,6 +183,7 @@ fn every_type_has_a_user() {
     let types: BTreeSet<String> = offered().into_iter().filter(Offered::is_type).map(|one| one.shown).collect();
     assert!(types.len() <= MOST_TYPES, "the library has {} types", types.len());
     assert!(types.len() > 40, "only {} types were found", types.len());
+    let names: BTreeSet<String> = offered().into_iter().map(|one| one.shown).collect();
     let page = text_of(&root().join("docs/api.md"));
     let rows = page.lines().filter_map(|line| line.strip_prefix("| `"));
     let rows: Vec<(&str, &str)> = rows.filter_map(|row| row.split_once("` | ")).collect();
@@ -191,7 +192,9 @@ fn every_type_has_a_user() {
     for (name, rest) in rows {
         let user = rest.split_once(" | ").map_or("", |(_, user)| user).trim_end_matches(" |");
         let last = name.rsplit("::").next().expect("a name");
-        if user.starts_with("returned by ") || user.starts_with("a field of ") {
+        if let Some(of) = user.strip_prefix("returned by `").or_else(|| user.strip_prefix("a field of `")) {
+            let of = of.trim_end_matches('`');
+            assert!(names.contains(of), "{name} comes from {of}, which the library does not have");
             continue;
         }
         let path = match user.split_once("](") {

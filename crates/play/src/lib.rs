@@ -6,7 +6,7 @@
 //!                                         ├─► pictures             the reference's picture, a pixel
 //!                                         ├─► needs                what the picture does not need
 //!                                         ├─► stability            what f32 does to it
-//!                                         └─► glisten_verify::trace         what a pixel computed
+//!                                         └─► glisten_verify::trace    what a pixel computed
 //!  scene ──► browser: a plan for WebGPU; what it read back ──► verdict
 //! ```
 //!
