@@ -97,6 +97,7 @@ extensions! {
     26 DRAW_BUFFERS: Es "GL_EXT_draw_buffers";
     27 SHADER_INTEGER_MIX: Both "GL_EXT_shader_integer_mix";
     28 SAMPLE_SHADING: Desktop "GL_ARB_sample_shading";
+    29 SHADER_TRINARY_MINMAX: Desktop "GL_AMD_shader_trinary_minmax";
     // Since 1.10 the language has what these provide; sources of that time still enable them.
     nothing: Desktop "GL_ARB_draw_buffers";
 }
