@@ -75,6 +75,7 @@ static MODULES: &[Module] = &[
     module!("lambert"),
     module!("lights"),
     module!("ltc"),
+    module!("lunar"),
     module!("lut"),
     module!("matcap"),
     module!("naive"),

@@ -32,7 +32,7 @@ pub(crate) struct OptimizeArgs {
 impl OptimizeArgs {
     /// Whether the flags leave it out for a target.
     pub(crate) fn applies(self, target: Target, debug_lines: bool) -> bool {
-        let by_default = !debug_lines && matches!(target, Target::Wgsl | Target::Spirv);
+        let by_default = !debug_lines && target.omits_unused();
         !self.no_optimize && !self.level_0 && (self.optimize || by_default)
     }
 

@@ -164,7 +164,7 @@ impl Settings {
 
     /// Whether the code for a target is without what reaches no output.
     pub fn optimizes(&self, target: Target) -> bool {
-        let by_default = !self.conventions.debug_lines && matches!(target, Target::Wgsl | Target::Spirv);
+        let by_default = !self.conventions.debug_lines && target.omits_unused();
         self.optimize.unwrap_or(by_default)
     }
 

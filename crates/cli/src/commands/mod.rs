@@ -34,6 +34,7 @@ pub(crate) mod test;
 pub(crate) mod trace;
 pub(crate) mod upgrade;
 pub(crate) mod verify;
+pub(crate) mod versions;
 pub(crate) mod watch;
 
 use crate::console::Console;
@@ -115,6 +116,8 @@ commands! {
     Explain(explain::ExplainArgs) draws never;
     /// List the lint rules: group, level, fixes
     Rules(rules::RulesArgs) draws never;
+    /// List the versions and extensions of GLSL, and what an extension brings
+    Versions(versions::VersionsArgs) draws never;
     /// Draw a scene
     Render(render::RenderArgs) draws asked;
     /// Draw a scene, or all scenes of a folder, on the GPU and the CPU, and compare the pictures

@@ -71,6 +71,14 @@ impl Target {
         }
     }
 
+    /// Whether its programs omit what reaches no output, unless the host asks for everything.
+    pub fn omits_unused(self) -> bool {
+        match self {
+            Self::Wgsl | Self::Spirv => true,
+            Self::Msl | Self::Hlsl | Self::Glsl => false,
+        }
+    }
+
     /// The target with this word.
     pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|target| target.word() == word)

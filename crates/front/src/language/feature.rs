@@ -3,8 +3,9 @@
 //! *In:* a version and the enabled extensions. *Out:* whether the rule is in force. *Holds:* together with the columns of
 //! the tables of keywords and built-ins, this table is the only place that compares versions.
 
+use super::extension::Extensions;
 use super::section::Edition;
-use super::version::{Extensions, NEVER, Since, Version};
+use super::version::{NEVER, Since, Version};
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]

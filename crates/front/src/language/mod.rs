@@ -3,6 +3,7 @@
 //! *In:* nothing but [`source`](crate::source). *Out:* stages, versions, types and operators. *Holds:* no phase is
 //! known here, so that the tables of built-ins, the syntax tree and the typed program can all use these terms.
 
+mod extension;
 mod feature;
 pub(crate) mod foreign;
 mod operators;
@@ -11,6 +12,7 @@ mod stage;
 mod types;
 mod version;
 
+pub use extension::{EXTENSIONS, Extension, Extensions, Families};
 pub use feature::{FEATURES, Feature, FeatureRow};
 pub use operators::IncDec;
 pub use section::{EDITIONS, Edition, Section, cite, runs};
@@ -19,4 +21,4 @@ pub use types::{
     ArraySize, MatrixLayout, Member, MemberPlace, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId,
     Types,
 };
-pub use version::{Behavior, Extensions, NEVER, Profile, Since, Version};
+pub use version::{Behavior, NEVER, Profile, Since, Version};

@@ -1,5 +1,5 @@
 //! Built-in functions that no target has as such: their calls are written out in other operations (GLSL 4.00 §8.3,
-//! §8.8).
+//! §8.8; AMD_shader_trinary_minmax).
 //!
 //! *Holds:* arguments are evaluated once and in order. What is used twice is kept in a local.
 
@@ -20,6 +20,9 @@ impl Analyzer<'_> {
         }
         let mut out = Writer { analyzer: self, span };
         let call = match (function, arguments) {
+            (F::Min3, &[x, y, z]) => out.extremum(F::Min, x, y, z),
+            (F::Max3, &[x, y, z]) => out.extremum(F::Max, x, y, z),
+            (F::Mid3, &[x, y, z]) => out.median(x, y, z),
             (F::Ldexp, &[x, exponent]) => out.ldexp(x, exponent),
             (F::Frexp, &[x, exponent]) => out.frexp(x, exponent),
             (F::UaddCarry, &[x, y, carry]) => out.carried(x, y, carry, BinaryOp::Add),
@@ -143,6 +146,33 @@ impl Writer<'_, '_> {
         let places = self.int(23, ty);
         let bits = self.binary(BinaryOp::Shl, biased, places);
         self.call(F::IntBitsToFloat, vec![bits], float)
+    }
+
+    /// `min(min(x, y), z)` and the same of `max`.
+    fn extremum(&mut self, function: F, x: ExprId, y: ExprId, z: ExprId) -> Option<ExprId> {
+        let ty = self.analyzer.ty(x);
+        let first = self.call(function, vec![x, y], ty);
+        Some(self.call(function, vec![first, z], ty))
+    }
+
+    /// `mid3`: `max(min(x, y), min(max(x, y), z))`.
+    fn median(&mut self, x: ExprId, y: ExprId, z: ExprId) -> Option<ExprId> {
+        let ty = self.analyzer.ty(x);
+        let of = |this: &mut Self, [a, b]: [ExprId; 2], [c, d]: [ExprId; 2]| {
+            let low = this.call(F::Min, vec![a, b], ty);
+            let high = this.call(F::Max, vec![c, d], ty);
+            let most = this.call(F::Min, vec![high, z], ty);
+            this.call(F::Max, vec![low, most], ty)
+        };
+        let is_constant = [x, y, z].into_iter().all(|id| self.analyzer.is_constant(id));
+        if is_constant || self.analyzer.body.is_none() {
+            // A constant, or the initializer of a global: it is written out twice.
+            return Some(of(self, [x, y], [x, y]));
+        }
+        let ((x_place, x_kept), (y_place, y_kept)) = (self.keep(x)?, self.keep(y)?);
+        let [first, second] = [0, 1].map(|_| [self.read(x_place, x), self.read(y_place, y)]);
+        let result = of(self, first, second);
+        self.sequence(&[x_kept, y_kept, result])
     }
 
     /// `x 2^e` as two products, so that the power may be outside of the range of normal floats.

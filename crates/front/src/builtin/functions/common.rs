@@ -1,12 +1,16 @@
-//! Angle, trigonometry, exponential and common functions (GLSL 1.50 §8.1 to §8.3), which work component by component.
+//! Angle, trigonometry, exponential and common functions (GLSL 1.50 §8.1 to §8.3), which work component by component; and the minima,
+//! maxima and medians of three numbers of AMD_shader_trinary_minmax.
 
-use super::{BuiltinFunction, Effect, Parameter, Row, matcher, rows};
+use super::{Availability, BuiltinFunction, Effect, Parameter, Row, matcher, rows};
+use crate::language::Extensions;
 
 const A110: Row = Row::base("§8.1", 110);
 const A130: Row = Row::base("§8.1", 130);
 const E110: Row = Row::base("§8.2", 110);
 const C110: Row = Row::base("§8.3", 110);
 const C130: Row = Row::base("§8.3", 130);
+const AMD: Row =
+    Row::base("AMD_shader_trinary_minmax", 110).available(Availability::extension(Extensions::SHADER_TRINARY_MINMAX));
 const OUT130: Row = C130.with(Effect::WritesArgument, false);
 
 pub(super) static ROWS: &[Row] = rows! {
@@ -59,6 +63,15 @@ pub(super) static ROWS: &[Row] = rows! {
     C130 Max: genIType max(genIType x, int y);
     C130 Max: genUType max(genUType x, genUType y);
     C130 Max: genUType max(genUType x, uint y);
+    AMD Min3: genType min3(genType x, genType y, genType z);
+    AMD Min3: genIType min3(genIType x, genIType y, genIType z);
+    AMD Min3: genUType min3(genUType x, genUType y, genUType z);
+    AMD Max3: genType max3(genType x, genType y, genType z);
+    AMD Max3: genIType max3(genIType x, genIType y, genIType z);
+    AMD Max3: genUType max3(genUType x, genUType y, genUType z);
+    AMD Mid3: genType mid3(genType x, genType y, genType z);
+    AMD Mid3: genIType mid3(genIType x, genIType y, genIType z);
+    AMD Mid3: genUType mid3(genUType x, genUType y, genUType z);
     C110 Clamp: genType clamp(genType x, genType minVal, genType maxVal);
     C110 Clamp: genType clamp(genType x, float minVal, float maxVal);
     C130 Clamp: genIType clamp(genIType x, genIType minVal, genIType maxVal);

@@ -236,7 +236,7 @@ pub fn named(name: &str) -> &'static [&'static Row] {
 /// Whether a compiler for Vulkan knows a function with this name: one of the language, or of AMD_shader_trinary_minmax, which
 /// glslang has built in. It takes no other function of that name, since it could not have the precisions of the built-in one.
 pub fn is_known_for_vulkan(name: &str) -> bool {
-    !named(name).is_empty() || ["max3", "mid3", "min3"].contains(&name)
+    !named(name).is_empty()
 }
 
 /// Every name once, in sorted order.

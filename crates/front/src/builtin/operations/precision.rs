@@ -164,7 +164,7 @@ rules! {
     EXACT = "-x, abs, sign, floor, ceil, trunc, step, clamp, transpose, frexp, intBitsToFloat, uintBitsToFloat" ("x"), Exact, "Vulkan: correctly rounded, and an f32";
     FRACT = "fract, modf" ("x"), Correct, "Vulkan: correctly rounded";
     ROUND = "round, roundEven" ("x"), EitherHalf, "GLSL 1.50 8.3";
-    EXTREMUM = "min, max" ("x", "y"), EitherOfNan, "GLSL.std.450: FMin, FMax";
+    EXTREMUM = "min, max, min3, max3, mid3" ("x", "y"), EitherOfNan, "GLSL.std.450: FMin, FMax";
     INVERSESQRT = "inversesqrt" ("x"), Ulps(2.0), "Vulkan: InverseSqrt";
     SQRT = "sqrt" ("x"), Inherited(&formula!((/ 1.0 (Inversesqrt x)))), "Vulkan: Sqrt";
     EXP = "exp, exp2" ("x"), UlpsWithArgument { fixed: 3.0, slope: 2.0 }, "Vulkan: Exp, Exp2";

@@ -289,6 +289,9 @@ operations! {
         IntBitsToFloat "intBitsToFloat" Class::BitCast(BitCast::IntToFloat), each(1), Some(&precision::EXACT);
         UintBitsToFloat "uintBitsToFloat" Class::BitCast(BitCast::UintToFloat), each(1), Some(&precision::EXACT);
         Ftransform "ftransform" Class::Composed, each(7), None;
+        Min3 "min3" Class::Composed, each(2), Some(&precision::EXTREMUM);
+        Max3 "max3" Class::Composed, each(2), Some(&precision::EXTREMUM);
+        Mid3 "mid3" Class::Composed, each(4), Some(&precision::EXTREMUM);
         Frexp "frexp" Class::Composed, each(8), Some(&precision::EXACT);
         Ldexp "ldexp" Class::Composed, each(8), Some(&precision::MUL);
         UaddCarry "uaddCarry" Class::Composed, each(3), None;

@@ -45,6 +45,7 @@ mod pow_of_negative;
 mod pow_of_two;
 mod repeated_call;
 mod repeated_macro;
+mod reversed_bounds;
 mod self_assignment;
 mod self_comparison;
 mod shadowed_builtin;
@@ -150,5 +151,6 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::LEGACY_LOOKUP, check: legacy_lookup::check },
     Rule { code: &lints::LEGACY_QUALIFIER, check: legacy_qualifier::check },
     Rule { code: &lints::LEGACY_OUTPUT, check: legacy_output::check },
+    Rule { code: &lints::REVERSED_BOUNDS, check: reversed_bounds::check },
     Rule { code: &lints::UNUSED_ALLOW, check: unused_allow::check },
 ];

@@ -1,87 +1,9 @@
-//! `#extension` (GLSL 1.50 §3.3), and the table of known extensions.
+//! `#extension` (GLSL 1.50 §3.3), and the names of all registered extensions.
 
-use super::{
-    Behavior, Extensions, Feature, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, kind,
-};
+use super::{Behavior, Extensions, Feature, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
+use crate::language::EXTENSIONS;
 use std::sync::LazyLock;
-
-/// An extension that glisten implements.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::syntax) struct Implemented {
-    pub(in crate::syntax) name: &'static str,
-    bit: Extensions,
-    families: Families,
-}
-
-/// The families of versions for which an extension is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Families {
-    Desktop,
-    Es,
-    Both,
-}
-
-const fn desktop(name: &'static str, bit: Extensions) -> Implemented {
-    Implemented { name, bit, families: Families::Desktop }
-}
-
-const fn es(name: &'static str, bit: Extensions) -> Implemented {
-    Implemented { name, bit, families: Families::Es }
-}
-
-const fn both(name: &'static str, bit: Extensions) -> Implemented {
-    Implemented { name, bit, families: Families::Both }
-}
-
-static IMPLEMENTED: &[Implemented] = &[
-    desktop("GL_AMD_conservative_depth", Extensions::CONSERVATIVE_DEPTH),
-    desktop("GL_ARB_arrays_of_arrays", Extensions::ARRAYS_OF_ARRAYS),
-    desktop("GL_ARB_conservative_depth", Extensions::CONSERVATIVE_DEPTH),
-    desktop("GL_ARB_derivative_control", Extensions::DERIVATIVE_CONTROL),
-    // Since 1.10 the language has what these provide; sources of that time still enable them.
-    desktop("GL_ARB_draw_buffers", Extensions::empty()),
-    desktop("GL_ARB_draw_instanced", Extensions::DRAW_INSTANCED),
-    desktop("GL_ARB_enhanced_layouts", Extensions::ENHANCED_LAYOUTS),
-    desktop("GL_ARB_explicit_attrib_location", Extensions::EXPLICIT_ATTRIB_LOCATION),
-    desktop("GL_ARB_explicit_uniform_location", Extensions::EXPLICIT_UNIFORM_LOCATION),
-    desktop("GL_ARB_fragment_coord_conventions", Extensions::FRAGMENT_COORD_CONVENTIONS),
-    desktop("GL_ARB_gpu_shader5", Extensions::GPU_SHADER5),
-    desktop("GL_ARB_sample_shading", Extensions::SAMPLE_SHADING),
-    desktop("GL_ARB_separate_shader_objects", Extensions::SEPARATE_SHADER_OBJECTS),
-    desktop("GL_ARB_shader_bit_encoding", Extensions::SHADER_BIT_ENCODING),
-    desktop("GL_ARB_shader_texture_lod", Extensions::SHADER_TEXTURE_LOD),
-    desktop("GL_ARB_shading_language_420pack", Extensions::SHADING_LANGUAGE_420PACK),
-    desktop("GL_ARB_shading_language_include", Extensions::INCLUDE),
-    desktop("GL_ARB_shading_language_packing", Extensions::SHADING_LANGUAGE_PACKING),
-    desktop("GL_ARB_texture_cube_map_array", Extensions::TEXTURE_CUBE_MAP_ARRAY),
-    desktop("GL_ARB_texture_gather", Extensions::TEXTURE_GATHER),
-    desktop("GL_ARB_texture_multisample", Extensions::TEXTURE_MULTISAMPLE),
-    desktop("GL_ARB_texture_query_levels", Extensions::TEXTURE_QUERY_LEVELS),
-    desktop("GL_ARB_texture_query_lod", Extensions::TEXTURE_QUERY_LOD),
-    desktop("GL_ARB_texture_rectangle", Extensions::TEXTURE_RECTANGLE),
-    desktop("GL_ARB_uniform_buffer_object", Extensions::UNIFORM_BUFFER_OBJECT),
-    es("GL_EXT_draw_buffers", Extensions::DRAW_BUFFERS),
-    es("GL_EXT_frag_depth", Extensions::FRAG_DEPTH),
-    desktop("GL_EXT_gpu_shader4", Extensions::GPU_SHADER4),
-    both("GL_EXT_shader_integer_mix", Extensions::SHADER_INTEGER_MIX),
-    es("GL_EXT_shader_texture_lod", Extensions::SHADER_TEXTURE_LOD),
-    desktop("GL_EXT_texture_array", Extensions::TEXTURE_ARRAY),
-    both("GL_GOOGLE_cpp_style_line_directive", Extensions::INCLUDE),
-    both("GL_GOOGLE_include_directive", Extensions::INCLUDE),
-    es("GL_OES_standard_derivatives", Extensions::STANDARD_DERIVATIVES),
-];
-
-impl Implemented {
-    /// Whether sources of this language may enable it.
-    pub(in crate::syntax) fn is_for(&self, version: Version) -> bool {
-        match self.families {
-            Families::Both => true,
-            Families::Desktop => !version.is_es(),
-            Families::Es => version.is_es(),
-        }
-    }
-}
 
 /// Every extension name of the OpenGL and OpenGL ES registries and of the Khronos GLSL repository, sorted, one on
 /// each line.
@@ -89,11 +11,6 @@ static REGISTERED: &str = include_str!("extensions.txt");
 
 /// The names of [`REGISTERED`], for lookup.
 static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| REGISTERED.lines().collect());
-
-/// The extensions that shaders find defined as macros.
-pub(super) fn implemented() -> impl Iterator<Item = &'static Implemented> {
-    IMPLEMENTED.iter()
-}
 
 fn is_registered(name: &str) -> bool {
     NAMES.binary_search(&name).is_ok()
@@ -176,7 +93,7 @@ impl Preprocessor<'_> {
             return self.set_compatibility(session, behavior);
         }
         let version = self.version;
-        if let Some(row) = IMPLEMENTED.iter().find(|row| row.name == name && row.is_for(version)) {
+        if let Some(row) = EXTENSIONS.iter().find(|row| row.name == name && row.is_for(version)) {
             self.extensions.set(row.bit, behavior != Behavior::Disable);
             self.extensions.set_warned(row.bit, behavior == Behavior::Warn);
             if behavior != Behavior::Disable {
@@ -198,7 +115,7 @@ impl Preprocessor<'_> {
         let (message, help) = if registered {
             (format!("the extension `{name}` is not supported"), None)
         } else {
-            let names = REGISTERED.lines().chain(IMPLEMENTED.iter().map(|row| row.name));
+            let names = REGISTERED.lines().chain(EXTENSIONS.iter().map(|row| row.name));
             let near = if session.may_suggest() { did_you_mean(name, names) } else { None };
             let near = near.map(Advice::meant);
             (format!("there is no extension `{name}`"), near)
@@ -235,7 +152,7 @@ mod tests {
 
     #[test]
     fn all_that_is_implemented_is_registered() {
-        for row in IMPLEMENTED {
+        for row in EXTENSIONS {
             assert!(is_registered(row.name), "{}", row.name);
         }
         assert!(REGISTERED.lines().is_sorted());

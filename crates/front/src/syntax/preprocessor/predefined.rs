@@ -5,20 +5,19 @@
 //! *Holds:* both are made once for all parses. The symbols of [`extension_macros`] are those of [`names`] and of nothing else.
 
 use super::definition::Macro;
-use super::extension::{self, Implemented};
 use super::{Names, Symbol};
+use crate::language::{EXTENSIONS, Extension};
 use std::sync::LazyLock;
 
 struct Predefined {
     names: Names,
-    macros: Vec<(&'static Implemented, Symbol, Macro)>,
+    macros: Vec<(&'static Extension, Symbol, Macro)>,
 }
 
 static PREDEFINED: LazyLock<Predefined> = LazyLock::new(|| {
     let mut names = Names::with_keywords();
-    let macros = extension::implemented()
-        .map(|row| (row, names.intern(row.name), Macro::number(&mut names, row.name, "1")))
-        .collect();
+    let macros =
+        EXTENSIONS.iter().map(|row| (row, names.intern(row.name), Macro::number(&mut names, row.name, "1"))).collect();
     Predefined { names, macros }
 });
 
@@ -28,6 +27,6 @@ pub(in crate::syntax) fn names() -> Names {
 }
 
 /// The macro of each implemented extension (GLSL 1.50 §3.3), with its symbol among [`names`].
-pub(super) fn extension_macros() -> impl Iterator<Item = &'static (&'static Implemented, Symbol, Macro)> {
+pub(super) fn extension_macros() -> impl Iterator<Item = &'static (&'static Extension, Symbol, Macro)> {
     PREDEFINED.macros.iter()
 }

@@ -1,4 +1,4 @@
-//! Closed forms of rough diffuse surfaces: Oren and Nayar, EON, Burley, by the angles of their papers.
+//! Closed forms of rough diffuse surfaces: Oren and Nayar, EON, Burley, Lommel and Seeliger, by the angles of their papers.
 
 use super::{Form, InputKind, dot, forms, lit, norm};
 use crate::measure::vector::{V, scale, sub};
@@ -83,6 +83,17 @@ fn burley(a: &Args<'_>) -> Option<Answer> {
     })
 }
 
+/// McEwen's mean of the laws of Lommel and Seeliger, and of Lambert.
+fn lunar(a: &Args<'_>) -> Option<Answer> {
+    let (n, l, v, s) = (a.d(), a.d(), a.d(), a.f());
+    let (nl, nv) = (dot(n, l), dot(n, v).max(0.0));
+    lit(n, l, || {
+        let value = s * 2.0 * nl / (nl + nv) + (1.0 - s) * nl;
+        // Where both graze, their difference decides.
+        Some(Answer::new([value], 2.0).conditioned(8.0 + 4.0 / (nl + nv)))
+    })
+}
+
 pub(super) static FORMS: &[Form] = forms! {
     "oren_nayar" "orenNayarTerm(float,float,float)" [Unit, Unit, Signed] |a| {
         let (nl, nv, lv) = (a.f(), a.f(), a.f().clamp(-1.0, 1.0));
@@ -94,5 +105,11 @@ pub(super) static FORMS: &[Form] = forms! {
     "oren_nayar" "orenNayarFactor(vec3,vec3,vec3,float)" [Lighting, Gain] oren_nayar;
     "oren_nayar" "eonSingle(float,float)" [Unit, Unit] |a| Some(Answer::new([albedo(a.f(), a.f())], 1.0).conditioned(4.0));
     "oren_nayar" "eonFactor(vec3,vec3,vec3,vec3,float)" [Lighting, Color, Unit] eon;
+    "lunar" "lunarTerm(float,float)" [Unit, Unit] |a| {
+        let (nl, nv) = (a.f(), a.f());
+        let value = if nl > 0.0 { 2.0 * nl / (nl + nv) } else { 0.0 };
+        Some(Answer::new([value], 2.0).conditioned(4.0))
+    };
+    "lunar" "lunarFactor(vec3,vec3,vec3,float)" [Lighting, Unit] lunar;
     "burley" "burleyFactor(vec3,vec3,vec3,float)" [Lighting, Unit] burley;
 };

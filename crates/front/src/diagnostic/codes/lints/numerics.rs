@@ -145,4 +145,14 @@ lints! {
         "It is told only where a run shows it, so it is never a guess."
         bad Text("uniform float roughness; // glisten: range(0, 1)\n.. 1.0 / roughness"),
         good Text("uniform float roughness; // glisten: range(0.01, 1)\n.. 1.0 / roughness");
+    REVERSED_BOUNDS = "L0075" "reversed-bounds" Note Numerics Unsafe "0.1.0" "GLSL 1.50 §8.3"
+        "The lower edge of `smoothstep` is not below the upper one, or the least value of `clamp` is above the largest. The \
+         specification leaves the result undefined."
+        why
+        "GPUs compute the formula of `smoothstep`, which gives the reversed curve for reversed edges, and many shaders count on it; \
+         so it is a note. Only bounds that are constants count."
+        bad Fragment(
+            "in float x; out vec4 c; void main() { c = vec4(smoothstep(1.0, 0.0, x)); }"),
+        good Fragment(
+            "in float x; out vec4 c; void main() { c = vec4(1.0 - smoothstep(0.0, 1.0, x)); }");
 }

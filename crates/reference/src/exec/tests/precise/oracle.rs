@@ -118,6 +118,9 @@ pub(super) fn expected(function: F, arguments: &[Argument], count: usize) -> Opt
             Some(rest.chain((0..count).map(|k| Want::Exactly(truncated(a.at(0, k))))).collect())
         }
         F::Min | F::Max | F::Clamp => each(&|k| extremum(function, arguments, k)),
+        F::Min3 => each(&|k| sorted(arguments, k, 0)),
+        F::Mid3 => each(&|k| sorted(arguments, k, 1)),
+        F::Max3 => each(&|k| sorted(arguments, k, 2)),
         F::Mix if !is_float => each(&|k| Want::Bits(arguments[if arguments[2].bits[k] != 0 { 1 } else { 0 }].bits[k])),
         F::Mix => each(&|k| match arguments[2].scalar {
             Scalar::Bool => Want::Exactly(a.at(if arguments[2].bits[k] != 0 { 1 } else { 0 }, k)),
@@ -320,6 +323,19 @@ fn integer(arguments: &[Argument], argument: usize, component: usize, scalar: Sc
     let bits = &arguments[argument].bits;
     let bits = if bits.len() == 1 { bits[0] } else { bits[component] };
     if scalar == Scalar::Int { i64::from(bits as i32) } else { i64::from(bits) }
+}
+
+/// The number at a place in the order of all arguments.
+fn sorted(arguments: &[Argument], k: usize, place: usize) -> Want {
+    let scalar = arguments[0].scalar;
+    if scalar == Scalar::Float {
+        let mut all: Vec<f64> = (0..arguments.len()).map(|index| Floats(arguments).at(index, k)).collect();
+        all.sort_by(f64::total_cmp);
+        return Want::Exactly(all[place]);
+    }
+    let mut all: Vec<i64> = (0..arguments.len()).map(|index| integer(arguments, index, k, scalar)).collect();
+    all.sort_unstable();
+    Want::Bits(all[place] as u32)
 }
 
 fn extremum(function: F, arguments: &[Argument], k: usize) -> Want {
