@@ -1,4 +1,4 @@
-//! The color spaces of FLIP, and the distance of two colors (§4.1).
+//! The color spaces of FLIP, and the distance of two colors.
 //!
 //! *In:* colors of sRGB in 8 bits, or filtered YCxCz. *Out:* YCxCz, L\*a\*b\* with the Hunt adjustment, color differences
 //! from 0 to 1.
@@ -23,14 +23,14 @@ const FROM_XYZ: [[f32; 3]; 3] = [
     [0.052_881_293, -0.204_011_2, 1.151_13],
 ];
 
-/// The exponent of the color difference, q_c (§4.1.4).
+/// The exponent of the color difference, q_c.
 const EXPONENT: f32 = 0.7;
-/// The share of the largest difference below which differences are spread, p_c (§4.1.4).
+/// The share of the largest difference below which differences are spread, p_c.
 const SPREAD_BELOW: f32 = 0.4;
-/// The share of [0, 1] onto which they are spread, p_t (§4.1.4).
+/// The share of [0, 1] onto which they are spread, p_t.
 const SPREAD_ONTO: f32 = 0.95;
 
-/// The largest color difference of sRGB, c_max: that of green and blue (§4.1.4).
+/// The largest color difference of sRGB, c_max: that of green and blue.
 static LARGEST: LazyLock<f32> = LazyLock::new(|| {
     let perceived = |linear| hunt_adjusted(lab(linear));
     hyab(perceived([0.0, 1.0, 0.0]), perceived([0.0, 0.0, 1.0])).powf(EXPONENT)
@@ -56,7 +56,7 @@ impl Opponent {
         Self { y: channel(|[y, ..]| *y), cx: channel(|[_, cx, _]| *cx), cz: channel(|[.., cz]| *cz) }
     }
 
-    /// The colors as a person perceives them: clamped to sRGB (§4.1.1), in L\*a\*b\*, adjusted (§4.1.2).
+    /// The colors as a person perceives them: clamped to sRGB, in L\*a\*b\*, adjusted.
     pub(super) fn perceived(&self) -> impl Iterator<Item = [f32; 3]> {
         let chrominance = self.cx.values.iter().zip(&self.cz.values);
         let colors = self.y.values.iter().zip(chrominance).map(|(y, (cx, cz))| [*y, *cx, *cz]);
@@ -91,12 +91,12 @@ fn lightness(share: f32) -> f32 {
     if share > JOINT * JOINT * JOINT { share.powf(1.0 / 3.0) } else { share / (3.0 * JOINT * JOINT) + 4.0 / 29.0 }
 }
 
-/// The Hunt adjustment: chrominance counts less where it is dark (§4.1.2).
+/// The Hunt adjustment: chrominance counts less where it is dark.
 fn hunt_adjusted([l, a, b]: [f32; 3]) -> [f32; 3] {
     [l, 0.01 * l * a, 0.01 * l * b]
 }
 
-/// The HyAB distance: of luminance in the city block, of chrominance by Euclid (§4.1.3).
+/// The HyAB distance: of luminance in the city block, of chrominance by Euclid.
 fn hyab([l, a, b]: [f32; 3], [other_l, other_a, other_b]: [f32; 3]) -> f32 {
     let (da, db) = (a - other_a, b - other_b);
     (l - other_l).abs() + (da * da + db * db).sqrt()
@@ -107,7 +107,7 @@ pub(super) fn difference(reference: [f32; 3], test: [f32; 3]) -> f32 {
     redistributed(hyab(reference, test).powf(EXPONENT), *LARGEST)
 }
 
-/// A difference up to `largest` redistributed on [0, 1]: large ones share a small part of it (§4.1.4).
+/// A difference up to `largest` redistributed on [0, 1]: large ones share a small part of it.
 fn redistributed(difference: f32, largest: f32) -> f32 {
     let below = SPREAD_BELOW * largest;
     if difference < below {

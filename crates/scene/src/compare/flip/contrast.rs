@@ -1,4 +1,4 @@
-//! The color pipeline: pictures as the eye resolves them, and how far their colors are apart (§4.1).
+//! The color pipeline: pictures as the eye resolves them, and how far their colors are apart.
 //!
 //! *In:* pictures in YCxCz. *Out:* the color difference of each pixel, 0 to 1.
 //!
@@ -10,20 +10,20 @@ use super::color::{Opponent, difference};
 use super::filter::Plane;
 use std::f64::consts::PI;
 
-/// A Gaussian of a contrast sensitivity function: a √(π/b) exp(-π² d²/b), d in degrees (§4.1.1).
+/// A Gaussian of a contrast sensitivity function: a √(π/b) exp(-π² d²/b), d in degrees.
 struct Gaussian {
     a: f64,
     b: f64,
 }
 
-/// The sensitivity to luminance (§4.1.1, Table 1).
+/// The sensitivity to luminance.
 const ACHROMATIC: &[Gaussian] = &[Gaussian { a: 1.0, b: 0.0047 }];
 /// The sensitivity to red against green.
 const RED_GREEN: &[Gaussian] = &[Gaussian { a: 1.0, b: 0.0053 }];
 /// The sensitivity to blue against yellow.
 const BLUE_YELLOW: &[Gaussian] = &[Gaussian { a: 34.1, b: 0.04 }, Gaussian { a: 13.5, b: 0.025 }];
 
-/// The b of the widest Gaussian; three of its standard deviations are the radius of all filters (§4.1.1).
+/// The b of the widest Gaussian; three of its standard deviations are the radius of all filters.
 const WIDEST: f64 = 0.04;
 
 impl Gaussian {
@@ -55,7 +55,7 @@ pub(super) fn color_differences(reference: &Opponent, test: &Opponent) -> Vec<f3
     reference.perceived().zip(test.perceived()).map(|(ours, theirs)| difference(ours, theirs)).collect()
 }
 
-/// The picture, filtered by the contrast sensitivity functions (§4.1.1).
+/// The picture, filtered by the contrast sensitivity functions.
 fn resolved(picture: &Opponent) -> Opponent {
     Opponent {
         y: filtered(&picture.y, ACHROMATIC),

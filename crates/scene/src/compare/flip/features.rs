@@ -1,4 +1,4 @@
-//! The feature pipeline: edges and points, and how far those of two pictures are apart (§4.2).
+//! The feature pipeline: edges and points, and how far those of two pictures are apart.
 //!
 //! *In:* the luminances of pictures. *Out:* the feature difference of each pixel, 0 to 1.
 //!
@@ -9,7 +9,7 @@ use super::PIXELS_PER_DEGREE;
 use super::filter::Plane;
 use std::f32::consts::FRAC_1_SQRT_2;
 
-/// The width of features in degrees, w (§4.2): twice the standard deviation of the Gaussian.
+/// The width of features in degrees, w: twice the standard deviation of the Gaussian.
 const WIDTH: f64 = 0.082;
 
 /// A Gaussian and its derivatives along an axis.
@@ -45,7 +45,7 @@ impl Derivatives {
     }
 }
 
-/// The weights, so that the positive ones sum up to 1, and the negative ones to -1 (§4.2).
+/// The weights, so that the positive ones sum up to 1, and the negative ones to -1.
 fn normalized(weights: Vec<f64>) -> Vec<f32> {
     let sum = |sign: f64| weights.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>();
     let (positive, negative) = (sum(1.0), sum(-1.0));
@@ -58,7 +58,7 @@ fn lengths(x: &Plane, y: &Plane) -> Vec<f32> {
     x.values.iter().zip(&y.values).map(|(x, y)| (x * x + y * y).sqrt()).collect()
 }
 
-/// The feature difference of each pixel (§4.2), of luminances from -16 to 100.
+/// The feature difference of each pixel, of luminances from -16 to 100.
 pub(super) fn differences(reference: &Plane, test: &Plane) -> Vec<f32> {
     let derivatives = Derivatives::new();
     let magnitudes = |y: &Plane| derivatives.magnitudes(&y.map(|y| (y + 16.0) / 116.0));

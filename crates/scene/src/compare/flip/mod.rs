@@ -2,12 +2,12 @@
 //!
 //! *In:* two pictures of the same size, whose colors are those of sRGB. *Out:* the mean of the errors of their pixels.
 //!
-//! *The rule:* the color pipeline (§4.1) compares the pictures as the eye resolves them at a distance; the feature pipeline
-//! (§4.2) compares their edges and points. The error of a pixel is the difference of the colors, raised to a power that is
-//! smaller where the features differ (§4.3).
+//! *The rule:* the color pipeline compares the pictures as the eye resolves them at a distance; the feature pipeline
+//! compares their edges and points. The error of a pixel is the difference of the colors, raised to a power that is
+//! smaller where the features differ.
 //!
 //! Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: "FLIP: A Difference Evaluator for Alternating
-//! Images", Proc. ACM Comput. Graph. Interact. Tech. 3 (2), 2020. The sections in this folder are those of the paper.
+//! Images", Proc. ACM Comput. Graph. Interact. Tech. 3 (2), 2020.
 //!
 //! *Holds:* equal pictures have the error 0. No size makes it panic.
 //!
@@ -49,7 +49,7 @@ fn mean_error(width: usize, reference: &[[u8; 3]], test: &[[u8; 3]]) -> f64 {
     errors.sum::<f64>() / reference.y.values.len().max(1) as f64
 }
 
-/// The final difference (§4.3).
+/// The final difference.
 fn error(color_difference: f32, feature_difference: f32) -> f32 {
     color_difference.powf(1.0 - feature_difference)
 }
