@@ -4,7 +4,6 @@
 //! how much of the picture was judged ([`evidence`]).
 
 pub mod evidence;
-#[cfg(feature = "flip")]
 mod flip;
 pub mod population;
 mod tally;
@@ -12,7 +11,6 @@ mod verdict;
 pub mod whole;
 
 pub use evidence::{Class, Evidence, Written};
-#[cfg(feature = "flip")]
 pub use flip::flip;
 pub use population::Population;
 pub use tally::{Compared, Comparison, shares};
