@@ -18,8 +18,8 @@ use std::path::Path;
 pub(crate) struct Made {
     /// The name of the program.
     pub(crate) program: String,
-    /// The paths of the outputs, with their bytes' digests and sizes.
-    pub(crate) outputs: Vec<(String, Digest, usize)>,
+    /// The outputs by their paths.
+    pub(crate) outputs: Vec<Output>,
     /// The files that were read.
     pub(crate) sources: Vec<String>,
 }
@@ -28,7 +28,7 @@ impl Made {
     /// The outputs of a program in a folder.
     pub(crate) fn new(group: &Group, folder: &Path, outputs: &[Output], sources: &SourceMap) -> Self {
         let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
-        let outputs = outputs.iter().map(|(name, digest, bytes)| (path(name), *digest, bytes.len())).collect();
+        let outputs = outputs.iter().map(|(name, content)| (path(name), content.clone())).collect();
         Self { program: group.name.clone(), outputs, sources: files_read(group, sources) }
     }
 }
@@ -98,9 +98,9 @@ pub(crate) fn manifest(made: &[Made]) -> String {
         let source = |name: &'_ String| digests.get_key_value(name.as_str());
         let sources = names.filter_map(source).map(|(file, sha256)| ManifestSource { file, sha256: *sha256 });
         let sources: Vec<ManifestSource<'_>> = sources.collect();
-        for (file, sha256, bytes) in one.outputs.iter().filter(|(file, ..)| seen.insert(file)) {
+        for (file, content) in one.outputs.iter().filter(|(file, ..)| seen.insert(file)) {
             let (program, sources) = (&one.program, sources.clone());
-            outputs.push(ManifestOutput { file, program, sha256: *sha256, bytes: *bytes, sources });
+            outputs.push(ManifestOutput { file, program, sha256: content.digest(), bytes: content.len(), sources });
         }
     }
     let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());

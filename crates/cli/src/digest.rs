@@ -1,12 +1,15 @@
-//! [`Digest`]: the SHA-256 of bytes, which names what a cache holds.
+//! [`Digest`]: the SHA-256 of bytes, which names what a cache holds; [`Content`]: bytes that have one.
 //!
-//! *In:* bytes. *Out:* 32 bytes, or 64 hexadecimal digits. *Holds:* [`Hasher`] puts the length before each part, so two lists of
+//! *In:* bytes. *Out:* 32 bytes, or 64 hexadecimal digits. *Holds:* a content's digest is computed when somebody asks for it, once.
+//! [`Hasher`] puts the length before each part, so two lists of
 //! parts have the same digest only if they are equal.
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 use std::fmt;
 use std::hash::Hash;
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
 
 /// The SHA-256 of bytes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -64,6 +67,36 @@ impl TryFrom<String> for Digest {
     }
 }
 
+/// Bytes with their digest, which is computed on demand: a compilation without a cache asks for none.
+#[derive(Clone, Debug)]
+pub(crate) struct Content(Arc<(Box<[u8]>, OnceLock<Digest>)>);
+
+impl Content {
+    /// Bytes whose digest is known.
+    pub(crate) fn known(digest: Digest, bytes: Vec<u8>) -> Self {
+        Self(Arc::new((bytes.into(), digest.into())))
+    }
+
+    /// The digest of the bytes.
+    pub(crate) fn digest(&self) -> Digest {
+        *self.0.1.get_or_init(|| Digest::of(&self.0.0))
+    }
+}
+
+impl From<Vec<u8>> for Content {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self(Arc::new((bytes.into(), OnceLock::new())))
+    }
+}
+
+impl Deref for Content {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        &self.0.0
+    }
+}
+
 /// The digest of what a value tells a hasher: equal digests mean that the values are alike.
 pub(crate) fn of_structure(value: &impl Hash) -> Digest {
     let mut structure = Structure(Vec::with_capacity(1 << 14));
@@ -110,7 +143,7 @@ impl Hasher {
 
 #[cfg(test)]
 mod tests {
-    use super::{Digest, Hasher, of_structure};
+    use super::{Content, Digest, Hasher, of_structure};
 
     #[test]
     fn digests_are_those_of_the_standard() {
@@ -123,5 +156,6 @@ mod tests {
         assert_ne!(two("ab", "c"), two("a", "bc"));
         assert_eq!(of_structure(&("ab", Some(1))), of_structure(&("ab", Some(1))));
         assert_ne!(of_structure(&("ab", "c")), of_structure(&("a", "bc")));
+        assert_eq!(Content::from(vec![1, 2]).digest(), Digest::of(&[1, 2]));
     }
 }

@@ -4,7 +4,7 @@
 //! *Holds:* a result is found by the digest of all that it is made from, and is made from nothing else. A stage of GLSL depends on
 //! the others, and so does one before a geometry stage: these are made each time.
 
-use crate::digest::{Digest, of_structure};
+use crate::digest::{Content, Digest, of_structure};
 use glisten_emit::{self as emit, Conventions, Emitted, Target};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{Shader, Stage, Types};
@@ -14,14 +14,11 @@ use glisten_specialize as specialize;
 use std::collections::HashMap;
 use std::sync::{Arc, PoisonError, RwLock};
 
-/// The bytes of an output with their digest.
-pub(crate) type Code = (Digest, Arc<[u8]>);
-
 /// The stages that are known so far.
 #[derive(Default)]
 pub(crate) struct Memo {
     optimized: Known<Shader>,
-    emitted: Known<Code>,
+    emitted: Known<Content>,
 }
 
 impl Memo {
@@ -49,7 +46,7 @@ impl Memo {
         target: Target,
         conventions: &Conventions,
         sources: &SourceMap,
-    ) -> Result<Code, Vec<Diagnostic>> {
+    ) -> Result<Content, Vec<Diagnostic>> {
         let make =
             |program: &Program| emit::emit_with_sources(program, stage, target, conventions, Some(sources)).map(code);
         let part = program.stage(stage).zip(emit::interface_of(program, stage, target));
@@ -66,10 +63,9 @@ impl Memo {
     }
 }
 
-/// The bytes of what was emitted, with their digest.
-pub(crate) fn code(emitted: Emitted) -> Code {
-    let bytes = emitted.into_bytes();
-    (Digest::of(&bytes), bytes.into())
+/// The bytes of what was emitted.
+pub(crate) fn code(emitted: Emitted) -> Content {
+    Content::from(emitted.into_bytes())
 }
 
 /// Results by the digest of what they are made from.

@@ -5,10 +5,10 @@
 //! would write the same file are rejected at once. Nothing is written here.
 
 use crate::arguments::args::ConventionArgs;
-use crate::digest::Digest;
+use crate::digest::Content;
 use crate::exit::Failure;
 use crate::inputs::Group;
-use crate::memo::{Code, Memo, code};
+use crate::memo::{Memo, code};
 use crate::optimize::{self, OptimizeArgs};
 use crate::process::guard;
 use clap::Args;
@@ -23,7 +23,6 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 /// The parts of a program to write.
 #[derive(Args, Clone, Debug)]
@@ -55,8 +54,8 @@ pub(crate) fn target_words() -> impl TypedValueParser<Value = Target> {
     PossibleValuesParser::new(words).try_map(|word| Target::from_word(&word).ok_or("no such target"))
 }
 
-/// A file to write: its name, the digest of its bytes, its bytes.
-pub(crate) type Output = (String, Digest, Arc<[u8]>);
+/// A file to write: its name and its bytes.
+pub(crate) type Output = (String, Content);
 
 /// The parts of a program to write, in full.
 #[derive(Clone, Debug)]
@@ -234,7 +233,7 @@ impl OutputPlan {
                     if let (Target::Wgsl, Emitted::Text(text)) = (target, &emitted) {
                         texts.push(text.clone());
                     }
-                    outputs.push(output(single_name(group, *target), code(emitted)));
+                    outputs.push((single_name(group, *target), code(emitted)));
                 }
                 Err(errors) => diagnostics.extend(errors),
             }
@@ -252,9 +251,9 @@ impl OutputPlan {
                     Ok(made) => {
                         let name = format!("{}.{}", input.file_name(), target.extension());
                         if *target == Target::Wgsl {
-                            texts.push(String::from_utf8_lossy(&made.1).into_owned());
+                            texts.push(String::from_utf8_lossy(&made).into_owned());
                         }
-                        outputs.push(output(name, made));
+                        outputs.push((name, made));
                     }
                     Err(errors) => diagnostics.extend(errors),
                 }
@@ -275,7 +274,7 @@ impl OutputPlan {
         }
         let mut json = serde_json::to_vec_pretty(&reflection).expect("a reflection is always JSON");
         json.push(b'\n');
-        outputs.push(output(format!("{}.json", group.name), (Digest::of(&json), json.into())));
+        outputs.push((format!("{}.json", group.name), json.into()));
         if diagnostics.is_empty() { Ok(outputs) } else { Err(diagnostics) }
     }
 }
@@ -283,10 +282,6 @@ impl OutputPlan {
 /// The name of the file that all stages of a program share.
 fn single_name(group: &Group, target: Target) -> String {
     format!("{}.{}", group.name, target.extension())
-}
-
-fn output(name: String, (digest, bytes): Code) -> Output {
-    (name, digest, bytes)
 }
 
 /// The files of each stage for the reflection, with the outputs for these targets.

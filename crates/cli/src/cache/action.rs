@@ -4,7 +4,7 @@
 //! as bazel-remote does, accepts it: <https://github.com/bazelbuild/remote-apis>, `build.bazel.remote.execution.v2`. The text
 //! takes the place of a command's standard output.
 
-use crate::digest::Digest;
+use crate::digest::{Content, Digest};
 use prost::Message;
 
 /// The result of an action, as far as it is used here.
@@ -41,9 +41,9 @@ pub(super) struct SizedDigest {
 }
 
 impl OutputFile {
-    /// An output of these bytes.
-    pub(super) fn new(path: &str, digest: Digest, bytes: &[u8]) -> Self {
-        let digest = SizedDigest { hash: digest.to_string(), size_bytes: bytes.len() as i64 };
+    /// An output.
+    pub(super) fn new(path: &str, content: &Content) -> Self {
+        let digest = SizedDigest { hash: content.digest().to_string(), size_bytes: content.len() as i64 };
         Self { path: path.to_owned(), digest: Some(digest) }
     }
 
@@ -57,12 +57,12 @@ impl OutputFile {
 #[cfg(test)]
 mod tests {
     use super::{ActionResult, OutputFile};
-    use crate::digest::Digest;
+    use crate::digest::Content;
     use prost::Message;
 
     #[test]
     fn the_bytes_are_those_of_the_protocol() {
-        let file = OutputFile::new("a", Digest::of(b""), b"");
+        let file = OutputFile::new("a", &Content::from(Vec::new()));
         let result = ActionResult { output_files: vec![file], stdout_raw: b"t".to_vec() };
         let bytes = result.encode_to_vec();
         // Field 2, 71 bytes: field 1 "a"; field 2, 66 bytes: field 1, 64 digits. The size 0 is left out. Field 5 "t".

@@ -23,7 +23,7 @@ pub(crate) use store::{Kind, Store};
 use crate::arguments::config::Configs;
 use crate::arguments::engine::Engines;
 use crate::console::Console;
-use crate::digest::{Digest, Hasher};
+use crate::digest::{Content, Digest, Hasher};
 use crate::exit::Failure;
 use crate::files;
 use crate::trace::{Found, Place, Trace};
@@ -35,7 +35,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::UNIX_EPOCH;
 
 /// Changed when the meaning of what is kept changes.
@@ -57,7 +57,7 @@ pub(crate) struct Cache {
     /// The state of each place, as far as it is known.
     places: Mutex<HashMap<Place, Found>>,
     /// Outputs that have been read or written.
-    outputs: Mutex<HashMap<Digest, Arc<[u8]>>>,
+    outputs: Mutex<HashMap<Digest, Content>>,
     failure: Mutex<Option<String>>,
     hits: AtomicUsize,
     misses: AtomicUsize,
@@ -132,10 +132,11 @@ impl Cache {
         let resolved: Vec<(&Place, Found)> =
             places.iter().map(|(place, found)| (place, self.resolved(place, found))).collect();
         let list: Vec<Place> = resolved.iter().map(|(place, _)| (*place).clone()).collect();
-        for (_, digest, bytes) in &kept.outputs {
-            let is_new = self.outputs.lock().is_ok_and(|mut known| known.insert(*digest, Arc::clone(bytes)).is_none());
+        for (_, content) in &kept.outputs {
+            let digest = content.digest();
+            let is_new = self.outputs.lock().is_ok_and(|mut known| known.insert(digest, content.clone()).is_none());
             if is_new {
-                self.put(Kind::Bytes, *digest, bytes);
+                self.put(Kind::Bytes, digest, content);
             }
         }
         self.put(Kind::Result, result_key(key, resolved.into_iter()), &kept.written().encode_to_vec());
@@ -184,13 +185,13 @@ impl Cache {
         )
     }
 
-    fn output(&self, digest: Digest, bytes: usize) -> Option<Arc<[u8]>> {
+    fn output(&self, digest: Digest, bytes: usize) -> Option<Content> {
         if let Some(known) = self.outputs.lock().ok()?.get(&digest) {
-            return Some(Arc::clone(known));
+            return Some(known.clone());
         }
-        let bytes: Arc<[u8]> = self.get(Name { kind: Kind::Bytes, digest, bytes: Some(bytes) })?.into();
-        self.outputs.lock().ok()?.insert(digest, Arc::clone(&bytes));
-        Some(bytes)
+        let content = Content::known(digest, self.get(Name { kind: Kind::Bytes, digest, bytes: Some(bytes) })?);
+        self.outputs.lock().ok()?.insert(digest, content.clone());
+        Some(content)
     }
 
     fn get(&self, name: Name) -> Option<Vec<u8>> {

@@ -4,21 +4,18 @@
 //! before any level: levels of the command line and of `glisten.toml` apply to what is taken from a cache, too.
 
 use super::action::{ActionResult, OutputFile};
-use crate::digest::Digest;
+use crate::digest::{Content, Digest};
+use crate::outputs::Output;
 use glisten_front::diagnostic::{Diagnostic, Saved};
 use glisten_front::source::{FileId, SourceMap};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use std::sync::Arc;
-
-/// An output: its name, the digest of its bytes, its bytes.
-pub(crate) type KeptOutput = (String, Digest, Arc<[u8]>);
 
 /// The result of a program without errors.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Kept {
     /// The outputs in their order.
-    pub(crate) outputs: Vec<KeptOutput>,
+    pub(crate) outputs: Vec<Output>,
     /// The texts of the diagnostics.
     pub(crate) sources: SourceMap,
     /// The compiler's diagnostics.
@@ -48,7 +45,7 @@ struct Text {
 impl Kept {
     /// The result as a cache holds it.
     pub(super) fn written(&self) -> ActionResult {
-        let files = self.outputs.iter().map(|(name, digest, bytes)| OutputFile::new(name, *digest, bytes));
+        let files = self.outputs.iter().map(|(name, content)| OutputFile::new(name, content));
         let saved = Saved::new(&self.sources, self.diagnostics.iter().chain(&self.notes));
         let ids: Vec<FileId> = self.sources.files().map(|(id, _)| id).collect();
         let place = |id: &FileId| ids.iter().position(|other| other == id);
@@ -61,7 +58,7 @@ impl Kept {
     }
 
     /// The result that a cache held; `output` gives the bytes of a digest, of which it says how many there are. `None` if an output is missing, or the text is not one of this version.
-    pub(super) fn read(result: &ActionResult, output: impl Fn(Digest, usize) -> Option<Arc<[u8]>>) -> Option<Self> {
+    pub(super) fn read(result: &ActionResult, output: impl Fn(Digest, usize) -> Option<Content>) -> Option<Self> {
         let text: Text = serde_json::from_slice(&result.stdout_raw).ok()?;
         let (sources, mut diagnostics) = text.saved.restore()?;
         let notes = diagnostics.split_off(diagnostics.len().checked_sub(text.notes)?);
@@ -71,7 +68,7 @@ impl Kept {
         let mut outputs = Vec::new();
         for file in &result.output_files {
             let (digest, bytes) = file.digest()?;
-            outputs.push((file.path.clone(), digest, output(digest, bytes)?));
+            outputs.push((file.path.clone(), output(digest, bytes)?));
         }
         let (dropped, asked) = (text.dropped, text.asked);
         Some(Self { outputs, sources, diagnostics, notes, dropped, asked, read: read? })

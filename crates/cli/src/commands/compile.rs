@@ -127,7 +127,7 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     }
     let exit = session.tell_units(&units, false)?;
     if is_standard_output(&folder) && !args.check {
-        if let Some((_, _, code)) = outputs.first() {
+        if let Some((_, code)) = outputs.first() {
             console.output_bytes(code)?;
         }
     } else if !args.check {
@@ -176,7 +176,7 @@ impl Emitted {
     /// The same, in a folder below that of all outputs.
     fn below(mut self, folder: &Path) -> Self {
         if folder != Path::new("") {
-            for (name, _, _) in &mut self.outputs {
+            for (name, _) in &mut self.outputs {
                 *name = folder.join(&*name).to_string_lossy().replace('\\', "/");
             }
         }
@@ -262,7 +262,7 @@ fn write(folder: &Path, outputs: &[Output]) -> Result<(), Failure> {
         return Ok(());
     }
     files::make_folder(folder)?;
-    outputs.iter().try_for_each(|(name, _, bytes)| {
+    outputs.iter().try_for_each(|(name, bytes)| {
         let path = folder.join(name);
         if let Some(folder) = path.parent().filter(|folder| !folder.exists()) {
             files::make_folder(folder)?;

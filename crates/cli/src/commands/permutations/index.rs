@@ -3,19 +3,18 @@
 //! *In:* programs, their variants, the outputs of each. *Out:* JSON, and the files to write. *Holds:* a file is named after its
 //! bytes, so equal outputs are one file, and a variant's files do not depend on what other variants there are.
 
-use crate::digest::Digest;
+use crate::digest::Content;
 use crate::inputs::Group;
 use crate::outputs::{Output, OutputPlan};
 use crate::variants::Variant;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// How many digits of a digest are in the name of a file.
 pub(super) const DIGITS: usize = 20;
 
 /// The files of a run by their paths below the output folder.
-pub(super) type Files = BTreeMap<String, (Digest, Arc<[u8]>)>;
+pub(super) type Files = BTreeMap<String, Content>;
 
 /// The index of a run.
 #[derive(Debug, Serialize)]
@@ -89,8 +88,8 @@ impl Index {
     fn shader(&mut self, program: &str, plan: &OutputPlan, group: &Group, outputs: &[Output]) -> Shader {
         let mut shader = Shader::default();
         let kinds = plan.kinds(group);
-        for (name, digest, bytes) in outputs {
-            let digits = digest.to_string();
+        for (name, content) in outputs {
+            let digits = content.digest().to_string();
             let digits = digits.get(..DIGITS).unwrap_or_default();
             let path = match kinds.get(name) {
                 Some((stages, target)) => {
@@ -111,7 +110,7 @@ impl Index {
                     shader.reflection.clone()
                 }
             };
-            self.files.entry(path).or_insert_with(|| (*digest, Arc::clone(bytes)));
+            self.files.entry(path).or_insert_with(|| content.clone());
         }
         shader
     }

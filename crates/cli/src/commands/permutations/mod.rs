@@ -21,6 +21,7 @@ use crate::batch::Batch;
 use crate::cache::{CacheArgs, Kept};
 use crate::console::Console;
 use crate::depfile::{self, Made};
+use crate::digest::Content;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::inputs::{self, Group};
@@ -263,9 +264,9 @@ impl Run<'_> {
         let parts = self.index.files().keys().filter_map(|name| name.split('/').next());
         let folders: BTreeSet<PathBuf> = parts.map(|program| folder.join(program)).collect();
         folders.iter().try_for_each(|folder| files::make_folder(folder))?;
-        let write = |(name, (_, bytes)): (&String, &(_, Arc<[u8]>))| {
+        let write = |(name, bytes): (&String, &Content)| {
             let path = folder.join(name);
-            let is_there = fs::read(&path).is_ok_and(|found| found == **bytes);
+            let is_there = fs::read(&path).is_ok_and(|found| *found == **bytes);
             if is_there { Ok(()) } else { files::write(&path, bytes) }
         };
         self.session.pool().install(|| self.index.files().par_iter().try_for_each(write))?;
@@ -298,7 +299,7 @@ impl Run<'_> {
     /// For each program its files, and all that its variants read.
     fn programs_made(&self, all: &[String], path_of: impl Fn(&str) -> String) -> Vec<Made> {
         let mut programs: Vec<Made> = Vec::new();
-        for (name, (digest, bytes)) in self.index.files() {
+        for (name, content) in self.index.files() {
             let program = name.split('/').next().unwrap_or_default();
             if programs.last().is_none_or(|last| last.program != program) {
                 let own = self.made.iter().filter(|made| made.program == program);
@@ -306,7 +307,7 @@ impl Run<'_> {
                 programs.push(Made { program: program.to_owned(), outputs: Vec::new(), sources });
             }
             if let Some(last) = programs.last_mut() {
-                last.outputs.push((path_of(name), *digest, bytes.len()));
+                last.outputs.push((path_of(name), content.clone()));
             }
         }
         programs

@@ -148,13 +148,13 @@ fn kept_outputs(draws: &Draws, files: &[String]) -> Vec<Output> {
     let head: (Vec<KeptDraw>, &[String]) = (draws.iter().map(told).collect(), files);
     // Only a map whose keys are no texts could fail.
     let head = serde_json::to_vec(&head).unwrap_or_default();
-    let first: Output = ("draws".to_owned(), Digest::of(&head), head.into());
+    let first: Output = ("draws".to_owned(), head.into());
     [first].into_iter().chain(draws.iter().flat_map(|(_, outputs)| outputs.iter().cloned())).collect()
 }
 
 /// Reads [`kept_outputs`] back.
 fn recalled(kept: &Kept) -> Option<Done> {
-    let ((_, _, head), outputs) = kept.outputs.split_first()?;
+    let ((_, head), outputs) = kept.outputs.split_first()?;
     let (told, files): (Vec<KeptDraw>, Vec<String>) = serde_json::from_slice(head).ok()?;
     let mut rest = outputs;
     let mut draws = Draws::new();
