@@ -39,20 +39,27 @@ struct Written {
 
 /// Whether the stages draw the picture of the program.
 pub(super) fn same(drawn: &Drawn<'_>, stages: &[Read]) -> Held {
-    let Some(draw) = drawn.scene.draws.first().filter(|draw| stages.len() == 2 && draw.program.stages.len() == 2)
-    else {
-        return Ok(());
+    let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
+    let leave_out = |why| {
+        drawn.leave_out(why);
+        Ok(())
     };
+    if draw.program.stages.len() > 2 {
+        return leave_out("no target has a geometry stage");
+    }
+    if stages.len() != 2 {
+        return leave_out("a stage is refused, or naga has a limit");
+    }
     let has_other_shape = draw.program.interface.samplers.iter().any(|slot| match draw.program.types.get(slot.ty) {
         Type::Sampler(ty) => !SHAPES.contains(&ty.name().as_str()),
         _ => true,
     });
     if has_other_shape {
-        return Ok(());
+        return leave_out("a texture has another shape in emitted code");
     }
     let height = drawn.scene.framebuffer.height;
     let Some(written) = stages.iter().map(|one| written(one, height)).collect::<Option<Vec<Written>>>() else {
-        return Ok(());
+        return leave_out("naga cannot write the module as GLSL");
     };
     let sources: Vec<Source> = written.iter().map(|one| one.source.clone()).collect();
     let texts = || sources.iter().map(|source| format!("{}\n", source.text)).collect::<String>();
@@ -62,7 +69,10 @@ pub(super) fn same(drawn: &Drawn<'_>, stages: &[Read]) -> Held {
         let message = error.map_or(String::new(), |one| format!("{}: {}", one.code.id, one.message));
         // naga writes comparisons that gather as others.
         let is_limit = message.contains("`textureGather");
-        return if is_limit { Ok(()) } else { Err(format!("GLSL of naga is not accepted: {message}\n{}", texts())) };
+        if is_limit {
+            return leave_out("naga writes another comparison that gathers");
+        }
+        return Err(format!("GLSL of naga is not accepted: {message}\n{}", texts()));
     };
     let other = with(draw, program, stages, &written, height);
     let mut scene = Scene { draws: vec![other], ..drawn.scene.clone() };

@@ -98,6 +98,8 @@ pub struct Drawn<'p> {
     exact: OnceLock<Result<Bits, String>>,
     /// The texts that have been drawn, by their hashes.
     seen: RefCell<BTreeSet<u64>>,
+    /// Why checks made less than they do for others, since somebody asked.
+    left_out: RefCell<Vec<&'static str>>,
     /// The stages as naga reads them in the emitted WGSL.
     pub(super) wgsl: OnceLock<Result<Vec<Read>, String>>,
 }
@@ -154,7 +156,18 @@ impl<'p> Drawn<'p> {
         let own = hash(&own);
         let seen = RefCell::new(BTreeSet::from([own]));
         let (exact, envelope, wgsl) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        Ok(Self { texts, program, loaded, scene, single, picture, exact, envelope, seen, wgsl })
+        let left_out = RefCell::default();
+        Ok(Self { texts, program, loaded, scene, single, picture, exact, envelope, seen, left_out, wgsl })
+    }
+
+    /// A check makes less for this program than for others.
+    pub(super) fn leave_out(&self, why: &'static str) {
+        self.left_out.borrow_mut().push(why);
+    }
+
+    /// Why a check made less.
+    pub(super) fn take_left_out(&self) -> Vec<&'static str> {
+        self.left_out.take()
     }
 
     /// Whether these texts of the stages have not been drawn yet. From now on, they have.

@@ -19,7 +19,7 @@ pub use drawn::{Bits, Drawn, Texts};
 
 use crate::generate::Program;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
@@ -92,39 +92,60 @@ pub fn silence_panics() {
     }));
 }
 
-/// How long each check took.
-pub type Times = BTreeMap<&'static str, Duration>;
+/// The work of checks.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// How long each check took.
+    pub times: BTreeMap<&'static str, Duration>,
+    /// How many programs a check left out, wholly or in part, by its name and the reason.
+    pub left_out: BTreeMap<(&'static str, &'static str), u64>,
+}
+
+impl Tally {
+    /// Adds those of other programs.
+    pub fn add(&mut self, other: Self) {
+        for (name, time) in other.times {
+            *self.times.entry(name).or_default() += time;
+        }
+        for (what, count) in other.left_out {
+            *self.left_out.entry(what).or_default() += count;
+        }
+    }
+}
 
 /// The first fault of a program. With `only`, the check of this name alone is made.
 pub fn fault(program: &Program, only: Option<&str>, device: Option<Device<'_>>) -> Option<Fault> {
-    timed_fault(program, only, device, &mut Times::new())
+    tallied_fault(program, only, device, &mut Tally::default())
 }
 
-/// The first fault of a program as [`fault`] finds it; adds the times of the checks.
-pub fn timed_fault(
+/// The first fault of a program as [`fault`] finds it; adds the work of the checks.
+pub fn tallied_fault(
     program: &Program,
     only: Option<&str>,
     device: Option<Device<'_>>,
-    times: &mut Times,
+    tally: &mut Tally,
 ) -> Option<Fault> {
-    fault_of(Texts::from(program), Some(program), (only, device), times)
+    fault_of(Texts::from(program), Some(program), (only, device), tally)
 }
 
 /// The first fault of texts, which are not changed by rules of the language.
 pub fn fault_of_texts(texts: Texts) -> Option<Fault> {
-    fault_of(texts, None, (None, None), &mut Times::new())
+    fault_of(texts, None, (None, None), &mut Tally::default())
 }
 
 fn fault_of(
     texts: Texts,
     program: Option<&Program>,
     (only, device): (Option<&str>, Option<Device<'_>>),
-    times: &mut Times,
+    tally: &mut Tally,
 ) -> Option<Fault> {
     let mut stage = LOADED;
     let mut start = Instant::now();
-    let mut ended = |name: &'static str| {
-        *times.entry(name).or_default() += start.elapsed();
+    let mut ended = |name: &'static str, left_out: Vec<&'static str>| {
+        *tally.times.entry(name).or_default() += start.elapsed();
+        for why in BTreeSet::from_iter(left_out) {
+            *tally.left_out.entry((name, why)).or_default() += 1;
+        }
         start = Instant::now();
     };
     let run = AssertUnwindSafe(|| {
@@ -132,12 +153,12 @@ fn fault_of(
             Ok(drawn) => drawn,
             Err(message) => return Some(Fault { check: LOADED, message }),
         };
-        ended(LOADED);
+        ended(LOADED, Vec::new());
         let is_wanted = |name: &str| only.is_none_or(|only| only == name);
         for check in CHECKS.iter().filter(|check| is_wanted(check.name)) {
             stage = check.name;
             let held = (check.run)(&drawn);
-            ended(check.name);
+            ended(check.name, drawn.take_left_out());
             if let Err(message) = held {
                 return Some(Fault { check: check.name, message });
             }

@@ -51,7 +51,11 @@ pub(super) fn format(drawn: &Drawn<'_>) -> Held {
 
 /// The typed program as text of its version. Texts of ES have precisions, which are for [`print_300es`] to write.
 pub(super) fn print(drawn: &Drawn<'_>) -> Held {
-    let Some(draw) = drawn.scene.draws.first().filter(|_| !drawn.is_es()) else { return Ok(()) };
+    let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
+    if drawn.is_es() {
+        drawn.leave_out("ES has precisions");
+        return Ok(());
+    }
     drawn.same(&printed(&draw.program))
 }
 
@@ -80,7 +84,10 @@ fn written(drawn: &Drawn<'_>, glsl_version: GlslVersion) -> Held {
         match emit(&draw.program, shader.stage, Target::Glsl, &conventions) {
             Ok(Emitted::Text(text)) => texts.push(text),
             Ok(Emitted::Words(_)) => return Err("words instead of text".to_owned()),
-            Err(errors) => return is_refusal(&errors),
+            Err(errors) => {
+                drawn.leave_out("the version lacks something");
+                return is_refusal(&errors);
+            }
         }
     }
     drawn.same(&texts)
@@ -103,7 +110,8 @@ pub(super) fn upgrade(drawn: &Drawn<'_>) -> Held {
                     return Err(format!("for {word}, what is rewritten is not valid: {error}"));
                 }
             }
-            _ => {}
+            Ok(_) => drawn.leave_out("GLSL for Vulkan is not drawn"),
+            Err(_) => drawn.leave_out("the version does not take it"),
         }
     }
     Ok(())
@@ -197,6 +205,7 @@ fn as_changed(drawn: &Drawn<'_>, change: Change) -> Held {
     let scene = if texts.scene == drawn.texts.scene {
         let texts: Vec<String> = texts.sources.iter().map(|source| source.text.to_string()).collect();
         if !drawn.is_new(&texts) {
+            drawn.leave_out("there is nothing to change");
             return Ok(());
         }
         drawn.with_texts(&texts).map_err(in_other)?

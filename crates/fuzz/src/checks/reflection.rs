@@ -18,6 +18,7 @@ pub(super) fn check(drawn: &Drawn<'_>) -> Held {
     blocks(&told)?;
     // No target has a geometry stage, so that nothing reads what its inputs are.
     if draw.program.stage(Stage::Geometry).is_some() {
+        drawn.leave_out("what naga finds, since no target has a geometry stage");
         return Ok(());
     }
     for read in wgsl_modules(drawn)? {

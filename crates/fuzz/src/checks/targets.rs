@@ -42,7 +42,10 @@ fn all(drawn: &Drawn<'_>, target: Target, accepted: &dyn Fn(Emitted) -> Held) ->
     for shader in stages(&draw.program) {
         match emit(&draw.program, shader.stage, target, &Conventions::default()) {
             Ok(written) => accepted(written)?,
-            Err(errors) => is_refusal(&errors)?,
+            Err(errors) => {
+                is_refusal(&errors)?;
+                drawn.leave_out(target.name());
+            }
         }
     }
     Ok(())

@@ -8,7 +8,7 @@
 mod device;
 mod table;
 
-use glisten_fuzz::checks::{Device, Fault, LOADED, fault, silence_panics, timed_fault};
+use glisten_fuzz::checks::{Device, Fault, LOADED, fault, silence_panics, tallied_fault};
 use glisten_fuzz::generate::{Program, shrunk};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -78,7 +78,7 @@ pub(crate) fn run(wanted: Wanted<'_>) -> Result<Sums, String> {
             let seed = wanted.seed.wrapping_add(number);
             let program = Program::new(seed);
             own.count(&program);
-            if let Some(fault) = timed_fault(&program, wanted.only, device, &mut own.times) {
+            if let Some(fault) = tallied_fault(&program, wanted.only, device, &mut own.tally) {
                 let known = kind(&fault);
                 let so_far = {
                     let Ok(mut sums) = sums.lock() else { break };

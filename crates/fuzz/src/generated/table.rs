@@ -3,7 +3,7 @@
 //! *In:* programs and faults. *Out:* Markdown. *Holds:* rows are in the order of versions, and of names.
 
 use super::{Found, kind};
-use glisten_fuzz::checks::Times;
+use glisten_fuzz::checks::Tally;
 use glisten_fuzz::generate::{Language, Program};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -19,8 +19,8 @@ pub(crate) struct Sums {
     pub(crate) kinds: BTreeMap<String, usize>,
     pub(crate) found: Vec<Found>,
     pub(crate) seconds: f64,
-    /// How long each check took, in all threads.
-    pub(crate) times: Times,
+    /// The work of the checks, in all threads.
+    pub(crate) tally: Tally,
 }
 
 impl Sums {
@@ -43,9 +43,7 @@ impl Sums {
             *self.constructs.entry(name).or_default() += count;
         }
         self.found.extend(other.found);
-        for (name, time) in other.times {
-            *self.times.entry(name).or_default() += time;
-        }
+        self.tally.add(other.tally);
     }
 
     /// The tables.
@@ -63,8 +61,12 @@ impl Sums {
             let _ = writeln!(text, "| {} | {count} |", name.replace('|', "\\|"));
         }
         let _ = writeln!(text, "\n| check | milliseconds a program |\n| --- | --- |");
-        for (name, time) in &self.times {
+        for (name, time) in &self.tally.times {
             let _ = writeln!(text, "| {name} | {:.2} |", time.as_secs_f64() * 1000.0 / self.programs.max(1) as f64);
+        }
+        let _ = writeln!(text, "\n| check | left out, wholly or in part | programs |\n| --- | --- | --- |");
+        for ((check, why), count) in &self.tally.left_out {
+            let _ = writeln!(text, "| {check} | {why} | {count} |");
         }
         let mut kinds: BTreeMap<String, Vec<&Found>> = BTreeMap::new();
         for found in &self.found {
