@@ -43,7 +43,7 @@ fn rows() -> impl Iterator<Item = &'static Operation> {
     BuiltinFunction::ALL.iter().map(|function| function.operation())
 }
 
-/// The sections in the specification's order.
+/// The sections in the specification's order, and then those of extensions.
 fn sections() -> Vec<&'static str> {
     let mut seen: Vec<&'static str> = Vec::new();
     for row in all().filter(|row| !row.deprecated) {
@@ -51,7 +51,7 @@ fn sections() -> Vec<&'static str> {
             seen.push(row.section);
         }
     }
-    seen.sort_by_key(|section| section.rsplit('.').next().and_then(|number| number.parse::<u32>().ok()));
+    seen.sort_by_key(|section| section.rsplit('.').next().and_then(|number| number.parse().ok()).unwrap_or(u32::MAX));
     seen
 }
 

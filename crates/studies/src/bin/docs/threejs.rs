@@ -49,6 +49,7 @@ static ROWS: &[Row] = &[
     ),
     ("a measured metal", "`fresnel`", "none", &["fresnelConductor"]),
     ("plaster, clay, cloth without gloss", "`oren_nayar`, `burley`", "`diffuse_model = \"eon\"`", &["eonFactor"]),
+    ("the moon, asteroids, dark dust", "`lunar`", "none", &["lunarFactor"]),
     (
         "wax, drawings, the moon",
         "`artistic`",
