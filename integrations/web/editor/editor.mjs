@@ -179,6 +179,8 @@ export const create = ({ parent, readOnly = false, label = "", words = {}, chang
   return {
     // Shows a text by its name, which nobody can change if it is `isFixed`; the history and the cursor of each name are kept.
     show(name, text, kind, isFixed = readOnly) {
+      // Another state would be laid out anew, even with the same text.
+      if (name === current) { this.set(text); return; }
       if (current !== null) states.set(current, view.state);
       const kept = states.get(name);
       current = name;

@@ -171,6 +171,16 @@ const showFindings = () => {
 };
 
 // ---- Looking: findings, controls, translations.
+// Does what can wait until the findings are on the screen, unless something newer is to be done by then.
+let whenShown = null;
+const afterNextFrame = (work) => {
+  const isFirst = whenShown === null;
+  whenShown = work;
+  const now = () => { const last = whenShown; whenShown = null; last?.(); };
+  // A page that nobody sees has no frames.
+  if (document.hidden) now();
+  else if (isFirst) requestAnimationFrame(() => setTimeout(now));
+};
 const target = () => byId("target").value;
 const take = (answer, isOutdated = false) => {
   for (const file of answer.files) {
@@ -191,8 +201,11 @@ const take = (answer, isOutdated = false) => {
   findings = isOutdated ? answer.findings.map((finding) => ({ ...finding, fixes: [] })) : answer.findings;
   if (!shown || !docs.has(shown)) open(answer.files.find((file) => kindOf(file.name) === "glsl" && file.name.includes("frag"))?.name ?? answer.files.at(-1)?.name ?? scene);
   if (answer.programs.length || !findings.some((finding) => finding.severity === "error")) programs = answer.programs;
-  showFiles(); mark(); showFindings(); showTranslation(); showReflection();
-  if (!isOutdated) takeControls(answer.controls);
+  showFiles(); mark(); showFindings();
+  afterNextFrame(() => {
+    showTranslation(); showReflection();
+    if (!isOutdated) takeControls(answer.controls);
+  });
 };
 const look = isLive ? latest(async () => {
   const asked = edition;
