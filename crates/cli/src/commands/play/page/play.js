@@ -63,11 +63,25 @@ const latest = (work, patience) => {
   return ask;
 };
 
+// Does what can wait until the next frame is on the screen: the newest of its kind.
+const afterNextFrame = () => {
+  let newest = null;
+  const now = () => { const work = newest; newest = null; work?.(); };
+  return (work) => {
+    const isFirst = newest === null;
+    newest = work;
+    // A page that nobody sees has no frames.
+    if (document.hidden) now();
+    else if (isFirst) requestAnimationFrame(() => setTimeout(now));
+  };
+};
+
 // ---- The editor and the files.
+const [afterKey, afterMove, afterLook] = [afterNextFrame(), afterNextFrame(), afterNextFrame()];
 const editor = Editor.create({
   parent: byId("editor"), label: "Source", words: start.words, readOnly: !isLive,
   valueAt: (name, line, column) => inspector.valueAt(name, line, column),
-  moved: (line, isPerson) => matching.movedInSource(line, isPerson),
+  moved: (line, isPerson) => afterMove(() => matching.movedInSource(line, isPerson)),
   pointed: (line) => matching.pointedInSource(line),
   changed: (name, text) => {
     const doc = docs.get(name);
@@ -76,17 +90,20 @@ const editor = Editor.create({
     textChanged();
   },
 });
-// While a control moves, the picture follows, and all that is read of the texts comes when it rests.
+// While a control moves, the picture follows, and all that is read of the texts comes when it rests. Of a key, the findings come first.
 let isMoving = false, rests = null;
 const textChanged = () => {
   edition += 1;
   isJudged = isJudging = false;
   clearTimeout(rests);
-  if (isMoving) rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
-  else look();
-  showFiles(); draw(); studies.age();
+  if (isMoving) {
+    rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
+    showFiles(); draw(); studies.age();
+    return;
+  }
+  look();
   // A question about a pixel does not end the picture that was asked for before it.
-  if (!isMoving) inspector.refresh();
+  afterKey(() => { showFiles(); draw(); studies.age(); inspector.refresh(); });
 };
 const translation = Editor.create({
   parent: byId("translation"), label: "Translation", words: start.words, readOnly: true,
@@ -171,16 +188,6 @@ const showFindings = () => {
 };
 
 // ---- Looking: findings, controls, translations.
-// Does what can wait until the findings are on the screen, unless something newer is to be done by then.
-let whenShown = null;
-const afterNextFrame = (work) => {
-  const isFirst = whenShown === null;
-  whenShown = work;
-  const now = () => { const last = whenShown; whenShown = null; last?.(); };
-  // A page that nobody sees has no frames.
-  if (document.hidden) now();
-  else if (isFirst) requestAnimationFrame(() => setTimeout(now));
-};
 const target = () => byId("target").value;
 const take = (answer, isOutdated = false) => {
   for (const file of answer.files) {
@@ -202,7 +209,7 @@ const take = (answer, isOutdated = false) => {
   if (!shown || !docs.has(shown)) open(answer.files.find((file) => kindOf(file.name) === "glsl" && file.name.includes("frag"))?.name ?? answer.files.at(-1)?.name ?? scene);
   if (answer.programs.length || !findings.some((finding) => finding.severity === "error")) programs = answer.programs;
   showFiles(); mark(); showFindings();
-  afterNextFrame(() => {
+  afterLook(() => {
     showTranslation(); showReflection();
     if (!isOutdated) takeControls(answer.controls);
   });
