@@ -6,7 +6,9 @@
 //! is the smallest over all rounds, and the figures are means over the shaders.
 //!
 //! Then it compares processes: `glisten compile` of one shader with `glslangValidator` followed by `naga` (`cargo
-//! install naga-cli`), if those are on the path. They run in turns, and each figure is the median over its rounds.
+//! install naga-cli`), if those are on the path. They run in turns, and each figure is the median over its rounds. If valgrind is there, it
+//! counts their instructions. `GLISTEN=PATH` takes another program than the one that was built for the bench, such as that of the profile
+//! `dist`.
 
 #![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -77,19 +79,14 @@ fn in_process() {
 const PROCESS_ROUNDS: usize = 31;
 
 fn processes() {
-    let Some(glisten) = option_env!("CARGO_BIN_EXE_glisten") else { return };
+    let built = option_env!("CARGO_BIN_EXE_glisten").map(str::to_owned);
+    let Some(glisten) = std::env::var("GLISTEN").ok().or(built) else { return };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().display();
     let shader = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/programs/blinn_phong.frag");
     let own = format!("{glisten} compile -q --target wgsl {shader} -o {out}");
     let first = format!("glslangValidator -V -R --auto-map-locations --auto-map-bindings {shader} -o {out}/a.spv");
     let second = format!("naga {out}/a.spv {out}/a.wgsl");
-    let time = |line: &str| {
-        let mut words = line.split(' ');
-        let start = Instant::now();
-        let run = Command::new(words.next()?).args(words).stdout(Stdio::null()).stderr(Stdio::null()).status();
-        run.is_ok_and(|status| status.success()).then(|| start.elapsed().as_secs_f64() * 1e3)
-    };
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for _ in 0..PROCESS_ROUNDS {
         let (Some(own), Some(first), Some(second)) = (time(&own), time(&first), time(&second)) else {
@@ -106,6 +103,35 @@ fn processes() {
         "glisten compile, ms      {ours:8.1}   glslangValidator and naga   {theirs:8.1}   ratio {:.3}",
         ours / theirs
     );
+    let (Some(ours), Some(first), Some(second)) = (instructions(&own), instructions(&first), instructions(&second))
+    else {
+        println!("instructions are not counted: install `valgrind`");
+        return;
+    };
+    let theirs = first + second;
+    println!(
+        "the same, million instr. {:8.1}   glslangValidator and naga   {:8.1}   ratio {:.3}",
+        ours / 1e6,
+        theirs / 1e6,
+        ours / theirs
+    );
+}
+
+/// The milliseconds that a command takes, if it succeeds.
+fn time(line: &str) -> Option<f64> {
+    let mut words = line.split(' ');
+    let start = Instant::now();
+    let run = Command::new(words.next()?).args(words).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    run.is_ok_and(|status| status.success()).then(|| start.elapsed().as_secs_f64() * 1e3)
+}
+
+/// The instructions of a command, by callgrind: unlike times, they do not depend on what else the machine does.
+fn instructions(line: &str) -> Option<f64> {
+    let count = ["--tool=callgrind", "--callgrind-out-file=/dev/null"];
+    let run = Command::new("valgrind").args(count).args(line.split(' ')).stdout(Stdio::null()).output().ok()?;
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    let collected = said.lines().find_map(|line| line.split_once("Collected : "))?;
+    collected.1.trim().parse().ok().filter(|_| run.status.success())
 }
 
 fn stage_of(path: &Path) -> Option<Stage> {

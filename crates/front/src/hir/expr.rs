@@ -187,6 +187,25 @@ impl ExprKind {
         }
     }
 
+    /// Puts the operands on a stack, the last one first: what is taken next is the first.
+    pub(super) fn push_operands(&self, stack: &mut SmallVec<[ExprId; 32]>) {
+        match self {
+            Self::Error | Self::Literal(_) | Self::Var(_) => {}
+            Self::Member(a, _) | Self::Swizzle(a, _) | Self::Convert(a) | Self::Unary(_, a) | Self::IncDec(_, a) => {
+                stack.push(*a);
+            }
+            Self::Index(a, b)
+            | Self::Binary(_, a, b)
+            | Self::Logical(_, a, b)
+            | Self::Assign(_, a, b)
+            | Self::Comma(a, b) => stack.extend_from_slice(&[*b, *a]),
+            Self::Ternary(a, b, c) => stack.extend_from_slice(&[*c, *b, *a]),
+            Self::Construct(_, list) | Self::Call(_, list) | Self::BuiltinCall(_, list) => {
+                stack.extend(list.iter().rev().copied());
+            }
+        }
+    }
+
     /// Calls `f` with each operand, in evaluation order, to change it.
     pub fn for_each_operand(&mut self, f: &mut dyn FnMut(&mut ExprId)) {
         match self {

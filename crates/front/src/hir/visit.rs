@@ -2,32 +2,33 @@
 //! functions that a function calls.
 
 use super::{Condition, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind};
+use smallvec::{SmallVec, smallvec};
 
 impl StmtKind {
     /// The expressions directly in the statement, in the order of their first evaluation.
-    pub fn exprs(&self) -> smallvec::SmallVec<[ExprId; 4]> {
+    pub fn exprs(&self) -> SmallVec<[ExprId; 4]> {
         match self {
-            Self::Expr(expr) => smallvec::smallvec![*expr],
+            Self::Expr(expr) => smallvec![*expr],
             Self::Local(_, expr) | Self::Return(expr) => expr.iter().copied().collect(),
             Self::If { arms, .. } => arms.iter().map(|(condition, _)| *condition).collect(),
-            Self::Switch { selector, .. } => smallvec::smallvec![*selector],
+            Self::Switch { selector, .. } => smallvec![*selector],
             Self::Loop { condition, step, .. } => {
                 condition.iter().map(|Condition { expr, .. }| *expr).chain(step.iter().copied()).collect()
             }
-            Self::Block(_) | Self::Break | Self::Continue | Self::Discard => smallvec::SmallVec::new(),
+            Self::Block(_) | Self::Break | Self::Continue | Self::Discard => SmallVec::new(),
         }
     }
 
     /// The bodies inside the statement, in order.
-    pub fn bodies(&self) -> smallvec::SmallVec<[&[Stmt]; 4]> {
+    pub fn bodies(&self) -> SmallVec<[&[Stmt]; 4]> {
         match self {
-            Self::Block(body) | Self::Loop { body, .. } => smallvec::smallvec![body.as_slice()],
+            Self::Block(body) | Self::Loop { body, .. } => smallvec![body.as_slice()],
             Self::If { arms, otherwise } => {
                 arms.iter().map(|(_, body)| body.as_slice()).chain([otherwise.as_slice()]).collect()
             }
             Self::Switch { cases, .. } => cases.iter().map(|case| case.body.as_slice()).collect(),
             Self::Expr(_) | Self::Local(..) | Self::Break | Self::Continue | Self::Return(_) | Self::Discard => {
-                smallvec::SmallVec::new()
+                SmallVec::new()
             }
         }
     }
@@ -36,16 +37,17 @@ impl StmtKind {
 impl Shader {
     /// Calls `f` for an expression and everything inside it: operands after the whole, left before right.
     pub fn visit_expr(&self, root: ExprId, f: &mut dyn FnMut(ExprId)) {
-        let mut stack = vec![root];
+        // Most expressions are small: their stack needs no memory of its own.
+        let mut stack: SmallVec<[ExprId; 32]> = smallvec![root];
         while let Some(id) = stack.pop() {
             f(id);
-            stack.extend(self.expr(id).kind.children().into_iter().rev());
+            self.expr(id).kind.push_operands(&mut stack);
         }
     }
 
     /// Calls `f` for every statement of a body: outer ones first, in source order.
     pub fn visit_statements<'a>(&'a self, body: &'a [Stmt], f: &mut dyn FnMut(&'a Stmt)) {
-        let mut stack: Vec<&'a Stmt> = body.iter().rev().collect();
+        let mut stack: SmallVec<[&'a Stmt; 32]> = body.iter().rev().collect();
         while let Some(statement) = stack.pop() {
             f(statement);
             for inner in statement.kind.bodies().into_iter().rev() {
