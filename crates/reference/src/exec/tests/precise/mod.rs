@@ -12,11 +12,13 @@ use crate::domain::{Domain, F32, F64, Integer, Number};
 use crate::exec::{Code, LANES, Machine, Mask};
 use big::Big;
 use glisten_front::builtin::BuiltinFunction;
-use glisten_front::builtin::functions::{Effect, Signature, all};
+use glisten_front::builtin::functions::{Effect, Signature, all, named};
 use glisten_front::compiler::{Compiler, Options, Source};
 use glisten_front::hir::{Scalar, Stage, TypeId, Types};
+use glisten_front::language::Since;
 use glisten_front::link::Program;
 use oracle::{Argument, Want, expected};
+use std::collections::BTreeSet;
 
 /// A deterministic random number generator.
 struct Random(u64);
@@ -96,6 +98,9 @@ fn program(name: &str, signature: &Signature, is_modf: bool) -> Program {
     let inputs: Vec<TypeId> =
         signature.params().iter().take(if is_modf { 1 } else { 5 }).map(|param| param.0).collect();
     let mut text = String::from("#version 460\n");
+    let by_extension = named(name).iter().filter(|row| row.availability.since == Since::NEVER);
+    let extensions: BTreeSet<&str> = by_extension.filter_map(|row| row.availability.extensions.name()).collect();
+    text.extend(extensions.iter().map(|name| format!("#extension {name} : require\n")));
     for (index, ty) in inputs.iter().enumerate() {
         text += &format!("in {} a{index};\n", carrier(&types, *ty));
     }
