@@ -209,9 +209,11 @@ const take = (answer, isOutdated = false) => {
   if (!shown || !docs.has(shown)) open(answer.files.find((file) => kindOf(file.name) === "glsl" && file.name.includes("frag"))?.name ?? answer.files.at(-1)?.name ?? scene);
   if (answer.programs.length || !findings.some((finding) => finding.severity === "error")) programs = answer.programs;
   showFiles(); mark(); showFindings();
+  const taken = edition;
   afterLook(() => {
     showTranslation(); showReflection();
-    if (!isOutdated) takeControls(answer.controls);
+    // Controls have places in the texts, which may have changed since.
+    if (!isOutdated && taken === edition) takeControls(answer.controls);
   });
 };
 const look = isLive ? latest(async () => {
