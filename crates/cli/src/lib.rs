@@ -42,6 +42,7 @@ mod strings;
 pub mod survey;
 mod texels;
 mod texts;
+mod threads;
 mod trace;
 mod unfinished;
 mod variants;

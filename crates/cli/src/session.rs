@@ -16,6 +16,7 @@ use crate::not_checked;
 use crate::process::guard;
 use crate::progress::Progress;
 use crate::strings;
+use crate::threads::Threads;
 use crate::trace::Trace;
 use glisten_front::compiler::{Compilation, Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
@@ -27,12 +28,8 @@ use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
 use glisten_sources::engines;
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
-
-/// The stack size of the threads that compile. The phases limit their recursion themselves, relying on this size.
-const STACK_BYTES: usize = 16 << 20;
 
 /// The result for a group of files.
 #[derive(Debug)]
@@ -99,7 +96,7 @@ pub(crate) struct Session<'a> {
     engines: Engines,
     format: DiagnosticFormat,
     configs: Configs,
-    pool: rayon::ThreadPool,
+    threads: Threads,
     dropped: usize,
     /// The files of the run, for a command that tells them.
     scope: Option<Scope>,
@@ -114,11 +111,6 @@ impl<'a> Session<'a> {
         levels: &LevelArgs,
         jobs: usize,
     ) -> Result<Self, Failure> {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs)
-            .stack_size(STACK_BYTES)
-            .build()
-            .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no threads: {error}")))?;
         let engines = Engines::new(sources)?;
         Ok(Self {
             console,
@@ -126,7 +118,7 @@ impl<'a> Session<'a> {
             engines,
             format: levels.diagnostics,
             configs: Configs::new(levels.levels()?),
-            pool,
+            threads: Threads::new(jobs),
             dropped: 0,
             scope: None,
         })
@@ -165,9 +157,9 @@ impl<'a> Session<'a> {
         &self.engines
     }
 
-    /// The thread pool.
-    pub(crate) fn pool(&self) -> &rayon::ThreadPool {
-        &self.pool
+    /// The threads, as many as `-j` says.
+    pub(crate) fn threads(&self) -> &Threads {
+        &self.threads
     }
 
     /// Sets the format of diagnostics.
@@ -217,7 +209,7 @@ impl<'a> Session<'a> {
             progress.step();
             unit
         };
-        let units: Vec<(Unit, usize)> = self.pool.install(|| groups.into_par_iter().map(work).collect());
+        let units: Vec<(Unit, usize)> = self.threads.map(groups, work);
         drop(progress);
         self.adopt(units)
     }

@@ -20,7 +20,6 @@ use crate::session::{Session, Unit};
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir;
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Examples of its use.
@@ -115,9 +114,8 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     if inputs.has_search() {
         not_checked::settle(&mut session, &mut units, &inputs);
     }
-    let emitted: Vec<Emitted> = session
-        .pool()
-        .install(|| units.par_iter().map(|unit| emit(&plan, &recall, unit).below(&below(&unit.group))).collect());
+    let outputs_of = |unit: &Unit| emit(&plan, &recall, unit).below(&below(&unit.group));
+    let emitted: Vec<Emitted> = session.threads().map(units.iter().collect(), outputs_of);
     let mut outputs = Vec::new();
     let mut made = Vec::new();
     for (unit, emitted) in units.iter_mut().zip(emitted) {

@@ -13,13 +13,13 @@ use crate::process::guard;
 use crate::search;
 use crate::strings;
 use crate::texts::{Text, diff};
+use crate::threads::Threads;
 use clap::Args;
 use glisten_format::{Formatted, Options};
 use glisten_front::Stage;
 use glisten_front::diagnostic::{Levels, write};
 use glisten_sources::embedded::{self, Host};
 use glisten_sources::stages;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -92,7 +92,8 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
         }
         Ok(done)
     };
-    let all: Vec<Done> = paths.par_iter().map(one).collect::<Result<_, Failure>>()?;
+    let all = Threads::new(0).map(paths.iter().collect(), one);
+    let all: Vec<Done> = all.into_iter().collect::<Result<_, Failure>>()?;
     for done in all.iter().filter(|done| done.changes()) {
         told(args, console, done)?;
     }

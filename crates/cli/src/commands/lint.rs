@@ -30,7 +30,6 @@ use glisten_front::link::Program;
 use glisten_front::lint::check_some;
 use glisten_front::source::{SourceMap, Span};
 use glisten_verify::scene::DiskFiles;
-use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -307,7 +306,7 @@ fn found(
         })
     };
     let all: Vec<(Vec<Diagnostic>, Vec<Shown>)> =
-        session.pool().install(|| units.par_iter().zip(settings).enumerate().map(found).collect());
+        session.threads().map(units.iter().zip(settings).enumerate().collect(), found);
     let (found, shown): (Vec<_>, Vec<_>) = all.into_iter().unzip();
     (found, shown.into_iter().flatten().collect())
 }

@@ -30,7 +30,6 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::preprocess::{BRANCH_IN_NO_CONFIGURATION, ERROR_DIRECTIVE, MISSING_VERSION};
 use glisten_front::source::{SourceFile, Span};
 use merge::merged;
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -247,7 +246,7 @@ impl<'l> Search<'l> {
         let names: Vec<String> = names.into_iter().cloned().collect();
         let texts = &self.texts;
         let work = |variant: Variant| compiled(session.compiler(), group, variant, &names, texts);
-        let found: Vec<Found> = session.pool().install(|| fresh.into_par_iter().map(work).collect());
+        let found: Vec<Found> = session.threads().map(fresh, work);
         for found in found {
             self.tried.push(Tried { variant: found.variant.clone(), result: self.found.len() });
             self.found.push(found);

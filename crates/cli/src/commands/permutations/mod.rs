@@ -38,7 +38,6 @@ use glisten_front::compiler::{Options, Source};
 use glisten_front::diagnostic::Diagnostic;
 use index::{Entry, INDEX, Index};
 use parts::Parts;
-use rayon::prelude::*;
 use shared::Shared;
 use std::collections::BTreeSet;
 use std::fs;
@@ -166,7 +165,7 @@ impl Run<'_> {
             progress.step();
             done
         };
-        let results: Vec<Arc<Done>> = self.session.pool().install(|| program.variants.par_iter().map(one).collect());
+        let results: Vec<Arc<Done>> = self.session.threads().map(program.variants.iter().collect(), one);
         drop(progress);
         let is_sound = self.report(&group, &program.variants, &results);
         self.variants += program.variants.len();
@@ -269,7 +268,8 @@ impl Run<'_> {
             let is_there = fs::read(&path).is_ok_and(|found| *found == **bytes);
             if is_there { Ok(()) } else { files::write(&path, bytes) }
         };
-        self.session.pool().install(|| self.index.files().par_iter().try_for_each(write))?;
+        let written = self.session.threads().map(self.index.files().iter().collect(), write);
+        written.into_iter().collect::<Result<(), _>>()?;
         files::write(&folder.join(INDEX), self.index.json().as_bytes())?;
         if self.job.prune {
             prune::prune(folder, self.index.files())?;
