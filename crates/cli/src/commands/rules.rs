@@ -3,10 +3,11 @@
 //! *In:* the registry of codes. *Out:* a table, or JSON: an array of objects with the keys `code`, `name`, `group`, `level`,
 //! `fixable`, `since`.
 
+use crate::arguments::args::ResultFormat;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glisten_front::diagnostic::{Code, Group, LintInfo, codes, did_you_mean};
 use serde_json::json;
 
@@ -24,17 +25,7 @@ pub(crate) struct RulesArgs {
     group: Option<String>,
     /// The format of the list
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
-}
-
-/// The format of the list.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// A table
-    #[default]
-    Human,
-    /// An array of objects
-    Json,
+    format: ResultFormat,
 }
 
 /// Runs the command.
@@ -43,7 +34,7 @@ pub(crate) fn run(args: &RulesArgs, console: &Console) -> Outcome {
     let mut rules: Vec<(&Code, LintInfo)> = codes::all().filter_map(|code| Some((code, code.lint?))).collect();
     rules.retain(|(_, lint)| group.is_none_or(|group| lint.group == group));
     rules.sort_by_key(|(code, lint)| (lint.group, code.id));
-    console.output(&if args.format == Format::Json { as_json(&rules) } else { as_table(&rules) })?;
+    console.output(&if args.format == ResultFormat::Json { as_json(&rules) } else { as_table(&rules) })?;
     Ok(Exit::Ok)
 }
 

@@ -1,11 +1,12 @@
 //! `glisten trace`: tells what each fragment of a pixel, or a vertex, computed: every expression with its value.
 
+use crate::arguments::args::ResultFormat;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Progress;
 use crate::scenes::{DrawError, SceneArgs};
-use clap::{ArgGroup, Args, ValueEnum};
+use clap::{ArgGroup, Args};
 use glisten_reference::trace::{Place, trace};
 use glisten_verify::trace::{Shown, lines, told};
 
@@ -37,18 +38,9 @@ pub(crate) struct TraceArgs {
     all: bool,
     /// The format of the result
     #[arg(long, value_enum, default_value_t)]
-    format: TraceFormat,
+    format: ResultFormat,
     #[command(flatten)]
     scene: SceneArgs,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum TraceFormat {
-    /// A line for each value
-    #[default]
-    Human,
-    /// JSON, with everything
-    Json,
 }
 
 fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
@@ -67,7 +59,7 @@ pub(crate) fn run(args: &TraceArgs, console: &Console) -> Outcome {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
-    let progress = Progress::new(console, 1).unless(args.format == TraceFormat::Json);
+    let progress = Progress::new(console, 1).unless(args.format == ResultFormat::Json);
     progress.say("following");
     let scene = read.scene.clone();
     let followed = args.scene.within_time(move || trace(&scene, place).map_err(DrawError::from));
@@ -78,8 +70,8 @@ pub(crate) fn run(args: &TraceArgs, console: &Console) -> Outcome {
     };
     let told = told(&args.scene.scene, &read.scene, read.sources(), place, &followed);
     match args.format {
-        TraceFormat::Human => console.output(&lines(&told, Shown { all: args.all }))?,
-        TraceFormat::Json => {
+        ResultFormat::Human => console.output(&lines(&told, Shown { all: args.all }))?,
+        ResultFormat::Json => {
             let json = serde_json::to_string_pretty(&told).expect("names and numbers are always JSON");
             console.output(&(json + "\n"))?;
         }

@@ -4,10 +4,11 @@
 //! `versions` (`name`, `line`) and `extensions` (`name`, `desktop`, `es`, `functions`, `features`). *Not done here:* what a version
 //! brings: docs/versions.md has it.
 
+use crate::arguments::args::ResultFormat;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glisten_front::builtin::functions;
 use glisten_front::diagnostic::did_you_mean;
 use glisten_front::language::{EDITIONS, EXTENSIONS, Edition, Extension, Extensions, FEATURES, Families};
@@ -28,26 +29,16 @@ pub(crate) struct VersionsArgs {
     extension: Option<String>,
     /// The format of the list
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
-}
-
-/// The format of the list.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// A table
-    #[default]
-    Human,
-    /// An object
-    Json,
+    format: ResultFormat,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &VersionsArgs, console: &Console) -> Outcome {
     let text = match (&args.extension, args.format) {
-        (Some(name), Format::Human) => page(find(name)?),
-        (Some(name), Format::Json) => format!("{:#}\n", object(find(name)?)),
-        (None, Format::Human) => table(),
-        (None, Format::Json) => {
+        (Some(name), ResultFormat::Human) => page(find(name)?),
+        (Some(name), ResultFormat::Json) => format!("{:#}\n", object(find(name)?)),
+        (None, ResultFormat::Human) => table(),
+        (None, ResultFormat::Json) => {
             let versions: Vec<_> =
                 EDITIONS.iter().map(|one| json!({ "name": one.name(), "line": version_line(*one) })).collect();
             let extensions: Vec<_> = sorted().into_iter().map(object).collect();

@@ -21,15 +21,15 @@ mod programs;
 mod proof;
 mod tree;
 
-use crate::arguments::args::{BindingArgs, LevelArgs, ProgramArgs, SourceArgs};
+use crate::arguments::args::{BindingArgs, LevelArgs, ProgramArgs, ResultFormat, SourceArgs};
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::inputs;
 use crate::session::Session;
+use clap::Args;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, ValueEnum};
 use glisten_port::{Host, Outcome as Result_, Report, find_host, host_names, page};
 use glisten_upgrade::with_version;
 use programs::Ported;
@@ -68,23 +68,13 @@ pub(crate) struct PortArgs {
     prove: bool,
     /// The format of the account on standard output
     #[arg(long, value_enum, default_value_t)]
-    format: PortFormat,
+    format: ResultFormat,
     #[command(flatten)]
     programs: ProgramArgs,
     #[command(flatten)]
     sources: SourceArgs,
     #[command(flatten)]
     levels: LevelArgs,
-}
-
-/// The format of the account.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum PortFormat {
-    /// Text for people
-    #[default]
-    Human,
-    /// JSON
-    Json,
 }
 
 impl PortArgs {
@@ -223,7 +213,7 @@ fn finish(args: &PortArgs, report: &Report, mut folder: NewFolder, console: &Con
             console.remark(&format!("wrote {} files into {}", names.len(), output.display()));
         }
     }
-    if args.format == PortFormat::Json && !args.check {
+    if args.format == ResultFormat::Json && !args.check {
         console.output(&json)?;
     }
     for program in report.programs.iter().filter(|program| program.result == Result_::Refused) {
