@@ -3,8 +3,8 @@
 //! *In:* the depth of a traversal. *Out:* its result. *Holds:* a traversal within the parser's limit never overflows,
 //! however small the caller's stack is.
 
-/// Runs a traversal that recurses `depth` levels with enough stack: on the caller's stack if that is shallow, else on
-/// a larger stack on the same thread. A traversal may use up to 8 KiB of stack per level.
+/// Runs a traversal that recurses `depth` levels with enough stack: on the caller's stack if as much is left of it, else on
+/// a new one on the same thread. A traversal may use up to 8 KiB of stack per level.
 pub fn with_stack<R>(depth: u32, walk: impl FnOnce() -> R) -> R {
     const SHALLOW: u32 = 48;
     const BYTES_A_LEVEL: usize = 8 << 10;
@@ -12,5 +12,6 @@ pub fn with_stack<R>(depth: u32, walk: impl FnOnce() -> R) -> R {
     if depth <= SHALLOW {
         return walk();
     }
-    stacker::grow((depth as usize * BYTES_A_LEVEL).max(LEAST), walk)
+    let bytes = (depth as usize * BYTES_A_LEVEL).max(LEAST);
+    stacker::maybe_grow(bytes, bytes, walk)
 }

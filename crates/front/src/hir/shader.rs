@@ -313,6 +313,31 @@ pub struct Shader {
     pub origin: Origin,
 }
 
+impl Shader {
+    /// The stage without globals, functions and expressions, for a pass that rebuilds them.
+    #[must_use]
+    pub fn emptied(&self) -> Self {
+        Self {
+            stage: self.stage,
+            version: self.version,
+            exprs: Vec::new(),
+            globals: Vec::new(),
+            functions: Vec::new(),
+            main: None,
+            geometry: self.geometry,
+            frag_coord: self.frag_coord,
+            per_vertex_out: self.per_vertex_out.clone(),
+            precise: self.precise,
+            tex_coords: self.tex_coords,
+            depth_mode: self.depth_mode,
+            mixes_outputs: self.mixes_outputs,
+            expr_depth: self.expr_depth,
+            texts: self.texts.clone(),
+            origin: self.origin.clone(),
+        }
+    }
+}
+
 /// The hash of all that the shader means: everything but its texts and where they come from.
 impl Hash for Shader {
     fn hash<H: Hasher>(&self, state: &mut H) {

@@ -34,11 +34,11 @@ pub(crate) struct Assigned {
 }
 
 impl Effects {
-    /// Of all functions, callees before callers.
-    pub(crate) fn of(shader: &Shader) -> Self {
+    /// Of these functions and of those that they call, callees before callers.
+    pub(crate) fn of(shader: &Shader, functions: impl IntoIterator<Item = FunctionId>) -> Self {
         let mut effects = Self { functions: vec![Effect::default(); shader.functions.len()] };
         let mut done = vec![false; shader.functions.len()];
-        for (id, _) in shader.functions() {
+        for id in functions {
             for callee in order(shader, id, &done) {
                 let effect = effects.of_function(shader, callee);
                 if let (Some(slot), Some(done)) =

@@ -181,15 +181,12 @@ pub(crate) fn walk(
 
 impl<'a> Forward<'a> {
     fn new(types: &'a Types, shader: &'a Shader, textures: &'a [Option<KnownTexture>]) -> Self {
-        let mut out = shader.clone();
-        out.exprs.clear();
-        out.functions.clear();
-        out.main = None;
+        let out = Shader { globals: shader.globals.clone(), ..shader.emptied() };
         Self {
             types,
             shader,
             textures,
-            effects: Effects::of(shader),
+            effects: Effects::of(shader, shader.functions().map(|(id, _)| id)),
             out,
             notes: Vec::new(),
             before: FxHashMap::default(),

@@ -3,13 +3,14 @@
 //!
 //! *In:* a stage and the globals that stay. *Out:* a stage with new handles.
 
-use super::uses::{Uses, reached};
+use super::uses::Uses;
 use glisten_front::hir::{
-    Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, Types,
-    VarRef, may_act,
+    Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, VarRef,
+    may_act,
 };
 use glisten_front::stack::with_stack;
 use rustc_hash::FxHashMap;
+use std::cell::OnceCell;
 
 struct Rebuild<'a> {
     old: &'a Shader,
@@ -18,40 +19,45 @@ struct Rebuild<'a> {
     globals: FxHashMap<GlobalId, GlobalId>,
     /// For each function of the old stage its locals' new handles; parameters that are not read have none.
     locals: FxHashMap<FunctionId, Vec<Option<LocalId>>>,
-    /// The arguments of all calls, by callee.
-    calls: FxHashMap<FunctionId, Vec<&'a [ExprId]>>,
+    /// The arguments of all calls, by callee, once somebody asked.
+    calls: OnceCell<FxHashMap<FunctionId, Vec<&'a [ExprId]>>>,
 }
 
-fn calls(shader: &Shader) -> FxHashMap<FunctionId, Vec<&[ExprId]>> {
+/// The arguments of the calls in these functions and in initializers of globals.
+fn calls<'a>(shader: &'a Shader, functions: &[FunctionId]) -> FxHashMap<FunctionId, Vec<&'a [ExprId]>> {
     let mut calls: FxHashMap<FunctionId, Vec<&[ExprId]>> = FxHashMap::default();
-    for expr in &shader.exprs {
-        if let ExprKind::Call(callee, arguments) = &expr.kind {
+    let mut see = |id: ExprId| {
+        if let ExprKind::Call(callee, arguments) = &shader.expr(id).kind {
             calls.entry(*callee).or_default().push(arguments);
         }
-    }
+    };
+    functions
+        .iter()
+        .filter_map(|id| shader.function(*id).body.as_deref())
+        .for_each(|body| shader.visit_body(body, &mut see));
+    shader.globals.iter().filter_map(|global| global.initializer).for_each(|root| shader.visit_expr(root, &mut see));
     calls
 }
 
-/// Rebuilds a stage. `keeps` says which globals stay though nobody names them. `origins` follows the functions.
+/// Rebuilds a stage of which `uses` are the counts. `keeps` says which globals stay though nobody names them. `origins` follows the functions.
 pub(super) fn compact(
-    types: &Types,
     shader: &Shader,
+    uses: &Uses,
     keeps: &(dyn Fn(GlobalId) -> bool + Sync),
     origins: &mut Vec<FunctionId>,
 ) -> (Shader, Vec<GlobalId>) {
     let known = std::mem::take(origins);
     let (new, globals, from) = with_stack(shader.expr_depth.saturating_add(1024), || {
-        let uses = Uses::of(types, shader);
         let mut rebuild = Rebuild {
             old: shader,
-            new: Shader { exprs: Vec::new(), globals: Vec::new(), functions: Vec::new(), ..shader.clone() },
+            new: Shader { exprs: Vec::with_capacity(shader.exprs.len()), ..shader.emptied() },
             functions: FxHashMap::default(),
             globals: FxHashMap::default(),
             locals: FxHashMap::default(),
-            calls: calls(shader),
+            calls: OnceCell::new(),
         };
-        let globals = rebuild.choose_globals(&uses, keeps);
-        let from = rebuild.choose_functions(&uses);
+        let globals = rebuild.choose_globals(uses, keeps);
+        let from = rebuild.choose_functions(uses);
         rebuild.bodies(&globals, &from);
         (rebuild.new, globals, from)
     });
@@ -75,7 +81,7 @@ impl Rebuild<'_> {
     }
 
     fn choose_functions(&mut self, uses: &Uses) -> Vec<FunctionId> {
-        let from = reached(self.old);
+        let from = uses.functions.clone();
         for id in &from {
             self.functions.insert(*id, FunctionId::new(self.new.functions.len()));
             let function = self.old.function(*id);
@@ -107,7 +113,7 @@ impl Rebuild<'_> {
         if !only_in || uses.local(function, LocalId::new(index)).named > 0 {
             return false;
         }
-        let calls = self.calls.get(&function);
+        let calls = self.calls.get_or_init(|| calls(self.old, &uses.functions)).get(&function);
         calls.into_iter().flatten().all(|arguments| arguments.get(index).is_some_and(|id| self.does_nothing(*id)))
     }
 

@@ -2,8 +2,9 @@
 //!
 //! *In:* a rebuilt stage. *Out:* the stage.
 
-use glisten_front::hir::{ExprId, ExprKind, FunctionId, ParamMode, Shader, Stmt, StmtKind, TypeId};
+use glisten_front::hir::{ExprId, ExprKind, Function, FunctionId, Shader, Stmt, StmtKind, TypeId};
 use rustc_hash::{FxHashMap, FxHashSet};
+use smallvec::SmallVec;
 use std::fmt::Write;
 
 /// Calls of equal functions become calls of one.
@@ -114,23 +115,25 @@ fn expr(shader: &Shader, root: ExprId, same: &FxHashMap<FunctionId, FunctionId>,
 
 /// Functions of one name and the same parameters are told apart by a number.
 pub(super) fn name(shader: &mut Shader) {
+    let types_of =
+        |function: &Function| -> SmallVec<[TypeId; 8]> { function.param_types().map(|(ty, _)| ty).collect() };
+    let mut taken: FxHashSet<(&str, SmallVec<[TypeId; 8]>)> = FxHashSet::default();
+    let again: Vec<FunctionId> = shader
+        .functions()
+        .filter(|(_, function)| !taken.insert((&function.name, types_of(function))))
+        .map(|(id, _)| id)
+        .collect();
+    if again.is_empty() {
+        return;
+    }
     let mut names: FxHashSet<String> = shader.functions.iter().map(|function| function.name.clone()).collect();
     names.extend(shader.globals.iter().map(|global| global.name.clone()));
-    let mut taken: FxHashSet<(String, Vec<TypeId>)> = FxHashSet::default();
-    for function in &mut shader.functions {
-        let types: Vec<(TypeId, ParamMode)> = function.param_types().collect();
-        let types: Vec<TypeId> = types.into_iter().map(|(ty, _)| ty).collect();
-        if taken.insert((function.name.clone(), types.clone())) {
-            continue;
+    for id in again {
+        let Some(function) = shader.functions.get_mut(id.index()) else { continue };
+        let mut numbered = (2..).map(|number| format!("{}_{number}", function.name));
+        if let Some(name) = numbered.find(|name| !names.contains(name)) {
+            names.insert(name.clone());
+            function.name = name;
         }
-        let mut number = 2;
-        let mut candidate = format!("{}_{number}", function.name);
-        while names.contains(&candidate) {
-            number += 1;
-            candidate = format!("{}_{number}", function.name);
-        }
-        names.insert(candidate.clone());
-        taken.insert((candidate.clone(), types));
-        function.name = candidate;
     }
 }

@@ -30,11 +30,12 @@ pub(super) use unreached::without_unreached;
 
 use super::settle::Settled;
 use glisten_front::hir::{
-    ArraySize, ConstructKind, ExprId, ExprKind, GlobalId, Sampling, Scalar, ScalarValue, Shader, Stmt, StmtKind,
-    Storage, Type, TypeId, Types,
+    ArraySize, ConstructKind, ExprId, ExprKind, FunctionId, GlobalId, Sampling, Scalar, ScalarValue, Shader, Stmt,
+    StmtKind, Storage, Type, TypeId, Types,
 };
 use glisten_front::source::Span;
 use std::collections::BTreeMap;
+use uses::Uses;
 
 /// Rounds of pruning a stage: each finds what the one before laid bare. A chain of dead stores goes in one.
 const ROUNDS: usize = 8;
@@ -46,7 +47,7 @@ pub(super) struct Pruned {
     /// For each global of it the one of the original.
     pub(super) globals: Vec<GlobalId>,
     /// For each function of it the one of the original.
-    pub(super) origins: Vec<glisten_front::hir::FunctionId>,
+    pub(super) origins: Vec<FunctionId>,
     /// How many elements of an array open indices may reach, by the name of the global.
     reach: BTreeMap<String, u32>,
 }
@@ -65,8 +66,9 @@ impl Pruned {
         for _ in 0..ROUNDS {
             let own: Vec<bool> =
                 self.globals.iter().map(|global| live.get(global.index()).copied().unwrap_or(true)).collect();
-            let mut changed = sweep::sweep(types, &mut self.shader, &own);
-            changed |= overwritten_in(&mut self.shader);
+            let uses = Uses::of(types, &self.shader);
+            let swept = sweep::sweep(types, &mut self.shader, &own, uses);
+            let mut changed = swept.changed | overwritten_in(&mut self.shader, &swept.uses.functions);
             changed |= inline::inline(&mut self.shader);
             merge::merge(&mut self.shader);
             changed |= self.compact(types, &own);
@@ -93,7 +95,8 @@ impl Pruned {
             let output = global.storage == Storage::Out && live.get(id.index()).copied().unwrap_or(true);
             output && global.builtin.is_none()
         };
-        let (mut shader, chosen) = compact::compact(types, &self.shader, &keeps, &mut self.origins);
+        let uses = Uses::of(types, &self.shader);
+        let (mut shader, chosen) = compact::compact(&self.shader, &uses, &keeps, &mut self.origins);
         for (global, old) in shader.globals.iter_mut().zip(&chosen) {
             if global.storage == Storage::Out
                 && global.builtin.is_none()
@@ -117,16 +120,16 @@ impl Pruned {
     }
 }
 
-/// Removes stores that are overwritten first from all functions.
-fn overwritten_in(shader: &mut Shader) -> bool {
+/// Removes stores that are overwritten first from functions.
+fn overwritten_in(shader: &mut Shader, functions: &[FunctionId]) -> bool {
     let mut changed = false;
-    for index in 0..shader.functions.len() {
-        let Some(function) = shader.functions.get_mut(index) else { continue };
-        let Some(body) = function.body.take() else { continue };
-        let declared = function.clone();
-        let (body, removed) = overwritten::remove(shader, &declared, body);
+    for id in functions {
+        let Some(body) = shader.functions.get_mut(id.index()).and_then(|function| function.body.take()) else {
+            continue;
+        };
+        let (body, removed) = overwritten::remove(shader, shader.function(*id), body);
         changed |= removed;
-        if let Some(function) = shader.functions.get_mut(index) {
+        if let Some(function) = shader.functions.get_mut(id.index()) {
             function.body = Some(body);
         }
     }

@@ -4,17 +4,16 @@
 //! *Holds:* bodies are walked from their ends, so that what only a removed statement read goes in the same sweep.
 
 use super::once;
-use super::uses::{Stored, Uses, reached, stored};
+use super::uses::{Stored, Uses, stored};
 use crate::forward::Effects;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
 };
 
-/// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended.
-pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool]) -> bool {
-    let uses = Uses::of(types, shader);
-    let effects = Effects::of(shader);
-    let functions = reached(shader);
+/// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended, `uses` counts what is in it.
+pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool], uses: Uses) -> Swept {
+    let functions = uses.functions.clone();
+    let effects = Effects::of(shader, functions.iter().copied());
     let mut sweeper = Sweeper { types, shader, live, uses, effects, changed: false };
     for id in functions {
         sweeper.uses.function = id;
@@ -30,7 +29,15 @@ pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool]) -> bool {
             }
         }
     }
-    sweeper.changed
+    Swept { changed: sweeper.changed, uses: sweeper.uses }
+}
+
+/// What a sweep did.
+pub(super) struct Swept {
+    /// Whether anything went.
+    pub(super) changed: bool,
+    /// The counts of what is left. Functions that nothing calls any more are still among those that are reached.
+    pub(super) uses: Uses,
 }
 
 struct Sweeper<'a> {

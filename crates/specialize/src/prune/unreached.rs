@@ -5,28 +5,31 @@
 //! is evaluated: names, types and the order of what stays are those of the source, but for the names of overloads that have the same
 //! parameters now.
 
-use super::{compact, merge, overwritten_in, sweep, uses};
-use glisten_front::hir::{ExprId, GlobalId, Shader, Storage, Types, may_act};
+use super::uses::Uses;
+use super::{compact, merge, overwritten_in, sweep};
+use glisten_front::hir::{ExprId, FunctionId, GlobalId, LocalId, Shader, Storage, Types, may_act};
 
 /// Leaves out what reaches no output. `live` says for each global whether somebody reads it when the stage has ended.
 pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -> Shader {
     let mut shader = shader.clone();
-    // Whether the last round took neither functions nor parameters: without a change, there is nothing to compact then.
-    let mut is_compact = false;
+    // Nobody asks where the functions came from.
+    let mut origins = Vec::new();
     for _ in 0..super::ROUNDS {
-        let parameters = |shader: &Shader| shader.functions.iter().map(|function| function.param_count).sum::<usize>();
-        let before = (shader.functions.len(), parameters(&shader));
-        let mut changed = sweep::sweep(types, &mut shader, live);
-        changed |= overwritten_in(&mut shader);
-        changed |= forget_initializers(types, &mut shader);
-        if !changed && is_compact {
+        let uses = Uses::of(types, &shader);
+        let swept = sweep::sweep(types, &mut shader, live, uses);
+        let mut changed = swept.changed | overwritten_in(&mut shader, &swept.uses.functions);
+        let mut uses = if changed { Uses::of(types, &shader) } else { swept.uses };
+        if forget_initializers(&mut shader, &uses) {
+            changed = true;
+            uses = Uses::of(types, &shader);
+        }
+        let parameters = parameters(&shader, uses.functions.iter().copied());
+        if !changed && uses.functions.len() == shader.functions.len() && !has_idle_parameter(&shader, &uses) {
             break;
         }
-        // Nobody asks where the functions came from.
-        let mut origins = Vec::new();
-        shader = compact::compact(types, &shader, &|_| true, &mut origins).0;
-        is_compact = before == (shader.functions.len(), parameters(&shader));
-        if !changed && is_compact {
+        shader = compact::compact(&shader, &uses, &|_| true, &mut origins).0;
+        // Functions that nothing reached had no part in the counts; arguments had.
+        if !changed && parameters == self::parameters(&shader, shader.functions().map(|(id, _)| id)) {
             break;
         }
     }
@@ -36,9 +39,19 @@ pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -
     shader
 }
 
+/// How many parameters functions have.
+fn parameters(shader: &Shader, functions: impl Iterator<Item = FunctionId>) -> usize {
+    functions.map(|id| shader.function(id).param_count).sum()
+}
+
+/// Whether a function that is reached has a parameter that it does not name.
+fn has_idle_parameter(shader: &Shader, uses: &Uses) -> bool {
+    let is_idle = |id: FunctionId, index| uses.local(id, LocalId::new(index)).named == 0;
+    uses.functions.iter().any(|id| (0..shader.function(*id).param_count).any(|index| is_idle(*id, index)))
+}
+
 /// Takes the initializers from globals that nobody names, where evaluating them does nothing else.
-fn forget_initializers(types: &Types, shader: &mut Shader) -> bool {
-    let uses = uses::Uses::of(types, shader);
+fn forget_initializers(shader: &mut Shader, uses: &Uses) -> bool {
     let mut changed = false;
     for index in 0..shader.globals.len() {
         let Some(global) = shader.globals.get(index) else { continue };

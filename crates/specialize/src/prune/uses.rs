@@ -35,6 +35,10 @@ pub(super) struct Uses {
     pub(super) calls: Vec<i32>,
     /// The function that is being counted.
     pub(super) function: FunctionId,
+    /// The functions that `main` and the initializers of globals reach.
+    pub(super) functions: Vec<FunctionId>,
+    /// Whether each function is one of them.
+    reached: Vec<bool>,
 }
 
 impl Uses {
@@ -46,20 +50,34 @@ impl Uses {
             members: FxHashMap::default(),
             calls: vec![0; shader.functions.len()],
             function: FunctionId::new(0),
+            functions: Vec::new(),
+            reached: vec![false; shader.functions.len()],
         };
-        for id in reached(shader) {
-            uses.function = id;
-            if let Some(body) = &shader.function(id).body {
-                uses.body(types, shader, body, 1);
-            }
-        }
+        shader.main.into_iter().for_each(|main| uses.reach(main));
         for (id, global) in shader.globals() {
             if let Some(initializer) = global.initializer {
                 let stored = Stored { variable: VarRef::Global(id), member: None };
                 uses.value(types, shader, initializer, 1, Some(stored));
             }
         }
+        // Counting a body finds the functions that it calls.
+        let mut next = 0;
+        while let Some(id) = uses.functions.get(next).copied() {
+            uses.function = id;
+            if let Some(body) = &shader.function(id).body {
+                uses.body(types, shader, body, 1);
+            }
+            next += 1;
+        }
+        uses.functions.sort_unstable();
         uses
+    }
+
+    fn reach(&mut self, function: FunctionId) {
+        if let Some(reached) = self.reached.get_mut(function.index()).filter(|reached| !**reached) {
+            *reached = true;
+            self.functions.push(function);
+        }
     }
 
     /// The count of a variable of the present function.
@@ -178,6 +196,7 @@ impl Uses {
                     if let Some(calls) = self.calls.get_mut(callee.index()) {
                         *calls += by;
                     }
+                    self.reach(*callee);
                     for (index, argument) in arguments.iter().enumerate() {
                         match shader.function(*callee).param_mode(index) {
                             ParamMode::In | ParamMode::ConstIn => pending.push((*argument, within)),
@@ -270,29 +289,4 @@ pub(super) fn stored(types: &Types, shader: &Shader, target: ExprId) -> Option<S
             _ => return Some(Stored { variable, member }),
         }
     }
-}
-
-/// The functions that `main` and the initializers of globals reach.
-pub(super) fn reached(shader: &Shader) -> Vec<FunctionId> {
-    let mut seen = vec![false; shader.functions.len()];
-    let mut roots: Vec<FunctionId> = shader.main.into_iter().collect();
-    for global in &shader.globals {
-        if let Some(initializer) = global.initializer {
-            shader.visit_expr(initializer, &mut |expr| {
-                if let ExprKind::Call(callee, _) = shader.expr(expr).kind {
-                    roots.push(callee);
-                }
-            });
-        }
-    }
-    let mut order = Vec::new();
-    while let Some(id) = roots.pop() {
-        if let Some(seen) = seen.get_mut(id.index()).filter(|seen| !**seen) {
-            *seen = true;
-            order.push(id);
-            roots.extend(shader.callees(id));
-        }
-    }
-    order.sort_unstable();
-    order
 }
