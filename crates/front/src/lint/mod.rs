@@ -11,6 +11,8 @@ mod assigned;
 mod divergence;
 mod domain;
 mod interval;
+#[cfg(test)]
+mod listed;
 mod loop_invariant;
 mod range;
 mod rate;

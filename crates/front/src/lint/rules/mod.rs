@@ -1,4 +1,5 @@
-//! The rules, one file each. A row here registers a rule.
+//! The rules, one file each. This list is made from the folder and the table of codes:
+//! `UPDATE_RULES=1 cargo test -p glisten-front every_rule_is_listed`.
 
 mod acos_beyond_one;
 mod assignment_in_condition;
@@ -9,7 +10,6 @@ mod constant_condition;
 mod depth_written;
 mod divergent_derivative;
 mod division_by_clamped_zero;
-mod division_by_zero;
 mod empty_body;
 mod flat_provoking_vertex;
 mod float_equality;
@@ -20,6 +20,7 @@ mod identity_operation;
 mod infinite_loop;
 mod initialized_uniform;
 mod integer_division;
+mod integer_division_by_zero;
 mod interpolated_normal;
 mod late_discard;
 mod legacy_lookup;
@@ -31,9 +32,8 @@ mod loop_counts_away;
 mod loop_invariant_call;
 mod loop_invariant_lookup;
 mod matrix_inverse;
-mod maybe_uninitialized;
+mod maybe_uninitialized_read;
 mod missing_default;
-mod missing_return;
 mod mix_by_bool;
 mod non_finite_constant;
 mod normal_by_model_matrix;
@@ -45,6 +45,7 @@ mod pow_of_negative;
 mod pow_of_two;
 mod repeated_call;
 mod repeated_macro;
+mod return_on_some_ways;
 mod reversed_bounds;
 mod self_assignment;
 mod self_comparison;
@@ -86,14 +87,14 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::UNINITIALIZED_READ, check: uninitialized_read::check },
     Rule { code: &lints::UNWRITTEN_OUT_PARAMETER, check: unwritten_out_parameter::check },
     Rule { code: &lints::NON_FINITE_CONSTANT, check: non_finite_constant::check },
-    Rule { code: &lints::DIVISION_BY_ZERO, check: division_by_zero::check },
+    Rule { code: &lints::INTEGER_DIVISION_BY_ZERO, check: integer_division_by_zero::check },
     Rule { code: &lints::POW_OF_NEGATIVE, check: pow_of_negative::check },
     Rule { code: &lints::DIVERGENT_DERIVATIVE, check: divergent_derivative::check },
     Rule { code: &lints::INFINITE_LOOP, check: infinite_loop::check },
     Rule { code: &lints::UNREACHABLE_CODE, check: unreachable_code::check },
-    Rule { code: &lints::MISSING_RETURN, check: missing_return::check },
+    Rule { code: &lints::RETURN_ON_SOME_WAYS, check: return_on_some_ways::check },
     Rule { code: &lints::UNWRITTEN_VARYING, check: unwritten_varying::check },
-    Rule { code: &lints::MAYBE_UNINITIALIZED, check: maybe_uninitialized::check },
+    Rule { code: &lints::MAYBE_UNINITIALIZED_READ, check: maybe_uninitialized_read::check },
     Rule { code: &lints::ASSIGNMENT_IN_CONDITION, check: assignment_in_condition::check },
     Rule { code: &lints::LOOP_COUNTS_AWAY, check: loop_counts_away::check },
     Rule { code: &lints::SELF_ASSIGNMENT, check: self_assignment::check },
@@ -151,6 +152,6 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::LEGACY_LOOKUP, check: legacy_lookup::check },
     Rule { code: &lints::LEGACY_QUALIFIER, check: legacy_qualifier::check },
     Rule { code: &lints::LEGACY_OUTPUT, check: legacy_output::check },
-    Rule { code: &lints::REVERSED_BOUNDS, check: reversed_bounds::check },
     Rule { code: &lints::UNUSED_ALLOW, check: unused_allow::check },
+    Rule { code: &lints::REVERSED_BOUNDS, check: reversed_bounds::check },
 ];

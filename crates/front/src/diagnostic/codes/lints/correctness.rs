@@ -49,7 +49,7 @@ lints! {
         why "What never runs is not what was meant. A `break` after a `return` in a `switch` is left out."
         bad Fragment("out vec4 c; void main() { c = vec4(0.0); return; c = vec4(1.0); }"),
         good Fragment("out vec4 c; void main() { c = vec4(0.0); }");
-    MISSING_RETURN = "L0013" "return-on-some-ways" Warning Correctness No "0.1.0" "GLSL 1.50 §6.1"
+    RETURN_ON_SOME_WAYS = "L0013" "return-on-some-ways" Warning Correctness No "0.1.0" "GLSL 1.50 §6.1"
         "Some path through a function ends without a `return`, although the function must return a value. The value \
          is then undefined: the emitted code returns zero, an OpenGL driver anything."
         why "The value is undefined on that path."
@@ -66,7 +66,7 @@ lints! {
         good Program(
             "in vec4 p; uniform bool lit; out vec4 tint; void main() { tint = lit ? p : vec4(1.0); gl_Position = p; }",
             "in vec4 tint; out vec4 c; void main() { c = tint; }");
-    MAYBE_UNINITIALIZED = "L0015" "maybe-uninitialized-read" Warning Correctness No "0.1.0" "GLSL 1.50 §4.1"
+    MAYBE_UNINITIALIZED_READ = "L0015" "maybe-uninitialized-read" Warning Correctness No "0.1.0" "GLSL 1.50 §4.1"
         "A variable or an `out` parameter is read although some path before the read assigns nothing to it. On that \
          path its value is undefined."
         why

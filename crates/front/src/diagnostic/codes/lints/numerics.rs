@@ -9,7 +9,7 @@ lints! {
         why "The constant is not what arithmetic says, and one of the targets refuses it."
         bad Fragment("out vec4 c; void main() { c = vec4(1.0 / 0.0); }"),
         good Fragment("out vec4 c; void main() { c = vec4(3.4e38); }");
-    DIVISION_BY_ZERO = "L0008" "integer-division-by-zero" Warning Numerics No "0.1.0" "GLSL 1.50 §5.9"
+    INTEGER_DIVISION_BY_ZERO = "L0008" "integer-division-by-zero" Warning Numerics No "0.1.0" "GLSL 1.50 §5.9"
         "An integer is divided by a constant zero. The value is undefined."
         why "The value is undefined."
         bad Fragment("uniform int n; out vec4 c; void main() { c = vec4(n / 0); }"),
