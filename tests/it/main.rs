@@ -72,6 +72,8 @@ mod helps;
 #[cfg(feature = "cli")]
 mod host;
 mod hostile;
+#[cfg(all(feature = "cli", feature = "gpu", unix))]
+mod killed;
 #[cfg(feature = "gpu")]
 mod layers;
 mod layouts;
