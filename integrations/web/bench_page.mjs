@@ -48,7 +48,7 @@ const measure = async (name, address) => {
   await page.waitForSelector("#pictures img");
   console.log(`${name}\n  ${"".padEnd(52)}    n  median     9/10`);
   const idle = () => page.waitForTimeout(900);
-  const scenes = await page.locator("#scenes option").evaluateAll((options) => options.map((option) => option.value));
+  const scenes = await page.locator("#scenes optgroup[label=Scenes] option").evaluateAll((options) => options.map((option) => option.value));
   // Shows a scene; returns the times to its first look, if it has one, and to its picture.
   const shows = async (scene) => {
     if ((await page.locator("#scenes").inputValue()) === scene) return null;

@@ -95,6 +95,12 @@ try {
   await page.waitForSelector("#verdict:not([hidden])", limit);
   seen.verdict = await page.textContent("#verdict");
   seen.pictures = await page.locator("#pictures img").count();
+  // Who keeps unsaved changes keeps the scene, and the list says so.
+  const chosen = await page.inputValue("#scenes");
+  const scenes = await page.locator("#scenes optgroup[label=Scenes] option").evaluateAll((options) => options.map((option) => option.value));
+  page.once("dialog", (dialog) => dialog.dismiss());
+  await page.selectOption("#scenes", scenes.find((scene) => scene !== chosen));
+  seen.kept = (await page.inputValue("#scenes")) === chosen;
   await page.click("#save");
   await until(() => document.querySelector("#state").textContent === "saved");
   await page.setViewportSize({ width: 360, height: 740 });

@@ -412,6 +412,8 @@ fn the_page_works_in_a_browser() {
     };
     let folder = folder();
     with_camera(folder.path());
+    let scene = folder.path().join("shaders/a.toml");
+    fs::copy(&scene, scene.with_file_name("b.toml")).expect("it can be written");
     let page = folder.path().join("page.html");
     let mut export = Command::new(env!("CARGO_BIN_EXE_glisten"));
     export.current_dir(folder.path()).args(["play", "--export", "page.html", "shaders/a.toml"]);
@@ -425,7 +427,7 @@ fn the_page_works_in_a_browser() {
     let seen: Value = serde_json::from_slice(&ran.stdout).unwrap_or_else(|error| panic!("{error}: {errors}"));
     assert_eq!(seen["errors"], json!([]), "{seen:#}");
     assert_eq!(seen["files"].as_array().map(Vec::len), Some(3), "{seen:#}");
-    for key in ["wgsl", "reflection", "mark", "fixed", "slider", "turned"] {
+    for key in ["wgsl", "reflection", "mark", "fixed", "slider", "turned", "kept"] {
         assert_eq!(seen[key], json!(true), "{key}: {seen:#}");
     }
     assert_eq!(seen["drag"], json!(false), "a drag inspects nothing: {seen:#}");

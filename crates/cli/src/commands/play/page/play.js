@@ -631,12 +631,14 @@ const showScenes = ({ scenes, programs: lists }) => {
     ...(alone.length ? [html("optgroup", { label: "New scene for" }, alone.map((files) => option(JSON.stringify(files), files.join(", "))))] : []));
   if (scene) byId("scenes").value = scene;
 };
+// Who keeps unsaved changes keeps the scene, too: the list says so.
+const showScene = () => { byId("scenes").value = scene; };
 const chosen = async (value) => {
-  if (!value.startsWith("[")) return choose(value);
+  if (!value.startsWith("[")) { if (!choose(value)) showScene(); return; }
   say("writing a scene …");
   const made = await request("POST", "/api/new-scene", JSON.parse(value));
-  if (made.text) { if (choose(made.name, made.text)) say("this scene is new: Save writes it"); } else say(made.error, true);
-  return undefined;
+  if (made.text && choose(made.name, made.text)) say("this scene is new: Save writes it");
+  else { showScene(); if (!made.text) say(made.error, true); }
 };
 const save = async () => {
   for (const [name, doc] of docs) {
