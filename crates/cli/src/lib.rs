@@ -54,6 +54,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser};
 use commands::{Command, examples};
 use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
+use glisten_front::stack::with_stack;
 use glisten_scene::confine_to;
 use process::guard;
 pub use process::memory;
@@ -62,8 +63,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// The stack size of the thread that runs a command.
-const STACK_BYTES: usize = 16 << 20;
+/// The levels of recursion that a command's stack is for: 16 MiB, as that of the threads of [`threads`].
+const LEVELS: u32 = 2048;
 
 /// Check, translate, draw and measure GLSL: versions 1.10 to 4.60, and those of OpenGL ES
 #[derive(Debug, Parser)]
@@ -136,23 +137,19 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
     Ok((cli.command, console))
 }
 
-/// Runs a command on a thread with a large stack, and reports a failure.
+/// Runs a command on a large stack, and reports a failure.
 fn carry_out(command: &Command, console: Console) -> Exit {
     guard::silence_panics();
-    let work = || guard::guarded(|| command.run(&console));
-    let joined = std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, work);
-        thread.map(std::thread::ScopedJoinHandle::join)
-    });
-    let outcome = match joined {
-        Ok(Ok(Ok(outcome))) => outcome,
-        Ok(Ok(Err(panic))) => {
+    // A thread with such a stack would take longer: it has to be woken, and its memory is slower to get.
+    let outcome = match guard::guarded(|| with_stack(LEVELS, || guard::guarded(|| command.run(&console)))) {
+        Ok(Ok(outcome)) => outcome,
+        Ok(Err(panic)) => {
             let message = format!("internal error: {panic}");
             Err(Failure::new(Exit::Content, message)
                 .help("this is a fault of glisten; please report it with the input"))
         }
-        Ok(Err(_)) => Err(Failure::new(Exit::Content, "internal error")),
-        Err(error) => Err(Failure::new(Exit::Machine, format!("the system gives no thread: {error}"))),
+        // The command itself is guarded: there was no stack for it.
+        Err(_) => Err(Failure::new(Exit::Machine, "the system gives no memory for a stack of 16 MiB")),
     };
     end(outcome, &console)
 }
