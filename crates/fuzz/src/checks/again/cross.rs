@@ -4,7 +4,7 @@
 //! bindings in the text. *Holds:* a process ends within a time; names of both stages are different.
 
 use super::super::drawn::{Emission, Read};
-use super::{Failed, Written, limits, source};
+use super::{Failed, Frame, Written, limits, source};
 use glisten_front::Stage;
 use naga::back::spv;
 use std::io::{Read as _, Write as _};
@@ -41,7 +41,7 @@ fn is_installed() -> bool {
 }
 
 /// A stage as GLSL.
-pub(super) fn written(stage: &Emission, height: u32) -> Result<Written<'_>, Failed> {
+pub(super) fn written(stage: &Emission, frame: Frame) -> Result<Written<'_>, Failed> {
     if !is_installed() {
         return Err(Failed::Limit("naga has a limit, and spirv-cross is not installed"));
     }
@@ -55,7 +55,7 @@ pub(super) fn written(stage: &Emission, height: u32) -> Result<Written<'_>, Fail
         None => Failed::Fault(format!("{TOOL} does not read it: {message}")),
     })?;
     let text = apart(stage.stage, &text);
-    Ok(Written { source: source(stage.stage, &text, height)?, blocks: Vec::new(), textures: Vec::new() })
+    Ok(Written { source: source(stage.stage, &text, frame)?, blocks: Vec::new(), textures: Vec::new() })
 }
 
 /// A module as words.

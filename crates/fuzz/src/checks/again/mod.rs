@@ -24,6 +24,7 @@ mod naga;
 use super::drawn::{Bits, Drawn, Emission, compiler, inside, picture_of};
 use glisten::scene::Scene;
 use glisten::verify::Runner;
+use glisten_front::hir::SamplerDim;
 use glisten_front::link::SlotBinding;
 use glisten_front::{Source, Stage};
 use glisten_reference::Precision;
@@ -110,10 +111,10 @@ pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission]) -> Held {
 
 /// Whether the stages draw the picture of the program by one way.
 fn attempt(drawn: &Drawn<'_>, draw: &Draw, stages: &[Emission], way: Way) -> Result<(), Failed> {
-    let height = drawn.scene.framebuffer.height;
+    let frame = Frame::of(drawn, draw);
     let written = stages.iter().map(|stage| match way {
-        Way::Naga => naga::written(stage, height),
-        Way::Cross => cross::written(stage, height),
+        Way::Naga => naga::written(stage, frame),
+        Way::Cross => cross::written(stage, frame),
     });
     let written = written.collect::<Result<Vec<Written<'_>>, Failed>>()?;
     let sources: Vec<Source> = written.iter().map(|one| one.source.clone()).collect();
@@ -127,7 +128,7 @@ fn attempt(drawn: &Drawn<'_>, draw: &Draw, stages: &[Emission], way: Way) -> Res
         }
         return Err(Failed::Fault(format!("GLSL of {} is not accepted: {message}\n{}", way.name(), texts())));
     };
-    let other = host::with(draw, program, &written, height);
+    let other = host::with(draw, program, &written, frame.height);
     let mut scene = Scene { draws: vec![other], ..drawn.scene.clone() };
     // `gl_FragData` has an output for each that there may be.
     let last = scene.draws.iter().flat_map(|draw| &draw.program.interface.outputs).map(|one| one.location).max();
@@ -138,15 +139,42 @@ fn attempt(drawn: &Drawn<'_>, draw: &Draw, stages: &[Emission], way: Way) -> Res
     })
 }
 
-/// A text for OpenGL. Emitted code has the origin above; here, what is turned is the place and the derivative.
-fn source(stage: Stage, text: &str, height: u32) -> Result<Source, Failed> {
+/// What a text has as numbers, since the reference has no other place for them.
+#[derive(Clone, Copy)]
+struct Frame {
+    /// The height of the picture.
+    height: u32,
+    /// The samples of a texel, in textures that have several.
+    samples: usize,
+}
+
+impl Frame {
+    fn of(drawn: &Drawn<'_>, draw: &Draw) -> Self {
+        let several = draw.textures.iter().flatten().filter(|one| one.kind.dim == SamplerDim::Multisample);
+        let samples = several.map(|one| one.levels.len()).max().unwrap_or(1);
+        Self { height: drawn.scene.framebuffer.height, samples }
+    }
+}
+
+/// A text for OpenGL. Emitted code has the origin above; here, what is turned is the place and the derivative. `textureSamples`, which
+/// glisten does not have, becomes its value.
+fn source(stage: Stage, text: &str, frame: Frame) -> Result<Source, Failed> {
     let name = match stage {
         Stage::Vertex => "a.vert",
         Stage::Fragment => "a.frag",
         Stage::Geometry => return Err(Failed::Limit("no target has a geometry stage")),
     };
+    let Frame { height, samples } = frame;
     let turned = format!("vec4(gl_FragCoord.x, {height}.0 - gl_FragCoord.y, gl_FragCoord.zw)");
     let text = replaced(&replaced(text, "gl_FragCoord", &turned), "dFdy", "-dFdy");
+    let mut parts = text.split("textureSamples(");
+    let first = parts.next().unwrap_or_default().to_owned();
+    let text = parts.fold(first, |mut made, part| {
+        // Its argument is a name.
+        let (_, rest) = part.split_once(')').unwrap_or(("", part));
+        made.push_str(&format!("{samples}{rest}"));
+        made
+    });
     Ok(Source { name: name.to_owned(), text: text.into(), stage })
 }
 

@@ -5,7 +5,7 @@
 
 use super::super::drawn::Emission;
 use super::host::Layout;
-use super::{Failed, Written, replaced, source};
+use super::{Failed, Frame, Written, replaced, source};
 use glisten_front::Stage;
 use glisten_front::link::SlotBinding;
 use naga::back::glsl;
@@ -14,7 +14,7 @@ use naga::{GlobalVariable, Handle};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// A stage as GLSL.
-pub(super) fn written(stage: &Emission, height: u32) -> Result<Written<'_>, Failed> {
+pub(super) fn written(stage: &Emission, frame: Frame) -> Result<Written<'_>, Failed> {
     let read = stage.read.as_ref().ok_or(Failed::Limit("naga does not read a stage"))?;
     let shader_stage = match stage.stage {
         Stage::Vertex => naga::ShaderStage::Vertex,
@@ -53,5 +53,5 @@ pub(super) fn written(stage: &Emission, height: u32) -> Result<Written<'_>, Fail
         .collect();
     // naga turns the picture upside down, for OpenGL.
     let text = replaced(&text, "vec2(-gl_Position.y, gl_Position.z", "vec2(gl_Position.y, gl_Position.z");
-    Ok(Written { source: source(stage.stage, &text, height)?, blocks, textures })
+    Ok(Written { source: source(stage.stage, &text, frame)?, blocks, textures })
 }
