@@ -195,6 +195,7 @@ impl Writer<'_> {
     fn floats(&mut self, ty: &Ty, size: u8, depth: usize) -> Expr {
         let one = |this: &mut Self, ty: &Ty| this.expr(ty, depth);
         match self.chance.below(12) {
+            0 if self.chance.once_in(2) => self.difference(ty, depth),
             0..=3 => {
                 let pattern = self.chance.word(&["(@ + @)", "(@ - @)", "(@ * @)"]);
                 let (left, right) = self.mixed(ty, depth);
@@ -227,6 +228,14 @@ impl Writer<'_> {
             }
             _ => self.composed(ty, Scalar::Float, size, depth),
         }
+    }
+
+    /// `(a - (b - c))`, whose parentheses matter.
+    fn difference(&mut self, ty: &Ty, depth: usize) -> Expr {
+        self.note("difference of a difference");
+        let (left, middle, right) = (self.expr(ty, depth), self.simple(ty), self.simple(ty));
+        let inner = self.chance.word(&["(@ - @)", "(@ + @)"]);
+        Expr::new(ty.clone(), "(@ - @)", vec![left, Expr::new(ty.clone(), inner, vec![middle, right])])
     }
 
     /// Two operands for a result: the same types, or a scalar and a vector, or an integer that is converted.
@@ -288,6 +297,7 @@ impl Writer<'_> {
         let one = |this: &mut Self| this.expr(ty, depth);
         let (unit, mask) = if scalar == Scalar::Uint { ("7u", "31u") } else { ("7", "31") };
         match self.chance.below(12) {
+            0 if self.chance.once_in(3) => self.difference(ty, depth),
             0..=2 => {
                 let pattern = self.chance.word(&["(@ + @)", "(@ - @)", "(@ * @)"]);
                 let (left, right) = self.mixed(ty, depth);

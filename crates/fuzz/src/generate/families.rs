@@ -55,7 +55,8 @@ impl Writer<'_> {
         let (float, int) = (Ty::Vector(Scalar::Float, size), Ty::Vector(Scalar::Int, size));
         let name = self.name("f");
         let (first, second) = (self.name("p"), self.name("p"));
-        let converted = Expr::new(float.clone(), &format!("{}(@)", float.name()), vec![Expr::leaf(int.clone(), &second)]);
+        let converted =
+            Expr::new(float.clone(), &format!("{}(@)", float.name()), vec![Expr::leaf(int.clone(), &second)]);
         let of = |right: Expr, operator: &str| {
             let left = Expr::leaf(float.clone(), &first);
             Expr::new(float.clone(), &format!("(@ {operator} @)"), vec![left, right])

@@ -18,6 +18,7 @@
 //! | `writer` | what is visible, names, parts of variables |
 //! | `expressions`, `calls`, `guards` | expressions, and arguments for which functions are defined |
 //! | `statements`, `functions`, `stages` | statements, functions, whole stages |
+//! | `families` | functions that are alike but for an operator or a type |
 //! | `sink` | sums of what is computed, so that it reaches the picture |
 //! | `tree`, `types` | what programs are made of |
 //! | `change`, `spelled`, `components` | changes that leave the picture as it is |
@@ -27,6 +28,7 @@ mod calls;
 mod change;
 mod components;
 mod expressions;
+mod families;
 mod functions;
 mod guards;
 mod interface;
@@ -169,6 +171,10 @@ mod tests {
             "sampler2DMS",
             "overload with a conversion",
             "function that differs in one place",
+            "overload that converts less than an earlier one",
+            "overloads that differ in an operator",
+            "function whose argument selects an operator",
+            "difference of a difference",
             "comparison at a bound",
             "assignment of an operation on itself",
             "operation on a neutral number",
