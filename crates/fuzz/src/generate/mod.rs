@@ -16,7 +16,7 @@
 //! | `language` | what a version has, from glisten's tables |
 //! | `interface`, `uniforms`, `samplers` | varyings, uniforms, textures, and their values |
 //! | `writer` | what is visible, names, parts of variables |
-//! | `expressions`, `calls`, `guards` | expressions, and arguments for which functions are defined |
+//! | `expressions`, `operands`, `calls`, `guards` | expressions, and arguments for which functions are defined |
 //! | `statements`, `functions`, `stages` | statements, functions, whole stages |
 //! | `families` | functions that are alike but for an operator or a type |
 //! | `sink` | sums of what is computed, so that it reaches the picture |
@@ -33,6 +33,7 @@ mod functions;
 mod guards;
 mod interface;
 mod language;
+mod operands;
 mod samplers;
 mod shrink;
 mod sink;

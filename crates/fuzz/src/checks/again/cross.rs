@@ -4,7 +4,7 @@
 //! bindings in the text. *Holds:* a process ends within a time; names of both stages are different.
 
 use super::super::drawn::{Emission, Read};
-use super::{Failed, Frame, Written, limits, source};
+use super::{Failed, Frame, Way, Written, limits, source};
 use glisten_front::Stage;
 use naga::back::spv;
 use std::io::{Read as _, Write as _};
@@ -41,7 +41,7 @@ fn is_installed() -> bool {
 }
 
 /// A stage as GLSL.
-pub(super) fn written(stage: &Emission, frame: Frame) -> Result<Written<'_>, Failed> {
+pub(super) fn written(stage: &Emission, frame: Frame, way: Way) -> Result<Written<'_>, Failed> {
     if !is_installed() {
         return Err(Failed::Limit("naga has a limit, and spirv-cross is not installed"));
     }
@@ -50,7 +50,7 @@ pub(super) fn written(stage: &Emission, frame: Frame) -> Result<Written<'_>, Fai
         (None, Some(read)) => words_of(read).ok_or(Failed::Limit("naga cannot write a stage as SPIR-V"))?,
         (None, None) => return Err(Failed::Limit("naga does not read a stage")),
     };
-    let text = run(&words).map_err(|message| match limits::of_tool(&message) {
+    let text = run(&words, way).map_err(|message| match limits::of_tool(&message) {
         Some(why) => Failed::Limit(why),
         None => Failed::Fault(format!("{TOOL} does not read it: {message}")),
     })?;
@@ -60,14 +60,21 @@ pub(super) fn written(stage: &Emission, frame: Frame) -> Result<Written<'_>, Fai
 
 /// A module as words.
 fn words_of(read: &Read) -> Option<Vec<u32>> {
-    let options = spv::Options { flags: spv::WriterFlags::empty(), ..spv::Options::default() };
+    // Without what guards drivers: the counters of loops, and the functions for quotients.
+    let options = spv::Options {
+        flags: spv::WriterFlags::empty(),
+        force_loop_bounding: false,
+        emit_int_div_checks: false,
+        ..spv::Options::default()
+    };
     spv::write_vec(&read.module, &read.info, &options, None).ok()
 }
 
 /// What the tool prints for words; its complaint if there is one.
-fn run(words: &[u32]) -> Result<String, String> {
+fn run(words: &[u32], way: Way) -> Result<String, String> {
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     let mut command = Command::new(TOOL);
+    command.args((way == Way::Plain).then_some("--force-temporary"));
     command.args(ARGUMENTS).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().map_err(|error| error.to_string())?;
     let ended = finished(&mut child, &bytes);

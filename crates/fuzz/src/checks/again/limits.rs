@@ -1,37 +1,56 @@
 //! What the ways back cannot write, and what they write wrong: faults that are not those of glisten.
 //!
-//! *In:* a message, or a text. *Out:* the reason that the table tells. *Holds:* each row has the seed of a program that shows it.
+//! *In:* a message, or a text. *Out:* the reason that the table tells. *Holds:* a limit is asked for only where a way has failed. What one way
+//! writes wrong and another one right needs no row.
 
 use super::Way;
 
 /// A limit of a way back.
 struct Limit {
-    way: Way,
-    /// What the message has: of the tool, or of glisten about the text that it wrote.
-    message: &'static str,
+    ways: &'static [Way],
+    /// Whether a text has it: the error of glisten about GLSL that came back, or that GLSL itself.
+    has: fn(&str) -> bool,
     why: &'static str,
 }
 
-/// Texts that glisten refuses with reason.
-static TEXTS: &[Limit] = &[
-    // Seed 101758 among others: comparisons that gather have their components elsewhere.
-    Limit { way: Way::Naga, message: "`textureGather", why: "naga writes another comparison that gathers" },
+/// GLSL that glisten refuses with reason.
+static REFUSED: &[Limit] = &[
+    // Comparisons that gather have their components elsewhere.
+    Limit {
+        ways: &[Way::Naga],
+        has: |message| message.contains("`textureGather"),
+        why: "naga writes another comparison that gathers",
+    },
+    // Seed 101758 of commit 961eb28e.
+    Limit {
+        ways: &[Way::Naga],
+        has: |message| message.contains("`textureOffset"),
+        why: "naga writes an offset of a lookup as a float",
+    },
 ];
 
-/// Messages of the tool.
+/// GLSL whose picture is another one.
+static OTHER: &[Limit] = &[
+    // A `switch` with one label becomes `do { .. } while (false)`, and `continue` of the loop around it then continues that. Seed 104900 of
+    // commit 961eb28e.
+    Limit {
+        ways: &[Way::Cross, Way::Plain],
+        has: continues_inside,
+        why: "spirv-cross writes `continue` of a loop inside of a `do` that is a `switch`",
+    },
+];
+
+/// Messages of spirv-cross.
 static MESSAGES: &[(&str, &str)] = &[];
 
-/// Texts whose picture is another one, by what they have.
-static PICTURES: &[Limit] = &[];
-
 /// The limit that makes a text one that glisten refuses.
-pub(super) fn of_text(way: Way, message: &str) -> Option<&'static str> {
-    reason(TEXTS, way, message)
+pub(super) fn of_refusal(way: Way, message: &str) -> Option<&'static str> {
+    reason(REFUSED, way, message)
 }
 
 /// The limit that makes a text draw another picture.
 pub(super) fn of_picture(way: Way, text: &str) -> Option<&'static str> {
-    reason(PICTURES, way, text)
+    reason(OTHER, way, text)
 }
 
 /// The limit that spirv-cross tells.
@@ -39,6 +58,58 @@ pub(super) fn of_tool(message: &str) -> Option<&'static str> {
     MESSAGES.iter().find(|(part, _)| message.contains(part)).map(|(_, why)| *why)
 }
 
+/// How the table tells that another way than this one draws the right picture.
+pub(super) fn of_way(way: Way) -> &'static str {
+    match way {
+        Way::Naga => "naga writes it wrong; another way draws the picture",
+        Way::Cross => "spirv-cross writes it wrong; another way draws the picture",
+        Way::Plain => "spirv-cross with temporaries writes it wrong; another way draws the picture",
+    }
+}
+
 fn reason(limits: &'static [Limit], way: Way, text: &str) -> Option<&'static str> {
-    limits.iter().find(|one| one.way == way && text.contains(one.message)).map(|one| one.why)
+    limits.iter().find(|one| one.ways.contains(&way) && (one.has)(text)).map(|one| one.why)
+}
+
+/// Whether a `do` that ends with `while(false)` has a `continue` of its own.
+fn continues_inside(text: &str) -> bool {
+    // Of each open block: whether it is a loop, whether it is a `do`, whether it has a `continue`.
+    let mut open: Vec<(bool, bool, bool)> = Vec::new();
+    let mut before = "";
+    for line in text.lines().map(str::trim) {
+        match line {
+            "{" => {
+                let is_loop = before == "do" || before.starts_with("for ") || before.starts_with("while ");
+                open.push((is_loop, before == "do", false));
+            }
+            "continue;" => {
+                open.iter_mut().rev().find(|(is_loop, ..)| *is_loop).into_iter().for_each(|one| one.2 = true)
+            }
+            _ if line.starts_with('}') => {
+                if let Some((_, true, true)) = open.pop()
+                    && line.contains("while(false)")
+                {
+                    return true;
+                }
+            }
+            _ => {}
+        }
+        before = line;
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::continues_inside;
+
+    #[test]
+    fn a_continue_belongs_to_the_innermost_loop() {
+        let text = |inner: &str| {
+            format!("for (;;)\n{{\n    do\n    {{\n        {inner}\n    }} while(false);\n    continue;\n}}\n")
+        };
+        assert!(continues_inside(&text("if (a)\n{\ncontinue;\n}")));
+        assert!(!continues_inside(&text("for (;;)\n{\ncontinue;\n}")));
+        assert!(!continues_inside(&text("break;")));
+    }
 }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! *In:* a program that has been drawn, and its stages as they were emitted. *Out:* a sentence where another picture is drawn. *Holds:* one
-//! way back that draws the picture is enough, since both read the same code; the table says which way it was. Uniforms go as bytes, as a
+//! way back that draws the picture is enough, since all read the same code; the table says which way it was, and which one failed. Uniforms go as bytes, as a
 //! host writes them: an offset that the code does not have shows. *Not done here:* geometry stages, which no target has.
 //!
 //! | file | contents |
@@ -39,6 +39,8 @@ type Held = Result<(), String>;
 enum Way {
     Naga,
     Cross,
+    /// spirv-cross with a variable for each value, so that it moves none.
+    Plain,
 }
 
 impl Way {
@@ -47,6 +49,7 @@ impl Way {
         match self {
             Self::Naga => "naga",
             Self::Cross => "spirv-cross",
+            Self::Plain => "spirv-cross with temporaries",
         }
     }
 }
@@ -81,28 +84,23 @@ pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission]) -> Held {
     }
     // Of words, spirv-cross reads more than naga; naga's module of WGSL is at hand.
     let has_words = stages.iter().any(|stage| stage.words.is_some());
-    let ways = if has_words { [Way::Cross, Way::Naga] } else { [Way::Naga, Way::Cross] };
+    let ways = if has_words { [Way::Cross, Way::Plain, Way::Naga] } else { [Way::Naga, Way::Cross, Way::Plain] };
     let (mut limits, mut faults) = (Vec::new(), Vec::new());
     for way in ways {
         match attempt(drawn, draw, stages, way) {
             Ok(()) => {
                 drawn.compare(way.name());
-                if !faults.is_empty() {
-                    drawn.leave_out(match way {
-                        Way::Naga => "spirv-cross draws another picture, and naga draws the right one",
-                        Way::Cross => "naga draws another picture, and spirv-cross draws the right one",
-                    });
-                }
+                faults.into_iter().for_each(|(way, _)| drawn.leave_out(limits::of_way(way)));
                 return Ok(());
             }
             Err(Failed::Limit(why)) => limits.push(why),
-            Err(Failed::Fault(message)) => faults.push(message),
+            Err(Failed::Fault(message)) => faults.push((way, message)),
         }
     }
     match faults.into_iter().next() {
-        Some(fault) => Err(fault),
+        Some((_, fault)) => Err(fault),
         None => {
-            // What the second way lacks is why the program is left out.
+            // What the last way lacks is why the program is left out.
             limits.last().into_iter().for_each(|why| drawn.leave_out(why));
             Ok(())
         }
@@ -114,7 +112,7 @@ fn attempt(drawn: &Drawn<'_>, draw: &Draw, stages: &[Emission], way: Way) -> Res
     let frame = Frame::of(drawn, draw);
     let written = stages.iter().map(|stage| match way {
         Way::Naga => naga::written(stage, frame),
-        Way::Cross => cross::written(stage, frame),
+        Way::Cross | Way::Plain => cross::written(stage, frame, way),
     });
     let written = written.collect::<Result<Vec<Written<'_>>, Failed>>()?;
     let sources: Vec<Source> = written.iter().map(|one| one.source.clone()).collect();
@@ -123,7 +121,7 @@ fn attempt(drawn: &Drawn<'_>, draw: &Draw, stages: &[Emission], way: Way) -> Res
     let Some(program) = compilation.program else {
         let error = compilation.diagnostics.iter().find(|one| one.is_error());
         let message = error.map_or(String::new(), |one| format!("{}: {}", one.code.id, one.message));
-        if let Some(why) = limits::of_text(way, &message) {
+        if let Some(why) = limits::of_refusal(way, &message) {
             return Err(Failed::Limit(why));
         }
         return Err(Failed::Fault(format!("GLSL of {} is not accepted: {message}\n{}", way.name(), texts())));
