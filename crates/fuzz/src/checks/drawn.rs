@@ -6,6 +6,7 @@ use crate::Sections;
 use crate::generate::Program;
 use glisten::scene::{Loaded, MemoryFiles, Scene, load};
 use glisten::verify::{Options as VerifyOptions, Runner, verify};
+use glisten_emit::ClipZ;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{Compiler, Options, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, render};
@@ -27,6 +28,8 @@ pub(super) struct Emission {
     pub(super) read: Option<Read>,
     /// The words, of SPIR-V.
     pub(super) words: Option<Vec<u32>>,
+    /// The range of depths that it writes.
+    pub(super) clip_z: ClipZ,
 }
 
 /// A stage as naga has it.

@@ -2,9 +2,10 @@
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where what is written is refused. *Holds:* a target may lack something, and says so.
 
-use super::again;
+use super::again::{self, Constants};
 use super::drawn::{Drawn, Emission, Read};
-use glisten_emit::{Conventions, Emitted, FloatWidth, Target, emit};
+use super::tool::GLSLANG;
+use glisten_emit::{ClipZ, Conventions, Emitted, FloatWidth, GlslVersion, Target, emit};
 use glisten_front::Program;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general::INTERNAL;
@@ -68,7 +69,7 @@ fn read(
             Ok(written) => {
                 let read = reads(&written)?;
                 let words = if let Emitted::Words(words) = written { Some(words) } else { None };
-                stages_of.push(Emission { stage: shader.stage, read, words });
+                stages_of.push(Emission { stage: shader.stage, read, words, clip_z: conventions.clip_z });
             }
             Err(errors) => is_refusal(&errors)?,
         }
@@ -110,13 +111,55 @@ fn read_spirv(written: &Emitted) -> Result<Option<Read>, String> {
 
 /// WGSL, which naga reads.
 pub(super) fn wgsl(drawn: &Drawn<'_>) -> Held {
-    again::same(drawn, wgsl_stages(drawn)?)
+    again::same(drawn, wgsl_stages(drawn)?, Constants::Own)
 }
 
 /// SPIR-V, which spirv-cross reads where it is installed, and naga with limits.
 pub(super) fn spirv(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
-    again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?)
+    again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?, Constants::Own)
+}
+
+/// GLSL for Vulkan, which glslang reads where it is installed. Since that takes long, it is done for one program of eight, as the seed
+/// chooses, and for half of those with a geometry stage.
+pub(super) fn vulkan(drawn: &Drawn<'_>) -> Held {
+    let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
+    let one_in = if draw.program.stage(Stage::Geometry).is_some() { 2 } else { 8 };
+    if drawn.program.is_some_and(|program| !program.seed.is_multiple_of(one_in)) {
+        drawn.leave_out("it is done for some programs");
+        return Ok(());
+    }
+    if !GLSLANG.is_installed() {
+        drawn.leave_out("glslangValidator is not installed");
+        return Ok(());
+    }
+    let (glsl_version, clip_z) = (GlslVersion::Vulkan, ClipZ::MinusOneToOne);
+    let conventions = Conventions { glsl_version, clip_z, ..Conventions::default() };
+    let mut emissions = Vec::new();
+    for shader in stages(&draw.program) {
+        match emit(&draw.program, shader.stage, Target::Glsl, &conventions) {
+            Ok(Emitted::Text(text)) => {
+                let words = Some(words_of(shader.stage, &text)?);
+                emissions.push(Emission { stage: shader.stage, read: None, words, clip_z });
+            }
+            Ok(Emitted::Words(_)) => return Err("words instead of text".to_owned()),
+            Err(errors) => is_refusal(&errors)?,
+        }
+    }
+    again::same(drawn, &emissions, Constants::Foreign)
+}
+
+/// What glslang writes for GLSL for Vulkan.
+fn words_of(stage: Stage, text: &str) -> Result<Vec<u32>, String> {
+    let word = match stage {
+        Stage::Vertex => "vert",
+        Stage::Geometry => "geom",
+        Stage::Fragment => "frag",
+    };
+    let arguments = ["--stdin", "-V", "--target-env", "vulkan1.1", "--quiet", "-S", word, "-o", "/dev/stdout"];
+    let told = GLSLANG.run(&arguments, text.as_bytes());
+    let bytes = told.map_err(|message| format!("glslang does not accept it: {message}\n{text}"))?;
+    Ok(bytes.chunks_exact(4).filter_map(|four| four.try_into().ok()).map(u32::from_le_bytes).collect())
 }
 
 /// The rest after `-O`, with the lines of the source, as WGSL or as SPIR-V; and 16-bit floats, which naga accepts.
@@ -132,7 +175,7 @@ pub(super) fn options(drawn: &Drawn<'_>) -> Held {
     if is_even {
         read(&draw.program, (target, &half), reads).map_err(|message| format!("in 16 bits: {message}"))?;
     }
-    again::same(drawn, &read(&left, (target, &lines), reads)?)
+    again::same(drawn, &read(&left, (target, &lines), reads)?, Constants::Own)
 }
 
 /// MSL and HLSL, which are written or refused.

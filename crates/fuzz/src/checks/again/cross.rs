@@ -4,45 +4,19 @@
 //! bindings in the text. *Holds:* a process ends within a time; names of both stages are different.
 
 use super::super::drawn::{Emission, Read};
+use super::super::tool::SPIRV_CROSS;
 use super::{Failed, Frame, Way, Written, limits, source};
+use glisten_emit::ClipZ;
 use glisten_front::Stage;
 use naga::back::spv;
-use std::io::{Read as _, Write as _};
-use std::process::{Child, Command, Stdio};
-use std::sync::OnceLock;
-use std::sync::mpsc::channel;
-use std::time::Duration;
 
-/// The tool.
-const TOOL: &str = "spirv-cross";
-
-/// What it is asked for: GLSL of OpenGL, with the depths of OpenGL, from the standard input.
-const ARGUMENTS: [&str; 7] = [
-    "--version",
-    "450",
-    "--no-es",
-    "--fixup-clipspace",
-    "--combined-samplers-inherit-bindings",
-    "--remove-unused-variables",
-    "-",
-];
-
-/// How long it may take.
-const LIMIT: Duration = Duration::from_secs(20);
-
-/// Whether the tool can be started.
-fn is_installed() -> bool {
-    static FOUND: OnceLock<bool> = OnceLock::new();
-    *FOUND.get_or_init(|| {
-        let mut command = Command::new(TOOL);
-        command.arg("--help").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-        command.status().is_ok()
-    })
-}
+/// What it is asked for: GLSL of OpenGL, from the standard input.
+const ARGUMENTS: [&str; 6] =
+    ["--version", "450", "--no-es", "--combined-samplers-inherit-bindings", "--remove-unused-variables", "-"];
 
 /// A stage as GLSL.
 pub(super) fn written(stage: &Emission, frame: Frame, way: Way) -> Result<Written<'_>, Failed> {
-    if !is_installed() {
+    if !SPIRV_CROSS.is_installed() {
         return Err(Failed::Limit("naga has a limit, and spirv-cross is not installed"));
     }
     let words = match (&stage.words, &stage.read) {
@@ -50,9 +24,9 @@ pub(super) fn written(stage: &Emission, frame: Frame, way: Way) -> Result<Writte
         (None, Some(read)) => words_of(read).ok_or(Failed::Limit("naga cannot write a stage as SPIR-V"))?,
         (None, None) => return Err(Failed::Limit("naga does not read a stage")),
     };
-    let text = run(&words, way).map_err(|message| match limits::of_tool(&message) {
+    let text = run(&words, stage.clip_z, way).map_err(|message| match limits::of_tool(&message) {
         Some(why) => Failed::Limit(why),
-        None => Failed::Fault(format!("{TOOL} does not read it: {message}")),
+        None => Failed::Fault(format!("spirv-cross does not read it: {message}")),
     })?;
     let text = apart(stage.stage, &text);
     Ok(Written { source: source(stage.stage, &text, frame)?, blocks: Vec::new(), textures: Vec::new() })
@@ -71,51 +45,13 @@ fn words_of(read: &Read) -> Option<Vec<u32>> {
 }
 
 /// What the tool prints for words; its complaint if there is one.
-fn run(words: &[u32], way: Way) -> Result<String, String> {
+fn run(words: &[u32], clip_z: ClipZ, way: Way) -> Result<String, String> {
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-    let mut command = Command::new(TOOL);
-    command.args((way == Way::Plain).then_some("--force-temporary"));
-    command.args(ARGUMENTS).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().map_err(|error| error.to_string())?;
-    let ended = finished(&mut child, &bytes);
-    // It has ended, or it never will.
-    let _ = child.kill();
-    let status = child.wait().map_err(|error| error.to_string())?;
-    let (out, complaint) = ended.ok_or("it takes too long")?;
-    if status.success() { Ok(out) } else { Err(complaint.trim().to_owned()) }
-}
-
-/// What a process prints until it closes its outputs; none if that takes too long.
-fn finished(child: &mut Child, bytes: &[u8]) -> Option<(String, String)> {
-    let (mut input, mut out, mut complaints) = (child.stdin.take()?, child.stdout.take()?, child.stderr.take()?);
-    let (sender, receiver) = channel();
-    std::thread::scope(|scope| {
-        let other = sender.clone();
-        std::thread::spawn(move || {
-            let mut text = String::new();
-            let _ = complaints.read_to_string(&mut text);
-            let _ = other.send((false, text));
-        });
-        std::thread::spawn(move || {
-            let mut text = String::new();
-            let _ = out.read_to_string(&mut text);
-            let _ = sender.send((true, text));
-        });
-        // The tool reads all of its input before it prints.
-        scope.spawn(move || input.write_all(bytes));
-        let (mut printed, mut complaint) = (None, None);
-        while printed.is_none() || complaint.is_none() {
-            match receiver.recv_timeout(LIMIT) {
-                Ok((true, text)) => printed = Some(text),
-                Ok((false, text)) => complaint = Some(text),
-                Err(_) => {
-                    let _ = child.kill();
-                    return None;
-                }
-            }
-        }
-        printed.zip(complaint)
-    })
+    let mut arguments = ARGUMENTS.to_vec();
+    arguments.extend((clip_z == ClipZ::ZeroToOne).then_some("--fixup-clipspace"));
+    arguments.extend((way == Way::Plain).then_some("--force-temporary"));
+    let printed = SPIRV_CROSS.run(&arguments, &bytes)?;
+    String::from_utf8(printed).map_err(|error| error.to_string())
 }
 
 /// The names of blocks and samplers, which are numbers, as names of one stage: OpenGL takes equal names for one variable.

@@ -27,6 +27,12 @@ static REFUSED: &[Limit] = &[
         has: |message| message.contains("`textureOffset"),
         why: "naga writes an offset of a lookup as a float",
     },
+    // A member of a block that is a `bool` is a `uint` there, and in comparisons of structs stays one.
+    Limit {
+        ways: &[Way::Cross, Way::Plain],
+        has: |message| message.contains("`equal(bvec"),
+        why: "spirv-cross compares a `bool` of a block as a `uint`",
+    },
 ];
 
 /// GLSL whose picture is another one.

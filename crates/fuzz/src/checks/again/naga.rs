@@ -5,7 +5,7 @@
 
 use super::super::drawn::Emission;
 use super::host::Layout;
-use super::{Failed, Frame, Written, replaced, source};
+use super::{Failed, Frame, NO_GEOMETRY, Written, replaced, source};
 use glisten_front::Stage;
 use glisten_front::link::SlotBinding;
 use naga::back::glsl;
@@ -19,7 +19,7 @@ pub(super) fn written(stage: &Emission, frame: Frame) -> Result<Written<'_>, Fai
     let shader_stage = match stage.stage {
         Stage::Vertex => naga::ShaderStage::Vertex,
         Stage::Fragment => naga::ShaderStage::Fragment,
-        Stage::Geometry => return Err(Failed::Limit("no target has a geometry stage")),
+        Stage::Geometry => return Err(Failed::Limit(NO_GEOMETRY)),
     };
     let limit = || Failed::Limit("naga cannot write a stage as GLSL");
     let entry_point = read.module.entry_points.first().ok_or_else(limit)?.name.clone();
