@@ -82,7 +82,7 @@ impl Writer<'_> {
             let parts = vec![Expr::leaf(float.clone(), &first), Expr::leaf(FLOAT, "0.75")];
             let value = Expr::new(float.clone(), &format!("(@ {operator} @)"), parts);
             let heads = [(first.as_str(), &float), (second.as_str(), &ty)];
-            all.push(returning(&name, &float, &heads, value));
+            all.push(function(&name, &float, &heads, sometimes(&float, &first, value)));
             self.call_of_family(float.clone(), format!("{name}(@, @)"), vec![float.clone(), ty]);
         }
     }
@@ -102,13 +102,8 @@ impl Writer<'_> {
         };
         let heads = [(first.as_str(), &float), (second.as_str(), &float), (third.as_str(), &BOOL)];
         let parts = vec![Expr::leaf(BOOL, third), of(one), of(other)];
-        if self.chance.once_in(2) {
-            all.push(returning(&name, &float, &heads, Expr::new(float.clone(), "(@ ? @ : @)", parts)));
-        } else {
-            let selection = Stmt::new("if (@) return @;", parts.get(..2).unwrap_or_default().to_vec(), Vec::new());
-            let last = Stmt::new("return @;", parts.get(2..).unwrap_or_default().to_vec(), Vec::new());
-            all.push(function(&name, &float, &heads, vec![selection, last]));
-        }
+        let value = Expr::new(float.clone(), "(@ ? @ : @)", parts);
+        all.push(function(&name, &float, &heads, sometimes(&float, first, value)));
         for value in ["true", "false"] {
             self.call_of_family(float.clone(), format!("{name}(@, @, {value})"), vec![float.clone(), float.clone()]);
         }
@@ -122,6 +117,23 @@ impl Writer<'_> {
 /// A function that returns a value.
 fn returning(name: &str, result: &Ty, parameters: &[(&str, &Ty)], value: Expr) -> Stmt {
     function(name, result, parameters, vec![Stmt::new("return @;", vec![value], Vec::new())])
+}
+
+/// A body that returns a value if the first parameter is large, and else that parameter. It is more than an expression, so that nobody writes
+/// it out where it is called.
+fn sometimes(result: &Ty, parameter: &str, value: Expr) -> Vec<Stmt> {
+    let first = if *result == FLOAT { parameter.to_owned() } else { format!("{parameter}.x") };
+    let own = format!("{parameter}_own");
+    let start = Expr::leaf(result.clone(), parameter);
+    vec![
+        Stmt::new(&format!("{} = @;", result.declared(&own)), vec![start], Vec::new()).with(Role::Declaration),
+        Stmt::new(
+            "if (@) {$}",
+            vec![Expr::leaf(BOOL, format!("{first} > -0.5"))],
+            vec![vec![Stmt::new(&format!("{own} = @;"), vec![value], Vec::new())]],
+        ),
+        Stmt::text_only(format!("return {own};")),
+    ]
 }
 
 fn function(name: &str, result: &Ty, parameters: &[(&str, &Ty)], body: Vec<Stmt>) -> Stmt {

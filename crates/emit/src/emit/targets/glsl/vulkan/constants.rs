@@ -4,7 +4,7 @@
 
 use glisten_front::hir::{ExprId, ExprKind, ScalarValue, Shader, Storage, VarRef};
 
-/// The functions that glslang 12 evaluates.
+/// The functions that glslang 12 evaluates, whatever the types of their arguments: not `mix`, which it does not of booleans.
 const EVALUATED: &[&str] = &[
     "abs",
     "acos",
@@ -37,7 +37,6 @@ const EVALUATED: &[&str] = &[
     "log2",
     "max",
     "min",
-    "mix",
     "mod",
     "normalize",
     "not",
