@@ -44,6 +44,13 @@ static OTHER: &[Limit] = &[
         has: continues_inside,
         why: "spirv-cross writes `continue` of a loop inside of a `do` that is a `switch`",
     },
+    // An `out` parameter that gets a constant array becomes that constant, and the caller sees nothing of it. Seed 410044 of
+    // commit 74468c4d.
+    Limit {
+        ways: &[Way::Cross, Way::Plain],
+        has: has_table_and_array,
+        why: "spirv-cross takes a parameter that gets a constant array for a table",
+    },
 ];
 
 /// Messages of spirv-cross.
@@ -105,9 +112,28 @@ fn continues_inside(text: &str) -> bool {
     false
 }
 
+/// Whether a text has a constant array, and a function with an array that is passed by value.
+fn has_table_and_array(text: &str) -> bool {
+    let is_table = |line: &str| line.starts_with("const ") && line.contains("] = ");
+    let has_array = |line: &str| {
+        let parameters = line.strip_suffix(')').and_then(|line| line.split_once('(')).map(|(_, parameters)| parameters);
+        let by_value = |one: &str| one.ends_with(']') && !one.trim_start().starts_with("inout ");
+        !line.starts_with([' ', '/', 'l']) && parameters.is_some_and(|parameters| parameters.split(", ").any(by_value))
+    };
+    text.lines().any(is_table) && text.lines().any(has_array)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::continues_inside;
+    use super::{continues_inside, has_table_and_array};
+
+    #[test]
+    fn an_array_by_value_is_a_parameter() {
+        let text = |head: &str| format!("const ivec4 _28[3] = ivec4[](ivec4(1));\n{head}\n{{\n}}\n");
+        assert!(has_table_and_array(&text("bvec2 _25(vec2 _23, ivec4 _24[3])")));
+        assert!(!has_table_and_array(&text("bvec2 _25(inout ivec4 _24[3])")));
+        assert!(!has_table_and_array(&text("bvec2 _25(ivec4 _24)")));
+    }
 
     #[test]
     fn a_continue_belongs_to_the_innermost_loop() {
