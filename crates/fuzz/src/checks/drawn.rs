@@ -6,7 +6,6 @@ use crate::Sections;
 use crate::generate::Program;
 use glisten::scene::{Loaded, MemoryFiles, Scene, load};
 use glisten::verify::{Options as VerifyOptions, Runner, verify};
-use glisten_emit::ClipZ;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{Compiler, Options, Source, Stage};
 use glisten_reference::{Precision, RenderOptions, render};
@@ -28,8 +27,17 @@ pub(super) struct Emission {
     pub(super) read: Option<Read>,
     /// The words, of SPIR-V.
     pub(super) words: Option<Vec<u32>>,
-    /// The range of depths that it writes.
-    pub(super) clip_z: ClipZ,
+    /// Who wrote it.
+    pub(super) origin: Origin,
+}
+
+/// Who wrote the code of a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// glisten, for Vulkan and WebGPU: depths are from 0 to 1, and constants are evaluated in f32.
+    Glisten,
+    /// glslang, from GLSL that glisten wrote: depths are those of OpenGL, and constants are evaluated in f64.
+    Glslang,
 }
 
 /// A stage as naga has it.

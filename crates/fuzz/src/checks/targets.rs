@@ -2,8 +2,8 @@
 //!
 //! *In:* a program that has been drawn. *Out:* a sentence where what is written is refused. *Holds:* a target may lack something, and says so.
 
-use super::again::{self, Constants};
-use super::drawn::{Drawn, Emission, Read};
+use super::again;
+use super::drawn::{Drawn, Emission, Origin, Read};
 use super::tool::GLSLANG;
 use glisten_emit::{ClipZ, Conventions, Emitted, FloatWidth, GlslVersion, Target, emit};
 use glisten_front::Program;
@@ -69,7 +69,7 @@ fn read(
             Ok(written) => {
                 let read = reads(&written)?;
                 let words = if let Emitted::Words(words) = written { Some(words) } else { None };
-                stages_of.push(Emission { stage: shader.stage, read, words, clip_z: conventions.clip_z });
+                stages_of.push(Emission { stage: shader.stage, read, words, origin: Origin::Glisten });
             }
             Err(errors) => is_refusal(&errors)?,
         }
@@ -111,13 +111,13 @@ fn read_spirv(written: &Emitted) -> Result<Option<Read>, String> {
 
 /// WGSL, which naga reads.
 pub(super) fn wgsl(drawn: &Drawn<'_>) -> Held {
-    again::same(drawn, wgsl_stages(drawn)?, Constants::Own)
+    again::same(drawn, wgsl_stages(drawn)?)
 }
 
 /// SPIR-V, which spirv-cross reads where it is installed, and naga with limits.
 pub(super) fn spirv(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
-    again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?, Constants::Own)
+    again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?)
 }
 
 /// GLSL for Vulkan, which glslang reads where it is installed. Since that takes long, it is done for one program of eight, as the seed
@@ -140,13 +140,13 @@ pub(super) fn vulkan(drawn: &Drawn<'_>) -> Held {
         match emit(&draw.program, shader.stage, Target::Glsl, &conventions) {
             Ok(Emitted::Text(text)) => {
                 let words = Some(words_of(shader.stage, &text)?);
-                emissions.push(Emission { stage: shader.stage, read: None, words, clip_z });
+                emissions.push(Emission { stage: shader.stage, read: None, words, origin: Origin::Glslang });
             }
             Ok(Emitted::Words(_)) => return Err("words instead of text".to_owned()),
             Err(errors) => is_refusal(&errors)?,
         }
     }
-    again::same(drawn, &emissions, Constants::Foreign)
+    again::same(drawn, &emissions)
 }
 
 /// What glslang writes for GLSL for Vulkan.
@@ -175,7 +175,7 @@ pub(super) fn options(drawn: &Drawn<'_>) -> Held {
     if is_even {
         read(&draw.program, (target, &half), reads).map_err(|message| format!("in 16 bits: {message}"))?;
     }
-    again::same(drawn, &read(&left, (target, &lines), reads)?, Constants::Own)
+    again::same(drawn, &read(&left, (target, &lines), reads)?)
 }
 
 /// MSL and HLSL, which are written or refused.

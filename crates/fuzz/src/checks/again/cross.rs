@@ -3,10 +3,9 @@
 //! *In:* the words of a stage, or naga's module, which naga writes as words. *Out:* a text of GLSL 4.50 whose blocks and textures have their
 //! bindings in the text. *Holds:* a process ends within a time; names of both stages are different.
 
-use super::super::drawn::{Emission, Read};
+use super::super::drawn::{Emission, Origin, Read};
 use super::super::tool::SPIRV_CROSS;
 use super::{Failed, Frame, Way, Written, limits, source};
-use glisten_emit::ClipZ;
 use glisten_front::Stage;
 use naga::back::spv;
 
@@ -24,7 +23,7 @@ pub(super) fn written(stage: &Emission, frame: Frame, way: Way) -> Result<Writte
         (None, Some(read)) => words_of(read).ok_or(Failed::Limit("naga cannot write a stage as SPIR-V"))?,
         (None, None) => return Err(Failed::Limit("naga does not read a stage")),
     };
-    let text = run(&words, stage.clip_z, way).map_err(|message| match limits::of_tool(&message) {
+    let text = run(&words, stage.origin, way).map_err(|message| match limits::of_tool(stage.origin, &message) {
         Some(why) => Failed::Limit(why),
         None => Failed::Fault(format!("spirv-cross does not read it: {message}")),
     })?;
@@ -45,10 +44,10 @@ fn words_of(read: &Read) -> Option<Vec<u32>> {
 }
 
 /// What the tool prints for words; its complaint if there is one.
-fn run(words: &[u32], clip_z: ClipZ, way: Way) -> Result<String, String> {
+fn run(words: &[u32], origin: Origin, way: Way) -> Result<String, String> {
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     let mut arguments = ARGUMENTS.to_vec();
-    arguments.extend((clip_z == ClipZ::ZeroToOne).then_some("--fixup-clipspace"));
+    arguments.extend((origin == Origin::Glisten).then_some("--fixup-clipspace"));
     arguments.extend((way == Way::Plain).then_some("--force-temporary"));
     let printed = SPIRV_CROSS.run(&arguments, &bytes)?;
     String::from_utf8(printed).map_err(|error| error.to_string())

@@ -3,6 +3,7 @@
 //! *In:* a message, or a text. *Out:* the reason that the table tells. *Holds:* a limit is asked for only where a way has failed. What one way
 //! writes wrong and another one right needs no row.
 
+use super::super::drawn::Origin;
 use super::Way;
 
 /// A limit of a way back.
@@ -30,8 +31,19 @@ static REFUSED: &[Limit] = &[
     // A member of a block that is a `bool` is a `uint` there, and in comparisons of structs stays one.
     Limit {
         ways: &[Way::Cross, Way::Plain],
-        has: |message| message.contains("`equal(bvec"),
+        has: |message| message.contains("equal(bvec") || message.contains("does not take a `bool` and a `uint`"),
         why: "spirv-cross compares a `bool` of a block as a `uint`",
+    },
+    // A struct with such a member has a second type in a block.
+    Limit {
+        ways: &[Way::Cross, Way::Plain],
+        has: |message| message.contains("the left side is a `S") && message.contains("cannot hold a `S"),
+        why: "spirv-cross assigns a struct of a block to one that is none",
+    },
+    Limit {
+        ways: &[Way::Cross, Way::Plain],
+        has: |message| message.contains("`spvWorkaroundRowMajor("),
+        why: "spirv-cross takes an array of matrices for a matrix",
     },
 ];
 
@@ -53,8 +65,11 @@ static OTHER: &[Limit] = &[
     },
 ];
 
-/// Messages of spirv-cross.
-static MESSAGES: &[(&str, &str)] = &[];
+/// Messages of spirv-cross about code of somebody, and the reasons.
+static MESSAGES: &[(Origin, &str, &str)] = &[
+    // An identifier is defined twice, which spirv-val tells. Seed 200488 of commit 0d7f9e0f.
+    (Origin::Glslang, "threw an exception: nullptr", "glslang copies a struct with booleans out of a block wrong"),
+];
 
 /// The limit that makes a text one that glisten refuses.
 pub(super) fn of_refusal(way: Way, message: &str) -> Option<&'static str> {
@@ -67,8 +82,8 @@ pub(super) fn of_picture(way: Way, text: &str) -> Option<&'static str> {
 }
 
 /// The limit that spirv-cross tells.
-pub(super) fn of_tool(message: &str) -> Option<&'static str> {
-    MESSAGES.iter().find(|(part, _)| message.contains(part)).map(|(_, why)| *why)
+pub(super) fn of_tool(origin: Origin, message: &str) -> Option<&'static str> {
+    MESSAGES.iter().find(|(of, part, _)| *of == origin && message.contains(part)).map(|(.., why)| *why)
 }
 
 /// How the table tells that another way than this one draws the right picture.

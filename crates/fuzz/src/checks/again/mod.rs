@@ -22,7 +22,7 @@ mod host;
 mod limits;
 mod naga;
 
-use super::drawn::{Bits, Drawn, Emission, compiler, inside, picture_of};
+use super::drawn::{Bits, Drawn, Emission, Origin, compiler, inside, picture_of};
 use glisten::scene::Scene;
 use glisten::verify::Runner;
 use glisten_front::hir::SamplerDim;
@@ -39,16 +39,7 @@ type Held = Result<(), String>;
 /// Why there is no code of a stage.
 const NO_GEOMETRY: &str = "no target but GLSL has a geometry stage";
 
-/// Who evaluates the constants of emitted code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Constants {
-    /// glisten, in f32: they are exact.
-    Own,
-    /// Another compiler, in f64: numbers of the picture may differ by [`CLOSE`].
-    Foreign,
-}
-
-/// By how much numbers may differ that another compiler has evaluated: relative to the number, or to 1.
+/// By how much numbers may differ that glslang has evaluated: relative to the number, or to 1.
 const CLOSE: f64 = 1e-5;
 
 /// A way from emitted code to a text that glisten reads.
@@ -89,7 +80,7 @@ struct Written<'e> {
 }
 
 /// Whether the stages draw the picture of the program.
-pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission], constants: Constants) -> Held {
+pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission]) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     if stages.len() != draw.program.stages.len() {
         let has_geometry = draw.program.stage(Stage::Geometry).is_some();
@@ -101,7 +92,7 @@ pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission], constants: Constants)
     let ways = if has_words { [Way::Cross, Way::Plain, Way::Naga] } else { [Way::Naga, Way::Cross, Way::Plain] };
     let (mut limits, mut faults) = (Vec::new(), Vec::new());
     for way in ways {
-        match attempt(drawn, draw, stages, (way, constants)) {
+        match attempt(drawn, draw, stages, way) {
             Ok(()) => {
                 drawn.compare(way.name());
                 faults.into_iter().for_each(|(way, _)| drawn.leave_out(limits::of_way(way)));
@@ -123,12 +114,7 @@ pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission], constants: Constants)
 }
 
 /// Whether the stages draw the picture of the program by one way.
-fn attempt(
-    drawn: &Drawn<'_>,
-    draw: &Draw,
-    stages: &[Emission],
-    (way, constants): (Way, Constants),
-) -> Result<(), Failed> {
+fn attempt(drawn: &Drawn<'_>, draw: &Draw, stages: &[Emission], way: Way) -> Result<(), Failed> {
     let frame = Frame::of(drawn, draw);
     let written = stages.iter().map(|stage| match way {
         Way::Naga => naga::written(stage, frame),
@@ -151,7 +137,8 @@ fn attempt(
     // `gl_FragData` has an output for each that there may be.
     let last = scene.draws.iter().flat_map(|draw| &draw.program.interface.outputs).map(|one| one.location).max();
     scene.framebuffer.attachments = scene.framebuffer.attachments.max(last.map_or(1, |last| last + 1));
-    compared(drawn, scene, constants).map_err(|message| match limits::of_picture(way, &texts()) {
+    let is_foreign = stages.iter().any(|stage| stage.origin == Origin::Glslang);
+    compared(drawn, scene, is_foreign).map_err(|message| match limits::of_picture(way, &texts()) {
         Some(why) => Failed::Limit(why),
         None => Failed::Fault(format!("by {}: {message}\n{}", way.name(), texts())),
     })
@@ -230,14 +217,14 @@ impl Runner for Other<'_> {
     }
 }
 
-/// The same bits, or numbers inside of the envelope.
-fn compared(drawn: &Drawn<'_>, scene: Scene, constants: Constants) -> Held {
+/// The same bits, or numbers inside of the envelope. Where constants are evaluated by somebody else, numbers may be close, too.
+fn compared(drawn: &Drawn<'_>, scene: Scene, is_foreign: bool) -> Held {
     let attachments = drawn.scene.framebuffer.attachments as usize;
     let picture = picture_of(&scene, Precision::F32, attachments)?;
     if drawn.single.difference(&Bits::of(&picture)).is_ok() || drawn.is_inside(&picture)? {
         return Ok(());
     }
-    if constants == Constants::Foreign && is_close(&drawn.picture, &picture) {
+    if is_foreign && is_close(&drawn.picture, &picture) {
         return Ok(());
     }
     inside(drawn, &Other { scene: &scene, attachments })
