@@ -23,7 +23,7 @@ use std::sync::{Arc, OnceLock};
 /// A stage as it was emitted.
 pub(super) struct Emission {
     pub(super) stage: Stage,
-    /// What naga reads; none where its front end has a limit.
+    /// The module that naga reads; none where its front end has a limit.
     pub(super) read: Option<Read>,
     /// The words, of SPIR-V.
     pub(super) words: Option<Vec<u32>>,

@@ -15,6 +15,7 @@ mod pictures;
 mod reflection;
 mod targets;
 mod tool;
+mod vulkan;
 
 pub use drawn::{Bits, Drawn, Texts};
 
@@ -58,7 +59,7 @@ pub static CHECKS: &[Check] = &[
     Check { name: "wgsl", run: targets::wgsl },
     Check { name: "spirv", run: targets::spirv },
     Check { name: "options of compile", run: targets::options },
-    Check { name: "glsl for vulkan", run: targets::vulkan },
+    Check { name: "glsl for vulkan", run: vulkan::check },
     Check { name: "reflection", run: reflection::check },
     Check { name: "others", run: targets::others },
     Check { name: "dead code", run: pictures::dead_code },

@@ -4,8 +4,7 @@
 
 use super::again;
 use super::drawn::{Drawn, Emission, Origin, Read};
-use super::tool::GLSLANG;
-use glisten_emit::{ClipZ, Conventions, Emitted, FloatWidth, GlslVersion, Target, emit};
+use glisten_emit::{Conventions, Emitted, FloatWidth, Target, emit};
 use glisten_front::Program;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::general::INTERNAL;
@@ -118,48 +117,6 @@ pub(super) fn wgsl(drawn: &Drawn<'_>) -> Held {
 pub(super) fn spirv(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?)
-}
-
-/// GLSL for Vulkan, which glslang reads where it is installed. Since that takes long, it is done for one program of eight, as the seed
-/// chooses, and for half of those with a geometry stage.
-pub(super) fn vulkan(drawn: &Drawn<'_>) -> Held {
-    let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
-    let one_in = if draw.program.stage(Stage::Geometry).is_some() { 2 } else { 8 };
-    if drawn.program.is_some_and(|program| !program.seed.is_multiple_of(one_in)) {
-        drawn.leave_out("it is done for some programs");
-        return Ok(());
-    }
-    if !GLSLANG.is_installed() {
-        drawn.leave_out("glslangValidator is not installed");
-        return Ok(());
-    }
-    let (glsl_version, clip_z) = (GlslVersion::Vulkan, ClipZ::MinusOneToOne);
-    let conventions = Conventions { glsl_version, clip_z, ..Conventions::default() };
-    let mut emissions = Vec::new();
-    for shader in stages(&draw.program) {
-        match emit(&draw.program, shader.stage, Target::Glsl, &conventions) {
-            Ok(Emitted::Text(text)) => {
-                let words = Some(words_of(shader.stage, &text)?);
-                emissions.push(Emission { stage: shader.stage, read: None, words, origin: Origin::Glslang });
-            }
-            Ok(Emitted::Words(_)) => return Err("words instead of text".to_owned()),
-            Err(errors) => is_refusal(&errors)?,
-        }
-    }
-    again::same(drawn, &emissions)
-}
-
-/// What glslang writes for GLSL for Vulkan.
-fn words_of(stage: Stage, text: &str) -> Result<Vec<u32>, String> {
-    let word = match stage {
-        Stage::Vertex => "vert",
-        Stage::Geometry => "geom",
-        Stage::Fragment => "frag",
-    };
-    let arguments = ["--stdin", "-V", "--target-env", "vulkan1.1", "--quiet", "-S", word, "-o", "/dev/stdout"];
-    let told = GLSLANG.run(&arguments, text.as_bytes());
-    let bytes = told.map_err(|message| format!("glslang does not accept it: {message}\n{text}"))?;
-    Ok(bytes.chunks_exact(4).filter_map(|four| four.try_into().ok()).map(u32::from_le_bytes).collect())
 }
 
 /// The rest after `-O`, with the lines of the source, as WGSL or as SPIR-V; and 16-bit floats, which naga accepts.

@@ -33,7 +33,7 @@ impl Tool {
         })
     }
 
-    /// What it prints for an input; its complaint if it fails.
+    /// The bytes that it prints for an input; its complaint if it fails.
     pub(super) fn run(&self, arguments: &[&str], input: &[u8]) -> Result<Vec<u8>, String> {
         let mut command = Command::new(self.name);
         command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -52,7 +52,7 @@ impl Tool {
     }
 }
 
-/// What a process prints until it closes its outputs, and its complaint; none if that takes too long.
+/// The bytes that a process prints until it closes its outputs, and its complaint; none if that takes too long.
 fn finished(child: &mut Child, bytes: &[u8]) -> Option<[Vec<u8>; 2]> {
     let (mut input, out, complaints) = (child.stdin.take()?, child.stdout.take()?, child.stderr.take()?);
     let (sender, receiver) = channel();

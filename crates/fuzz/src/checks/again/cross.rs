@@ -9,7 +9,7 @@ use super::{Failed, Frame, Way, Written, limits, source};
 use glisten_front::Stage;
 use naga::back::spv;
 
-/// What it is asked for: GLSL of OpenGL, from the standard input.
+/// The arguments: GLSL of OpenGL, from the standard input.
 const ARGUMENTS: [&str; 6] =
     ["--version", "450", "--no-es", "--combined-samplers-inherit-bindings", "--remove-unused-variables", "-"];
 
@@ -43,7 +43,7 @@ fn words_of(read: &Read) -> Option<Vec<u32>> {
     spv::write_vec(&read.module, &read.info, &options, None).ok()
 }
 
-/// What the tool prints for words; its complaint if there is one.
+/// The text that the tool prints for words; its complaint if there is one.
 fn run(words: &[u32], origin: Origin, way: Way) -> Result<String, String> {
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     let mut arguments = ARGUMENTS.to_vec();

@@ -1,4 +1,4 @@
-//! What the ways back cannot write, and what they write wrong: faults that are not those of glisten.
+//! Limits of the ways back: what they cannot write, and what they write wrong. These are no faults of glisten.
 //!
 //! *In:* a message, or a text. *Out:* the reason that the table tells. *Holds:* a limit is asked for only where a way has failed. What one way
 //! writes wrong and another one right needs no row.

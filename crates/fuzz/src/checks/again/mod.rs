@@ -144,7 +144,7 @@ fn attempt(drawn: &Drawn<'_>, draw: &Draw, stages: &[Emission], way: Way) -> Res
     })
 }
 
-/// What a text has as numbers, since the reference has no other place for them.
+/// The numbers that a text has, since the reference has no other place for them.
 #[derive(Clone, Copy)]
 struct Frame {
     /// The height of the picture.
