@@ -31,7 +31,7 @@ static REFUSED: &[Limit] = &[
     // A member of a block that is a `bool` is a `uint` there, and in comparisons of structs stays one.
     Limit {
         ways: &[Way::Cross, Way::Plain],
-        has: |message| message.contains("equal(bvec") || message.contains("does not take a `bool` and a `uint`"),
+        has: |message| message.contains("qual(bvec") || message.contains("does not take a `bool` and a `uint`"),
         why: "spirv-cross compares a `bool` of a block as a `uint`",
     },
     // A struct with such a member has a second type in a block.
