@@ -25,8 +25,8 @@ pub(super) fn check(drawn: &Drawn<'_>) -> Held {
         drawn.leave_out("glslangValidator is not installed");
         return Ok(());
     }
-    if draw.program.stages.iter().any(changes_earlier_argument) {
-        drawn.leave_out("glslang reads a variable after a later argument has changed it");
+    if draw.program.stages.iter().any(reads_before_change) {
+        drawn.leave_out("glslang reads a variable after a later operand has changed it");
         return Ok(());
     }
     let (glsl_version, clip_z) = (GlslVersion::Vulkan, ClipZ::MinusOneToOne);
@@ -58,15 +58,20 @@ fn words_of(stage: Stage, text: &str) -> Result<Vec<u32>, String> {
     Ok(bytes.chunks_exact(4).filter_map(|four| four.try_into().ok()).map(u32::from_le_bytes).collect())
 }
 
-/// Whether an argument of a function is a variable that a later argument may change. GLSL evaluates arguments in their order (4.50 §6.1.1);
-/// glslang 12 reads such a variable last. Seed 210224 of commit 0d7f9e0f.
-fn changes_earlier_argument(shader: &Shader) -> bool {
-    shader.exprs.iter().any(|expr| {
-        let ExprKind::Call(_, arguments) = &expr.kind else { return false };
-        arguments.iter().enumerate().any(|(index, argument)| {
-            let later = arguments.get(index + 1..).unwrap_or_default();
-            root(shader, *argument).is_some_and(|variable| later.iter().any(|one| may_change(shader, *one, variable)))
-        })
+/// Whether a variable is read that a later part of the expression may change, in one of two places. GLSL evaluates arguments in their order
+/// (4.50 §6.1.1); glslang 12 reads a variable among them last: seed 210224 of commit 0d7f9e0f. For `a += b`, GLSL leaves open whether `a` is
+/// read first; glslang reads it last: seed 800808 of commit 0d7f9e0f.
+fn reads_before_change(shader: &Shader) -> bool {
+    let changed = |one: ExprId, later: &[ExprId]| {
+        root(shader, one).is_some_and(|variable| later.iter().any(|one| may_change(shader, *one, variable)))
+    };
+    shader.exprs.iter().any(|expr| match &expr.kind {
+        ExprKind::Call(_, arguments) => arguments
+            .iter()
+            .enumerate()
+            .any(|(index, argument)| changed(*argument, arguments.get(index + 1..).unwrap_or_default())),
+        ExprKind::Assign(Some(_), target, value) => changed(*target, &[*value]),
+        _ => false,
     })
 }
 

@@ -42,7 +42,7 @@ static REFUSED: &[Limit] = &[
     },
     Limit {
         ways: &[Way::Cross, Way::Plain],
-        has: |message| message.contains("`spvWorkaroundRowMajor("),
+        has: |message| message.contains("`spvWorkaroundRowMajor"),
         why: "spirv-cross takes an array of matrices for a matrix",
     },
 ];
@@ -69,6 +69,8 @@ static OTHER: &[Limit] = &[
 static MESSAGES: &[(Origin, &str, &str)] = &[
     // An identifier is defined twice, which spirv-val tells. Seed 200488 of commit 0d7f9e0f.
     (Origin::Glslang, "threw an exception: nullptr", "glslang copies a struct with booleans out of a block wrong"),
+    // Seed 213208 of commit 0d7f9e0f.
+    (Origin::Glslang, "spirv_glsl.cpp", "an assertion of spirv-cross fails"),
 ];
 
 /// The limit that makes a text one that glisten refuses.

@@ -83,8 +83,13 @@ struct Written<'e> {
 pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission]) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     if stages.len() != draw.program.stages.len() {
+        let is_foreign = stages.iter().any(|stage| stage.origin == Origin::Glslang);
         let has_geometry = draw.program.stage(Stage::Geometry).is_some();
-        drawn.leave_out(if has_geometry { NO_GEOMETRY } else { "the target lacks something in a stage" });
+        drawn.leave_out(if has_geometry && !is_foreign {
+            NO_GEOMETRY
+        } else {
+            "the target lacks something in a stage"
+        });
         return Ok(());
     }
     // Of words, spirv-cross reads more than naga; naga's module of WGSL is at hand.
