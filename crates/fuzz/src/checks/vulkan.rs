@@ -42,6 +42,10 @@ pub(super) fn check(drawn: &Drawn<'_>) -> Held {
             Err(errors) => is_refusal(&errors)?,
         }
     }
+    if emissions.len() != draw.program.stages.len() {
+        drawn.leave_out("GLSL for Vulkan lacks something in a stage");
+        return Ok(());
+    }
     again::same(drawn, &emissions)
 }
 

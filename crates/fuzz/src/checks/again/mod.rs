@@ -83,13 +83,8 @@ struct Written<'e> {
 pub(super) fn same(drawn: &Drawn<'_>, stages: &[Emission]) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     if stages.len() != draw.program.stages.len() {
-        let is_foreign = stages.iter().any(|stage| stage.origin == Origin::Glslang);
         let has_geometry = draw.program.stage(Stage::Geometry).is_some();
-        drawn.leave_out(if has_geometry && !is_foreign {
-            NO_GEOMETRY
-        } else {
-            "the target lacks something in a stage"
-        });
+        drawn.leave_out(if has_geometry { NO_GEOMETRY } else { "the target lacks something in a stage" });
         return Ok(());
     }
     // Of words, spirv-cross reads more than naga; naga's module of WGSL is at hand.
@@ -177,6 +172,7 @@ fn source(stage: Stage, text: &str, frame: Frame) -> Result<Source, Failed> {
     let Frame { height, samples } = frame;
     let turned = format!("vec4(gl_FragCoord.x, {height}.0 - gl_FragCoord.y, gl_FragCoord.zw)");
     let text = replaced(&replaced(text, "gl_FragCoord", &turned), "dFdy", "-dFdy");
+    let text = text.replace("#extension GL_ARB_shader_texture_image_samples : require\n", "");
     let mut parts = text.split("textureSamples(");
     let first = parts.next().unwrap_or_default().to_owned();
     let text = parts.fold(first, |mut made, part| {
