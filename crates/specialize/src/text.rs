@@ -4,7 +4,8 @@
 //! or next to what is left, and for each line the place in the original that it comes from.
 
 use glisten_front::builtin::BuiltinFunction;
-use glisten_front::hir::{ExprKind, Notes, Shader, Stage, Types, print_with};
+use glisten_front::builtin::functions::Row;
+use glisten_front::hir::{ExprId, ExprKind, Notes, Shader, Stage, TypeId, Types, print_with};
 use glisten_front::language::{Profile, Version};
 use glisten_front::source::{SourceMap, Span, comments};
 use std::cell::RefCell;
@@ -33,14 +34,20 @@ pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>)
     (text, lines)
 }
 
-/// The first version of OpenGL's language, from 1.50 on, that has all functions that the stage calls.
+/// The first version of OpenGL's language, from 1.50 on, that has all functions that the stage calls. Where no extension brings an overload to
+/// earlier versions, which the text would then name, it is one that has the overload.
 fn language(shader: &Shader) -> Version {
-    let since = |function: BuiltinFunction| {
-        let rows = function.operation().prototypes().filter(|row| !row.deprecated);
-        rows.map(|row| row.availability.since.desktop).min().unwrap_or(0)
+    let since = |function: BuiltinFunction, arguments: &[ExprId]| {
+        let types: Vec<TypeId> = arguments.iter().map(|argument| shader.expr(*argument).ty).collect();
+        let takes = |row: &&'static Row| row.signatures(shader.stage).any(|one| one.has_types(&types));
+        let rows = || function.operation().prototypes().filter(|row| !row.deprecated);
+        let first = |row: &Row| row.availability.since.desktop;
+        let overload = rows().filter(takes).min_by_key(|row| first(row));
+        let needed = overload.filter(|row| row.availability.extensions.name().is_none()).map(first);
+        needed.or_else(|| rows().map(first).min()).unwrap_or(0)
     };
-    let called = shader.exprs.iter().filter_map(|expr| match expr.kind {
-        ExprKind::BuiltinCall(function, _) => Some(since(function)),
+    let called = shader.exprs.iter().filter_map(|expr| match &expr.kind {
+        ExprKind::BuiltinCall(function, arguments) => Some(since(*function, arguments)),
         _ => None,
     });
     let number = called.max().unwrap_or(0).max(150);

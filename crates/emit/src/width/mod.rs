@@ -10,6 +10,7 @@
 
 mod expressions;
 mod function;
+mod overflow;
 mod rewriter;
 mod types;
 
@@ -74,6 +75,9 @@ fn rewritten(module: &Module, info: &ModuleInfo, width: Bytes) -> Result<Module,
         if let Some(entry) = widths.new.entry_points.get_mut(index) {
             entry.function = changed;
         }
+    }
+    if width == 2 {
+        overflow::refuse(&widths.new)?;
     }
     Ok(widths.new)
 }

@@ -20,9 +20,28 @@ use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
+/// A stage as it was emitted.
+pub(super) struct Emission {
+    pub(super) stage: Stage,
+    /// The module that naga reads; none where its front end has a limit.
+    pub(super) read: Option<Read>,
+    /// The words, of SPIR-V.
+    pub(super) words: Option<Vec<u32>>,
+    /// Who wrote it.
+    pub(super) origin: Origin,
+}
+
+/// Who wrote the code of a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// glisten, for Vulkan and WebGPU: depths are from 0 to 1, and constants are evaluated in f32.
+    Glisten,
+    /// glslang, from GLSL that glisten wrote: depths are those of OpenGL, and constants are evaluated in f64.
+    Glslang,
+}
+
 /// A stage as naga has it.
 pub(super) struct Read {
-    pub(super) stage: Stage,
     pub(super) module: Module,
     pub(super) info: ModuleInfo,
 }
@@ -100,8 +119,10 @@ pub struct Drawn<'p> {
     seen: RefCell<BTreeSet<u64>>,
     /// Why checks made less than they do for others, since somebody asked.
     left_out: RefCell<Vec<&'static str>>,
-    /// The stages as naga reads them in the emitted WGSL.
-    pub(super) wgsl: OnceLock<Result<Vec<Read>, String>>,
+    /// By which ways pictures of emitted code were compared, since somebody asked.
+    compared: RefCell<Vec<&'static str>>,
+    /// The stages of the emitted WGSL.
+    pub(super) wgsl: OnceLock<Result<Vec<Emission>, String>>,
 }
 
 /// The compiler of generated programs.
@@ -156,8 +177,8 @@ impl<'p> Drawn<'p> {
         let own = hash(&own);
         let seen = RefCell::new(BTreeSet::from([own]));
         let (exact, envelope, wgsl) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let left_out = RefCell::default();
-        Ok(Self { texts, program, loaded, scene, single, picture, exact, envelope, seen, left_out, wgsl })
+        let (left_out, compared) = (RefCell::default(), RefCell::default());
+        Ok(Self { texts, program, loaded, scene, single, picture, exact, envelope, seen, left_out, compared, wgsl })
     }
 
     /// A check makes less for this program than for others.
@@ -168,6 +189,16 @@ impl<'p> Drawn<'p> {
     /// Why a check made less.
     pub(super) fn take_left_out(&self) -> Vec<&'static str> {
         self.left_out.take()
+    }
+
+    /// A picture of emitted code was compared, by this way back.
+    pub(super) fn compare(&self, way: &'static str) {
+        self.compared.borrow_mut().push(way);
+    }
+
+    /// By which ways pictures were compared.
+    pub(super) fn take_compared(&self) -> Vec<&'static str> {
+        self.compared.take()
     }
 
     /// Whether these texts of the stages have not been drawn yet. From now on, they have.

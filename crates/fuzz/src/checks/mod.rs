@@ -14,6 +14,8 @@ mod drawn;
 mod pictures;
 mod reflection;
 mod targets;
+mod tool;
+mod vulkan;
 
 pub use drawn::{Bits, Drawn, Texts};
 
@@ -57,6 +59,7 @@ pub static CHECKS: &[Check] = &[
     Check { name: "wgsl", run: targets::wgsl },
     Check { name: "spirv", run: targets::spirv },
     Check { name: "options of compile", run: targets::options },
+    Check { name: "glsl for vulkan", run: vulkan::check },
     Check { name: "reflection", run: reflection::check },
     Check { name: "others", run: targets::others },
     Check { name: "dead code", run: pictures::dead_code },
@@ -99,6 +102,8 @@ pub struct Tally {
     pub times: BTreeMap<&'static str, Duration>,
     /// How many programs a check left out, wholly or in part, by its name and the reason.
     pub left_out: BTreeMap<(&'static str, &'static str), u64>,
+    /// How many programs had the picture of their emitted code compared, by the check and the way back.
+    pub compared: BTreeMap<(&'static str, &'static str), u64>,
 }
 
 impl Tally {
@@ -109,6 +114,9 @@ impl Tally {
         }
         for (what, count) in other.left_out {
             *self.left_out.entry(what).or_default() += count;
+        }
+        for (what, count) in other.compared {
+            *self.compared.entry(what).or_default() += count;
         }
     }
 }
@@ -141,10 +149,13 @@ fn fault_of(
 ) -> Option<Fault> {
     let mut stage = LOADED;
     let mut start = Instant::now();
-    let mut ended = |name: &'static str, left_out: Vec<&'static str>| {
+    let mut ended = |name: &'static str, [left_out, compared]: [Vec<&'static str>; 2]| {
         *tally.times.entry(name).or_default() += start.elapsed();
         for why in BTreeSet::from_iter(left_out) {
             *tally.left_out.entry((name, why)).or_default() += 1;
+        }
+        for way in BTreeSet::from_iter(compared) {
+            *tally.compared.entry((name, way)).or_default() += 1;
         }
         start = Instant::now();
     };
@@ -153,12 +164,12 @@ fn fault_of(
             Ok(drawn) => drawn,
             Err(message) => return Some(Fault { check: LOADED, message }),
         };
-        ended(LOADED, Vec::new());
+        ended(LOADED, Default::default());
         let is_wanted = |name: &str| only.is_none_or(|only| only == name);
         for check in CHECKS.iter().filter(|check| is_wanted(check.name)) {
             stage = check.name;
             let held = (check.run)(&drawn);
-            ended(check.name, drawn.take_left_out());
+            ended(check.name, [drawn.take_left_out(), drawn.take_compared()]);
             if let Err(message) = held {
                 return Some(Fault { check: check.name, message });
             }

@@ -3,8 +3,8 @@
 //! *In:* a program that has been drawn. *Out:* a sentence where an offset, a stride, a binding or a location is another one. *Holds:* offsets are
 //! computed here once more from the types alone (OpenGL 3.2 §2.11.4), so that a wrong layout on which all of glisten agrees shows.
 
-use super::drawn::{Drawn, Read};
-use super::targets::wgsl_modules;
+use super::drawn::{Drawn, Emission, Read};
+use super::targets::wgsl_stages;
 use glisten_emit::{Conventions, Reflection, reflect, reflection};
 use glisten_front::Stage;
 use naga::{Binding, Handle, Module, TypeInner};
@@ -21,10 +21,11 @@ pub(super) fn check(drawn: &Drawn<'_>) -> Held {
         drawn.leave_out("what naga finds, since no target has a geometry stage");
         return Ok(());
     }
-    for read in wgsl_modules(drawn)? {
+    for Emission { stage, read, .. } in wgsl_stages(drawn)? {
+        let Some(read) = read else { continue };
         resources(&told, read)?;
-        inputs(&told, read)?;
-        outputs(&told, read)?;
+        inputs(&told, (*stage, read))?;
+        outputs(&told, (*stage, read))?;
     }
     Ok(())
 }
@@ -166,14 +167,14 @@ fn locations(module: &Module, ty: Handle<naga::Type>, binding: Option<&Binding>,
     }
 }
 
-fn inputs(told: &Reflection, read: &Read) -> Held {
+fn inputs(told: &Reflection, (stage, read): (Stage, &Read)) -> Held {
     let Some(entry) = read.module.entry_points.first() else { return Ok(()) };
     let mut found = Vec::new();
     for argument in &entry.function.arguments {
         locations(&read.module, argument.ty, argument.binding.as_ref(), &mut found);
     }
     for (location, components) in found {
-        let is_told = match read.stage {
+        let is_told = match stage {
             Stage::Vertex => told.attributes.iter().any(|one| {
                 let rows = shape(&one.ty).map_or(0, |(rows, _)| rows);
                 (one.location..one.location + one.columns).contains(&location) && rows == components
@@ -181,7 +182,7 @@ fn inputs(told: &Reflection, read: &Read) -> Held {
             _ => varying(told, location, components),
         };
         if !is_told {
-            return Err(format!("{:?}: an input of {components} at location {location} is not reflected", read.stage));
+            return Err(format!("{:?}: an input of {components} at location {location} is not reflected", stage));
         }
     }
     Ok(())
@@ -194,13 +195,13 @@ fn varying(told: &Reflection, location: u32, components: u32) -> bool {
     end == Some(components)
 }
 
-fn outputs(told: &Reflection, read: &Read) -> Held {
+fn outputs(told: &Reflection, (stage, read): (Stage, &Read)) -> Held {
     let result = read.module.entry_points.first().and_then(|entry| entry.function.result.as_ref());
     let Some(result) = result else { return Ok(()) };
     let mut found = Vec::new();
     locations(&read.module, result.ty, result.binding.as_ref(), &mut found);
     for (location, components) in found {
-        let is_told = match read.stage {
+        let is_told = match stage {
             Stage::Vertex => varying(told, location, components),
             // An array takes a location for each element.
             _ => told
@@ -209,7 +210,7 @@ fn outputs(told: &Reflection, read: &Read) -> Held {
                 .any(|one| one.location == location || one.ty.contains('[') && one.location <= location),
         };
         if !is_told {
-            return Err(format!("{:?}: an output of {components} at location {location} is not reflected", read.stage));
+            return Err(format!("{:?}: an output of {components} at location {location} is not reflected", stage));
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 //! *In:* a program that has been drawn. *Out:* a sentence where what is written is refused. *Holds:* a target may lack something, and says so.
 
 use super::again;
-use super::drawn::{Drawn, Read};
+use super::drawn::{Drawn, Emission, Origin, Read};
 use glisten_emit::{Conventions, Emitted, FloatWidth, Target, emit};
 use glisten_front::Program;
 use glisten_front::diagnostic::Diagnostic;
@@ -56,51 +56,53 @@ fn valid(module: &Module) -> Result<ModuleInfo, String> {
     validator.validate(module).map_err(|error| error.emit_to_string(""))
 }
 
-/// Reads what is emitted, as far as it is.
+/// The stages that are emitted, as far as they are.
 fn read(
     program: &Program,
     (target, conventions): (Target, &Conventions),
     reads: &Reads<'_>,
-) -> Result<Vec<Read>, String> {
-    let mut modules = Vec::new();
+) -> Result<Vec<Emission>, String> {
+    let mut stages_of = Vec::new();
     for shader in stages(program) {
         match emit(program, shader.stage, target, conventions) {
             Ok(written) => {
-                modules.extend(reads(written)?.map(|(module, info)| Read { stage: shader.stage, module, info }))
+                let read = reads(&written)?;
+                let words = if let Emitted::Words(words) = written { Some(words) } else { None };
+                stages_of.push(Emission { stage: shader.stage, read, words, origin: Origin::Glisten });
             }
             Err(errors) => is_refusal(&errors)?,
         }
     }
-    Ok(modules)
+    Ok(stages_of)
 }
 
 /// Reads a stage; none where naga has a limit.
-type Reads<'r> = dyn Fn(Emitted) -> Result<Option<(Module, ModuleInfo)>, String> + 'r;
+type Reads<'r> = dyn Fn(&Emitted) -> Result<Option<Read>, String> + 'r;
 
-/// The modules that naga reads in the emitted WGSL.
-pub(super) fn wgsl_modules<'d>(drawn: &'d Drawn<'_>) -> Result<&'d [Read], String> {
-    let modules = drawn.wgsl.get_or_init(|| match drawn.scene.draws.first() {
+/// The stages of the emitted WGSL, which naga has read.
+pub(super) fn wgsl_stages<'d>(drawn: &'d Drawn<'_>) -> Result<&'d [Emission], String> {
+    let stages = drawn.wgsl.get_or_init(|| match drawn.scene.draws.first() {
         Some(draw) => read(&draw.program, (Target::Wgsl, &Conventions::default()), &read_wgsl),
         None => Ok(Vec::new()),
     });
-    modules.as_deref().map_err(Clone::clone)
+    stages.as_deref().map_err(Clone::clone)
 }
 
-fn read_wgsl(written: Emitted) -> Result<Option<(Module, ModuleInfo)>, String> {
+fn read_wgsl(written: &Emitted) -> Result<Option<Read>, String> {
     let Emitted::Text(text) = written else { return Err("no text".to_owned()) };
-    let module = naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string(&text))?;
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
     let info = valid(&module).map_err(|message| format!("{message}\n{text}"))?;
-    Ok(Some((module, info)))
+    Ok(Some(Read { module, info }))
 }
 
-fn read_spirv(written: Emitted) -> Result<Option<(Module, ModuleInfo)>, String> {
+fn read_spirv(written: &Emitted) -> Result<Option<Read>, String> {
     let Emitted::Words(words) = written else { return Err("no words".to_owned()) };
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     let options = naga::front::spv::Options { adjust_coordinate_space: false, ..Default::default() };
     let module = naga::front::spv::parse_u8_slice(&bytes, &options).map_err(|error| error.emit_to_string(""))?;
     let is_limit = |message: &String| LIMITS.iter().any(|limit| message.contains(limit));
     match valid(&module) {
-        Ok(info) => Ok(Some((module, info))),
+        Ok(info) => Ok(Some(Read { module, info })),
         Err(message) if is_limit(&message) => Ok(None),
         Err(message) => Err(message),
     }
@@ -108,10 +110,10 @@ fn read_spirv(written: Emitted) -> Result<Option<(Module, ModuleInfo)>, String> 
 
 /// WGSL, which naga reads.
 pub(super) fn wgsl(drawn: &Drawn<'_>) -> Held {
-    again::same(drawn, wgsl_modules(drawn)?)
+    again::same(drawn, wgsl_stages(drawn)?)
 }
 
-/// SPIR-V, which naga reads.
+/// SPIR-V, which spirv-cross reads where it is installed, and naga with limits.
 pub(super) fn spirv(drawn: &Drawn<'_>) -> Held {
     let Some(draw) = drawn.scene.draws.first() else { return Ok(()) };
     again::same(drawn, &read(&draw.program, (Target::Spirv, &Conventions::default()), &read_spirv)?)

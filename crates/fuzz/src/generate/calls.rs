@@ -90,7 +90,7 @@ impl Writer<'_> {
                 continue;
             }
             let guard = match row.effect {
-                Effect::Texture => lookup_guard(parameter, &ty),
+                Effect::Texture => lookup_guard(row.name, parameter, &ty),
                 _ => guard(row.name, index, count, &ty),
             };
             let has_functions = !self.is_constant || self.language.has(Feature::ConstantFunctions);

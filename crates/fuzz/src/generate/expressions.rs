@@ -195,6 +195,7 @@ impl Writer<'_> {
     fn floats(&mut self, ty: &Ty, size: u8, depth: usize) -> Expr {
         let one = |this: &mut Self, ty: &Ty| this.expr(ty, depth);
         match self.chance.below(12) {
+            0 if self.chance.once_in(2) => self.difference(ty, depth),
             0..=3 => {
                 let pattern = self.chance.word(&["(@ + @)", "(@ - @)", "(@ * @)"]);
                 let (left, right) = self.mixed(ty, depth);
@@ -229,65 +230,12 @@ impl Writer<'_> {
         }
     }
 
-    /// Two operands for a result: the same types, or a scalar and a vector, or an integer that is converted.
-    fn mixed(&mut self, ty: &Ty, depth: usize) -> (Expr, Expr) {
-        let scalar = Ty::Vector(ty.scalar().unwrap_or(Scalar::Float), 1);
-        let left = self.expr(ty, depth);
-        let right = match self.chance.below(5) {
-            0 => self.expr(&scalar, depth),
-            1 if self.language.has(Feature::ImplicitToFloat) && ty.is_vector_of(Scalar::Float) => {
-                self.note("implicit conversion");
-                self.expr(&INT, depth)
-            }
-            _ => self.expr(ty, depth),
-        };
-        if self.chance.once_in(2) { (left, right) } else { (right, left) }
-    }
-
-    /// A constructor of a vector or a scalar from another scalar type.
-    fn conversion(&mut self, ty: &Ty, scalar: Scalar, size: u8, depth: usize) -> Expr {
-        self.note("conversion");
-        let from: Vec<Scalar> = Scalar::ALL
-            .into_iter()
-            .filter(|one| *one != scalar && self.language.basics.contains(&Ty::Vector(*one, size)))
-            .collect();
-        let other = self.chance.one(&from).copied().unwrap_or(Scalar::Bool);
-        let inner = self.expr(&Ty::Vector(other, size), depth);
-        let pattern = match (scalar, other) {
-            // Floats out of range and negative ones for `uint` are undefined.
-            (Scalar::Int, Scalar::Float) => format!("{}(clamp(@, -1000.0, 1000.0))", ty.name()),
-            (Scalar::Uint, Scalar::Float) => format!("{}(clamp(@, 0.0, 1000.0))", ty.name()),
-            _ => format!("{}(@)", ty.name()),
-        };
-        let converted = Expr::new(ty.clone(), &pattern, vec![inner]);
-        let needs_function =
-            pattern.contains("clamp") && self.is_constant && !self.language.has(Feature::ConstantFunctions);
-        if needs_function { self.literal(ty) } else { converted }
-    }
-
-    /// A constructor from parts that have as many components together.
-    fn composed(&mut self, ty: &Ty, scalar: Scalar, size: u8, depth: usize) -> Expr {
-        if size == 1 {
-            let from = 2 + self.chance.below(3) as u8;
-            let inner = self.expr(&Ty::Vector(scalar, from), depth);
-            return Expr::new(ty.clone(), &format!("{}(@)", ty.name()), vec![inner]);
-        }
-        self.note("constructor from parts");
-        let (mut left, mut parts) = (size, Vec::new());
-        while left > 0 {
-            let part = (1 + self.chance.below(usize::from(left)) as u8).min(left);
-            let part = if part == size { 1 } else { part };
-            parts.push(self.expr(&Ty::Vector(scalar, part), depth));
-            left -= part;
-        }
-        constructed(ty, parts)
-    }
-
     fn integers(&mut self, ty: &Ty, scalar: Scalar, size: u8, depth: usize) -> Expr {
         let has_bits = self.language.has(Feature::IntegerOperators);
         let one = |this: &mut Self| this.expr(ty, depth);
         let (unit, mask) = if scalar == Scalar::Uint { ("7u", "31u") } else { ("7", "31") };
         match self.chance.below(12) {
+            0 if self.chance.once_in(3) => self.difference(ty, depth),
             0..=2 => {
                 let pattern = self.chance.word(&["(@ + @)", "(@ - @)", "(@ * @)"]);
                 let (left, right) = self.mixed(ty, depth);

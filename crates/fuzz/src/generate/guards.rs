@@ -55,8 +55,8 @@ pub(super) fn guard(name: &str, index: usize, count: usize, ty: &Ty) -> Guard {
     }
 }
 
-/// How an argument of a lookup is passed, by the name of the parameter.
-pub(super) fn lookup_guard(parameter: &str, ty: &Ty) -> Guard {
+/// How an argument of a lookup is passed, by the name of the function and of the parameter.
+pub(super) fn lookup_guard(name: &str, parameter: &str, ty: &Ty) -> Guard {
     use Guard::{Constant, Pattern};
     let is_float = ty.scalar() == Some(Scalar::Float);
     match parameter {
@@ -68,6 +68,8 @@ pub(super) fn lookup_guard(parameter: &str, ty: &Ty) -> Guard {
         "dPdx" | "dPdy" => Pattern("clamp(@, -0.5, 0.5)"),
         "refZ" | "compare" => Pattern("clamp(@, 0.0, 1.0)"),
         _ if is_float => Pattern("clamp(@, 0.125, 2.5)"),
+        // With its offset, it stays in a texture of two texels a side.
+        _ if name.starts_with("texelFetch") && name.ends_with("Offset") => Pattern("(@ & 0)"),
         _ => Pattern("(@ & 1)"),
     }
 }

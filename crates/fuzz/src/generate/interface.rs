@@ -52,7 +52,8 @@ impl Interface {
         let all: Vec<&'static Sampler> = Sampler::all(language).collect();
         let samplers = all.into_iter().filter(|_| chance.once_in(4)).take(4).collect();
         let uniforms = Uniform::all(chance, language, structs);
-        let has_geometry = language.since(150, u16::MAX) && chance.once_in(4);
+        // No target has a geometry stage, so that most programs have none, either.
+        let has_geometry = language.since(150, u16::MAX) && chance.once_in(12);
         let mut varyings = Vec::new();
         for number in 0..1 + chance.below(4) {
             varyings.push(varying(chance, language, structs, (number, has_geometry)));

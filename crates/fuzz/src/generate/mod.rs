@@ -16,8 +16,9 @@
 //! | `language` | what a version has, from glisten's tables |
 //! | `interface`, `uniforms`, `samplers` | varyings, uniforms, textures, and their values |
 //! | `writer` | what is visible, names, parts of variables |
-//! | `expressions`, `calls`, `guards` | expressions, and arguments for which functions are defined |
+//! | `expressions`, `operands`, `calls`, `guards` | expressions, and arguments for which functions are defined |
 //! | `statements`, `functions`, `stages` | statements, functions, whole stages |
+//! | `families` | functions that are alike but for an operator or a type |
 //! | `sink` | sums of what is computed, so that it reaches the picture |
 //! | `tree`, `types` | what programs are made of |
 //! | `change`, `spelled`, `components` | changes that leave the picture as it is |
@@ -27,10 +28,12 @@ mod calls;
 mod change;
 mod components;
 mod expressions;
+mod families;
 mod functions;
 mod guards;
 mod interface;
 mod language;
+mod operands;
 mod samplers;
 mod shrink;
 mod sink;
@@ -169,6 +172,10 @@ mod tests {
             "sampler2DMS",
             "overload with a conversion",
             "function that differs in one place",
+            "overload that converts less than an earlier one",
+            "overloads that differ in an operator",
+            "function whose argument selects an operator",
+            "difference of a difference",
             "comparison at a bound",
             "assignment of an operation on itself",
             "operation on a neutral number",

@@ -82,6 +82,7 @@ impl Writer<'_> {
         for _ in 0..self.chance.below(4) {
             self.function(&mut all);
         }
+        self.family(&mut all);
         all.push(self.main(interface));
         all
     }
@@ -157,6 +158,7 @@ impl Writer<'_> {
             body.push(declared.with(Role::Declaration));
         }
         self.calls(&mut body);
+        self.family_calls(&mut body);
         self.lookups(&mut body);
         if self.stage == Stage::Fragment {
             let pattern = format!("{SUM} += {};", interface.passed());

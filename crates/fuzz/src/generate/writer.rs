@@ -3,6 +3,7 @@
 //! *In:* a language and a stage. *Out:* names, variables and their parts. *Holds:* what is chosen here is defined: indices are in bounds, and
 //! every variable has a value.
 
+use super::families::FamilyCall;
 use super::language::Language;
 use super::samplers::Sampler;
 use super::tree::{Expr, Use, Variable};
@@ -41,6 +42,8 @@ pub(super) struct Writer<'l> {
     pub(super) structs: Vec<Members>,
     pub(super) scopes: Vec<Vec<Variable>>,
     pub(super) functions: Vec<Callable>,
+    /// Calls of functions that are in no other call.
+    pub(super) families: Vec<FamilyCall>,
     pub(super) macros: Vec<Macro>,
     pub(super) samplers: Vec<&'static Sampler>,
     /// Whether all invocations are here together.
@@ -77,6 +80,7 @@ impl<'l> Writer<'l> {
             structs: Vec::new(),
             scopes: vec![Vec::new()],
             functions: Vec::new(),
+            families: Vec::new(),
             macros: Vec::new(),
             samplers: Vec::new(),
             is_uniform: false,

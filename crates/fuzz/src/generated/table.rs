@@ -64,6 +64,11 @@ impl Sums {
         for (name, time) in &self.tally.times {
             let _ = writeln!(text, "| {name} | {:.2} |", time.as_secs_f64() * 1000.0 / self.programs.max(1) as f64);
         }
+        let _ =
+            writeln!(text, "\n| check | the picture of emitted code was compared by | programs |\n| --- | --- | --- |");
+        for ((check, way), count) in &self.tally.compared {
+            let _ = writeln!(text, "| {check} | {way} | {count} |");
+        }
         let _ = writeln!(text, "\n| check | left out, wholly or in part | programs |\n| --- | --- | --- |");
         for ((check, why), count) in &self.tally.left_out {
             let _ = writeln!(text, "| {check} | {why} | {count} |");

@@ -13,6 +13,7 @@
 //! | `opaque` | samplers in structs as variables of their own |
 //! | `uniforms` | loose uniforms as members of a block |
 
+mod constants;
 mod coordinates;
 mod limits;
 mod locations;
@@ -78,6 +79,7 @@ pub(super) fn rewrite(
     samplers(shader, program, &mut layouts);
     let height = uniforms::gather(types, shader, program, conventions, &mut layouts);
     coordinates::convert(shader, program, conventions, height);
+    constants::evaluate(shader);
     Ok(layouts)
 }
 
