@@ -142,7 +142,8 @@ impl Ctx<'_, '_> {
 
     /// Hides operands from the target's constant evaluation. Targets reject constant expressions whose result does
     /// not fit, and integer division by a constant 0. What GLSL calls constant has been evaluated already; an operand
-    /// that became constant during lowering (`(n++, 5)`) is read from a variable.
+    /// that became constant during lowering (`(n++, 5)`) is read from a variable. naga 30 panics where it evaluates a
+    /// selection by a vector that is composed of others, or between such vectors.
     pub(super) fn kept_from_evaluation(&mut self, expression: Expression) -> Expression {
         use BinaryOperator as Op;
         match expression {
@@ -157,6 +158,11 @@ impl Ctx<'_, '_> {
             } if self.is_known(&expression) => Expression::Binary { op, left: self.hidden_operand(left), right },
             Expression::Math { fun, arg, arg1, arg2, arg3 } if self.is_known(&expression) => {
                 Expression::Math { fun, arg: self.hidden_operand(arg), arg1, arg2, arg3 }
+            }
+            Expression::Select { condition, accept, reject } if self.is_known(&expression) => {
+                let hidden = self.hidden_operand(condition);
+                let accept = if hidden == condition { self.hidden_operand(accept) } else { accept };
+                Expression::Select { condition: hidden, accept, reject }
             }
             other => other,
         }
