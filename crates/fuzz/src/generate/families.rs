@@ -5,17 +5,9 @@
 
 use super::tree::{Expr, Role, Stmt};
 use super::types::{BOOL, FLOAT, INT, Ty};
-use super::writer::Writer;
+use super::writer::{FamilyCall, Writer};
 use glisten_front::hir::Scalar;
 use glisten_front::language::Feature;
-
-/// A call of a function of a family: the pattern, and the types of the arguments in its places.
-#[derive(Clone, Debug)]
-pub(super) struct FamilyCall {
-    result: Ty,
-    pattern: String,
-    arguments: Vec<Ty>,
-}
 
 /// Pairs of operators.
 const OPERATORS: &[(&str, &str)] = &[("+", "-"), ("-", "+"), ("*", "-"), ("+", "*")];

@@ -3,7 +3,6 @@
 //! *In:* a language and a stage. *Out:* names, variables and their parts. *Holds:* what is chosen here is defined: indices are in bounds, and
 //! every variable has a value.
 
-use super::families::FamilyCall;
 use super::language::Language;
 use super::samplers::Sampler;
 use super::tree::{Expr, Use, Variable};
@@ -12,6 +11,14 @@ use crate::chance::Chance;
 use glisten_front::hir::{ParamMode, Scalar, Stage};
 use glisten_front::language::Feature;
 use std::collections::BTreeSet;
+
+/// A call of a function of a family: the pattern, and the types of the arguments in its places.
+#[derive(Clone, Debug)]
+pub(super) struct FamilyCall {
+    pub(super) result: Ty,
+    pub(super) pattern: String,
+    pub(super) arguments: Vec<Ty>,
+}
 
 /// A function that may be called.
 #[derive(Clone, Debug)]
