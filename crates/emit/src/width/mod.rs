@@ -10,6 +10,7 @@
 
 mod expressions;
 mod function;
+#[cfg(any(not(target_family = "wasm"), feature = "native"))]
 mod overflow;
 mod rewriter;
 mod types;
@@ -76,6 +77,7 @@ fn rewritten(module: &Module, info: &ModuleInfo, width: Bytes) -> Result<Module,
             entry.function = changed;
         }
     }
+    #[cfg(any(not(target_family = "wasm"), feature = "native"))]
     if width == 2 {
         overflow::refuse(&widths.new)?;
     }

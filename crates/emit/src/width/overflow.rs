@@ -2,6 +2,8 @@
 //!
 //! *In:* a module in its new width. *Out:* a refusal, if the value of a constant expression is not finite. *Holds:* WGSL rejects such an
 //! expression, however it is spelled, and the other targets would draw with an infinity; a literal is refused for the same reason.
+//! *Not done here:* a small module for the web (without the feature `native`) lacks naga's evaluator, and leaves such an expression to
+//! whoever takes the text.
 
 use super::Refusal;
 use naga::proc::{ConstantEvaluator, ConstantEvaluatorError, ExpressionKindTracker, Layouter};
