@@ -4,8 +4,8 @@
 //! file of the repository is copied; what git ignores is not.
 
 use super::{Planted, SWITCH};
-use std::collections::BTreeMap;
-use std::path::Path;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The module that tells which fault is on.
@@ -46,9 +46,24 @@ pub(super) fn copy(root: &Path, to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Writes the sources in Rust, with the faults.
+/// Writes the sources in Rust, with the faults. Those of an earlier copy that are there no more are removed.
 pub(super) fn plant(root: &Path, to: &Path, faults: &[Planted]) -> Result<(), String> {
-    sources(root, faults)?.iter().try_for_each(|(name, text)| write(&to.join(name), text.as_bytes()))
+    let sources = sources(root, faults)?;
+    sources.iter().try_for_each(|(name, text)| write(&to.join(name), text.as_bytes()))?;
+    remove_others(to, &sources.keys().map(|name| to.join(name)).collect())
+}
+
+/// Removes the sources in Rust below a folder that are not among these.
+fn remove_others(folder: &Path, these: &BTreeSet<PathBuf>) -> Result<(), String> {
+    for entry in std::fs::read_dir(folder).map_err(wrong(folder))? {
+        let path = entry.map_err(wrong(folder))?.path();
+        if path.is_dir() {
+            remove_others(&path, these)?;
+        } else if path.extension().is_some_and(|extension| extension == "rs") && !these.contains(&path) {
+            std::fs::remove_file(&path).map_err(wrong(&path))?;
+        }
+    }
+    Ok(())
 }
 
 /// The sources in Rust by their names, with the faults.
@@ -91,8 +106,9 @@ fn planted(text: &str, fault: &Planted, number: usize) -> Result<String, String>
 
 #[cfg(test)]
 mod tests {
-    use super::planted;
+    use super::{planted, remove_others};
     use crate::faults::read;
+    use std::collections::BTreeSet;
 
     #[test]
     fn a_fault_has_a_switch() {
@@ -103,5 +119,15 @@ mod tests {
         let expected = "let x = (if glisten_front::planted::on(3) { a - b } else { a + b });";
         assert_eq!(text.as_deref(), Ok(expected));
         assert!(planted("let x = a;", fault, 3).is_err());
+    }
+
+    #[test]
+    fn sources_that_are_there_no_more_are_removed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        std::fs::create_dir(path("a")).expect("a folder");
+        ["a.rs", "a/mod.rs", "a/b.txt"].iter().for_each(|name| std::fs::write(path(name), "").expect("written"));
+        remove_others(folder.path(), &BTreeSet::from([path("a/mod.rs")])).expect("removed");
+        assert_eq!(["a.rs", "a/mod.rs", "a/b.txt"].map(|name| path(name).exists()), [false, true, true]);
     }
 }
