@@ -6,6 +6,7 @@ use crate::cache::files;
 use crate::cli::{Folder, code, err};
 use std::collections::BTreeMap;
 use std::env;
+use std::os::unix::process::ExitStatusExt;
 use std::process::Stdio;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -68,8 +69,8 @@ fn is_of(tree: &Tree, name: &str, bytes: &[u8]) -> bool {
     tree.get(name).is_some_and(|whole| whole == bytes || (end(whole) && end(bytes)))
 }
 
-/// Kills a command after parts of its time, each time in a new folder.
-fn kills(words: &[&str]) {
+/// Kills a command after parts of its time, each time in a new folder. Returns how many kills found it at work, and how many there were.
+fn kills(words: &[&str]) -> (u32, u32) {
     let kills = env::var("KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(12_u32);
     let folder = project();
     let before = tree(&folder);
@@ -78,6 +79,7 @@ fn kills(words: &[&str]) {
     let time = start.elapsed();
     let (code_of_whole, whole) = (code(&run), tree(&folder));
     assert!(whole != before && code_of_whole < 2, "{words:?} writes nothing: {}", err(&run));
+    let mut at_work = 0;
     for kill in 1..=kills {
         let folder = project();
         let delay = time * kill / (kills + 1);
@@ -85,7 +87,8 @@ fn kills(words: &[&str]) {
         thread::sleep(delay);
         // SIGKILL: nothing of the program runs any more.
         child.kill().expect("killed, or done");
-        child.wait().expect("it has ended");
+        let ended = child.wait().expect("it has ended");
+        at_work += u32::from(ended.signal() == Some(9));
         for (name, bytes) in tree(&folder) {
             let is_whole = [&before, &whole].iter().any(|tree| is_of(tree, &name, &bytes));
             assert!(is_whole || is_temporary(&name), "{words:?}: after {delay:?} `{name}` is not whole");
@@ -98,11 +101,15 @@ fn kills(words: &[&str]) {
         let differs = left.iter().find(|(name, bytes)| !is_of(&whole, name, bytes));
         assert!(differs.is_none(), "{words:?}: after a kill at {delay:?} another run makes another {differs:?}");
     }
+    (at_work, kills)
 }
 
 #[test]
 fn killed_commands_leave_whole_files_and_the_next_run_makes_all() {
-    COMMANDS.iter().for_each(|words| kills(words));
+    let counts: Vec<(u32, u32)> = COMMANDS.iter().map(|words| kills(words)).collect();
+    let (at_work, all) = counts.iter().fold((0, 0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
+    println!("{at_work} of {all} kills found a command at work");
+    assert!(at_work * 3 > all, "only {at_work} of {all} kills found a command at work");
 }
 
 /// A process that draws for a killed one ends, too.

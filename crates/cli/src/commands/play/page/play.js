@@ -638,7 +638,7 @@ const chosen = async (value) => {
   say("writing a scene …");
   const made = await request("POST", "/api/new-scene", JSON.parse(value));
   if (made.text && choose(made.name, made.text)) say("this scene is new: Save writes it");
-  else { showScene(); if (!made.text) say(made.error, true); }
+  else { showScene(); say(made.error ?? "", Boolean(made.error)); }
 };
 const save = async () => {
   for (const [name, doc] of docs) {
