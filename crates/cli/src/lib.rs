@@ -54,7 +54,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser};
 use commands::{Command, examples};
 use console::{ColorChoice, Console};
 use exit::{Exit, Failure, Outcome};
-use glisten_front::stack::with_stack;
+use glisten_front::stack::{BYTES_A_LEVEL, with_stack};
 use glisten_scene::confine_to;
 use process::guard;
 pub use process::memory;
@@ -62,9 +62,10 @@ use process::supervisor::Supervised;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use threads::STACK_BYTES;
 
-/// The levels of recursion that a command's stack is for: 16 MiB, as that of the threads of [`threads`].
-const LEVELS: u32 = 2048;
+/// The levels of recursion that a command's stack is for.
+const LEVELS: u32 = (STACK_BYTES / BYTES_A_LEVEL) as u32;
 
 /// Check, translate, draw and measure GLSL: versions 1.10 to 4.60, and those of OpenGL ES
 #[derive(Debug, Parser)]
@@ -149,7 +150,10 @@ fn carry_out(command: &Command, console: Console) -> Exit {
                 .help("this is a fault of glisten; please report it with the input"))
         }
         // The command itself is guarded: there was no stack for it.
-        Err(_) => Err(Failure::new(Exit::Machine, "the system gives no memory for a stack of 16 MiB")),
+        Err(_) => Err(Failure::new(
+            Exit::Machine,
+            format!("the system gives no memory for a stack of {} MiB", STACK_BYTES >> 20),
+        )),
     };
     end(outcome, &console)
 }

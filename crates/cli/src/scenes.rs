@@ -8,6 +8,7 @@ use crate::files;
 use crate::process::guard;
 use crate::process::journal::{self, Note};
 use crate::session::Session;
+use crate::threads::STACK_BYTES;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::NOTHING_COVERED;
@@ -21,9 +22,6 @@ use std::cell::Cell;
 use std::path::Path;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
-
-/// The stack size of the thread that draws.
-const STACK_BYTES: usize = 16 << 20;
 
 /// The scene, and how to read its shaders.
 #[derive(Args, Clone, Debug)]

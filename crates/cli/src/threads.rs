@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::OnceLock;
 
-/// The stack size of the threads that compile. The phases limit their recursion themselves, relying on this size.
-const STACK_BYTES: usize = 16 << 20;
+/// The stack size of a command, and of the threads that compile for it. The phases limit their recursion themselves, relying on this size.
+pub(crate) const STACK_BYTES: usize = 16 << 20;
 
 /// The threads of a command. They start when there is work for two of them.
 #[derive(Debug)]

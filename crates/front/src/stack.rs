@@ -3,11 +3,13 @@
 //! *In:* the depth of a traversal. *Out:* its result. *Holds:* a traversal within the parser's limit never overflows,
 //! however small the caller's stack is.
 
+/// The stack that a level of a traversal may use, in bytes.
+pub const BYTES_A_LEVEL: usize = 8 << 10;
+
 /// Runs a traversal that recurses `depth` levels with enough stack: on the caller's stack if as much is left of it, else on
-/// a new one on the same thread. A traversal may use up to 8 KiB of stack per level.
+/// a new one on the same thread. A level may use [`BYTES_A_LEVEL`].
 pub fn with_stack<R>(depth: u32, walk: impl FnOnce() -> R) -> R {
     const SHALLOW: u32 = 48;
-    const BYTES_A_LEVEL: usize = 8 << 10;
     const LEAST: usize = 4 << 20;
     if depth <= SHALLOW {
         return walk();

@@ -7,6 +7,7 @@
 use super::choice::{Changed, Choice, Taste};
 use super::forms::Form;
 use crate::process::guard;
+use crate::threads::STACK_BYTES;
 use glisten_front::Compiler;
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::picture::Picture;
@@ -19,8 +20,6 @@ use std::time::{Duration, Instant};
 const SIDE: u32 = 40;
 /// The time for all trials.
 pub(super) const BUDGET: Duration = Duration::from_secs(6);
-/// The stack of the thread that draws.
-const STACK_BYTES: usize = 16 << 20;
 /// The share of pixels that a picture covers, and the difference between its colors, from which on it shows something.
 const COVERED: f64 = 0.04;
 const CONTRAST: f64 = 0.03;
