@@ -55,6 +55,9 @@ struct Arguments {
     /// Make this check of generated programs alone
     #[arg(long, value_name = "CHECK")]
     check: Option<String>,
+    /// Make each check of generated programs for one program in so many, as the seed chooses
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    share: u32,
     /// Stop generating at the first fault, which is not made smaller
     #[arg(long)]
     first: bool,
@@ -155,6 +158,7 @@ fn generate(arguments: &Arguments, count: u64) -> Result<usize> {
         jobs: arguments.jobs,
         draws: arguments.draw,
         only: arguments.check.as_deref(),
+        one_in: arguments.share as usize,
         first: arguments.first,
         seconds: arguments.seconds,
         folder: &root.join("target/fuzz/generated"),

@@ -1,6 +1,6 @@
 //! Generated programs: they are accepted, and what draws the same picture does. Each saved one was once wrong; its name says how.
 
-use glisten_fuzz::checks::{Texts, fault, fault_of_texts};
+use glisten_fuzz::checks::{Chosen, Texts, fault, fault_of_texts};
 use glisten_fuzz::generate::Program;
 use std::path::Path;
 
@@ -34,7 +34,7 @@ fn generated_programs_hold() {
     let bounds = bounds.and_then(|(first, end)| Some(first.parse().ok()?..end.parse().ok()?));
     let mut wrong = Vec::new();
     for seed in bounds.unwrap_or(0..48) {
-        let found = on_stack(move || fault(&Program::new(seed), None, None));
+        let found = on_stack(move || fault(&Program::new(seed), Chosen::default()));
         wrong.extend(found.map(|fault| format!("seed {seed}: {}: {}", fault.check, fault.message)));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -19,6 +19,7 @@ mod vulkan;
 
 pub use drawn::{Bits, Drawn, Texts};
 
+use crate::chance::Chance;
 use crate::generate::Program;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -100,6 +101,8 @@ pub fn silence_panics() {
 pub struct Tally {
     /// How long each check took.
     pub times: BTreeMap<&'static str, Duration>,
+    /// How many programs each check was made for.
+    pub checked: BTreeMap<&'static str, u64>,
     /// How many programs a check left out, wholly or in part, by its name and the reason.
     pub left_out: BTreeMap<(&'static str, &'static str), u64>,
     /// How many programs had the picture of their emitted code compared, by the check and the way back.
@@ -112,6 +115,9 @@ impl Tally {
         for (name, time) in other.times {
             *self.times.entry(name).or_default() += time;
         }
+        for (name, count) in other.checked {
+            *self.checked.entry(name).or_default() += count;
+        }
         for (what, count) in other.left_out {
             *self.left_out.entry(what).or_default() += count;
         }
@@ -121,36 +127,58 @@ impl Tally {
     }
 }
 
-/// The first fault of a program. With `only`, the check of this name alone is made.
-pub fn fault(program: &Program, only: Option<&str>, device: Option<Device<'_>>) -> Option<Fault> {
-    tallied_fault(program, only, device, &mut Tally::default())
+/// Which checks are made.
+#[derive(Clone, Copy)]
+pub struct Chosen<'a> {
+    /// The check of this name alone.
+    pub only: Option<&'a str>,
+    /// Each check for one program in so many, as the seed chooses.
+    pub one_in: usize,
+    /// The check on a device.
+    pub device: Option<Device<'a>>,
+}
+
+/// All checks that need no device.
+impl Default for Chosen<'_> {
+    fn default() -> Self {
+        Self { only: None, one_in: 1, device: None }
+    }
+}
+
+impl Chosen<'_> {
+    /// The checks of a program with this seed, in their order.
+    fn checks(self, seed: Option<u64>) -> impl Iterator<Item = &'static Check> {
+        let mut chance = Chance::new(!seed.unwrap_or_default());
+        let is_wanted = move |check: &&Check| {
+            // A number is drawn for each, so that `only` leaves the others as they are.
+            let is_its_turn = chance.once_in(self.one_in);
+            self.only.map_or(is_its_turn, |only| only == check.name)
+        };
+        CHECKS.iter().filter(is_wanted)
+    }
+}
+
+/// The first fault of a program.
+pub fn fault(program: &Program, chosen: Chosen<'_>) -> Option<Fault> {
+    tallied_fault(program, chosen, &mut Tally::default())
 }
 
 /// The first fault of a program as [`fault`] finds it; adds the work of the checks.
-pub fn tallied_fault(
-    program: &Program,
-    only: Option<&str>,
-    device: Option<Device<'_>>,
-    tally: &mut Tally,
-) -> Option<Fault> {
-    fault_of(Texts::from(program), Some(program), (only, device), tally)
+pub fn tallied_fault(program: &Program, chosen: Chosen<'_>, tally: &mut Tally) -> Option<Fault> {
+    fault_of(Texts::from(program), Some(program), chosen, tally)
 }
 
 /// The first fault of texts, which are not changed by rules of the language.
 pub fn fault_of_texts(texts: Texts) -> Option<Fault> {
-    fault_of(texts, None, (None, None), &mut Tally::default())
+    fault_of(texts, None, Chosen::default(), &mut Tally::default())
 }
 
-fn fault_of(
-    texts: Texts,
-    program: Option<&Program>,
-    (only, device): (Option<&str>, Option<Device<'_>>),
-    tally: &mut Tally,
-) -> Option<Fault> {
+fn fault_of(texts: Texts, program: Option<&Program>, chosen: Chosen<'_>, tally: &mut Tally) -> Option<Fault> {
     let mut stage = LOADED;
     let mut start = Instant::now();
     let mut ended = |name: &'static str, [left_out, compared]: [Vec<&'static str>; 2]| {
         *tally.times.entry(name).or_default() += start.elapsed();
+        *tally.checked.entry(name).or_default() += 1;
         for why in BTreeSet::from_iter(left_out) {
             *tally.left_out.entry((name, why)).or_default() += 1;
         }
@@ -165,8 +193,7 @@ fn fault_of(
             Err(message) => return Some(Fault { check: LOADED, message }),
         };
         ended(LOADED, Default::default());
-        let is_wanted = |name: &str| only.is_none_or(|only| only == name);
-        for check in CHECKS.iter().filter(|check| is_wanted(check.name)) {
+        for check in chosen.checks(program.map(|program| program.seed)) {
             stage = check.name;
             let held = (check.run)(&drawn);
             ended(check.name, [drawn.take_left_out(), drawn.take_compared()]);
@@ -175,7 +202,7 @@ fn fault_of(
             }
         }
         stage = DEVICE;
-        if let Some(device) = device.filter(|_| is_wanted(DEVICE))
+        if let Some(device) = chosen.device.filter(|_| chosen.only.is_none_or(|only| only == DEVICE))
             && let Err(message) = device(&drawn)
         {
             return Some(Fault { check: DEVICE, message });

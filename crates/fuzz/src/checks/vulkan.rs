@@ -8,7 +8,7 @@ use super::drawn::{Drawn, Emission, Origin};
 use super::targets::{is_refusal, stages};
 use super::tool::GLSLANG;
 use glisten_emit::{ClipZ, Conventions, Emitted, GlslVersion, Target, emit};
-use glisten_front::hir::{ExprId, ExprKind, Shader, Stage, VarRef};
+use glisten_front::hir::{ExprId, ExprKind, Shader, Stage, Storage, VarRef};
 
 type Held = Result<(), String>;
 
@@ -27,6 +27,10 @@ pub(super) fn check(drawn: &Drawn<'_>) -> Held {
     }
     if draw.program.stages.iter().any(reads_before_change) {
         drawn.leave_out("glslang reads a variable after a later operand has changed it");
+        return Ok(());
+    }
+    if draw.program.stages.iter().any(takes_bits_of_a_constant) {
+        drawn.leave_out("glslang evaluates a constant with more digits than a float has, and takes its bits");
         return Ok(());
     }
     let (glsl_version, clip_z) = (GlslVersion::Vulkan, ClipZ::MinusOneToOne);
@@ -77,6 +81,30 @@ fn reads_before_change(shader: &Shader) -> bool {
         ExprKind::Assign(Some(_), target, value) => changed(*target, &[*value]),
         _ => false,
     })
+}
+
+/// Whether bits are taken of an expression that glslang evaluates: it does so in f64, from the digits of the text. In `floatBitsToInt(fract(
+/// 2.22104))`, those below a float's last are not zero: seed 805270 of commit ee37c35c.
+fn takes_bits_of_a_constant(shader: &Shader) -> bool {
+    let takers = ["floatBitsToInt", "floatBitsToUint"];
+    shader.exprs.iter().any(|expr| match &expr.kind {
+        ExprKind::BuiltinCall(function, arguments) if takers.contains(&function.name()) => {
+            arguments.iter().all(|one| is_constant(shader, *one))
+        }
+        _ => false,
+    })
+}
+
+/// Whether an expression has no variable but global constants, and calls no function of the shader.
+fn is_constant(shader: &Shader, id: ExprId) -> bool {
+    let mut is_constant = true;
+    shader.visit_expr(id, &mut |inner| {
+        is_constant &= match &shader.expr(inner).kind {
+            ExprKind::Var(VarRef::Global(global)) => shader.global(*global).storage == Storage::Const,
+            kind => !matches!(kind, ExprKind::Var(_) | ExprKind::Call(..)),
+        };
+    });
+    is_constant
 }
 
 /// The variable of which an expression is a part.

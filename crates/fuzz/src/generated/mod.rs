@@ -8,7 +8,7 @@
 mod device;
 mod table;
 
-use glisten_fuzz::checks::{Device, Fault, LOADED, fault, silence_panics, tallied_fault};
+use glisten_fuzz::checks::{Chosen, Device, Fault, LOADED, fault, silence_panics, tallied_fault};
 use glisten_fuzz::generate::{Program, shrunk};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -34,6 +34,8 @@ pub(crate) struct Wanted<'a> {
     pub(crate) draws: bool,
     /// The check that is made alone.
     pub(crate) only: Option<&'a str>,
+    /// Each check is made for one program in so many.
+    pub(crate) one_in: usize,
     /// Whether to stop at the first fault, which is not made smaller.
     pub(crate) first: bool,
     /// After how many seconds to stop.
@@ -68,6 +70,7 @@ pub(crate) fn run(wanted: Wanted<'_>) -> Result<Sums, String> {
         let device: Option<Device<'_>> = device.as_deref();
         #[cfg(not(feature = "draw"))]
         let device: Option<Device<'_>> = None;
+        let chosen = Chosen { only: wanted.only, one_in: wanted.one_in, device };
         let mut own = Sums::default();
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
@@ -78,7 +81,7 @@ pub(crate) fn run(wanted: Wanted<'_>) -> Result<Sums, String> {
             let seed = wanted.seed.wrapping_add(number);
             let program = Program::new(seed);
             own.count(&program);
-            if let Some(fault) = tallied_fault(&program, wanted.only, device, &mut own.tally) {
+            if let Some(fault) = tallied_fault(&program, chosen, &mut own.tally) {
                 let known = kind(&fault);
                 let so_far = {
                     let Ok(mut sums) = sums.lock() else { break };
@@ -140,9 +143,10 @@ fn smaller(
     device: Option<Device<'_>>,
 ) -> Result<PathBuf, String> {
     let only = Some(found.check).filter(|check| *check != LOADED);
+    let chosen = Chosen { only, one_in: 1, device };
     let known = kind(found);
-    let small = shrunk(program, &mut |smaller| fault(smaller, only, device).is_some_and(|fault| kind(&fault) == known));
-    let message = fault(&small, only, device).map_or_else(|| found.message.clone(), |fault| fault.message);
+    let small = shrunk(program, &mut |smaller| fault(smaller, chosen).is_some_and(|fault| kind(&fault) == known));
+    let message = fault(&small, chosen).map_or_else(|| found.message.clone(), |fault| fault.message);
     let comment: String = message.lines().map(|line| format!("// {line}\n")).collect();
     let check = found.check.replace(' ', "_");
     let path = wanted.folder.join(format!("{check}-{}.glsl", program.seed));

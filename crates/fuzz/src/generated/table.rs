@@ -60,9 +60,11 @@ impl Sums {
         for (name, count) in &self.constructs {
             let _ = writeln!(text, "| {} | {count} |", name.replace('|', "\\|"));
         }
-        let _ = writeln!(text, "\n| check | milliseconds a program |\n| --- | --- |");
+        let _ = writeln!(text, "\n| check | programs | milliseconds each |\n| --- | --- | --- |");
         for (name, time) in &self.tally.times {
-            let _ = writeln!(text, "| {name} | {:.2} |", time.as_secs_f64() * 1000.0 / self.programs.max(1) as f64);
+            let count = self.tally.checked.get(name).copied().unwrap_or(0);
+            let each = time.as_secs_f64() * 1000.0 / count.max(1) as f64;
+            let _ = writeln!(text, "| {name} | {count} | {each:.2} |");
         }
         let _ =
             writeln!(text, "\n| check | the picture of emitted code was compared by | programs |\n| --- | --- | --- |");
