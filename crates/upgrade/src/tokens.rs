@@ -1,11 +1,12 @@
 //! The words and signs of a text, with their places. Comments and white space are between them.
 //!
-//! *In:* a text. *Out:* [`Token`]s. *Holds:* the lines of directives are cut like all others, so macros are rewritten, too.
+//! *In:* a text. *Out:* [`Token`]s. *Holds:* the lines of directives are cut like all others, so macros are rewritten, too; the name of an
+//! include is one token, whatever words it has.
 
 use glisten_sources::engines::code::{is_name, without_comments};
 use std::ops::Range;
 
-/// A word, a number or a sign.
+/// A word, a number, a sign or the name of an include with its quotation marks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Token<'t> {
     pub(super) text: &'t str,
@@ -22,7 +23,7 @@ impl Token<'_> {
 /// The tokens of a text.
 pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
     let code = without_comments(text);
-    let mut found = Vec::new();
+    let mut found: Vec<Token<'_>> = Vec::new();
     let mut at = 0;
     while let Some(first) = code.get(at..).and_then(|rest| rest.chars().next()) {
         let rest = code.get(at..).unwrap_or("");
@@ -30,7 +31,7 @@ pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
             let is_number = first.is_ascii_digit();
             rest.find(|next: char| !(is_name(next) || is_number && next == '.')).unwrap_or(rest.len())
         } else {
-            first.len_utf8()
+            quoted(rest, &found).unwrap_or(first.len_utf8())
         };
         if !first.is_whitespace() {
             let range = at..at + length;
@@ -40,6 +41,19 @@ pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
         at += length;
     }
     found
+}
+
+/// The length of the name of an include, if one begins here: between quotation marks, or behind `#include` between `<` and `>`.
+fn quoted(rest: &str, before: &[Token<'_>]) -> Option<usize> {
+    let end = match rest.chars().next()? {
+        '"' => '"',
+        '<' if matches!(before, [.., hash, word] if hash.text == "#" && matches!(word.text, "include" | "moj_import")) => {
+            '>'
+        }
+        _ => return None,
+    };
+    let line = rest.lines().next()?;
+    line.get(1..)?.find(end).map(|length| length + 2)
 }
 
 /// The largest number of tokens in the arguments of a call.
@@ -71,6 +85,14 @@ mod tests {
     fn words_and_signs() {
         let texts: Vec<&str> = tokens("a1/*b*/+ 1.5e // c\n#x(y)").iter().map(|token| token.text).collect();
         assert_eq!(texts, ["a1", "+", "1.5e", "#", "x", "(", "y", ")"]);
+        let texts: Vec<&str> = tokens("#include \"a/common.glsl\"\n#include <b/sample>\na < b > c \" d")
+            .iter()
+            .map(|token| token.text)
+            .collect();
+        assert_eq!(
+            texts,
+            ["#", "include", "\"a/common.glsl\"", "#", "include", "<b/sample>", "a", "<", "b", ">", "c", "\"", "d"]
+        );
         let call = tokens("f(a[1], (b)) )");
         assert_eq!(closing(&call, 1), Some(10));
         assert_eq!(closing(&tokens("(["), 0), None);

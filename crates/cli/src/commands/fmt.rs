@@ -70,6 +70,10 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
     if args.files.iter().any(|file| file.as_os_str() == "-") {
         return standard_input(args, console);
     }
+    if let Some(name) = &args.stdin_filename {
+        let text = format!("`--stdin-filename {}` names standard input, which is not formatted", name.display());
+        return Err(Failure::usage(text).help("write `-` for standard input, or leave `--stdin-filename` out"));
+    }
     let paths = paths(&args.files, args.embedded)?;
     let folders = paths.iter().map(|path| folder_of(path));
     if let Some(exit) = wrong_configuration(folders, console) {

@@ -10,7 +10,7 @@ use super::{Lower, Try, for_each_operand, internal};
 use glisten_front::hir::{
     ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Storage, Type, TypeId, Value, VarRef,
 };
-use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal};
+use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal, TypeInner};
 
 /// Whether a float has a literal. The largest float has none: its shortest decimal spelling is a little larger than
 /// it is, and Tint rejects that.
@@ -155,9 +155,15 @@ impl Ctx<'_, '_> {
                     op @ (Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Modulo | Op::ShiftLeft | Op::ShiftRight),
                 left,
                 right,
-            } if self.is_known(&expression) => Expression::Binary { op, left: self.hidden_operand(left), right },
+            } if self.is_known(&expression) => {
+                let hidden = self.hidden_operand(left);
+                let right = if hidden == left { self.hidden_operand(right) } else { right };
+                Expression::Binary { op, left: hidden, right }
+            }
             Expression::Math { fun, arg, arg1, arg2, arg3 } if self.is_known(&expression) => {
-                Expression::Math { fun, arg: self.hidden_operand(arg), arg1, arg2, arg3 }
+                let hidden = self.hidden_operand(arg);
+                let arg1 = if hidden == arg { arg1.map(|arg| self.hidden_operand(arg)) } else { arg1 };
+                Expression::Math { fun, arg: hidden, arg1, arg2, arg3 }
             }
             Expression::Select { condition, accept, reject } if self.is_known(&expression) => {
                 let hidden = self.hidden_operand(condition);
@@ -172,7 +178,7 @@ impl Ctx<'_, '_> {
     /// makes of all these one constant, which must have a constituent for each component.
     pub(super) fn with_scalar_constituents(&mut self, expression: Expression) -> Expression {
         let Expression::Compose { ty, components } = &expression else { return expression };
-        let naga::TypeInner::Vector { size, .. } = self.low.module.types[*ty].inner else { return expression };
+        let TypeInner::Vector { size, .. } = self.low.module.types[*ty].inner else { return expression };
         let complete = components.len() == size as usize;
         if complete
             || !self.low.can().wants_scalar_constituents
@@ -214,7 +220,7 @@ impl Ctx<'_, '_> {
             _ => return 1,
         };
         match self.low.module.types[ty].inner {
-            naga::TypeInner::Vector { size, .. } => size as u32,
+            TypeInner::Vector { size, .. } => size as u32,
             _ => 1,
         }
     }
@@ -258,10 +264,44 @@ impl Ctx<'_, '_> {
                 _ => None,
             },
             Expression::Unary { expr, .. } => self.type_of_known(expr),
-            Expression::Binary { op: BinaryOperator::And, left, .. } => self.type_of_known(left),
+            Expression::Binary { op, left, .. } if has_type_of_operands(op) => self.type_of_known(left),
+            Expression::Select { accept, .. } => self.type_of_known(accept),
+            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => {
+                let ty = self.type_of_known(base)?;
+                match self.low.module.types[ty].inner {
+                    TypeInner::Vector { scalar, .. } => Some(self.low.insert_type(None, TypeInner::Scalar(scalar))),
+                    TypeInner::Matrix { rows: size, scalar, .. } => {
+                        Some(self.low.insert_type(None, TypeInner::Vector { size, scalar }))
+                    }
+                    TypeInner::Array { base, .. } => Some(base),
+                    _ => None,
+                }
+            }
+            Expression::Swizzle { size, vector, .. } => {
+                let ty = self.type_of_known(vector)?;
+                let scalar = self.low.module.types[ty].inner.scalar()?;
+                Some(self.low.insert_type(None, TypeInner::Vector { size, scalar }))
+            }
             _ => None,
         }
     }
+}
+
+/// Whether the result of an operator has the type of its left operand: integers' operators, and sums, whose operands are brought to one
+/// size before.
+fn has_type_of_operands(op: BinaryOperator) -> bool {
+    use BinaryOperator as Op;
+    matches!(
+        op,
+        Op::Add
+            | Op::Subtract
+            | Op::And
+            | Op::InclusiveOr
+            | Op::ExclusiveOr
+            | Op::ShiftLeft
+            | Op::ShiftRight
+            | Op::Modulo
+    )
 }
 
 impl Lower<'_> {

@@ -20,19 +20,31 @@ impl Shader {
             ExprKind::Var(VarRef::Global(global)) => self.global(global).builtin == Some(BuiltinVariable::FragCoord),
             _ => false,
         };
-        let all = (0..self.exprs.len()).filter(|index| is_coordinate(ExprId(*index as u32))).count();
-        let others = self.exprs.iter().filter(|expr| match &expr.kind {
-            ExprKind::Swizzle(base, swizzle) => is_coordinate(*base) && !swizzle.as_slice().contains(&1),
-            ExprKind::Index(base, index) => {
-                let is_row = !matches!(
-                    self.expr(*index).kind,
-                    ExprKind::Literal(ScalarValue::Int(0 | 2 | 3) | ScalarValue::Uint(0 | 2 | 3))
-                );
-                is_coordinate(*base) && !is_row
-            }
+        // Of a coordinate's components, those that an expression reads.
+        let leaves_row = |kind: &ExprKind| match kind {
+            ExprKind::Swizzle(_, swizzle) => !swizzle.as_slice().contains(&1),
+            ExprKind::Index(_, index) => matches!(
+                self.expr(*index).kind,
+                ExprKind::Literal(ScalarValue::Int(0 | 2 | 3) | ScalarValue::Uint(0 | 2 | 3))
+            ),
             _ => false,
-        });
-        others.count() < all
+        };
+        // What a later step has dropped may still have a coordinate as its operand, next to what took its place.
+        let coordinates = (0..self.exprs.len()).map(|index| ExprId(index as u32)).filter(|id| is_coordinate(*id));
+        let mut whole: Vec<ExprId> = coordinates.collect();
+        if whole.is_empty() {
+            return false;
+        }
+        for expr in &self.exprs {
+            match expr.kind {
+                ExprKind::Swizzle(base, _) | ExprKind::Index(base, _) if leaves_row(&expr.kind) => {
+                    whole.retain(|id| *id != base);
+                }
+                _ if expr.kind.children().into_iter().any(is_coordinate) => return true,
+                _ => {}
+            }
+        }
+        !whole.is_empty()
     }
 
     /// Sets [`Function::reachable`](super::Function::reachable), [`Global::used`](super::Global::used) and

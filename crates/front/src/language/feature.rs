@@ -163,6 +163,8 @@ features! {
         "§4.6.1";
     /// Inputs that no output of the stage before feeds with a value.
     UnwrittenInputs "an input that the stage before does not write" since(150, 100), STAYS, NONE, "§4.3.4";
+    /// An `invariant` output matches an input that is not.
+    InvariantOutputAlone "an `invariant` output alone" since(420, 300), STAYS, NONE, "§4.8.1";
 }
 
 impl FeatureRow {

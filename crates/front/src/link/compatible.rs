@@ -59,8 +59,13 @@ pub(super) enum MemberDifference<'a> {
     Qualifiers(&'a Member, &'a Member),
 }
 
-/// Compares the members of two declarations of one block (§4.3.7).
-pub(super) fn compare_members(types: &Types, a: StructId, b: StructId) -> Option<MemberDifference<'_>> {
+/// Compares the members of two declarations of one block (§4.3.7). With `invariant_alone`, one of the former may be invariant alone.
+pub(super) fn compare_members(
+    types: &Types,
+    a: StructId,
+    b: StructId,
+    invariant_alone: bool,
+) -> Option<MemberDifference<'_>> {
     let (a, b) = (&types.structure(a).members, &types.structure(b).members);
     for (a, b) in a.iter().zip(b) {
         if a.name != b.name || !same_type(types, a.ty, b.ty) {
@@ -70,7 +75,7 @@ pub(super) fn compare_members(types: &Types, a: StructId, b: StructId) -> Option
         if (has_matrix && a.matrix_layout != b.matrix_layout)
             || a.interpolation != b.interpolation
             || a.sampling != b.sampling
-            || a.invariant != b.invariant
+            || a.invariant != b.invariant && !(invariant_alone && a.invariant)
             || a.place != b.place
         {
             return Some(MemberDifference::Qualifiers(a, b));

@@ -204,7 +204,8 @@ fn interpolation_prefix(global: &Global) -> String {
 }
 
 fn check_pair(ctx: &mut Linker<'_>, producer: &Shader, output: &Global, consumer: &Shader, input: &Global) {
-    let pair = Pair { producer: producer.stage, output, consumer: consumer.stage, input };
+    let invariant_alone = [producer, consumer].iter().any(|shader| shader.version.has(Feature::InvariantOutputAlone));
+    let pair = Pair { producer: producer.stage, output, consumer: consumer.stage, input, invariant_alone };
     if input.block.is_some() {
         check_block(ctx, &pair);
     } else {
@@ -218,6 +219,8 @@ struct Pair<'a> {
     output: &'a Global,
     consumer: Stage,
     input: &'a Global,
+    /// Whether an invariant output matches an input that is not.
+    invariant_alone: bool,
 }
 
 impl Pair<'_> {
@@ -284,7 +287,7 @@ fn check_block(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
         pair.report(ctx, &codes::link::INTERFACE_BLOCK_MISMATCH, what, array(output_size), array(input_size));
         return;
     }
-    if let Some(difference) = compare_members(types, output, input) {
+    if let Some(difference) = compare_members(types, output, input, pair.invariant_alone) {
         let diagnostic = member_difference(types, &codes::link::INTERFACE_BLOCK_MISMATCH, pair, &difference);
         ctx.report(diagnostic);
     }
@@ -335,7 +338,8 @@ fn member_qualifiers(member: &crate::hir::Member) -> String {
 }
 
 /// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must
-/// match" (§4.3.9): `smooth` and no qualifier differ, too.
+/// match" (§4.3.9): `smooth` and no qualifier differ, too. From 4.20 and ES 3.00 on, an invariant output "will still match an input of
+/// a subsequent stage without the input being declared as invariant" (GLSL 4.20 §4.8.1).
 fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
     let Pair { output, input, .. } = pair;
     let interpolation = |global: &Global| global.interpolation_written.then_some(global.interpolation);
@@ -348,10 +352,11 @@ fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
         pair.report(ctx, &codes::link::INTERPOLATION_MISMATCH, what, word(output), word(input));
     }
     let is = |global: &Global, sampling| global.sampling == sampling;
+    let is_free = pair.invariant_alone && !input.invariant;
     let flags = [
         ("centroid", is(output, Sampling::Centroid), is(input, Sampling::Centroid)),
         ("sample", is(output, Sampling::Sample), is(input, Sampling::Sample)),
-        ("invariant", output.invariant, input.invariant),
+        ("invariant", output.invariant && !is_free, input.invariant),
     ];
     for (qualifier, theirs, ours) in flags {
         if theirs != ours {

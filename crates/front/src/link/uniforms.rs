@@ -189,7 +189,7 @@ fn check_same_block(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, glob
     } else if let Some((here, there)) = different_bindings(global, known.global) {
         whole("has another binding in each stage", here, there)
     } else {
-        match compare_members(types, our_members, their_members) {
+        match compare_members(types, our_members, their_members, false) {
             None => return,
             Some(MemberDifference::Count(ours, theirs)) => {
                 whole("has another number of members in each stage", ours.to_string(), theirs.to_string())

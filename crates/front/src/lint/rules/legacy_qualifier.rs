@@ -4,6 +4,8 @@ use super::super::{Findings, Subject};
 use crate::diagnostic::Applicability;
 use crate::hir::{Stage, Storage};
 use crate::language::Since;
+use crate::syntax::Lexemes;
+use crate::syntax::token::{Token, TokenKind};
 use std::collections::BTreeSet;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
@@ -17,12 +19,16 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             // Qualifiers come before the type, which comes before the name; several names may share them.
             let before = lexemes.tokens().get(..at).unwrap_or(&[]);
             let start = before.iter().rposition(|token| {
-                use crate::syntax::token::TokenKind::{Hash, LeftBrace, RightBrace, Semicolon};
+                use TokenKind::{Hash, LeftBrace, RightBrace, Semicolon};
                 matches!(token.kind, Semicolon | RightBrace | LeftBrace | Hash)
             });
             let own = before.get(start.map_or(0, |start| start + 1)..).unwrap_or(&[]);
             let old = own.iter().find(|token| matches!(lexemes.spelling(token), "attribute" | "varying"));
-            let Some(old) = old.filter(|token| told.insert(token.span.start)) else { continue };
+            // A macro of this name is what a header makes of the old word: it is not the keyword.
+            let Some(old) = old.filter(|token| !is_macro(&lexemes, token)) else { continue };
+            if !told.insert(old.span.start) {
+                continue;
+            }
             let new = if global.storage == Storage::In { "in" } else { "out" };
             let fix =
                 subject.texts.replace(Applicability::Safe, old.span, new).filter(|_| shader.stage != Stage::Geometry);
@@ -30,4 +36,15 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             findings.push(finding.help(format!("write `{new}`")).maybe_fix(fix));
         }
     }
+}
+
+/// Whether the file defines a macro with the name of a token.
+fn is_macro(lexemes: &Lexemes, token: &Token) -> bool {
+    let spelled = |token: &Token| lexemes.spelling(token);
+    lexemes.tokens().windows(3).any(|three| match three {
+        [hash, define, name] => {
+            hash.kind == TokenKind::Hash && spelled(define) == "define" && spelled(name) == spelled(token)
+        }
+        _ => false,
+    })
 }

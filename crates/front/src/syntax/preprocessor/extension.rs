@@ -73,8 +73,9 @@ impl Preprocessor<'_> {
             self.extension_set = session.extension_sets.number(self.extensions);
             self.set_keywords();
         }
+        let joins_comments = self.joins_lines();
         if let Some(frame) = self.frames.last_mut() {
-            frame.lexer.joins_comments = self.version.has_with(Feature::LineContinuation, self.extensions);
+            frame.lexer.joins_comments = joins_comments;
         }
     }
 

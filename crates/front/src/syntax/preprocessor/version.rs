@@ -121,7 +121,16 @@ impl Preprocessor<'_> {
             return self.stop();
         };
         let wanted = match named {
-            "" if edition.es => Some(Profile::Es),
+            "" if edition.es => {
+                if version.number >= 300 {
+                    let message =
+                        format!("`#version {}` is a version of ES, and lacks the profile `es`", version.number);
+                    let whole = format!("write `#version {} es`", version.number);
+                    // The profile "is not optional and must be es" (GLSL 4.60 §3.3).
+                    session.report(Diagnostic::new(&codes::UNKNOWN_VERSION, number, message).help(whole));
+                }
+                Some(Profile::Es)
+            }
             "" | "core" if named.is_empty() || edition.has_profiles() => Some(Profile::Core),
             "compatibility" if edition.has_profiles() => Some(Profile::Compatibility),
             "es" if edition.es && version.number >= 300 => Some(Profile::Es),
@@ -142,6 +151,10 @@ impl Preprocessor<'_> {
     /// Sets the keywords and macros of the version.
     fn apply_version(&mut self, session: &mut ParseSession<'_>) {
         self.set_keywords();
+        let joins_comments = self.joins_lines();
+        if let Some(frame) = self.frames.last_mut() {
+            frame.lexer.joins_comments = joins_comments;
+        }
         self.define_version(session);
     }
 
