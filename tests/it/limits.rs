@@ -377,7 +377,49 @@ fn a_scene_reads_nothing_outside_of_the_sandbox() {
         }
     }
     let (code, errors) = run("/dev/zero", false);
-    assert!(code == Some(2) && errors.contains("larger than"), "{code:?} {errors}");
+    assert!(code == Some(2) && errors.contains("a pipe or a device, not a file"), "{code:?} {errors}");
+}
+
+/// A pipe that nobody writes to ends no command: neither in a folder, nor as what a scene or a source names.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_pipe_is_not_waited_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    std::fs::create_dir(folder.path().join("pipes")).expect("made");
+    for name in ["pipes/a.frag", "b.glsl"] {
+        let made = std::process::Command::new("mkfifo").arg(folder.path().join(name)).status();
+        assert!(made.is_ok_and(|status| status.success()), "mkfifo makes a pipe");
+    }
+    file("s.toml", "[[draw]]\nvertex = \"a.vert\"\nfragment = \"b.glsl\"\nvertex_count = 3\n");
+    file("a.vert", "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n");
+    file("i.frag", "#version 150\n#include \"b.glsl\"\nvoid main() {}\n");
+    for (arguments, message) in [
+        (&["lint", "pipes"][..], "no shader was found"),
+        (&["fmt", "pipes"], "0 of 0 files"),
+        (&["test", "--backend", "cpu", "pipes"], "there is no .shader_test file"),
+        (&["lint", "--no-cache", "i.frag"], "a pipe or a device"),
+        (&["render", "--backend", "cpu", "-o", "o.png", "s.toml"], "a pipe or a device"),
+    ] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_glisten"));
+        let child = command
+            .args(arguments)
+            .current_dir(folder.path())
+            .stderr(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::piped());
+        let mut child = child.spawn().expect("it starts");
+        let start = std::time::Instant::now();
+        while child.try_wait().expect("a child").is_none() {
+            if start.elapsed().as_secs() > 60 {
+                let _ = child.kill();
+                panic!("{arguments:?} waits");
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        let output = child.wait_with_output().expect("its output");
+        let told = [output.stdout, output.stderr].concat();
+        assert!(String::from_utf8_lossy(&told).contains(message), "{arguments:?}: {}", String::from_utf8_lossy(&told));
+    }
 }
 
 /// `--max-memory`: a large picture ends with a sentence, in this process and in one that draws by a driver; a small one is drawn.

@@ -7,7 +7,7 @@ use crate::unfinished;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
-use glisten_scene::{confined_to, is_allowed};
+use glisten_scene::{confined_to, is_allowed, may_end};
 use glisten_verify::scene::{DiskFiles, FileError, FileSource};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -101,6 +101,11 @@ fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     }
     if metadata.len() > MAX_BYTES {
         return Err(too_large(name));
+    }
+    if !may_end(path).unwrap_or(true) {
+        let message = format!("`{name}` is a pipe or a device, not a file");
+        let error = ReadError::new(&general::FILE_UNREADABLE, message);
+        return Err(ReadError { help: Some("write `-` for standard input".to_owned()), ..error });
     }
     let file = fs::File::open(path).map_err(|error| read_error(name, path, &error))?;
     read_all(name, file, room)

@@ -190,6 +190,7 @@ pub(crate) fn scene_files(names: &[String]) -> Result<Vec<String>, Failure> {
             .build()
             .filter_map(Result::ok)
             .filter(|entry| entry.path().extension().is_some_and(|extension| extension == "toml"))
+            .filter(|entry| entry.path().is_file())
             .filter(|entry| fs::read_to_string(entry.path()).is_ok_and(|text| text.contains("[[draw]]")))
             .map(|entry| entry.path().to_string_lossy().into_owned())
             .collect();

@@ -87,7 +87,7 @@ pub(crate) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     for entry in walk.build() {
         let entry =
             entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
-        if entry.file_type().is_some_and(|kind| kind.is_dir()) || excludes.has(entry.path()) {
+        if entry.file_type().is_some_and(|kind| kind.is_dir()) || !may_end(&entry) || excludes.has(entry.path()) {
             continue;
         }
         let path = entry.into_path();
@@ -118,6 +118,12 @@ pub(crate) fn classify(path: &Path, engines: &Engines) -> Option<Result<(), Why>
         return Some(Ok(()));
     }
     (stages::may_be_included(path) && !stages::is_part(path)).then_some(Err(Why::NoStage))
+}
+
+/// Whether an entry is a file, or a link to one or to nothing. Pipes and devices may never end.
+fn may_end(entry: &ignore::DirEntry) -> bool {
+    entry.file_type().is_some_and(|kind| kind.is_file())
+        || entry.path().metadata().map_or(true, |there| there.is_file())
 }
 
 fn is_hidden_folder(entry: &ignore::DirEntry) -> bool {

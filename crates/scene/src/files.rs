@@ -92,8 +92,11 @@ impl FileSource for DiskFiles {
             return Err(FileError::Unreadable("it is outside of the sandbox".to_owned()));
         }
         let read = || -> io::Result<Option<Vec<u8>>> {
+            if !may_end(path)? {
+                return Err(io::Error::other("it is a pipe or a device, not a file"));
+            }
             let file = std::fs::File::open(path)?;
-            // The length of a device or a pipe is not known before it is read.
+            // The length of a pipe is not known before it is read.
             if file.metadata()?.len() > MAX_FILE_BYTES {
                 return Ok(None);
             }
@@ -109,6 +112,17 @@ impl FileSource for DiskFiles {
             Err(error) => Err(FileError::Unreadable(error.to_string())),
         }
     }
+}
+
+/// Whether a path leads to a file, or to a folder, which has an error of its own. A pipe may have no writer, and a device no end; a pipe
+/// that the shell has opened for this process (`<(command)`, `/dev/stdin`) has a writer.
+///
+/// # Errors
+/// There is nothing at the path.
+pub fn may_end(path: &Path) -> io::Result<bool> {
+    let kind = std::fs::metadata(path)?.file_type();
+    let is_own = ["/dev/fd", "/dev/stdin", "/proc/self/fd"].iter().any(|own| path.starts_with(own));
+    Ok(kind.is_file() || kind.is_dir() || is_own)
 }
 
 /// Files in memory, by path.

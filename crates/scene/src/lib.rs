@@ -27,7 +27,9 @@ pub mod tables;
 pub mod values;
 
 pub use dependence::ColorDependence;
-pub use files::{DiskFiles, FileError, FileSource, MAX_FILE_BYTES, MemoryFiles, confine_to, confined_to, is_allowed};
+pub use files::{
+    DiskFiles, FileError, FileSource, MAX_FILE_BYTES, MemoryFiles, confine_to, confined_to, is_allowed, may_end,
+};
 pub use library::{Library, NoLibrary};
 pub use load::{
     Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, load_kept, write,

@@ -21,8 +21,12 @@ pub trait Disk: Send + Sync {
 /// The largest source that is read; the compiler has a smaller limit of its own for all texts of a shader.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// The bytes of a file. What is longer than any source, such as a device, is an error.
+/// The bytes of a file. What is longer than any source is an error, and so is a device, or a pipe, which may never end.
 pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    let kind = std::fs::metadata(path)?.file_type();
+    if !kind.is_file() && !kind.is_dir() {
+        return Err(io::Error::other("it is a pipe or a device, not a file"));
+    }
     let mut bytes = Vec::new();
     File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MAX_BYTES {

@@ -91,6 +91,8 @@ struct TestRow {
 
 /// The name of the backend that a driver is.
 const GPU: &str = "gpu";
+/// The section that each test file has.
+const TEST: &str = "[test]";
 /// The extension of test files.
 const EXTENSION: &str = "shader_test";
 /// How deep folders are searched.
@@ -115,12 +117,18 @@ pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
     for path in &files {
         let name = path.display().to_string();
         progress.say(&name);
-        let bytes = files::read(&name, path).map_err(|_| Failure::usage(format!("cannot read `{name}`")))?;
+        let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
         let text = String::from_utf8_lossy(&bytes);
         if is_source(path) && has_tests(&text) {
             results.extend(units(&name, &text, &compiler, &mut backends, &mut known));
             progress.step();
             continue;
+        }
+        // A mistyped name does not pass as a test that is skipped.
+        if path.extension().is_none_or(|extension| extension != EXTENSION)
+            && !text.lines().any(|line| line.trim() == TEST)
+        {
+            return Err(Failure::usage(format!("`{name}` has no section `{TEST}`, and no shader with `//! test`")));
         }
         for (backend, draws) in &mut backends {
             let row = known.take(&name, backend).unwrap_or_else(|| {
@@ -237,27 +245,29 @@ fn one(name: &str, text: &str, backend: &mut dyn TestBackend) -> TestResult {
 }
 
 /// Collects the files at a path: the path itself, or the files in it, in the order of their names.
-fn collect(path: &Path, files: &mut Vec<PathBuf>, depth: u32) -> Result<(), Failure> {
+fn collect(path: &Path, found: &mut Vec<PathBuf>, depth: u32) -> Result<(), Failure> {
     let unreadable = |error: std::io::Error| Failure::usage(format!("cannot read `{}`: {error}", path.display()));
     if !std::fs::metadata(path).map_err(unreadable)?.is_dir() {
-        files.push(path.to_owned());
+        found.push(path.to_owned());
         return Ok(());
     }
     if depth == 0 {
-        let with_tests =
-            |path: &PathBuf| std::fs::read(path).is_ok_and(|text| has_tests(&String::from_utf8_lossy(&text)));
-        files.extend(search::texts(path)?.into_iter().filter(with_tests));
+        let with_tests = |path: &PathBuf| {
+            let read = files::read(&path.to_string_lossy(), path);
+            read.is_ok_and(|text| has_tests(&String::from_utf8_lossy(&text)))
+        };
+        found.extend(search::texts(path)?.into_iter().filter(with_tests));
     }
     let mut entries = std::fs::read_dir(path)
         .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>())
         .map_err(unreadable)?;
     entries.sort();
     for entry in entries {
-        let is_test = entry.extension().is_some_and(|extension| extension == EXTENSION);
+        let is_test = entry.extension().is_some_and(|extension| extension == EXTENSION) && entry.is_file();
         // A link to a parent folder would make the search endless.
         let is_folder = entry.is_dir() && !entry.is_symlink() && depth < MOST_FOLDERS;
         if is_test || is_folder {
-            collect(&entry, files, depth + 1)?;
+            collect(&entry, found, depth + 1)?;
         }
     }
     Ok(())

@@ -25,6 +25,8 @@ const FIXED_VERTEX: &str = "gl_Vertex";
 const FIXED_TEXCOORD: &str = "gl_MultiTexCoord0";
 /// The largest number of instances of a draw.
 const MOST_INSTANCES: u32 = 1 << 16;
+/// The vertices of a draw, as in a scene.
+const MOST_VERTICES: u32 = 1 << 22;
 
 const MODES: &[(&str, Primitive)] = &[
     ("GL_POINTS", Primitive::Points),
@@ -106,6 +108,12 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
     let mode = words.word()?;
     let (first, count) = (words.count()?, words.count()?);
     let instances = if instanced { words.count()? } else { 1 };
+    if count > MOST_VERTICES {
+        return fail(line, format_args!("a draw has at most {MOST_VERTICES} vertices, not {count}"));
+    }
+    if first.checked_add(count).is_none() {
+        return fail(line, format_args!("there are no indices from {first} to {first} + {count}"));
+    }
     if !data.columns.is_empty() && u64::from(first) + u64::from(count) > u64::from(data.rows) {
         return fail(line, format_args!("the draw goes beyond the {} rows of vertex data", data.rows));
     }
