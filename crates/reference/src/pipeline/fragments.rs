@@ -16,7 +16,7 @@ use super::plan::Plan;
 use super::same_surface::Origin;
 use super::source::Source;
 use super::surface::BIN;
-use super::target::{Bin, local};
+use super::target::{Bin, global, local};
 use super::vertices::Vertices;
 use super::watch::{Followed, PixelSet, Probe, jittered};
 use crate::domain::{Domain, ErrorPart, Integer, Number, Profile};
@@ -136,6 +136,10 @@ impl<D: Domain> Shading<'_, D> {
             }
         });
         for fragment in near.fragments {
+            let [x, y] = global(area, fragment.place);
+            if self.pixels.is_some_and(|wanted| wanted.in_row(x, y, 1) == 0) {
+                continue;
+            }
             batch.add_edge(fragment);
             if batch.is_full() {
                 self.settle(bin, batch, machine);
@@ -178,6 +182,10 @@ impl<D: Domain> Shading<'_, D> {
             let Some(done) = done.get_mut(row as usize / 2).filter(|done| **done >> column & 1 == 0) else { continue };
             *done |= 1 << column;
             let first = row * BIN as u32 + column;
+            let [x, y] = global(area, first);
+            if self.pixels.is_some_and(|wanted| !wanted.in_quad(x, y)) {
+                continue;
+            }
             batch.add_quad(first, BIN as u32, near.quad(i64::from(row), i64::from(column)));
             near.in_quad(first).for_each(|(lane, fragment)| batch.mark_in_quad(lane, fragment));
             if batch.is_full() {

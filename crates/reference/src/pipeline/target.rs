@@ -72,6 +72,12 @@ pub(super) fn local(area: Bounds, x: i64, y: i64) -> u32 {
     ((y - area.y0) * BIN + (x - area.x0)) as u32
 }
 
+/// The place in the picture of a pixel that is known by its index in its bin.
+#[inline(always)]
+pub(super) fn global(area: Bounds, index: u32) -> [i64; 2] {
+    [area.x0 + i64::from(index) % BIN, area.y0 + i64::from(index) / BIN]
+}
+
 impl<'s, D: Domain> Target<'s, D> {
     /// A framebuffer with these attachments.
     pub(super) fn new(surface: &'s mut Surface) -> Self {

@@ -212,6 +212,7 @@ pub fn verify(scene: &Scene, runners: &[&dyn Runner], options: &Options<'_>) -> 
         shares,
         classes,
         share,
+        sample,
         note,
         weakness,
         undefined,

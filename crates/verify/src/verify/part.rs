@@ -14,8 +14,9 @@ use std::borrow::Cow;
 /// The work of an envelope up to which all of a picture is judged, if nobody says another number, in the units of
 /// [`glisten_reference::envelope_work`], which take some 0.2 microseconds each.
 pub const MOST_WORK: u64 = 40_000_000;
-/// The numbers of blocks on which the work is measured: so many first, and then more if that was little work.
-const TRIALS: [usize; 3] = [1, 2, 8];
+/// The numbers of blocks on which the work is measured: so many first, and then more if that was little work. One block
+/// says little: the work of a picture's parts differs by more than what the verdict may take.
+const TRIALS: [usize; 3] = [8, 32, 64];
 /// Little work, as a share of what a verdict may take.
 const LITTLE: u64 = 32;
 /// The smallest number of blocks that stands for a picture: 256 pixels.

@@ -5,10 +5,12 @@
 use super::maps::{difference, evidence};
 use super::undefined::UndefinedAt;
 use super::weakness::Weakness;
-use super::{Run, Skip};
+use super::{Run, Skip, part};
 use glisten_front::diagnostic::Diagnostic;
+use glisten_reference::Sample;
 use glisten_scene::compare::{Class, Conclusion, Demands};
 use glisten_scene::picture::Picture;
+use std::borrow::Cow;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -29,6 +31,8 @@ pub struct Verification {
     pub classes: Vec<Option<Class>>,
     /// The share of the picture that was judged: 1, unless a sample stands for it ([`Options::most_work`](super::Options::most_work)).
     pub share: f64,
+    /// The part of the picture that was judged.
+    pub(super) sample: Sample,
     /// The origin of the worst pixel's envelope, if [`Options::sources`](super::Options::sources) is set and the pixel is wrong.
     pub note: Option<Diagnostic>,
     /// Why too little was judged, if that is so.
@@ -43,6 +47,11 @@ pub struct Verification {
 }
 
 impl Verification {
+    /// A picture with the reference's colors where it was not judged, so that a figure of both is one of what was.
+    pub fn judged<'p>(&self, picture: &'p Picture) -> Cow<'p, Picture> {
+        part::only(picture, self.sample, &self.reference)
+    }
+
     /// Whether all differences of all runs are explained, and something was drawn at all.
     pub fn holds(&self) -> bool {
         match self.conclusion() {

@@ -191,7 +191,11 @@ impl Run {
         let pictures: Vec<&Picture> = verification.runs.iter().map(|run| &run.picture).collect();
         let flip = |(place, picture): (usize, &&Picture)| {
             let is_known = pictures.iter().take(place).any(|earlier| earlier.has_bits_of(picture));
-            (!is_known).then(|| flip(&verification.reference, picture))
+            // A mean over what is judged: the rest has no difference.
+            (!is_known).then(|| {
+                let mean = flip(&verification.reference, &verification.judged(picture));
+                (mean / verification.share.max(f64::MIN_POSITIVE)).min(1.0)
+            })
         };
         let flips: Vec<Option<f64>> = pictures.par_iter().enumerate().map(flip).collect();
         let of = |run: &verify::Run| {
@@ -207,7 +211,7 @@ impl Run {
             via: run.runner,
             verdict: run.verdict.clone(),
             flip,
-            bit_unequal: run.picture.bit_unequal(reference),
+            bit_unequal: verification.judged(&run.picture).bit_unequal(reference),
             gpu_ms: run.milliseconds,
             cpu_ms: verification.reference_milliseconds,
         }

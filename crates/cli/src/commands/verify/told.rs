@@ -51,8 +51,12 @@ fn summary(verification: &Verification, runs: &[Run], worst: &Run, bit_unequal: 
         None => String::new(),
     };
     let share = 100.0 * verdict.share_judged(&verification.demands);
+    let blocks = match verification.share {
+        whole if whole >= 1.0 => String::new(),
+        part => format!(" in blocks of {:.1} % of the picture", 100.0 * part),
+    };
     format!(
-        "{}: {}: {} of {} covered pixels judged ({share:.1} %){}\n\
+        "{}: {}: {} of {} covered pixels{blocks} judged ({share:.1} %){}\n\
          largest error {:.3e} ({:.1} ulp), rmse {:.3e}, flip {:.3e}; {}\n\
          {}{equal}, reference {:.3} ms\n",
         vias.join(" and "),
