@@ -125,6 +125,7 @@ impl<'a> Session<'a> {
     }
 
     /// The levels of a file.
+    #[cfg(any(feature = "lsp", feature = "play"))]
     pub(crate) fn levels_of(&mut self, name: &str) -> Levels {
         self.configs.levels(name).clone()
     }
