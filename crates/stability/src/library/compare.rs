@@ -129,8 +129,15 @@ fn changes(calls: &Calls, inputs: &[f32], exact: &Rows) -> Result<Vec<f64>, Eval
     Ok(most)
 }
 
-/// The rest of the errors that are more than rounding, if the directions are taken as f32 has them.
-fn left_as_given(form: &Form, raw: &Calls, inputs: &[f32], left: &mut [f64]) -> Result<(), EvaluateError> {
+/// The rest of the errors that are more than rounding, if the directions are taken as f32 has them. Such a result may be far larger
+/// than the exact one: a bound that grows with the result (`relative`) takes its error as a share of its own size.
+fn left_as_given(
+    form: &Form,
+    raw: &Calls,
+    inputs: &[f32],
+    (exact, relative): (&Rows, bool),
+    left: &mut [f64],
+) -> Result<(), EvaluateError> {
     let width = raw.width();
     let rows: Vec<usize> = (0..left.len()).filter(|row| left[*row] > ROUNDING / 16.0).collect();
     if rows.is_empty() || width == 0 {
@@ -142,7 +149,9 @@ fn left_as_given(form: &Form, raw: &Calls, inputs: &[f32], left: &mut [f64]) -> 
     let single = raw.results(&given, Arithmetic::Single)?;
     let double = raw.results(&given, Arithmetic::Double)?;
     for ((row, single), double) in rows.iter().zip(&single).zip(&double) {
-        left[*row] = left[*row].min(apart(single, double));
+        let sizes = [exact.get(*row).map_or(0.0, |exact| size(exact)), size(double)].map(|size| size.max(1.0));
+        let share = if relative { (sizes[0] / sizes[1]).min(1.0) } else { 1.0 };
+        left[*row] = left[*row].min(share * apart(single, double));
     }
     Ok(())
 }
@@ -160,8 +169,9 @@ pub(super) fn compare(
     let errors: Vec<f64> = single.iter().zip(&exact).map(|(single, exact)| apart(single, exact)).collect();
     let mut left: Vec<f64> =
         errors.iter().zip(&changes).map(|(error, change)| (error - EXPLAINED * change).max(0.0)).collect();
-    left_as_given(form, raw, inputs, &mut left)?;
     let unit = bound.map_or(BoundUnit::Abs, |bound| bound.unit);
+    let relative = matches!(unit, BoundUnit::Size | BoundUnit::Rel);
+    left_as_given(form, raw, inputs, (&exact, relative), &mut left)?;
     let colors = brightest(form, inputs, calls.width());
     let mut figures = Figures { beyond_f64, ..Figures::default() };
     let mut worst = -1.0;
