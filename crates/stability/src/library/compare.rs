@@ -81,6 +81,11 @@ fn size(row: &[f64]) -> f64 {
     row.iter().fold(0.0, |most, number| f64::max(most, number.abs()))
 }
 
+/// An error as a share of the color's largest number, or of 1 if that is larger.
+pub(super) fn share_left(left: f64, color: &[f64]) -> f64 {
+    left / size(color).max(1.0)
+}
+
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     let each = a.iter().zip(b).map(|(a, b)| if a == b { 0.0 } else { (a - b).abs() });
     // A NaN is as far away as anything.
@@ -212,7 +217,7 @@ pub(super) fn compare(
 }
 
 impl Figures {
-    /// Adds a pixel: its error, the part that moving the inputs does not explain, the change by moving them, and the exact color.
+    /// Adds a pixel, held to a bound of its size: its error, the part that moving the inputs does not explain, the change by moving them, and the exact color.
     pub(super) fn add(&mut self, error: f64, left: f64, change: f64, color: &[f64]) {
         if !error.is_finite() || !is_finite(color) {
             self.non_finite += 1;
@@ -224,10 +229,11 @@ impl Figures {
             self.max_abs = self.max_abs.max(error);
             self.max_ulp = self.max_ulp.max(error / ulp(size));
         }
-        self.beyond_rounding = self.beyond_rounding.max(left / size.max(1.0));
-        self.another += usize::from(left > ANOTHER * size.max(1.0));
-        if left >= self.unexplained {
-            self.unexplained = left;
+        let judged = share_left(left, color);
+        self.beyond_rounding = self.beyond_rounding.max(judged);
+        self.another += usize::from(judged > ANOTHER);
+        if judged >= self.unexplained {
+            self.unexplained = judged;
             self.condition = if size > 0.0 { change / size / f64::from(f32::EPSILON) } else { 0.0 };
         }
     }

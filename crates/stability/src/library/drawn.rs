@@ -4,6 +4,7 @@
 //! the uniforms, the mesh and the textures of the scene as its arguments. *Holds:* as for functions, what moving the inputs by an ULP
 //! explains is no error. Figures are the same on every run.
 
+use super::compare::share_left;
 use super::{Bound, BoundUnit, Figures, FunctionFound};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_library::{Embedded, LibraryScene, SceneFiles};
@@ -16,7 +17,7 @@ use std::collections::BTreeMap;
 /// The module that the programs are made of.
 const MODULE: &str = "standard";
 
-/// The error that is allowed beyond what the inputs explain: a few lights, with a dozen roundings each.
+/// The error that is allowed beyond what the inputs explain, as a share of the color or of 1: a few lights, with a dozen roundings each.
 const PICTURE: f64 = 64.0 / 8_388_608.0;
 
 /// How many times the change by moving the inputs an error may be to count as explained.
@@ -62,7 +63,8 @@ impl Drawn {
         let told = |found: Vec<glisten_front::diagnostic::Diagnostic>| EvaluateError::told(&found);
         let pair = pictures_of(&scene).map_err(told)?;
         let changes = changes_of(&scene).map_err(told)?;
-        let bound = Bound { error: PICTURE, unit: BoundUnit::Abs, reason: "every light adds its roundings".to_owned() };
+        let bound =
+            Bound { error: PICTURE, unit: BoundUnit::Size, reason: "every light adds its roundings".to_owned() };
         let mut figures = Figures::default();
         let mut worst: Option<(usize, f64)> = None;
         let pixels = pair.exact.covered.iter().zip(&pair.errors.errors).zip(&changes).enumerate();
@@ -71,8 +73,9 @@ impl Drawn {
                 pair.exact.attachments.first().and_then(|colors| colors.get(index)).copied().unwrap_or_default();
             let left = (error - EXPLAINED * change).max(0.0);
             figures.add(*error, left, *change, &color);
-            if worst.is_none_or(|(_, most)| left > most) {
-                worst = Some((index, left));
+            let judged = share_left(left, &color);
+            if worst.is_none_or(|(_, most)| judged > most) {
+                worst = Some((index, judged));
             }
         }
         let at = match worst {
