@@ -29,7 +29,7 @@ fn number(value: &Value) -> f64 {
 
 #[test]
 fn every_function_holds_its_bound_and_every_naive_form_is_told() {
-    let (code, found) = functions(&["--library", "--cases", "64"]);
+    let (code, found) = functions(&["--library"]);
     let wrong: Vec<String> = found
         .iter()
         .filter(|function| {
