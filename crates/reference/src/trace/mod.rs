@@ -10,7 +10,7 @@
 //! ```
 //!
 //! *Holds:* following changes no value. Conditions are decided in f32. The colors of the pixel are those before they are
-//! rounded to the framebuffer's format. *Not done here:* geometry stages run, but their invocations are not followed.
+//! rounded to the framebuffer's format; where draws blend, they are as stored, since the later draw reads what is stored. *Not done here:* geometry stages run, but their invocations are not followed.
 
 mod join;
 mod record;
@@ -146,12 +146,13 @@ pub fn trace(scene: &Scene, place: Place) -> Result<Trace, Vec<Diagnostic>> {
     Ok(Trace { invocations, colors })
 }
 
-/// The draws that matter for a place, in a framebuffer that rounds nothing.
+/// The draws that matter for a place, in a framebuffer that rounds nothing unless a draw reads it (GL 3.2 §4.1.7).
 fn alone(scene: &Scene, place: Place) -> Result<Scene, Vec<Diagnostic>> {
     let refuse = |message: String| vec![Diagnostic::new(&SCENE_CANNOT_DRAW, Span::default(), message)];
     let Framebuffer { width, height, format, .. } = scene.framebuffer;
     let format = match format {
         Format::Rgba32Sint | Format::Rgba32Uint => format,
+        _ if scene.draws.iter().any(|draw| draw.state.blend.is_some()) => format,
         _ => Format::Rgba32Float,
     };
     let framebuffer = Framebuffer { format, ..scene.framebuffer };

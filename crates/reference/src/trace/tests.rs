@@ -4,7 +4,7 @@ use super::{Component, Fate, Invocation, NoteKind, Place, Trace, trace};
 use crate::stability::tests::scene_with;
 use crate::{Precision, RenderOptions, render};
 use glisten_front::source::SourceMap;
-use glisten_scene::Scene;
+use glisten_scene::{Format, Scene};
 
 const VERTEX: &str = "#version 150\nin vec2 p;\nout vec2 at;\n\
     void main() { vec2 half_way = p * 0.5; at = p; gl_Position = vec4(p, half_way.x, 1.0); }\n";
@@ -171,4 +171,19 @@ fn a_place_that_is_not_there_is_refused() {
     ] {
         assert!(trace(&scene, place).is_err(), "{place:?}");
     }
+}
+
+#[test]
+fn colors_are_stored_between_draws_that_blend() {
+    let second = "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nprimitive = \"triangles\"\nblend = \"add\"\n[draw.attributes]\n\
+        p = { size = 2, values = [-1, -1, 1, -1, -1, 1] }\n";
+    let (mut scene, _) = scene_of("void main() { o = vec4(1.5, -0.5, 0.3, at.y); }", second);
+    scene.framebuffer.format = Format::Rgba8Unorm;
+    let found = at(&scene, Place::Pixel([3, 12]));
+    let colors: Vec<f64> = found.colors[0].iter().map(single).collect();
+    let options = RenderOptions { precision: Precision::F32, ..RenderOptions::default() };
+    let picture = render(&scene, &options).expect("it draws");
+    let index = 12 * scene.framebuffer.width as usize + 3;
+    assert_eq!(colors, picture.attachments[0][index]);
+    assert_eq!(colors[..2], [1.0, 0.0]);
 }
