@@ -2,7 +2,7 @@
 
 use crate::support::{compiler, conforms, root, shaders_under};
 use glisten_emit::reflection::{Found, find, table};
-use glisten_emit::{Conventions, Reflection, WindowOrigin, reflect};
+use glisten_emit::{Conventions, GlslVersion, Reflection, WindowOrigin, reflect};
 use glisten_front::hir::Stage;
 use glisten_front::{Compilation, Compiler, Options, Source};
 use serde_json::Value;
@@ -47,8 +47,12 @@ fn reflections_conform_to_the_schema_and_read_back() {
     let mut checked = 0;
     for (stem, sources) in programs() {
         let Some(program) = compiler().compile(&sources).program else { continue };
-        for window_origin in [WindowOrigin::UpperLeft, WindowOrigin::LowerLeft] {
-            let reflection = reflect(&program, &Conventions { window_origin, ..Conventions::default() });
+        let origins = [WindowOrigin::UpperLeft, WindowOrigin::LowerLeft].into_iter();
+        let origins = origins.map(|window_origin| Conventions { window_origin, ..Conventions::default() });
+        let versions = GlslVersion::ALL.into_iter();
+        let versions = versions.map(|glsl_version| Conventions { glsl_version, ..Conventions::default() });
+        for conventions in origins.chain(versions) {
+            let reflection = reflect(&program, &conventions);
             let json = serde_json::to_value(&reflection).expect("a reflection is JSON");
             assert_eq!(conforms(&json, &schema, &stem), Vec::<String>::new());
             assert_eq!(serde_json::from_value::<Reflection>(json).expect("it reads back"), reflection);
@@ -82,6 +86,21 @@ fn the_seeds_triangle_has_its_attributes_where_they_were_bound() {
         let Found::Unknown { nearest } = find(&program, &reflection, "mcc") else { panic!("`mcc` is not there") };
         assert_eq!(nearest.as_deref(), Some("mc"));
     }
+}
+
+#[test]
+fn elements_of_arrays_have_their_offsets() {
+    let fragment = "uniform float first; uniform vec4 w[4]; out vec4 c; void main() { c = w[2] * first; }";
+    let options = Options::default();
+    let program = compile_with(options, POSITION, fragment).program.expect("it links");
+    let reflection = reflect(&program, &Conventions::default());
+    let told = |name: &str| match find(&program, &reflection, name) {
+        Found::Known(found) => found.into_iter().map(|one| one.description).collect::<Vec<_>>().join("\n"),
+        Found::Unknown { .. } => "unknown".to_owned(),
+    };
+    assert_eq!(told("w[2]"), "`w[2]` is an element of the uniform `w`: vec4 at group 0, binding 0, offset 48");
+    assert!(told("w[0]").starts_with("`w[0]` is a uniform") || told("w[0]").contains("offset 16"), "{}", told("w[0]"));
+    assert_eq!([told("w[4]"), told("w[-1]"), told("first[0][1]")], ["unknown"; 3]);
 }
 
 #[test]

@@ -44,13 +44,16 @@ pub enum Found {
 }
 
 /// Looks up a name among attributes, varyings, outputs, uniforms, blocks and samplers, then among all other globals.
-/// `a[0]` finds the array `a`; a struct or a block finds its members.
+/// `a[0]` finds the array `a`, `a[2]` its element, as `glGetUniformLocation` does (OpenGL 3.2 §2.11.4); a struct or a block finds its members.
 pub fn find(program: &Program, reflection: &Reflection, name: &str) -> Found {
     let mut lines = exact(reflection, name);
     if lines.is_empty()
         && let Some(base) = name.strip_suffix("[0]")
     {
         lines = exact(reflection, base);
+    }
+    if lines.is_empty() {
+        lines = element(reflection, name);
     }
     if lines.is_empty() {
         lines = members(reflection, name);
@@ -114,6 +117,24 @@ fn exact(reflection: &Reflection, name: &str) -> Vec<Match> {
         lines.push(Match::new("sampler", name, line, row));
     }
     lines
+}
+
+/// An element of an array of uniforms.
+fn element(reflection: &Reflection, name: &str) -> Vec<Match> {
+    let parts = name.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
+    let Some((base, Ok(index))) = parts.map(|(base, index)| (base, index.parse::<u32>())) else { return Vec::new() };
+    let rows = reflection.uniforms.iter().filter(|row| row.name == base);
+    let found = rows.filter_map(|row| {
+        let stride = row.array_stride.filter(|_| row.array_size.is_some_and(|size| index < size))?;
+        let (place, offset) = (at(row.group, row.binding), row.offset.checked_add(index.checked_mul(stride)?)?);
+        let line = format!(
+            "`{name}` is an element of the uniform `{base}`: {} at {place}, offset {offset}{}",
+            row.ty,
+            state(row.active)
+        );
+        Some(Match::new("uniform", name, line, row))
+    });
+    found.collect()
 }
 
 /// The members or columns of a struct, matrix or block.

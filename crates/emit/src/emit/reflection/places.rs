@@ -44,7 +44,7 @@ pub struct HlslTarget {
 /// provoking.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GlslTarget {
-    /// `330`, `450`, `300es`
+    /// `330`, `450`, `300es`, `vulkan`
     pub version: String,
     /// The names that the version does not allow, each with the one in the text. All others are the source's own.
     pub renamed: BTreeMap<String, String>,
