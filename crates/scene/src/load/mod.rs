@@ -53,7 +53,7 @@ use glisten_front::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
 use glisten_front::hir::{Shader, Stage, Types};
 use glisten_front::link::{FixedState, Program};
 use glisten_front::source::{SourceMap, Span};
-pub use mesh::default_tessellation;
+pub use mesh::{default_tessellation, shape_names};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;

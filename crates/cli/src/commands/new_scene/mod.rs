@@ -29,6 +29,7 @@ use clap::Args;
 use forms::{Shape, forms, shape_of};
 use glisten_front::hir::{Global, Shader, Stage, Storage};
 use glisten_front::link::Program;
+use glisten_scene::{default_tessellation, shape_names};
 use glisten_sources::engines::{Member, STYLES};
 use glisten_sources::{members, stages};
 use glisten_verify::scene::is_model_file;
@@ -89,6 +90,7 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
         return model::run(model, &relative(model, folder), args.output.as_deref(), console);
     }
+    args.mesh.as_deref().map_or(Ok(()), check_mesh)?;
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let inputs = match stages_of(args, &mut session, console)? {
         Ok(inputs) => inputs,
@@ -115,6 +117,20 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         None => console.output(&text)?,
     }
     Ok(exit)
+}
+
+/// Refuses a mesh that is not there.
+fn check_mesh(word: &str) -> Result<(), Failure> {
+    match shape_of(word) {
+        Shape::File(file) if !Path::new(&file).is_file() => Err(Failure::usage(format!("there is no file `{file}`"))
+            .help("`--mesh` takes a mesh in OBJ or glTF, or a shape")),
+        Shape::Named(shape, _) if default_tessellation(&shape).is_none() => {
+            let shapes: Vec<&str> = shape_names().collect();
+            let failure = Failure::usage(format!("there is no shape `{shape}`"));
+            Err(failure.help(format!("shapes are {}; a file has a dot in its name", shapes.join(", "))))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The text of the scene that shows most.

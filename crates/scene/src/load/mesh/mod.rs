@@ -64,6 +64,11 @@ pub fn default_tessellation(shape: &str) -> Option<[u32; 2]> {
     SHAPES.iter().find(|(name, _)| *name == shape).map(|(_, shape)| shape.default_tessellation())
 }
 
+/// The names of the shapes that a mesh may have.
+pub fn shape_names() -> impl Iterator<Item = &'static str> {
+    SHAPES.iter().map(|(name, _)| *name)
+}
+
 /// `conventional`: roles go to the attributes of their own names.
 pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>, conventional: bool) -> Option<Mesh> {
     let table = loader.reader.table(node, "mesh")?;
