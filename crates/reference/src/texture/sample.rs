@@ -507,7 +507,10 @@ fn limited(
     if !known {
         return result.map(|bounded| BoundedFloat::anything(bounded.value));
     }
-    let off: f64 = footprint.axes.iter().take(footprint.count).map(|axis| axis.error).sum();
+    // Between layers nothing is filtered: where it may be another one, every texel is possible.
+    let is_one_layer = footprint.slices.0 == footprint.slices.1;
+    let errors = footprint.axes.iter().take(footprint.count).map(|axis| axis.error);
+    let off: f64 = if is_one_layer { errors.sum() } else { 1.0 };
     std::array::from_fn(|k| {
         let bounded = result[k];
         if !linear {

@@ -155,7 +155,7 @@ impl Expr<'_> {
     pub(super) fn is_abstract(&self) -> bool {
         match self {
             Self::Number(number) => !number.suffixed,
-            Self::Unary("-", operand) => operand.is_abstract(),
+            Self::Unary("-", operand) | Self::Member(operand, _) | Self::Index(operand, _) => operand.is_abstract(),
             Self::Call(name, arguments) => {
                 matches!(&**name, "vec2" | "vec3" | "vec4") && arguments.iter().all(Self::is_abstract)
             }
@@ -190,7 +190,7 @@ impl Expr<'_> {
         }
         match self {
             Self::Number(number) => number.suffixed = true,
-            Self::Unary(_, operand) => operand.make_concrete(),
+            Self::Unary(_, operand) | Self::Member(operand, _) | Self::Index(operand, _) => operand.make_concrete(),
             Self::Call(_, arguments) => arguments.iter_mut().for_each(Self::make_concrete),
             _ => {}
         }
