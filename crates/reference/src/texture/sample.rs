@@ -90,12 +90,13 @@ pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> 
     let positions = ranges.iter().fold(footprint.slices.1 - footprint.slices.0 + 1, |product, (low, high)| {
         product.saturating_mul(high.saturating_sub(*low).saturating_add(1))
     });
+    let has_faces = footprint.faces.iter().flatten().count() > 1;
     if integers {
         let bits = GATHERED.map(|[right, up]| {
             let place = footprint.place(base, [x.first + right, y.first + up, 0]).unwrap_or([0; 3]);
             BoundedInt::exact(texel::bits(base, place).get(component).copied().unwrap_or(0))
         });
-        return if positions > 1 && request.bounded { Sampled::Ints(bits).unknown() } else { Sampled::Ints(bits) };
+        return if (positions > 1 || has_faces) && request.bounded { Sampled::Ints(bits).unknown() } else { Sampled::Ints(bits) };
     }
     Sampled::Floats(GATHERED.map(|[right, up]| {
         let one = |i: i64, j: i64, slice: i64| {
@@ -108,8 +109,8 @@ pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> 
             let sum: f64 = around.iter().flatten().map(|texel| texel.value).sum();
             return BoundedFloat::anything(sum / 3.0);
         };
-        // On a cube, farther texels may be those of any face.
-        let is_far = footprint.cube && request.bounded && (x.error >= 1.0 || y.error >= 1.0);
+        // On a cube, farther texels may be those of any face, and where faces meet, a direction may be on either.
+        let is_far = footprint.cube && request.bounded && (has_faces || x.error >= 1.0 || y.error >= 1.0);
         if positions > limits::MOST_TEXELS || is_far {
             return BoundedFloat::anything(likely.value);
         }

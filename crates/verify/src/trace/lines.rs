@@ -176,7 +176,7 @@ fn value(value: &ToldValue) -> String {
 }
 
 fn range(value: &ToldValue) -> Option<String> {
-    let bounds = value.interval.iter().map(|[low, high]| format!("{}..{}", short(low.0), short(high.0)));
+    let bounds = value.interval.iter().map(|[low, high]| format!("{}..{}", short(low.0 + 0.0), short(high.0 + 0.0)));
     let bounds: Vec<String> = bounds.collect();
     let nan = if value.may_be_nan { " or NaN" } else { "" };
     (!bounds.is_empty()).then(|| format!("{}{nan}", list(&bounds)))
