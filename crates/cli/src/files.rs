@@ -8,6 +8,7 @@ use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
 use glisten_scene::{confined_to, is_allowed, may_end};
+use glisten_front::syntax::is_no_text;
 use glisten_verify::scene::{DiskFiles, FileError, FileSource};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -177,14 +178,15 @@ fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
         (&[0xfe, 0xff], "it looks like text in UTF-16; save it as UTF-8"),
     ];
     let known = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
-    // Comments may hold anything but NUL (§3.1), in any encoding, so bytes above 127 say nothing. No text has control
-    // bytes besides white space; one at the end is the mark of old systems for the end of a file.
+    // Comments may hold anything but NUL (§3.1), in any encoding, so bytes above 127 say nothing. Some control bytes are
+    // errors where they are, and many are no text; one at the end is the mark of old systems for the end of a file.
     let text = bytes.strip_suffix(&[END_OF_FILE]).unwrap_or(bytes);
-    let controls = text.iter().any(|byte| *byte < b' ' && !WHITE_SPACE.contains(byte));
-    (controls || known.is_some()).then_some(known)
+    let controls = text.iter().filter(|byte| **byte < b' ' && !WHITE_SPACE.contains(byte)).count();
+    let is_binary = text.contains(&0) || is_no_text(controls, text.len());
+    (is_binary || known.is_some()).then_some(known)
 }
 
-/// The white space of GLSL (§3.1), the escape of a terminal or a two-byte encoding excluded.
+/// The white space of GLSL (§3.1).
 const WHITE_SPACE: &[u8] = b"\t\n\x0b\x0c\r";
 /// The beginning of the names of temporary files. Each exists for the time of one write.
 const TEMPORARY: &str = ".glisten-";
@@ -194,7 +196,7 @@ const END_OF_FILE: u8 = 0x1a;
 /// Makes sure that a file can be written, before the work that makes it.
 ///
 /// # Errors
-/// It cannot.
+/// It cannot, or it is an input.
 pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
     if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
         return Ok(());
@@ -287,10 +289,12 @@ mod tests {
             (b"void\0main", "E0014"),
             (b"\x03\x02\x23\x07abc", "E0014"),
             (b"\xff\xfe#\0v\0", "E0014"),
-            (b"void \x01 main", "E0014"),
-            (b"void \x1b[31m main", "E0014"),
+            (b"\x01\x02\x03\x04\x05\x06 a few control bytes are errors, and many are no text", "E0014"),
         ] {
             assert_eq!(text_of("x", bytes.to_vec()).expect_err("not text").code.id, code, "{bytes:?}");
         }
     }
+        for text in ["void \x01 main", "void \x1b[31m main", "// \x07\nvoid main() {}"] {
+            assert!(text_of("x", text.into()).is_ok_and(|read| *read == *text), "{text:?}");
+        }
 }
