@@ -68,6 +68,7 @@ mod geometry;
 mod gltf_scenes;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod growth;
 mod helps;
 #[cfg(feature = "cli")]
 mod host;
