@@ -30,6 +30,7 @@ mod not_checked;
 mod opengl;
 mod optimize;
 mod outputs;
+mod overwrite;
 mod pictures;
 mod process;
 mod progress;
@@ -60,8 +61,8 @@ use process::guard;
 pub use process::memory;
 use process::supervisor::Supervised;
 use std::ffi::OsString;
-use std::path::PathBuf;
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use threads::STACK_BYTES;
 

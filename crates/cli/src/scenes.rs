@@ -4,7 +4,7 @@ use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
 use crate::batch::Batch;
 use crate::console::Console;
 use crate::exit::{Exit, Failure};
-use crate::files;
+use crate::files::{self, SceneFiles};
 use crate::process::guard;
 use crate::process::journal::{self, Note};
 use crate::session::Session;
@@ -16,7 +16,7 @@ use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::{Error, Gpu, Via};
 use glisten_scene::{FileError, FileSource};
 use glisten_sources::stages;
-use glisten_verify::scene::{self, DiskFiles, Scene};
+use glisten_verify::scene::{self, Scene};
 use glisten_verify::specialize::{Contract, specialize_scene_by};
 use std::cell::Cell;
 use std::path::Path;
@@ -160,7 +160,7 @@ impl FileSource for Changed<'_> {
             self.was_read.set(true);
             return Ok(self.text.as_bytes().to_vec());
         }
-        DiskFiles.read(path)
+        SceneFiles.read(path)
     }
 }
 
@@ -268,7 +268,7 @@ impl SceneArgs {
     pub(crate) fn begin<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         let mut session = self.session(console)?;
         refuse_shader(&self.scene)?;
-        let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
+        let loaded = guard::guarded(|| scene::load(&self.scene, &SceneFiles, session.compiler()));
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
         })?;

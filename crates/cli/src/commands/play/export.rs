@@ -10,6 +10,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::progress::Progress;
+use crate::overwrite;
 use crate::scenes::SceneArgs;
 use glisten_emit::Target;
 use glisten_play::{Job, OwnLevels, Pictures, Shown, Wish, answer, look, told};
@@ -25,6 +26,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
         return Err(failure.help("name the scene: `glisten play --export page.html scene.toml`"));
     }
     files::check_writable(output)?;
+    overwrite::note(Path::new(&args.start));
     let progress = Progress::new(console, 3);
     let of = SceneArgs::of(&args.start, &args.machine, &args.sources, &args.levels);
     let read = match of.begin(console)? {
