@@ -7,6 +7,7 @@ use crate::exit::{Exit, Failure};
 use crate::files::{self, SceneFiles};
 use crate::process::guard;
 use crate::process::journal::{self, Note};
+use crate::process::watchdog::{self, Watchdog};
 use crate::session::Session;
 use crate::threads::STACK_BYTES;
 use clap::{Args, ValueEnum};
@@ -295,6 +296,16 @@ impl SceneArgs {
         self.machine.gpu()
     }
 
+    /// See [`MachineArgs::time_limit`].
+    pub(crate) fn time_limit(&self) -> Duration {
+        self.machine.time_limit()
+    }
+
+    /// See [`MachineArgs::watchdog`].
+    pub(crate) fn watchdog(&self, console: &Console) -> Watchdog {
+        self.machine.watchdog(console)
+    }
+
     /// See [`MachineArgs::within_time`].
     pub(crate) fn within_time<R: Send + 'static>(
         &self,
@@ -321,6 +332,11 @@ impl MachineArgs {
         Duration::from_secs_f64(self.timeout)
     }
 
+    /// Ends the program when the time limit is reached before the value is dropped: for work that borrows.
+    pub(crate) fn watchdog(&self, console: &Console) -> Watchdog {
+        Watchdog::new(self.time_limit(), console)
+    }
+
     /// Runs work on a thread of its own and gives up when the time limit is reached.
     pub(crate) fn within_time<R: Send + 'static>(
         &self,
@@ -342,8 +358,8 @@ impl MachineArgs {
                 Err(failure.help("this is a fault of glisten; please report it with the scene").into())
             }
             Err(RecvTimeoutError::Timeout) => {
-                let failure = Failure::new(Exit::Content, format!("gave up after {} s", self.timeout));
-                Err(failure.help("`--timeout` gives more time").into())
+                let (message, help) = watchdog::sentence(self.time_limit());
+                Err(Failure::new(Exit::Content, message).help(help).into())
             }
             Err(RecvTimeoutError::Disconnected) => Err(Failure::new(Exit::Content, "internal error").into()),
         }
