@@ -73,6 +73,8 @@ mod helps;
 #[cfg(feature = "cli")]
 mod host;
 mod hostile;
+#[cfg(feature = "gpu")]
+mod hostile_calls;
 #[cfg(all(feature = "cli", feature = "gpu", unix))]
 mod killed;
 #[cfg(feature = "gpu")]
