@@ -68,10 +68,13 @@ mod geometry;
 mod gltf_scenes;
 #[cfg(feature = "gpu")]
 mod gpu;
+mod growth;
 mod helps;
 #[cfg(feature = "cli")]
 mod host;
 mod hostile;
+#[cfg(feature = "gpu")]
+mod hostile_calls;
 #[cfg(all(feature = "cli", feature = "gpu", unix))]
 mod killed;
 #[cfg(feature = "gpu")]

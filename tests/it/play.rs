@@ -324,6 +324,15 @@ fn a_page_is_exported_whole() {
     }
     let refused = run(&["--export", "page.html", "shaders"]);
     assert_eq!(refused.status.code(), Some(2));
+    let again = run(&["--export", "again.html", "shaders/a.toml"]);
+    assert_eq!(again.status.code(), Some(0));
+    let again = fs::read_to_string(folder.path().join("again.html")).expect("it is written");
+    assert!(again == page, "the same call writes the same page");
+    let scene = fs::read(folder.path().join("shaders/a.toml")).expect("it is there");
+    let refused = run(&["--export", "shaders/../shaders/a.toml", "shaders/a.toml"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("is one of the inputs"));
+    assert_eq!(fs::read(folder.path().join("shaders/a.toml")).expect("it is there"), scene);
     fs::write(folder.path().join("shaders/a.frag"), "#version 150\nvoid main() { x }\n").expect("it can be written");
     let refused = run(&["--export", "other.html", "shaders/a.toml"]);
     assert_eq!(refused.status.code(), Some(1));

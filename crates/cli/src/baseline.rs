@@ -154,7 +154,7 @@ impl Baseline {
         let document = Document { version: VERSION, findings };
         let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
         text.push('\n');
-        files::write(&self.path, text.as_bytes())?;
+        files::replace(&self.path, text.as_bytes())?;
         console.remark(&format!("wrote {} to {}", counted(count), self.path.display()));
         Ok(())
     }

@@ -5,6 +5,8 @@
 
 use crate::exit::Failure;
 use clap::ValueEnum;
+use glisten_front::diagnostic::shortened;
+use glisten_front::diagnostic::write::clean;
 use std::io::{self, IsTerminal, Write};
 
 /// When to use colors.
@@ -72,11 +74,7 @@ impl Console {
     /// Writes a result that need not be text to standard output.
     pub(crate) fn output_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
         let mut stdout = io::stdout().lock();
-        match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-            Ok(()) => Ok(()),
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::OutputClosed),
-            Err(error) => Err(Failure::usage(format!("cannot write to standard output: {error}"))),
-        }
+        written(stdout.write_all(bytes).and_then(|()| stdout.flush()))
     }
 
     /// Writes to standard error. A failure is ignored, since there is no other place to report it.
@@ -103,14 +101,24 @@ impl Console {
     pub(crate) fn failure(&self, message: &str, help: Option<&str>) {
         let mut text = painted("error", "", message, self.colors_messages());
         if let Some(help) = help {
-            text.push_str(&format!("  help: {help}\n"));
+            text.push_str(&format!("  help: {}\n", clean(&shortened(help))));
         }
         self.message(&text);
     }
 }
 
+/// The outcome of writing to standard output: a reader that goes away is no failure, a full disk is one.
+pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
+    match result {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::OutputClosed),
+        Err(error) => Err(Failure::usage(format!("cannot write to standard output: {error}"))),
+    }
+}
+
 /// The first line of a message: its severity, a code, and what it says.
 pub(crate) fn painted(severity: &str, code: &str, message: &str, color: bool) -> String {
+    let message = clean(&shortened(message));
     if !color {
         return format!("{severity}{code}: {message}\n");
     }

@@ -2,11 +2,13 @@
 
 use crate::buffers;
 use crate::exit::Failure;
+use crate::overwrite;
 use crate::trace;
 use crate::unfinished;
 use glisten_front::diagnostic::codes::general;
 use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
+use glisten_front::syntax::is_no_text;
 use glisten_scene::{confined_to, is_allowed, may_end};
 use glisten_verify::scene::{DiskFiles, FileError, FileSource};
 use std::collections::BTreeSet;
@@ -61,6 +63,7 @@ pub(crate) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
 
 /// Reads a file of any kind.
 pub(crate) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
+    overwrite::note(path);
     let bytes = read_whole(name, path);
     trace::read(path, bytes.as_deref().ok());
     bytes
@@ -76,6 +79,7 @@ pub(crate) struct SceneFiles;
 
 impl FileSource for SceneFiles {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        overwrite::note(Path::new(path));
         let bytes = match buffers::get(Path::new(path)) {
             Some(bytes) => Ok(bytes.to_vec()),
             None => DiskFiles.read(path),
@@ -177,14 +181,15 @@ fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
         (&[0xfe, 0xff], "it looks like text in UTF-16; save it as UTF-8"),
     ];
     let known = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, what)| *what);
-    // Comments may hold anything but NUL (§3.1), in any encoding, so bytes above 127 say nothing. No text has control
-    // bytes besides white space; one at the end is the mark of old systems for the end of a file.
+    // Comments may hold anything but NUL (§3.1), in any encoding, so bytes above 127 say nothing. Some control bytes are
+    // errors where they are, and many are no text; one at the end is the mark of old systems for the end of a file.
     let text = bytes.strip_suffix(&[END_OF_FILE]).unwrap_or(bytes);
-    let controls = text.iter().any(|byte| *byte < b' ' && !WHITE_SPACE.contains(byte));
-    (controls || known.is_some()).then_some(known)
+    let controls = text.iter().filter(|byte| **byte < b' ' && !WHITE_SPACE.contains(byte)).count();
+    let is_binary = text.contains(&0) || is_no_text(controls, text.len());
+    (is_binary || known.is_some()).then_some(known)
 }
 
-/// The white space of GLSL (§3.1), the escape of a terminal or a two-byte encoding excluded.
+/// The white space of GLSL (§3.1).
 const WHITE_SPACE: &[u8] = b"\t\n\x0b\x0c\r";
 /// The beginning of the names of temporary files. Each exists for the time of one write.
 const TEMPORARY: &str = ".glisten-";
@@ -194,8 +199,9 @@ const END_OF_FILE: u8 = 0x1a;
 /// Makes sure that a file can be written, before the work that makes it.
 ///
 /// # Errors
-/// It cannot.
+/// It cannot, or it is an input.
 pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
+    overwrite::refuse(path)?;
     if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
         return Ok(());
     }
@@ -210,9 +216,18 @@ fn unwritable(path: &Path, error: &io::Error) -> Failure {
     Failure::usage(format!("cannot write `{}`: {reason}", path.display()))
 }
 
-/// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
-/// pipe, `/dev/null`) is written to directly.
+/// Writes a file completely like [`replace`], unless this command reads it.
+///
+/// # Errors
+/// It cannot be written, or it is an input.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    overwrite::refuse(path)?;
+    replace(path, bytes)
+}
+
+/// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
+/// pipe, `/dev/null`) is written to directly. It may be one that was read, to change it in place.
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: &io::Error| unwritable(path, error);
     let target = match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => {
@@ -280,6 +295,9 @@ mod tests {
         let shift_jis = b"// \x83e\x83N\x83X\x83`\x83\x83\x8d\xc0\x95W\n\x0bvoid main() {}\x0c".to_vec();
         assert!(text_of("x", shift_jis).is_ok());
         assert!(text_of("x", b"\x80\x81\x82\x83\x84\x85abc".to_vec()).is_ok());
+        for text in ["void \x01 main", "void \x1b[31m main", "// \x07\nvoid main() {}"] {
+            assert!(text_of("x", text.into()).is_ok_and(|read| *read == *text), "{text:?}");
+        }
         assert!(text_of("x", b"void main() {}\n\x1a".to_vec()).is_ok_and(|text| text.ends_with("}\n")));
         for (bytes, code) in [
             (&b""[..], "E0013"),
@@ -287,8 +305,7 @@ mod tests {
             (b"void\0main", "E0014"),
             (b"\x03\x02\x23\x07abc", "E0014"),
             (b"\xff\xfe#\0v\0", "E0014"),
-            (b"void \x01 main", "E0014"),
-            (b"void \x1b[31m main", "E0014"),
+            (b"\x01\x02\x03\x04\x05\x06 a few control bytes are errors, and many are no text", "E0014"),
         ] {
             assert_eq!(text_of("x", bytes.to_vec()).expect_err("not text").code.id, code, "{bytes:?}");
         }

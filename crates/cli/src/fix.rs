@@ -215,7 +215,7 @@ impl Fixer {
                 console.output(&diff(&file.name, &file.text.text, file.current()))?;
                 n_written += 1;
             } else if is_unchanged(path, &file.original) {
-                files::write(path, &file.text.bytes(file.current()))?;
+                files::replace(path, &file.text.bytes(file.current()))?;
                 n_written += 1;
             } else {
                 console.message(&format!(

@@ -30,6 +30,7 @@ mod not_checked;
 mod opengl;
 mod optimize;
 mod outputs;
+mod overwrite;
 mod pictures;
 mod process;
 mod progress;
@@ -60,6 +61,7 @@ use process::guard;
 pub use process::memory;
 use process::supervisor::Supervised;
 use std::ffi::OsString;
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use threads::STACK_BYTES;
@@ -160,9 +162,13 @@ fn carry_out(command: &Command, console: Console) -> Exit {
 
 /// Reports wrong arguments, or prints the requested help or version.
 fn usage(error: &clap::Error) -> Exit {
-    // If it cannot be printed, there is no other place to report it.
-    let _ = error.print();
-    if error.use_stderr() { Exit::Usage } else { Exit::Ok }
+    let printed = error.print();
+    if error.use_stderr() {
+        // If it cannot be printed, there is no other place to report it.
+        return Exit::Usage;
+    }
+    let outcome = console::written(printed.and_then(|()| io::stdout().flush())).map(|()| Exit::Ok);
+    end(outcome, &Console::new(false, ColorChoice::Auto))
 }
 
 fn end(outcome: Outcome, console: &Console) -> Exit {

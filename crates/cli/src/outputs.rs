@@ -10,6 +10,7 @@ use crate::exit::Failure;
 use crate::inputs::Group;
 use crate::memo::{Memo, code};
 use crate::optimize::{self, OptimizeArgs};
+use crate::overwrite;
 use crate::process::guard;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -21,7 +22,6 @@ use glisten_front::link::Program;
 use glisten_front::source::{SourceMap, Span};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The parts of a program to write.
@@ -147,18 +147,15 @@ impl OutputPlan {
         groups: &[Group],
     ) -> Result<(), Failure> {
         let mut writers: BTreeMap<PathBuf, &Group> = BTreeMap::new();
-        let sources: BTreeSet<PathBuf> = groups
+        groups
             .iter()
             .flat_map(|group| &group.inputs)
-            .filter_map(|input| fs::canonicalize(input.path.as_ref()?).ok())
-            .collect();
+            .filter_map(|input| input.path.as_deref())
+            .for_each(overwrite::note);
         for group in groups {
             for name in self.names(group) {
                 let path = folder.join(below(group)).join(&name);
-                if fs::canonicalize(&path).is_ok_and(|path| sources.contains(&path)) {
-                    let message = format!("the output `{}` is one of the inputs", path.display());
-                    return Err(Failure::usage(message).help("choose another folder with `-o`"));
-                }
+                overwrite::refuse(&path)?;
                 if let Some(other) = writers.insert(path.clone(), group) {
                     let message = format!(
                         "the programs of {} and of {} would both write `{}`",

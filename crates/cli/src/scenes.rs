@@ -4,9 +4,10 @@ use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
 use crate::batch::Batch;
 use crate::console::Console;
 use crate::exit::{Exit, Failure};
-use crate::files;
+use crate::files::{self, SceneFiles};
 use crate::process::guard;
 use crate::process::journal::{self, Note};
+use crate::process::watchdog::{self, Watchdog};
 use crate::session::Session;
 use crate::threads::STACK_BYTES;
 use clap::{Args, ValueEnum};
@@ -16,7 +17,7 @@ use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::{Error, Gpu, Via};
 use glisten_scene::{FileError, FileSource};
 use glisten_sources::stages;
-use glisten_verify::scene::{self, DiskFiles, Scene};
+use glisten_verify::scene::{self, Scene};
 use glisten_verify::specialize::{Contract, specialize_scene_by};
 use std::cell::Cell;
 use std::path::Path;
@@ -160,7 +161,7 @@ impl FileSource for Changed<'_> {
             self.was_read.set(true);
             return Ok(self.text.as_bytes().to_vec());
         }
-        DiskFiles.read(path)
+        SceneFiles.read(path)
     }
 }
 
@@ -268,7 +269,7 @@ impl SceneArgs {
     pub(crate) fn begin<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         let mut session = self.session(console)?;
         refuse_shader(&self.scene)?;
-        let loaded = guard::guarded(|| scene::load(&self.scene, &DiskFiles, session.compiler()));
+        let loaded = guard::guarded(|| scene::load(&self.scene, &SceneFiles, session.compiler()));
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
         })?;
@@ -293,6 +294,16 @@ impl SceneArgs {
     /// See [`MachineArgs::gpu`].
     pub(crate) fn gpu(&self) -> Result<Gpu, DrawError> {
         self.machine.gpu()
+    }
+
+    /// See [`MachineArgs::time_limit`].
+    pub(crate) fn time_limit(&self) -> Duration {
+        self.machine.time_limit()
+    }
+
+    /// See [`MachineArgs::watchdog`].
+    pub(crate) fn watchdog(&self, console: &Console) -> Watchdog {
+        self.machine.watchdog(console)
     }
 
     /// See [`MachineArgs::within_time`].
@@ -321,6 +332,11 @@ impl MachineArgs {
         Duration::from_secs_f64(self.timeout)
     }
 
+    /// Ends the program when the time limit is reached before the value is dropped: for work that borrows.
+    pub(crate) fn watchdog(&self, console: &Console) -> Watchdog {
+        Watchdog::new(self.time_limit(), console)
+    }
+
     /// Runs work on a thread of its own and gives up when the time limit is reached.
     pub(crate) fn within_time<R: Send + 'static>(
         &self,
@@ -342,8 +358,8 @@ impl MachineArgs {
                 Err(failure.help("this is a fault of glisten; please report it with the scene").into())
             }
             Err(RecvTimeoutError::Timeout) => {
-                let failure = Failure::new(Exit::Content, format!("gave up after {} s", self.timeout));
-                Err(failure.help("`--timeout` gives more time").into())
+                let (message, help) = watchdog::sentence(self.time_limit());
+                Err(Failure::new(Exit::Content, message).help(help).into())
             }
             Err(RecvTimeoutError::Disconnected) => Err(Failure::new(Exit::Content, "internal error").into()),
         }

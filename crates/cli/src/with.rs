@@ -94,7 +94,8 @@ impl With {
             return Err(cannot(&"it is a folder"));
         }
         if facts.len() > MAX_BYTES {
-            return Err(Failure::new(Exit::Content, format!("`{file}`: the file has {} bytes, too many", facts.len())));
+            let message = format!("`{file}`: the file has {} bytes, and at most {MAX_BYTES} are read", facts.len());
+            return Err(Failure::new(Exit::Content, message));
         }
         let bytes = std::fs::read(file).map_err(|error| cannot(&error))?;
         Foreign::read(*draw, *stage, file, &bytes, *via).map_err(gpu_failure)

@@ -43,7 +43,7 @@ pub(super) fn layout(lexemes: &[Lexeme<'_>], options: &Options) -> String {
         let mut pieces = places(lexemes, options, &expanded);
         let before = expanded.len();
         for line in lines(&mut pieces) {
-            if width(line, options) > options.width {
+            if is_too_wide(line, options) {
                 expanded.extend(line.iter().filter(|piece| piece.is_one_line).map(|piece| piece.lexeme.start));
             }
         }
@@ -282,13 +282,15 @@ fn rank(before: Option<&Lexeme<'_>>, lexeme: &Lexeme<'_>, is_prefix: bool, state
     }
 }
 
-/// The width of a line without a comment behind it.
-fn width(line: &[Piece<'_>], options: &Options) -> usize {
-    let Some(first) = line.first() else { return 0 };
+/// Whether a line without a comment behind it is too wide. Of a very long line, no more than its begin is looked at.
+fn is_too_wide(line: &[Piece<'_>], options: &Options) -> bool {
+    let Some(first) = line.first() else { return false };
     let end = line.iter().rposition(|piece| piece.gap != Gap::Wide).map_or(0, |last| last + 1);
-    let inner: usize = line.iter().take(end).map(|piece| columns(piece.lexeme.text)).sum();
-    let gaps = line.iter().take(end).skip(1).filter(|piece| piece.gap == Gap::Space).count();
-    first.level * options.columns() + inner + gaps
+    let mut width = first.level * options.columns();
+    line.iter().take(end).enumerate().any(|(at, piece)| {
+        width += columns(piece.lexeme.text) + usize::from(at > 0 && piece.gap == Gap::Space);
+        width > options.width
+    })
 }
 
 /// The columns of a text; of several lines those of the last.
@@ -298,7 +300,7 @@ fn columns(text: &str) -> usize {
 
 /// Ends lines inside of a line that is too wide.
 fn cut(mut line: &mut [Piece<'_>], options: &Options) {
-    while width(line, options) > options.width {
+    while is_too_wide(line, options) {
         let mut column = line.first().map_or(0, |first| first.level * options.columns());
         let mut best: Option<(usize, u8, usize)> = None;
         let mut beyond = None;
@@ -316,6 +318,10 @@ fn cut(mut line: &mut [Piece<'_>], options: &Options) {
                 }
             }
             column += columns(piece.lexeme.text);
+            // Nothing behind is better.
+            if column > options.width + 1 && (best.is_some() || beyond.is_some()) {
+                break;
+            }
         }
         let Some(at) = best.map(|(_, _, at)| at).or(beyond) else { return };
         let Some((_, rest)) = line.split_at_mut_checked(at) else { return };

@@ -80,6 +80,9 @@ impl Times {
     }
 }
 
+/// The first word of the steps at which variants are timed, after all are drawn.
+pub const TIMING: &str = "timing";
+
 /// Times all variants and the empty frame; the steps of the watcher are those before it and one a round. An error names the variant by
 /// its number.
 pub(super) fn time(
@@ -104,7 +107,7 @@ pub(super) fn time(
             _ if rounds >= FEWEST && start.elapsed() >= limits.time => Ended::Seconds,
             _ => {
                 watcher.steps(before + expected(&times, limits, start.elapsed()) as usize);
-                watcher.step(&format!("timing, round {}", rounds + 1));
+                watcher.step(&format!("{TIMING}, round {}", rounds + 1));
                 round(gpu, &turns, &mut random, &mut times, watcher)?;
                 continue;
             }

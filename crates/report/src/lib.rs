@@ -31,7 +31,7 @@ mod weights;
 mod work;
 
 pub use budget::{Budget, Choice, WayFiles};
-pub use clock::Limits;
+pub use clock::{Limits, TIMING};
 pub use compare::Comparison;
 pub use model::{Adapter, Ended, Figures, Machine, OnFront, Report, Skipped, Spread, Timing, Truth, Way, Work};
 pub use options::{Error, Options, Watcher, Ways};

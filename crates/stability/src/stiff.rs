@@ -134,6 +134,7 @@ pub fn search(
     for trial in 0..trials.len() {
         let mut tried = taken.clone();
         if tried[trial].take().is_some()
+            && progress(drawings, most)
             && let Ok(found) = badness(&applied(scene, &trials, &tried))
             && found.0 >= worst.0
             && found.1 >= 0.99 * worst.1

@@ -102,3 +102,19 @@ fn wrong_panoramas_are_told() {
         assert!(err(&run).contains(message), "{}", err(&run));
     }
 }
+
+#[test]
+fn what_is_no_panorama_is_refused_before_it_is_decoded() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let input = folder.path().join("square.hdr");
+    // There are no pixels behind the header.
+    fs::write(&input, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 8192\n").expect("written");
+    let output = folder.path().join("maps");
+    let refused = run(&["prefilter", &input.display().to_string(), "-o", &output.display().to_string()]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(err(&refused).contains("it is 8192 by 8192, and a panorama is twice as wide as high"), "{}", err(&refused));
+    fs::write(&input, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32768 +X 65536\n").expect("written");
+    let refused = run(&["prefilter", &input.display().to_string(), "-o", &output.display().to_string()]);
+    assert!(err(&refused).contains("at most 134217728 with sides of 16384 are read"), "{}", err(&refused));
+    assert!(!output.exists());
+}

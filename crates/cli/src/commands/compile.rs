@@ -15,6 +15,7 @@ use crate::lone;
 use crate::not_checked;
 use crate::optimize;
 use crate::outputs::{Output, OutputArgs, OutputPlan};
+use crate::overwrite;
 use crate::recall::Recall;
 use crate::session::{Session, Unit};
 use clap::{Args, ValueEnum};
@@ -96,6 +97,7 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     }
     let below = inputs.below();
     plan.refuse_collisions(&folder, &below, &inputs.groups)?;
+    args.depfile.iter().chain(&args.manifest).try_for_each(|path| overwrite::refuse(path))?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     if let Some(EmitArg::Hir) = args.emit {
         let units = session.compile(std::mem::take(&mut inputs.groups));
@@ -140,6 +142,8 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
 
 /// Compiles all variants of a file.
 fn permute(args: &CompileArgs, file: &Path, console: &Console) -> Outcome {
+    overwrite::note(file);
+    args.depfile.iter().chain(&args.manifest).try_for_each(|path| overwrite::refuse(path))?;
     let folder = args.output.clone().unwrap_or_default();
     if is_standard_output(&folder) {
         return Err(Failure::usage("`-o -` writes one stage for one target to standard output: there are variants")

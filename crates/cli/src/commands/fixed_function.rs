@@ -8,7 +8,7 @@ use crate::batch::Batch;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
-use crate::files;
+use crate::files::{self, SceneFiles};
 use crate::session::Session;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -17,7 +17,7 @@ use glisten_scene::fixed::{
     ColorMaterial, EnvironmentMode, FogMode, FogSource, GlslDialect, NormalScaling, Pipeline, TexGen, TextureTarget,
     TextureUnit, UNITS,
 };
-use glisten_verify::scene::{self, DiskFiles};
+use glisten_verify::scene;
 use std::path::PathBuf;
 
 /// Examples of its use.
@@ -213,7 +213,7 @@ type Texts = Vec<(String, Stage, String)>;
 
 fn of_scene(args: &FixedFunctionArgs, path: &str, console: &Console) -> Result<Result<Texts, Exit>, Failure> {
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
-    let loaded = scene::load(path, &DiskFiles, session.compiler());
+    let loaded = scene::load(path, &SceneFiles, session.compiler());
     let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
     session.add(&mut batch, loaded.diagnostics);
     session.tell(&[&batch], false)?;

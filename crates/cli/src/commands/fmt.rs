@@ -92,7 +92,7 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
         let formatted = any_formatted(&text.text, path, &options);
         let done = Done { path: path.clone(), text, formatted };
         if done.changes() && !args.check && !args.diff {
-            files::write(path, &done.text.bytes(&done.formatted.text))?;
+            files::replace(path, &done.text.bytes(&done.formatted.text))?;
         }
         Ok(done)
     };

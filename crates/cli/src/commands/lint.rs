@@ -192,8 +192,9 @@ fn write_all(folder: &Path, shown: &[Shown], console: &Console) -> Result<(), Fa
     }
     files::make_folder(folder)?;
     for Shown { name, scene, made: (extension, text) } in shown {
-        files::write(&folder.join(format!("{name}.{extension}")), text.as_bytes())?;
-        files::write(&folder.join(format!("{name}.toml")), scene.as_bytes())?;
+        // A search of folders also finds those of an earlier run.
+        files::replace(&folder.join(format!("{name}.{extension}")), text.as_bytes())?;
+        files::replace(&folder.join(format!("{name}.toml")), scene.as_bytes())?;
     }
     let count = if shown.len() == 1 { "a scene".to_owned() } else { format!("{} scenes", shown.len()) };
     console.remark(&format!("{count} in {}: `glisten stability` shows where the numbers are born", folder.display()));

@@ -9,3 +9,4 @@ pub(crate) mod journal;
 pub(crate) mod machine;
 pub mod memory;
 pub(crate) mod supervisor;
+pub(crate) mod watchdog;

@@ -3,7 +3,7 @@
 //! *In:* what a phase would like to see. *Out:* the sentence for people, and the [`Fix`] for programs. *Holds:* both come from
 //! one value, so they never differ; advice that leaves something open has a sentence alone.
 
-use super::{Applicability, Edit, Fix};
+use super::{Applicability, Edit, Fix, shortened};
 use crate::source::Span;
 
 /// Where the text of an advice goes, seen from the primary span of the diagnostic.
@@ -70,7 +70,7 @@ impl Advice {
             }
         };
         let edits = edits.into_iter().filter(|edit| !edit.text.is_empty() || edit.span.start < edit.span.end).collect();
-        Some(Fix { title, applicability: *applicability, edits })
+        Some(Fix { title: shortened(title), applicability: *applicability, edits })
     }
 }
 

@@ -13,6 +13,7 @@ pub mod group;
 mod levels;
 mod patch;
 mod saved;
+mod short;
 mod sink;
 pub mod write;
 
@@ -23,6 +24,7 @@ pub use group::{Fixable, Group, LintInfo};
 pub use levels::{Level, Levels, allows};
 pub use patch::Patch;
 pub use saved::Saved;
+pub use short::{LONGEST, LONGEST_WORD, shortened};
 pub use sink::Diagnostics;
 
 use crate::source::Span;
@@ -82,13 +84,16 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
+    /// The most secondary labels of a diagnostic, and the most notes.
+    pub const MOST: usize = 32;
+
     /// A diagnostic of `code` at `span`.
     #[must_use]
     pub fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
             severity: code.severity,
-            message: message.into(),
+            message: shortened(message),
             primary: Label { span, message: String::new() },
             secondary: Vec::new(),
             notes: Vec::new(),
@@ -101,21 +106,31 @@ impl Diagnostic {
     /// Sets the message of the primary label.
     #[must_use]
     pub fn here(mut self, message: impl Into<String>) -> Self {
-        self.primary.message = message.into();
+        self.primary.message = shortened(message);
         self
     }
 
-    /// Adds a secondary label.
+    /// Adds a secondary label, unless there are [`MOST`](Self::MOST) of them.
     #[must_use]
     pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
-        self.secondary.push(Label { span, message: message.into() });
+        const MORE: &str = "more places are not shown";
+        if self.secondary.len() < Self::MOST {
+            self.secondary.push(Label { span, message: shortened(message) });
+        } else if !self.notes.iter().any(|note| note == MORE) {
+            self.notes.push(MORE.to_owned());
+        }
         self
     }
 
-    /// Adds a fact.
+    /// Adds a fact, unless there are [`MOST`](Self::MOST) of them.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.notes.push(note.into());
+        const MORE: &str = "more is not shown";
+        if self.notes.len() < Self::MOST {
+            self.notes.push(shortened(note));
+        } else if !self.notes.iter().any(|note| note == MORE) {
+            self.notes.push(MORE.to_owned());
+        }
         self
     }
 
@@ -124,7 +139,7 @@ impl Diagnostic {
     pub fn help(mut self, advice: impl Into<Advice>) -> Self {
         let advice = advice.into();
         self.fixes = advice.fix(self.primary.span).into_iter().collect();
-        self.help = Some(advice.sentence);
+        self.help = Some(shortened(advice.sentence));
         self
     }
 
@@ -140,15 +155,17 @@ impl Diagnostic {
     /// Adds a change of the text that removes it.
     #[must_use]
     pub fn fix(mut self, fix: Fix) -> Self {
-        self.fixes.push(fix);
+        self.fixes.push(Fix { title: shortened(fix.title), ..fix });
         self
     }
 
     /// Adds a change of the text that removes it, if there is one.
     #[must_use]
-    pub fn maybe_fix(mut self, fix: Option<Fix>) -> Self {
-        self.fixes.extend(fix);
-        self
+    pub fn maybe_fix(self, fix: Option<Fix>) -> Self {
+        match fix {
+            Some(fix) => self.fix(fix),
+            None => self,
+        }
     }
 
     /// Whether this is an error.

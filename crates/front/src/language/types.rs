@@ -487,6 +487,11 @@ impl Types {
         self.intern(Type::Struct(id))
     }
 
+    /// All structs and blocks.
+    pub fn structures(&self) -> std::slice::Iter<'_, StructType> {
+        self.structs.iter()
+    }
+
     /// The struct of a handle of this table.
     pub fn structure(&self, id: StructId) -> &StructType {
         // Only `add_struct` of this table makes a `StructId`.

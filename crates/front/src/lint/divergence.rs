@@ -11,6 +11,7 @@ use crate::hir::{
     ExprId, ExprKind, FunctionId, Global, Interpolation, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef,
 };
 use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 
 /// A call of a built-in function in divergent control flow.
 pub(super) struct DivergentCall {
@@ -40,9 +41,22 @@ struct Divergence<'a> {
     called: Vec<Option<Cause>>,
     /// For each divergent loop, by its first expression: the first cause found.
     loops: FxHashMap<ExprId, ExprId>,
+    /// What is known of the expressions that were asked for.
+    known: RefCell<FxHashMap<ExprId, Known>>,
+    /// How many variables and results have become divergent.
+    taints: u32,
     changed: bool,
     calls: Option<Vec<DivergentCall>>,
     function: FunctionId,
+}
+
+/// Whether an expression may be divergent.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Known {
+    /// It may, and nothing takes that back.
+    Differs,
+    /// It was not, when there were so many taints.
+    Not(u32),
 }
 
 /// Whether control flow is divergent, and why.
@@ -73,6 +87,8 @@ pub(super) fn divergent_calls(shader: &Shader) -> Vec<DivergentCall> {
         returns: vec![false; shader.functions.len()],
         called: vec![None; shader.functions.len()],
         loops: FxHashMap::default(),
+        known: RefCell::default(),
+        taints: 0,
         changed: true,
         calls: None,
         function: main,
@@ -173,7 +189,7 @@ impl Divergence<'_> {
                 self.expr(*value, flow);
                 if self.differs(*value) || flow.is_divergent() {
                     let function = self.function.index();
-                    set(&mut self.returns, function, &mut self.changed);
+                    self.changed |= set(&mut self.returns, function, &mut self.taints);
                 }
             }
             StmtKind::Expr(expr) => self.expr(*expr, flow),
@@ -203,36 +219,52 @@ impl Divergence<'_> {
         if !flow.is_divergent() && self.differs(condition) { Flow::because(condition) } else { flow }
     }
 
-    /// Whether the value may be divergent.
+    /// Whether the value may be divergent. Each operand is looked at once, until there is another taint: a chain `a && b && c` asks for
+    /// each of its parts.
     fn differs(&self, root: ExprId) -> bool {
-        let mut pending = vec![root];
-        while let Some(id) = pending.pop() {
-            let kind = &self.shader.expr(id).kind;
-            let own = match kind {
-                ExprKind::Var(VarRef::Global(id)) => self.globals.get(id.index()) == Some(&true),
-                ExprKind::Var(VarRef::Local(id)) => {
-                    self.locals.get(self.function.index()).and_then(|locals| locals.get(id.index())) == Some(&true)
-                }
-                ExprKind::Call(function, _) => self.returns.get(function.index()) == Some(&true),
-                ExprKind::BuiltinCall(function, _) => {
-                    matches!(function.class(), crate::builtin::operations::Class::Derivative(_))
-                }
-                _ => false,
-            };
-            if own {
-                return true;
+        let mut known = self.known.borrow_mut();
+        let current = Known::Not(self.taints);
+        let mut pending = vec![(root, false)];
+        while let Some((id, is_after)) = pending.pop() {
+            let told = known.get(&id).copied().filter(|told| *told == Known::Differs || *told == current);
+            if told.is_some() {
+                continue;
             }
-            pending.extend(kind.children());
+            let kind = &self.shader.expr(id).kind;
+            if is_after {
+                let any = kind.children().into_iter().any(|child| known.get(&child) == Some(&Known::Differs));
+                known.insert(id, if any { Known::Differs } else { current });
+            } else if self.is_source(kind) {
+                known.insert(id, Known::Differs);
+            } else {
+                pending.push((id, true));
+                pending.extend(kind.children().into_iter().map(|child| (child, false)));
+            }
         }
-        false
+        known.get(&root) == Some(&Known::Differs)
+    }
+
+    /// Whether an expression is divergent whatever its operands are.
+    fn is_source(&self, kind: &ExprKind) -> bool {
+        match kind {
+            ExprKind::Var(VarRef::Global(id)) => self.globals.get(id.index()) == Some(&true),
+            ExprKind::Var(VarRef::Local(id)) => {
+                self.locals.get(self.function.index()).and_then(|locals| locals.get(id.index())) == Some(&true)
+            }
+            ExprKind::Call(function, _) => self.returns.get(function.index()) == Some(&true),
+            ExprKind::BuiltinCall(function, _) => {
+                matches!(function.class(), crate::builtin::operations::Class::Derivative(_))
+            }
+            _ => false,
+        }
     }
 
     fn taint(&mut self, variable: VarRef) {
         match variable {
-            VarRef::Global(id) => set(&mut self.globals, id.index(), &mut self.changed),
+            VarRef::Global(id) => self.changed |= set(&mut self.globals, id.index(), &mut self.taints),
             VarRef::Local(id) => {
                 if let Some(locals) = self.locals.get_mut(self.function.index()) {
-                    set(locals, id.index(), &mut self.changed);
+                    self.changed |= set(locals, id.index(), &mut self.taints);
                 }
             }
         }
@@ -298,7 +330,7 @@ impl Divergence<'_> {
                 && self.differs(argument)
                 && let Some(locals) = self.locals.get_mut(function.index())
             {
-                set(locals, index, &mut self.changed);
+                self.changed |= set(locals, index, &mut self.taints);
             }
             let comes_back = matches!(mode, ParamMode::Out | ParamMode::Inout);
             let inside = self.locals.get(function.index()).and_then(|locals| locals.get(index)) == Some(&true);
@@ -309,9 +341,11 @@ impl Divergence<'_> {
     }
 }
 
-fn set(flags: &mut [bool], index: usize, changed: &mut bool) {
-    if let Some(flag) = flags.get_mut(index).filter(|flag| !**flag) {
-        *flag = true;
-        *changed = true;
-    }
+/// Sets a flag. Returns whether it was not set before, and counts it then.
+fn set(flags: &mut [bool], index: usize, taints: &mut u32) -> bool {
+    let unset = flags.get_mut(index).filter(|flag| !**flag);
+    let is_new = unset.is_some();
+    unset.into_iter().for_each(|flag| *flag = true);
+    *taints += u32::from(is_new);
+    is_new
 }

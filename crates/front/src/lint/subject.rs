@@ -9,9 +9,11 @@ use super::uses::{self, LocalUse};
 use crate::fold;
 use crate::hir::{Expr, ExprId, ExprKind, Function, GlobalId, LocalId, Shader, Stmt, Type, Types, Value, VarRef};
 use crate::link::Program;
-use crate::source::SourceMap;
+use crate::source::{SourceMap, Span};
+use crate::syntax::Lexemes;
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
+use std::rc::Rc;
 
 /// A program as rules see it.
 pub(super) struct Subject<'a> {
@@ -35,6 +37,8 @@ pub(super) struct Place<'a> {
     pub(super) locals: Vec<LocalUse>,
     /// The ranges of expressions that were asked for.
     pub(super) ranges: RefCell<FxHashMap<ExprId, Range>>,
+    /// The tokens of the function's file, and its text, once they were asked for.
+    pub(super) text: OnceCell<Option<(Rc<Lexemes>, Span)>>,
     /// The globals that conditions name.
     conditions: FxHashSet<GlobalId>,
 }
@@ -72,7 +76,8 @@ impl<'a> Place<'a> {
             }
         });
         let (locals, conditions) = uses::of_variables(shader, function, &statements);
-        Self { types, shader, function, body, exprs, statements, locals, ranges: RefCell::default(), conditions }
+        let (ranges, text) = (RefCell::default(), OnceCell::new());
+        Self { types, shader, function, body, exprs, statements, locals, ranges, text, conditions }
     }
 
     pub(super) fn expr(&self, id: ExprId) -> &'a Expr {

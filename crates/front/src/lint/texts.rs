@@ -5,11 +5,11 @@
 //! changes it.
 
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix};
-use crate::hir::{ExprId, Shader};
+use crate::hir::{ExprId, Shader, Stage};
 use crate::source::{FileId, SourceMap, Span};
 use crate::syntax::Lexemes;
 use crate::syntax::token::{Token, TokenFlags, TokenKind};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -17,6 +17,10 @@ use std::rc::Rc;
 pub(super) struct Texts<'a> {
     sources: &'a SourceMap,
     lexemes: RefCell<FxHashMap<FileId, Rc<Lexemes>>>,
+    /// Whether all files that the texts of a stage name were read.
+    whole: RefCell<FxHashMap<Stage, bool>>,
+    /// The files of a stage.
+    files: RefCell<FxHashMap<Stage, Rc<[FileId]>>>,
 }
 
 /// The words of directives that bring in another file.
@@ -24,7 +28,7 @@ const INCLUDES: &[&str] = &["include", "import", "moj_import"];
 
 impl<'a> Texts<'a> {
     pub(super) fn new(sources: &'a SourceMap) -> Self {
-        Self { sources, lexemes: RefCell::default() }
+        Self { sources, lexemes: RefCell::default(), whole: RefCell::default(), files: RefCell::default() }
     }
 
     pub(super) fn sources(&self) -> &'a SourceMap {
@@ -74,24 +78,33 @@ impl<'a> Texts<'a> {
     }
 
     /// The files of a shader: its own, then those that it includes.
-    pub(super) fn files(&self, shader: &Shader) -> Vec<FileId> {
-        let mut files: Vec<FileId> = shader.origin.file.into_iter().collect();
-        for file in shader.origin.inclusions.iter().filter_map(|inclusion| inclusion.file) {
-            if !files.contains(&file) {
-                files.push(file);
-            }
-        }
-        files
+    pub(super) fn files(&self, shader: &Shader) -> Rc<[FileId]> {
+        let mut all = self.files.borrow_mut();
+        let files = all.entry(shader.stage).or_insert_with(|| {
+            let included = shader.origin.inclusions.iter().filter_map(|inclusion| inclusion.file);
+            let mut seen = FxHashSet::default();
+            shader.origin.file.into_iter().chain(included).filter(|file| seen.insert(*file)).collect()
+        });
+        Rc::clone(files)
     }
 
     /// How often a word is written in the texts of a shader, also where it is skipped.
     pub(super) fn mentions(&self, shader: &Shader, word: &str) -> usize {
-        self.files(shader).into_iter().map(|file| self.lexemes(file).count(word)).sum()
+        self.files(shader).iter().map(|file| self.lexemes(*file).count(word)).sum()
     }
 
     /// Whether all files that the texts name were read: none is included in text that is skipped.
     pub(super) fn are_whole(&self, shader: &Shader) -> bool {
-        self.files(shader).into_iter().all(|file| {
+        let known = self.whole.borrow().get(&shader.stage).copied();
+        known.unwrap_or_else(|| {
+            let whole = self.names_only_what_was_read(shader);
+            self.whole.borrow_mut().insert(shader.stage, whole);
+            whole
+        })
+    }
+
+    fn names_only_what_was_read(&self, shader: &Shader) -> bool {
+        self.files(shader).iter().all(|&file| {
             let lexemes = self.lexemes(file);
             let named = lexemes.directives().filter(|(word, index)| {
                 let next = lexemes.tokens().get(index + 2);
@@ -114,19 +127,23 @@ impl<'a> Texts<'a> {
     }
 
     /// The statement around a span: from behind the last `;`, `{` or `}` to its own `;`, if no other declarator, directive or
-    /// bracket is in it.
+    /// bracket is in it. One of thousands of tokens is not simple.
     pub(super) fn simple_statement(&self, span: Span) -> Option<Span> {
+        const MOST: usize = 1024;
         let (lexemes, index) = self.token_at(span)?;
         let tokens = lexemes.tokens();
         let ends =
             |token: &Token| matches!(token.kind, TokenKind::Semicolon | TokenKind::LeftBrace | TokenKind::RightBrace);
-        let first = tokens.get(..index)?.iter().rposition(ends).map_or(0, |end| end + 1);
+        let near = index.saturating_sub(MOST);
+        let first = tokens.get(near..index)?.iter().rposition(ends).map(|end| near + end + 1);
+        let first = first.or((near == 0).then_some(0))?;
         // A directive ends with its line.
         let hash = tokens.get(first..index)?.iter().rposition(Lexemes::begins_directive).map(|hash| first + hash);
-        let next_line =
-            |from: usize| tokens.iter().skip(from + 1).position(|token| token.flags.contains(TokenFlags::LINE_START));
+        let next_line = |from: usize| {
+            tokens.iter().skip(from + 1).take(MOST).position(|token| token.flags.contains(TokenFlags::LINE_START))
+        };
         let first = hash.and_then(|hash| Some(hash + 1 + next_line(hash)?)).unwrap_or(first);
-        let length = tokens.get(index..)?.iter().position(ends)?;
+        let length = tokens.get(index..)?.iter().take(MOST).position(ends)?;
         let last = tokens.get(index + length).filter(|token| token.kind == TokenKind::Semicolon)?;
         let inside = tokens.get(first..index + length)?;
         let mut depth = 0_i32;

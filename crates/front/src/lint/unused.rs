@@ -27,8 +27,8 @@ pub(super) fn is_all_of(subject: &Subject<'_>, place: &Place<'_>, id: LocalId) -
     if local.name.is_empty() || !subject.texts.is_own(place.shader, local.span) {
         return false;
     }
-    let Some((lexemes, body)) = body(subject, place.function) else { return false };
-    let named = lexemes.within(body).iter().filter(|token| lexemes.spelling(token) == local.name).count();
+    let Some((lexemes, body)) = place.text.get_or_init(|| body(subject, place.function)) else { return false };
+    let named = lexemes.count_within(&local.name, *body);
     let uses = place.locals.get(id.index()).copied().unwrap_or_default();
     named == uses.mentions + 1
 }

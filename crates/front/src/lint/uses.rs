@@ -32,7 +32,7 @@ pub(super) fn of_variables(
     statements: &[&Stmt],
 ) -> (Vec<LocalUse>, FxHashSet<GlobalId>) {
     let mut locals = vec![LocalUse::default(); function.locals.len()];
-    let mut globals = FxHashSet::default();
+    let (mut globals, mut marked) = (FxHashSet::default(), FxHashSet::default());
     for statement in statements {
         match &statement.kind {
             StmtKind::Local(id, initializer) => {
@@ -55,7 +55,9 @@ pub(super) fn of_variables(
                 }
             });
         }
-        conditions(shader, statement, &mut |condition| mark(shader, condition, &mut locals, &mut globals));
+        conditions(shader, statement, &mut |condition| {
+            mark(shader, condition, &mut locals, (&mut globals, &mut marked));
+        });
     }
     (locals, globals)
 }
@@ -143,16 +145,28 @@ fn conditions(shader: &Shader, statement: &Stmt, f: &mut dyn FnMut(ExprId)) {
     }
 }
 
-fn mark(shader: &Shader, condition: ExprId, locals: &mut [LocalUse], globals: &mut FxHashSet<GlobalId>) {
-    shader.visit_expr(condition, &mut |expr| match shader.expr(expr).kind {
-        ExprKind::Var(VarRef::Local(local)) => {
-            locals.get_mut(local.index()).into_iter().for_each(|local| local.in_condition = true);
+/// Marks the variables of a condition. What was marked is passed over: in `a && b && c`, each operand is in the conditions around it.
+fn mark(
+    shader: &Shader,
+    condition: ExprId,
+    locals: &mut [LocalUse],
+    (globals, marked): (&mut FxHashSet<GlobalId>, &mut FxHashSet<ExprId>),
+) {
+    let mut pending = vec![condition];
+    while let Some(expr) = pending.pop() {
+        if !marked.insert(expr) {
+            continue;
         }
-        ExprKind::Var(VarRef::Global(global)) => {
-            globals.insert(global);
+        match &shader.expr(expr).kind {
+            ExprKind::Var(VarRef::Local(local)) => {
+                locals.get_mut(local.index()).into_iter().for_each(|local| local.in_condition = true);
+            }
+            ExprKind::Var(VarRef::Global(global)) => {
+                globals.insert(*global);
+            }
+            kind => pending.extend(kind.children()),
         }
-        _ => {}
-    });
+    }
 }
 
 /// Whether evaluating an expression does nothing but give a value.

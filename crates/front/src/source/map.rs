@@ -7,7 +7,7 @@
 
 use super::{ExpansionId, Span};
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The handle of a text in a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -28,9 +28,14 @@ pub struct SourceFile {
     shown: Option<Arc<str>>,
     base: u32,
     line_starts: Vec<u32>,
+    /// How many characters are before each block of [`BLOCK`] bytes, once a column of a long line was asked for.
+    characters: OnceLock<Vec<u32>>,
     /// Whether there is room behind it.
     is_changing: bool,
 }
+
+/// The bytes of a text whose characters are counted together.
+const BLOCK: usize = 4096;
 
 impl SourceFile {
     /// The name that diagnostics show: the path as the user wrote it.
@@ -89,8 +94,29 @@ impl SourceFile {
         while !self.shown().is_char_boundary(end) {
             end -= 1;
         }
-        let column = self.shown().get(start..end).map_or(0, |text| text.chars().count());
-        (line as u32, column as u32 + 1)
+        (line as u32, self.characters(start, end) as u32 + 1)
+    }
+
+    /// The number of characters between two offsets. Of a very long line, it is not counted anew for each column.
+    fn characters(&self, start: usize, end: usize) -> usize {
+        if end.saturating_sub(start) < 2 * BLOCK {
+            return self.shown().get(start..end).map_or(0, |text| text.chars().count());
+        }
+        let bytes = self.shown().as_bytes();
+        let begins = |block: &[u8]| block.iter().filter(|byte| (**byte as i8) >= -0x40).count();
+        let blocks = self.characters.get_or_init(|| {
+            let sums = bytes.chunks(BLOCK).scan(0, |sum, block| {
+                let before = *sum;
+                *sum += begins(block) as u32;
+                Some(before)
+            });
+            sums.collect()
+        });
+        let before = |offset: usize| {
+            let whole = blocks.get(offset / BLOCK).copied().unwrap_or_default() as usize;
+            whole + bytes.get(offset / BLOCK * BLOCK..offset).map_or(0, begins)
+        };
+        before(end) - before(start)
     }
 }
 
@@ -177,7 +203,7 @@ impl Hash for SourceMap {
     fn hash<H: Hasher>(&self, state: &mut H) {
         let Self { files, expansions, renumberings, languages } = self;
         files.len().hash(state);
-        for SourceFile { name, text, shown, base, line_starts: _, is_changing: _ } in files {
+        for SourceFile { name, text, shown, base, line_starts: _, characters: _, is_changing: _ } in files {
             let written = (name != Self::COMMAND_LINE).then_some((text, shown));
             (name, written, base).hash(state);
         }
@@ -206,7 +232,8 @@ impl SourceMap {
         let id = FileId(self.files.len() as u32);
         let name = name.into();
         let is_changing = name == Self::COMMAND_LINE;
-        self.files.push(SourceFile { name, text, shown: None, base, line_starts, is_changing });
+        let characters = OnceLock::new();
+        self.files.push(SourceFile { name, text, shown: None, base, line_starts, characters, is_changing });
         Some(id)
     }
 
@@ -268,6 +295,7 @@ impl SourceMap {
         for file in self.files.iter_mut().filter(|file| file.name == name && file.text.len() == text.len()) {
             file.line_starts = line_starts(text);
             file.shown = Some(Arc::clone(text));
+            file.characters = OnceLock::new();
         }
     }
 
@@ -470,5 +498,25 @@ pub struct NoIncludes;
 impl IncludeResolver for NoIncludes {
     fn resolve(&self, path: &str, _: IncludeForm, _: &str) -> Result<Included, String> {
         Err(format!("no include path is set up, so `{path}` cannot be found"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BLOCK, SourceMap, Span};
+
+    #[test]
+    fn columns_of_long_lines_count_characters() {
+        let line = "aé😀b".repeat(3 * BLOCK);
+        let text = format!("// short\n{line}\nend");
+        let mut sources = SourceMap::default();
+        let id = sources.add("long", text.clone()).expect("there is room");
+        let base = sources.file(id).base();
+        let places = text.char_indices().skip(9).enumerate().step_by(977);
+        for (column, (offset, _)) in places.take_while(|(column, _)| *column < 12 * BLOCK) {
+            let at = base + offset as u32;
+            let found = sources.location(Span::new(at, at)).expect("it is in the text");
+            assert_eq!((found.line, found.column as usize), (2, column + 1));
+        }
     }
 }

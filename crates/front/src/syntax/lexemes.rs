@@ -13,8 +13,10 @@ use std::sync::Arc;
 pub struct Lexemes {
     tokens: Vec<Token>,
     names: Names,
-    /// How often each word and number occurs, by its symbol.
-    counts: Vec<u32>,
+    /// Where the occurrences of each word and number begin in `places`, by its symbol.
+    starts: Vec<u32>,
+    /// The indices of words and numbers in `tokens`: those of a symbol together, in order.
+    places: Vec<u32>,
 }
 
 impl Lexemes {
@@ -22,21 +24,17 @@ impl Lexemes {
     pub fn new(file: &SourceFile) -> Self {
         let mut lexer = Lexer::new(Arc::clone(file.text()), file.base());
         let (mut names, mut trivia) = (Names::default(), Vec::new());
-        let (mut tokens, mut counts) = (Vec::new(), Vec::new());
+        let mut tokens = Vec::new();
         loop {
             let token = lexer.next(Mode::Text, &mut names, &mut trivia);
             trivia.clear();
-            match token.kind {
-                TokenKind::Eof => return Self { tokens, names, counts },
-                TokenKind::Word | TokenKind::Number => {
-                    let index = token.symbol().index();
-                    counts.resize(counts.len().max(index + 1), 0);
-                    counts.iter_mut().skip(index).take(1).for_each(|count| *count += 1);
-                }
-                _ => {}
+            if token.kind == TokenKind::Eof {
+                break;
             }
             tokens.push(token);
         }
+        let (starts, places) = index(&tokens);
+        Self { tokens, names, starts, places }
     }
 
     /// All tokens, in order.
@@ -54,15 +52,30 @@ impl Lexemes {
 
     /// How often a word or a number occurs.
     pub fn count(&self, word: &str) -> usize {
-        let count = self.names.get(word).and_then(|symbol| self.counts.get(symbol.index()));
-        count.map_or(0, |count| *count as usize)
+        self.occurrences(word).len()
+    }
+
+    /// How often a word or a number occurs within a span.
+    pub fn count_within(&self, word: &str, span: Span) -> usize {
+        let all = self.occurrences(word);
+        let before = |offset: u32| all.partition_point(|place| (*place as usize) < self.from(offset));
+        before(span.end).saturating_sub(before(span.start))
     }
 
     /// Where a word occurs.
     pub fn places(&self, word: &str) -> impl Iterator<Item = Span> {
-        let symbol = self.names.get(word);
-        let is_it = move |token: &&Token| token.kind == TokenKind::Word && Some(token.symbol()) == symbol;
-        self.tokens.iter().filter(is_it).map(|token| token.span)
+        let tokens = self.occurrences(word).iter().filter_map(|place| self.tokens.get(*place as usize));
+        tokens.filter(|token| token.kind == TokenKind::Word).map(|token| token.span)
+    }
+
+    /// The indices of the tokens that are a word or a number.
+    fn occurrences(&self, word: &str) -> &[u32] {
+        let bound = |index: usize| self.starts.get(index).map(|start| *start as usize);
+        let range = self.names.get(word).and_then(|symbol| {
+            let index = symbol.index();
+            Some(bound(index)?..bound(index + 1)?)
+        });
+        range.and_then(|range| self.places.get(range)).unwrap_or_default()
     }
 
     /// The index of the first token that begins at an offset or after it.
@@ -87,5 +100,48 @@ impl Lexemes {
             .enumerate()
             .filter(|(_, token)| Self::begins_directive(token))
             .map(|(index, _)| (self.tokens.get(index + 1).map_or("", |word| self.spelling(word)), index))
+    }
+}
+
+/// The indices of words and numbers, sorted by their symbols, and where those of each symbol begin.
+fn index(tokens: &[Token]) -> (Vec<u32>, Vec<u32>) {
+    let symbol = |token: &Token| match token.kind {
+        TokenKind::Word | TokenKind::Number => Some(token.symbol().index()),
+        _ => None,
+    };
+    let numbered = (0_u32..).zip(tokens).filter_map(|(place, token)| Some((symbol(token)?, place)));
+    let mut all: Vec<(usize, u32)> = numbered.collect();
+    all.sort_unstable();
+    let mut starts = vec![0; all.last().map_or(0, |(last, _)| last + 2)];
+    for (symbol, _) in &all {
+        starts.iter_mut().skip(symbol + 1).take(1).for_each(|count| *count += 1);
+    }
+    let mut sum = 0;
+    for start in &mut starts {
+        sum += *start;
+        *start = sum;
+    }
+    (starts, all.into_iter().map(|(_, place)| place).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lexemes;
+    use crate::source::{SourceMap, Span};
+
+    #[test]
+    fn words_are_counted_where_they_are() {
+        let mut sources = SourceMap::default();
+        let text = "a b 1 a (b) a 1";
+        let id = sources.add("words", text).expect("there is room");
+        let base = sources.file(id).base();
+        let lexemes = Lexemes::new(sources.file(id));
+        for (word, count) in [("a", 3), ("b", 2), ("1", 2), ("c", 0)] {
+            assert_eq!(lexemes.count(word), count, "{word}");
+        }
+        let starts = |word: &str| lexemes.places(word).map(|span| span.start - base).collect::<Vec<_>>();
+        assert_eq!((starts("a"), starts("b"), starts("1")), (vec![0, 6, 12], vec![2, 9], vec![]));
+        let within = |word: &str, from: u32, to: u32| lexemes.count_within(word, Span::new(base + from, base + to));
+        assert_eq!((within("a", 0, 15), within("a", 1, 12), within("a", 6, 13), within("c", 0, 15)), (3, 1, 2, 0));
     }
 }

@@ -34,6 +34,7 @@ use names::Names;
 use parser::Parser;
 use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
+pub use preprocessor::is_no_text;
 use session::{ExtensionSets, ParseSession};
 pub(crate) use unstated::{of_later_word, of_version};
 

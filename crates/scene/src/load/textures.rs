@@ -640,7 +640,8 @@ fn load_image(
         [red, green, blue, alpha]
     };
     if width > MAX_SIDE || height > MAX_SIDE || (kind.dim == SamplerDim::D1 && height > 1) {
-        let message = format!("`{path}` has {width}x{height} texels, too many for a {}", kind.name());
+        let most = if kind.dim == SamplerDim::D1 { 1 } else { MAX_SIDE };
+        let message = format!("`{path}` has {width}x{height} texels, and a {} at most {MAX_SIDE}x{most}", kind.name());
         loader.reader.error(&SCENE_WRONG_SIZE, span, message, "too large");
         return None;
     }

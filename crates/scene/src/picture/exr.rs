@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8], size: Size) -> std::result::Result<Image, Image
     let (width, height) = size.check(window.size.width(), window.size.height())?;
     let has_alpha = header.channels.find_index_of_channel(&Text::from("A")).is_some();
     let absent = [0.0, 0.0, 0.0, if has_alpha { 0.0 } else { 1.0 }];
-    size.check(header.layer_size.width(), header.layer_size.height())?;
+    size.bound(header.layer_size.width(), header.layer_size.height())?;
     let place = move |at: Vec2<usize>| {
         let at = at.to_i32() + offset;
         let (x, y) = (u32::try_from(at.x()).ok()?, u32::try_from(at.y()).ok()?);

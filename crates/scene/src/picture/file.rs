@@ -5,7 +5,7 @@
 //! *Holds:* `.npy` and `.exr` contain float32 RGBA as in the framebuffer; `.png` contains 8 bits, straight alpha,
 //! clamped to [0, 1] and rounded, encoded by an [`Encoding`] if one is asked for. Nothing here touches the file system.
 
-use super::image::{Image, ImageError, Size};
+use super::image::{Image, ImageError, Shape, Size};
 use super::{Encoding, Picture, byte, exr, hdr, jpeg, npy, png};
 use std::path::Path;
 
@@ -51,7 +51,15 @@ impl Image {
     /// # Errors
     /// The bytes are none of these, are damaged, or have more than `max_side` pixels on a side or `max_pixels` in all.
     pub fn read(bytes: &[u8], max_side: u32, max_pixels: u64) -> Result<Self, ImageError> {
-        let allowed = Size { max_side, max_pixels };
+        Self::read_if(bytes, max_side, max_pixels, |_, _| Ok(()))
+    }
+
+    /// Reads a picture like [`read`](Self::read), unless its width and height are wrong, which is told before any pixel is read.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read), and that of `shape`.
+    pub fn read_if(bytes: &[u8], max_side: u32, max_pixels: u64, shape: Shape) -> Result<Self, ImageError> {
+        let allowed = Size { max_side, max_pixels, shape };
         match ImageFormat::of_bytes(bytes) {
             Some(ImageFormat::Png) => png::read(bytes, allowed),
             Some(ImageFormat::Exr) => exr::read(bytes, allowed),

@@ -40,17 +40,36 @@ impl Image {
 pub(super) struct Size {
     pub(super) max_side: u32,
     pub(super) max_pixels: u64,
+    /// What is wrong with a width and a height, if something is.
+    pub(super) shape: Shape,
 }
 
+/// A rule for the width and the height of a picture: what is wrong with them, if something is.
+pub type Shape = fn(u32, u32) -> Result<(), String>;
+
 impl Size {
-    /// Rejects larger pictures, before memory is allocated for them.
+    /// Rejects larger pictures, and those of a wrong shape, before memory is allocated for them.
     pub(super) fn check(self, width: usize, height: usize) -> Result<(u32, u32), ImageError> {
+        let (width, height) = self.bound(width, height)?;
+        (self.shape)(width, height).map_err(ImageError)?;
+        Ok((width, height))
+    }
+
+    /// Rejects larger pictures.
+    pub(super) fn bound(self, width: usize, height: usize) -> Result<(u32, u32), ImageError> {
         let side = |side: usize| u32::try_from(side).ok().filter(|side| *side <= self.max_side);
         match (side(width), side(height)) {
             (Some(width), Some(height)) if u64::from(width) * u64::from(height) <= self.max_pixels => {
                 Ok((width, height))
             }
-            _ => Err(ImageError(format!("it has {width}x{height} pixels, which is too large"))),
+            _ => Err(ImageError(format!("it has {width}x{height} pixels, and {} are read", self.words()))),
+        }
+    }
+
+    fn words(self) -> String {
+        match self.max_side {
+            u32::MAX => format!("at most {}", self.max_pixels),
+            side => format!("at most {} with sides of {side}", self.max_pixels),
         }
     }
 }

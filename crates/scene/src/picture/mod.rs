@@ -21,7 +21,7 @@ pub use self::exr::exr_of_colors;
 pub use self::png::{Effort, png_rgb};
 pub use eight_bits::{NOT_FINITE, byte, visible_rgb};
 pub use file::ImageFormat;
-pub use image::{Image, ImageError};
+pub use image::{Image, ImageError, Shape};
 pub use interval::Interval;
 pub use tone::{Encoding, Tone};
 pub use transfer::Transfer;

@@ -101,7 +101,8 @@ fn decode(bytes: &[u8], size: Size) -> Result<Image, Failure> {
     let info = decoder.read_header_info()?;
     let (width, height) = size.check(info.width as usize, info.height as usize)?;
     let mut reader = decoder.read_info()?;
-    let length = reader.output_buffer_size().ok_or_else(|| ImageError("it is too large".to_owned()))?;
+    let length =
+        reader.output_buffer_size().ok_or_else(|| ImageError(format!("it has more than {MAX_BYTES} bytes")))?;
     let mut data = vec![0; length];
     let frame = reader.next_frame(&mut data)?;
     let data = data.get(..frame.buffer_size()).unwrap_or_default();

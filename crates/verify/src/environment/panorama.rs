@@ -93,15 +93,24 @@ impl Level {
 }
 
 impl Panorama {
+    /// Whether a picture of this width and height is a panorama.
+    ///
+    /// # Errors
+    /// It is not twice as wide as high.
+    pub fn check(width: u32, height: u32) -> Result<(), String> {
+        if height < 2 || u64::from(width) != 2 * u64::from(height) {
+            return Err(format!("it is {width} by {height}, and a panorama is twice as wide as high"));
+        }
+        Ok(())
+    }
+
     /// The panorama of a picture.
     ///
     /// # Errors
     /// It is not twice as wide as high.
     pub fn new(image: &Image) -> Result<Self, String> {
+        Self::check(image.width, image.height)?;
         let (width, height) = (image.width as usize, image.height as usize);
-        if height < 2 || width != 2 * height {
-            return Err(format!("it is {width} by {height}, and a panorama is twice as wide as high"));
-        }
         let mut n_limited = 0;
         let limited = |value: f32| if value > 0.0 { value.min(MOST) } else { 0.0 };
         let texel = |[r, g, b, _]: &[f32; 4]| {

@@ -45,7 +45,7 @@ pub(crate) fn prefilter(args: &PrefilterArgs, console: &Console) -> Outcome {
     let name = args.panorama.display().to_string();
     let bytes = files::read(&name, &args.panorama).map_err(|error| Failure::usage(error.message))?;
     let wrong = |error: &dyn std::fmt::Display| Failure::new(Exit::Content, format!("`{name}`: {error}"));
-    let image = Image::read(&bytes, MAX_SIDE, MAX_PIXELS).map_err(|error| wrong(&error))?;
+    let image = Image::read_if(&bytes, MAX_SIDE, MAX_PIXELS, Panorama::check).map_err(|error| wrong(&error))?;
     let panorama = Panorama::new(&image).map_err(|error| wrong(&error))?;
     drop(image);
     files::make_folder(&args.output)?;

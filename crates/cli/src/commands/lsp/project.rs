@@ -563,7 +563,7 @@ impl Project for Files<'_> {
         for module in glisten_library::modules() {
             let path = folder.join(format!("{}.glsl", module.name));
             if std::fs::read(&path).ok().as_deref() != Some(module.text.as_bytes()) {
-                files::write(&path, module.text.as_bytes()).ok()?;
+                files::replace(&path, module.text.as_bytes()).ok()?;
             }
         }
         Some(folder.join(file))

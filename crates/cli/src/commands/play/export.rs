@@ -1,14 +1,16 @@
 //! `--export`: one page that shows a scene and needs neither a server nor a network.
 //!
 //! *In:* a scene. *Out:* an HTML file with its sources, findings, translations, pictures and verdict. *Holds:* the page is that of
-//! the server, with answers in place of questions; what would need a program to compute is turned off, and the page says so.
+//! the server, with answers in place of questions; what would need a program to compute is turned off, and the page says so. The same
+//! call writes the same bytes: no times are in it.
 
 use super::PlayArgs;
-use super::driver::{Driver, timed};
+use super::driver::Driver;
 use super::page::page;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
+use crate::overwrite;
 use crate::progress::Progress;
 use crate::scenes::SceneArgs;
 use glisten_emit::Target;
@@ -24,6 +26,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
         let failure = Failure::usage(format!("`{}` is a folder, and a page shows one scene", args.start));
         return Err(failure.help("name the scene: `glisten play --export page.html scene.toml`"));
     }
+    overwrite::note(Path::new(&args.start));
     files::check_writable(output)?;
     let progress = Progress::new(console, 3);
     let of = SceneArgs::of(&args.start, &args.machine, &args.sources, &args.levels);
@@ -37,7 +40,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
     let (mut pictures, drawn) = of
         .within_time(move || {
             let mut pictures = Pictures::default();
-            let drawn = timed(|| pictures.reference(&by_reference));
+            let drawn = pictures.reference(&by_reference);
             Ok((pictures, drawn))
         })
         .map_err(failure)?;

@@ -9,21 +9,23 @@ use crate::commands::examples::Examples;
 use crate::commands::report::checks::CheckArgs;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
-use crate::files;
+use crate::files::{self, SceneFiles};
 use crate::made::made;
 use crate::process::interrupt::Interrupt;
 use crate::process::journal::{self, AtWork};
 use crate::process::machine::machine;
+use crate::process::watchdog::{self, Watchdog};
 use crate::progress::Progress;
 use crate::scenes::{DrawError, SceneArgs, ViaArg};
 use crate::session::Session;
 use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
 use glisten_front::source::SourceMap;
-use glisten_report::{Error, LIBRARY_SCENE, LibraryFiles, Limits, Options, Report, Watcher, Ways, Weights};
-use glisten_verify::scene::{DiskFiles, FileSource, is_model_file};
+use glisten_report::{Error, LIBRARY_SCENE, LibraryFiles, Limits, Options, Report, TIMING, Watcher, Ways, Weights};
+use glisten_verify::scene::{FileSource, is_model_file};
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Examples of its use.
 pub(crate) const EXAMPLES: Examples = &[
@@ -102,13 +104,20 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Shows the steps of a report as progress.
+/// Shows the steps of a report as progress, and ends those that take too long.
 struct Steps {
     progress: Progress,
     begun: bool,
     interrupt: Interrupt,
     scene: String,
     work: Option<AtWork>,
+    watchdog: Watchdog,
+    started: Instant,
+    limit: Duration,
+    /// Whether the time was up before all was drawn.
+    is_late: Cell<bool>,
+    /// Whether all is drawn: `--seconds` ends what is left.
+    is_timing: bool,
 }
 
 impl Watcher for Steps {
@@ -117,6 +126,8 @@ impl Watcher for Steps {
     }
 
     fn step(&mut self, what: &str) {
+        self.watchdog.again();
+        self.is_timing |= what.starts_with(TIMING);
         if self.begun {
             self.progress.step();
         }
@@ -128,7 +139,9 @@ impl Watcher for Steps {
     }
 
     fn is_stopped(&self) -> bool {
-        self.interrupt.is_pressed()
+        let is_late = !self.is_timing && self.started.elapsed() >= self.limit;
+        self.is_late.set(self.is_late.get() || is_late);
+        self.is_late.get() || self.interrupt.is_pressed()
     }
 }
 
@@ -169,18 +182,33 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         interrupt: interrupt.clone(),
         scene: args.scene.scene.clone(),
         work: None,
+        watchdog: args.scene.watchdog(console),
+        started: Instant::now(),
+        limit: args.scene.time_limit(),
+        is_late: Cell::new(false),
+        is_timing: false,
     };
-    let files: &dyn FileSource = if args.library { &LibraryFiles } else { &DiskFiles };
+    let files: &dyn FileSource = if args.library { &LibraryFiles } else { &SceneFiles };
     let result = glisten_report::run(&args.scene.scene, files, session.compiler(), &gpu, &options, &mut steps);
+    let is_late = steps.is_late.get();
     drop(steps);
     let report = match result {
         Ok(report) => Report { title: args.library.then(|| LIBRARY_TITLE.to_owned()), ..report },
+        Err(Error::Stopped) if is_late => {
+            let (message, help) = watchdog::sentence(args.scene.time_limit());
+            return Err(Failure::new(Exit::Content, message).help(help));
+        }
         Err(error) => return failed(session, error, console),
     };
     write(args, console, &report)?;
     if interrupt.is_pressed() {
         console.remark("interrupted; the report covers what had finished");
         return Ok(Exit::Interrupted);
+    }
+    if is_late {
+        let (message, help) = watchdog::sentence(args.scene.time_limit());
+        let message = format!("{message}; the report covers what had finished");
+        return Err(Failure::new(Exit::Content, message).help(help));
     }
     checks.apply(&report, &args.output, console)
 }
@@ -235,7 +263,8 @@ fn told(mut session: Session<'_>, sources: SourceMap, error: DrawError) -> Outco
 
 fn write(args: &ReportArgs, console: &Console, report: &Report) -> Result<(), Failure> {
     let html = report.html(&made()).map_err(|error| Failure::new(Exit::Content, format!("internal error: {error}")))?;
-    files::write(&args.output.join("report.json"), report.json().as_bytes())?;
+    // It may be the one to compare with.
+    files::replace(&args.output.join("report.json"), report.json().as_bytes())?;
     let page = args.output.join("report.html");
     files::write(&page, html.as_bytes())?;
     if !console.is_quiet() {

@@ -128,6 +128,7 @@ pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     let mut exit = Exit::Ok;
     for name in &args.scenes {
         progress.say(name);
+        let _watchdog = args.machine.watchdog(console);
         let scene = SceneArgs::of(name, &args.machine, &args.sources, &args.levels);
         match scene.read(console)? {
             Ok(read) if args.suggest => {
@@ -159,12 +160,15 @@ pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     let mut programs: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut drawn = Vec::new();
     for one in &done {
+        let _watchdog = args.machine.watchdog(console);
         drawn.push(write_scene(args, &folder, one, console)?);
         programs.insert(one.name.clone(), one.names.iter().map(|[_, _, stem]| stem.clone()).collect());
     }
     let json = serde_json::to_string_pretty(&programs).expect("names are always JSON") + "\n";
     files::write(&folder.join("programs.json"), json.as_bytes())?;
+    let watchdog = args.machine.watchdog(console);
     write_page(&folder, &done, &drawn)?;
+    drop(watchdog);
     console.remark(&format!("wrote {}", folder.display()));
     Ok(exit)
 }

@@ -216,6 +216,7 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     let progress = Progress::new(console, 0).unless(args.format == StabilityFormat::Json);
     progress.say(name);
     let (started, limit) = (Instant::now(), args.machine.time_limit());
+    let watchdog = args.machine.watchdog(console);
     let stopped = Cell::new(false);
     let stop = || {
         stopped.set(true);
@@ -224,6 +225,7 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     let (scene, sweep, stiff) = if args.stiff {
         let found = stiff::search(&read.scene, &settings.ranges, &mut |done, most| {
             progress.reach(done, most);
+            watchdog.again();
             // The other half is for the experiments.
             started.elapsed() < limit / 2 || stop()
         });
@@ -233,7 +235,10 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
         }
     } else {
         // The other half is for the experiments.
-        let mut goes_on = || started.elapsed() < limit / 2 || stop();
+        let mut goes_on = || {
+            watchdog.again();
+            started.elapsed() < limit / 2 || stop()
+        };
         match swept(sweeps, &read.scene, relative.unwrap_or(0.0), &progress, &mut goes_on)? {
             Ok((scene, sweep)) => (scene, sweep, None),
             Err(found) => return Ok(Err(found)),
@@ -241,8 +246,10 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     };
     let mut step = |done: usize, of: usize| {
         progress.reach(done, of);
+        watchdog.again();
         started.elapsed() < limit || stop()
     };
+    watchdog.again();
     let mut options = ExamineOptions {
         bound,
         bound_relative: relative.unwrap_or(0.0),
@@ -259,6 +266,7 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
         let message = format!("{name}: stopped after {} s, so there may be more to find", limit.as_secs_f64());
         console.remark(&format!("{message} (`--timeout` gives more time)"));
     }
+    watchdog.again();
     let found = if args.exact { found.and_then(|found| with_exact(&scene, found, bound)) } else { found };
     Ok(found.map(|(findings, examined)| {
         let result = SceneResult {

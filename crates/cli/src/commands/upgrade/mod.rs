@@ -268,7 +268,8 @@ fn write(
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             files::make_folder(folder)?;
         }
-        files::write(&path, text.as_bytes())?;
+        let write = if args.in_place { files::replace } else { files::write };
+        write(&path, text.as_bytes())?;
         console.remark(&format!("wrote {}", path.display()));
     }
     Ok(Exit::Ok)

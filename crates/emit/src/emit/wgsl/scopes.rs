@@ -6,11 +6,16 @@
 use super::names::{is_word, plain};
 use super::tree::{BlockId, Body, Expr, NameId, StmtKind};
 use naga::keywords::wgsl::BUILTIN_IDENTIFIERS;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Chooses the names of a function's locals: afterwards, [`Body::names`] has those of the text.
 pub(super) fn choose(body: &mut Body<'_>, parameters: &[NameId], types: &[String]) {
-    let mut scopes = Scopes { used: FxHashSet::default(), open: FxHashSet::default(), names: Vec::new() };
+    let mut scopes = Scopes {
+        used: FxHashSet::default(),
+        open: FxHashMap::default(),
+        free: FxHashMap::default(),
+        names: Vec::new(),
+    };
     for text in types {
         scopes.words_of(text);
     }
@@ -29,8 +34,10 @@ pub(super) fn choose(body: &mut Body<'_>, parameters: &[NameId], types: &[String
 struct Scopes {
     /// The names of the module and the language that the function uses.
     used: FxHashSet<String>,
-    /// The locals that are visible.
-    open: FxHashSet<String>,
+    /// The locals that are visible: each with the name that it was to have, and its number.
+    open: FxHashMap<String, (String, usize)>,
+    /// For a name that locals were to have, the least number that may be free.
+    free: FxHashMap<String, usize>,
     names: Vec<String>,
 }
 
@@ -75,15 +82,16 @@ impl Scopes {
     /// Chooses a name, which is visible from here on.
     fn declare(&mut self, id: NameId, wanted: &[String]) -> String {
         let base = plain(wanted.get(id.0).map_or("value", String::as_str));
-        let mut number = 0;
+        let mut number = self.free.get(&base).copied().unwrap_or(0);
         let name = loop {
             let name = if number == 0 { base.clone() } else { format!("{base}_{number}") };
-            number += 1;
-            if !is_forbidden(&name) && !self.used.contains(&name) && !self.open.contains(&name) {
+            if !is_forbidden(&name) && !self.used.contains(&name) && !self.open.contains_key(&name) {
                 break name;
             }
+            number += 1;
         };
-        self.open.insert(name.clone());
+        self.free.insert(base.clone(), number + 1);
+        self.open.insert(name.clone(), (base, number));
         if let Some(place) = self.names.get_mut(id.0) {
             place.clone_from(&name);
         }
@@ -124,7 +132,9 @@ impl Scopes {
 
     fn close(&mut self, names: Vec<String>) {
         for name in names {
-            self.open.remove(&name);
+            if let Some((base, number)) = self.open.remove(&name) {
+                self.free.entry(base).and_modify(|free| *free = number.min(*free));
+            }
         }
     }
 }

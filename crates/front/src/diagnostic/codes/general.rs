@@ -33,9 +33,9 @@ codes! {
          empty file is most often the result of a failed save or download."
         bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
     BINARY_SOURCE = "E0014" "binary-source" Error "GLSL 1.50 §3.1"
-        "The file is not text: it contains NUL bytes, or mostly bytes that do not occur in text. Compiled SPIR-V, \
-         images and UTF-16 text look like that. Single bytes that are not UTF-8 are forgiven, and are legal in \
-         comments."
+        "The file is not text: it contains NUL bytes, or many bytes that do not occur in text. Compiled SPIR-V, \
+         images and UTF-16 text look like that. A single byte that is not UTF-8, or a single control character, is an \
+         illegal character (E0103), and legal in comments."
         bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
     BAD_CONFIG = "E0015" "bad-configuration" Error ""
         "A `glisten.toml` or a file of `--permutations` is not TOML, or contains a key, a value or a code that glisten does not \

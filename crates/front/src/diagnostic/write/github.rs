@@ -1,6 +1,6 @@
 //! Writes diagnostics as workflow commands of GitHub Actions, which shows them next to the changed lines.
 
-use super::{Finding, NotChecked, Scope};
+use super::{Finding, NotChecked, Scope, clean};
 use crate::diagnostic::Severity;
 use crate::diagnostic::codes::general::NOT_CHECKED;
 
@@ -49,9 +49,9 @@ fn line(finding: &Finding) -> String {
     )
 }
 
-/// Escapes the text after `::`.
+/// Escapes the text after `::`. The log of a workflow is shown by terminals, too.
 fn data(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    clean(&text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A"))
 }
 
 /// Escapes the value of a property.

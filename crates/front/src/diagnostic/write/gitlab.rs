@@ -3,6 +3,7 @@
 //! *Holds:* each entry has the keys that GitLab requires: `description`, `check_name`, `fingerprint`, `severity` and
 //! `location`; no two entries have the same fingerprint.
 
+use super::hostile::escaped;
 use super::{Finding, NotChecked, Scope, fingerprints};
 use crate::diagnostic::Severity;
 use crate::diagnostic::codes::general::NOT_CHECKED;
@@ -13,9 +14,8 @@ pub fn gitlab(findings: &[Finding], scope: Option<&Scope>) -> String {
     let not_checked = scope.map_or(&[][..], |scope| &scope.not_checked);
     let found = findings.iter().zip(fingerprints(findings)).map(|(finding, fingerprint)| entry(finding, &fingerprint));
     let all: Vec<Value> = found.chain(not_checked.iter().map(passed_over)).collect();
-    let mut text = serde_json::to_string_pretty(&all).expect("strings and numbers are always JSON");
-    text.push('\n');
-    text
+    let text = serde_json::to_string_pretty(&all).expect("strings and numbers are always JSON");
+    escaped(&text) + "\n"
 }
 
 fn entry(finding: &Finding, fingerprint: &str) -> Value {

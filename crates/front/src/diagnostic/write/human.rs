@@ -4,6 +4,7 @@
 //! *Holds:* source text never reaches a terminal unfiltered. Control characters are replaced, and an overlong line is
 //! cut to the part around the label.
 
+use super::hostile::{clean, is_hostile};
 use super::{Finding, labels, section};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{FileId, SourceMap, Span};
@@ -92,20 +93,6 @@ fn notes(sources: &SourceMap, diagnostic: &Diagnostic, located: bool) -> Vec<Str
         }
     }
     notes
-}
-
-/// The text, with replacements for control characters that a terminal would obey.
-fn clean(text: &str) -> String {
-    text.chars().map(|character| if keeps(character) { character } else { '\u{fffd}' }).collect()
-}
-
-fn keeps(character: char) -> bool {
-    character == '\n' || character == '\t' || !is_hostile(character)
-}
-
-/// Whether a character controls the terminal, changes the writing direction, or has no width.
-fn is_hostile(character: char) -> bool {
-    character.is_control() || matches!(character, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
 /// A text from which an excerpt is taken.

@@ -2,6 +2,7 @@
 //!
 //! *Holds:* keys are only ever added. Lines and columns count from 1; `end_column` is exclusive.
 
+use super::hostile::escaped;
 use super::scope::counts;
 use super::{Finding, FindingFix, NotChecked, Region, Scope};
 use serde::Serialize;
@@ -109,9 +110,8 @@ pub fn json(findings: &[Finding], scope: Option<&Scope>) -> String {
     let found = findings.iter().map(|finding| JsonRow::Finding(Box::new(row(finding))));
     let scope = scope.map(|scope| JsonRow::Scope(summary(findings, scope)));
     let rows: Vec<JsonRow<'_>> = found.chain(scope).collect();
-    let mut text = serde_json::to_string_pretty(&rows).expect("strings and numbers are always JSON");
-    text.push('\n');
-    text
+    let text = serde_json::to_string_pretty(&rows).expect("strings and numbers are always JSON");
+    escaped(&text) + "\n"
 }
 
 fn summary<'a>(findings: &[Finding], scope: &'a Scope) -> JsonScope<'a> {

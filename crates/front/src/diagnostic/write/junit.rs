@@ -4,6 +4,7 @@
 //! a file that was not checked is a skipped case (a failure if that is denied). A run without findings has one case that
 //! passes, since some systems refuse a report without cases.
 
+use super::hostile::is_hostile;
 use super::{Finding, NotChecked, Scope};
 use crate::diagnostic::Severity;
 use std::collections::BTreeMap;
@@ -102,6 +103,7 @@ pub fn escaped_xml(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
+            c if is_hostile(c) && c != '\n' && c != '\t' => out.push_str(&format!("&#x{:X};", u32::from(c))),
             c => out.push(c),
         }
     }

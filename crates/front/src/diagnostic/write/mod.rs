@@ -4,11 +4,12 @@
 //! [`json()`], [`sarif()`], [`github()`], [`gitlab()`] and [`junit()`] convert. A [`Finding`] no longer needs its source map, so the findings of
 //! many programs can be joined, sorted and deduplicated.
 //!
-//! *Holds:* regions are those of the text on disk, whatever `#line` says. The region of text from a macro is the use of
+//! *Holds:* no text has characters of a source that a terminal would obey, in any format. Regions are those of the text on disk, whatever `#line` says. The region of text from a macro is the use of
 //! the macro; the text in the macro's body becomes a label.
 
 mod github;
 mod gitlab;
+mod hostile;
 mod human;
 mod json;
 mod junit;
@@ -17,6 +18,7 @@ mod scope;
 
 pub use github::github;
 pub use gitlab::gitlab;
+pub use hostile::clean;
 pub use human::human;
 pub use json::json;
 pub use junit::{escaped_xml, junit};
@@ -159,13 +161,16 @@ fn removed(sources: &SourceMap, span: Span) -> Span {
     if stands_apart && span.end <= line.end { Span { end: span.end + blanks as u32, ..span } } else { span }
 }
 
-/// FNV-1a over the code, the message and the line of text without its indentation.
+/// FNV-1a over the code, the message and the line of text without its indentation, or the begin of a very long one.
 fn fingerprint(sources: &SourceMap, diagnostic: &Diagnostic, span: Span) -> u64 {
     const START: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0100_0000_01b3;
+    const LONGEST: usize = 4096;
     let line = sources.location(span).and_then(|at| sources.file(at.file).line(at.line)).unwrap_or_default();
-    let parts = [diagnostic.code.id, diagnostic.message.as_str(), line.trim()];
-    let bytes = parts.iter().flat_map(|part| part.bytes().chain([0]));
+    let line = line.trim().as_bytes();
+    let line = line.get(..LONGEST).unwrap_or(line);
+    let parts = [diagnostic.code.id.as_bytes(), diagnostic.message.as_bytes(), line];
+    let bytes = parts.into_iter().flat_map(|part| part.iter().copied().chain([0]));
     bytes.fold(START, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
 }
 

@@ -4,6 +4,7 @@
 //! count Unicode code points (`columnKind`); the end is exclusive. Files that were not checked are notifications of the
 //! invocation (§3.20.21), not results.
 
+use super::hostile::escaped;
 use super::{Finding, FindingFix, NotChecked, Region, Scope, fingerprints};
 use crate::diagnostic::codes::general::NOT_CHECKED;
 use crate::diagnostic::{Code, Severity};
@@ -44,9 +45,8 @@ pub fn sarif(findings: &[Finding], scope: Option<&Scope>) -> String {
         let invocation = json!({ "executionSuccessful": true, "toolExecutionNotifications": notifications });
         run.insert("invocations".to_owned(), json!([invocation]));
     }
-    let mut text = serde_json::to_string_pretty(&log).expect("strings and numbers are always JSON");
-    text.push('\n');
-    text
+    let text = serde_json::to_string_pretty(&log).expect("strings and numbers are always JSON");
+    escaped(&text) + "\n"
 }
 
 fn level(severity: Severity) -> &'static str {

@@ -1,8 +1,9 @@
 //! Unit tests of the writers, on small hand-made diagnostics.
 
-use super::{Finding, findings, github, human, json, sarif};
+use super::hostile::is_hostile;
+use super::{Finding, findings, github, gitlab, human, json, junit, sarif};
 use crate::diagnostic::codes::general::{NOT_SUPPORTED_YET, TOO_DEEP};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Severity};
 use crate::source::{Expansion, SourceMap, Span};
 
 fn source(text: &str) -> (SourceMap, u32) {
@@ -106,6 +107,38 @@ fn long_lines_are_cut_and_control_characters_replaced() {
     assert!(shown.len() < 1500, "{}", shown.len());
     assert!(shown.contains(":1:5006"), "{shown}");
     assert!(shown.contains("^^^^"), "{shown}");
+}
+
+#[test]
+fn no_format_has_characters_that_a_terminal_obeys() {
+    let text = "x\n";
+    let (sources, base) = source(text);
+    let evil = "\u{1b}[2J \u{7} \u{9b}31m \u{202e}\u{7f}\r";
+    let diagnostic = Diagnostic::new(&TOO_DEEP, span_of(text, base, "x"), evil).help(evil).note(evil).here(evil);
+    let found = findings(&sources, [&diagnostic]);
+    for write in [json, sarif, github, gitlab, junit] {
+        let shown = write(&found, None);
+        assert!(!shown.chars().any(|c| c != '\n' && is_hostile(c)), "{shown:?}");
+    }
+    let value: serde_json::Value = serde_json::from_str(&json(&found, None)).expect("JSON");
+    assert_eq!(value[0]["message"], evil, "nothing is lost in JSON");
+}
+
+#[test]
+fn the_texts_of_a_diagnostic_and_their_number_are_bounded() {
+    let name = "a".repeat(1 << 20);
+    let mut diagnostic = Diagnostic::new(&TOO_DEEP, Span::default(), format!("`{name}` is deep"))
+        .here(name.clone())
+        .help(Advice::write(Applicability::Safe, name.clone()));
+    for _ in 0..1000 {
+        diagnostic = diagnostic.label(Span::default(), name.clone()).note(name.clone());
+    }
+    assert!(diagnostic.message.starts_with("`aaa") && diagnostic.message.ends_with("a…` is deep"));
+    assert!(diagnostic.secondary.len() == Diagnostic::MOST && diagnostic.notes.len() <= Diagnostic::MOST + 2);
+    assert!(diagnostic.notes.iter().any(|note| note == "more places are not shown"), "{:?}", diagnostic.notes);
+    assert!(diagnostic.notes.iter().any(|note| note == "more is not shown"), "{:?}", diagnostic.notes);
+    assert_eq!(diagnostic.fixes[0].edits[0].text, name, "a fix writes the whole name");
+    assert!(format!("{:?}", Diagnostic { fixes: Vec::new(), ..diagnostic }).len() < 16_384);
 }
 
 #[test]

@@ -62,8 +62,8 @@ fn is_free(subject: &Subject<'_>, place: &Place<'_>, function: BuiltinFunction) 
     let name = function.name();
     let is_own = place.shader.functions.iter().any(|own| own.name == name);
     !is_own
-        && subject.texts.files(place.shader).into_iter().all(|file| {
-            let lexemes = subject.texts.lexemes(file);
+        && subject.texts.files(place.shader).iter().all(|file| {
+            let lexemes = subject.texts.lexemes(*file);
             lexemes.places(name).all(|span| {
                 lexemes.tokens().get(lexemes.from(span.end)).is_some_and(|next| next.kind == TokenKind::LeftParen)
             })

@@ -1,15 +1,19 @@
 //! `shadowed-variable`: a local with the name of a global, a parameter, or a local of an outer block, which it hides.
 
 use super::super::{Findings, Place, Subject};
-use crate::hir::{ExprId, ExprKind, LocalId, Stmt, StmtKind, VarRef};
+use crate::hir::{ExprKind, LocalId, Stmt, StmtKind, VarRef};
 use crate::source::Span;
+use rustc_hash::FxHashMap;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for place in &subject.places {
-        let mut seen = Vec::new();
-        let params = (0..place.function.param_count).map(LocalId::new).collect();
-        walk(place, place.body, params, &mut seen);
-        for (local, hidden) in seen {
+        let mut scopes = Scopes { place, open: FxHashMap::default(), found: Vec::new() };
+        (0..place.function.param_count).map(LocalId::new).for_each(|param| {
+            scopes.open(param);
+        });
+        scopes.walk(place.body);
+        let globals = globals(place);
+        for (local, hidden) in scopes.found {
             let local = place.function.local(local);
             if subject.texts.text(local.span).is_none() || local.name.is_empty() {
                 continue;
@@ -19,7 +23,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                     ("a parameter", place.function.local(hidden).span)
                 }
                 Some(hidden) => ("a variable of an outer block", place.function.local(hidden).span),
-                None => match global(place, &local.name) {
+                None => match globals.get(local.name.as_str()).copied() {
                     Some(span) => ("a global", span),
                     None => continue,
                 },
@@ -35,26 +39,47 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-/// The declaration of a global with a name, if the function uses it.
-fn global(place: &Place<'_>, name: &str) -> Option<Span> {
-    let mut globals = place.shader.globals.iter().filter(|global| global.builtin.is_none() && global.block.is_none());
-    let global = globals.find(|global| global.name == name && global.span.is_known())?;
-    // Only a function that names both can mistake one for the other.
-    let is_named = |expr: &ExprId| matches!(place.kind(*expr), ExprKind::Var(VarRef::Global(id)) if place.shader.global(*id).span == global.span);
-    place.exprs.iter().any(is_named).then_some(global.span)
+/// The declarations of the globals that a function names: only what it names can be mistaken for a local.
+fn globals<'a>(place: &Place<'a>) -> FxHashMap<&'a str, Span> {
+    let named = place.exprs.iter().filter_map(|expr| match place.kind(*expr) {
+        ExprKind::Var(VarRef::Global(id)) => Some(place.shader.global(*id)),
+        _ => None,
+    });
+    let plain = named.filter(|global| global.builtin.is_none() && global.block.is_none() && global.span.is_known());
+    plain.map(|global| (global.name.as_str(), global.span)).collect()
 }
 
-/// Finds each local with the local that it hides, if it is one, and the scope that is open. The parser limits the nesting.
-fn walk(place: &Place<'_>, body: &[Stmt], open: Vec<LocalId>, found: &mut Vec<(LocalId, Option<LocalId>)>) {
-    let mut open = open;
-    for statement in body {
-        if let StmtKind::Local(id, _) = statement.kind {
-            let name = &place.function.local(id).name;
-            found.push((id, open.iter().rev().copied().find(|other| place.function.local(*other).name == *name)));
-            open.push(id);
+/// The locals of a function that are open, by their names.
+struct Scopes<'p, 'a> {
+    place: &'p Place<'a>,
+    open: FxHashMap<&'a str, Vec<LocalId>>,
+    /// Each local with the one that it hides, if it is one.
+    found: Vec<(LocalId, Option<LocalId>)>,
+}
+
+impl Scopes<'_, '_> {
+    fn open(&mut self, id: LocalId) -> Option<LocalId> {
+        let same = self.open.entry(&self.place.function.local(id).name).or_default();
+        let hidden = same.last().copied();
+        same.push(id);
+        hidden
+    }
+
+    /// Goes through the statements of a scope. The parser limits the nesting.
+    fn walk(&mut self, body: &[Stmt]) {
+        let mut own = Vec::new();
+        for statement in body {
+            if let StmtKind::Local(id, _) = statement.kind {
+                let hidden = self.open(id);
+                self.found.push((id, hidden));
+                own.push(id);
+            }
+            for inner in statement.kind.bodies() {
+                self.walk(inner);
+            }
         }
-        for inner in statement.kind.bodies() {
-            walk(place, inner, open.clone(), found);
+        for id in own {
+            self.open.get_mut(self.place.function.local(id).name.as_str()).and_then(Vec::pop);
         }
     }
 }

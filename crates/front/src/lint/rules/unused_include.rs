@@ -23,7 +23,8 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         for inclusion in inclusions.iter().filter(|one| subject.texts.is_own(shader, one.directive)) {
             let Some(file) = inclusion.file else { continue };
             let brought = brought(subject, shader, file);
-            let others = subject.texts.files(shader).into_iter().filter(|other| !brought.contains(other));
+            let files = subject.texts.files(shader);
+            let others = files.iter().copied().filter(|other| !brought.contains(other));
             let mut named: FxHashSet<String> = FxHashSet::default();
             for other in others {
                 let lexemes = subject.texts.lexemes(other);

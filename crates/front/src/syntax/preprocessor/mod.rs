@@ -46,6 +46,12 @@ use std::sync::Arc;
 /// The largest total size of all texts of a shader in bytes, with includes counted each time: 8 MiB.
 pub(super) const MAX_BYTES: usize = 8 << 20;
 
+/// Whether a text with this many control characters among `all` is none: a few are illegal characters, each at its place
+/// (GLSL 1.50 §3.1), and allowed in comments.
+pub fn is_no_text(controls: usize, all: usize) -> bool {
+    controls > 4 && controls > all / 16
+}
+
 /// The outcome after the last token has been read.
 #[derive(Debug)]
 pub(super) struct PreprocessorOutcome {
@@ -256,7 +262,7 @@ impl<'a> Preprocessor<'a> {
             // U+FFFD does not count: comments in other encodings are legal.
             odd += usize::from(character.is_control() && !character.is_whitespace());
         }
-        if odd * 8 > all {
+        if is_no_text(odd, all) {
             let span = Span::new(source.base(), source.base());
             let diagnostic = Diagnostic::new(&general::BINARY_SOURCE, span, "the source is not text")
                 .here(format!("{odd} of the first {all} characters are not text"));

@@ -368,9 +368,11 @@ const showDrawn = (drawn) => {
   }
   // The numbers of a pixel were those of the last picture.
   byId("pixel").textContent = HINT;
-  const time = `in ${drawn.milliseconds.toFixed(0)} ms`;
+  // An exported page is the same each time, so it tells no time.
+  const time = drawn.milliseconds === undefined ? "" : ` in ${drawn.milliseconds.toFixed(0)} ms`;
   const empty = drawn.is_empty ? "; nothing is covered: no fragment reached a pixel" : "";
-  byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}, ${drawn.block > 1 ? `a first look ${time}: one pixel of ${drawn.block ** 2}` : time + empty}`;
+  const how = drawn.block > 1 ? `, a first look${time}: one pixel of ${drawn.block ** 2}` : (time && `,${time}`) + empty;
+  byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}${how}`;
 };
 const showJudged = (judged) => {
   const { width, height } = judged;

@@ -1,0 +1,77 @@
+//! No output replaces a file that the same command reads.
+//!
+//! *In:* the names of files that are read, and of those to be written. *Out:* an error for a name that is both. *Holds:* links and other
+//! names of a file are seen through; [`files::write`](crate::files::write) asks here, so each command that writes does. What changes
+//! files in place says so by [`files::replace`](crate::files::replace).
+
+use crate::exit::Failure;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// The files that were read.
+#[derive(Default)]
+struct Inputs {
+    /// As they were named.
+    named: BTreeSet<PathBuf>,
+    /// Those whose own names are not known yet. They are found out when a file is written that exists.
+    pending: Vec<PathBuf>,
+    /// Their own names.
+    found: BTreeSet<PathBuf>,
+}
+
+static INPUTS: Mutex<Inputs> =
+    Mutex::new(Inputs { named: BTreeSet::new(), pending: Vec::new(), found: BTreeSet::new() });
+
+/// Notes that a file is read, or will be.
+pub(crate) fn note(path: &Path) {
+    let mut inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
+    if !inputs.named.contains(path) {
+        inputs.named.insert(path.to_owned());
+        inputs.pending.push(path.to_owned());
+    }
+}
+
+/// Refuses to write a file that is read.
+///
+/// # Errors
+/// It is.
+pub(crate) fn refuse(path: &Path) -> Result<(), Failure> {
+    let Ok(own) = fs::canonicalize(path) else { return Ok(()) };
+    let mut inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let pending = std::mem::take(&mut inputs.pending);
+    inputs.found.extend(pending.into_iter().filter_map(|path| fs::canonicalize(path).ok()));
+    if own.is_file() && inputs.found.contains(&own) {
+        let message = format!("the output `{}` is one of the inputs", path.display());
+        return Err(Failure::usage(message).help("choose another name, or another folder"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{note, refuse};
+    use std::fs;
+
+    #[test]
+    fn other_names_of_an_input_are_refused() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = |name: &str| folder.path().join(name);
+        for name in ["a.frag", "b.frag"] {
+            fs::write(path(name), "").expect("written");
+        }
+        fs::create_dir(path("below")).expect("made");
+        note(&path("a.frag"));
+        assert!(refuse(&path("a.frag")).is_err());
+        assert!(refuse(&path("below/../a.frag")).is_err());
+        assert!(refuse(&path("b.frag")).is_ok());
+        assert!(refuse(&path("new.frag")).is_ok());
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(path("b.frag"), path("link.frag")).expect("linked");
+            note(&path("link.frag"));
+            assert!(refuse(&path("b.frag")).is_err());
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Work grows with the input: texts of a size at which a pass over all of it for each of its parts would take minutes.
+
+use crate::support::compiler;
+use glisten_front::Source;
+use glisten_front::diagnostic::write::{findings, human};
+use glisten_front::hir::Stage;
+use std::time::{Duration, Instant};
+
+/// The number of parts.
+const MANY: usize = 100_000;
+/// Far more than each text takes on a slow machine, and far less than with a square of its parts.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+fn in_main(body: &str) -> String {
+    format!("#version 150\nuniform int n;\nout vec4 c;\nvoid main() {{ float x = float(n); {body} c = vec4(x); }}\n")
+}
+
+fn with_globals(globals: &str) -> String {
+    globals.to_owned() + "out vec4 c;\nvoid main() { c = vec4(1.0); }\n"
+}
+
+fn each(part: impl Fn(usize) -> String) -> String {
+    (0..MANY).map(part).collect()
+}
+
+/// Runs work and wants it to end soon.
+fn soon(what: &str, work: impl FnOnce()) {
+    let start = Instant::now();
+    work();
+    assert!(start.elapsed() < PATIENCE, "{what}: {:?}", start.elapsed());
+}
+
+#[test]
+fn lint_is_linear() {
+    let version = "#version 150\n";
+    let texts = [
+        ("and", in_main(&format!("bool b = {} true; if (b) x = 1.0;", "n > 1 && ".repeat(MANY)))),
+        ("or", in_main(&format!("bool b = {} true; if (b) x = 1.0;", "n > 1 || ".repeat(MANY)))),
+        ("variables on one line", in_main(&format!("float {} last = x;", each(|i| format!("a{i} = x, "))))),
+        ("variables", in_main(&each(|i| format!("float a{i} = x;\n")))),
+        ("assigned variables", in_main(&each(|i| format!("float a{i}; a{i} = x;\n")))),
+        ("a chain of variables", {
+            let link = |i: usize| format!("float a{} = a{i} * 1.5;\n", i + 1);
+            in_main(&format!("float a0 = x; {} x = a{MANY};", each(link)))
+        }),
+        ("a chain of copies", {
+            let link = |i: usize| format!("float a{} = a{i};\n", i + 1);
+            in_main(&format!("float a0 = x; {} x = a{MANY};", each(link)))
+        }),
+        ("blocks with variables", in_main(&"{ float a = x; x += a; }\n".repeat(MANY / 4))),
+        ("structs", with_globals(&format!("{version}{}", each(|i| format!("struct S{i} {{ float a; }};\n"))))),
+        ("functions", with_globals(&format!("{version}{}", each(|i| format!("float f{i}() {{ return 1.0; }}\n"))))),
+        ("layouts", with_globals(&format!("{version}{}out float a;\n", "layout(location = 0) ".repeat(MANY)))),
+    ];
+    for (what, text) in texts {
+        soon(what, || {
+            let source = Source { name: "long.frag".into(), text: text.into(), stage: Stage::Fragment };
+            let compilation = compiler().compile(&[source]);
+            let found = match &compilation.program {
+                Some(program) => glisten_front::lint::check(program, &compilation.sources),
+                None => compilation.diagnostics.iter().cloned().collect(),
+            };
+            // What a person or a program sees of it.
+            let shown = found.iter().step_by(found.len() / 2_000 + 1);
+            human(&compilation.sources, shown, false);
+            findings(&compilation.sources, &found);
+        });
+    }
+}
+
+#[test]
+fn fmt_is_linear() {
+    let options = glisten_format::Options::default();
+    let texts = [
+        in_main(&format!("x = {} 1.0;", "x + ".repeat(MANY))),
+        in_main(&format!("float {} last = x;", each(|i| format!("a{i} = x, ")))),
+        in_main(&"x += 1.0; ".repeat(MANY)),
+    ];
+    for text in texts {
+        soon("fmt", || assert!(glisten_format::format(&text, &[], &options).text.len() >= text.len()));
+    }
+}
