@@ -36,6 +36,16 @@ impl Analyzer<'_> {
         self.report_lacking(feature, span);
     }
 
+    /// Reports a feature at `span` that the language lacks, with what to write instead.
+    pub(super) fn require_with(&mut self, feature: Feature, span: Span, help: Option<String>) {
+        if self.allows(feature, span) {
+            return;
+        }
+        let finding = self.finding_of(feature, span);
+        let help = help.filter(|_| self.ast.version.span.is_known());
+        self.report(Diagnostic { help: help.or(finding.help.clone()), ..finding });
+    }
+
     /// Reports a feature at `span` that the language lacks, at each use.
     pub(super) fn require_here(&mut self, feature: Feature, span: Span) {
         if !self.allows(feature, span) {

@@ -26,9 +26,18 @@ impl Analyzer<'_> {
             TypeBase::Struct(declaration) => self.structure(declaration, spec.span),
         };
         if !spec.array.is_empty() {
-            self.require(Feature::ArrayTypes, spec.span);
+            self.require_array_type(spec);
         }
         self.with_array(base, &spec.array)
+    }
+
+    /// Reports the size of an array before its name, where the version has it behind the name alone.
+    fn require_array_type(&mut self, spec: &TypeSpec) {
+        let text = self.sources.snippet(spec.span);
+        let help = text
+            .split_once('[')
+            .map(|(base, size)| format!("write the size behind the name: `{} a[{size}`", base.trim_end()));
+        self.require_with(Feature::ArrayTypes, spec.span, help);
     }
 
     /// The type of a constructor, whose arguments tell every size that the brackets leave out (4.30 §5.4.4).

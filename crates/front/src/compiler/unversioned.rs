@@ -90,7 +90,7 @@ impl Compiler {
             let options = ParseOptions { stage: source.stage, defines, strict, completion };
             let includes = prepared.includes.as_ref().unwrap_or(&self.includes);
             let ast = syntax::parse(&mut map, file, &options, &**includes, &mut found);
-            analyze(&ast, source.stage, strict, &mut types, &mut map, &mut found);
+            analyze(&ast, source.stage, strict, &mut types, &map, &mut found);
         }
         judged(&found, &map)
     }

@@ -97,7 +97,7 @@ features! {
     UniformInitializers "the initializer of a uniform" since(120, NEVER), STAYS, NONE, "§4.3.5";
     /// Initializers of globals that are not constant expressions.
     GlobalInitializers "an initializer of a global that is not constant" since(110, NEVER), STAYS, NONE, "§4.3";
-    /// The same with a warning where it reads uniforms and globals alone, as WebGL has it.
+    /// Such initializers with a warning, where they read uniforms and globals alone, as WebGL has it.
     LooseGlobalInitializers "an initializer of a global that is not constant" since(NEVER, 100), Since::new(NEVER, 300),
         NONE, "§4.3";
     /// Calls of built-in functions in constant expressions.
@@ -169,7 +169,7 @@ features! {
     DynamicOutputs "a fragment output with an index that is not constant" since(130, 320), STAYS, NONE, "§4.3.6";
     /// `#pragma STDGL invariant(all)` in fragment shaders. Versions between say: "It is an error to use this pragma in a fragment shader".
     FragmentPragma "the pragma `invariant(all)` in a fragment shader" since(450, 310), STAYS, NONE, "§4.6.1";
-    /// The same in the first version of ES.
+    /// Such a pragma in the first version of ES.
     EarlyFragmentPragma "the pragma `invariant(all)` in a fragment shader" since(NEVER, 100), Since::new(NEVER, 300),
         NONE, "§4.6.1";
     /// Inputs that no output of the stage before feeds with a value.
@@ -181,9 +181,9 @@ features! {
     /// `#version` "must be present in the first line of a shader" (GLSL ES 3.00 §3.3).
     VersionOnFirstLine "the rule for the line of `#version`" since(NEVER, 300), STAYS, NONE, "§3.3";
     /// The interpolation of an output may differ from that of the input that it feeds, which decides.
-    InterpolationOfInput "an output with another interpolation than its input" since(440, NEVER), STAYS, NONE, "§4.3.4";
-    /// The same of `centroid` and `sample`.
-    SamplingOfInput "an output that is `centroid` alone" since(440, 310), STAYS, NONE, "§4.3.4";
+    InterpolationOfInput "an output with another interpolation than its input" since(430, NEVER), STAYS, NONE, "§4.3.4";
+    /// An output may differ so in `centroid` and `sample`, too.
+    SamplingOfInput "an output that is `centroid` alone" since(430, 310), STAYS, NONE, "§4.3.4";
 }
 
 impl FeatureRow {

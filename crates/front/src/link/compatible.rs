@@ -64,9 +64,9 @@ pub(super) enum MemberDifference<'a> {
 pub(super) struct Free {
     /// An output may be invariant alone (GLSL 4.20 §4.8.1).
     pub(super) invariant: bool,
-    /// "Interpolation qualification (e.g., flat) .. may differ" (GLSL 4.40 §4.3.4).
+    /// "Interpolation qualification (e.g., flat) .. may differ" (GLSL 4.30 §4.3.4).
     pub(super) interpolation: bool,
-    /// "Auxiliary qualification (e.g. centroid) may differ" (GLSL 4.40 §4.3.4; ES 3.10 §4.3.4).
+    /// "Auxiliary qualification (e.g. centroid) may differ" (GLSL 4.30 §4.3.4; ES 3.10 §4.3.4).
     pub(super) sampling: bool,
 }
 

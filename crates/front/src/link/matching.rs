@@ -343,8 +343,8 @@ fn member_qualifiers(member: &crate::hir::Member) -> String {
 
 /// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must
 /// match" (§4.3.9): `smooth` and no qualifier differ, too. From 4.20 and ES 3.00 on, an invariant output "will still match an input of
-/// a subsequent stage without the input being declared as invariant" (GLSL 4.20 §4.8.1). From 4.40 on, the other qualifiers may differ,
-/// too: "what matters is what is declared in the fragment shaders" (4.40 §4.3.4), for which [`Varying`](super::Varying) has them.
+/// a subsequent stage without the input being declared as invariant" (GLSL 4.20 §4.8.1). From 4.30 on, the other qualifiers may differ,
+/// too: "what matters is what is declared in the fragment shaders" (4.30 §4.3.4, which 4.40 takes an older sentence of §4.5 back for), for which [`Varying`](super::Varying) has them.
 fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
     let Pair { output, input, .. } = pair;
     let interpolation = |global: &Global| global.interpolation_written.then_some(global.interpolation);

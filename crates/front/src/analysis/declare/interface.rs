@@ -146,11 +146,16 @@ impl Analyzer<'_> {
         );
     }
 
+    /// Whether integers cross the interface of a stage at all.
+    fn has_integers(&self) -> bool {
+        self.ast.version.has_with(Feature::IntegerInterfaces, self.extensions)
+    }
+
     /// The message about an input or output with integers that must be `flat` and is not.
     pub(super) fn not_flat(&self, ty: TypeId, storage: Storage, record: &Qualifiers) -> Option<String> {
         let direction = match (self.stage, storage) {
             (Stage::Fragment, Storage::In) => "input of a fragment shader",
-            (Stage::Vertex, Storage::Out) if !self.ast.version.has(Feature::IntegerOutputs) => {
+            (Stage::Vertex, Storage::Out) if !self.ast.version.has(Feature::IntegerOutputs) && self.has_integers() => {
                 "output of a vertex shader"
             }
             _ => return None,

@@ -9,7 +9,7 @@ const A130: Row = Row::base("§8.1", 130);
 const E110: Row = Row::base("§8.2", 110);
 const C110: Row = Row::base("§8.3", 110);
 const C130: Row = Row::base("§8.3", 130);
-/// What EXT_gpu_shader4 brings to 1.10 and 1.20: functions of integers, and `round`.
+/// EXT_gpu_shader4 brings functions of integers, and `round`, to 1.10 and 1.20.
 const SHADER4: Row = C130.available(C130.availability.or(Extensions::GPU_SHADER4));
 const TRUNCATE: Row = Row {
     deprecated: true,

@@ -33,7 +33,7 @@ codes! {
             "in vec4 v; out vec4 c; void main() { c = v; }");
     INTERPOLATION_MISMATCH = "E0704" "interpolation-mismatch" Error "GLSL 1.50 §4.3.9"
         "The interpolation qualifiers of an output and of the input that it feeds must be the same, and must be on \
-         both sides or on neither. From 4.40 on they may differ, and the qualifier of the fragment stage counts."
+         both sides or on neither. From 4.30 on they may differ, and the qualifier of the fragment stage counts."
         bad Program(
             "out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }"),
@@ -41,7 +41,7 @@ codes! {
             "flat out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }");
     QUALIFIER_MISMATCH = "E0705" "qualifier-mismatch" Error "GLSL 1.50 §4.3.9"
-        "`centroid`, `sample` and `invariant` must be on both sides of an interface between stages, or on neither. From 4.40 and \
+        "`centroid`, `sample` and `invariant` must be on both sides of an interface between stages, or on neither. From 4.30 and \
          ES 3.10 on, the qualifiers of the fragment stage count alone."
         bad Program(
             "centroid out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",

@@ -65,7 +65,9 @@ impl Preprocessor<'_> {
         let replaced = !self.version_seen && is_replaced(session.sources.snippet(found.span));
         self.version_seen = true;
         if !replaced {
-            return self.malformed(session, found, "`#version` needs a number such as 150");
+            self.malformed(session, found, "`#version` needs a number such as 150");
+            self.outcome.supported = false;
+            return self.stop();
         }
         let name = session.sources.snippet(found.span).to_owned();
         session.report(
