@@ -71,7 +71,6 @@ fn inputs_are_not_overwritten() {
         "play --export a.frag a.toml",
         "specialize a.toml -o .",
         "stability a.toml --worst a.toml --stiff",
-        "new-scene a.vert a.frag -o a.frag",
         "upgrade a.frag -o . --to 330",
     ] {
         let (code, _, said) = run(folder.path(), command);

@@ -78,6 +78,7 @@ pub(crate) fn sentence(limit: Duration) -> (String, &'static str) {
 }
 
 /// Ends the program.
+#[expect(clippy::exit, reason = "the work that takes too long cannot be asked to return")]
 fn gave_up(limit: Duration, console: Console) {
     let (message, help) = sentence(limit);
     console.clear_line();

@@ -161,11 +161,11 @@ impl Diagnostic {
 
     /// Adds a change of the text that removes it, if there is one.
     #[must_use]
-    pub fn maybe_fix(self, fix: Option<Fix>) -> Self {
-        match fix {
-            Some(fix) => self.fix(fix),
-            None => self,
+    pub fn maybe_fix(mut self, fix: Option<Fix>) -> Self {
+        if let Some(fix) = fix {
+            self = self.fix(fix);
         }
+        self
     }
 
     /// Whether this is an error.

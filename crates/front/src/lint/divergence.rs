@@ -41,7 +41,7 @@ struct Divergence<'a> {
     called: Vec<Option<Cause>>,
     /// For each divergent loop, by its first expression: the first cause found.
     loops: FxHashMap<ExprId, ExprId>,
-    /// What is known of the expressions that were asked for.
+    /// The answers for the expressions that were asked for.
     known: RefCell<FxHashMap<ExprId, Known>>,
     /// How many variables and results have become divergent.
     taints: u32,

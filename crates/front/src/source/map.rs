@@ -97,7 +97,7 @@ impl SourceFile {
         (line as u32, self.characters(start, end) as u32 + 1)
     }
 
-    /// The number of characters between two offsets. Of a very long line, it is not counted anew for each column.
+    /// The number of characters between two offsets. Of a very long line, it is not counted again for each column.
     fn characters(&self, start: usize, end: usize) -> usize {
         if end.saturating_sub(start) < 2 * BLOCK {
             return self.shown().get(start..end).map_or(0, |text| text.chars().count());

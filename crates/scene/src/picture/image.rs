@@ -40,7 +40,7 @@ impl Image {
 pub(super) struct Size {
     pub(super) max_side: u32,
     pub(super) max_pixels: u64,
-    /// What is wrong with a width and a height, if something is.
+    /// A rule for the width and the height.
     pub(super) shape: Shape,
 }
 
