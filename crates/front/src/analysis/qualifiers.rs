@@ -4,7 +4,7 @@ use super::context::Analyzer;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::hir::{Interpolation, Sampling};
-use crate::language::{Feature, Precision};
+use crate::language::{Extensions, Feature, Precision};
 use crate::source::Span;
 use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
 
@@ -274,7 +274,7 @@ impl Analyzer<'_> {
         let (Some((_, span)), earlier) = (word, record.storage) else { return };
         match (earlier, word) {
             (Some((StorageWord::Varying, _)), Some((StorageWord::Out, _)))
-                if self.allows(Feature::VaryingOut, span) =>
+                if self.extensions.contains(Extensions::GPU_SHADER4) =>
             {
                 record.storage = Some((StorageWord::VaryingOut, span));
             }

@@ -10,6 +10,7 @@ use crate::analysis::analyze;
 use crate::diagnostic::codes::names::BUILTIN_UNAVAILABLE;
 use crate::diagnostic::codes::preprocess::{ASSUMED_VERSION, MISSING_VERSION};
 use crate::diagnostic::codes::qualifiers::NEEDS_EXTENSION;
+use crate::diagnostic::codes::syntax::RESERVED_WORD;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::Types;
 use crate::source::{SourceMap, version_line};
@@ -62,7 +63,8 @@ impl Compiler {
         })?;
         let errors = TRIED.map(|version| {
             self.trial(source, prepared, Some(version), |found, _| {
-                let is_later = |one: &Diagnostic| [&BUILTIN_UNAVAILABLE, &NEEDS_EXTENSION].contains(&one.code);
+                let is_later =
+                    |one: &Diagnostic| [&BUILTIN_UNAVAILABLE, &NEEDS_EXTENSION, &RESERVED_WORD].contains(&one.code);
                 let errors = || found.iter().filter(|one| one.is_error());
                 (errors().any(is_later), errors().count())
             })

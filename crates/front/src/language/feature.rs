@@ -73,10 +73,6 @@ features! {
     LineNumbersNext "`#line` for the next line" since(330, 300), STAYS, NONE, "§3.3";
     /// `in` and `out` at global scope.
     InOut "a global `in` or `out`" since(130, 300), STAYS, NONE, "§4.3";
-    /// `varying out`: an output of a fragment shader.
-    VaryingOut "`varying out`" Since::NEVER, STAYS, SHADER4, "§4.3";
-    /// `flat varying`, `noperspective varying`.
-    QualifiedVaryings "an interpolation qualifier of a `varying`" Since::NEVER, STAYS, SHADER4, "§4.3";
     /// `attribute` and `varying`.
     Attributes "`attribute` and `varying`" since(110, 100), since(420, 300), NONE, "§4.3";
     /// Integers as inputs and outputs of stages.
@@ -168,7 +164,7 @@ features! {
     /// Indices of outputs that are arrays.
     DynamicOutputs "a fragment output with an index that is not constant" since(130, 320), STAYS, NONE, "§4.3.6";
     /// `#pragma STDGL invariant(all)` in fragment shaders. Versions between say: "It is an error to use this pragma in a fragment shader".
-    FragmentPragma "the pragma `invariant(all)` in a fragment shader" since(450, 310), STAYS, NONE, "§4.6.1";
+    FragmentPragma "the pragma `invariant(all)` in a fragment shader" since(450, 310), STAYS, NONE, "§4.8.1";
     /// Such a pragma in the first version of ES.
     EarlyFragmentPragma "the pragma `invariant(all)` in a fragment shader" since(NEVER, 100), Since::new(NEVER, 300),
         NONE, "§4.6.1";
@@ -178,8 +174,8 @@ features! {
     InvariantOutputAlone "an `invariant` output alone" since(420, 300), STAYS, NONE, "§4.8.1";
     /// Integer outputs of vertex shaders that are not `flat`: only the inputs of fragment shaders must be.
     IntegerOutputs "an integer output that is not `flat`" since(150, 320), STAYS, NONE, "§4.3.4";
-    /// `#version` "must be present in the first line of a shader" (GLSL ES 3.00 §3.3).
-    VersionOnFirstLine "the rule for the line of `#version`" since(NEVER, 300), STAYS, NONE, "§3.3";
+    /// `#version` "must be present in the first line of a shader" (GLSL ES 3.00 §3.4).
+    VersionOnFirstLine "the rule for the line of `#version`" since(NEVER, 300), STAYS, NONE, "§3.4";
     /// The interpolation of an output may differ from that of the input that it feeds, which decides.
     InterpolationOfInput "an output with another interpolation than its input" since(430, NEVER), STAYS, NONE, "§4.3.4";
     /// An output may differ so in `centroid` and `sample`, too.

@@ -104,7 +104,7 @@ fn strings_of_c_that_follow_each_other_are_one() {
     let lines: Vec<&str> = lines.iter().map(String::as_str).filter(|line| !line.is_empty()).collect();
     assert_eq!(
         lines,
-        ["#version 330", "#define N 2", "// it's \"N\"", "void main() { gl_Position = vec4(N); }"],
+        ["#version 330", "#define N 2", "// it's \"N \"", "void main() { gl_Position = vec4(N); }"],
         "{masked:?}"
     );
     assert_eq!(masked.find("void main"), text.find("void main"));

@@ -5,7 +5,7 @@ use super::super::qualifiers::{Qualifiers, StorageWord};
 use crate::diagnostic::codes::{qualifiers, types};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::hir::{ArraySize, Interpolation, Scalar, Stage, Storage, Type, TypeId};
-use crate::language::Feature;
+use crate::language::{Extensions, Feature};
 use crate::source::Span;
 
 /// An interface of a stage, and the types that cannot cross it.
@@ -97,7 +97,7 @@ impl Analyzer<'_> {
             self.no_interpolation(record, border.what);
         } else if let (Some((_, span)), Some((StorageWord::Varying | StorageWord::Attribute, _))) =
             (record.interpolation, record.storage)
-            && !self.allows(Feature::QualifiedVaryings, span)
+            && !self.extensions.contains(Extensions::GPU_SHADER4)
         {
             self.misplaced(span, "`varying` takes no interpolation qualifier", "use `in` or `out`");
         }
