@@ -38,12 +38,17 @@ pub(crate) struct SceneArgs {
     levels: LevelArgs,
 }
 
+/// The time limit for a picture, in seconds, if nobody says another one.
+const SECONDS: f64 = 60.0;
+/// The time limit for a scene that is drawn many times.
+const MANY_SECONDS: f64 = 600.0;
+
 /// The GPU, and the time limit for a scene.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct MachineArgs {
-    /// Give up after this many seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = parse_seconds)]
-    timeout: f64,
+    /// Give up after this many seconds: 60 by default, and 600 where a command measures or draws a scene many times
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    timeout: Option<f64>,
     /// The GPU to use, by a part of its name, or `software` (default: `GLISTEN_ADAPTER` of the environment, or the
     /// first hardware adapter, or else the first software adapter)
     #[arg(long, value_name = "NAME")]
@@ -296,9 +301,9 @@ impl SceneArgs {
         self.machine.gpu()
     }
 
-    /// See [`MachineArgs::time_limit`].
-    pub(crate) fn time_limit(&self) -> Duration {
-        self.machine.time_limit()
+    /// See [`MachineArgs::long_limit`].
+    pub(crate) fn long_limit(&self) -> Duration {
+        self.machine.long_limit()
     }
 
     /// See [`MachineArgs::watchdog`].
@@ -319,7 +324,7 @@ impl MachineArgs {
     /// The GPU that the arguments name.
     pub(crate) fn gpu(&self) -> Result<Gpu, DrawError> {
         let gpu = open_gpu(self.adapter.as_deref())?;
-        Ok(gpu.with_timeout(Duration::from_secs_f64(self.timeout)))
+        Ok(gpu.with_timeout(self.time_limit()))
     }
 
     /// The name of the GPU that the arguments name.
@@ -329,12 +334,17 @@ impl MachineArgs {
 
     /// The time limit for a scene.
     pub(crate) fn time_limit(&self) -> Duration {
-        Duration::from_secs_f64(self.timeout)
+        Duration::from_secs_f64(self.timeout.unwrap_or(SECONDS))
+    }
+
+    /// The time limit for a scene that is drawn many times.
+    pub(crate) fn long_limit(&self) -> Duration {
+        Duration::from_secs_f64(self.timeout.unwrap_or(MANY_SECONDS))
     }
 
     /// Ends the program when the time limit is reached before the value is dropped: for work that borrows.
     pub(crate) fn watchdog(&self, console: &Console) -> Watchdog {
-        Watchdog::new(self.time_limit(), console)
+        Watchdog::new(self.long_limit(), console)
     }
 
     /// Runs work on a thread of its own and gives up when the time limit is reached.
@@ -351,7 +361,7 @@ impl MachineArgs {
             .stack_size(STACK_BYTES)
             .spawn(job)
             .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no thread: {error}")))?;
-        match receiver.recv_timeout(Duration::from_secs_f64(self.timeout)) {
+        match receiver.recv_timeout(self.time_limit()) {
             Ok(Ok(result)) => result,
             Ok(Err(panic)) => {
                 let failure = Failure::new(Exit::Content, format!("internal error: {panic}"));

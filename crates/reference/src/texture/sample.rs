@@ -96,7 +96,11 @@ pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> 
             let place = footprint.place(base, [x.first + right, y.first + up, 0]).unwrap_or([0; 3]);
             BoundedInt::exact(texel::bits(base, place).get(component).copied().unwrap_or(0))
         });
-        return if (positions > 1 || has_faces) && request.bounded { Sampled::Ints(bits).unknown() } else { Sampled::Ints(bits) };
+        return if (positions > 1 || has_faces) && request.bounded {
+            Sampled::Ints(bits).unknown()
+        } else {
+            Sampled::Ints(bits)
+        };
     }
     Sampled::Floats(GATHERED.map(|[right, up]| {
         let one = |i: i64, j: i64, slice: i64| {

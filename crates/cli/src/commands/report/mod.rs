@@ -184,7 +184,7 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         work: None,
         watchdog: args.scene.watchdog(console),
         started: Instant::now(),
-        limit: args.scene.time_limit(),
+        limit: args.scene.long_limit(),
         is_late: Cell::new(false),
         is_timing: false,
     };
@@ -195,7 +195,7 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     let report = match result {
         Ok(report) => Report { title: args.library.then(|| LIBRARY_TITLE.to_owned()), ..report },
         Err(Error::Stopped) if is_late => {
-            let (message, help) = watchdog::sentence(args.scene.time_limit());
+            let (message, help) = watchdog::sentence(args.scene.long_limit());
             return Err(Failure::new(Exit::Content, message).help(help));
         }
         Err(error) => return failed(session, error, console),
@@ -206,7 +206,7 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         return Ok(Exit::Interrupted);
     }
     if is_late {
-        let (message, help) = watchdog::sentence(args.scene.time_limit());
+        let (message, help) = watchdog::sentence(args.scene.long_limit());
         let message = format!("{message}; the report covers what had finished");
         return Err(Failure::new(Exit::Content, message).help(help));
     }
