@@ -55,7 +55,7 @@ fn carrier(types: &Types, ty: TypeId) -> String {
 impl Case {
     fn text(&self) -> String {
         let types = Types::basic();
-        let mut text = String::from("#version 460\n");
+        let mut text = String::from("#version 460\n#extension GL_EXT_gpu_shader4 : enable\n");
         let mut call = self.expression.clone();
         for (index, ty) in self.inputs.iter().enumerate() {
             text += &format!("in {} a{index};\n", carrier(types, *ty));
