@@ -75,6 +75,8 @@ const FOREIGN: &[&str] =
 /// The shader of a string.
 pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {
     let inside = text.get(literal.inside.clone())?;
+    let joined = literal.is_joined.then(|| super::text::decoded(inside, literal.inside.start, &literal.escapes));
+    let inside = joined.as_deref().unwrap_or(inside);
     let before = tail(text.get(..literal.start)?, MAX_BEFORE);
     let (before, comment) = last_comment(before);
     let tag = parts_of(&literal.tag);

@@ -35,7 +35,7 @@ pub enum Host {
     Rust,
     /// Python: strings in three quotes.
     Python,
-    /// C and C++: raw strings.
+    /// C and C++: raw strings, and strings that follow each other.
     C,
 }
 

@@ -24,6 +24,8 @@ pub(super) struct Literal {
     pub(super) is_tagged: bool,
     /// The offset of the bracket of the host that it is in, plus 1; 0 for none.
     pub(super) owner: usize,
+    /// Whether it is made of strings that follow each other, so that its text is known only with its escapes.
+    pub(super) is_joined: bool,
     pub(super) escapes: Vec<Escape>,
     pub(super) holes: Vec<Range<usize>>,
 }

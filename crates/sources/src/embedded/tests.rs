@@ -42,6 +42,13 @@ fn pairs_are_found_in_every_host() {
                 "int n = 1'000; static const char* vertexSource = R\"glsl({V})glsl\";\nauto fragmentSource = R\"({F})\";"
             ),
         ),
+        (
+            Host::C,
+            format!(
+                "#include <a.h>\nstatic const char *vertex_src =\n    \"attribute vec4 p; \" /* \"glsl\" */\n    \"{}\";\nconst char* fragment_src = \"{F}\\n\";",
+                &V["attribute vec4 p; ".len()..]
+            ),
+        ),
     ] {
         assert_eq!(found(host, &text), pair, "{text}");
     }
@@ -58,6 +65,8 @@ fn other_strings_are_left_alone() {
         (Host::Script, format!("const a = `{F}")),
         (Host::Rust, "let a = r#\"void main() { printf(\"glsl\"); }\"#;".to_owned()),
         (Host::C, "const char* a = R\"(#version 430\nlayout(local_size_x = 1) in; void main() {})\";".to_owned()),
+        (Host::C, format!("f(\"#version %d\\n{F}\", 3); const char* s = HEADER \"{F}\"; const char* t = \"{F}\" END;")),
+        (Host::C, "const char* s = \"void main() { vec4 a; }".to_owned()),
         (Host::Python, "a = '''void main''' # glsl".to_owned()),
         (Host::Python, format!("def f():\n    '''{F}'''\n")),
         (Host::Script, format!("const a = `{F}`.replace(/A/g, b);")),
@@ -85,6 +94,23 @@ fn bytes_stay_at_their_places() {
 }
 
 #[test]
+fn strings_of_c_that_follow_each_other_are_one() {
+    let text = "const char* vs =\n    \"#version 330\\n\"\n    \"#define N \"\n    \"2\\n\" // two\n    \"// it's \\\"N\\\"\\n\"\n    \"void main() { gl_Position = vec4(N); }\\n\";\n";
+    let programs = programs(Host::C, text);
+    let shader = &programs[0].shaders[0];
+    let masked = shader.text(text, Filling::Name);
+    assert_eq!(masked.len(), text.len());
+    let lines: Vec<String> = masked.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+    let lines: Vec<&str> = lines.iter().map(String::as_str).filter(|line| !line.is_empty()).collect();
+    assert_eq!(
+        lines,
+        ["#version 330", "#define N 2", "// it's \"N \"", "void main() { gl_Position = vec4(N); }"],
+        "{masked:?}"
+    );
+    assert_eq!(masked.find("void main"), text.find("void main"));
+}
+
+#[test]
 fn styles_keep_what_is_not_theirs() {
     let text = "const f = /* glsl */ `\n    #define N ${n}\n    // \\`x\\`\n    void main(){float a=${b};\n    gl_FragColor=vec4(a); }\n    ${rest}\n  `;\nconst g = `${f}void main(){gl_FragColor=vec4(1);}`;\n";
     let mut upper = |text: &str| text.replace("float a=", "float a = ").replace("{float", "{\n    float");
@@ -96,7 +122,23 @@ fn styles_keep_what_is_not_theirs() {
 
 #[test]
 fn hostile_texts_end() {
-    for piece in ["`", "${", "r#\"", "R\"(", "'''", "/*", "\\", "{", "é", "`${`", "f'''{", "format!(\""] {
+    for piece in [
+        "`",
+        "${",
+        "r#\"",
+        "R\"(",
+        "'''",
+        "/*",
+        "\\",
+        "{",
+        "é",
+        "`${`",
+        "f'''{",
+        "format!(\"",
+        "\"",
+        "\"glsl\\",
+        "\" \"",
+    ] {
         for host in [Host::Script, Host::Rust, Host::Python, Host::C] {
             let text = format!("glsl void #version {}", piece.repeat(3000));
             for program in programs(host, &text) {

@@ -31,12 +31,7 @@ impl Shader {
     pub fn text(&self, file: &str, filling: Filling) -> Arc<str> {
         let outside = [0..self.inside.start, self.inside.end..file.len()];
         let mut bytes = blanked(file, &outside).as_bytes().to_vec();
-        for Escape { range, means } in &self.escapes {
-            blank(&mut bytes, range);
-            if let (Some(means), Some(last)) = (means, bytes.get_mut(range.end.saturating_sub(1))) {
-                *last = *means;
-            }
-        }
+        replace(&mut bytes, &self.escapes, 0);
         for hole in &self.holes {
             fill(&mut bytes, hole, self.inside.start, filling);
         }
@@ -48,6 +43,30 @@ impl Shader {
     pub(crate) fn is_changed(&self, range: &Range<usize>) -> bool {
         let meets = |other: &Range<usize>| range.start < other.end && other.start < range.end.max(range.start + 1);
         self.escapes.iter().any(|escape| meets(&escape.range)) || self.holes.iter().any(|hole| meets(&hole.range))
+    }
+}
+
+/// The text of a string without interpolations, with what its escapes stand for; it begins at an offset of its file.
+pub(super) fn decoded(inside: &str, start: usize, escapes: &[Escape]) -> String {
+    let mut bytes = inside.as_bytes().to_vec();
+    replace(&mut bytes, escapes, start);
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Replaces escapes by what they stand for, in a text that begins at an offset of their file.
+fn replace(bytes: &mut [u8], escapes: &[Escape], start: usize) {
+    for Escape { range, means } in escapes {
+        let range = range.start.saturating_sub(start)..range.end.saturating_sub(start);
+        match means {
+            // What is between two strings is one space, and no line ends there.
+            Some(b' ') => bytes.get_mut(range).unwrap_or(&mut []).fill(b' '),
+            means => {
+                blank(bytes, &range);
+                if let (Some(means), Some(last)) = (means, bytes.get_mut(range.end.saturating_sub(1))) {
+                    *last = *means;
+                }
+            }
+        }
     }
 }
 

@@ -1,13 +1,18 @@
-//! The raw strings of C++ (C++11 §2.14.5), which compilers of C take, too.
+//! The strings of C and C++: raw ones (C++11 §2.14.5), which compilers of C take, too, and others, of which those that follow each
+//! other are one.
 
-use super::{Cursor, Literal};
+use super::{Cursor, Escape, Literal, is_word};
 
 /// The prefixes of raw strings.
 const PREFIXES: &[&str] = &["R", "LR", "uR", "UR", "u8R"];
 /// The longest delimiter.
 const MAX_DELIMITER: usize = 16;
+/// Shorter strings are no shaders.
+const MIN_LENGTH: usize = 24;
+/// Letters after a `%` in texts that `printf` and its like complete.
+const CONVERSIONS: &[char] = &['s', 'd', 'i', 'u', 'f', 'g', 'x', 'l', 'z'];
 
-/// The raw strings of a text.
+/// The strings of a text.
 pub(super) fn literals(text: &str) -> Vec<Literal> {
     let mut cursor = Cursor::new(text);
     let mut found = Vec::new();
@@ -16,7 +21,7 @@ pub(super) fn literals(text: &str) -> Vec<Literal> {
         let word = cursor.word();
         match cursor.byte(0) {
             b'/' if cursor.passes_comment() => {}
-            b'"' => cursor.pass_line_string(),
+            b'"' => found.extend(joined(&mut cursor)),
             // In a number it groups digits.
             b'\'' if cursor.is_in_word() => cursor.at += 1,
             b'\'' => cursor.pass_line_string(),
@@ -47,4 +52,80 @@ fn raw(cursor: &mut Cursor<'_>, start: usize) -> Option<Literal> {
     };
     cursor.at = end + close.len();
     Some(Literal { start, inside: inside..end, tag: tag.to_owned(), owner: cursor.owner(), ..Literal::default() })
+}
+
+/// The strings that follow each other from here on, as one: `"a\n" "b"`. A macro between or before them is a text that is not
+/// known here, and so is what `printf` would complete: there is no shader then.
+fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
+    let start = cursor.at;
+    let mut literal = Literal { start, owner: cursor.owner(), is_joined: true, ..Literal::default() };
+    let mut is_known = !follows_macro(cursor);
+    loop {
+        let quote = cursor.at;
+        cursor.pass_line_string();
+        let end = cursor.at.saturating_sub(1);
+        let is_closed = end > quote && cursor.bytes.get(end) == Some(&b'"');
+        is_known &= is_closed;
+        escapes(cursor.text, quote + 1..end, &mut literal.escapes);
+        literal.inside = start + 1..end.max(start + 1);
+        if !is_closed {
+            break;
+        }
+        pass_blanks(cursor);
+        if cursor.byte(0) != b'"' {
+            is_known &= !cursor.byte(0).is_ascii_alphabetic() && cursor.byte(0) != b'_';
+            break;
+        }
+        literal.escapes.push(Escape { range: end..cursor.at + 1, means: Some(b' ') });
+    }
+    let inside = cursor.text.get(literal.inside.clone())?;
+    let is_completed = inside.split('%').skip(1).any(|after| after.starts_with(CONVERSIONS));
+    (is_known && !is_completed && inside.len() >= MIN_LENGTH).then_some(literal)
+}
+
+/// Whether a name in capitals is before this place: a macro, such as a header of all shaders.
+fn follows_macro(cursor: &Cursor<'_>) -> bool {
+    let before = cursor.text.get(..cursor.at).unwrap_or("").trim_end();
+    let name = before.get(before.trim_end_matches(is_word).len()..).unwrap_or("");
+    // `#define NAME "..."` is its definition.
+    let line = before.get(before.rfind('\n').map_or(0, |end| end + 1)..).unwrap_or("").trim_start();
+    let is_macro = name.len() > 1
+        && name.chars().all(|letter| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_');
+    is_macro && !line.starts_with('#')
+}
+
+/// Goes past white space, comments and joined lines.
+fn pass_blanks(cursor: &mut Cursor<'_>) {
+    loop {
+        match cursor.byte(0) {
+            b' ' | b'\t' | b'\r' | b'\n' => cursor.at += 1,
+            b'\\' if matches!(cursor.byte(1), b'\r' | b'\n') => cursor.at += 1,
+            b'/' if cursor.passes_comment() => {}
+            _ => return,
+        }
+    }
+}
+
+/// The escapes in a range of a text.
+fn escapes(text: &str, range: std::ops::Range<usize>, list: &mut Vec<Escape>) {
+    let mut at = range.start;
+    while let Some(place) = text.get(at..range.end).and_then(|rest| rest.find('\\')) {
+        let from = at + place;
+        let sign = text.as_bytes().get(from + 1).copied().unwrap_or(0);
+        let means = match sign {
+            b'n' => Some(b'\n'),
+            b't' => Some(b'\t'),
+            b'r' => Some(b'\r'),
+            b'"' | b'\'' | b'\\' | b'?' => Some(sign),
+            // A line that ends in `\` goes on in the next one.
+            b'\n' => Some(b' '),
+            _ => None,
+        };
+        let mut end = (from + 2).min(range.end);
+        while !text.is_char_boundary(end) {
+            end += 1;
+        }
+        list.push(Escape { range: from..end, means });
+        at = end;
+    }
 }
