@@ -24,6 +24,7 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("W0708", "needs a binding by name; a fixture has it"),
     ("W0108", "needs a second file; the fixtures have it"),
     ("W0115", "`lint --configurations` reports it; tests/it/configurations.rs makes it"),
+    ("W0116", "examples are given a `#version` line; the fixtures have none"),
 ];
 
 /// Codes that no fixture raises, and the reason.

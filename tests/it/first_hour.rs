@@ -499,7 +499,7 @@ fn a_search_passes_over_what_is_ignored() {
         ("gen/f.gen.frag", broken),
         ("old/g.vert", b"void main() { gl_Position = ftransform(); }\n"),
         ("old/h.frag", b"out vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
-        ("old/i.frag", b"precision mediump float;\nvoid main() {}\n"),
+        ("old/i.frag", b"in vec4 a;\nvoid main() {}\n"),
         ("glisten.toml", b"[lint]\nexclude = [\"third\", \"*.gen.frag\"]\n"),
     ]);
     let output = folder.run(&["lint", "."]);
@@ -518,6 +518,39 @@ fn a_search_passes_over_what_is_ignored() {
     fs::write(folder.path("glisten.toml"), "exclude = [\"{a\"]\n").expect("written");
     let (list, _) = folder.lint(&["a.frag"]);
     assert_eq!(codes(&list), ["E0015"], "{list:#?}");
+}
+
+/// Sources of WebGL seldom have a `#version` line, which GLSL ES 1.00 does not ask for.
+#[test]
+fn a_precision_without_a_version_is_that_of_es() {
+    let folder = Folder::new(&[
+        ("a.vert", b"attribute vec4 p;\nvarying vec2 uv;\nvoid main() { gl_Position = p; uv = p.xy; }\n" as &[u8]),
+        ("a.frag", b"precision mediump float;\nvarying vec2 uv;\nvoid main() { gl_FragColor = vec4(uv, 0.0, 1.0); }\n"),
+        ("b.frag", b"precision mediump float;\nin vec2 uv;\nout vec4 c;\nvoid main() { c = vec4(uv, 0.0, 1.0); }\n"),
+        ("c.frag", b"#ifdef GL_ES\nprecision mediump float;\n#endif\nvoid main() { gl_FragColor = gl_Color; }\n"),
+    ]);
+    let (list, exit) = folder.lint(&["."]);
+    assert_eq!((codes(&list), exit), (vec!["W0116", "W0116"], 0), "{list:#?}");
+    assert_eq!(list[0]["message"], "the source has no `#version` line, and is read as GLSL ES 1.00");
+    assert_eq!(list[1]["message"], "the source has no `#version` line, and is read as GLSL ES 3.00");
+    assert!(list[1]["help"].as_str().is_some_and(|help| help.contains("`#version 300 es`")), "{list:#?}");
+    let (list, exit) = folder.lint(&["b.frag", "--assume-version", "300 es"]);
+    assert_eq!((codes(&list), exit), (vec![], 0), "{list:#?}");
+    assert_eq!(folder.lint(&["a.frag", "--deny", "assumed-version"]).1, 1);
+}
+
+#[test]
+fn a_text_of_another_language_is_one_error() {
+    let wgsl = "struct Out {\n    @builtin(position) p: vec4<f32>,\n};\n@vertex\nfn main(@location(0) p: vec4<f32>) -> Out {\n    \
+        var o: Out;\n    o.p = p;\n    return o;\n}\n";
+    let hlsl = "cbuffer Camera : register(b0) { float4x4 view; };\nstruct V { float4 p : SV_Position; };\nV main(float3 p : POSITION) {\n    \
+        V v;\n    v.p = mul(view, float4(p, 1.0f));\n    return v;\n}\n";
+    let folder = Folder::new(&[("w.vert", wgsl.as_bytes()), ("h.vert", hlsl.as_bytes())]);
+    for (file, message) in [("w.vert", "this is WGSL, and"), ("h.vert", "this is HLSL, and")] {
+        let (list, exit) = folder.lint(&[file]);
+        assert_eq!((codes(&list), exit), (vec!["E0018"], 1), "{list:#?}");
+        assert!(list[0]["message"].as_str().is_some_and(|text| text.starts_with(message)), "{list:#?}");
+    }
 }
 
 #[test]

@@ -138,7 +138,9 @@ static DESCRIBING: &[(&str, &str)] = &[
     ("E0710", "what fits together is the author's"),
     ("E0712", "which colors belong where is the author's"),
     ("E0713", "the number is that of the host"),
+    ("E0724", "which files are a program is the author's"),
     ("E0731", "the number is that of the host"),
+    ("E0732", "which precision both stages need is the author's"),
     ("L0009", "what the negative base means is the author's"),
     ("L0010", "which of the two is right depends on what the branch is for"),
     ("L0011", "the condition is the author's"),
@@ -148,6 +150,8 @@ static DESCRIBING: &[(&str, &str)] = &[
     ("L0044", "how the depth changes is the author's"),
     ("L0045", "it names a command"),
     ("L0049", "the host's data is not in the text"),
+    ("W0602", "where in `main` the value is needed is the author's"),
+    ("W0707", "which files are a program is the author's"),
 ];
 
 /// The shaders of the `bad` example of a code, linked if there are several.

@@ -61,7 +61,10 @@ fn probe(feature: Feature) -> Option<(Stage, &'static str)> {
         F::ArraysOfArrays => vertex("void main() { float a[2][3]; a[1][2] = 1.0; gl_Position = vec4(a[1][2]); }"),
         F::MatrixFromMatrix => vertex("void main() { mat2 a = mat2(mat3(1.0)); gl_Position = vec4(a[0], a[1]); }"),
         F::UniformInitializers => vertex("uniform vec4 a = vec4(1.0); void main() { gl_Position = a; }"),
-        F::GlobalInitializers => vertex("uniform vec4 a; vec4 b = a; void main() { gl_Position = b; }"),
+        F::GlobalInitializers => {
+            vertex("vec4 a() { return vec4(1.0); } vec4 b = a(); void main() { gl_Position = b; }")
+        }
+        F::ArrayTypes => vertex("void main() { float[2] a; a[0] = 1.0; gl_Position = vec4(a[0]); }"),
         F::ImplicitToFloat => vertex("void main() { float a = 1; gl_Position = vec4(a); }"),
         F::ImplicitToUint => vertex("void main() { uint a = 1; gl_Position = vec4(float(a)); }"),
         F::UniformBlocks => vertex("uniform B { vec4 a; }; void main() { gl_Position = a; }"),

@@ -1,10 +1,10 @@
 //! Errors that explain all others of a shader: its language is not the one that it is written in (`E0120`), or it has a
-//! feature that glisten does not support (`E0001`).
+//! feature that glisten does not support (`E0001`), or requires such an extension (`E0125`).
 //!
 //! *In:* the diagnostics of one shader. *Out:* the same, without the errors that follow from a decisive one.
 
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
-use crate::diagnostic::codes::preprocess::MISSING_VERSION;
+use crate::diagnostic::codes::preprocess::{LATE_VERSION, MISSING_VERSION, UNSUPPORTED_EXTENSION};
 use crate::diagnostic::codes::qualifiers::UNKNOWN_LAYOUT;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 
@@ -12,13 +12,23 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 const QUALIFIERS: u32 = 64;
 
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
-/// other errors but those of tokens before the place that shows it, after an unsupported feature those of the syntax and the meaning of the text.
+/// other errors but those of tokens before the place that shows it, after an unsupported feature or
+/// extension those of the syntax and the meaning of the text.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
+    if diagnostics.iter().skip(first).any(|found| *found.code == LATE_VERSION) {
+        // There is a `#version` line, and what comes before it was read without.
+        let mut index = 0;
+        diagnostics.retain_mut(|diagnostic| {
+            index += 1;
+            index <= first || *diagnostic.code != MISSING_VERSION
+        });
+    }
     let place = |code: &Code| {
         let found = diagnostics.iter().skip(first).position(|diagnostic: &Diagnostic| *diagnostic.code == *code);
         found.map(|place| place + first)
     };
-    let (version, feature) = (place(&MISSING_VERSION), place(&NOT_SUPPORTED_YET));
+    let version = place(&MISSING_VERSION);
+    let feature = [&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].into_iter().filter_map(place).min();
     let start_of = |index: Option<usize>| {
         index.and_then(|index| diagnostics.iter().nth(index)).map_or(0, |diagnostic| diagnostic.primary.span.start)
     };
@@ -37,7 +47,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
             let is_of_tokens = matches!(diagnostic.code.id.get(..3), Some("E01" | "E02"));
             return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
         }
-        if *diagnostic.code != NOT_SUPPORTED_YET {
+        if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
             let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E04" | "E05" | "E06"));
             // A layout that is not known may be of the feature's declaration, and what is just before it is its qualifiers.
             let own = diagnostic.primary.span;

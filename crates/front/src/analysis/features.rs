@@ -5,9 +5,10 @@
 
 use super::context::Analyzer;
 use crate::builtin::Availability;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::qualifiers;
-use crate::language::{Extensions, Feature, NEVER, Since, Version};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
+use crate::hir::{ExprId, Type};
+use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::{of_version, warning_of_use};
 
@@ -35,6 +36,16 @@ impl Analyzer<'_> {
         self.report_lacking(feature, span);
     }
 
+    /// Reports a feature at `span` that the language lacks, with what to write instead.
+    pub(super) fn require_with(&mut self, feature: Feature, span: Span, help: Option<String>) {
+        if self.allows(feature, span) {
+            return;
+        }
+        let finding = self.finding_of(feature, span);
+        let help = help.filter(|_| self.ast.version.span.is_known());
+        self.report(Diagnostic { help: help.or(finding.help.clone()), ..finding });
+    }
+
     /// Reports a feature at `span` that the language lacks, at each use.
     pub(super) fn require_here(&mut self, feature: Feature, span: Span) {
         if !self.allows(feature, span) {
@@ -42,14 +53,43 @@ impl Analyzer<'_> {
         }
     }
 
+    /// Reports an integer that only other versions convert to a `float`. ES has no conversions: its help is how to write the value.
+    pub(super) fn require_float(&mut self, id: ExprId) {
+        let (feature, span) = (Feature::ImplicitToFloat, self.span(id));
+        if self.allows(feature, span) {
+            return;
+        }
+        let finding = self.finding_of(feature, span);
+        if !self.ast.version.is_es() {
+            return self.report(finding);
+        }
+        let text = self.sources.snippet(span);
+        let is_literal =
+            !span.expansion.is_some() && text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty();
+        let is_scalar = matches!(self.types.get(self.ty(id)), Type::Scalar(_));
+        let help = match (is_literal, is_scalar) {
+            (true, _) => Advice::write(Applicability::Safe, format!("{text}.0")),
+            (false, true) => {
+                Advice::new(Applicability::Safe, "write `float(..)` around it", Place::Around, "float(...)")
+            }
+            (false, false) => Advice::from("convert it, as by `vec2(..)`"),
+        };
+        self.report(Diagnostic { help: None, ..finding }.help(help));
+    }
+
     fn report_lacking(&mut self, feature: Feature, span: Span) {
+        let finding = self.finding_of(feature, span);
+        self.report(finding);
+    }
+
+    fn finding_of(&self, feature: Feature, span: Span) -> Diagnostic {
         let row = feature.row();
         let version = self.ast.version;
         let finding =
             Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, format!("{} is not in {}", row.name, version.name()))
                 .here("not in this version of the language")
-                .maybe_help(remedy(version, row.since, row.gone, row.extensions));
-        self.report(of_version(finding, version));
+                .maybe_help(version.remedy(row.since, row.gone, row.extensions));
+        of_version(finding, version)
     }
 
     /// Warns about the use of a built-in name that only an extension provides, if the source asks for that (§3.3).
@@ -61,24 +101,4 @@ impl Analyzer<'_> {
             self.report(warning);
         }
     }
-}
-
-/// How a language becomes one that has something.
-pub(super) fn remedy(version: Version, since: Since, gone: Since, extensions: Extensions) -> Option<String> {
-    if version.reaches(since) && !version.still_has(gone) {
-        let last = if version.is_es() { gone.es } else { gone.desktop };
-        return Some(format!("versions before {} have it", Version { number: last, ..version }.name()));
-    }
-    let first = version.first(since).map(|line| format!("`{line}` has it"));
-    let extension = extensions.name().filter(|_| !version.is_es());
-    let extension = extension.map(|name| format!("put `#extension {name} : enable` at the top"));
-    match (first, extension) {
-        (Some(first), Some(extension)) => Some(format!("{first}, or {extension}")),
-        (first, extension) => first.or(extension),
-    }
-    .or_else(|| {
-        let other = if version.is_es() { since.desktop } else { since.es };
-        (other != NEVER)
-            .then(|| if version.is_es() { "only OpenGL has it" } else { "only OpenGL ES has it" }.to_owned())
-    })
 }

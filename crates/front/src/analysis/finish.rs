@@ -138,7 +138,10 @@ impl Analyzer<'_> {
 
     /// Checks that `#pragma STDGL invariant(all)` is in a shader whose outputs another stage reads (§4.6.1).
     fn check_pragma(&mut self) {
-        let allowed = self.stage != Stage::Fragment || self.ast.version.has(Feature::FragmentPragma);
+        let allowed = self.stage != Stage::Fragment
+            || [Feature::FragmentPragma, Feature::EarlyFragmentPragma]
+                .iter()
+                .any(|feature| self.ast.version.has(*feature));
         if let Some(span) = self.ast.invariant_all.filter(|_| !allowed) {
             self.report(
                 Diagnostic::new(

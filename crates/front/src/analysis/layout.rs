@@ -1,7 +1,6 @@
 //! Layout qualifiers (§4.3.8): one row per identifier, with the declarations that accept it.
 
 use super::context::Analyzer;
-use super::features::remedy;
 use super::qualifiers::Qualifiers;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::qualifiers;
@@ -293,8 +292,7 @@ impl Analyzer<'_> {
             return true;
         }
         let message = format!("`{spelling}` in a layout is not in this version");
-        let finding = Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, message).maybe_help(remedy(
-            version,
+        let finding = Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, message).maybe_help(version.remedy(
             row.since,
             Since::NEVER,
             row.extensions,

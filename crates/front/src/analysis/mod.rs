@@ -30,6 +30,7 @@ mod keywords;
 mod layout;
 mod limits;
 mod notes;
+mod other_language;
 mod qualifiers;
 mod recursion;
 mod scope;
@@ -52,6 +53,7 @@ use context::Analyzer;
 use state::NoteTaker;
 
 pub use decisive::keep_decisive;
+pub use other_language::keep_language;
 pub use shadertoy::point_to_engine;
 pub(crate) use shadertoy::{HELP as SHADERTOY_HELP, NOTE as SHADERTOY_NOTE, is_shadertoy};
 pub use state::{Denoted, Note, NoteRole, Notes, Probe};

@@ -4,7 +4,7 @@ use super::context::Analyzer;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::hir::{Interpolation, Sampling};
-use crate::language::Feature;
+use crate::language::{Extensions, Feature, Precision};
 use crate::source::Span;
 use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
 
@@ -13,6 +13,8 @@ use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
 pub(super) enum StorageWord {
     Attribute,
     Varying,
+    /// `varying out`, of EXT_gpu_shader4.
+    VaryingOut,
     In,
     Out,
     Inout,
@@ -25,6 +27,7 @@ impl StorageWord {
         match self {
             Self::Attribute => "attribute",
             Self::Varying => "varying",
+            Self::VaryingOut => "varying out",
             Self::In => "in",
             Self::Out => "out",
             Self::Inout => "inout",
@@ -41,7 +44,7 @@ pub(super) struct Qualifiers {
     pub(super) interpolation: Option<(Interpolation, Span)>,
     pub(super) sampling: Option<(Sampling, Span)>,
     pub(super) invariant: Option<Span>,
-    pub(super) precision: Option<Span>,
+    pub(super) precision: Option<(Precision, Span)>,
     pub(super) precise: Option<Span>,
     /// All identifiers of all `layout(...)`, in source order.
     pub(super) layout: Vec<LayoutId>,
@@ -217,9 +220,9 @@ impl Analyzer<'_> {
                 self.shader.precise = true;
                 self.once(&mut record.precise, span, span, "`precise`");
             }
-            QualifierKind::Highp | QualifierKind::Mediump | QualifierKind::Lowp => {
-                self.once(&mut record.precision, span, span, "a precision qualifier");
-            }
+            QualifierKind::Highp => self.precision_word(record, Precision::High, span),
+            QualifierKind::Mediump => self.precision_word(record, Precision::Medium, span),
+            QualifierKind::Lowp => self.precision_word(record, Precision::Low, span),
             QualifierKind::Smooth => self.interpolation(record, Interpolation::Smooth, span),
             QualifierKind::Flat => self.interpolation(record, Interpolation::Flat, span),
             QualifierKind::Noperspective => self.interpolation(record, Interpolation::Noperspective, span),
@@ -248,6 +251,13 @@ impl Analyzer<'_> {
         }
     }
 
+    fn precision_word(&mut self, record: &mut Qualifiers, word: Precision, span: Span) {
+        match record.precision {
+            Some((_, first)) => self.repeated(&qualifiers::REPEATED, first, span, "a precision qualifier"),
+            None => record.precision = Some((word, span)),
+        }
+    }
+
     /// "At most one auxiliary qualifier" (GLSL 4.20 §4.3).
     fn sampling(&mut self, record: &mut Qualifiers, sampling: Sampling, span: Span) {
         match record.sampling {
@@ -262,9 +272,14 @@ impl Analyzer<'_> {
 
     fn storage(&mut self, record: &mut Qualifiers, word: Option<(StorageWord, Span)>) {
         let (Some((_, span)), earlier) = (word, record.storage) else { return };
-        match earlier {
-            Some((_, first)) => self.repeated(&qualifiers::REPEATED, first, span, "a storage qualifier"),
-            None => record.storage = word,
+        match (earlier, word) {
+            (Some((StorageWord::Varying, _)), Some((StorageWord::Out, _)))
+                if self.extensions.contains(Extensions::GPU_SHADER4) =>
+            {
+                record.storage = Some((StorageWord::VaryingOut, span));
+            }
+            (Some((_, first)), _) => self.repeated(&qualifiers::REPEATED, first, span, "a storage qualifier"),
+            (None, _) => record.storage = word,
         }
     }
 

@@ -6,9 +6,9 @@ use super::scope::Entry;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
-use crate::language::Feature;
+use crate::language::{Feature, Precision};
 use crate::source::Span;
-use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, TypeBase, TypeSpec};
+use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, QualifierKind, TypeBase, TypeSpec};
 use crate::syntax::of_later_word;
 use crate::syntax::token::Symbol;
 
@@ -25,7 +25,19 @@ impl Analyzer<'_> {
             TypeBase::Named(name) => self.named_type(*name),
             TypeBase::Struct(declaration) => self.structure(declaration, spec.span),
         };
+        if !spec.array.is_empty() {
+            self.require_array_type(spec);
+        }
         self.with_array(base, &spec.array)
+    }
+
+    /// Reports the size of an array before its name, where the version has it behind the name alone.
+    fn require_array_type(&mut self, spec: &TypeSpec) {
+        let text = self.sources.snippet(spec.span);
+        let help = text
+            .split_once('[')
+            .map(|(base, size)| format!("write the size behind the name: `{} a[{size}`", base.trim_end()));
+        self.require_with(Feature::ArrayTypes, spec.span, help);
     }
 
     /// The type of a constructor, whose arguments tell every size that the brackets leave out (4.30 §5.4.4).
@@ -133,9 +145,14 @@ impl Analyzer<'_> {
     /// `precision highp float;` (§4.5.3), which has no effect.
     pub(super) fn precision(&mut self, qualifier: &Qualifier, spec: &TypeSpec) {
         let ty = self.type_spec(spec);
+        let word = match qualifier.kind {
+            QualifierKind::Lowp => Precision::Low,
+            QualifierKind::Mediump => Precision::Medium,
+            _ => Precision::High,
+        };
         match self.types.get(ty) {
-            Type::Scalar(Scalar::Float) => self.precisions.set_float(),
-            Type::Sampler(sampler) => self.precisions.set_sampler(sampler),
+            Type::Scalar(scalar) => self.precisions.set_scalar(scalar, word),
+            Type::Sampler(sampler) => self.precisions.set_sampler(sampler, word),
             _ => {}
         }
         // GLSL ES and 4.x added samplers here; every driver accepts them, also without effect.
@@ -153,11 +170,11 @@ impl Analyzer<'_> {
 
     /// Reports a precision qualifier on a type that cannot have one (§4.5.2), and in ES a type at `at` without a
     /// precision (GLSL ES 3.00 §4.5.4).
-    pub(super) fn check_precision(&mut self, precision: Option<Span>, ty: TypeId, at: Span) {
+    pub(super) fn check_precision(&mut self, precision: Option<(Precision, Span)>, ty: TypeId, at: Span) {
         if precision.is_none() {
             return self.check_default_precision(ty, at);
         }
-        let Some(span) = precision.filter(|_| !ty.is_error()) else { return };
+        let Some((_, span)) = precision.filter(|_| !ty.is_error()) else { return };
         let element = self.element_of(ty);
         let takes = match self.types.get(element) {
             Type::Sampler(_) => true,
@@ -170,6 +187,16 @@ impl Analyzer<'_> {
                     .here("only integers and floats have one"),
             );
         }
+    }
+
+    /// The precision of a variable in ES, stated or by default; none for what has none, such as booleans and structs.
+    pub(super) fn precision_of(&self, stated: Option<(Precision, Span)>, ty: TypeId) -> Option<Precision> {
+        let element = self.element_of(ty);
+        let default = match self.types.get(element) {
+            Type::Sampler(sampler) => self.precisions.of_sampler(sampler),
+            _ => self.types.scalar_of(element).and_then(|scalar| self.precisions.of_scalar(scalar)),
+        };
+        if self.ast.version.is_es() { stated.map(|(word, _)| word).or(default) } else { None }
     }
 
     fn check_default_precision(&mut self, ty: TypeId, at: Span) {

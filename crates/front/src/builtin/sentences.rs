@@ -32,6 +32,7 @@ static SENTENCES: &[(&str, &str)] = &[
     ("abs", "x if x ≥ 0, otherwise -x."),
     ("sign", "1, 0 or -1, as x is positive, zero or negative."),
     ("floor", "The greatest integer that is at most x."),
+    ("truncate", "The integer next to x towards 0."),
     ("trunc", "The integer next to x towards 0."),
     ("round", "The nearest integer; a fraction of 0.5 goes either way, as is fastest."),
     ("roundEven", "The nearest integer; a fraction of 0.5 goes to the even one."),

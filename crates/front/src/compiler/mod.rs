@@ -3,13 +3,14 @@
 mod kept;
 mod parts;
 mod preparation;
+mod unversioned;
 
 pub use kept::{Kept, Shared};
 pub use parts::{Before, Begun, OtherState, Part};
 use preparation::Changed;
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
-use crate::analysis::{analyze, analyze_with_notes, keep_decisive, keep_understood, point_to_engine};
+use crate::analysis::{analyze, analyze_with_notes, keep_decisive, keep_language, keep_understood, point_to_engine};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
@@ -243,7 +244,11 @@ impl Compiler {
     ) -> Option<Understood> {
         facts.read.push(Vec::new());
         facts.observer.iter_mut().for_each(|observer| observer.views.push(None));
-        let prepared = self.prepared(source);
+        let mut prepared = self.prepared(source);
+        let assumed = self.assumed(source, &prepared);
+        if let Some(assumed) = &assumed {
+            prepared.completion.assumed_version = Some(assumed.version.to_owned());
+        }
         let text = prepared.text.as_ref().unwrap_or(&source.text);
         let Some(file) = map.add(source.name.as_str(), Arc::clone(text)) else {
             let message = format!("there is no room for `{}`", source.name);
@@ -252,6 +257,7 @@ impl Compiler {
         };
         let (strict, first_error) = (self.options.strict, diagnostics.len());
         report_problems(&prepared.problems, file, map, diagnostics);
+        diagnostics.extend(assumed.map(|assumed| assumed.warning(map.file(file).base())));
         let Prepared { defines, completion, includes, .. } = prepared;
         let options = syntax::ParseOptions { stage: source.stage, defines, strict, completion };
         let includes = includes.as_ref().unwrap_or(&self.includes);
@@ -285,6 +291,7 @@ impl Compiler {
         shader.texts.push(whole_text(map, file, ast.version.span, edits, &defines));
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
+        keep_language(diagnostics, map, first_error);
         keep_decisive(diagnostics, first_error);
         point_to_engine(&shader, diagnostics, first_error);
         if let (Some((shader, notes)), Some(observer)) = (noted, &mut facts.observer)

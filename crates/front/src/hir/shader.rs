@@ -2,7 +2,7 @@
 
 use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Stmt, Type, TypeId, Types, Value, VarRef};
 use crate::builtin::BuiltinVariable;
-use crate::language::{Interpolation, ParamMode, Sampling, Stage, Storage, Version};
+use crate::language::{Interpolation, ParamMode, Precision, Sampling, Stage, Storage, Version};
 use crate::source::{FileId, Inclusion, Span};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -299,6 +299,8 @@ pub struct Shader {
     pub precise: bool,
     /// The size that the shader gives `gl_TexCoord` by declaring it again (GLSL 1.20 §7.6).
     pub tex_coords: Option<u32>,
+    /// In ES, the precisions of the uniforms, and of the members of uniform blocks as `Block.member`.
+    pub precisions: Vec<(String, Precision)>,
     /// How the result of a comparison becomes four components.
     pub depth_mode: DepthMode,
     /// Whether an engine makes outputs of `gl_FragColor` and `gl_FragData`, so that declared ones may stand next to them.
@@ -329,6 +331,7 @@ impl Shader {
             per_vertex_out: self.per_vertex_out.clone(),
             precise: self.precise,
             tex_coords: self.tex_coords,
+            precisions: self.precisions.clone(),
             depth_mode: self.depth_mode,
             mixes_outputs: self.mixes_outputs,
             expr_depth: self.expr_depth,
@@ -338,7 +341,8 @@ impl Shader {
     }
 }
 
-/// The hash of all that the shader means: everything but its texts and where they come from.
+/// The hash of all that the shader means: everything but its texts and where they come from, and precisions, which
+/// have no effect.
 impl Hash for Shader {
     fn hash<H: Hasher>(&self, state: &mut H) {
         // Without `..`, so that no field can be forgotten.
@@ -354,6 +358,7 @@ impl Hash for Shader {
             per_vertex_out,
             precise,
             tex_coords,
+            precisions: _,
             depth_mode,
             mixes_outputs,
             expr_depth,
@@ -400,6 +405,7 @@ impl Shader {
             per_vertex_out: None,
             precise: false,
             tex_coords: None,
+            precisions: Vec::new(),
             depth_mode: DepthMode::default(),
             mixes_outputs: false,
             expr_depth: 0,

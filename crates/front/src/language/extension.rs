@@ -108,6 +108,12 @@ impl Extensions {
         EXTENSIONS.iter().find(|row| !row.bit.is_empty() && self.contains(row.bit)).map(|row| row.name)
     }
 
+    /// The name of the first extension of a set that sources of this language may enable.
+    pub(crate) fn name_for(self, version: Version) -> Option<&'static str> {
+        let mut rows = EXTENSIONS.iter().filter(|row| row.is_for(version));
+        rows.find(|row| !row.bit.is_empty() && self.contains(row.bit)).map(|row| row.name)
+    }
+
     const WARN_SHIFT: u32 = 32;
 
     /// The extensions that a source may enable.

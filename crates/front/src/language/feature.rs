@@ -83,6 +83,8 @@ features! {
     ArrayAttributes "an array as an attribute" since(150, NEVER), STAYS, NONE, "§4.3.4";
     /// Array constructors, initializers, assignment, comparison, `length()`, and arrays as results of functions.
     ArrayObjects "an array as a value" since(120, 300), STAYS, NONE, "§4.1.9";
+    /// `float[2] a`; before, `float a[2]` alone.
+    ArrayTypes "the size of an array before its name" since(120, 300), STAYS, NONE, "§4.1.9";
     /// `float[2][3]`
     ArraysOfArrays "an array of arrays" since(430, 310), STAYS, Extensions::ARRAYS_OF_ARRAYS, "§4.1.9";
     /// `mat3(m)` of a matrix.
@@ -91,6 +93,9 @@ features! {
     UniformInitializers "the initializer of a uniform" since(120, NEVER), STAYS, NONE, "§4.3.5";
     /// Initializers of globals that are not constant expressions.
     GlobalInitializers "an initializer of a global that is not constant" since(110, NEVER), STAYS, NONE, "§4.3";
+    /// Such initializers with a warning, where they read uniforms and globals alone, as WebGL has it.
+    LooseGlobalInitializers "an initializer of a global that is not constant" since(NEVER, 100), Since::new(NEVER, 300),
+        NONE, "§4.3";
     /// Calls of built-in functions in constant expressions.
     ConstantFunctions "a function in a constant expression" since(120, 100), STAYS, NONE, "§4.3.3";
     /// `int` to `float`; from 1.30 on also `uint` to `float`.
@@ -158,13 +163,23 @@ features! {
     UnsizedArrays "an array without a size" since(110, NEVER), STAYS, NONE, "§4.1.9";
     /// Indices of outputs that are arrays.
     DynamicOutputs "a fragment output with an index that is not constant" since(130, 320), STAYS, NONE, "§4.3.6";
-    /// `#pragma STDGL invariant(all)` in fragment shaders.
-    FragmentPragma "the pragma `invariant(all)` in a fragment shader" since(NEVER, 100), Since::new(NEVER, 300), NONE,
-        "§4.6.1";
+    /// `#pragma STDGL invariant(all)` in fragment shaders. Versions between say: "It is an error to use this pragma in a fragment shader".
+    FragmentPragma "the pragma `invariant(all)` in a fragment shader" since(450, 310), STAYS, NONE, "§4.8.1";
+    /// Such a pragma in the first version of ES.
+    EarlyFragmentPragma "the pragma `invariant(all)` in a fragment shader" since(NEVER, 100), Since::new(NEVER, 300),
+        NONE, "§4.6.1";
     /// Inputs that no output of the stage before feeds with a value.
     UnwrittenInputs "an input that the stage before does not write" since(150, 100), STAYS, NONE, "§4.3.4";
     /// An `invariant` output matches an input that is not.
     InvariantOutputAlone "an `invariant` output alone" since(420, 300), STAYS, NONE, "§4.8.1";
+    /// Integer outputs of vertex shaders that are not `flat`: only the inputs of fragment shaders must be.
+    IntegerOutputs "an integer output that is not `flat`" since(150, 320), STAYS, NONE, "§4.3.4";
+    /// `#version` "must be present in the first line of a shader" (GLSL ES 3.00 §3.4).
+    VersionOnFirstLine "the rule for the line of `#version`" since(NEVER, 300), STAYS, NONE, "§3.4";
+    /// The interpolation of an output may differ from that of the input that it feeds, which decides.
+    InterpolationOfInput "an output with another interpolation than its input" since(430, NEVER), STAYS, NONE, "§4.3.4";
+    /// An output may differ so in `centroid` and `sample`, too.
+    SamplingOfInput "an output that is `centroid` alone" since(430, 310), STAYS, NONE, "§4.3.4";
 }
 
 impl FeatureRow {
@@ -214,6 +229,26 @@ impl Version {
             (true, _, es) => Some(format!("#version {es} es")),
             (false, desktop, _) => Some(format!("#version {desktop}")),
         }
+    }
+
+    /// How a source of this version gets something: by another version, or by an extension.
+    pub(crate) fn remedy(self, since: Since, gone: Since, extensions: Extensions) -> Option<String> {
+        if self.reaches(since) && !self.still_has(gone) {
+            let last = if self.is_es() { gone.es } else { gone.desktop };
+            return Some(format!("versions before {} have it", Self { number: last, ..self }.name()));
+        }
+        let first = self.first(since).map(|line| format!("`{line}` has it"));
+        let extension = extensions.name_for(self);
+        let extension = extension.map(|name| format!("put `#extension {name} : enable` at the top"));
+        match (first, extension) {
+            (Some(first), Some(extension)) => Some(format!("{first}, or {extension}")),
+            (first, extension) => first.or(extension),
+        }
+        .or_else(|| {
+            let other = if self.is_es() { since.desktop } else { since.es };
+            (other != NEVER)
+                .then(|| if self.is_es() { "only OpenGL has it" } else { "only OpenGL ES has it" }.to_owned())
+        })
     }
 }
 

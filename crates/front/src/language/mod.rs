@@ -16,7 +16,7 @@ pub use extension::{EXTENSIONS, Extension, Extensions, Families};
 pub use feature::{FEATURES, Feature, FeatureRow};
 pub use operators::IncDec;
 pub use section::{EDITIONS, Edition, Section, cite, runs};
-pub use stage::{Interpolation, ParamMode, Sampling, Stage, Storage};
+pub use stage::{Interpolation, ParamMode, Precision, Sampling, Stage, Storage};
 pub use types::{
     ArraySize, MatrixLayout, Member, MemberPlace, SamplerDim, SamplerType, Scalar, StructId, StructType, Type, TypeId,
     Types,

@@ -78,6 +78,28 @@ impl Sampling {
     }
 }
 
+/// The precision of a variable in ES (GLSL ES 3.00 §4.5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// `lowp`
+    Low,
+    /// `mediump`
+    Medium,
+    /// `highp`
+    High,
+}
+
+impl Precision {
+    /// The qualifier.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Low => "lowp",
+            Self::Medium => "mediump",
+            Self::High => "highp",
+        }
+    }
+}
+
 /// The storage of a global (§4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Storage {

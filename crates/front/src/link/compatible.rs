@@ -59,13 +59,19 @@ pub(super) enum MemberDifference<'a> {
     Qualifiers(&'a Member, &'a Member),
 }
 
-/// Compares the members of two declarations of one block (§4.3.7). With `invariant_alone`, one of the former may be invariant alone.
-pub(super) fn compare_members(
-    types: &Types,
-    a: StructId,
-    b: StructId,
-    invariant_alone: bool,
-) -> Option<MemberDifference<'_>> {
+/// The qualifiers in which an output may differ from the input that it feeds.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Free {
+    /// An output may be invariant alone (GLSL 4.20 §4.8.1).
+    pub(super) invariant: bool,
+    /// "Interpolation qualification (e.g., flat) .. may differ" (GLSL 4.30 §4.3.4).
+    pub(super) interpolation: bool,
+    /// "Auxiliary qualification (e.g. centroid) may differ" (GLSL 4.30 §4.3.4; ES 3.10 §4.3.4).
+    pub(super) sampling: bool,
+}
+
+/// Compares the members of two declarations of one block (§4.3.7), the output's first.
+pub(super) fn compare_members(types: &Types, a: StructId, b: StructId, free: Free) -> Option<MemberDifference<'_>> {
     let (a, b) = (&types.structure(a).members, &types.structure(b).members);
     for (a, b) in a.iter().zip(b) {
         if a.name != b.name || !same_type(types, a.ty, b.ty) {
@@ -73,9 +79,9 @@ pub(super) fn compare_members(
         }
         let has_matrix = contains_matrix(types, a.ty);
         if (has_matrix && a.matrix_layout != b.matrix_layout)
-            || a.interpolation != b.interpolation
-            || a.sampling != b.sampling
-            || a.invariant != b.invariant && !(invariant_alone && a.invariant)
+            || a.interpolation != b.interpolation && !free.interpolation
+            || a.sampling != b.sampling && !free.sampling
+            || a.invariant != b.invariant && !(free.invariant && a.invariant)
             || a.place != b.place
         {
             return Some(MemberDifference::Qualifiers(a, b));

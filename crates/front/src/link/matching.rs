@@ -5,7 +5,7 @@
 //! shader are arrays of what the vertex shader writes.
 
 use super::Linker;
-use super::compatible::{MemberDifference, block_parts, compare_members, same_type};
+use super::compatible::{Free, MemberDifference, block_parts, compare_members, same_type};
 use super::usage::{is_assigned, uses};
 use crate::diagnostic::{Applicability, Diagnostic, Edit, Fix, codes, did_you_mean};
 use crate::hir::{ArraySize, Global, GlobalId, Sampling, Shader, Stage, Storage, Type, TypeId, Types};
@@ -204,8 +204,13 @@ fn interpolation_prefix(global: &Global) -> String {
 }
 
 fn check_pair(ctx: &mut Linker<'_>, producer: &Shader, output: &Global, consumer: &Shader, input: &Global) {
-    let invariant_alone = [producer, consumer].iter().any(|shader| shader.version.has(Feature::InvariantOutputAlone));
-    let pair = Pair { producer: producer.stage, output, consumer: consumer.stage, input, invariant_alone };
+    let has = |feature| [producer, consumer].iter().any(|shader| shader.version.has(feature));
+    let free = Free {
+        invariant: has(Feature::InvariantOutputAlone),
+        interpolation: has(Feature::InterpolationOfInput),
+        sampling: has(Feature::SamplingOfInput),
+    };
+    let pair = Pair { producer: producer.stage, output, consumer: consumer.stage, input, free };
     if input.block.is_some() {
         check_block(ctx, &pair);
     } else {
@@ -219,8 +224,7 @@ struct Pair<'a> {
     output: &'a Global,
     consumer: Stage,
     input: &'a Global,
-    /// Whether an invariant output matches an input that is not.
-    invariant_alone: bool,
+    free: Free,
 }
 
 impl Pair<'_> {
@@ -287,7 +291,7 @@ fn check_block(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
         pair.report(ctx, &codes::link::INTERFACE_BLOCK_MISMATCH, what, array(output_size), array(input_size));
         return;
     }
-    if let Some(difference) = compare_members(types, output, input, pair.invariant_alone) {
+    if let Some(difference) = compare_members(types, output, input, pair.free) {
         let diagnostic = member_difference(types, &codes::link::INTERFACE_BLOCK_MISMATCH, pair, &difference);
         ctx.report(diagnostic);
     }
@@ -339,11 +343,12 @@ fn member_qualifiers(member: &crate::hir::Member) -> String {
 
 /// "The type and presence of the interpolation qualifiers and storage qualifiers and invariant qualifiers … must
 /// match" (§4.3.9): `smooth` and no qualifier differ, too. From 4.20 and ES 3.00 on, an invariant output "will still match an input of
-/// a subsequent stage without the input being declared as invariant" (GLSL 4.20 §4.8.1).
+/// a subsequent stage without the input being declared as invariant" (GLSL 4.20 §4.8.1). From 4.30 on, the other qualifiers may differ,
+/// too: "what matters is what is declared in the fragment shaders" (4.30 §4.3.4, which 4.40 takes an older sentence of §4.5 back for), for which [`Varying`](super::Varying) has them.
 fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
     let Pair { output, input, .. } = pair;
     let interpolation = |global: &Global| global.interpolation_written.then_some(global.interpolation);
-    if input.block.is_none() && interpolation(output) != interpolation(input) {
+    if input.block.is_none() && !pair.free.interpolation && interpolation(output) != interpolation(input) {
         let word = |global: &Global| {
             interpolation(global)
                 .map_or("no interpolation qualifier".to_owned(), |written| format!("`{}`", written.name()))
@@ -352,13 +357,14 @@ fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
         pair.report(ctx, &codes::link::INTERPOLATION_MISMATCH, what, word(output), word(input));
     }
     let is = |global: &Global, sampling| global.sampling == sampling;
-    let is_free = pair.invariant_alone && !input.invariant;
+    let is_free = pair.free.invariant && !input.invariant;
+    let sampling = |sampling| [output, input].map(|global| !pair.free.sampling && is(global, sampling));
     let flags = [
-        ("centroid", is(output, Sampling::Centroid), is(input, Sampling::Centroid)),
-        ("sample", is(output, Sampling::Sample), is(input, Sampling::Sample)),
-        ("invariant", output.invariant && !is_free, input.invariant),
+        ("centroid", sampling(Sampling::Centroid)),
+        ("sample", sampling(Sampling::Sample)),
+        ("invariant", [output.invariant && !is_free, input.invariant]),
     ];
-    for (qualifier, theirs, ours) in flags {
+    for (qualifier, [theirs, ours]) in flags {
         if theirs != ours {
             let word = |set: bool| if set { format!("`{qualifier}`") } else { format!("not `{qualifier}`") };
             let what = format!("is `{qualifier}` in one stage alone");

@@ -49,6 +49,7 @@ mod merge;
 mod outputs;
 mod partial;
 mod per_vertex;
+mod precisions;
 mod program;
 mod remap;
 mod samplers;

@@ -4,6 +4,7 @@ use super::{Linker, merge};
 use crate::analysis::{SHADERTOY_HELP, SHADERTOY_NOTE, is_shadertoy};
 use crate::diagnostic::{Applicability, Diagnostic, Fix, codes, did_you_mean};
 use crate::hir::{FunctionId, Shader, Stage, Types};
+use crate::language::Version;
 
 /// One shader per stage, in pipeline order; several shaders of one stage are merged.
 pub(super) fn in_order(types: &mut Types, shaders: Vec<Shader>, found: &mut Vec<Diagnostic>) -> Vec<Shader> {
@@ -25,7 +26,9 @@ pub(super) fn check_languages(shaders: &[Shader], found: &mut Vec<Diagnostic>) {
     let Some((first, rest)) = shaders.split_first() else { return };
     let same = |other: &&Shader| {
         let (a, b) = (first.version, other.version);
-        a.is_es() == b.is_es() && (!a.is_es() || a.number == b.number)
+        // Without a `#version` line, a text of 1.10 is one of ES 1.00 for WebGL.
+        let is_unsaid = |version: Version| !version.is_es() && !version.span.is_known();
+        a.is_es() == b.is_es() && (!a.is_es() || a.number == b.number) || is_unsaid(a) || is_unsaid(b)
     };
     if let Some(other) = rest.iter().find(|other| !same(other)) {
         let (one, another) = (first.version.name(), other.version.name());
@@ -64,12 +67,14 @@ pub(super) fn check(ctx: &mut Linker<'_>, stages: &[Shader], lone: bool) -> bool
 /// Checks that every called function is defined in some shader of the stage (§6.1).
 fn functions_are_defined(ctx: &mut Linker<'_>, shader: &Shader, lone: bool) -> bool {
     let code = if lone { &codes::link::LONE_WITHOUT_DEFINITION } else { &codes::link::UNDEFINED_FUNCTION };
+    let stage = shader.stage.name();
+    let help = format!("if another {stage} shader defines it, name all shaders of the program: `--program FILE,FILE`");
     let undefined = shader.functions.iter().filter(|function| function.reachable && function.body.is_none());
     let mut complete = true;
     for function in undefined {
         complete = false;
         let message = format!("`{}` is called and only declared", function.name);
-        ctx.report(Diagnostic::new(code, function.span, message).here("the declaration"));
+        ctx.report(Diagnostic::new(code, function.span, message).here("the declaration").help(help.clone()));
     }
     complete
 }

@@ -5,7 +5,7 @@
 //! read come first. Uniform blocks follow; the elements of an array of blocks have consecutive bindings.
 //! `gl_DepthRange` is a loose uniform with the default (0, 1, 1).
 
-use super::compatible::{MemberDifference, block_parts, compare_members, same_type, same_value};
+use super::compatible::{Free, MemberDifference, block_parts, compare_members, same_type, same_value};
 use super::flatten::{join, parts};
 use super::layout::{self, MAX_BLOCK_BYTES, array_stride, extent, round_up, struct_members};
 use super::{Block, BlockIndex, Interface, Linker, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
@@ -37,6 +37,7 @@ impl Shared<'_> {
 
 /// Assigns offsets and bindings to all uniforms but samplers.
 pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut Interface) {
+    super::precisions::check(ctx, stages);
     let mut all = unite(ctx, stages);
     all.sort_by_key(|shared| !shared.active);
     let types = ctx.types;
@@ -48,6 +49,7 @@ pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut In
 
 /// Checks that the declarations of a uniform or block agree in all shaders.
 pub(super) fn check(ctx: &mut Linker<'_>, shaders: &[Shader]) {
+    super::precisions::check(ctx, shaders);
     unite(ctx, shaders);
 }
 
@@ -189,7 +191,7 @@ fn check_same_block(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, glob
     } else if let Some((here, there)) = different_bindings(global, known.global) {
         whole("has another binding in each stage", here, there)
     } else {
-        match compare_members(types, our_members, their_members, false) {
+        match compare_members(types, our_members, their_members, Free::default()) {
             None => return,
             Some(MemberDifference::Count(ours, theirs)) => {
                 whole("has another number of members in each stage", ours.to_string(), theirs.to_string())

@@ -315,10 +315,16 @@ impl Lexer {
     /// checked later.
     fn number(&mut self) -> TokenKind {
         let hexadecimal = self.peek(0) == b'0' && matches!(self.peek(1), b'x' | b'X');
+        // After a point or an exponent, another point with a word selects components: `1.0.xxx` (4.20 §5.5).
+        let mut is_float = self.peek(0) == b'.';
         self.pos += 1;
         loop {
             let byte = self.peek(0);
             let exponent = matches!(byte, b'e' | b'E') && !hexadecimal;
+            if byte == b'.' && is_float && (self.peek(1).is_ascii_alphabetic() || self.peek(1) == b'_') {
+                return TokenKind::Number;
+            }
+            is_float |= byte == b'.' || exponent;
             if exponent && matches!(self.peek(1), b'+' | b'-') {
                 self.pos += 2;
             } else if class(byte) != 0 || byte == b'.' {
@@ -456,10 +462,10 @@ mod tests {
 
     #[test]
     fn longest_match() {
-        let (tokens, trivia) = lex("a<<=b>>c^^d++-1.5e-3f 0x1E+2 .5.x/**/é\0#");
-        let expected = ["a", "<<=", "b", ">>", "c", "^^", "d", "++", "-", "1.5e-3f", "0x1E", "+", "2", ".5.x", "é"];
+        let (tokens, trivia) = lex("a<<=b>>c^^d++-1.5e-3f 0x1E+2 .5.0x/**/1e1.x\0#");
+        let expected = ["a", "<<=", "b", ">>", "c", "^^", "d", "++", "-", "1.5e-3f", "0x1E", "+", "2", ".5.0x", "1e1"];
         assert_eq!(tokens[..15], expected);
-        assert_eq!(tokens[15..], ["\0", "#"]);
+        assert_eq!(tokens[15..], [".", "x", "\0", "#"]);
         assert!(trivia.is_empty());
     }
 

@@ -11,8 +11,8 @@ use super::structure::MemberList;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::hir::{
-    ArraySize, BlockInfo, BlockLayout, GlobalId, Interpolation, MatrixLayout, Member, MemberPlace, Scalar, Stage,
-    Storage, Type, TypeId, VarRef,
+    ArraySize, BlockInfo, BlockLayout, GlobalId, MatrixLayout, Member, MemberPlace, Scalar, Stage, Storage, Type,
+    TypeId, VarRef,
 };
 use crate::language::Feature;
 use crate::source::Span;
@@ -109,7 +109,7 @@ impl Analyzer<'_> {
             StorageWord::Uniform => Storage::Uniform,
             StorageWord::In => Storage::In,
             StorageWord::Out => Storage::Out,
-            StorageWord::Attribute | StorageWord::Varying | StorageWord::Inout => {
+            StorageWord::Attribute | StorageWord::Varying | StorageWord::VaryingOut | StorageWord::Inout => {
                 let message = format!("a block cannot be `{}`", word.spelling());
                 self.report(
                     Diagnostic::new(&qualifiers::BLOCK, span, message).here("a block is `in`, `out` or `uniform`"),
@@ -148,6 +148,11 @@ impl Analyzer<'_> {
                 let ty = self.with_array(base, &declarator.array);
                 let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
                 self.require_size(ty, declarator.name.span);
+                if let (Storage::Uniform, Some(precision)) = (context.storage, self.precision_of(record.precision, ty))
+                {
+                    let name = format!("{}.{}", self.name(block.name), self.name(declarator.name));
+                    self.shader.precisions.push((name, precision));
+                }
                 let matrix = layout.matrix.unwrap_or(context.matrix);
                 let place = self.member_place(&layout, context);
                 let member = self.block_member(declarator, ty, &record, (matrix, place), context.storage);
@@ -212,24 +217,17 @@ impl Analyzer<'_> {
             self.report(Diagnostic::new(code, span, message).here("not allowed here").label(name, "declared here"));
             return TypeId::ERROR;
         }
-        let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
-        let arrives = self.stage == Stage::Fragment && context.storage == Storage::In;
-        if arrives && !flat && self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint]) {
-            let type_name = self.type_name(ty);
+        if let Some(what) = self.not_flat(ty, context.storage, record) {
             self.report(
-                Diagnostic::new(
-                    &qualifiers::INTEGER_NOT_FLAT,
-                    span,
-                    format!("a `{type_name}` input of a fragment shader must be `flat`"),
-                )
-                .here("integers are not interpolated")
-                .label(name, "declared here")
-                .help(Advice::new(
-                    Applicability::Unsafe,
-                    "write `flat` before it, on both sides",
-                    Place::Before,
-                    "flat ",
-                )),
+                Diagnostic::new(&qualifiers::INTEGER_NOT_FLAT, span, what)
+                    .here("integers are not interpolated")
+                    .label(name, "declared here")
+                    .help(Advice::new(
+                        Applicability::Unsafe,
+                        "write `flat` before it, on both sides",
+                        Place::Before,
+                        "flat ",
+                    )),
             );
         }
         ty

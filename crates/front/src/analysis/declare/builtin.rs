@@ -172,10 +172,10 @@ impl Analyzer<'_> {
     }
 
     /// `layout(depth_greater) out float gl_FragDepth;` (GLSL 4.20 §4.4.2.4, ARB_conservative_depth). What it promises
-    /// lets a driver test earlier, and changes no value.
+    /// lets a driver test earlier, and changes no value. "A redeclaration that changes nothing is allowed", too.
     fn redeclare_frag_depth(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
         let span = declarator.name.span;
-        if record.layout.is_empty() || !self.allows(Feature::DepthLayouts, span) {
+        if !self.allows(Feature::DepthLayouts, span) {
             self.report(
                 Diagnostic::new(&names::BUILTIN_REDECLARED, span, "`gl_FragDepth` cannot be declared again")
                     .here("it is built in")
@@ -190,6 +190,36 @@ impl Analyzer<'_> {
                     .here("declared as something else"),
             );
         }
+        self.compare_frag_depth(row, span, record);
+    }
+
+    /// "All redeclarations of gl_FragDepth .. must have the same set of qualifiers. Within any shader, the first
+    /// redeclarations of gl_FragDepth must appear before any use of gl_FragDepth." (GLSL 4.20 §4.4.2)
+    fn compare_frag_depth(&mut self, row: &Row, span: Span, record: &Qualifiers) {
+        let mut words: Vec<String> = record.layout.iter().map(|id| self.name(id.name).to_owned()).collect();
+        words.sort_unstable();
+        let used = self.declared.builtin(row.variable).and_then(|id| self.uses.first(id));
+        let (code, message, here, other, label) = match (&self.layouts.frag_depth, used) {
+            (Some((known, first)), _) if *known != words => (
+                &names::BUILTIN_REDECLARED,
+                "two declarations of `gl_FragDepth` have different layouts",
+                "another layout here",
+                *first,
+                "first declared here",
+            ),
+            (None, Some(used)) => (
+                &names::REDECLARED_AFTER_USE,
+                "`gl_FragDepth` is declared again after it was used",
+                "too late",
+                used,
+                "used here",
+            ),
+            _ => {
+                self.layouts.frag_depth.get_or_insert((words, span));
+                return;
+            }
+        };
+        self.report(Diagnostic::new(code, span, message).here(here).label(other, label));
     }
 
     /// `layout(origin_upper_left) in vec4 gl_FragCoord;` (§4.3.8.1)

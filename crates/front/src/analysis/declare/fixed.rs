@@ -71,7 +71,7 @@ impl Analyzer<'_> {
             Some((StorageWord::Out, _)) => row.storage == Storage::Out,
             Some((StorageWord::Varying, _)) => row.storage != Storage::Uniform,
             Some((StorageWord::Uniform, _)) => row.storage == Storage::Uniform,
-            Some((StorageWord::Inout, _)) | None => false,
+            Some((StorageWord::VaryingOut | StorageWord::Inout, _)) | None => false,
         };
         if !(ty == known || is_sized || ty.is_error()) || !stores {
             let name = row.name;

@@ -5,7 +5,7 @@ use super::super::qualifiers::{Qualifiers, StorageWord};
 use crate::diagnostic::codes::{qualifiers, types};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::hir::{ArraySize, Interpolation, Scalar, Stage, Storage, Type, TypeId};
-use crate::language::Feature;
+use crate::language::{Extensions, Feature};
 use crate::source::Span;
 
 /// An interface of a stage, and the types that cannot cross it.
@@ -97,6 +97,7 @@ impl Analyzer<'_> {
             self.no_interpolation(record, border.what);
         } else if let (Some((_, span)), Some((StorageWord::Varying | StorageWord::Attribute, _))) =
             (record.interpolation, record.storage)
+            && !self.extensions.contains(Extensions::GPU_SHADER4)
         {
             self.misplaced(span, "`varying` takes no interpolation qualifier", "use `in` or `out`");
         }
@@ -130,26 +131,38 @@ impl Analyzer<'_> {
         ty
     }
 
-    /// Checks that integer inputs of a fragment shader are `flat` (§4.3.4).
+    /// Checks that integer inputs of a fragment shader are `flat` (§4.3.4), and in 1.30, 1.40 and ES 3.00 the outputs of a vertex
+    /// shader, too (1.30 §4.3.6; ES 3.00 §4.3.6).
     fn check_flat(&mut self, ty: TypeId, storage: Storage, record: &Qualifiers, ty_span: Span, name: Span) {
-        let flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
-        if self.stage == Stage::Fragment
-            && storage == Storage::In
-            && !flat
-            && self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint])
-        {
-            let type_name = self.type_name(ty);
-            self.report(
-                Diagnostic::new(
-                    &qualifiers::INTEGER_NOT_FLAT,
-                    ty_span,
-                    format!("a `{type_name}` input of a fragment shader must be `flat`"),
-                )
+        let Some(what) = self.not_flat(ty, storage, record) else { return };
+        self.report(
+            Diagnostic::new(&qualifiers::INTEGER_NOT_FLAT, ty_span, what)
                 .here("integers are not interpolated")
                 .label(name, "declared here")
-                .help("write `flat` before `in`, on both sides"),
-            );
-        }
+                .help(format!(
+                    "write `flat` before `{}`, on both sides",
+                    if storage == Storage::In { "in" } else { "out" }
+                )),
+        );
+    }
+
+    /// Whether integers cross the interface of a stage at all.
+    fn has_integers(&self) -> bool {
+        self.ast.version.has_with(Feature::IntegerInterfaces, self.extensions)
+    }
+
+    /// The message about an input or output with integers that must be `flat` and is not.
+    pub(super) fn not_flat(&self, ty: TypeId, storage: Storage, record: &Qualifiers) -> Option<String> {
+        let direction = match (self.stage, storage) {
+            (Stage::Fragment, Storage::In) => "input of a fragment shader",
+            (Stage::Vertex, Storage::Out) if !self.ast.version.has(Feature::IntegerOutputs) && self.has_integers() => {
+                "output of a vertex shader"
+            }
+            _ => return None,
+        };
+        let is_flat = matches!(record.interpolation, Some((Interpolation::Flat, _)));
+        let has_integers = self.types.summary(ty).holds(&[Scalar::Int, Scalar::Uint]);
+        (!is_flat && has_integers).then(|| format!("a `{}` {direction} must be `flat`", self.type_name(ty)))
     }
 
     /// Reports types that cross interfaces only in later versions.

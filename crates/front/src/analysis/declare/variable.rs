@@ -8,7 +8,9 @@ use super::super::state::ArrayKey;
 use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
-use crate::hir::{ArraySize, ExprId, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef};
+use crate::hir::{
+    ArraySize, ExprId, ExprKind, Global, GlobalId, Interpolation, Stage, Storage, Type, TypeId, Value, VarRef,
+};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{Declarator, TypeBase, TypeSpec, VariableDecl};
@@ -87,7 +89,7 @@ impl Analyzer<'_> {
         match word {
             StorageWord::In | StorageWord::Out => self.require(Feature::InOut, span),
             StorageWord::Attribute | StorageWord::Varying => self.require(Feature::Attributes, span),
-            StorageWord::Uniform | StorageWord::Inout => {}
+            StorageWord::VaryingOut | StorageWord::Uniform | StorageWord::Inout => {}
         }
         match (word, self.stage) {
             (StorageWord::Uniform, _) => Storage::Uniform,
@@ -98,6 +100,11 @@ impl Analyzer<'_> {
                 let message = format!("there are no attributes in a {} shader", stage.name());
                 self.misplaced(span, message, "use `in`");
                 Storage::In
+            }
+            (StorageWord::VaryingOut, Stage::Fragment) => Storage::Out,
+            (StorageWord::VaryingOut, _) => {
+                self.misplaced(span, "`varying out` is an output of a fragment shader", "remove `out`");
+                Storage::Out
             }
             (StorageWord::Varying, Stage::Fragment) => Storage::In,
             (StorageWord::Varying, _) => Storage::Out,
@@ -136,6 +143,9 @@ impl Analyzer<'_> {
         }
         if self.resizes(declarator, ty, storage) {
             return;
+        }
+        if let (Storage::Uniform, Some(precision)) = (storage, self.precision_of(record.precision, ty)) {
+            self.shader.precisions.push((self.name(name).to_owned(), precision));
         }
         let global = self.new_global(name.span, self.name(name), ty, storage, record, &layout, initial);
         let id = self.add_global(global);
@@ -281,9 +291,7 @@ impl Analyzer<'_> {
             self.require(Feature::ArrayObjects, self.span(expr));
         }
         if storage == Storage::Private {
-            if !self.is_constant(expr) {
-                self.require_here(Feature::GlobalInitializers, self.span(expr));
-            }
+            self.check_private_initializer(expr);
             return (ty, Some(Initial { expr, value: None }));
         }
         if storage == Storage::Uniform {
@@ -304,6 +312,34 @@ impl Analyzer<'_> {
             return (TypeId::ERROR, None);
         }
         (ty, Some(Initial { expr, value }))
+    }
+
+    /// "In declarations of global variables .. initializers must be constant expressions" (GLSL ES 1.00 §4.3; ES 3.00 §4.3). For ES
+    /// 1.00, WebGL accepts uniforms and other globals with a warning.
+    fn check_private_initializer(&mut self, expr: ExprId) {
+        let span = self.span(expr);
+        if self.is_constant(expr) || self.ast.version.has(Feature::GlobalInitializers) {
+            return;
+        }
+        if self.strict || !self.ast.version.has(Feature::LooseGlobalInitializers) || !self.is_of_globals(expr) {
+            self.require_here(Feature::GlobalInitializers, span);
+            return;
+        }
+        self.report(
+            Diagnostic::new(&qualifiers::GLOBAL_INITIALIZER, span, "the initializer of a global is not constant")
+                .here("not a constant expression")
+                .help("assign the value at the start of `main`"),
+        );
+    }
+
+    /// Whether an expression reads nothing but uniforms and global variables, and calls no function of the shader.
+    fn is_of_globals(&self, expr: ExprId) -> bool {
+        let is_one = match &self.shader.expr(expr).kind {
+            ExprKind::Var(VarRef::Global(id)) => !matches!(self.shader.global(*id).storage, Storage::In | Storage::Out),
+            ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) => false,
+            _ => true,
+        };
+        is_one && self.shader.children(expr).into_iter().all(|child| self.is_of_globals(child))
     }
 
     fn report_no_value(&mut self, declarator: &Declarator) {

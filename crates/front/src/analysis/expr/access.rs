@@ -1,7 +1,6 @@
 //! Analyzes access to parts of values: `a.b`, `a.xyz`, `a[i]`, `a.length()` (§5.5 to §5.7).
 
 use super::super::context::Analyzer;
-use super::super::features::remedy;
 use super::super::state::ArrayKey;
 use super::super::state::{Denoted, NoteRole};
 use super::swizzle::{self, Fault};
@@ -190,7 +189,7 @@ impl Analyzer<'_> {
         let version = self.ast.version;
         let row = Feature::ConstantSamplers.row();
         let extensions = if version.is_es() { Extensions::empty() } else { Extensions::GPU_SHADER5 };
-        let help = remedy(version, row.gone, Since::new(NEVER, NEVER), extensions);
+        let help = version.remedy(row.gone, Since::new(NEVER, NEVER), extensions);
         let finding = self.not_constant(index, what);
         self.report(Diagnostic { code: &types::SAMPLER_INDEX, ..finding }.maybe_help(help));
     }

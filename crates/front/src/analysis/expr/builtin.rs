@@ -1,13 +1,12 @@
 //! Analyzes calls of built-in functions (§8): resolves overloads over the rows of the table.
 
 use super::super::context::Analyzer;
-use super::super::features::remedy;
 use super::overload::{Resolution, resolve};
 use crate::builtin::functions::{self, Row, Signature};
 use crate::builtin::operations::{Class, Lookup};
 use crate::builtin::{Availability, BuiltinFunction};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::codes::names;
+use crate::diagnostic::codes::{names, types};
 use crate::hir::{ExprId, ExprKind, Function, Stage, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
@@ -44,7 +43,7 @@ impl Analyzer<'_> {
         let Some((row, signature)) = found else { return self.poison(span) };
         self.note_builtin(row.availability, name.span);
         let Some(arguments) = self.pass(arguments, signature.params()) else { return self.poison(span) };
-        if !self.check_offset(row, &arguments) {
+        if !self.check_offset(row, &arguments) || !self.check_component_number(row, &arguments) {
             return self.poison(span);
         }
         if row.function.class() == Class::Composed {
@@ -116,6 +115,26 @@ impl Analyzer<'_> {
         false
     }
 
+    /// Checks the component that a gather reads: "the value of comp must be a constant integer expression with a value of 0, 1, 2,
+    /// or 3" (GLSL 4.00 §8.9.3).
+    fn check_component_number(&mut self, row: &Row, arguments: &[ExprId]) -> bool {
+        let position = row.params.iter().position(|param| param.name == "comp");
+        let Some(&component) = position.and_then(|index| arguments.get(index)) else { return true };
+        if !self.is_constant(component) {
+            self.report(self.not_constant(component, "the component of a gather"));
+            return false;
+        }
+        let Some(number) = self.evaluate_integer(component).filter(|number| !(0..=3).contains(number)) else {
+            return true;
+        };
+        self.report(
+            Diagnostic::new(&types::INDEX_RANGE, self.span(component), format!("a gather has no component {number}"))
+                .here("0, 1, 2 or 3 is needed")
+                .help("0 is red, 1 green, 2 blue and 3 alpha"),
+        );
+        false
+    }
+
     fn report_unavailable(&mut self, name: Ident, rows: &[&'static Row]) {
         let (spelling, stage) = (self.name(name), self.stage.name());
         let (version, extensions) = (self.ast.version, self.extensions);
@@ -131,7 +150,9 @@ impl Analyzer<'_> {
                 if compatibility_only && version.reaches(since) {
                     return Some("only the compatibility profile has it".to_owned());
                 }
-                remedy(version, since, gone, extensions)
+                let remedy = version.remedy(since, gone, extensions)?;
+                let is_renamed = version.reaches(since) && row.function.name() != spelling;
+                Some(if is_renamed { format!("write `{}`; {remedy}", row.function.name()) } else { remedy })
             });
             let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message).here("not available here");
             of_version(finding.maybe_help(remedy), version)

@@ -54,7 +54,7 @@ impl Analyzer<'_> {
         }
         let of_later = Conversions { to_float: true, to_uint: false };
         if of_later.convert(self.types, from, to) {
-            self.require_here(Feature::ImplicitToFloat, self.span(id));
+            self.require_float(id);
             return Some(self.push_convert(id, to));
         }
         None

@@ -137,6 +137,16 @@ pub(super) fn method(name: &str) -> Option<&'static str> {
 /// The beginning of the help for a variable of Shadertoy.
 pub(in crate::analysis) const OF_SHADERTOY: &str = "Shadertoy declares it: ";
 
+/// Variables of GLSL for Vulkan, and those of OpenGL in their place.
+static OF_VULKAN: &[(&str, &str)] = &[("gl_VertexIndex", "gl_VertexID"), ("gl_InstanceIndex", "gl_InstanceID")];
+
+/// The replacement for a variable of GLSL for Vulkan.
+pub(super) fn of_vulkan(name: &str) -> Option<Advice> {
+    let (_, own) = OF_VULKAN.iter().find(|row| row.0 == name)?;
+    let sentence = format!("write `{own}`: `{name}` belongs to GLSL for Vulkan");
+    Some(Advice::new(Applicability::Unsafe, sentence, Place::Over, *own))
+}
+
 /// The declaration of a variable that another environment provides.
 pub(super) fn variable(name: &str) -> Option<String> {
     let declaration = SHADERTOY.iter().find(|row| row.0 == name)?.1;

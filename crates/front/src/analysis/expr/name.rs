@@ -2,7 +2,6 @@
 //! constants.
 
 use super::super::context::Analyzer;
-use super::super::features::remedy;
 use super::super::scope::Entry;
 use super::super::state::{Denoted, NoteRole};
 use crate::builtin::{constants, fixed, variables};
@@ -113,7 +112,11 @@ impl Analyzer<'_> {
                     .filter(|row| row.name == spelling && row.availability.stages.has(self.stage));
                 let remedy = remedies
                     .map(|row| row.availability)
-                    .find_map(|row| remedy(self.ast.version, row.since, row.gone, row.extensions));
+                    .find_map(|row| self.ast.version.remedy(row.since, row.gone, row.extensions));
+                let remedy = remedy.map(|remedy| match spelling {
+                    "gl_FragColor" | "gl_FragData" => format!("declare `out vec4 color;` and write to that; {remedy}"),
+                    _ => remedy,
+                });
                 let finding = finding.here("not in this version of the language").maybe_help(remedy);
                 of_version(finding, self.ast.version)
             } else {
@@ -152,6 +155,7 @@ impl Analyzer<'_> {
             return;
         }
         let help = super::foreign::variable(spelling).map(Advice::from);
+        let help = help.or_else(|| super::foreign::of_vulkan(spelling));
         let help = help.or_else(|| self.nearest_variable(spelling).map(Advice::meant));
         let help = help.or_else(|| self.missing_macro(spelling).map(Advice::from));
         self.report(

@@ -166,7 +166,7 @@ impl Analyzer<'_> {
 
     /// An operand of floats, after the implicit conversion.
     fn implicitly_float(&mut self, id: ExprId) -> ExprId {
-        self.require_here(Feature::ImplicitToFloat, self.span(id));
+        self.require_float(id);
         self.with_scalar(id, Scalar::Float)
     }
 

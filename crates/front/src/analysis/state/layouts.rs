@@ -39,6 +39,8 @@ pub(in crate::analysis) struct Layouts {
     pub(in crate::analysis) per_vertex_out: Option<PerVertex>,
     /// The first redeclaration of `gl_FragCoord`.
     pub(in crate::analysis) frag_coord: Option<Span>,
+    /// The first redeclaration of `gl_FragDepth`, with the names in its layouts, sorted.
+    pub(in crate::analysis) frag_depth: Option<(Vec<String>, Span)>,
     /// `layout(early_fragment_tests) in;`
     pub(in crate::analysis) early_tests: Option<Span>,
 }

@@ -3,15 +3,16 @@
 //! *Holds:* the desktop language has no precision, so that no type lacks one there.
 
 use crate::hir::{SamplerDim, SamplerType, Scalar, Stage};
-use crate::language::Version;
+use crate::language::{Precision, Version};
 
 /// The defaults in force.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(in crate::analysis) struct Precisions {
     /// Whether types need a precision: in ES.
     needed: bool,
-    float: bool,
-    samplers: Vec<SamplerType>,
+    float: Option<Precision>,
+    int: Precision,
+    samplers: Vec<(SamplerType, Precision)>,
     /// The types that have been reported, each once.
     reported_float: bool,
     reported_samplers: Vec<SamplerType>,
@@ -21,32 +22,59 @@ impl Precisions {
     /// The predeclared defaults of a stage: all but those of `float` in fragment shaders and of the samplers that came
     /// after ES 1.00.
     pub(in crate::analysis) fn of(stage: Stage, version: Version) -> Self {
-        Self { needed: version.is_es(), float: stage != Stage::Fragment, ..Self::default() }
+        let is_fragment = stage == Stage::Fragment;
+        Self {
+            needed: version.is_es(),
+            float: (!is_fragment).then_some(Precision::High),
+            int: if is_fragment { Precision::Medium } else { Precision::High },
+            samplers: Vec::new(),
+            reported_float: false,
+            reported_samplers: Vec::new(),
+        }
     }
 
     /// `precision highp float;`
-    pub(in crate::analysis) fn set_float(&mut self) {
-        self.float = true;
+    pub(in crate::analysis) fn set_scalar(&mut self, scalar: Scalar, precision: Precision) {
+        match scalar {
+            Scalar::Float => self.float = Some(precision),
+            Scalar::Int => self.int = precision,
+            _ => {}
+        }
     }
 
     /// `precision highp sampler3D;`
-    pub(in crate::analysis) fn set_sampler(&mut self, sampler: SamplerType) {
-        self.samplers.push(sampler);
+    pub(in crate::analysis) fn set_sampler(&mut self, sampler: SamplerType, precision: Precision) {
+        self.samplers.push((sampler, precision));
+    }
+
+    /// The default of a scalar type: that of `int` is the one of unsigned integers, too.
+    pub(in crate::analysis) fn of_scalar(&self, scalar: Scalar) -> Option<Precision> {
+        match scalar {
+            Scalar::Float => self.float,
+            Scalar::Int | Scalar::Uint => Some(self.int),
+            Scalar::Bool => None,
+        }
+    }
+
+    /// The default of a sampler type.
+    pub(in crate::analysis) fn of_sampler(&self, sampler: SamplerType) -> Option<Precision> {
+        let SamplerType { texel, dim, arrayed, shadow } = sampler;
+        let predeclared =
+            texel == Scalar::Float && !arrayed && !shadow && matches!(dim, SamplerDim::D2 | SamplerDim::Cube);
+        let stated = self.samplers.iter().rev().find(|(other, _)| *other == sampler);
+        stated.map(|(_, precision)| *precision).or(predeclared.then_some(Precision::Low))
     }
 
     /// Whether a scalar type lacks a precision. It is so once.
     pub(in crate::analysis) fn lacks(&mut self, scalar: Scalar) -> bool {
-        let lacks = self.needed && scalar == Scalar::Float && !self.float && !self.reported_float;
+        let lacks = self.needed && scalar == Scalar::Float && self.float.is_none() && !self.reported_float;
         self.reported_float |= lacks;
         lacks
     }
 
     /// Whether a sampler type lacks a precision. It is so once.
     pub(in crate::analysis) fn lacks_sampler(&mut self, sampler: SamplerType) -> bool {
-        let SamplerType { texel, dim, arrayed, shadow } = sampler;
-        let predeclared =
-            texel == Scalar::Float && !arrayed && !shadow && matches!(dim, SamplerDim::D2 | SamplerDim::Cube);
-        let known = predeclared || self.samplers.contains(&sampler) || self.reported_samplers.contains(&sampler);
+        let known = self.of_sampler(sampler).is_some() || self.reported_samplers.contains(&sampler);
         let lacks = self.needed && !known;
         if lacks {
             self.reported_samplers.push(sampler);
@@ -56,6 +84,7 @@ impl Precisions {
 
     /// The defaults when a function's body ends: those from before it, with what has been reported.
     pub(in crate::analysis) fn ended(&self, before: &Self) -> Self {
-        Self { float: before.float, samplers: before.samplers.clone(), ..self.clone() }
+        let (float, int, samplers) = (before.float, before.int, before.samplers.clone());
+        Self { float, int, samplers, ..self.clone() }
     }
 }

@@ -9,6 +9,12 @@ const A130: Row = Row::base("§8.1", 130);
 const E110: Row = Row::base("§8.2", 110);
 const C110: Row = Row::base("§8.3", 110);
 const C130: Row = Row::base("§8.3", 130);
+/// EXT_gpu_shader4 brings functions of integers, and `round`, to 1.10 and 1.20.
+const SHADER4: Row = C130.available(C130.availability.or(Extensions::GPU_SHADER4));
+const TRUNCATE: Row = Row {
+    deprecated: true,
+    ..Row::base("EXT_gpu_shader4", 110).available(Availability::extension(Extensions::GPU_SHADER4))
+};
 const AMD: Row =
     Row::base("AMD_shader_trinary_minmax", 110).available(Availability::extension(Extensions::SHADER_TRINARY_MINMAX));
 const OUT130: Row = C130.with(Effect::WritesArgument, false);
@@ -39,12 +45,13 @@ pub(super) static ROWS: &[Row] = rows! {
     E110 Inversesqrt: genType inversesqrt(genType x);
 
     C110 Abs: genType abs(genType x);
-    C130 Abs: genIType abs(genIType x);
+    SHADER4 Abs: genIType abs(genIType x);
     C110 Sign: genType sign(genType x);
-    C130 Sign: genIType sign(genIType x);
+    SHADER4 Sign: genIType sign(genIType x);
     C110 Floor: genType floor(genType x);
     C130 Trunc: genType trunc(genType x);
-    C130 Round: genType round(genType x);
+    TRUNCATE Trunc: genType truncate(genType x);
+    SHADER4 Round: genType round(genType x);
     C130 RoundEven: genType roundEven(genType x);
     C110 Ceil: genType ceil(genType x);
     C110 Fract: genType fract(genType x);
@@ -53,16 +60,16 @@ pub(super) static ROWS: &[Row] = rows! {
     OUT130 Modf: genType modf(genType x, out_genType i);
     C110 Min: genType min(genType x, genType y);
     C110 Min: genType min(genType x, float y);
-    C130 Min: genIType min(genIType x, genIType y);
-    C130 Min: genIType min(genIType x, int y);
-    C130 Min: genUType min(genUType x, genUType y);
-    C130 Min: genUType min(genUType x, uint y);
+    SHADER4 Min: genIType min(genIType x, genIType y);
+    SHADER4 Min: genIType min(genIType x, int y);
+    SHADER4 Min: genUType min(genUType x, genUType y);
+    SHADER4 Min: genUType min(genUType x, uint y);
     C110 Max: genType max(genType x, genType y);
     C110 Max: genType max(genType x, float y);
-    C130 Max: genIType max(genIType x, genIType y);
-    C130 Max: genIType max(genIType x, int y);
-    C130 Max: genUType max(genUType x, genUType y);
-    C130 Max: genUType max(genUType x, uint y);
+    SHADER4 Max: genIType max(genIType x, genIType y);
+    SHADER4 Max: genIType max(genIType x, int y);
+    SHADER4 Max: genUType max(genUType x, genUType y);
+    SHADER4 Max: genUType max(genUType x, uint y);
     AMD Min3: genType min3(genType x, genType y, genType z);
     AMD Min3: genIType min3(genIType x, genIType y, genIType z);
     AMD Min3: genUType min3(genUType x, genUType y, genUType z);
@@ -74,10 +81,10 @@ pub(super) static ROWS: &[Row] = rows! {
     AMD Mid3: genUType mid3(genUType x, genUType y, genUType z);
     C110 Clamp: genType clamp(genType x, genType minVal, genType maxVal);
     C110 Clamp: genType clamp(genType x, float minVal, float maxVal);
-    C130 Clamp: genIType clamp(genIType x, genIType minVal, genIType maxVal);
-    C130 Clamp: genIType clamp(genIType x, int minVal, int maxVal);
-    C130 Clamp: genUType clamp(genUType x, genUType minVal, genUType maxVal);
-    C130 Clamp: genUType clamp(genUType x, uint minVal, uint maxVal);
+    SHADER4 Clamp: genIType clamp(genIType x, genIType minVal, genIType maxVal);
+    SHADER4 Clamp: genIType clamp(genIType x, int minVal, int maxVal);
+    SHADER4 Clamp: genUType clamp(genUType x, genUType minVal, genUType maxVal);
+    SHADER4 Clamp: genUType clamp(genUType x, uint minVal, uint maxVal);
     C110 Mix: genType mix(genType x, genType y, genType a);
     C110 Mix: genType mix(genType x, genType y, float a);
     C130 Mix: genType mix(genType x, genType y, genBType a);

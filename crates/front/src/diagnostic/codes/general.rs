@@ -37,6 +37,11 @@ codes! {
          images and UTF-16 text look like that. Single bytes that are not UTF-8 are forgiven, and are legal in \
          comments."
         bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
+    OTHER_LANGUAGE = "E0018" "other-language" Error ""
+        "The text is of another language: WGSL has attributes such as `@vertex`, HLSL has semantics such as `: SV_Position` and \
+         `: register(b0)`. Other errors of the text are not reported, because they follow from that."
+        bad Vertex("struct Out { float4 position : SV_Position; };\nOut main(float3 p : POSITION) { Out o; o.position = p; return o; }"),
+        good Vertex("in vec3 p;\nvoid main() { gl_Position = vec4(p, 1.0); }");
     BAD_CONFIG = "E0015" "bad-configuration" Error ""
         "A `glisten.toml` or a file of `--permutations` is not TOML, or contains a key, a value or a code that glisten does not \
          know."

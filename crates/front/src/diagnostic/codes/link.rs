@@ -33,7 +33,7 @@ codes! {
             "in vec4 v; out vec4 c; void main() { c = v; }");
     INTERPOLATION_MISMATCH = "E0704" "interpolation-mismatch" Error "GLSL 1.50 §4.3.9"
         "The interpolation qualifiers of an output and of the input that it feeds must be the same, and must be on \
-         both sides or on neither. Some compilers accept a difference and use the qualifier of the fragment stage."
+         both sides or on neither. From 4.30 on they may differ, and the qualifier of the fragment stage counts."
         bad Program(
             "out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }"),
@@ -41,7 +41,8 @@ codes! {
             "flat out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }");
     QUALIFIER_MISMATCH = "E0705" "qualifier-mismatch" Error "GLSL 1.50 §4.3.9"
-        "`centroid`, `sample` and `invariant` must be on both sides of an interface between stages, or on neither."
+        "`centroid`, `sample` and `invariant` must be on both sides of an interface between stages, or on neither. From 4.30 and \
+         ES 3.10 on, the qualifiers of the fragment stage count alone."
         bad Program(
             "centroid out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 v; out vec4 c; void main() { c = v; }"),
@@ -300,6 +301,14 @@ codes! {
             "#version 300 es\nprecision highp float; out vec4 c; void main() { c = vec4(1.0); }"),
         good Program("#version 150\nvoid main() { gl_Position = vec4(0.0); }",
             "#version 330\nout vec4 c; void main() { c = vec4(1.0); }");
+    UNIFORM_PRECISION_MISMATCH = "E0732" "uniform-precision-mismatch" Error "GLSL ES 3.00 §4.3.5"
+        "The stages of a program share their uniforms: a uniform, or a member of a uniform block, has the same precision \
+         wherever it is declared. Without a qualifier it has the default of its stage, and those differ: vertex shaders have \
+         `highp` for floats and integers, fragment shaders `mediump` for integers and none for floats."
+        bad Program("#version 300 es\nuniform vec4 u; void main() { gl_Position = u; }",
+            "#version 300 es\nprecision mediump float; uniform vec4 u; out vec4 c; void main() { c = u; }"),
+        good Program("#version 300 es\nuniform mediump vec4 u; void main() { gl_Position = u; }",
+            "#version 300 es\nprecision mediump float; uniform vec4 u; out vec4 c; void main() { c = u; }");
     VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
         "The varyings have more components than the smallest value that gl_MaxVaryingComponents may have, 60. Many \
          implementations support more; some do not."

@@ -76,7 +76,8 @@ codes! {
         "The `#version` line names a version that does not exist, or a profile that the version does not have."
         bad Vertex("#version 155\nvoid main() {}"), good Vertex("#version 150\nvoid main() {}");
     LATE_VERSION = "E0123" "late-version" Error "GLSL 1.50 §3.3"
-        "`#version` must come before everything but comments and white space, and may occur only once."
+        "`#version` must come before everything but comments and white space, and may occur only once. From ES 3.00 on, \
+         it is in the first line."
         bad Vertex("float a;\n#version 150\nvoid main() {}"), good Vertex("// A shader\n#version 150\nvoid main() {}");
     UNKNOWN_EXTENSION = "E0124" "unknown-extension" Error "GLSL 1.50 §3.3"
         "The source requires an extension that is not in any registry."
@@ -143,6 +144,12 @@ codes! {
          are defined nowhere. Lines that are in none of these texts are dead, or wait for a value that no condition names."
         bad None,
         good Fragment("#if defined(LEVEL) && LEVEL > 2\n#endif\nvoid main() {}");
+    ASSUMED_VERSION = "W0116" "assumed-version" Warning "GLSL ES 1.00 §3.4"
+        "The source has no `#version` line, so it is GLSL 1.10 for OpenGL, and GLSL ES 1.00 for OpenGL ES and WebGL. It has \
+         precision qualifiers, which 1.10 does not have, outside of `#ifdef GL_ES`; so it is read as ES 1.00, or as ES 3.00 if \
+         it uses what 1.00 does not have. A `#version` line says it to everybody."
+        bad None,
+        good Fragment("#version 100\nprecision mediump float;\nvoid main() { gl_FragColor = vec4(1.0); }");
     UNKNOWN_STDGL_PRAGMA = "W0109" "unknown-stdgl-pragma" Warning "GLSL 1.50 §3.3"
         "Pragmas whose first word is STDGL are reserved for the language, which has only `invariant(all)`. Of the \
          others, `optimize` and `debug` take `(on)` or `(off)`. Unknown pragmas are ignored."

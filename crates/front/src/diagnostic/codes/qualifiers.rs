@@ -44,7 +44,7 @@ codes! {
         good Vertex("in int b; void main() { gl_Position = vec4(b != 0); }");
     INTEGER_NOT_FLAT = "E0608" "integer-not-flat" Error "GLSL 1.50 §4.3.4"
         "Integers are not interpolated, so an input of a fragment shader that is or contains an integer must be \
-         `flat`."
+         `flat`. In 1.30, 1.40 and ES 3.00, so must an output of a vertex shader."
         bad Fragment("in ivec2 i; out vec4 c; void main() { c = vec4(i, i); }"),
         good Fragment("flat in ivec2 i; out vec4 c; void main() { c = vec4(i, i); }");
     CONST_WITHOUT_VALUE = "E0609" "const-without-value" Error "GLSL 1.50 §4.3.2"
@@ -86,6 +86,11 @@ codes! {
         "Only outputs of a shader can be invariant, and inputs of a fragment shader that such an output feeds."
         bad Vertex("uniform vec4 a; invariant a; void main() { gl_Position = a; }"),
         good Vertex("out vec4 a; invariant a; void main() { a = vec4(0.0); gl_Position = a; }");
+    GLOBAL_INITIALIZER = "W0602" "global-initializer" Warning "GLSL ES 1.00 §4.3"
+        "In GLSL ES 1.00, the initializer of a global variable must be a constant expression. WebGL accepts uniforms and other \
+         global variables there with a warning, for the sake of old sources; other implementations reject them."
+        bad Fragment("#version 100\nprecision highp float; uniform float u; float a = 2.0 * u; void main() { gl_FragColor = vec4(a); }"),
+        good Fragment("#version 100\nprecision highp float; uniform float u; float a; void main() { a = 2.0 * u; gl_FragColor = vec4(a); }");
     NEEDS_EXTENSION = "E0617" "needs-extension" Error "GLSL 1.50 §3.3"
         "This version of the language does not have the construct. A later version has it, or an earlier one, or an \
          extension provides it that the source can enable; the message says which. docs/versions.md lists the versions."

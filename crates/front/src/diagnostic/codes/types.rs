@@ -51,8 +51,8 @@ codes! {
         bad Vertex("uniform float a[0]; void main() { gl_Position = vec4(0.0); }"),
         good Vertex("uniform float a[1]; void main() { gl_Position = vec4(a[0]); }");
     INDEX_RANGE = "E0410" "index-out-of-range" Error "GLSL 1.50 §4.1.9, §5.5, §5.6"
-        "A constant index is outside the array, vector or matrix. An index that is not constant is not checked; the \
-         value is then undefined."
+        "A constant index is outside the array, vector or matrix, or a gather names a component that is none of 0, 1, 2 and 3. An \
+         index that is not constant is not checked; the value is then undefined."
         bad Vertex("uniform vec4 a[2]; void main() { gl_Position = a[2]; }"),
         good Vertex("uniform vec4 a[2]; void main() { gl_Position = a[1]; }");
     INDEX = "E0411" "bad-index" Error "GLSL 1.50 §5.7"

@@ -27,7 +27,9 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         for (id, output) in outputs {
             let is_input = |other: &Global| other.storage == Storage::In && other.match_name() == read_as(output);
             let declared = consumer.globals.iter().any(is_input);
-            if !output.written || declared || (output.location.is_some() && located(output)) {
+            // The fixed-function pipeline reads it, to clip (GLSL 1.20 §7.1).
+            let is_clipped = output.is_fixed() && output.name == "gl_ClipVertex";
+            if !output.written || declared || is_clipped || (output.location.is_some() && located(output)) {
                 continue;
             }
             let name = output.block.as_ref().map_or(&output.name, |block| &block.name);

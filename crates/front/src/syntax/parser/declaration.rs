@@ -95,7 +95,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             TokenKind::Semicolon => true,
             TokenKind::LeftBrace => at == 1,
             // A missing name after a type is reported later.
-            _ => self.is_unknown_qualifier(),
+            _ => self.is_unknown_qualifier() || self.is_later_layout(),
         }
     }
 
@@ -208,6 +208,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let ty = self.type_specifier()?;
         if matches!(self.kind(), TokenKind::Semicolon) || self.forgot_semicolon(&ty) {
             return Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators: Vec::new() }));
+        }
+        // The grammar lets a list begin with the type alone: `float, a = 0.0;` (§9, init_declarator_list).
+        if self.kind() == TokenKind::Comma
+            && matches!(ty.base, TypeBase::Keyword(_))
+            && self.ahead(1).kind == TokenKind::Ident
+        {
+            self.bump();
         }
         let name = self.ident("a name")?;
         if self.kind() == TokenKind::LeftParen {

@@ -35,6 +35,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     self.bump();
                     return;
                 }
+                // A jump is a whole statement, also in the middle of a line: `float x = 1.0 return x;`.
+                TokenKind::Return | TokenKind::Break | TokenKind::Continue | TokenKind::Discard
+                    if outside && !overdeep && self.consumed > start.consumed =>
+                {
+                    return;
+                }
                 _ if outside && !overdeep && self.consumed > start.consumed && self.begins_anew() => return,
                 _ => {}
             }

@@ -4,6 +4,7 @@ use super::{Mark, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes}
 use crate::diagnostic::{Advice, Applicability, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Condition, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
+use crate::syntax::of_later_word;
 
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// compound_statement; reports a missing closing brace.
@@ -78,6 +79,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     .here("expected a statement");
                 Err(self.report_found(diagnostic))
             }
+            TokenKind::Ident | TokenKind::Reserved if self.is_later_switch() => Ok(self.later_switch()),
             TokenKind::Ident if self.is_misspelled_else_if() => {
                 let name = self.session.spelling(self.current).to_owned();
                 let message = format!("`{name}` is not a keyword of GLSL");
@@ -100,6 +102,32 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
         matches!(self.ahead(behind).kind, TokenKind::LeftBrace | TokenKind::Ident)
+    }
+
+    /// Whether `switch (..) {` is next in a version without it.
+    fn is_later_switch(&mut self) -> bool {
+        if self.ahead(1).kind != TokenKind::LeftParen || self.session.spelling(self.current) != "switch" {
+            return false;
+        }
+        let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
+        self.ahead(behind).kind == TokenKind::LeftBrace
+    }
+
+    /// Reports a `switch` that the version lacks, and skips it: its labels are no keywords.
+    fn later_switch(&mut self) -> StmtKind {
+        let word = self.bump();
+        let version = self.session.version;
+        let message = format!("`switch` is not in {}", version.name());
+        let finding = Diagnostic::new(&codes::RESERVED_WORD, word.span, message).here("reserved for later versions");
+        self.session.report(of_later_word(finding, "switch", version));
+        let outside = self.braces;
+        while self.kind() != TokenKind::Eof {
+            let token = self.bump();
+            if token.kind == TokenKind::RightBrace && self.braces <= outside {
+                break;
+            }
+        }
+        StmtKind::Error
     }
 
     fn simple_statement(&mut self) -> Parse<StmtKind> {

@@ -1,6 +1,6 @@
 //! Parses qualifiers, types, structs and their members (GLSL 1.50 §4, §9).
 
-use super::{Parse, Parser, TokenKind, TokenSource, codes};
+use super::{Parse, Parser, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Applicability, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -64,15 +64,14 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             if let Some(kind) = qualifier(self.kind()) {
                 self.bump();
                 list.push(Qualifier { kind, span: start });
-            } else if self.kind() == TokenKind::Layout {
+            } else if self.kind() == TokenKind::Layout || self.is_later_layout() {
                 let kind = QualifierKind::Layout(self.layout()?);
                 list.push(Qualifier { kind, span: self.since(start) });
             } else if self.is_foreign_qualifier() {
                 let _: super::Reported = self.foreign();
             } else if self.is_reserved_qualifier() {
                 let token = self.current;
-                let message = format!("the reserved word `{}` is not a qualifier", self.session.spelling(token));
-                self.report(&codes::RESERVED_WORD, token.span, message);
+                self.report_reserved_qualifier(token);
                 self.bump();
             } else if self.is_unknown_qualifier() {
                 self.unknown_qualifier();
@@ -114,6 +113,34 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         let next = self.ahead(1).kind;
         is_qualifier(next) || matches!(next, TokenKind::Type | TokenKind::Void | TokenKind::Struct)
+    }
+
+    fn report_reserved_qualifier(&mut self, token: Token) {
+        let name = self.session.spelling(token).to_owned();
+        let message = format!("the reserved word `{name}` is not a qualifier");
+        let help = match name.as_str() {
+            "attribute" => Some("write `in`; versions before GLSL ES 3.00 have `attribute`"),
+            "varying" => Some(
+                "write `out` in a vertex shader and `in` in a fragment shader; versions before GLSL ES 3.00 have `varying`",
+            ),
+            _ => None,
+        };
+        let help = help.filter(|_| self.session.version.is_es());
+        let finding = Diagnostic::new(&codes::RESERVED_WORD, token.span, message).maybe_help(help.map(str::to_owned));
+        self.session.report(of_later_word(finding, &name, self.session.version));
+    }
+
+    /// `layout(..) in` where `layout` is no keyword yet. The analysis knows which version has what is in the parentheses.
+    pub(super) fn is_later_layout(&mut self) -> bool {
+        let is_word = matches!(self.kind(), TokenKind::Ident | TokenKind::Reserved)
+            && self.ahead(1).kind == TokenKind::LeftParen
+            && self.session.spelling(self.current) == "layout";
+        if !is_word {
+            return false;
+        }
+        let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
+        let next = self.ahead(behind).kind;
+        is_qualifier(next) || matches!(next, TokenKind::Type | TokenKind::Void)
     }
 
     /// layout_qualifier

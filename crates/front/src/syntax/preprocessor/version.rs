@@ -1,10 +1,17 @@
 //! `#version`, and the end of the main file, where the lack of one is known (GLSL 1.50 §3.3).
 
 use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
-use crate::diagnostic::{Diagnostic, codes::general};
-use crate::language::EDITIONS;
+use crate::diagnostic::{Applicability, Diagnostic, Edit, Fix, codes::general};
+use crate::language::{EDITIONS, Feature};
 use crate::source::is_replaced;
 use std::collections::BTreeSet;
+
+/// The change that moves a directive to the begin of a text.
+fn to_first_line(session: &ParseSession<'_>, first: Span, directive: Span) -> Fix {
+    let line = format!("{}\n", session.sources.snippet(directive));
+    let edits = vec![Edit { span: first, text: line }, Edit { span: directive, text: String::new() }];
+    Fix { title: "make it the first line".to_owned(), applicability: Applicability::Safe, edits }
+}
 
 /// The language of a text without a `#version` line (§3.3).
 pub(super) const UNWRITTEN: Version = Version {
@@ -32,7 +39,9 @@ impl Preprocessor<'_> {
             self.end_line_with_extra(session, profile);
             String::new()
         };
-        if !self.check_place(session, span) {
+        let profile_here = if named == "es" { Profile::Es } else { Profile::Core };
+        let stated = Version { number: parsed, profile: profile_here, span };
+        if !self.check_place(session, stated) {
             return;
         }
         self.version_seen = true;
@@ -56,7 +65,9 @@ impl Preprocessor<'_> {
         let replaced = !self.version_seen && is_replaced(session.sources.snippet(found.span));
         self.version_seen = true;
         if !replaced {
-            return self.malformed(session, found, "`#version` needs a number such as 150");
+            self.malformed(session, found, "`#version` needs a number such as 150");
+            self.outcome.supported = false;
+            return self.stop();
         }
         let name = session.sources.snippet(found.span).to_owned();
         session.report(
@@ -77,7 +88,8 @@ impl Preprocessor<'_> {
     }
 
     /// Whether the directive is valid here: it is the first, and no token comes before it.
-    fn check_place(&mut self, session: &mut ParseSession<'_>, span: Span) -> bool {
+    fn check_place(&mut self, session: &mut ParseSession<'_>, stated: Version) -> bool {
+        let span = stated.span;
         let late = |message: &str, first: Span, label: &str| {
             Diagnostic::new(&codes::LATE_VERSION, span, message).label(first, label).help("make it the first line")
         };
@@ -87,6 +99,10 @@ impl Preprocessor<'_> {
         }
         if let Some(first) = self.first_token {
             session.report(late("`#version` does not come first", first, "this comes before it"));
+        } else if let Some(first) = self.text_before(session, stated) {
+            let message = format!("`#version` is not in the first line, as {} wants it", stated.name());
+            let fix = to_first_line(session, first, span);
+            session.report(late(&message, first, "the first line").fix(fix));
         } else if let Some(first) = self.before_version {
             let diagnostic = kind::BEFORE_VERSION
                 .diagnostic(self.strict, first, "a directive before `#version`")
@@ -94,6 +110,20 @@ impl Preprocessor<'_> {
             session.report(diagnostic);
         }
         true
+    }
+
+    /// The begin of a text in which the directive is not in the first line, where the language wants it there: "The directive is only
+    /// permitted in the first line of a shader" (GLSL ES 3.00 §3.4). Blank lines with spaces may be what is left of a file with
+    /// more than one shader, and do not count.
+    fn text_before(&self, session: &ParseSession<'_>, stated: Version) -> Option<Span> {
+        let main = self.frames.first().filter(|_| stated.has(Feature::VersionOnFirstLine))?;
+        let source = session.sources.file(main.file);
+        let base = source.base();
+        let before = source.text().get(..stated.span.start.checked_sub(base)? as usize)?;
+        let before = before.strip_prefix('\u{feff}').unwrap_or(before);
+        let is_first = !before.contains(['\n', '\r']) && before.trim_start().is_empty();
+        let is_left_over = before.trim_start().is_empty() && before.contains([' ', '\t']);
+        (!is_first && !is_left_over).then(|| Span::new(base, base))
     }
 
     fn set_version(

@@ -124,7 +124,10 @@ fn interpolations(shader: &mut Shader, program: &Program) {
         let global = row.from.and_then(|end| shader.globals.get_mut(end.global.index()));
         if let Some(global) = global.filter(|global| global.block.is_none() && row.to.is_some()) {
             global.interpolation = row.interpolation;
-            global.interpolation_written |= row.interpolation != Interpolation::Smooth;
+            let fragment = program.stages.iter().find(|shader| shader.stage == Stage::Fragment);
+            let input = row.to.zip(fragment).and_then(|(end, fragment)| fragment.globals.get(end.global.index()));
+            global.interpolation_written =
+                row.interpolation != Interpolation::Smooth || input.is_some_and(|input| input.interpolation_written);
             global.sampling = row.sampling;
         }
     }
