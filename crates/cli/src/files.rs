@@ -177,6 +177,7 @@ fn binary(bytes: &[u8]) -> Option<Option<&'static str>> {
         (&[0x03, 0x02, 0x23, 0x07], "it looks like SPIR-V; glisten takes the GLSL text"),
         (&[0x07, 0x23, 0x02, 0x03], "it looks like SPIR-V; glisten takes the GLSL text"),
         (&[0x89, b'P', b'N', b'G'], "it looks like a PNG picture"),
+        (&[0x7f, b'E', b'L', b'F'], "it looks like a compiled program"),
         (&[0xff, 0xfe], "it looks like text in UTF-16; save it as UTF-8"),
         (&[0xfe, 0xff], "it looks like text in UTF-16; save it as UTF-8"),
     ];
