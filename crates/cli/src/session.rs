@@ -23,7 +23,7 @@ use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
 use glisten_front::diagnostic::codes::preprocess::INCLUDE_WITHOUT_EXTENSION;
 use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding, Scope};
-use glisten_front::diagnostic::{Applicability, Code, Diagnostic, Level, Levels, Severity};
+use glisten_front::diagnostic::{Applicability, Code, Diagnostic, Level, Severity};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
@@ -126,7 +126,7 @@ impl<'a> Session<'a> {
 
     /// The levels of a file.
     #[cfg(any(feature = "lsp", feature = "play"))]
-    pub(crate) fn levels_of(&mut self, name: &str) -> Levels {
+    pub(crate) fn levels_of(&mut self, name: &str) -> glisten_front::diagnostic::Levels {
         self.configs.levels(name).clone()
     }
 
