@@ -4,9 +4,11 @@ use crate::support::{Shader, compile_text, shaders_under};
 use glisten_front::Compilation;
 use glisten_front::hir::print;
 
+/// The printed text. Shaders of ES 1.00 are printed in a later version, which `specialize` and `upgrade` give them first.
 fn printed(compilation: &Compilation) -> Option<String> {
     let program = compilation.program.as_ref()?;
-    program.stages.first().map(|shader| print(&program.types, shader))
+    let shader = program.stages.first().filter(|shader| shader.version.number > 100)?;
+    Some(print(&program.types, shader))
 }
 
 #[test]
