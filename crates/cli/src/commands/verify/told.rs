@@ -29,10 +29,7 @@ pub(super) fn told(verification: &Verification, runs: &[Run], skipped: &[Skip], 
         }
     }
     if verification.share < 1.0 {
-        let share = 100.0 * verification.share;
-        text.push_str(&format!(
-            "judged by {share:.1} % of the picture, in blocks; --whole judges all of it and takes longer\n"
-        ));
+        text.push_str("--whole judges all of the picture and takes longer\n");
     }
     for skip in skipped {
         text.push_str(&format!("{}: not run: {}\n", skip.via, skip.reason));
