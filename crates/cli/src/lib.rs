@@ -71,7 +71,7 @@ const LEVELS: u32 = (STACK_BYTES / BYTES_A_LEVEL) as u32;
 
 /// Check, translate, draw and measure GLSL: versions 1.10 to 4.60, and those of OpenGL ES
 #[derive(Debug, Parser)]
-#[command(name = "glisten", version, max_term_width = 100)]
+#[command(name = "glisten", version, propagate_version = true, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 nothing wrong found; 1 an input is wrong or a check did not hold;\n\
     2 wrong usage, or a file cannot be read or written; 3 the machine lacks something;\n\
     130 Ctrl-C stopped it.")]

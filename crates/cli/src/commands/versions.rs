@@ -58,6 +58,10 @@ fn sorted() -> Vec<&'static Extension> {
 
 fn find(name: &str) -> Result<&'static Extension, Failure> {
     let name = name.trim();
+    if name.starts_with(|first: char| first.is_ascii_digit()) {
+        let failure = Failure::usage(format!("`{name}` is a version, and this takes the name of an extension"));
+        return Err(failure.help("`glisten versions` names all versions; docs/versions.md tells what each brings"));
+    }
     let full = if name.starts_with("GL_") { name.to_owned() } else { format!("GL_{name}") };
     EXTENSIONS.iter().find(|row| row.name == full).ok_or_else(|| {
         let failure = Failure::usage(format!("glisten does not read the extension `{full}`"));
