@@ -11,8 +11,8 @@ use crate::source::SourceMap;
 /// Attributes of WGSL, which follow a `@`.
 const ATTRIBUTES: [&str; 8] =
     ["vertex", "fragment", "compute", "group", "binding", "builtin", "location", "workgroup_size"];
-/// Semantics of HLSL, which follow a `:`.
-const SEMANTICS: [&str; 8] = ["SV_", "register", "POSITION", "TEXCOORD", "NORMAL", "COLOR", "TANGENT", "packoffset"];
+/// Semantics of HLSL, which follow a `:`. Digits may follow them, `_` stands for the rest of a name, `(` for arguments.
+const SEMANTICS: [&str; 8] = ["SV_", "register(", "POSITION", "TEXCOORD", "NORMAL", "COLOR", "TANGENT", "packoffset("];
 
 /// Keeps one error about the language, if an error from number `first` on shows another one.
 pub fn keep_language(diagnostics: &mut Diagnostics, map: &SourceMap, first: usize) {
@@ -39,7 +39,7 @@ fn language(found: &Diagnostic, map: &SourceMap) -> Option<Diagnostic> {
         return None;
     };
     let after = text.get(1..)?.trim_start_matches([' ', '\t']);
-    let word = words.iter().find(|word| after.starts_with(**word))?;
+    let word = words.iter().find(|word| is_word(after, word))?.trim_end_matches('(');
     let sign = text.get(..1)?;
     let space = if sign == ":" { " " } else { "" };
     Some(
@@ -47,4 +47,11 @@ fn language(found: &Diagnostic, map: &SourceMap) -> Option<Diagnostic> {
             .here(format!("`{sign}{space}{word}` is {name}"))
             .help(translator),
     )
+}
+
+/// Whether a text starts with this word, as it is written in the tables above.
+fn is_word(text: &str, word: &str) -> bool {
+    let Some(rest) = text.strip_prefix(word) else { return false };
+    let rest = rest.trim_start_matches(|digit: char| digit.is_ascii_digit());
+    word.ends_with(['_', '(']) || !rest.starts_with(|next: char| next == '_' || next.is_alphanumeric())
 }
