@@ -120,7 +120,8 @@ fn weights_are_named_and_mistakes_in_them_are_told() {
     std::fs::write(&file, "name = \"mine\"\n[weights]\nfragment = { fixed = 1000000 }\n").expect("written");
     let with = |weights: &str| report_with(&scene, &out, &["-q", "--weights", weights]);
     let name = file.to_str().expect("a name");
-    assert_eq!(code(&with(name)), Some(0));
+    let run = with(name);
+    assert_eq!(code(&run), Some(0), "{}", told(&run));
     let report = json(&out.join("report.json"));
     assert_eq!(report["weights"], "mine");
     let operations = |report: &Value| report["ways"][0]["work"]["operations"].as_u64().expect("a figure");
