@@ -230,6 +230,7 @@ fn variable(name: &str, ty: TypeId, storage: Storage) -> Global {
         sampling: Sampling::Center,
         invariant: false,
         location: None,
+        host_location: None,
         component: None,
         index: None,
         binding: None,

@@ -18,6 +18,8 @@ impl Analyzer<'_> {
         self.check_recursion();
         self.shader.mark_static_use();
         self.check_fragment_outputs();
+        self.check_output_locations();
+        self.check_clipping();
         self.check_early_tests();
         self.check_pragma();
     }
@@ -183,6 +185,42 @@ impl Analyzer<'_> {
         .here("the second kind of output")
         .label(at(first_id), "the first kind of output")
         .help("declare an `out` variable for each color, and write only those");
+        self.report(finding);
+    }
+
+    /// Checks that several outputs of a fragment shader all have a location in GLSL ES (ES 3.00 §4.3.8.2).
+    fn check_output_locations(&mut self) {
+        if self.stage != Stage::Fragment || !self.ast.version.is_es() {
+            return;
+        }
+        let own = |global: &&Global| global.storage == Storage::Out && global.builtin.is_none();
+        let outputs: Vec<&Global> = self.shader.globals.iter().filter(own).collect();
+        let without = outputs.iter().find(|global| global.location.is_none());
+        let (Some(without), 2..) = (without, outputs.len()) else { return };
+        let message = format!("`{}` has no location, and it is one of several outputs", without.name);
+        let mut finding = Diagnostic::new(&qualifiers::MISSING_LOCATION, without.span, message)
+            .here("GLSL ES asks for a location of each")
+            .help(format!("write `layout(location = n)` before `out` of all {} outputs", outputs.len()));
+        if let Some(other) = outputs.iter().find(|other| other.span != without.span) {
+            finding = finding.label(other.span, "another output");
+        }
+        self.report(finding);
+    }
+
+    /// Checks that a shader writes only one of `gl_ClipVertex` and `gl_ClipDistance` (GLSL 1.30 §7.1).
+    fn check_clipping(&mut self) {
+        let find = |is_it: &dyn Fn(&Global) -> bool| {
+            self.shader.globals().find(|(_, global)| global.storage == Storage::Out && global.written && is_it(global))
+        };
+        let vertex = find(&|global| global.is_fixed() && global.name == "gl_ClipVertex");
+        let distance = find(&|global| global.builtin == Some(BuiltinVariable::ClipDistance));
+        let (Some((vertex, _)), Some((distance, _))) = (vertex, distance) else { return };
+        let at = |id| self.uses.first(id).unwrap_or_default();
+        let message = "`gl_ClipVertex` and `gl_ClipDistance` cannot both be written";
+        let finding = Diagnostic::new(&qualifiers::OUTPUTS_EXCLUDE, at(distance), message)
+            .here("the distances from planes of the shader's own")
+            .label(at(vertex), "the position for the planes of the host")
+            .help("write one of them: `gl_ClipDistance[i] = dot(plane, position)` is the newer way");
         self.report(finding);
     }
 }

@@ -95,7 +95,9 @@ enum Effect {
     MaxVertices,
     Invocations,
     EarlyTests,
-    /// The location of a uniform, and what is known of a depth: they change no value.
+    /// The location of a uniform.
+    HostLocation,
+    /// What is known of a depth: it changes no value.
     Nothing,
 }
 
@@ -148,7 +150,7 @@ static ROWS: &[Row] = &[
     valued(since(440, NEVER, LAYOUTS, row("component", Effect::Component, &[Varying, VaryingMember]))),
     valued(since(440, NEVER, LAYOUTS, row("offset", Effect::Offset, &[UniformMember]))),
     valued(since(440, NEVER, LAYOUTS, row("align", Effect::Align, &[UniformBlock, UniformMember]))),
-    valued(since(430, 310, UNIFORM_LOCATION, row("location", Effect::Nothing, &[Uniform, Sampler]))),
+    valued(since(430, 310, UNIFORM_LOCATION, row("location", Effect::HostLocation, &[Uniform, Sampler]))),
     valued(since(330, NEVER, LOCATION, row("index", Effect::Index, &[FragmentOutput]))),
     valued(since(420, 310, PACK, row("binding", Effect::Binding, &[Sampler, UniformBlock]))),
     since(150, NEVER, COORD, row("origin_upper_left", Effect::OriginUpperLeft, &[FragCoord])),
@@ -190,6 +192,8 @@ static LATER: &[(&str, u16)] = &[
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     pub(super) location: Option<(u32, Span)>,
+    /// Of a uniform.
+    pub(super) host_location: Option<(u32, Span)>,
     pub(super) component: Option<(u32, Span)>,
     pub(super) offset: Option<(u32, Span)>,
     pub(super) align: Option<(u32, Span)>,
@@ -337,6 +341,7 @@ impl Layout {
     fn apply(&mut self, effect: Effect, subject: LayoutSubject, value: u32, span: Span) {
         match effect {
             Effect::Location => self.location = Some((value, span)),
+            Effect::HostLocation => self.host_location = Some((value, span)),
             Effect::Component => self.component = Some((value, span)),
             Effect::Offset => self.offset = Some((value, span)),
             Effect::Align => self.align = Some((value, span)),

@@ -2,8 +2,8 @@
 //!
 //! *In:* a source as its engine completes it. *Out:* the version of ES that it is written in, if nothing says its version and it has
 //! precision qualifiers, which GLSL 1.10 does not have: 1.00, or 3.00 if that reads what 1.00 does not. *Holds:* the conditions of the
-//! preprocessor decide: a qualifier between `#ifdef GL_ES` and `#endif` shows nothing, since 1.10 skips it. A source that no
-//! version of ES reads stays one of 1.10.
+//! preprocessor decide: a qualifier between `#ifdef GL_ES` and `#endif` shows nothing, since 1.10 skips it. A source whose words no
+//! version of ES has stays one of 1.10.
 
 use super::{Compiler, Prepared, Source};
 use crate::analysis::analyze;
@@ -11,7 +11,7 @@ use crate::diagnostic::codes::names::BUILTIN_UNAVAILABLE;
 use crate::diagnostic::codes::preprocess::{ASSUMED_VERSION, MISSING_VERSION};
 use crate::diagnostic::codes::qualifiers::NEEDS_EXTENSION;
 use crate::diagnostic::codes::syntax::RESERVED_WORD;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::hir::Types;
 use crate::source::{SourceMap, version_line};
 use crate::syntax::{self, ParseOptions};
@@ -43,6 +43,15 @@ impl Assumed {
     }
 }
 
+/// The errors of a source that was read in some version.
+struct Errors {
+    /// Words and functions that the version lacks.
+    words: usize,
+    /// Rules that the version lacks, such as implicit conversions.
+    rules: usize,
+    all: usize,
+}
+
 impl Compiler {
     /// The version that the source shows, if nothing says it.
     pub(super) fn assumed(&self, source: &Source, prepared: &Prepared) -> Option<Assumed> {
@@ -63,15 +72,20 @@ impl Compiler {
         })?;
         let errors = TRIED.map(|version| {
             self.trial(source, prepared, Some(version), |found, _| {
-                let is_later =
-                    |one: &Diagnostic| [&BUILTIN_UNAVAILABLE, &NEEDS_EXTENSION, &RESERVED_WORD].contains(&one.code);
-                let errors = || found.iter().filter(|one| one.is_error());
-                (errors().any(is_later), errors().count())
+                let count = |codes: &[&Code]| found.iter().filter(|one| codes.contains(&one.code)).count();
+                Errors {
+                    words: count(&[&BUILTIN_UNAVAILABLE, &RESERVED_WORD]),
+                    rules: count(&[&NEEDS_EXTENSION]),
+                    all: found.iter().filter(|one| one.is_error()).count(),
+                }
             })
         });
-        // A version that lacks what the source uses is not its own.
-        let fitting = TRIED.into_iter().zip(errors).filter(|(_, (is_later, _))| !is_later);
-        let (version, _) = fitting.min_by_key(|(_, (_, errors))| *errors)?;
+        let tried = || TRIED.into_iter().zip(&errors);
+        // A version that lacks what the source uses is not its own, unless they all do: then the source has a mistake.
+        let fitting =
+            tried().filter(|(_, errors)| errors.words + errors.rules == 0).min_by_key(|(_, errors)| errors.all);
+        let mistaken = || tried().filter(|(_, errors)| errors.words == 0).min_by_key(|(_, errors)| errors.rules);
+        let (version, _) = fitting.or_else(mistaken)?;
         Some(Assumed { version, place })
     }
 

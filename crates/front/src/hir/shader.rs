@@ -51,6 +51,8 @@ pub struct Global {
     pub invariant: bool,
     /// `layout(location = n)` (ARB_explicit_attrib_location).
     pub location: Option<u32>,
+    /// `layout(location = n)` of a uniform, by which a host of OpenGL names it (GLSL 4.30 §4.4.3). No target has it.
+    pub host_location: Option<u32>,
     /// `layout(component = n)` of a varying (GLSL 4.40 §4.4.1).
     pub component: Option<u32>,
     /// `layout(index = n)` (ARB_explicit_attrib_location).

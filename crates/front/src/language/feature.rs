@@ -140,7 +140,7 @@ features! {
     /// A shader declares a function that is built in.
     BuiltinsHidden "a function with the name of a built-in one" since(110, NEVER), STAYS, NONE, "§6.1";
     /// Structs without a name.
-    NamelessStructs "a struct without a name" since(110, NEVER), STAYS, NONE, "§4.1.8";
+    NamelessStructs "a struct without a name" since(110, 100), STAYS, NONE, "§4.1.8";
     /// Inputs of fragment shaders may be invariant, as the outputs that feed them.
     InvariantInputs "an invariant input" since(120, 100), Since::new(420, 300), NONE, "§4.6.1";
     /// Functions share the name space of variables; in 1.10 they have their own.

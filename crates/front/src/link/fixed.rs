@@ -258,6 +258,7 @@ fn global(name: &str, ty: TypeId, storage: Storage) -> Global {
         sampling: Sampling::Center,
         invariant: false,
         location: None,
+        host_location: None,
         component: None,
         index: None,
         binding: None,

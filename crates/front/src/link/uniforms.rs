@@ -39,6 +39,7 @@ impl Shared<'_> {
 pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut Interface) {
     super::precisions::check(ctx, stages);
     let mut all = unite(ctx, stages);
+    check_host_locations(ctx, &all);
     all.sort_by_key(|shared| !shared.active);
     let types = ctx.types;
     let (blocks, loose): (Vec<_>, Vec<_>) = all.iter().partition(|shared| shared.is_block());
@@ -50,7 +51,8 @@ pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut In
 /// Checks that the declarations of a uniform or block agree in all shaders.
 pub(super) fn check(ctx: &mut Linker<'_>, shaders: &[Shader]) {
     super::precisions::check(ctx, shaders);
-    unite(ctx, shaders);
+    let all = unite(ctx, shaders);
+    check_host_locations(ctx, &all);
 }
 
 fn only_samplers(types: &Types, ty: TypeId) -> bool {
@@ -114,6 +116,42 @@ fn unite<'a>(ctx: &mut Linker<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
         }
     }
     all
+}
+
+/// Reports uniforms of one location, even if they are unused (GLSL 4.30 §4.4.3). A uniform takes a location for each of its scalars,
+/// vectors, matrices and samplers.
+fn check_host_locations(ctx: &mut Linker<'_>, all: &[Shared<'_>]) {
+    let mut placed: Vec<(u64, u64, &Global)> = all
+        .iter()
+        .filter_map(|shared| {
+            let first = u64::from(shared.global.host_location?);
+            Some((first, first.saturating_add(leaf_count(ctx.types, shared.global.ty)), shared.global))
+        })
+        .collect();
+    placed.sort_by_key(|(first, end, _)| (*first, *end));
+    for pair in placed.windows(2) {
+        let [(_, end, before), (first, _, after)] = pair else { continue };
+        if first < end {
+            let (one, other) = if before.span < after.span { (before, after) } else { (after, before) };
+            let message = format!("the uniforms `{}` and `{}` both have location {first}", one.name, other.name);
+            let diagnostic = Diagnostic::new(&codes::link::UNIFORM_OVERLAP, other.span, message)
+                .label(one.span, "the other one")
+                .help("give one of them another location; an array or a struct takes one for each element and member");
+            ctx.report(diagnostic);
+        }
+    }
+}
+
+/// The number of scalars, vectors, matrices and samplers in a type.
+fn leaf_count(types: &Types, ty: TypeId) -> u64 {
+    match types.get(ty) {
+        Type::Array(element, ArraySize::Sized(size)) => u64::from(size).saturating_mul(leaf_count(types, element)),
+        Type::Struct(id) => {
+            let counts = types.structure(id).members.iter().map(|member| leaf_count(types, member.ty));
+            counts.fold(0, u64::saturating_add)
+        }
+        _ => 1,
+    }
 }
 
 fn is_shared(global: &Global) -> bool {

@@ -59,6 +59,9 @@ pub(super) static RESERVED_NAME: Kindness = Kindness {
     code: &preprocess::RESERVED_NAME,
     reason: "no driver uses such names, and include guards often have them",
 };
+/// `##` in GLSL 1.10 and 1.20.
+pub(super) static EARLY_PASTE: Kindness =
+    Kindness { code: &preprocess::EARLY_PASTE, reason: "the drivers of OpenGL join tokens in every version" };
 /// `;` at global scope.
 pub(super) static STRAY_SEMICOLON: Kindness =
     Kindness { code: &syntax::STRAY_SEMICOLON, reason: "every driver skips it, and macros leave it behind" };

@@ -248,6 +248,7 @@ fn variable(global: &Global, name: String, storage: Storage) -> Global {
         sampling: Sampling::Center,
         invariant: false,
         location: None,
+        host_location: None,
         component: None,
         index: None,
         initializer: None,

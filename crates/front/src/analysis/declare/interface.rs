@@ -185,6 +185,9 @@ impl Analyzer<'_> {
         if self.types.summary(ty).holds(&[Scalar::Bool]) {
             return Some("booleans cannot pass between stages; use an integer");
         }
+        if let Some(why) = self.cannot_cross_in_es(ty, border) {
+            return Some(why);
+        }
         match self.types.get(inner) {
             Type::Struct(_) if !border.structs => Some("a struct is not allowed here; declare its members one by one"),
             Type::Matrix(..) if !border.matrices => Some("a matrix is not allowed here; declare its columns"),
@@ -193,6 +196,30 @@ impl Analyzer<'_> {
                 && matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized)) =>
             {
                 None
+            }
+            _ => None,
+        }
+    }
+
+    /// Nested types that GLSL ES does not pass from the vertex stage to the fragment stage (ES 3.00 §4.3.4, §4.3.6).
+    fn cannot_cross_in_es(&self, ty: TypeId, border: &Border) -> Option<&'static str> {
+        let is_between =
+            matches!((self.stage, border.storage), (Stage::Vertex, Storage::Out) | (Stage::Fragment, Storage::In));
+        if !self.ast.version.is_es() || !is_between {
+            return None;
+        }
+        match self.types.get(ty) {
+            Type::Array(element, _) => match self.types.get(element) {
+                Type::Array(..) => Some("GLSL ES passes no array of arrays; declare one array"),
+                Type::Struct(_) => Some("GLSL ES passes no array of structs; declare an array for each member"),
+                _ => None,
+            },
+            Type::Struct(id) => {
+                self.types.structure(id).members.iter().find_map(|member| match self.types.get(member.ty) {
+                    Type::Array(..) => Some("GLSL ES passes no struct with an array; declare the array by itself"),
+                    Type::Struct(_) => Some("GLSL ES passes no struct in a struct; declare the inner one by itself"),
+                    _ => None,
+                })
             }
             _ => None,
         }

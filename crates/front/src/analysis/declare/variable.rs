@@ -184,6 +184,7 @@ impl Analyzer<'_> {
             sampling: record.sampling(),
             invariant: record.invariant.is_some() || invariant_all,
             location: layout.location.map(|(value, _)| value),
+            host_location: layout.host_location.map(|(value, _)| value),
             component: layout.component.map(|(value, _)| value),
             index: layout.index.map(|(value, _)| value),
             binding: layout.binding.map(|(value, _)| value),

@@ -145,15 +145,19 @@ impl Analyzer<'_> {
             .collect();
         let finding = if elsewhere.is_empty() {
             let message = format!("the function `{spelling}` is not in {}", version.name());
-            let remedy = rows.iter().find_map(|row| {
-                let Availability { since, gone, extensions, compatibility_only, .. } = row.availability;
-                if compatibility_only && version.reaches(since) {
-                    return Some("only the compatibility profile has it".to_owned());
-                }
-                let remedy = version.remedy(since, gone, extensions)?;
-                let is_renamed = version.reaches(since) && row.function.name() != spelling;
-                Some(if is_renamed { format!("write `{}`; {remedy}", row.function.name()) } else { remedy })
-            });
+            let remedies = || {
+                rows.iter().filter_map(|row| {
+                    let Availability { since, gone, extensions, compatibility_only, .. } = row.availability;
+                    if compatibility_only && version.reaches(since) {
+                        return Some("only the compatibility profile has it".to_owned());
+                    }
+                    let remedy = version.remedy(since, gone, extensions)?;
+                    let is_renamed = version.reaches(since) && row.function.name() != spelling;
+                    Some(if is_renamed { format!("write `{}`; {remedy}", row.function.name()) } else { remedy })
+                })
+            };
+            // One of the overloads may be for the other language alone.
+            let remedy = remedies().find(|remedy| !remedy.starts_with("only")).or_else(|| remedies().next());
             let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message).here("not available here");
             of_version(finding.maybe_help(remedy), version)
         } else {

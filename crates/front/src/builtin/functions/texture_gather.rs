@@ -15,6 +15,7 @@ const fn from(section: &'static str, desktop: u16, es: u16, extensions: Extensio
 
 const GATHER: Row = from("GLSL 4.00 §8.9.3", 400, 310, GATHERS);
 const GATHER5: Row = from("GLSL 4.00 §8.9.3", 400, 310, SHADER5);
+const OFFSETS: Row = from("GLSL 4.00 §8.9.3", 400, 320, SHADER5);
 const RECT: Row = from("GLSL 4.00 §8.9.3", 400, NEVER, SHADER5);
 const LOD: Row = {
     let row = from("GLSL 4.00 §8.9.1", 400, NEVER, Extensions::TEXTURE_QUERY_LOD);
@@ -50,14 +51,14 @@ pub(super) static ROWS: &[Row] = rows! {
     GATHER5 TextureGatherOffset: vec4 textureGatherOffset(sampler2DArrayShadow sampler, vec3 P, float refZ, ivec2 offset);
     RECT TextureGatherOffset: vec4 textureGatherOffset(sampler2DRectShadow sampler, vec2 P, float refZ, ivec2 offset);
 
-    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2D sampler, vec2 P, four_ivec2 offsets);
-    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2D sampler, vec2 P, four_ivec2 offsets, int comp);
-    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DArray sampler, vec3 P, four_ivec2 offsets);
-    GATHER5 TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DArray sampler, vec3 P, four_ivec2 offsets, int comp);
+    OFFSETS TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2D sampler, vec2 P, four_ivec2 offsets);
+    OFFSETS TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2D sampler, vec2 P, four_ivec2 offsets, int comp);
+    OFFSETS TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DArray sampler, vec3 P, four_ivec2 offsets);
+    OFFSETS TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DArray sampler, vec3 P, four_ivec2 offsets, int comp);
     RECT TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DRect sampler, vec2 P, four_ivec2 offsets);
     RECT TextureGatherOffsets: gvec4 textureGatherOffsets(gsampler2DRect sampler, vec2 P, four_ivec2 offsets, int comp);
-    GATHER5 TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DShadow sampler, vec2 P, float refZ, four_ivec2 offsets);
-    GATHER5 TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DArrayShadow sampler, vec3 P, float refZ, four_ivec2 offsets);
+    OFFSETS TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DShadow sampler, vec2 P, float refZ, four_ivec2 offsets);
+    OFFSETS TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DArrayShadow sampler, vec3 P, float refZ, four_ivec2 offsets);
     RECT TextureGatherOffsets: vec4 textureGatherOffsets(sampler2DRectShadow sampler, vec2 P, float refZ, four_ivec2 offsets);
 
     LOD TextureQueryLod: vec2 textureQueryLod(gsampler1D sampler, float P);

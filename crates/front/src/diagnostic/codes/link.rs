@@ -309,6 +309,13 @@ codes! {
             "#version 300 es\nprecision mediump float; uniform vec4 u; out vec4 c; void main() { c = u; }"),
         good Program("#version 300 es\nuniform mediump vec4 u; void main() { gl_Position = u; }",
             "#version 300 es\nprecision mediump float; uniform vec4 u; out vec4 c; void main() { c = u; }");
+    UNIFORM_OVERLAP = "E0733" "uniform-location-overlap" Error "GLSL 4.30 §4.4.3"
+        "No two uniforms outside of blocks have the same location, even if nothing uses them. An array or a struct takes a location \
+         for each of its scalars, vectors and matrices."
+        bad Fragment("#version 430\nlayout(location = 0) uniform vec4 a[2]; layout(location = 1) uniform vec4 b;\n\
+            out vec4 c; void main() { c = a[0] + b; }"),
+        good Fragment("#version 430\nlayout(location = 0) uniform vec4 a[2]; layout(location = 2) uniform vec4 b;\n\
+            out vec4 c; void main() { c = a[0] + b; }");
     VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
         "The varyings have more components than the smallest value that gl_MaxVaryingComponents may have, 60. Many \
          implementations support more; some do not."

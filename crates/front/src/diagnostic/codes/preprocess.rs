@@ -150,6 +150,11 @@ codes! {
          it uses what 1.00 does not have. A `#version` line says it to everybody."
         bad None,
         good Fragment("#version 100\nprecision mediump float;\nvoid main() { gl_FragColor = vec4(1.0); }");
+    EARLY_PASTE = "W0117" "paste-before-1-30" Warning "GLSL 1.20 §3.3"
+        "`##`, which joins two tokens, came with GLSL 1.30; 1.10 and 1.20 have no operator with a number sign. Some compilers \
+         refuse it there. GLSL ES has it in no version, and there it is the error E0617."
+        bad Fragment("#version 120\n#define J(a, b) a ## b\nvoid main() { gl_FragColor = vec4(J(1., 5)); }"),
+        good Fragment("#version 130\n#define J(a, b) a ## b\nvoid main() { gl_FragColor = vec4(J(1., 5)); }");
     UNKNOWN_STDGL_PRAGMA = "W0109" "unknown-stdgl-pragma" Warning "GLSL 1.50 §3.3"
         "Pragmas whose first word is STDGL are reserved for the language, which has only `invariant(all)`. Of the \
          others, `optimize` and `debug` take `(on)` or `(off)`. Unknown pragmas are ignored."

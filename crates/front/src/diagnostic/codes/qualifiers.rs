@@ -103,4 +103,10 @@ codes! {
          no precision and needs none."
         bad Fragment("#version 300 es\nout vec4 c; void main() { c = vec4(1.0); }"),
         good Fragment("#version 300 es\nprecision highp float; out vec4 c; void main() { c = vec4(1.0); }");
+    MISSING_LOCATION = "E0619" "missing-output-location" Error "GLSL ES 3.00 §4.3.8.2"
+        "In GLSL ES, a fragment shader with more than one output says the location of each. OpenGL's language leaves the choice to \
+         the host and the linker."
+        bad Fragment("#version 300 es\nprecision highp float; out vec4 a; out vec4 b; void main() { a = b = vec4(1.0); }"),
+        good Fragment("#version 300 es\nprecision highp float; layout(location = 0) out vec4 a; layout(location = 1) out vec4 b; \
+            void main() { a = b = vec4(1.0); }");
 }

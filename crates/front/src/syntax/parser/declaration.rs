@@ -221,7 +221,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             return Ok(DeclarationKind::Prototype(self.function_header(start, qualifiers, ty, name)?));
         }
         let mut declarators = Vec::new();
-        let done = self.declarators(name, &mut declarators);
+        let done = self.declarators(name, &ty, &mut declarators);
         let variables = VariableDecl { qualifiers, ty, declarators };
         if let Err(reported) = done {
             self.unfinished = Some(variables);
@@ -284,7 +284,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// init_declarator_list, from its first name on
-    fn declarators(&mut self, first: Ident, list: &mut Vec<Declarator>) -> Parse<()> {
+    fn declarators(&mut self, first: Ident, ty: &TypeSpec, list: &mut Vec<Declarator>) -> Parse<()> {
         self.declarator(first, list)?;
         while self.eat(TokenKind::Comma).is_some() {
             if matches!(self.kind(), TokenKind::Int | TokenKind::Uint | TokenKind::Float) {
@@ -294,6 +294,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     .here("expected the name of a variable")
                     .help("several values belong into a constructor, such as `vec2(1.0, 2.0)`");
                 return Err(self.report_found(diagnostic));
+            }
+            if self.ends_at_comma(ty) {
+                break;
             }
             let name = self.ident("the name of a variable")?;
             self.declarator(name, list)?;

@@ -15,6 +15,7 @@ mod declaration;
 mod expr;
 mod foreign;
 mod fragment;
+mod keyword_names;
 mod layout;
 mod recover;
 mod statement;
@@ -74,8 +75,12 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     depths: Vec<u16>,
     /// Operators that wait for their right operand.
     operators: Vec<(BinaryOp, Span, ExprId)>,
-    /// Keywords and reserved words that were used as names. That was reported; from then on they are names.
+    /// Reserved words that were used as names. That was reported; from then on they are names.
     renamed: FxHashSet<u32>,
+    /// Keywords that were declared as names ([`keyword_names`]).
+    keyword_names: FxHashSet<u32>,
+    /// Whether the declaration that was just read ends at a comma, as if that were its `;`.
+    assumed_semicolon: bool,
     /// Whether an unexpected end of file has been reported.
     end_reported: bool,
     /// Whether a function begins inside a function: the outer body ends as if its brace were there.
@@ -122,6 +127,8 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             depths: Vec::new(),
             operators: Vec::new(),
             renamed: FxHashSet::default(),
+            keyword_names: FxHashSet::default(),
+            assumed_semicolon: false,
             end_reported: false,
             leaving_function: false,
             sought_brace: false,
@@ -193,6 +200,9 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             Some(token) => token,
             None => self.fetch(),
         };
+        if !self.keyword_names.is_empty() {
+            self.name_keyword();
+        }
         token
     }
 
@@ -225,7 +235,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
 
     /// Reads the `;` after `what`. A missing one at the end of a line is reported and assumed.
     fn semicolon(&mut self, what: &str) -> Parse<()> {
-        if self.eat(TokenKind::Semicolon).is_some() {
+        if std::mem::take(&mut self.assumed_semicolon) || self.eat(TokenKind::Semicolon).is_some() {
             return Ok(());
         }
         let forgotten = self.current.starts_line() || matches!(self.kind(), TokenKind::RightBrace | TokenKind::Eof);
@@ -250,13 +260,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         match token.kind {
             TokenKind::Ident | TokenKind::Invalid => {}
             TokenKind::Reserved => self.report_reserved(token, what),
-            kind if is_word(kind) && !(token.starts_line() && self.consumed > 0) => {
-                let name = self.session.spelling(token).to_owned();
-                let message = format!("the keyword `{name}` cannot be {what}");
-                let diagnostic = Diagnostic::new(&codes::KEYWORD_AS_NAME, token.span, message).here("a keyword");
-                self.session.report(diagnostic);
-                self.take_as_name(token);
-            }
+            kind if is_word(kind) && !(token.starts_line() && self.consumed > 0) => self.keyword_as_name(token, what),
             _ => return Err(self.unexpected(what)),
         }
         self.bump();

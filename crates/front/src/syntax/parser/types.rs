@@ -292,7 +292,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let mut declarators = Vec::new();
         loop {
             declarators.push(self.member_declarator()?);
-            if self.eat(TokenKind::Comma).is_none() {
+            if self.eat(TokenKind::Comma).is_none() || self.ends_at_comma(&ty) {
                 break;
             }
         }

@@ -5,7 +5,9 @@ use super::{
     Feature, ParseSession, Preprocessor, Profile, Span, Symbol, Token, TokenFlags, TokenKind, codes, kind, predefined,
     version,
 };
+use crate::diagnostic::codes::qualifiers::NEEDS_EXTENSION;
 use crate::diagnostic::{Applicability, Diagnostic, Fix};
+use crate::language::Since;
 use crate::source::SourceMap;
 use crate::syntax::directives::MacroDefinition;
 use std::sync::Arc;
@@ -244,7 +246,11 @@ impl Preprocessor<'_> {
                     session.report(Diagnostic::new(&codes::INVALID_PASTE, token.span, message));
                     return None;
                 }
-                TokenKind::HashHash => pastes = true,
+                TokenKind::HashHash => {
+                    if !std::mem::replace(&mut pastes, true) {
+                        self.check_paste(session, token.span);
+                    }
+                }
                 TokenKind::Hash => {
                     let diagnostic = Diagnostic::new(
                         &codes::MISPLACED_HASH,
@@ -259,6 +265,19 @@ impl Preprocessor<'_> {
             }
         }
         Some(pastes)
+    }
+
+    /// Checks that the version has `##`: GLSL since 1.30 (§3.3), GLSL ES never (ES 3.20 §3.4).
+    fn check_paste(&self, session: &mut ParseSession<'_>, span: Span) {
+        let version = self.version;
+        if version.is_es() {
+            let message = format!("`##` is not in {}", version.name());
+            let diagnostic =
+                Diagnostic::new(&NEEDS_EXTENSION, span, message).here("not in this version of the language");
+            session.report(diagnostic.help("write the joined tokens; GLSL ES has no operator that joins them"));
+        } else if !version.reaches(Since::of(130)) {
+            kind::EARLY_PASTE.report(session, self.strict, span, format!("`##` is not in {}", version.name()));
+        }
     }
 
     fn check_redefinition(&mut self, session: &mut ParseSession<'_>, name: Token, new: &Macro) {

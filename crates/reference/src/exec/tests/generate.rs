@@ -145,6 +145,7 @@ impl Generator<'_, '_> {
             sampling: Sampling::Center,
             invariant: false,
             location: None,
+            host_location: None,
             component: None,
             index: None,
             binding: None,

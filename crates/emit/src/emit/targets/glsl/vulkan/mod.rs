@@ -143,6 +143,7 @@ fn plain(name: String, ty: TypeId, storage: Storage) -> Global {
         sampling: Default::default(),
         invariant: false,
         location: None,
+        host_location: None,
         component: None,
         index: None,
         binding: None,
