@@ -5,8 +5,10 @@
 
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::preprocess::{LATE_VERSION, MISSING_VERSION, UNSUPPORTED_EXTENSION};
-use crate::diagnostic::codes::qualifiers::UNKNOWN_LAYOUT;
+use crate::diagnostic::codes::qualifiers::{MISSING_PRECISION, UNKNOWN_LAYOUT};
+use crate::diagnostic::codes::types::UNSIZED_ARRAY;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::syntax::NOT_FIRST;
 
 /// How many bytes the qualifiers before a keyword take at most.
 const QUALIFIERS: u32 = 64;
@@ -15,12 +17,16 @@ const QUALIFIERS: u32 = 64;
 /// other errors but those of tokens before the place that shows it, after an unsupported feature or
 /// extension those of the syntax and the meaning of the text.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
-    if diagnostics.iter().skip(first).any(|found| *found.code == LATE_VERSION) {
+    let is_late = |found: &&Diagnostic| *found.code == LATE_VERSION;
+    if let Some(line) = diagnostics.iter().skip(first).find(is_late) {
         // There is a `#version` line, and what comes before it was read without.
+        let before = if line.message == NOT_FIRST { line.primary.span.start } else { 0 };
         let mut index = 0;
-        diagnostics.retain_mut(|diagnostic| {
+        diagnostics.retain_mut(|found| {
             index += 1;
-            index <= first || *diagnostic.code != MISSING_VERSION
+            let is_syntax = found.code.id.starts_with("E02") && found.primary.span.start < before;
+            let is_precision = *found.code == MISSING_PRECISION && before > 0;
+            index <= first || !(is_syntax || is_precision || *found.code == MISSING_VERSION)
         });
     }
     let place = |code: &Code| {
@@ -29,6 +35,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
     };
     let version = place(&MISSING_VERSION);
     let feature = [&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].into_iter().filter_map(place).min();
+    let is_extension = place(&UNSUPPORTED_EXTENSION).is_some();
     let start_of = |index: Option<usize>| {
         index.and_then(|index| diagnostics.iter().nth(index)).map_or(0, |diagnostic| diagnostic.primary.span.start)
     };
@@ -48,7 +55,11 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
             return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
         }
         if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
-            let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E04" | "E05" | "E06"));
+            // What is of a feature has no type here, so that an error of types does not follow from it. Arrays without a size are
+            // of storage blocks, and of extensions.
+            let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E06"))
+                || *diagnostic.code == UNSIZED_ARRAY
+                || is_extension && matches!(diagnostic.code.id.get(..3), Some("E04" | "E05"));
             // A layout that is not known may be of the feature's declaration, and what is just before it is its qualifiers.
             let own = diagnostic.primary.span;
             let is_qualifier = diagnostic.code.id.starts_with("E06") && start.saturating_sub(own.start) < QUALIFIERS;

@@ -196,16 +196,21 @@ impl Analyzer<'_> {
                     Diagnostic::new(&qualifiers::ORDER, qualifier.span, format!("{what} comes too late"))
                         .here("must come earlier")
                         .label(other.span, "before this")
-                        .help(
-                            "the order is: layout, invariant, interpolation, centroid or sample, storage, precision \
-                             (or `#extension GL_ARB_shading_language_420pack : enable`)",
-                        ),
+                        .help(self.order()),
                 );
             }
         }
         if rank >= last.map_or(0, |(earlier, _)| earlier) {
             *last = Some((rank, qualifier));
         }
+    }
+
+    /// The order of qualifiers in words (§4.7), and how OpenGL's language allows any.
+    fn order(&self) -> String {
+        let order = "the order is: layout, invariant, interpolation, centroid or sample, storage, precision";
+        let any =
+            if self.ast.version.is_es() { "" } else { " (or `#extension GL_ARB_shading_language_420pack : enable`)" };
+        format!("{order}{any}")
     }
 
     fn record(&mut self, record: &mut Qualifiers, qualifier: &Qualifier) {

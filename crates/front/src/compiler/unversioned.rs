@@ -11,8 +11,9 @@ use crate::diagnostic::codes::names::BUILTIN_UNAVAILABLE;
 use crate::diagnostic::codes::preprocess::{ASSUMED_VERSION, MISSING_VERSION};
 use crate::diagnostic::codes::qualifiers::NEEDS_EXTENSION;
 use crate::diagnostic::codes::syntax::RESERVED_WORD;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::hir::Types;
+use crate::language::Feature;
 use crate::source::{SourceMap, version_line};
 use crate::syntax::{self, ParseOptions};
 use std::sync::Arc;
@@ -43,11 +44,19 @@ impl Assumed {
     }
 }
 
+/// What people write in ES by mistake, since OpenGL's language has it.
+const MISTAKES: [Feature; 4] =
+    [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::IntegerOperators, Feature::ArrayObjects];
+
+fn is_mistake(found: &Diagnostic) -> bool {
+    MISTAKES.iter().any(|feature| found.message.starts_with(feature.row().name))
+}
+
 /// The errors of a source that was read in some version.
 struct Errors {
-    /// Words and functions that the version lacks.
+    /// Words, functions and constructs that the version lacks.
     words: usize,
-    /// Rules that the version lacks, such as implicit conversions.
+    /// [Mistakes](MISTAKES).
     rules: usize,
     all: usize,
 }
@@ -72,10 +81,12 @@ impl Compiler {
         })?;
         let errors = TRIED.map(|version| {
             self.trial(source, prepared, Some(version), |found, _| {
-                let count = |codes: &[&Code]| found.iter().filter(|one| codes.contains(&one.code)).count();
+                let count = |is_it: &dyn Fn(&Diagnostic) -> bool| found.iter().filter(|one| is_it(one)).count();
+                let is_word = |one: &Diagnostic| [&BUILTIN_UNAVAILABLE, &RESERVED_WORD].contains(&one.code);
+                let is_rule = |one: &Diagnostic| *one.code == NEEDS_EXTENSION;
                 Errors {
-                    words: count(&[&BUILTIN_UNAVAILABLE, &RESERVED_WORD]),
-                    rules: count(&[&NEEDS_EXTENSION]),
+                    words: count(&|one| is_word(one) || is_rule(one) && !is_mistake(one)),
+                    rules: count(&|one| is_rule(one) && is_mistake(one)),
                     all: found.iter().filter(|one| one.is_error()).count(),
                 }
             })

@@ -32,6 +32,7 @@ use directives::Directives;
 pub use lexemes::Lexemes;
 use names::Names;
 use parser::Parser;
+pub(crate) use preprocessor::NOT_FIRST;
 use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
 pub use preprocessor::is_no_text;

@@ -15,8 +15,18 @@ impl Analyzer<'_> {
         let ast::ExprKind::List(elements) = &expr.kind else { return self.expr(id) };
         if !self.allows(Feature::InitializerLists, expr.span) {
             let brace = Span { end: expr.span.start + 1, ..expr.span };
-            let message = "initializer lists need GL_ARB_shading_language_420pack";
-            let help = "write a constructor, or `#extension GL_ARB_shading_language_420pack : require`";
+            let version = self.ast.version;
+            let lacks_constructor =
+                matches!(self.types.get(ty), Type::Array(..)) && !version.has(Feature::ArrayObjects);
+            let message = match version.is_es() {
+                true => format!("initializer lists are not in {}", version.name()),
+                false => "initializer lists need GL_ARB_shading_language_420pack".to_owned(),
+            };
+            let help = match (lacks_constructor, version.is_es()) {
+                (true, _) => "assign the elements one by one: this version has no constructors of arrays",
+                (false, true) => "write a constructor",
+                _ => "write a constructor, or `#extension GL_ARB_shading_language_420pack : require`",
+            };
             let finding = Diagnostic::new(&syntax::LIST_WITHOUT_EXTENSION, brace, message);
             self.report(finding.here("a list begins here").help(help));
             return self.poison(expr.span);

@@ -26,6 +26,8 @@ mod tests;
 mod unroll;
 mod version;
 
+pub(crate) use version::NOT_FIRST;
+
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
 use super::directives::{Directives, MacroMention};
 use super::keywords;

@@ -1,8 +1,8 @@
 //! `#version`, and the end of the main file, where the lack of one is known (GLSL 1.50 §3.3).
 
 use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
-use crate::diagnostic::{Applicability, Diagnostic, Edit, Fix, codes::general};
-use crate::language::{EDITIONS, Feature};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix, codes::general};
+use crate::language::{EDITIONS, Edition, Feature};
 use crate::source::is_replaced;
 use std::collections::BTreeSet;
 
@@ -20,18 +20,28 @@ pub(super) const UNWRITTEN: Version = Version {
     span: Span { start: 0, end: 0, expansion: crate::source::ExpansionId::NONE },
 };
 
-const HELP: &str = "write `#version 150`";
+/// The message about a `#version` after other text.
+pub(crate) const NOT_FIRST: &str = "`#version` does not come first";
+/// The words for profiles.
+const PROFILES: [&str; 3] = ["core", "compatibility", "es"];
 
 impl Preprocessor<'_> {
     /// `#version number profile`, without macro expansion.
     pub(super) fn version(&mut self, session: &mut ParseSession<'_>, directive: Span) {
         let number = self.line_token(session);
-        let parsed: Option<u16> =
-            if number.kind == TokenKind::Number { session.spelling(number).parse().ok() } else { None };
-        let Some(parsed) = parsed else { return self.version_by_name(session, number) };
+        let spelling =
+            if number.kind == TokenKind::Number { session.spelling(number).to_owned() } else { String::new() };
+        let (digits, attached) = parts(&spelling);
+        let Ok(parsed) = digits.parse::<u16>() else { return self.version_by_name(session, number) };
         let mut span = session.sources.join(directive, number.span);
         let profile = self.line_token(session);
-        let named = if profile.kind == TokenKind::Word {
+        let named = if !attached.is_empty() {
+            let message = format!("`{attached}` is a word of its own");
+            let finding = Diagnostic::new(&codes::MALFORMED_DIRECTIVE, number.span, message);
+            session.report(finding.help(Advice::write(Applicability::Safe, format!("{digits} {attached}"))));
+            self.end_line_with_extra(session, profile);
+            attached.to_owned()
+        } else if profile.kind == TokenKind::Word {
             span = session.sources.join(span, profile.span);
             self.expect_line_end(session, "#version");
             session.spelling(profile).to_owned()
@@ -98,7 +108,7 @@ impl Preprocessor<'_> {
             return false;
         }
         if let Some(first) = self.first_token {
-            session.report(late("`#version` does not come first", first, "this comes before it"));
+            session.report(late(NOT_FIRST, first, "this comes before it"));
         } else if let Some(first) = self.text_before(session, stated) {
             let message = format!("`#version` is not in the first line, as {} wants it", stated.name());
             let fix = to_first_line(session, first, span);
@@ -145,7 +155,7 @@ impl Preprocessor<'_> {
                 format!("there is no GLSL version {}", version.number),
             )
             .note(format!("the versions are {}", numbers.join(", ")))
-            .help(HELP);
+            .help(meant_by(version.number, named));
             session.report(diagnostic);
             self.outcome.supported = false;
             return self.stop();
@@ -166,13 +176,12 @@ impl Preprocessor<'_> {
             "es" if edition.es && version.number >= 300 => Some(Profile::Es),
             _ => None,
         };
-        let Some(wanted) = wanted else {
-            let message = format!("GLSL {} has no profile `{named}`", version.number);
-            let help = if edition.has_profiles() { "the profiles are `core` and `compatibility`" } else { HELP };
-            session.report(Diagnostic::new(&codes::UNKNOWN_VERSION, profile, message).help(help));
-            return;
-        };
-        version.profile = wanted;
+        // What follows is read as what was meant.
+        version.profile = wanted.unwrap_or(if edition.es { Profile::Es } else { Profile::Core });
+        if wanted.is_none() {
+            let message = format!("{} has no profile `{named}`", version.name());
+            session.report(Diagnostic::new(&codes::UNKNOWN_VERSION, profile, message).help(right_profile(edition)));
+        }
         self.version = version;
         session.version = version;
         self.apply_version(session);
@@ -214,5 +223,40 @@ impl Preprocessor<'_> {
             .help("a shader begins with `#version 150` and defines `void main()`");
         session.report(diagnostic);
         self.stop();
+    }
+}
+
+/// The digits of a version, and the word for a profile that follows them without a space.
+fn parts(spelling: &str) -> (&str, &str) {
+    let end = spelling.find(|sign: char| !sign.is_ascii_digit()).unwrap_or(spelling.len());
+    let (digits, rest) = spelling.split_at(end);
+    if rest.is_empty() || PROFILES.contains(&rest) { (digits, rest) } else { ("", "") }
+}
+
+/// The line for a number that is no version. The numbers of OpenGL and of OpenGL ES are others than those of their languages.
+fn meant_by(number: u16, profile: &str) -> String {
+    let line = match (number, profile) {
+        (200, "es") => return "OpenGL ES 2.0 has the language 1.00: write `#version 100`".to_owned(),
+        (_, "es") => "300 es",
+        (200, _) => return "OpenGL 2.0 has the language 1.10: write `#version 110`".to_owned(),
+        (210, _) => return "OpenGL 2.1 has the language 1.20: write `#version 120`".to_owned(),
+        _ => return format!("write `#version {}`", nearest(number)),
+    };
+    format!("write `#version {line}`")
+}
+
+/// The version of OpenGL's language whose number is the nearest.
+fn nearest(number: u16) -> u16 {
+    let numbers = EDITIONS.iter().filter(|edition| !edition.es).map(|edition| edition.number);
+    numbers.min_by_key(|known| known.abs_diff(number)).unwrap_or(150)
+}
+
+/// How the line of a version ends.
+fn right_profile(edition: &Edition) -> String {
+    let number = edition.number;
+    match (edition.es, edition.has_profiles()) {
+        (true, _) if number >= 300 => format!("write `#version {number} es`"),
+        (_, true) => "the profiles are `core` and `compatibility`".to_owned(),
+        _ => format!("write `#version {number}` alone: profiles came with GLSL 1.50 and GLSL ES 3.00"),
     }
 }
