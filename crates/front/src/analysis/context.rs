@@ -108,6 +108,7 @@ impl<'a> Analyzer<'a> {
     /// Analyzes all declarations, then runs the checks that need the whole shader.
     pub(super) fn run(mut self) -> (Shader, Notes) {
         let ast = self.ast;
+        self.check_stage();
         for declaration in &ast.declarations {
             if self.diagnostics.is_full() {
                 break;

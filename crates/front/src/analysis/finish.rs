@@ -8,9 +8,25 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::qualifiers;
 use crate::hir::{ArraySize, ExprKind, Global, GlobalId, LocalId, Stage, StmtKind, Storage, Type, TypeId, VarRef};
-use crate::language::Feature;
+use crate::language::{Feature, Since};
+use crate::source::Span;
+use crate::syntax::of_version;
 
 impl Analyzer<'_> {
+    /// Checks that the version has the stage: geometry shaders came with GLSL 1.50 and GLSL ES 3.20.
+    pub(super) fn check_stage(&mut self) {
+        let (version, since) = (self.ast.version, Since::new(150, 320));
+        if self.stage != Stage::Geometry || version.reaches(since) {
+            return;
+        }
+        let first = self.ast.declarations.first().map_or(Span::default(), |first| first.span);
+        let span = if version.span.is_known() { version.span } else { first };
+        let message = format!("geometry shaders are not in {}", version.name());
+        let finding = Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, message).here("not in this version");
+        let remedy = version.first(since).map(|line| format!("`{line}` has them"));
+        self.report(of_version(finding.maybe_help(remedy), version));
+    }
+
     /// Completes the shader.
     pub(super) fn finish(&mut self) {
         self.size_arrays();

@@ -116,7 +116,7 @@ use LayoutSubject::{
 };
 
 const fn row(name: &'static str, effect: Effect, subjects: &'static [LayoutSubject]) -> Row {
-    Row { name, effect, value: false, subjects, extensions: Extensions::empty(), since: Since::new(150, NEVER) }
+    Row { name, effect, value: false, subjects, extensions: Extensions::empty(), since: Since::new(150, 320) }
 }
 
 const fn since(desktop: u16, es: u16, extensions: Extensions, row: Row) -> Row {
@@ -173,7 +173,7 @@ static ROWS: &[Row] = &[
     row("line_strip", Effect::Out(PrimitiveOut::LineStrip), &[GeometryOut]),
     row("triangle_strip", Effect::Out(PrimitiveOut::TriangleStrip), &[GeometryOut]),
     valued(row("max_vertices", Effect::MaxVertices, &[GeometryOut])),
-    valued(since(400, NEVER, Extensions::GPU_SHADER5, row("invocations", Effect::Invocations, &[GeometryIn]))),
+    valued(since(400, 320, Extensions::GPU_SHADER5, row("invocations", Effect::Invocations, &[GeometryIn]))),
 ];
 
 /// Identifiers that no declaration of glisten's takes, with the version that brought each.

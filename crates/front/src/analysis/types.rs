@@ -8,7 +8,9 @@ use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
 use crate::language::{Feature, Precision};
 use crate::source::Span;
-use crate::syntax::ast::{ArrayDim, ExprId as AstExprId, Ident, Qualifier, QualifierKind, TypeBase, TypeSpec};
+use crate::syntax::ast::{
+    ArrayDim, ExprId as AstExprId, Ident, Qualifier, QualifierKind, TypeBase, TypeSpec, VariableDecl,
+};
 use crate::syntax::of_later_word;
 use crate::syntax::token::Symbol;
 
@@ -18,6 +20,16 @@ const MAX_ARRAY_SIZE: u32 = 1 << 16;
 impl Analyzer<'_> {
     /// The type that a specifier denotes, with the arrays after it. Enters a struct that the specifier declares.
     pub(super) fn type_spec(&mut self, spec: &TypeSpec) -> TypeId {
+        self.type_spec_of(spec, false)
+    }
+
+    /// The type of variables. If each has an initializer, inner arrays may lack their sizes (4.30 §4.1.9).
+    pub(super) fn declared_type(&mut self, declaration: &VariableDecl) -> TypeId {
+        let infers = declaration.declarators.iter().all(|declarator| declarator.initializer.is_some());
+        self.type_spec_of(&declaration.ty, infers && !declaration.declarators.is_empty())
+    }
+
+    fn type_spec_of(&mut self, spec: &TypeSpec, infers: bool) -> TypeId {
         let base = match &spec.base {
             TypeBase::Error => TypeId::ERROR,
             TypeBase::Void => TypeId::VOID,
@@ -28,7 +40,7 @@ impl Analyzer<'_> {
         if !spec.array.is_empty() {
             self.require_array_type(spec);
         }
-        self.with_array(base, &spec.array)
+        self.arrays(base, &spec.array, infers)
     }
 
     /// Reports the size of an array before its name, where the version has it behind the name alone.

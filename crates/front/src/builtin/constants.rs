@@ -38,6 +38,15 @@ const fn es300(constant: Constant) -> Constant {
     Constant { availability: constant.availability.es(300), section: "GLSL ES 3.00 §7.3", ..constant }
 }
 
+/// A limit of a stage or a feature of later versions.
+const fn later(name: &'static str, value: i32, desktop: u16, es: u16) -> Constant {
+    Constant { name, value, availability: Availability::from(Since::new(desktop, es)), section: "GLSL 4.60 §7.3" }
+}
+
+const fn es320(constant: Constant) -> Constant {
+    Constant { availability: constant.availability.es(320), ..constant }
+}
+
 const fn compatibility(constant: Constant) -> Constant {
     let availability = Availability { compatibility_only: true, ..constant.availability };
     Constant { availability, section: "§7.4.1", ..constant }
@@ -75,8 +84,8 @@ pub static CONSTANTS: &[Constant] = &[
     row("gl_MaxVaryingFloats", 60, 110),
     row("gl_MaxVaryingComponents", 60, 130),
     row("gl_MaxVertexOutputComponents", MAX_VERTEX_OUTPUT_COMPONENTS as i32, 150),
-    row("gl_MaxGeometryInputComponents", MAX_GEOMETRY_INPUT_COMPONENTS as i32, 150),
-    row("gl_MaxGeometryOutputComponents", MAX_GEOMETRY_OUTPUT_COMPONENTS as i32, 150),
+    es320(row("gl_MaxGeometryInputComponents", MAX_GEOMETRY_INPUT_COMPONENTS as i32, 150)),
+    es320(row("gl_MaxGeometryOutputComponents", MAX_GEOMETRY_OUTPUT_COMPONENTS as i32, 150)),
     row("gl_MaxFragmentInputComponents", MAX_FRAGMENT_INPUT_COMPONENTS as i32, 150),
     row("gl_MaxVertexTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 110),
     row("gl_MaxCombinedTextureImageUnits", MAX_COMBINED_TEXTURE_IMAGE_UNITS as i32, 110),
@@ -84,10 +93,10 @@ pub static CONSTANTS: &[Constant] = &[
     row("gl_MaxFragmentUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 110),
     row("gl_MaxDrawBuffers", MAX_DRAW_BUFFERS as i32, 110),
     row("gl_MaxClipDistances", MAX_CLIP_DISTANCES as i32, 130),
-    row("gl_MaxGeometryTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 150),
-    row("gl_MaxGeometryOutputVertices", MAX_GEOMETRY_OUTPUT_VERTICES as i32, 150),
-    row("gl_MaxGeometryTotalOutputComponents", 1024, 150),
-    row("gl_MaxGeometryUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 150),
+    es320(row("gl_MaxGeometryTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 150)),
+    es320(row("gl_MaxGeometryOutputVertices", MAX_GEOMETRY_OUTPUT_VERTICES as i32, 150)),
+    es320(row("gl_MaxGeometryTotalOutputComponents", 1024, 150)),
+    es320(row("gl_MaxGeometryUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 150)),
     row("gl_MaxGeometryVaryingComponents", 64, 150),
     es(vectors("gl_MaxVertexUniformVectors", 256)),
     es(vectors("gl_MaxFragmentUniformVectors", 256)),
@@ -98,6 +107,53 @@ pub static CONSTANTS: &[Constant] = &[
     compatibility(row("gl_MaxTextureUnits", 2, 110)),
     compatibility(row("gl_MaxTextureCoords", 8, 110)),
     compatibility(row("gl_MaxClipPlanes", 8, 110)),
+    later("gl_MaxVertexImageUniforms", 0, 420, 310),
+    later("gl_MaxVertexAtomicCounters", 0, 420, 310),
+    later("gl_MaxVertexAtomicCounterBuffers", 0, 420, 310),
+    later("gl_MaxTessPatchComponents", 120, 400, 320),
+    later("gl_MaxPatchVertices", 32, 400, 320),
+    later("gl_MaxTessGenLevel", 64, 400, 320),
+    later("gl_MaxTessControlInputComponents", 128, 400, 320),
+    later("gl_MaxTessControlOutputComponents", 128, 400, 320),
+    later("gl_MaxTessControlTextureImageUnits", 16, 400, 320),
+    later("gl_MaxTessControlUniformComponents", 1024, 400, 320),
+    later("gl_MaxTessControlTotalOutputComponents", 4096, 400, 320),
+    later("gl_MaxTessControlImageUniforms", 0, 420, 320),
+    later("gl_MaxTessControlAtomicCounters", 0, 420, 320),
+    later("gl_MaxTessControlAtomicCounterBuffers", 0, 420, 320),
+    later("gl_MaxTessEvaluationInputComponents", 128, 400, 320),
+    later("gl_MaxTessEvaluationOutputComponents", 128, 400, 320),
+    later("gl_MaxTessEvaluationTextureImageUnits", 16, 400, 320),
+    later("gl_MaxTessEvaluationUniformComponents", 1024, 400, 320),
+    later("gl_MaxTessEvaluationImageUniforms", 0, 420, 320),
+    later("gl_MaxTessEvaluationAtomicCounters", 0, 420, 320),
+    later("gl_MaxTessEvaluationAtomicCounterBuffers", 0, 420, 320),
+    later("gl_MaxGeometryImageUniforms", 0, 420, 320),
+    later("gl_MaxGeometryAtomicCounters", 0, 420, 320),
+    later("gl_MaxGeometryAtomicCounterBuffers", 0, 420, 320),
+    later("gl_MaxFragmentImageUniforms", 8, 420, 310),
+    later("gl_MaxFragmentAtomicCounters", 8, 420, 310),
+    later("gl_MaxFragmentAtomicCounterBuffers", 1, 420, 310),
+    later("gl_MaxImageUnits", 8, 420, 310),
+    later("gl_MaxSamples", 4, 450, 320),
+    later("gl_MaxImageSamples", 0, 420, NEVER),
+    later("gl_MaxCullDistances", 8, 450, NEVER),
+    later("gl_MaxViewports", 16, 410, NEVER),
+    later("gl_MaxComputeImageUniforms", 8, 430, 310),
+    later("gl_MaxComputeUniformComponents", 1024, 430, 310),
+    later("gl_MaxComputeTextureImageUnits", 16, 430, 310),
+    later("gl_MaxComputeAtomicCounters", 8, 430, 310),
+    later("gl_MaxComputeAtomicCounterBuffers", 8, 430, 310),
+    later("gl_MaxCombinedImageUniforms", 48, 420, 310),
+    later("gl_MaxCombinedImageUnitsAndFragmentOutputs", 8, 420, NEVER),
+    later("gl_MaxCombinedShaderOutputResources", 16, 430, 310),
+    later("gl_MaxCombinedAtomicCounters", 8, 420, 310),
+    later("gl_MaxCombinedAtomicCounterBuffers", 1, 420, 310),
+    later("gl_MaxCombinedClipAndCullDistances", 8, 450, NEVER),
+    later("gl_MaxAtomicCounterBindings", 1, 420, 310),
+    later("gl_MaxAtomicCounterBufferSize", 32, 420, 310),
+    later("gl_MaxTransformFeedbackBuffers", 4, 440, NEVER),
+    later("gl_MaxTransformFeedbackInterleavedComponents", 64, 440, NEVER),
     pack420("gl_MinProgramTexelOffset", -8),
     pack420("gl_MaxProgramTexelOffset", 7),
 ];

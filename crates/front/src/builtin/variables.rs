@@ -170,11 +170,12 @@ pub static VARIABLES: &[Row] = &[
     },
     Row::new(V::In, "gl_in", In, VariableType::PerVertexArray)
         .at(150, Stages::GEOMETRY)
+        .es(320)
         .redeclared(Redeclaration::Size),
-    Row::new(V::PrimitiveIdIn, "gl_PrimitiveIDIn", In, INT).at(150, Stages::GEOMETRY),
-    Row::new(V::InvocationId, "gl_InvocationID", In, INT).at(400, Stages::GEOMETRY).or(Extensions::GPU_SHADER5),
-    Row::new(V::PrimitiveId, "gl_PrimitiveID", Out, INT).at(150, Stages::GEOMETRY),
-    Row::new(V::Layer, "gl_Layer", Out, INT).at(150, Stages::GEOMETRY),
+    Row::new(V::PrimitiveIdIn, "gl_PrimitiveIDIn", In, INT).at(150, Stages::GEOMETRY).es(320),
+    Row::new(V::InvocationId, "gl_InvocationID", In, INT).at(400, Stages::GEOMETRY).es(320).or(Extensions::GPU_SHADER5),
+    Row::new(V::PrimitiveId, "gl_PrimitiveID", Out, INT).at(150, Stages::GEOMETRY).es(320),
+    Row::new(V::Layer, "gl_Layer", Out, INT).at(150, Stages::GEOMETRY).es(320),
     Row::new(V::FragCoord, "gl_FragCoord", In, VEC4).fragment(110).redeclared(Redeclaration::Layout),
     Row::new(V::FrontFacing, "gl_FrontFacing", In, BOOL).fragment(110),
     Row::new(V::ClipDistance, "gl_ClipDistance", In, VariableType::UnsizedFloats)
@@ -192,7 +193,7 @@ pub static VARIABLES: &[Row] = &[
         ..Row::new(V::FragDepth, "gl_FragDepthEXT", Out, FLOAT)
     },
     Row::new(V::PointCoord, "gl_PointCoord", In, VEC2).fragment(120).es(100),
-    Row::new(V::PrimitiveId, "gl_PrimitiveID", In, INT).fragment(150).or(Extensions::GPU_SHADER4),
+    Row::new(V::PrimitiveId, "gl_PrimitiveID", In, INT).fragment(150).es(320).or(Extensions::GPU_SHADER4),
     Row {
         section: "GLSL 4.00 §7.1",
         ..Row::new(V::SampleId, "gl_SampleID", In, INT).fragment(400).es(320).or(Extensions::SAMPLE_SHADING)

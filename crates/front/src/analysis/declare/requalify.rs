@@ -8,11 +8,12 @@ use super::super::state::BlockDefaults;
 use super::super::state::{Denoted, NoteRole};
 use crate::builtin::{fixed, variables};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::{names, qualifiers};
 use crate::hir::{GlobalId, Stage, Storage, Type, VarRef};
 use crate::language::Feature;
 use crate::source::Span;
-use crate::syntax::ast::{Ident, Qualifier};
+use crate::syntax::ast::{Ident, LayoutId, Qualifier};
 
 impl Analyzer<'_> {
     /// Applies qualifiers to earlier declarations, or sets defaults for later ones.
@@ -165,6 +166,13 @@ impl Analyzer<'_> {
                 self.layouts.early_tests = layout.early_tests.or(self.layouts.early_tests);
             }
             Some((word @ (StorageWord::In | StorageWord::Out), at)) => {
+                let blends = |one: &&LayoutId| self.name(one.name).starts_with("blend_support_");
+                if let Some(blending) = record.layout.iter().find(blends).filter(|_| self.stage == Stage::Fragment) {
+                    // ES 3.20 §4.4.2.4
+                    let message = "blending by the equations of ES 3.20 is not supported yet";
+                    self.report(Diagnostic::new(&NOT_SUPPORTED_YET, blending.name.span, message));
+                    return;
+                }
                 let (word, stage) = (word.spelling(), self.stage.name());
                 self.report(
                     Diagnostic::new(

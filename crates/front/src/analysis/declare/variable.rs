@@ -28,7 +28,7 @@ impl Analyzer<'_> {
         if declaration.declarators.is_empty() && self.lacks_type(&declaration.ty) {
             return;
         }
-        let base = self.type_spec(&declaration.ty);
+        let base = self.declared_type(declaration);
         self.check_precision(record.precision, base, declaration.ty.span);
         let storage = self.global_storage(&record);
         if declaration.declarators.is_empty() {

@@ -47,22 +47,29 @@ impl Analyzer<'_> {
         match self.types.get(ty) {
             Type::Struct(id) => {
                 let members: Vec<TypeId> = self.types.structure(id).members.iter().map(|member| member.ty).collect();
-                self.list_of(elements, ty, ConstructKind::Struct, &members, span)
+                let values = self.values(elements, &members);
+                self.list_of(&values, ty, ConstructKind::Struct, &members, span)
             }
             Type::Array(element, size) => {
                 let given = elements.len() as u32;
                 let count = if let ArraySize::Sized(count) = size { count } else { given };
+                let values = self.values(elements, &vec![element; elements.len()]);
+                // The first element tells the sizes that an array of arrays leaves out (4.60 §4.1.9).
+                let first = values.first().map_or(element, |first| self.ty(*first));
+                let element = if self.leaves_sizes_to(element, first) { first } else { element };
                 let ty = self.types.array(element, ArraySize::Sized(count));
                 let wanted = vec![element; count as usize];
-                self.list_of(elements, ty, ConstructKind::Array, &wanted, span)
+                self.list_of(&values, ty, ConstructKind::Array, &wanted, span)
             }
             Type::Vector(scalar, size) => {
                 let wanted = vec![TypeId::vector(scalar, 1); usize::from(size)];
-                self.list_of(elements, ty, ConstructKind::Compose, &wanted, span)
+                let values = self.values(elements, &wanted);
+                self.list_of(&values, ty, ConstructKind::Compose, &wanted, span)
             }
             Type::Matrix(columns, rows) => {
                 let wanted = vec![TypeId::vector(Scalar::Float, rows); usize::from(columns)];
-                self.list_of(elements, ty, ConstructKind::Compose, &wanted, span)
+                let values = self.values(elements, &wanted);
+                self.list_of(&values, ty, ConstructKind::Compose, &wanted, span)
             }
             Type::Error => self.poison(span),
             Type::Scalar(_) | Type::Void | Type::Sampler(_) => {
@@ -76,9 +83,22 @@ impl Analyzer<'_> {
         }
     }
 
+    /// The elements of a list. One that is a list, too, is of the type that is wanted in its place.
+    fn values(&mut self, elements: &[ast::ExprId], wanted: &[TypeId]) -> Vec<ExprId> {
+        let wanted = wanted.iter().copied().chain(std::iter::repeat(TypeId::ERROR));
+        elements
+            .iter()
+            .zip(wanted)
+            .map(|(&element, wanted)| match &self.ast.expr(element).kind {
+                ast::ExprKind::List(inner) => self.list(inner, wanted, self.ast.expr(element).span),
+                _ => self.expr(element),
+            })
+            .collect()
+    }
+
     fn list_of(
         &mut self,
-        elements: &[ast::ExprId],
+        elements: &[ExprId],
         ty: TypeId,
         kind: ConstructKind,
         wanted: &[TypeId],
@@ -93,11 +113,7 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         let mut arguments = Vec::with_capacity(elements.len());
-        for (&element, &wanted) in elements.iter().zip(wanted) {
-            let value = match &self.ast.expr(element).kind {
-                ast::ExprKind::List(inner) => self.list(inner, wanted, self.ast.expr(element).span),
-                _ => self.expr(element),
-            };
+        for (&value, &wanted) in elements.iter().zip(wanted) {
             arguments.push(self.convert_or_report(value, wanted, "the element"));
         }
         if arguments.iter().any(|&argument| self.ty(argument).is_error()) {

@@ -9,6 +9,7 @@ use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
+use crate::language::Since;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 use crate::syntax::of_version;
@@ -97,6 +98,11 @@ impl Analyzer<'_> {
 
     fn report_unknown(&mut self, name: Ident) {
         let spelling = self.name(name);
+        if spelling == "gl_Layer" && self.stage == Stage::Fragment && self.ast.version.reaches(Since::new(430, 320)) {
+            let message = "`gl_Layer` in a fragment shader is not supported yet";
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
+            return;
+        }
         let stages: Vec<&str> = variables::stages_with(spelling).map(Stage::name).collect();
         if !stages.is_empty() {
             let stage = self.stage.name();

@@ -25,7 +25,7 @@ impl Analyzer<'_> {
     /// `vec3 a = b, c;` inside a function.
     pub(in crate::analysis) fn local_variables(&mut self, declaration: &VariableDecl, out: &mut Vec<Stmt>) {
         let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
-        let base = self.type_spec(&declaration.ty);
+        let base = self.declared_type(declaration);
         self.check_precision(record.precision, base, declaration.ty.span);
         for declarator in &declaration.declarators {
             let kind = match self.local_variable(declarator, base, &record, declaration) {

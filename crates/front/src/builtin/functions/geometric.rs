@@ -25,8 +25,9 @@ const FINE: Row = Row::base("GLSL 4.50 §8.14.1", 450)
     .with(Effect::Derivative, true)
     .available(Availability::from(Since::new(450, NEVER)).or(Extensions::DERIVATIVE_CONTROL).stages(Stages::FRAGMENT));
 const N110: Row = Row::base("§8.9", 110).with(Effect::None, false).available(Availability::since(110).es(NEVER));
-const EMIT: Row =
-    Row::base("§8.10", 150).with(Effect::Emits, false).available(Availability::since(150).stages(Stages::GEOMETRY));
+const EMIT: Row = Row::base("§8.10", 150)
+    .with(Effect::Emits, false)
+    .available(Availability::since(150).es(320).stages(Stages::GEOMETRY));
 
 pub(super) static ROWS: &[Row] = rows! {
     G110 Length: float length(genType x);

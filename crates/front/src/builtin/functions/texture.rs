@@ -8,6 +8,8 @@ use crate::language::Since;
 
 const T130: Row = Row::base("§8.7", 130).with(Effect::Texture, false);
 const T140: Row = Row::base("§8.7", 140).with(Effect::Texture, false);
+const BUFFER: Row =
+    Row::base("§8.7", 140).available(Availability::from(Since::new(140, 320))).with(Effect::Texture, false);
 const MS: Row = Row::base("§8.7", 150).available(Availability::from(Since::new(150, 310))).with(Effect::Texture, false);
 const MS_ARRAY: Row =
     Row::base("§8.7", 150).available(Availability::from(Since::new(150, 320))).with(Effect::Texture, false);
@@ -27,7 +29,7 @@ pub(super) static ROWS: &[Row] = rows! {
     T130 TextureSize: ivec3 textureSize(gsampler2DArray sampler, int lod);
     T130 TextureSize: ivec2 textureSize(sampler1DArrayShadow sampler, int lod);
     T130 TextureSize: ivec3 textureSize(sampler2DArrayShadow sampler, int lod);
-    T140 TextureSize: int textureSize(gsamplerBuffer sampler);
+    BUFFER TextureSize: int textureSize(gsamplerBuffer sampler);
     MS TextureSize: ivec2 textureSize(gsampler2DMS sampler);
     // 1.50 prints `ivec2` here, which contradicts its rule for arrays before the table. Later versions and all
     // drivers have `ivec3`.
@@ -86,7 +88,7 @@ pub(super) static ROWS: &[Row] = rows! {
     T140 TexelFetch: gvec4 texelFetch(gsampler2DRect sampler, ivec2 P);
     T130 TexelFetch: gvec4 texelFetch(gsampler1DArray sampler, ivec2 P, int lod);
     T130 TexelFetch: gvec4 texelFetch(gsampler2DArray sampler, ivec3 P, int lod);
-    T140 TexelFetch: gvec4 texelFetch(gsamplerBuffer sampler, int P);
+    BUFFER TexelFetch: gvec4 texelFetch(gsamplerBuffer sampler, int P);
     MS TexelFetch: gvec4 texelFetch(gsampler2DMS sampler, ivec2 P, int sample);
     MS_ARRAY TexelFetch: gvec4 texelFetch(gsampler2DMSArray sampler, ivec3 P, int sample);
 

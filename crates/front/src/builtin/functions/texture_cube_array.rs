@@ -9,14 +9,15 @@ use crate::language::{Extensions, NEVER, Since};
 const ARRAYS: Extensions = Extensions::TEXTURE_CUBE_MAP_ARRAY;
 
 const fn from(section: &'static str, desktop: u16) -> Row {
-    let availability = Availability::from(Since::new(desktop, NEVER)).or(ARRAYS);
+    let es = if desktop == 400 { 320 } else { NEVER };
+    let availability = Availability::from(Since::new(desktop, es)).or(ARRAYS);
     Row::base(section, desktop).with(Effect::Texture, false).available(availability)
 }
 
 const CUBES: Row = from("GLSL 4.00 §8.9.2", 400);
 const SIZE: Row = from("GLSL 4.00 §8.9.1", 400);
 const GATHER: Row = from("GLSL 4.00 §8.9.3", 400);
-const LOD: Row = Row { availability: SIZE.availability.stages(Stages::FRAGMENT), ..SIZE };
+const LOD: Row = Row { availability: SIZE.availability.es(NEVER).stages(Stages::FRAGMENT), ..SIZE };
 const LEVELS: Row = {
     let availability = Availability::from(Since::new(430, NEVER)).or(Extensions::TEXTURE_QUERY_LEVELS);
     Row { section: "GLSL 4.30 §8.9.1", ..SIZE }.available(availability)
