@@ -13,6 +13,8 @@ const DESKTOP: (u16, u16) = (110, 460);
 const ES: (u16, u16) = (100, 320);
 const BLOCKS: (Range, Range) = (Some((140, 460)), Some((300, 320)));
 const GEOMETRY: (Range, Range) = (Some((150, 460)), None);
+/// Of a geometry stage, which ES has, too.
+const GEOMETRY_STAGE: (Range, Range) = (Some((150, 460)), Some((320, 320)));
 const SWITCH: (Range, Range) = (Some((130, 460)), Some((300, 320)));
 const ONE_NAME_SPACE: (Range, Range) = (Some((120, 460)), Some(ES));
 const BEFORE_420: (Range, Range) = (Some((110, 410)), Some(ES));
@@ -21,6 +23,7 @@ const BEFORE_420: (Range, Range) = (Some((110, 410)), Some(ES));
 static RANGES: &[(&str, (Range, Range))] = &[
     ("E0120", (Some((110, 110)), None)),
     ("W0101", (Some((110, 410)), Some((100, 100)))),
+    ("W0117", (Some((110, 120)), None)),
     ("E0210", SWITCH),
     ("E0213", BLOCKS),
     ("E0214", BEFORE_420),
@@ -28,7 +31,7 @@ static RANGES: &[(&str, (Range, Range))] = &[
     ("E0309", BLOCKS),
     ("E0311", ONE_NAME_SPACE),
     ("E0312", ONE_NAME_SPACE),
-    ("E0313", GEOMETRY),
+    ("E0313", GEOMETRY_STAGE),
     ("E0412", (Some((110, 420)), Some((100, 300)))),
     ("E0418", (Some((130, 330)), Some((300, 310)))),
     ("E0420", (Some((420, 460)), None)),
@@ -46,12 +49,13 @@ static RANGES: &[(&str, (Range, Range))] = &[
     ("E0606", BLOCKS),
     ("E0608", SWITCH),
     ("E0611", BLOCKS),
-    ("E0612", GEOMETRY),
-    ("E0613", GEOMETRY),
+    ("E0612", GEOMETRY_STAGE),
+    ("E0613", GEOMETRY_STAGE),
     ("E0614", GEOMETRY),
     ("E0615", (Some(DESKTOP), Some((100, 100)))),
     ("E0616", ONE_NAME_SPACE),
     ("E0618", (None, Some(ES))),
+    ("E0619", (None, Some((300, 320)))),
     ("E0704", (Some((130, 420)), Some((300, 320)))),
     ("E0705", (Some((120, 420)), Some((100, 300)))),
     ("E0706", GEOMETRY),
@@ -59,17 +63,19 @@ static RANGES: &[(&str, (Range, Range))] = &[
     ("E0709", BLOCKS),
     ("E0712", (Some((130, 460)), None)),
     ("E0718", BLOCKS),
-    ("E0719", GEOMETRY),
-    ("E0720", GEOMETRY),
-    ("E0725", GEOMETRY),
-    ("E0726", GEOMETRY),
+    ("E0719", GEOMETRY_STAGE),
+    ("E0720", GEOMETRY_STAGE),
+    ("E0725", GEOMETRY_STAGE),
+    ("E0726", GEOMETRY_STAGE),
     ("E0727", GEOMETRY),
     ("E0728", GEOMETRY),
     ("E0732", (None, Some(ES))),
     ("E0731", (Some((410, 460)), Some((310, 320)))),
-    ("W0703", GEOMETRY),
-    ("E0801", GEOMETRY),
+    ("E0733", (Some((430, 460)), Some((310, 320)))),
+    ("W0703", GEOMETRY_STAGE),
+    ("E0801", GEOMETRY_STAGE),
     ("L0004", SWITCH),
+    ("L0076", (None, Some((100, 100)))),
 ];
 
 impl Code {

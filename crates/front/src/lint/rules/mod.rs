@@ -3,6 +3,7 @@
 
 mod acos_beyond_one;
 mod assignment_in_condition;
+mod beyond_webgl;
 mod bool_literal_selection;
 mod clamp_by_min_max;
 mod comparison_chain;
@@ -154,4 +155,5 @@ pub(super) static RULES: &[Rule] = &[
     Rule { code: &lints::LEGACY_OUTPUT, check: legacy_output::check },
     Rule { code: &lints::UNUSED_ALLOW, check: unused_allow::check },
     Rule { code: &lints::REVERSED_BOUNDS, check: reversed_bounds::check },
+    Rule { code: &lints::BEYOND_WEBGL, check: beyond_webgl::check },
 ];

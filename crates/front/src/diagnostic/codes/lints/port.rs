@@ -14,6 +14,15 @@ lints! {
         good Program(
             "out vec4 tint; void main() { tint = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 tint; out vec4 c; void main() { c = tint; }");
+    BEYOND_WEBGL = "L0076" "beyond-webgl" Warning Port No "0.1.0" "GLSL ES 1.00 appendix A"
+        "GLSL ES 1.00 has loops and indices that OpenGL ES 2.0 need not support, and WebGL 1.0 refuses them: `while` and `do`; a \
+         `for` whose index does not run from a constant to a constant by a constant; an index that is neither constant nor \
+         made of the indices of loops, but for the uniforms of vertex shaders."
+        why "Machines of that time unroll every loop. GLSL ES 3.00 has no such limits."
+        bad Fragment("#version 100\nprecision highp float; uniform int n;\n\
+            void main() { float a = 0.0; for (int i = 0; i < n; i++) { a += 0.1; } gl_FragColor = vec4(a); }"),
+        good Fragment("#version 100\nprecision highp float; uniform int n;\n\
+            void main() { float a = 0.0; for (int i = 0; i < 9; i++) { if (i >= n) break; a += 0.1; } gl_FragColor = vec4(a); }");
     FRAG_COORD_ROW = "L0045" "frag-coord-row" Off Port No "0.1.0" "GLSL 1.50 §7.2"
         "The shader reads the second component of `gl_FragCoord`, which counts from the lower edge in OpenGL and \
          from the upper one in WebGPU, Direct3D and Metal."
