@@ -51,7 +51,6 @@ pub use shadow::{ShadowFloat, ShadowInt, Shadowed, rounded};
 pub use simulated::{Gpu, Planes, Simulated, SimulatedFloat};
 #[cfg(any(test, feature = "stability"))]
 pub use stepwise::StepFloat;
-pub(crate) use unit::if_wide;
 
 /// A pair of number types.
 pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {

@@ -11,7 +11,7 @@ static UNIT: LazyLock<Arch> = LazyLock::new(Arch::new);
 
 /// Runs a loop on a wide vector unit; `None` if an x86 machine has none.
 #[inline(always)]
-pub(crate) fn if_wide<R>(work: impl FnOnce() -> R) -> Option<R> {
+pub(super) fn if_wide<R>(work: impl FnOnce() -> R) -> Option<R> {
     match *UNIT {
         #[cfg(target_arch = "x86_64")]
         Arch::V3(unit) => Some(unit.vectorize(work)),

@@ -3,29 +3,11 @@
 use super::code::{Inner, Runs, Section};
 use super::inst::Inst;
 use super::machine::Machine;
-use crate::domain::{Domain, Element, Integer, Lanes, NumberBlock, if_wide};
-
-type BlockOf<D> = <<D as Domain>::Float as Element>::Block;
+use crate::domain::{Domain, Integer, Lanes};
 
 impl<D: Domain> Machine<D> {
-    /// Runs a section from its start with these lanes, on the widest vector unit if a lane is one number.
+    /// Runs a section from its start with these lanes.
     pub(super) fn execute(&mut self, section: &Section, inner: &Inner, start: u64) {
-        // Blocks with operations of their own choose their unit themselves.
-        let done = match D::Float::PLAIN && !BlockOf::<D>::OWN {
-            false => None,
-            true => if_wide(
-                #[inline(always)]
-                || self.execute_here(section, inner, start),
-            ),
-        };
-        if done.is_none() {
-            self.execute_here(section, inner, start);
-        }
-    }
-
-    /// [`Self::execute`] for the unit for which the caller is compiled.
-    #[inline(always)]
-    fn execute_here(&mut self, section: &Section, inner: &Inner, start: u64) {
         let mut mask = start;
         let mut place = 0;
         self.whole = start;
