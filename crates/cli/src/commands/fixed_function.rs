@@ -28,6 +28,8 @@ pub(crate) const EXAMPLES: Examples = &[
 
 /// Write the vertex and the fragment stage of OpenGL's fixed-function pipeline as GLSL
 #[derive(Args, Debug)]
+// Its `--version` is that of the language to write.
+#[command(disable_version_flag = true)]
 pub(crate) struct FixedFunctionArgs {
     /// A scene with draws that name one stage: the other ones are written
     #[arg(value_name = "SCENE.toml", conflicts_with_all = SWITCHES)]

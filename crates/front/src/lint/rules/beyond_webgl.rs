@@ -4,9 +4,7 @@
 
 use super::super::{Findings, Place, Subject};
 use crate::hir::written_by;
-use crate::hir::{
-    BinaryOp, Condition, ExprId, ExprKind, LocalId, LoopKind, Stage, Stmt, StmtKind, Storage, VarRef,
-};
+use crate::hir::{BinaryOp, Condition, ExprId, ExprKind, LocalId, LoopKind, Stage, Stmt, StmtKind, Storage, VarRef};
 use crate::source::Span;
 
 const WEBGL: &str = "WebGL 1.0 refuses it, and OpenGL ES 2.0 may (GLSL ES 1.00 appendix A)";
@@ -20,7 +18,8 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                 StmtKind::Block(list) => indices.extend(index_of(list)),
                 StmtKind::Loop { kind: LoopKind::While | LoopKind::DoWhile, .. } => {
                     let finding = findings.at(statement.span, "a loop that is no `for`");
-                    findings.push(finding.here(WEBGL).help("write a `for` with a constant bound, and leave it by `break`"));
+                    findings
+                        .push(finding.here(WEBGL).help("write a `for` with a constant bound, and leave it by `break`"));
                 }
                 _ => {}
             }
@@ -33,9 +32,10 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
 /// The variable of a `for`, which is declared in front of its loop.
 fn index_of(block: &[Stmt]) -> Option<LocalId> {
     match block {
-        [Stmt { kind: StmtKind::Local(index, _), .. }, Stmt { kind: StmtKind::Loop { kind: LoopKind::For, .. }, .. }] => {
-            Some(*index)
-        }
+        [
+            Stmt { kind: StmtKind::Local(index, _), .. },
+            Stmt { kind: StmtKind::Loop { kind: LoopKind::For, .. }, .. },
+        ] => Some(*index),
         _ => None,
     }
 }
@@ -45,7 +45,8 @@ fn check_loops(place: &Place<'_>, findings: &mut Findings<'_>) {
     let mut proper: Vec<Span> = Vec::new();
     for statement in &place.statements {
         let StmtKind::Block(list) = &statement.kind else { continue };
-        let (Some(index), [Stmt { kind: StmtKind::Local(_, first), .. }, whole]) = (index_of(list), list.as_slice()) else {
+        let (Some(index), [Stmt { kind: StmtKind::Local(_, first), .. }, whole]) = (index_of(list), list.as_slice())
+        else {
             continue;
         };
         proper.push(whole.span);
@@ -132,7 +133,9 @@ fn check_indices(place: &Place<'_>, indices: &[LocalId], findings: &mut Findings
 fn is_free(place: &Place<'_>, base: ExprId) -> bool {
     let Some(VarRef::Global(id)) = place.shader.root_variable(base) else { return false };
     let global = place.shader.global(id);
-    place.shader.stage == Stage::Vertex && global.storage == Storage::Uniform && !place.types.contains_sampler(global.ty)
+    place.shader.stage == Stage::Vertex
+        && global.storage == Storage::Uniform
+        && !place.types.contains_sampler(global.ty)
 }
 
 /// A constant-index-expression.
@@ -147,7 +150,11 @@ fn is_constant_index(place: &Place<'_>, expr: ExprId, indices: &[LocalId]) -> bo
         }
         let is_composed = matches!(
             kind,
-            ExprKind::Unary(..) | ExprKind::Binary(..) | ExprKind::Convert(_) | ExprKind::Construct(..) | ExprKind::BuiltinCall(..)
+            ExprKind::Unary(..)
+                | ExprKind::Binary(..)
+                | ExprKind::Convert(_)
+                | ExprKind::Construct(..)
+                | ExprKind::BuiltinCall(..)
         );
         if !is_composed {
             return false;
