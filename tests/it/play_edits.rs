@@ -161,6 +161,13 @@ fn a_scene_that_is_mended_opens_its_folders() {
     let answer = play.ask(&look("scenes/s.toml", json!({})));
     assert_eq!(writable(&answer).len(), 3);
     assert!(writable(&answer).iter().all(|(_, is_writable)| *is_writable), "{answer}");
+    // What a page saves opens no others.
+    write(folder.path(), "other/a.frag", FRAGMENT);
+    let text = good.replace("../shaders/a.frag", "../other/a.frag");
+    assert_eq!(play.post("/api/save", &json!({ "name": "scenes/s.toml", "text": text, "was": good })).status, 200);
+    let other = play.ask(&look("scenes/s.toml", json!({})));
+    assert_eq!(writable(&other).last(), Some(&("other/a.frag", false)), "{other}");
+    write(folder.path(), "scenes/s.toml", &good);
     let before = play.get("/api/changes?since=none").json();
     write(folder.path(), "shaders/a.frag", FRAGMENT.replace("0.5", "0.75"));
     assert_ne!(play.get(&format!("/api/changes?since={}", before["number"])).json(), before, "it is watched, too");

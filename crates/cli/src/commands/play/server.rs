@@ -23,7 +23,7 @@ use std::io::Read;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 use std::time::Duration;
 use tiny_http::{Header, Method, Request, Response};
@@ -50,6 +50,8 @@ struct Server {
     /// The shader that the page makes a scene for at the beginning.
     shader: Option<String>,
     folders: RwLock<Folders>,
+    /// Whether the scene could be read as it was on disk. From then on no folders are added: a page may save another text of it.
+    is_read: AtomicBool,
     changes: Changes,
     pages: Pages,
     /// The texts of new scenes by their names.
@@ -179,6 +181,7 @@ impl Server {
             shader: file.filter(|_| is_shader),
             changes: Changes::watch(&folders),
             folders: RwLock::new(folders),
+            is_read: AtomicBool::new(false),
             pages: Pages::new(worker, args.machine.time_limit()),
             made: Mutex::default(),
             source_args: source_args(args),
@@ -191,8 +194,12 @@ impl Server {
         server
     }
 
-    /// Opens the folders of the files that the scene of this server reads, as they are on disk.
+    /// Opens the folders of the files that the scene of this server reads, as they are on disk, until it can be read as a whole.
     fn open_folders(&self, answer: &Value) {
+        let is_whole = answer.pointer("/ok/size").is_some_and(|size| !size.is_null());
+        if self.is_read.fetch_or(is_whole, Ordering::AcqRel) {
+            return;
+        }
         let files = answer.pointer("/ok/files").and_then(Value::as_array);
         for name in files.into_iter().flatten().filter_map(|file| file.get("name").and_then(Value::as_str)) {
             let folder = Path::new(name).parent().unwrap_or(Path::new(""));
