@@ -166,7 +166,7 @@ fn a_scene_that_is_mended_opens_its_folders() {
     let text = good.replace("../shaders/a.frag", "../other/a.frag");
     assert_eq!(play.post("/api/save", &json!({ "name": "scenes/s.toml", "text": text, "was": good })).status, 200);
     let other = play.ask(&look("scenes/s.toml", json!({})));
-    assert_eq!(writable(&other).last(), Some(&("other/a.frag", false)), "{other}");
+    assert_eq!(writable(&other).last(), Some(&("scenes/../other/a.frag", false)), "{other}");
     write(folder.path(), "scenes/s.toml", &good);
     let before = play.get("/api/changes?since=none").json();
     write(folder.path(), "shaders/a.frag", FRAGMENT.replace("0.5", "0.75"));
@@ -188,6 +188,32 @@ fn a_shader_starts_with_a_new_scene() {
     let ran = ran.expect("the program runs");
     let said = String::from_utf8_lossy(&ran.stderr);
     assert!(ran.status.code() == Some(2) && said.contains("glisten new-scene shaders/a.frag"), "{said}");
+}
+
+/// Line endings, places and numbers, as the page's script has them.
+#[test]
+fn texts_and_numbers_of_the_page() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let script = root.join("crates/cli/src/commands/play/page/texts.js");
+    let Ok(ran) = Command::new("node").arg(root.join("tests/it/play_texts.mjs")).arg(script).output() else {
+        untried();
+        return;
+    };
+    let errors = String::from_utf8_lossy(&ran.stderr);
+    let seen: Value = serde_json::from_slice(&ran.stdout).unwrap_or_else(|error| panic!("{error}: {errors}"));
+    let expected = json!({
+        "plain": "a\nb\nc\n\nd",
+        "places": [0, 2, 4, 6],
+        "same": true,
+        "restored": "a\r\nb\nnew\r\nc\r\n\rd",
+        "unix": "a\nb\n",
+        "moved": [[4, 5], [13, 15], null, null, [0, 1]],
+        "typed": ["1e30", "0.00002", "1e-7", "5.0", "-0.5", "7.0", "5.0", "2.0", null, null, null, null],
+        "whole": ["3", "1000", "2.5", "0"],
+        "slid": ["0.3", "0.7525", "3e-9", "5e+29", "12.0", "0.0"],
+        "kinds": ["true", "false", "3"],
+    });
+    assert_eq!(seen, expected, "{seen:#}");
 }
 
 #[test]

@@ -84,7 +84,7 @@ impl FileSource for SceneFiles {
         overwrite::note(Path::new(path));
         let bytes = match buffers::get(Path::new(path)) {
             Some(bytes) => Ok(bytes.to_vec()),
-            None if !is_admitted(Path::new(path)) => Err(FileError::Unreadable(OUTSIDE.to_owned())),
+            None if !is_open(Path::new(path)) => Err(FileError::Unreadable(OUTSIDE.to_owned())),
             None => DiskFiles.read(path),
         };
         trace::read(Path::new(path), bytes.as_deref().ok());
@@ -97,12 +97,12 @@ const OUTSIDE: &str = "it is in none of the folders of `glisten play`";
 
 /// Whether the job that runs may read a file of the disk.
 #[cfg(feature = "play")]
-fn is_admitted(path: &Path) -> bool {
-    gate::admits(path)
+fn is_open(path: &Path) -> bool {
+    gate::may_read(path)
 }
 
 #[cfg(not(feature = "play"))]
-fn is_admitted(_: &Path) -> bool {
+fn is_open(_: &Path) -> bool {
     true
 }
 
@@ -114,7 +114,7 @@ fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
         let message = format!("`{name}` is outside of the sandbox, and is not read");
         return Err(ReadError::new(&general::FILE_UNREADABLE, message));
     }
-    if !is_admitted(path) {
+    if !is_open(path) {
         return Err(ReadError::new(&general::FILE_UNREADABLE, format!("cannot read `{name}`: {OUTSIDE}")));
     }
     let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;

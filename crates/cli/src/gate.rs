@@ -25,17 +25,17 @@ static IS_SHUT: AtomicBool = AtomicBool::new(false);
 static GATE: Mutex<Option<Gate>> = Mutex::new(None);
 
 /// Whether the file at a path may be read.
-pub(crate) fn admits(path: &Path) -> bool {
+pub(crate) fn may_read(path: &Path) -> bool {
     if !IS_SHUT.load(Ordering::Acquire) {
         return true;
     }
     let Ok(own) = std::fs::canonicalize(path) else { return true };
     let mut gate = GATE.lock().unwrap_or_else(PoisonError::into_inner);
-    gate.as_mut().is_none_or(|gate| gate.admits(own))
+    gate.as_mut().is_none_or(|gate| gate.may_read(own))
 }
 
 impl Gate {
-    fn admits(&mut self, own: PathBuf) -> bool {
+    fn may_read(&mut self, own: PathBuf) -> bool {
         let is_inside = self.folders.iter().any(|folder| own.starts_with(folder));
         if is_inside || self.known.as_ref().is_some_and(|known| known.contains(&own)) {
             return true;
@@ -86,10 +86,10 @@ mod tests {
     fn files_outside_are_known_or_refused() {
         let mut gate =
             Gate { folders: vec!["/in".into()], known: Some(["/out/a".into()].into()), outside: Files::new() };
-        assert!(gate.admits("/in/x".into()) && gate.admits("/out/a".into()));
-        assert!(!gate.admits("/out/b".into()) && !gate.admits("/inside".into()));
+        assert!(gate.may_read("/in/x".into()) && gate.may_read("/out/a".into()));
+        assert!(!gate.may_read("/out/b".into()) && !gate.may_read("/inside".into()));
         assert_eq!(gate.outside, ["/inside".into(), "/out/b".into()].into());
         let mut learning = Gate { known: None, ..gate };
-        assert!(learning.admits("/out/c".into()) && learning.outside.contains(std::path::Path::new("/out/c")));
+        assert!(learning.may_read("/out/c".into()) && learning.outside.contains(std::path::Path::new("/out/c")));
     }
 }

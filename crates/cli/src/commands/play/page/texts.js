@@ -59,6 +59,7 @@ const moving = (before, after) => {
 const typedNumber = (text, kind) => {
   const [is, sign, whole, fraction = "", power = ""] = /^([+-]?)(\d*)(\.\d*)?([eE][+-]?\d+)?$/.exec(text.trim()) ?? [];
   if (is === undefined || !/\d/.test(whole + fraction)) return undefined;
+  if (kind === "integer" && Number.isSafeInteger(Number(text))) return String(Number(text));
   const part = fraction.length > 1 ? fraction : fraction || (kind !== "integer" && !power) ? ".0" : "";
   return (sign === "-" ? "-" : "") + (whole.replace(/^0+(?=\d)/, "") || "0") + part + power;
 };
