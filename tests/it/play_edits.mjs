@@ -136,8 +136,10 @@ try {
     await page.waitForSelector("#conflict:not([hidden])", limit);
     await page.waitForTimeout(1000);
     const said = await page.textContent("#conflict");
+    await page.locator("#conflict button").first().focus();
     await page.getByRole("button", { name: button, exact: true }).click();
     await until(() => document.querySelector("#conflict").hidden && document.querySelector("#save").disabled);
+    seen.refocused = await page.evaluate(() => document.activeElement.classList.contains("cm-content"));
     return said;
   };
   seen.conflict = await conflict("// ours\n", "// theirs\n", "Overwrite it with this one");

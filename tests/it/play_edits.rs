@@ -96,6 +96,20 @@ fn pages_of_one_server_keep_out_of_each_others_way() {
     assert!(draw("one", "a")["ok"].is_object() && draw("two", "b")["ok"].is_object());
     assert_eq!((pixel("one"), pixel("two")), ("0.2500000".to_owned(), "0.7500000".to_owned()));
     assert_eq!(play.get("/api/changes?since=1&page=one").status, 200);
+    // A page that is gone has no jobs.
+    let forever = FRAGMENT.replace(
+        "color =",
+        "float s = shade;\n    for (int i = 0; i < 100000; ++i) s = sin(s + float(i));\n    color = s +",
+    );
+    let large = SCENE.replace("16", "1024");
+    let texts = json!({ "shaders/a.frag": forever, "shaders/a.toml": large });
+    let job = json!({ "ask": "draw", "scene": "shaders/a.toml", "page": "gone", "texts": texts });
+    std::thread::scope(|scope| {
+        let running = scope.spawn(|| play.post("/api/ask", &job).status);
+        std::thread::sleep(std::time::Duration::from_millis(600));
+        assert_eq!(play.post("/api/gone?page=gone", &json!({})).status, 200);
+        assert_eq!(running.join().expect("it ends"), 409);
+    });
     // A job of one page ends none of another.
     let endless =
         FRAGMENT.replace("color =", "for (int i = 0; i < 2000; ++i) gl_FragDepth = sin(float(i));\n    color =");
@@ -266,7 +280,9 @@ fn nothing_is_lost_in_a_browser() {
     assert_eq!(seen["outside"], outside, "{seen:#}");
     let conflict = seen["conflict"].as_str().unwrap_or_default();
     assert!(conflict.starts_with("shaders/a.frag: the file changed on disk meanwhile."), "{seen:#}");
-    assert_eq!((&seen["overwritten"], &seen["taken"]), (&json!(true), &json!(true)), "{seen:#}");
+    for key in ["overwritten", "taken", "refocused"] {
+        assert_eq!(seen[key], json!(true), "{key}: {seen:#}");
+    }
     assert_eq!(seen["programs"], json!(["shaders/lens.glslf, shaders/lens.glslv"]), "{seen:#}");
     assert_eq!(seen["made"], json!("shaders/cfg-scene.toml"), "{seen:#}");
     assert_eq!((&seen["pixels"], &seen["followed"]), (&json!(["0.2500000", "0.7500000"]), &json!(4)), "{seen:#}");

@@ -39,8 +39,7 @@ pub(super) fn list(root: &str) -> Value {
     let mut programs: Vec<Vec<String>> = programs.into_values().collect();
     programs.iter_mut().for_each(|files| files.sort());
     programs.sort();
-    let drawable: Vec<&Vec<String>> =
-        programs.iter().filter(|files| files.iter().any(|name| is_fragment(name))).collect();
+    let drawable: Vec<&Vec<String>> = programs.iter().filter(|files| files.iter().any(is_fragment)).collect();
     json!({ "scenes": scenes, "programs": programs, "drawable": drawable })
 }
 

@@ -68,12 +68,23 @@ impl Pages {
         }
     }
 
+    /// Ends the workers of a page that is gone.
+    pub(super) fn forget(&self, id: &str) {
+        let gone = self.known.lock().unwrap_or_else(PoisonError::into_inner).remove(id);
+        gone.iter().for_each(Known::stop);
+    }
+
     /// Ends all workers.
     pub(super) fn stop(&self) {
-        for (_, page) in std::mem::take(&mut *self.known.lock().unwrap_or_else(PoisonError::into_inner)) {
-            let Lanes { looks, draws, studies } = &*page.lanes;
-            [looks, draws, studies].into_iter().for_each(Lane::stop);
-        }
+        let all = std::mem::take(&mut *self.known.lock().unwrap_or_else(PoisonError::into_inner));
+        all.values().for_each(Known::stop);
+    }
+}
+
+impl Known {
+    fn stop(&self) {
+        let Lanes { looks, draws, studies } = &*self.lanes;
+        [looks, draws, studies].into_iter().for_each(Lane::stop);
     }
 }
 
@@ -94,6 +105,9 @@ mod tests {
         assert!(Arc::ptr_eq(&first, &pages.of("a")), "`b` was not heard of for longer");
         (0..MAX_PAGES).for_each(|number| drop(pages.of(&number.to_string())));
         assert!(!Arc::ptr_eq(&first, &pages.of("a")));
+        let last = pages.of("a");
+        pages.forget("a");
+        assert!(!Arc::ptr_eq(&last, &pages.of("a")));
         pages.stop();
     }
 }

@@ -239,6 +239,10 @@ impl Server {
             }
             (Method::Get, path) if path.starts_with("/api/") => Answer::refused(404, "there is no such request"),
             (Method::Get, path) => self.file(path),
+            (Method::Post, "/api/gone") => {
+                query.get("page").into_iter().for_each(|page| self.pages.forget(page));
+                Answer::json(&json!({ "ok": true }))
+            }
             (Method::Post, "/api/ask" | "/api/save" | "/api/new-scene") => {
                 let path = path.to_owned();
                 match body(request) {

@@ -395,7 +395,11 @@ const controlElement = (control) => {
       const step = whole ? 1 : (high - low) / 400;
       const slider = html("input", { type: "range", min: low, max: high, step, "aria-label": label, "data-key": label, input: () => set(rounded(Number(slider.value), step)) });
       // What is typed is written, digit by digit.
-      const type = () => { const typed = typedNumber(box.value, control.kind); if (typed !== undefined) set(Number(typed), typed); };
+      const type = () => {
+        const typed = typedNumber(box.value, control.kind);
+        if (typed === undefined) box.value = control.values[index];
+        else set(Number(typed), typed);
+      };
       const box = html("input", { type: "number", step: whole ? 1 : "any", "aria-label": `${label}, number`, "data-key": `${label}, number`, change: type });
       refreshers.push(() => { slider.value = control.values[index]; if (document.activeElement !== box) box.value = control.values[index]; });
       const name = control.values.length > 1 ? html("span", { class: "axis", "aria-hidden": "true" }, names[index]) : null;
@@ -761,6 +765,7 @@ const conflicts = makeConflicts({
   take: (name, disk) => { follow(name, docs.get(name), disk); textChanged(); },
   done: () => { say("saved", false, "saved"); showFiles(); refreshScenes(); },
   fail: (text) => { showFiles(); say(text, true); },
+  focus: () => editor.focus(),
 });
 const unsaved = () => [...docs].filter(([, doc]) => isChanged(doc) && doc.isWritable).map(([name, doc]) => [name, doc.saved === null ? null : doc.raw]);
 const save = () => conflicts.save(unsaved);
@@ -840,6 +845,8 @@ if (isLive) {
     else if (byId("scenes").options.length) chosen(byId("scenes").value);
     else say("this folder has neither a scene nor a shader", true);
     watch();
+    // Nobody waits for what its workers do.
+    addEventListener("pagehide", () => navigator.sendBeacon(`/api/gone?token=${start.token}&page=${page}`));
   } else {
     // What draws here is the reference, and WebGPU where the browser has it.
     byId("judge").hidden = byId("by").hidden = true;

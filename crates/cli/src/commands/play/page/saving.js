@@ -1,8 +1,8 @@
 
 // ---- Saving to the files of a server, one after the other. A file that changed on disk meanwhile is a choice for a person, which stays until
 // it is made.
-// `docs` are the files; `write` sends one, `take` takes the text that is on disk, `done` is called when all is saved.
-const makeConflicts = ({ write, take, done, fail }) => {
+// `docs` are the files; `write` sends one, `take` takes the text that is on disk, `done` is called when all is saved, `focus` when a choice was made.
+const makeConflicts = ({ write, take, done, fail, focus }) => {
   const panel = byId("conflict");
   let open = null;
   const forget = () => {
@@ -13,6 +13,8 @@ const makeConflicts = ({ write, take, done, fail }) => {
   const solved = (work) => async () => {
     const { name, disk } = open ?? {};
     forget();
+    // The button is gone.
+    focus();
     if (name !== undefined) await work(name, disk);
   };
   const show = (name, answer) => {
