@@ -112,6 +112,85 @@ fn renames_reach_all_files_or_are_refused() {
     editor.close();
 }
 
+/// A later use of a macro, and text behind a condition, count like any other.
+#[test]
+fn renames_capture_no_name_in_macros_or_behind_conditions() {
+    let macros = "#version 150\n#define SCALE(x) ((x) * k)\nuniform float k;\nout vec4 color;\n\
+        float g() { return SCALE(2.0); }\nvoid main() {\n    float x = 2.0;\n    color = vec4(SCALE(1.0), x, g(), 1.0);\n}\n";
+    let conditions = "#version 150\n#define GAIN amount\nuniform float amount;\nuniform float bias;\nout vec4 color;\nvoid main() {\n    float x = 1.0;\n\
+        #ifdef EXTRA\n    x += amount;\n#endif\n#ifdef MORE\n    float y = GAIN;\n#endif\n#ifdef LESS\n    x -= bias;\n#endif\n\
+        \x20   color = vec4(x * GAIN * bias);\n}\nvoid other() {\n    float z = 1.0;\n}\n";
+    let folder = Folder::new(&[("m.frag", macros.as_bytes()), ("c.frag", conditions.as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("m.frag", macros);
+    editor.open("c.frag", conditions);
+    for (file, text, word, new, line) in [
+        ("m.frag", macros, "x = 2.0", "k", Some(2)),
+        ("m.frag", macros, "x = 2.0", "y", None),
+        ("m.frag", macros, "k;", "y", None),
+        ("c.frag", conditions, "x = 1.0", "amount", Some(9)),
+        ("c.frag", conditions, "x = 1.0", "y", Some(12)),
+        ("c.frag", conditions, "x = 1.0", "near", None),
+        ("c.frag", conditions, "bias;", "x", Some(9)),
+        ("c.frag", conditions, "bias;", "z", None),
+        // The text behind a condition is in another function.
+        ("c.frag", conditions, "z = 1.0", "amount", None),
+    ] {
+        let mut there = editor.on(file, text, word);
+        there["newName"] = json!(new);
+        let answer = editor.answer("textDocument/rename", there);
+        let message = answer["error"]["message"].as_str();
+        let expected = line.map(|line| format!("`{new}` would change what a name denotes: {file}:{line}"));
+        assert_eq!(message.map(str::to_owned), expected, "{file} {word} {new}: {answer}");
+    }
+    editor.close();
+}
+
+#[test]
+fn scalars_have_no_members_before_420() {
+    let text = |version: &str| {
+        format!(
+            "#version {version}\nout vec4 color;\nfloat half_of(float a) {{ return a; }}\nvoid main() {{\n    half_of(1.0).\n}}\n"
+        )
+    };
+    let folder = Folder::new(&[("a.frag", text("150").as_bytes()), ("b.frag", text("420").as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    for (file, text, offered) in [("a.frag", text("150"), &[][..]), ("b.frag", text("420"), &["x", "r", "s"])] {
+        editor.open(file, &text);
+        let mut there = editor.on(file, &text, "half_of(1.0).");
+        let column = there["position"]["character"].as_u64().expect("a number") + 13;
+        there["position"]["character"] = json!(column);
+        let mut found = labels(&editor.ask("textDocument/completion", there));
+        found.sort();
+        let mut offered: Vec<String> = offered.iter().map(|one| (*one).to_owned()).collect();
+        offered.sort();
+        assert_eq!(found, offered, "{file}");
+    }
+    editor.close();
+}
+
+#[test]
+fn a_range_is_formatted_alone() {
+    let text = "#version 150\nout vec4 color;\nfloat  g( float a ){\n  float b=a ;\n    float c=b ;\n  return c ;\n}\nvoid main() { color = vec4(g(1.0)); }\n";
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", text);
+    let uri = editor.uri("a.frag");
+    for (first, last, new) in [
+        (2, 3, text.replace("float  g( float a ){", "float g(float a) {")),
+        (3, 4, text.replace("  float b=a ;", "    float b = a;")),
+        (4, 6, text.replace("float c=b ;", "float c = b;").replace("  return c ;", "    return c;")),
+        (7, 8, text.to_owned()),
+    ] {
+        let range = json!({ "start": { "line": first, "character": 0 }, "end": { "line": last, "character": 0 } });
+        let options = json!({ "tabSize": 4, "insertSpaces": true });
+        let ask = json!({ "textDocument": { "uri": uri }, "range": range, "options": options });
+        let edits = editor.ask("textDocument/rangeFormatting", ask);
+        assert_eq!(applied(text, edits.as_array().expect("a list"), false), new, "{first} to {last}");
+    }
+    editor.close();
+}
+
 #[test]
 fn findings_are_those_of_lint_while_typing() {
     let folder = program();

@@ -211,7 +211,25 @@ fn messages_that_are_none_are_passed_over() {
     assert!(told(early.as_bytes()).0.contains("-32002"));
     let mut half = start.into_bytes();
     half.extend(b"Content-Length: 100\r\n\r\n{\"half");
-    assert_eq!(told(&half).1, Some(1));
+    let (output, code) = told(&half);
+    assert!(code == Some(1) && output.contains("the input ends after 6 of 100 bytes of a message"), "{output}");
+    // Headers that are none are told, to the editor and on standard error.
+    for (bad, why) in [
+        ("Content-Length: abc", "the length of a message is no number: `Content-Length: abc`"),
+        ("Content-Length: 99999999999999", "a message has more than 256 MiB: `Content-Length: 99999999999999`"),
+        ("garbage", "this is no header: `garbage`"),
+    ] {
+        let folder = Folder::new(&[]);
+        let mut server = folder.command(&["lsp"]);
+        server.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = server.spawn().expect("it runs");
+        let text = format!("{bad}\r\n\r\n{{}}");
+        child.stdin.take().expect("it is piped").write_all(text.as_bytes()).expect("it reads");
+        let ended = child.wait_with_output().expect("it ends");
+        let (output, said) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
+        assert_eq!(said, format!("glisten lsp: {why}\n"));
+        assert!(output.contains("window/logMessage") && output.contains(why), "{output}");
+    }
 }
 
 /// A finding on numerics is told with inputs, once the editor rests, and not before.

@@ -128,6 +128,8 @@ mod own_snapshots;
 mod permutations;
 #[cfg(feature = "play")]
 mod play;
+#[cfg(feature = "play")]
+mod play_edits;
 mod port;
 mod port_style;
 mod print;

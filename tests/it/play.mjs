@@ -32,7 +32,7 @@ try {
   await page.keyboard.press("End");
   await page.keyboard.type("\ncolor.r = mixx(color.r, 1.0, 0.5);");
   // Answers to a part of the line offer no fix any more.
-  await until(() => document.querySelector("#findings li.error button:not(.link)")?.textContent === "write `mix`");
+  await until(() => document.querySelectorAll("#findings li.error").length === 1 && document.querySelector("#findings li.error button:not(.link)")?.textContent === "write `mix`");
   seen.finding = await page.textContent("#findings li.error");
   seen.mark = (await page.locator("#editor .cm-lintRange-error").count()) > 0;
   let before = await picture();

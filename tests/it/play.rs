@@ -9,14 +9,14 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-const SCENE: &str = "[framebuffer]\nwidth = 16\nheight = 16\n\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n\n\
+pub(crate) const SCENE: &str = "[framebuffer]\nwidth = 16\nheight = 16\n\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n\n\
     [draw.uniforms]\nshade = 0.25\n";
-const VERTEX: &str = "#version 150\nvoid main()\n{\n    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n    \
+pub(crate) const VERTEX: &str = "#version 150\nvoid main()\n{\n    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);\n    \
     gl_Position = vec4(p, 0.0, 1.0);\n}\n";
-const FRAGMENT: &str =
+pub(crate) const FRAGMENT: &str =
     "#version 150\nuniform float shade;\nout vec4 color;\nvoid main()\n{\n    color = vec4(shade, 0.5, 1.0, 1.0);\n}\n";
 
-fn folder() -> tempfile::TempDir {
+pub(crate) fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, text) in [("shaders/a.toml", SCENE), ("shaders/a.vert", VERTEX), ("shaders/a.frag", FRAGMENT)] {
         let path = folder.path().join(name);
@@ -28,8 +28,8 @@ fn folder() -> tempfile::TempDir {
 }
 
 /// A running server.
-struct Play {
-    child: Child,
+pub(crate) struct Play {
+    pub(crate) child: Child,
     port: u16,
     token: String,
 }
@@ -42,20 +42,20 @@ impl Drop for Play {
     }
 }
 
-struct Answer {
-    status: u16,
+pub(crate) struct Answer {
+    pub(crate) status: u16,
     head: String,
-    body: String,
+    pub(crate) body: String,
 }
 
 impl Answer {
-    fn json(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         serde_json::from_str(&self.body).unwrap_or_else(|error| panic!("{error}: {}", self.body))
     }
 }
 
 impl Play {
-    fn start(folder: &Path, arguments: &[&str]) -> Self {
+    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
         command.current_dir(folder).arg("play").args(arguments).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut child = command.spawn().expect("the program starts");
@@ -82,19 +82,24 @@ impl Play {
         Answer { status, head: head.to_owned(), body: body.to_owned() }
     }
 
-    fn host(&self) -> String {
+    pub(crate) fn host(&self) -> String {
         format!("127.0.0.1:{}", self.port)
     }
 
-    fn get(&self, path: &str) -> Answer {
+    /// The address of the page.
+    pub(crate) fn address(&self) -> String {
+        format!("http://{}/?token={}", self.host(), self.token)
+    }
+
+    pub(crate) fn get(&self, path: &str) -> Answer {
         self.send("GET", path, &[("Host", &self.host()), ("X-Glisten-Token", &self.token)], "")
     }
 
-    fn post(&self, path: &str, body: &Value) -> Answer {
+    pub(crate) fn post(&self, path: &str, body: &Value) -> Answer {
         self.send("POST", path, &[("Host", &self.host()), ("X-Glisten-Token", &self.token)], &body.to_string())
     }
 
-    fn ask(&self, job: &Value) -> Value {
+    pub(crate) fn ask(&self, job: &Value) -> Value {
         let answer = self.post("/api/ask", job);
         assert_eq!(answer.status, 200, "{}", answer.body);
         answer.json()
@@ -135,7 +140,9 @@ fn strangers_get_403() {
         assert_eq!(play.get(path).status, 403, "{path}");
     }
     assert_eq!(play.get("/a.frag").body, FRAGMENT);
-    assert_eq!(play.get("/b.frag").status, 404);
+    for path in ["/b.frag", "/none/new.frag", "/api/nothing"] {
+        assert_eq!(play.get(path).status, 404, "{path}");
+    }
     for (path, body) in [
         ("/api/save", json!({ "name": "secret.frag", "text": "", "was": "secret" })),
         ("/api/save", json!({ "name": "shaders/../secret.frag", "text": "", "was": "secret" })),
@@ -400,7 +407,7 @@ fn a_page_with_a_module_holds_what_its_scenes_read() {
 
 /// The browser and the module that drives it, if both are installed: Debian's `chromium`, and
 /// `npm install --prefix target/browser playwright-core`.
-fn browser() -> Option<(String, String)> {
+pub(crate) fn browser() -> Option<(String, String)> {
     let found = Command::new("which").arg("chromium").output().ok().filter(|found| found.status.success())?;
     let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/browser/node_modules/playwright-core/index.mjs");
     let browser = String::from_utf8_lossy(&found.stdout).trim().to_owned();
@@ -408,7 +415,7 @@ fn browser() -> Option<(String, String)> {
 }
 
 /// Says that there is no browser. The test harness does not capture this: what was not tried must be visible.
-fn untried() {
+pub(crate) fn untried() {
     let message = "\nthe page is not tried: install `chromium`, and playwright-core in target/browser";
     writeln!(std::io::stderr(), "{message}").expect("standard error can be written to");
 }

@@ -2,6 +2,8 @@
 
 use crate::buffers;
 use crate::exit::Failure;
+#[cfg(feature = "play")]
+use crate::gate;
 use crate::overwrite;
 use crate::trace;
 use crate::unfinished;
@@ -82,11 +84,26 @@ impl FileSource for SceneFiles {
         overwrite::note(Path::new(path));
         let bytes = match buffers::get(Path::new(path)) {
             Some(bytes) => Ok(bytes.to_vec()),
+            None if !is_open(Path::new(path)) => Err(FileError::Unreadable(OUTSIDE.to_owned())),
             None => DiskFiles.read(path),
         };
         trace::read(Path::new(path), bytes.as_deref().ok());
         bytes
     }
+}
+
+/// The reason for what the page of `glisten play` may not read.
+const OUTSIDE: &str = "it is in none of the folders of `glisten play`";
+
+/// Whether the job that runs may read a file of the disk.
+#[cfg(feature = "play")]
+fn is_open(path: &Path) -> bool {
+    gate::may_read(path)
+}
+
+#[cfg(not(feature = "play"))]
+fn is_open(_: &Path) -> bool {
+    true
 }
 
 fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
@@ -96,6 +113,9 @@ fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     if !is_allowed(path) {
         let message = format!("`{name}` is outside of the sandbox, and is not read");
         return Err(ReadError::new(&general::FILE_UNREADABLE, message));
+    }
+    if !is_open(path) {
+        return Err(ReadError::new(&general::FILE_UNREADABLE, format!("cannot read `{name}`: {OUTSIDE}")));
     }
     let metadata = fs::metadata(path).map_err(|error| read_error(name, path, &error))?;
     // Room for all of it: otherwise a file is read in pieces.
@@ -246,8 +266,24 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     sweep(folder);
     let mut file = unfinished::create(&builder(), folder).map_err(|error| failed(&error))?;
     file.write_all(bytes).map_err(|error| failed(&error))?;
+    keep_mode(file.as_file(), &target);
     file.persist(&target).map(drop).map_err(|error| failed(&error.error))
 }
+
+/// Gives the file that takes another one's place its owner and its mode, where the system lets.
+#[cfg(unix)]
+fn keep_mode(file: &fs::File, replaced: &Path) {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
+    let Ok(old) = fs::metadata(replaced) else { return };
+    // The text is right without both. Only the administrator may give a file away.
+    if file.metadata().is_ok_and(|new| (new.uid(), new.gid()) != (old.uid(), old.gid())) {
+        let _ = fchown(file, Some(old.uid()), Some(old.gid()));
+    }
+    let _ = file.set_permissions(fs::Permissions::from_mode(old.mode() & 0o777));
+}
+
+#[cfg(not(unix))]
+fn keep_mode(_: &fs::File, _: &Path) {}
 
 /// Gives temporary files the permissions of any new file rather than restricted ones.
 fn builder() -> tempfile::Builder<'static, 'static> {
@@ -286,6 +322,21 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::text_of;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_replaced_file_keeps_its_mode() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.frag");
+        for mode in [0o600, 0o640, 0o755] {
+            std::fs::write(&path, "old").expect("written");
+            std::fs::set_permissions(&path, std::fs::Permissions::from_mode(mode)).expect("set");
+            super::replace(&path, b"new").expect("replaced");
+            let kept = std::fs::metadata(&path).expect("it is there").permissions().mode() & 0o777;
+            assert_eq!((kept, std::fs::read(&path).expect("it is there")), (mode, b"new".to_vec()));
+        }
+    }
 
     #[test]
     fn text_and_binary_are_told_apart() {

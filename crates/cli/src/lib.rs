@@ -22,6 +22,8 @@ mod exit;
 mod files;
 mod fix;
 mod fullscreen;
+#[cfg(feature = "play")]
+mod gate;
 mod inputs;
 mod lone;
 mod made;

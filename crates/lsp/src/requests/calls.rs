@@ -43,7 +43,7 @@ fn item(state: &State<'_>, analysis: &Analysis, symbol: SymbolId) -> Option<Call
 }
 
 /// The function, with its name, in which a place is.
-fn function_around(analysis: &Analysis, span: Span) -> Option<(Span, Span)> {
+pub(super) fn function_around(analysis: &Analysis, span: Span) -> Option<(Span, Span)> {
     for (_, view) in analysis.compiled.inspection.views() {
         for declaration in &view.ast.declarations {
             let (DeclarationKind::Function(header, _) | DeclarationKind::Prototype(header)) = &declaration.kind else {

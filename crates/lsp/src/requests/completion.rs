@@ -15,6 +15,7 @@ use glisten_front::analysis::Denoted;
 use glisten_front::diagnostic::{Severity, codes};
 use glisten_front::hir::{Stage, Storage, Type, TypeId, Types};
 use glisten_front::index::View;
+use glisten_front::language::Feature;
 use lsp_types::{
     CompletionItem, CompletionItemKind, CompletionList, CompletionParams, CompletionResponse, CompletionTextEdit,
     TextEdit,
@@ -165,8 +166,9 @@ fn probed(state: &mut State<'_>, point: &Point, start: usize) -> Option<Compiled
 fn members(state: &mut State<'_>, point: &Point, start: usize, items: &mut Items<'_>) {
     let Some(compiled) = probed(state, point, start) else { return };
     let types = &compiled.inspection.types;
-    let probes = compiled.inspection.views().filter_map(|(_, view)| view.notes.probe.as_ref()?.member_of);
-    let Some(ty) = probes.into_iter().next() else { return };
+    let mut probes =
+        compiled.inspection.views().filter_map(|(_, view)| Some((view, view.notes.probe.as_ref()?.member_of?)));
+    let Some((view, ty)) = probes.next() else { return };
     match types.get(ty) {
         Type::Struct(id) => {
             for member in &types.structure(id).members {
@@ -174,7 +176,10 @@ fn members(state: &mut State<'_>, point: &Point, start: usize, items: &mut Items
             }
         }
         Type::Vector(_, size) => components(types, ty, usize::from(size), items),
-        Type::Scalar(_) => components(types, ty, 1, items),
+        // Components of a scalar are not in GLSL 1.50 (§5.5).
+        Type::Scalar(_) if view.ast.version.has_with(Feature::ScalarSwizzles, builtins::extensions(view)) => {
+            components(types, ty, 1, items);
+        }
         Type::Array(..) => items.add_text("length", "length()", CompletionItemKind::METHOD, "int length()", 0),
         _ => {}
     }

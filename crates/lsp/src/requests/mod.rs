@@ -23,6 +23,7 @@ mod shown;
 mod signature;
 mod symbols;
 mod tokens;
+mod unread;
 
 use super::state::State;
 use super::text::Encoding;

@@ -7,20 +7,19 @@
 use super::Failure;
 use super::definition::{InProgram, everywhere};
 use super::scene;
+use super::unread::{Names, unread};
 use crate::analysis::{Analysis, Place};
 use crate::builtins;
 use crate::state::State;
 use crate::text::Text;
 use glisten_front::analysis::Denoted;
-use glisten_front::index::{Index, Occurrence, SymbolId, SymbolKind};
-use glisten_front::source::FileId;
+use glisten_front::index::{Occurrence, SymbolId, SymbolKind};
 use glisten_front::syntax::keywords;
 use lsp_types::{
     DocumentChanges, OneOf, OptionalVersionedTextDocumentIdentifier, PrepareRenameResponse, RenameParams,
     TextDocumentEdit, TextDocumentPositionParams, TextEdit, WorkspaceEdit,
 };
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -110,10 +109,16 @@ pub(super) fn rename(state: &mut State<'_>, params: &RenameParams) -> Result<Opt
             refuse_fixed(analysis, occurrence)?;
             edits.entry(PathBuf::from(&place.file)).or_default().insert((place.start, place.end));
         }
-        add_unread(analysis, places, &old, &mut edits);
+        let unread = unread(analysis, places, Names { old: &old, new });
+        if let Some(place) = unread.captured {
+            return Err(changes_meaning(new, analysis, &place));
+        }
+        for place in unread.places {
+            edits.entry(PathBuf::from(place.file)).or_default().insert((place.start, place.end));
+        }
     }
     let texts = texts(state, &all, &edits);
-    check(state, &all, &edits, &texts, new)?;
+    check(state, &all, &edits, &texts, [&old, new])?;
     let mut changes: Vec<(PathBuf, Vec<TextEdit>)> = Vec::new();
     for (path, places) in &edits {
         let Some(text) = texts.get(path) else { continue };
@@ -148,56 +153,15 @@ pub(super) fn workspace_edit(state: &State<'_>, changes: Vec<(PathBuf, Vec<TextE
     edit
 }
 
+fn changes_meaning(new: &str, analysis: &Analysis, place: &Place) -> Failure {
+    Failure::refused(format!("`{new}` would change what a name denotes: {}", shown(analysis, place)))
+}
+
 fn shown(analysis: &Analysis, place: &Place) -> String {
     let file = analysis.files(Path::new(&place.file)).next();
     let line = file.map_or(0, |file| analysis.text(file).line_of(place.start) + 1);
     let name = Path::new(&place.file).file_name().map(|name| name.to_string_lossy().into_owned());
     format!("{}:{line}", name.unwrap_or_else(|| place.file.clone()))
-}
-
-/// Adds the places of the name in text that the compiler does not read: left out by conditions, or in macros that nothing uses.
-fn add_unread(analysis: &Analysis, places: &[(Place, Occurrence)], old: &str, edits: &mut Edits) {
-    let Some((_, first)) = places.first() else { return };
-    let symbol = analysis.symbol(first.symbol);
-    let is_local =
-        matches!(symbol.places.first(), Some((_, Denoted::Local(..)))) || symbol.kind == SymbolKind::MacroParameter;
-    let is_member = matches!(symbol.places.first(), Some((_, Denoted::Member(..))));
-    for (_, view) in analysis.compiled.inspection.views() {
-        let directives = &view.ast.directives;
-        let bodies = directives.definitions.iter().map(|definition| definition.body);
-        for span in directives.inactive.iter().copied().chain(bodies.filter(|span| span.is_known())) {
-            let Some((file, range)) = analysis.place(span) else { continue };
-            let name = analysis.sources().file(file).name();
-            let own = || places.iter().filter(|(place, _)| place.file == name);
-            let (low, high) = (own().map(|(place, _)| place.start).min(), own().map(|(place, _)| place.end).max());
-            let is_between = low.zip(high).is_some_and(|(low, high)| low <= range.start && range.end <= high);
-            if name.starts_with('<') || low.is_none() || is_local && !is_between {
-                continue;
-            }
-            for found in unread(analysis, file, range, old, is_member) {
-                edits.entry(PathBuf::from(name)).or_default().insert(found);
-            }
-        }
-    }
-}
-
-/// The places of a word in a range that the index does not have; for a member, those after a dot.
-fn unread(analysis: &Analysis, file: FileId, range: Range<usize>, word: &str, is_member: bool) -> Vec<(usize, usize)> {
-    let source = analysis.sources().file(file);
-    let text = source.text().get(range.clone()).unwrap_or("");
-    let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-    let mut found = Vec::new();
-    for (at, _) in text.match_indices(word) {
-        let (before, after) = (text.get(..at).unwrap_or(""), text.get(at + word.len()..).unwrap_or(""));
-        let is_whole = !before.ends_with(is_part) && !after.starts_with(is_part);
-        let is_after_dot = before.trim_end().ends_with('.');
-        let start = range.start + at;
-        let is_known = analysis.index().at(source.base() + start as u32).is_some();
-        if is_whole && is_after_dot == is_member && !is_known && !crate::cut::is_in_comment(text, at) {
-            found.push((start, start + word.len()));
-        }
-    }
-    found
 }
 
 /// The texts of the files to change.
@@ -222,7 +186,7 @@ fn check(
     all: &[InProgram],
     edits: &Edits,
     texts: &BTreeMap<PathBuf, Text>,
-    new: &str,
+    [renamed, new]: [&str; 2],
 ) -> Result<(), Failure> {
     let overlay = state.project.overlay().clone();
     let before: Vec<(PathBuf, Option<Arc<str>>)> =
@@ -238,9 +202,8 @@ fn check(
         overlay.set(&path, text);
     }
     for ((old, _), after) in all.iter().zip(&compiled) {
-        if let Some(place) = first_difference(old, after, edits, new) {
-            let message = format!("`{new}` would change what a name denotes: {}", shown(old, &place));
-            return Err(Failure::refused(message));
+        if let Some(place) = first_difference(old, after, edits, [renamed, new]) {
+            return Err(changes_meaning(new, old, &place));
         }
         let n_errors =
             |analysis: &Analysis| analysis.compiled.findings.iter().filter(|finding| finding.is_error()).count();
@@ -265,7 +228,7 @@ fn edited(text: &str, places: Option<&BTreeSet<(usize, usize)>>, new: &str) -> S
 }
 
 /// The first name whose meaning differs before and after.
-fn first_difference(old: &Analysis, new: &Analysis, edits: &Edits, name: &str) -> Option<Place> {
+fn first_difference(old: &Analysis, new: &Analysis, edits: &Edits, [renamed, name]: [&str; 2]) -> Option<Place> {
     let none = BTreeSet::new();
     let moved = |place: &Place| {
         let places = edits.get(Path::new(&place.file)).unwrap_or(&none);
@@ -279,34 +242,45 @@ fn first_difference(old: &Analysis, new: &Analysis, edits: &Edits, name: &str) -
         let length = if is_renamed { name.len() } else { place.end - place.start };
         Place { file: place.file.clone(), start: start as usize, end: start as usize + length }
     };
-    let after: BTreeMap<Place, SymbolId> = occurrences(new, new.index()).into_iter().collect();
+    let (before, after) = (occurrences(old), occurrences(new));
     let (mut forth, mut back) = (BTreeMap::new(), BTreeMap::new());
-    let before = occurrences(old, old.index());
-    if before.len() != after.len() {
-        return before
-            .into_iter()
-            .map(|(place, _)| place)
-            .find(|place| !after.contains_key(&moved(place)))
-            .or_else(|| Some(Place { file: old.key.files.first()?.to_string_lossy().into_owned(), start: 0, end: 0 }));
-    }
-    for (place, symbol) in before {
-        let Some(&other) = after.get(&moved(&place)) else { return Some(place) };
-        let is_same = *forth.entry(symbol).or_insert(other) == other && *back.entry(other).or_insert(symbol) == symbol;
-        if !is_same {
-            return Some(place);
+    for (number, meant) in before.iter().enumerate() {
+        let is_same = after.get(number).is_some_and(|other| {
+            let (symbol, renamed) = (meant.symbol, other.symbol);
+            other.place == moved(&meant.place)
+                && other.is_ambiguous == meant.is_ambiguous
+                && *forth.entry(symbol).or_insert(renamed) == renamed
+                && *back.entry(renamed).or_insert(symbol) == symbol
+        });
+        // Nobody knows which of its meanings the name of one more use has.
+        let is_unsure = meant.is_ambiguous && [name, renamed].contains(&&*old.symbol(meant.symbol).name);
+        if !is_same || is_unsure {
+            return Some(meant.place.clone());
         }
     }
-    None
+    let is_more = after.len() > before.len();
+    is_more.then(|| Place {
+        file: old.key.files.first().map_or_else(String::new, |file| file.to_string_lossy().into_owned()),
+        start: 0,
+        end: 0,
+    })
 }
 
-/// The places of all names, each once.
-fn occurrences(analysis: &Analysis, index: &Index) -> Vec<(Place, SymbolId)> {
-    let mut all: Vec<(Place, SymbolId)> = index
-        .occurrences()
-        .iter()
-        .filter_map(|found| Some((analysis.named_place(found.span)?, found.symbol)))
-        .collect();
-    all.sort();
-    all.dedup_by(|a, b| a.0 == b.0);
-    all
+/// A name where it is written.
+struct Meant {
+    place: Place,
+    symbol: SymbolId,
+    /// Whether uses of a macro give it several meanings.
+    is_ambiguous: bool,
+}
+
+/// All names in the order of their files and places. A file that is read several times has its names as often.
+fn occurrences(analysis: &Analysis) -> Vec<Meant> {
+    let meant = |found: &Occurrence| {
+        let place = analysis.named_place(found.span)?;
+        Some((found.span.start, Meant { place, symbol: found.symbol, is_ambiguous: found.is_ambiguous }))
+    };
+    let mut all: Vec<(u32, Meant)> = analysis.index().occurrences().iter().filter_map(meant).collect();
+    all.sort_by(|a, b| (&a.1.place, a.0).cmp(&(&b.1.place, b.0)));
+    all.into_iter().map(|(_, meant)| meant).collect()
 }

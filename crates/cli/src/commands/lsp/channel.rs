@@ -1,7 +1,8 @@
 //! The messages of an editor over standard input and output (LSP 3.17, "Base Protocol").
 //!
 //! *In:* bytes. *Out:* the connection of a server. *Holds:* what is no message is passed over, and answered as JSON-RPC says if it has the
-//! form of one; the end of the input ends the connection. Nothing but messages is written.
+//! form of one; the end of the input ends the connection. Nothing but messages is written to standard output. Of headers that are none,
+//! a line on standard error and `window/logMessage` tell, once until the next message.
 
 use lsp_server::{Connection, ErrorCode, Message};
 use serde_json::{Value, json};
@@ -29,7 +30,7 @@ pub(crate) fn connect() -> (Connection, Channel) {
     // It ends with the input, or with the program.
     thread::spawn(move || {
         let mut input = BufReader::new(io::stdin().lock());
-        while let Some(body) = body(&mut input) {
+        while let Some(body) = body(&mut input, &mut tell) {
             match message(&body) {
                 Ok(message) => {
                     if sender.send(message).is_err() {
@@ -77,9 +78,38 @@ fn write(message: &Value) -> io::Result<()> {
     output.flush()
 }
 
-/// The next body. Lines that are no header are passed over.
-fn body(input: &mut impl BufRead) -> Option<Vec<u8>> {
+/// Tells the person who looks after the editor. Whoever reads nothing is told nothing.
+fn tell(what: &str) {
+    let _ = writeln!(io::stderr(), "glisten lsp: {what}");
+    let warning = json!({ "type": 2, "message": format!("glisten: {what}") });
+    let _ = write(&json!({ "method": "window/logMessage", "params": warning }));
+}
+
+/// The number of bytes that a line of a header tells, if it does; the reason if it is no header.
+fn length_of(line: &str) -> Result<Option<usize>, String> {
+    // A header may follow what is none on its line.
+    let name = "content-length:";
+    let lower = line.to_ascii_lowercase();
+    let Some(text) = lower.rfind(name).and_then(|at| line.get(at + name.len()..)) else {
+        let is_header = lower.starts_with("content-type:");
+        return if is_header { Ok(None) } else { Err(format!("this is no header: `{}`", shown(line))) };
+    };
+    match text.trim().parse::<usize>() {
+        Ok(length) if length <= MAX_BYTES => Ok(Some(length)),
+        Ok(_) => Err(format!("a message has more than {} MiB: `{}`", MAX_BYTES >> 20, shown(line))),
+        Err(_) => Err(format!("the length of a message is no number: `{}`", shown(line))),
+    }
+}
+
+fn shown(line: &str) -> String {
+    let plain = line.chars().map(|letter| if letter.is_control() { ' ' } else { letter });
+    plain.take(80).collect()
+}
+
+/// The next body. Lines that are no header are passed over, and the first of them is told.
+fn body(input: &mut impl BufRead, tell: &mut impl FnMut(&str)) -> Option<Vec<u8>> {
     let mut length = None;
+    let mut is_told = false;
     loop {
         let mut line = Vec::new();
         if input.by_ref().take(MAX_LINE).read_until(b'\n', &mut line).ok()? == 0 {
@@ -91,16 +121,20 @@ fn body(input: &mut impl BufRead) -> Option<Vec<u8>> {
             (true, Some(length)) => {
                 let mut bytes = Vec::new();
                 let read = input.by_ref().take(length as u64).read_to_end(&mut bytes).ok()?;
+                if read < length {
+                    tell(&format!("the input ends after {read} of {length} bytes of a message"));
+                }
                 return (read == length).then_some(bytes);
             }
             (true, None) => {}
-            (false, _) => {
-                // A header may follow what is none on its line.
-                let name = "content-length:";
-                let found = text.to_ascii_lowercase().rfind(name).and_then(|at| text.get(at + name.len()..));
-                let number = found.and_then(|rest| rest.trim().parse::<usize>().ok());
-                length = number.filter(|length| *length <= MAX_BYTES).or(length);
-            }
+            (false, _) => match length_of(text) {
+                Ok(found) => length = found.or(length),
+                Err(why) if !is_told => {
+                    tell(&why);
+                    is_told = true;
+                }
+                Err(_) => {}
+            },
         }
     }
 }
@@ -118,7 +152,7 @@ fn message(body: &[u8]) -> Result<Message, Value> {
 
 #[cfg(test)]
 mod tests {
-    use super::{body, message};
+    use super::{body, length_of, message};
     use lsp_server::Message;
     use std::io::BufReader;
 
@@ -127,10 +161,20 @@ mod tests {
         let text = b"\xff\xfe garbage\r\n\r\n:::\nContent-Length: 99999999999999999999\r\n\r\nx Content-Length: 2\r\nContent-Type: a\r\n\r\n{}\
             content-length: 37\r\n\r\n{\"jsonrpc\":\"2.0\",\"method\":\"a\",\"id\":7}Content-Length: 50\r\n\r\n{}";
         let mut input = BufReader::new(&text[..]);
-        assert_eq!(body(&mut input).as_deref(), Some(&b"{}"[..]));
-        let second = body(&mut input).expect("a body");
+        let mut told = Vec::new();
+        let mut tell = |what: &str| told.push(what.to_owned());
+        assert_eq!(body(&mut input, &mut tell).as_deref(), Some(&b"{}"[..]));
+        let second = body(&mut input, &mut tell).expect("a body");
         assert!(matches!(message(&second), Ok(Message::Request(request)) if request.method == "a"));
-        assert_eq!(body(&mut input), None, "the input ends inside of it");
+        assert_eq!(body(&mut input, &mut tell), None, "the input ends inside of it");
+        assert_eq!(
+            told,
+            ["this is no header: `\u{fffd}\u{fffd} garbage`", "the input ends after 2 of 50 bytes of a message"]
+        );
+        assert_eq!((length_of("Content-Length: 7"), length_of("Content-Type: a")), (Ok(Some(7)), Ok(None)));
+        for bad in ["Content-Length: abc", "Content-Length: 99999999999999", "Content-Length: -1", "a: b"] {
+            assert!(length_of(bad).is_err_and(|why| why.contains(bad)), "{bad}");
+        }
         for (text, code) in [("{", -32700), ("[]", -32600), ("{\"id\": 3}", -32600)] {
             let failure = message(text.as_bytes()).expect_err("no message");
             assert_eq!(failure["error"]["code"], code, "{text}: {failure}");

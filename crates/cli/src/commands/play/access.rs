@@ -6,7 +6,10 @@
 
 use std::collections::BTreeSet;
 use std::hash::{BuildHasher, Hasher, RandomState};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
+
+/// The most bytes of the name of a file.
+const MAX_NAME: usize = 4096;
 
 /// The secret of a server.
 #[derive(Clone, Debug)]
@@ -68,10 +71,11 @@ pub(super) fn check(asking: Asking<'_>, token: &Token, port: u16) -> Result<(), 
 pub(super) struct Folders(BTreeSet<PathBuf>);
 
 impl Folders {
-    /// Adds a folder, if it exists.
-    pub(super) fn add(&mut self, folder: &Path) {
+    /// Adds a folder, if it exists. The folder, if it is new.
+    pub(super) fn add(&mut self, folder: &Path) -> Option<PathBuf> {
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        self.0.extend(std::fs::canonicalize(folder));
+        let own = std::fs::canonicalize(folder).ok()?;
+        self.0.insert(own.clone()).then_some(own)
     }
 
     /// The folders.
@@ -79,23 +83,26 @@ impl Folders {
         self.0.iter().map(PathBuf::as_path)
     }
 
-    /// Where a name leads, if that is in a folder. The file need not exist; its folder must.
+    /// Where a name leads, if that is in a folder. The file and its folder need not exist.
     pub(super) fn path(&self, name: &str) -> Option<PathBuf> {
-        let path = Path::new(name);
-        let (folder, file) = (path.parent()?, path.file_name()?);
-        if path.components().next_back() == Some(Component::ParentDir) || name.contains('\0') {
+        if name.is_empty() || name.len() > MAX_NAME || name.contains('\0') {
             return None;
         }
-        let whole = std::fs::canonicalize(path).or_else(|_| {
-            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-            // A link to a file that does not exist would be followed when it is written.
-            match std::fs::symlink_metadata(path) {
-                Ok(_) => Err(std::io::ErrorKind::NotFound.into()),
-                Err(_) => std::fs::canonicalize(folder).map(|folder| folder.join(file)),
-            }
-        });
-        whole.ok().filter(|whole| self.0.iter().any(|folder| whole.starts_with(folder)))
+        let whole = resolved(Path::new(name))?;
+        self.0.iter().any(|folder| whole.starts_with(folder)).then_some(whole)
     }
+}
+
+/// Where a path leads, after all links. What is not there has none. A link to what is not there would be followed when it is written.
+fn resolved(path: &Path) -> Option<PathBuf> {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    if let Ok(whole) = std::fs::canonicalize(path) {
+        return Some(whole);
+    }
+    if std::fs::symlink_metadata(path).is_ok() {
+        return None;
+    }
+    Some(resolved(path.parent()?)?.join(path.file_name()?))
 }
 
 #[cfg(test)]
@@ -132,22 +139,25 @@ mod tests {
     #[test]
     fn files_lie_in_the_folders() {
         let outside = tempfile::tempdir().expect("a folder");
-        let inside = outside.path().join("inside");
+        let inside = outside.path().canonicalize().expect("it is there").join("inside");
         std::fs::create_dir(&inside).expect("it can be made");
         std::fs::write(outside.path().join("secret"), "").expect("it can be written");
         std::fs::write(inside.join("a.frag"), "").expect("it can be written");
         let mut folders = Folders::default();
-        folders.add(&inside);
+        assert!(folders.add(&inside).is_some() && folders.add(&inside).is_none());
         let path = |name: &str| folders.path(&inside.join(name).to_string_lossy());
-        assert!(path("a.frag").is_some() && path("new.frag").is_some());
-        for name in ["../secret", "../new", "..", "no/../../secret", "none/new.frag", "/etc/passwd"] {
+        for name in ["a.frag", "new.frag", "none/new.frag", "none/none/new.frag"] {
+            assert!(path(name).is_some_and(|path| path.starts_with(&inside)), "{name}");
+        }
+        let long = "a/".repeat(100_000);
+        for name in ["../secret", "../new", "../none/new", "..", "no/../../secret", "no/..", "/etc/passwd", &long] {
             assert_eq!(path(name), None, "{name}");
         }
         assert_eq!(folders.path(""), None);
         #[cfg(unix)]
         for (link, to) in [("link", "../secret"), ("dangling", "../none")] {
             std::os::unix::fs::symlink(to, inside.join(link)).expect("it can be made");
-            assert_eq!(path(link), None, "{link}");
+            assert_eq!((path(link), path(&format!("{link}/new"))), (None, None), "{link}");
         }
     }
 }

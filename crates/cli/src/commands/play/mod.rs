@@ -5,7 +5,7 @@
 //!  browser ──► server ──► access   the token, the origin, the folders
 //!                │
 //!                ├──► files        scenes, shaders; saving; what changed on disk
-//!                ├──► lanes ──► worker, a process of its own: glisten_play, driver, variants
+//!                ├──► pages ──► lanes ──► worker, a process of its own: glisten_play, driver, variants
 //!                └──► page         HTML, with the editor
 //! ```
 //!
@@ -22,6 +22,7 @@ mod export;
 mod files;
 mod lanes;
 mod page;
+mod pages;
 mod server;
 mod variants;
 mod worker;
@@ -32,12 +33,14 @@ use crate::console::Console;
 use crate::exit::{Failure, Outcome};
 use crate::scenes::MachineArgs;
 use clap::Args;
-use std::path::PathBuf;
+use glisten_sources::stages;
+use std::path::{Path, PathBuf};
 
 /// Examples of its use.
 pub(crate) const EXAMPLES: Examples = &[
     ("glisten play shaders", "the scenes of a folder, in a browser; the address is printed"),
     ("glisten play scene.toml --open", "one scene, and a browser that shows it"),
+    ("glisten play a.frag", "a shader, with a new scene that draws it"),
     ("glisten play --export page.html scene.toml", "a page to hand on"),
     ("glisten play shaders --export page.html --module play.wasm.gz", "a page that computes by itself"),
 ];
@@ -46,8 +49,8 @@ pub(crate) const EXAMPLES: Examples = &[
 #[derive(Args, Debug)]
 #[command(mut_arg("diagnostics", |argument| argument.hide(true)))]
 pub(crate) struct PlayArgs {
-    /// A folder with scenes, or a scene
-    #[arg(value_name = "DIR|SCENE", default_value = ".")]
+    /// A folder with scenes, a scene, or a shader, which gets a new scene
+    #[arg(value_name = "DIR|SCENE|SHADER", default_value = ".")]
     start: String,
     /// The port of the page's address (0: any that is free)
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -77,8 +80,13 @@ pub(crate) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     if args.worker {
         return worker::run(args, console);
     }
-    if !std::path::Path::new(&args.start).exists() {
+    if !Path::new(&args.start).exists() {
         return Err(Failure::usage(format!("`{}` does not exist", args.start)));
+    }
+    let is_shader = stages::by_name(Path::new(&args.start)).is_some();
+    if is_shader && args.export.is_some() {
+        let failure = Failure::usage(format!("`{}` is a shader, and a page shows a scene", args.start));
+        return Err(failure.help(format!("`glisten new-scene {} -o scene.toml` writes one that draws it", args.start)));
     }
     match (&args.export, &args.module) {
         (Some(output), Some(module)) => alone::run(args, output, module, console),

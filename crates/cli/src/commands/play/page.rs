@@ -17,6 +17,8 @@ const PLAY: Page = Page {
         include_str!("page/editor.js"),
         "\n",
         include_str!("page/webgpu.js"),
+        include_str!("page/texts.js"),
+        include_str!("page/saving.js"),
         include_str!("page/asking.js"),
         include_str!("page/studies.js"),
         include_str!("page/matching.js"),

@@ -7,22 +7,24 @@
 use super::PlayArgs;
 use super::access::{Asking, Folders, Token, check};
 use super::files::{self, Changes, NotSaved};
-use super::lanes::{Lane, NoAnswer};
+use super::lanes::NoAnswer;
 use super::page::page;
+use super::pages::Pages;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files::sandbox;
 use crate::process::interrupt::Interrupt;
+use glisten_sources::stages;
 use percent_encoding::percent_decode_str;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::net::TcpListener;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 use std::time::Duration;
 use tiny_http::{Header, Method, Request, Response};
 
@@ -32,6 +34,8 @@ const MAX_BYTES: u64 = 32 << 20;
 const MAX_REQUESTS: usize = 64;
 /// How long a question for changes waits for one.
 const WAIT: Duration = Duration::from_secs(20);
+/// The reason why a file is not overwritten.
+const CHANGED: &str = "the file changed on disk meanwhile";
 /// How often Ctrl-C is looked for.
 const POLL: Duration = Duration::from_millis(40);
 
@@ -43,14 +47,15 @@ struct Server {
     root: String,
     /// The scene that the page begins with.
     scene: Option<String>,
-    folders: Folders,
+    /// The shader that the page makes a scene for at the beginning.
+    shader: Option<String>,
+    folders: RwLock<Folders>,
+    /// Whether the scene could be read as it was on disk. From then on no folders are added: a page may save another text of it.
+    is_read: AtomicBool,
     changes: Changes,
-    /// Answers about texts.
-    looks: Lane,
-    /// Draws.
-    draws: Lane,
-    /// Studies costs and errors.
-    studies: Lane,
+    pages: Pages,
+    /// The texts of new scenes by their names.
+    made: Mutex<BTreeMap<String, String>>,
     /// The arguments that say how sources are read, for other commands.
     source_args: Vec<String>,
 }
@@ -100,9 +105,7 @@ pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     while !interrupt.is_pressed() {
         std::thread::sleep(POLL);
     }
-    server.looks.stop();
-    server.draws.stop();
-    server.studies.stop();
+    server.pages.stop();
     Ok(Exit::Interrupted)
 }
 
@@ -162,33 +165,54 @@ fn respond(request: Request, answer: Answer) {
 impl Server {
     fn new(args: &PlayArgs, port: u16) -> Self {
         let start = Path::new(&args.start);
-        let (root, scene) = match start.is_dir() {
-            true => (start, None),
-            false => (start.parent().unwrap_or(Path::new("")), Some(args.start.clone())),
-        };
+        let root = if start.is_dir() { start } else { start.parent().unwrap_or(Path::new("")) };
+        let is_shader = stages::by_name(start).is_some();
+        let file = (!start.is_dir()).then(|| files::name_of(start));
         let mut folders = Folders::default();
-        folders.add(root);
-        args.sources.include_dirs.iter().for_each(|folder| folders.add(folder));
-        let limit = args.machine.time_limit();
-        let looks = Lane::new(worker, limit);
-        if let Some(scene) = &scene {
-            for name in sources_of(&looks, scene) {
-                folders.add(Path::new(&name).parent().unwrap_or(Path::new("")));
-            }
-        }
+        [root].into_iter().chain(args.sources.include_dirs.iter().map(PathBuf::as_path)).for_each(|folder| {
+            folders.add(folder);
+        });
         let root = if root.as_os_str().is_empty() { Path::new(".") } else { root };
-        Self {
+        let server = Self {
             token: Token::new(),
             port,
             root: root.to_string_lossy().into_owned(),
-            scene,
+            scene: file.clone().filter(|_| !is_shader),
+            shader: file.filter(|_| is_shader),
             changes: Changes::watch(&folders),
-            folders,
-            looks,
-            draws: Lane::new(worker, limit),
-            studies: Lane::new(worker, limit),
+            folders: RwLock::new(folders),
+            is_read: AtomicBool::new(false),
+            pages: Pages::new(worker, args.machine.time_limit()),
+            made: Mutex::default(),
             source_args: source_args(args),
+        };
+        if let Some(scene) = &server.scene {
+            let job = json!({ "ask": "look", "scene": scene }).to_string();
+            let answer = server.pages.of("").looks.ask(&job).unwrap_or_default();
+            server.open_folders(&serde_json::from_str(&answer).unwrap_or_default());
         }
+        server
+    }
+
+    /// Opens the folders of the files that the scene of this server reads, as they are on disk, until it can be read as a whole.
+    fn open_folders(&self, answer: &Value) {
+        let is_whole = answer.pointer("/ok/size").is_some_and(|size| !size.is_null());
+        if self.is_read.fetch_or(is_whole, Ordering::AcqRel) {
+            return;
+        }
+        let files = answer.pointer("/ok/files").and_then(Value::as_array);
+        for name in files.into_iter().flatten().filter_map(|file| file.get("name").and_then(Value::as_str)) {
+            let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+            let mut folders = self.folders.write().unwrap_or_else(PoisonError::into_inner);
+            if let Some(new) = folders.add(folder) {
+                self.changes.add(&new);
+            }
+        }
+    }
+
+    /// Where a name leads, if that is in a folder.
+    fn path(&self, name: &str) -> Option<PathBuf> {
+        self.folders.read().unwrap_or_else(PoisonError::into_inner).path(name)
     }
 
     fn answer(&self, request: &mut Request) -> Answer {
@@ -209,10 +233,16 @@ impl Server {
             (Method::Get, "/") => self.page(),
             (Method::Get, "/api/list") => Answer::json(&files::list(&self.root)),
             (Method::Get, "/api/changes") => {
+                query.get("page").into_iter().for_each(|page| self.pages.hear(page));
                 let since = query.get("since").and_then(|since| since.parse().ok()).unwrap_or(0);
                 Answer::json(&json!({ "number": self.changes.after(since, WAIT) }))
             }
+            (Method::Get, path) if path.starts_with("/api/") => Answer::refused(404, "there is no such request"),
             (Method::Get, path) => self.file(path),
+            (Method::Post, "/api/gone") => {
+                query.get("page").into_iter().for_each(|page| self.pages.forget(page));
+                Answer::json(&json!({ "ok": true }))
+            }
             (Method::Post, "/api/ask" | "/api/save" | "/api/new-scene") => {
                 let path = path.to_owned();
                 match body(request) {
@@ -229,6 +259,7 @@ impl Server {
             "mode": "server",
             "token": self.token.text(),
             "scene": self.scene,
+            "program": self.shader.as_ref().map(|shader| files::program_of(&self.root, shader)),
             "list": files::list(&self.root),
         });
         match page("glisten play", start) {
@@ -239,9 +270,9 @@ impl Server {
 
     /// A file of the folders, as text.
     fn file(&self, path: &str) -> Answer {
-        let name = percent_decode_str(path.trim_start_matches('/')).decode_utf8_lossy().into_owned();
+        let name = percent_decode_str(path.strip_prefix('/').unwrap_or(path)).decode_utf8_lossy().into_owned();
         let name = Path::new(&self.root).join(name).to_string_lossy().into_owned();
-        let Some(path) = self.folders.path(&name) else { return Answer::outside() };
+        let Some(path) = self.path(&name) else { return Answer::outside() };
         match std::fs::read(&path) {
             Ok(body) => Answer { status: 200, kind: "text/plain; charset=utf-8", body },
             Err(_) => Answer::refused(404, "there is no such file"),
@@ -258,26 +289,30 @@ impl Server {
 
     /// Hands a job to its worker.
     fn ask(&self, body: &str) -> Answer {
-        let Ok(job) = serde_json::from_str::<Value>(body) else { return Answer::refused(400, "it is not JSON") };
-        let scene = job.get("scene").and_then(Value::as_str).unwrap_or_default();
+        let Ok(Value::Object(mut job)) = serde_json::from_str(body) else {
+            return Answer::refused(400, "it is no question");
+        };
+        let word = |key: &str| job.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+        let (ask, scene, page) = (word("ask"), word("scene"), word("page"));
         let texts = job.get("texts").and_then(Value::as_object).into_iter().flat_map(|texts| texts.keys());
-        let ask = job.get("ask").and_then(Value::as_str).unwrap_or_default();
-        let names = texts.map(String::as_str).chain((ask != "pixel").then_some(scene));
-        for name in names {
-            if self.folders.path(name).is_none() {
-                return Answer::outside();
-            }
+        let names: Vec<&str> = texts.map(String::as_str).collect();
+        let scene_name = (ask != "pixel").then_some(scene.as_str());
+        if names.iter().copied().chain(scene_name).any(|name| self.path(name).is_none()) {
+            return Answer::outside();
         }
+        let is_of_disk = names.is_empty() && self.scene.as_ref() == Some(&scene);
+        job.insert("bounds".into(), self.bounds(&scene));
         // Each job is one line.
-        let line = job.to_string();
-        let answer = match ask {
-            "look" => self.looks.ask(&line),
-            "pixel" | "trace" => self.draws.ask_behind(&line),
-            "needs" | "stability" | "variants" => self.studies.ask(&line),
-            _ => self.draws.ask(&line),
+        let line = Value::Object(job).to_string();
+        let lanes = self.pages.of(&page);
+        let answer = match ask.as_str() {
+            "look" => lanes.looks.ask(&line),
+            "pixel" | "trace" => lanes.draws.ask_behind(&line),
+            "needs" | "stability" | "variants" => lanes.studies.ask(&line),
+            _ => lanes.draws.ask(&line),
         };
         match answer {
-            Ok(text) => self.told(&text),
+            Ok(text) => self.told(&text, is_of_disk),
             Err(NoAnswer::Superseded) => Answer::refused(409, "a newer question came"),
             Err(NoAnswer::TimeOver) => {
                 Answer::refused(200, "it took longer than the limit (`--timeout` gives more time)")
@@ -289,14 +324,30 @@ impl Server {
         }
     }
 
-    /// A worker's answer, with whether each file may be saved.
-    fn told(&self, text: &str) -> Answer {
+    /// The files that the texts of a page may name: see `super::worker`.
+    fn bounds(&self, scene: &str) -> Value {
+        let folders = self.folders.read().unwrap_or_else(PoisonError::into_inner);
+        let folders: Vec<&Path> = folders.iter().collect();
+        let made = self.made.lock().unwrap_or_else(PoisonError::into_inner).get(scene).cloned();
+        json!({ "folders": folders, "made": made })
+    }
+
+    /// A worker's answer, with whether each file may be saved. It opens folders if it is about the server's scene as it is on disk.
+    fn told(&self, text: &str, is_of_disk: bool) -> Answer {
         let mut answer: Value = serde_json::from_str(text).unwrap_or_default();
+        if answer.get("is_outside").is_some() {
+            return Answer::refused(403, answer.get("error").and_then(Value::as_str).unwrap_or_default());
+        }
+        if is_of_disk {
+            self.open_folders(&answer);
+        }
+        let folders = self.folders.read().unwrap_or_else(PoisonError::into_inner);
         let files = answer.get_mut("ok").and_then(|ok| ok.get_mut("files")).and_then(Value::as_array_mut);
         for file in files.into_iter().flatten().filter_map(Value::as_object_mut) {
             let name = file.get("name").and_then(Value::as_str).unwrap_or_default();
-            let is_writable = self.folders.path(name).is_some();
-            file.insert("is_writable".into(), is_writable.into());
+            let fixed = files::fixed(&folders, name);
+            file.insert("is_writable".into(), fixed.is_none().into());
+            file.insert("fixed".into(), fixed.into());
         }
         Answer::json(&answer)
     }
@@ -309,10 +360,14 @@ impl Server {
             was: Option<String>,
         }
         let Ok(save) = serde_json::from_str::<Save>(body) else { return Answer::refused(400, "it is not a text") };
-        match files::save(&self.folders, &save.name, &save.text, save.was.as_deref()) {
+        let folders = self.folders.read().unwrap_or_else(PoisonError::into_inner);
+        match files::save(&folders, &save.name, &save.text, save.was.as_deref()) {
             Ok(()) => Answer::json(&json!({ "ok": true })),
             Err(NotSaved::Outside) => Answer::outside(),
-            Err(NotSaved::Changed) => Answer::refused(409, "the file changed on disk meanwhile"),
+            Err(NotSaved::Changed(now)) => {
+                Answer { status: 409, ..Answer::json(&json!({ "error": CHANGED, "disk": now })) }
+            }
+            Err(NotSaved::NotText) => Answer::refused(422, files::NOT_TEXT),
             Err(NotSaved::Failed(reason)) => Answer::refused(500, &reason),
         }
     }
@@ -322,7 +377,7 @@ impl Server {
         let Ok(names) = serde_json::from_str::<Vec<String>>(body) else {
             return Answer::refused(400, "it is not a list of files");
         };
-        let Some(paths) = names.iter().map(|name| self.folders.path(name)).collect::<Option<Vec<_>>>() else {
+        let Some(paths) = names.iter().map(|name| self.path(name)).collect::<Option<Vec<_>>>() else {
             return Answer::outside();
         };
         let folder = paths.first().and_then(|path| path.parent()).unwrap_or(Path::new(".")).to_owned();
@@ -332,11 +387,12 @@ impl Server {
             command.current_dir(&folder).arg("new-scene").args(files).args(&self.source_args).args(sandbox());
             command.stdin(Stdio::null()).output()
         });
-        let stem = names.first().map(|name| Path::new(name).with_extension("toml"));
         match made {
             Ok(made) if made.status.success() => {
                 let text = String::from_utf8_lossy(&made.stdout).into_owned();
-                Answer::json(&json!({ "name": stem, "text": text }))
+                let name = names.first().map(|name| files::free_name(name)).unwrap_or_default();
+                self.made.lock().unwrap_or_else(PoisonError::into_inner).insert(name.clone(), text.clone());
+                Answer::json(&json!({ "name": name, "text": text }))
             }
             Ok(made) => Answer::refused(200, String::from_utf8_lossy(&made.stderr).trim()),
             Err(error) => Answer::refused(500, &error.to_string()),
@@ -349,15 +405,6 @@ fn worker() -> std::io::Result<Command> {
     let mut command = Command::new(std::env::current_exe()?);
     command.args(std::env::args_os().skip(1)).arg("--worker");
     Ok(command)
-}
-
-/// The files that a scene reads.
-fn sources_of(looks: &Lane, scene: &str) -> Vec<String> {
-    let job = json!({ "ask": "look", "scene": scene }).to_string();
-    let answer: Value = looks.ask(&job).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
-    let files = answer.pointer("/ok/files").and_then(Value::as_array);
-    let names = files.into_iter().flatten().filter_map(|file| file.get("name").and_then(Value::as_str));
-    names.map(str::to_owned).collect()
 }
 
 /// The arguments that say how sources are read, with absolute paths.

@@ -1,7 +1,8 @@
 //! The worker: a process that answers the jobs of the server, one after the other.
 //!
-//! *In:* a job on each line of standard input. *Out:* an answer on each line of standard output: `{"ok": ...}` or
-//! `{"error": "..."}`. *Holds:* it ends when its input ends, whatever it is doing, so that it never outlives the server.
+//! *In:* a job on each line of standard input, with its bounds. *Out:* an answer on each line of standard output: `{"ok": ...}` or
+//! `{"error": "..."}`. *Holds:* it ends when its input ends, whatever it is doing, so that it never outlives the server. The texts of
+//! a page read no file outside of the folders but those that files on disk name: such a job has `"is_outside": true` and nothing else.
 
 use super::PlayArgs;
 use super::driver::{Driver, timed};
@@ -10,13 +11,16 @@ use crate::buffers;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files::SceneFiles;
+use crate::gate;
 use crate::process::guard;
 use crate::scenes::SceneArgs;
 use crate::session::Session;
 use glisten_play::{Job, Pictures, Wish, drawable};
+use glisten_verify::scene;
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::io::BufRead;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 
 /// Runs the worker.
@@ -25,7 +29,8 @@ pub(super) fn run(args: &PlayArgs, console: &Console) -> Outcome {
     for line in lines()? {
         let answer = match guard::guarded(|| answer(args, console, &line, &mut kept)) {
             Ok(Ok(answer)) => json!({ "ok": answer }),
-            Ok(Err(error)) => json!({ "error": error }),
+            Ok(Err(NoAnswer::Error(error))) => json!({ "error": error }),
+            Ok(Err(NoAnswer::Outside(path))) => json!({ "is_outside": true, "error": outside(&path) }),
             Err(panic) => json!({ "error": format!("internal error: {panic}; please report it with the scene") }),
         };
         console.output(&format!("{answer}\n"))?;
@@ -60,18 +65,95 @@ struct Kept {
     driver: Driver,
     pictures: Pictures,
     programs: glisten_play::Kept,
+    /// The files outside of the folders that files on disk name.
+    outside: gate::Files,
 }
 
-fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Result<Value, String> {
-    let job: Job = serde_json::from_str(line).map_err(|error| format!("the job is not understood: {error}"))?;
-    let Kept { driver, pictures, programs } = kept;
+/// The files that a job may read.
+#[derive(Deserialize)]
+struct Bounds {
+    folders: Vec<PathBuf>,
+    /// The text of a scene that is not on disk, as the server made it.
+    made: Option<String>,
+}
+
+/// A job and its bounds.
+#[derive(Deserialize)]
+struct Bounded {
+    bounds: Option<Bounds>,
+}
+
+/// The reason why a job has no answer.
+enum NoAnswer {
+    Error(String),
+    /// A text of the page names this file, which is outside.
+    Outside(PathBuf),
+}
+
+fn outside(path: &Path) -> String {
+    format!("`{}` is in none of the folders of `glisten play`", path.display())
+}
+
+fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Result<Value, NoAnswer> {
+    let error = |error: serde_json::Error| NoAnswer::Error(format!("the job is not understood: {error}"));
+    let job: Job = serde_json::from_str(line).map_err(error)?;
+    let Bounded { bounds } = serde_json::from_str(line).map_err(error)?;
     if let Wish::Pixel { x, y } = job.wish {
-        return Ok(pictures.pixel(x, y));
+        return Ok(kept.pictures.pixel(x, y));
     }
+    let mut work = |kept: &mut Kept| {
+        put_texts(&job);
+        answer_of(args, console, &job, kept)
+    };
+    match bounds.filter(|_| !job.texts.is_empty()) {
+        Some(bounds) => {
+            let of = SceneArgs::of(&job.scene, &args.machine, &args.sources, &args.levels);
+            within(&bounds, kept, &mut work, || read_from_disk(&of, console, &job, bounds.made.as_deref()))
+        }
+        None => work(kept).map_err(NoAnswer::Error),
+    }
+}
+
+/// The answer to a job that reads only what it may. `read` reads what is on disk.
+fn within(
+    bounds: &Bounds,
+    kept: &mut Kept,
+    work: &mut impl FnMut(&mut Kept) -> Result<Value, String>,
+    read: impl FnOnce(),
+) -> Result<Value, NoAnswer> {
+    let known = kept.outside.clone();
+    let (mut answer, mut refused) = gate::held(&bounds.folders, &known, || work(kept));
+    if !refused.is_empty() {
+        kept.outside.extend(gate::learned(&bounds.folders, read).1);
+        let known = kept.outside.clone();
+        (answer, refused) = gate::held(&bounds.folders, &known, || work(kept));
+    }
+    match refused.pop_first() {
+        Some(path) => Err(NoAnswer::Outside(path)),
+        None => answer.map_err(NoAnswer::Error),
+    }
+}
+
+fn put_texts(job: &Job) {
     buffers::clear();
     for (name, text) in &job.texts {
         buffers::put(Path::new(name), text.clone().into_bytes());
     }
+}
+
+/// Reads a scene as it is on disk, or as the server made it.
+fn read_from_disk(of: &SceneArgs, console: &Console, job: &Job, made: Option<&str>) {
+    buffers::clear();
+    if let Some(text) = made.filter(|_| !Path::new(&job.scene).exists()) {
+        buffers::put(Path::new(&job.scene), text.as_bytes().to_vec());
+    }
+    if let Ok(session) = of.session(console) {
+        scene::load(&job.scene, &SceneFiles, session.compiler());
+    }
+}
+
+fn answer_of(args: &PlayArgs, console: &Console, job: &Job, kept: &mut Kept) -> Result<Value, String> {
+    let Kept { driver, pictures, programs, .. } = kept;
     let of = SceneArgs::of(&job.scene, &args.machine, &args.sources, &args.levels);
     let failed = |failure| match failure {
         Failure::Told { message, .. } => message,
@@ -89,7 +171,7 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Re
             driver.compare(&scene, &sources, &args.machine, pictures)
         }
         Wish::Variants => variants(&job.scene, session.compiler(), driver.gpu(&args.machine)?),
-        Wish::Draw { gpu: false, .. } => timed(|| glisten_play::answer(&job, &mut session, pictures, load)),
-        _ => glisten_play::answer(&job, &mut session, pictures, load),
+        Wish::Draw { gpu: false, .. } => timed(|| glisten_play::answer(job, &mut session, pictures, load)),
+        _ => glisten_play::answer(job, &mut session, pictures, load),
     }
 }

@@ -51,7 +51,8 @@ const plainName = (name) => {
 // Answers of the module in the page.
 const makeModule = ({ module, worker, files, request, seconds }) => {
   const held = Object.fromEntries(Object.entries(files).map(([name, { text, bytes }]) => [name, text === undefined ? bytesOf(bytes) : new TextEncoder().encode(text)]));
-  const own = new Set(Object.keys(files).map(plainName));
+  // Whose bytes are not UTF-8 would come back as others.
+  const own = new Set(Object.keys(files).filter((name) => files[name].text !== undefined).map(plainName));
   const begun = (async () => {
     const bytes = bytesOf(module.bytes);
     const compiled = await WebAssembly.compile(module.is_packed ? await through(bytes, new DecompressionStream("gzip")) : bytes);

@@ -5,7 +5,9 @@ const isServed = start.mode === "server";
 const isLive = isServed || start.mode === "module";
 const KINDS = { toml: "toml" };
 const kindOf = (name) => KINDS[name.split(".").at(-1)] ?? "glsl";
-const docs = new Map(); // name -> { text, saved, isWritable }
+// name -> { text, saved, raw, made, isWritable, fixed }: the text in the editor's form, the same of the file (null if there is none), the file
+// as it is, the text of a new file as it was made, and why nobody can change it.
+const docs = new Map();
 let scene = null;       // the name of the scene file
 let shown = null;       // the name of the text in the editor
 let findings = [];
@@ -16,22 +18,46 @@ let translated = null;  // the stage in the translation
 let names = [];         // of the files, by the numbers that translations give them
 let isJudged = false;
 let isJudging = false;
+let pictured = null;    // the scene of the picture
 let edition = 0;        // counts the changes of texts: an answer to an older one has places that are no longer true
 
-const say = (text, isBad = false) => {
+// Says something. Who said it, `by`, takes it back; the last words of a page without a server stay.
+const said = { by: null, isLast: false };
+const say = (text, isBad = false, by = "person") => {
+  if (said.isLast) return;
   byId("state").textContent = text;
   byId("state").classList.toggle("bad", isBad);
+  said.by = by;
+};
+const unsay = (...who) => { if (who.includes(said.by)) say("", false, null); };
+const ENDED = "`glisten play` has ended; start it again and open its new address";
+const sayLast = () => { say(ENDED, true); said.isLast = true; };
+const isChanged = (doc) => doc.text !== doc.saved;
+// What a person would lose.
+const isEdited = (doc) => doc.text !== (doc.saved ?? doc.made);
+// Puts children into an element. If the focus was in it, it is in their place again.
+const swap = (parent, ...children) => {
+  const key = parent.contains(document.activeElement) ? document.activeElement.dataset.key : undefined;
+  parent.replaceChildren(...children.flat());
+  if (key !== undefined) parent.querySelector(`[data-key="${CSS.escape(key)}"]`)?.focus({ preventScroll: true });
 };
 
 // ---- Questions.
+// This page among those of a server, whose questions end none of the others.
+const page = Array.from(crypto.getRandomValues(new Uint32Array(4)), (part) => part.toString(16)).join("");
 const request = async (method, path, body) => {
-  const response = await fetch(path, { method, headers: { "X-Glisten-Token": start.token }, body: body === undefined ? undefined : JSON.stringify(body) });
-  const answer = await response.json();
-  return { status: response.status, ...answer };
+  try {
+    const response = await fetch(path, { method, headers: { "X-Glisten-Token": start.token }, body: body === undefined ? undefined : JSON.stringify(body) });
+    const answer = await response.json();
+    return { status: response.status, ...answer };
+  } catch {
+    sayLast();
+    return { status: 0, error: ENDED };
+  }
 };
-const changedTexts = () => Object.fromEntries([...docs].filter(([, doc]) => doc.text !== doc.saved).map(([name, doc]) => [name, doc.text]));
+const changedTexts = () => Object.fromEntries([...docs].filter(([, doc]) => isChanged(doc)).map(([name, doc]) => [name, doc.text]));
 const computing = start.mode === "module" ? makeModule(start) : null;
-const askAny = computing?.ask ?? ((job) => request("POST", "/api/ask", job));
+const askAny = computing?.ask ?? ((job) => request("POST", "/api/ask", { page, ...job }));
 const ask = (job) => askAny({ scene, texts: changedTexts(), ...job });
 
 // Runs a question so that at most one is under way and the newest always runs; `patience` is how long (ms) a running one may take
@@ -42,7 +68,9 @@ const latest = (work, patience) => {
     running += 1; begun = performance.now(); limit = patience; waiting = false;
     const own = newest += 1;
     const isOld = () => waiting || own !== newest;
-    try { await work({ isOld, yields: () => { if (!isOld()) limit = 0; } }); } catch (error) { say(`no answer: ${error.message}`, true); }
+    // Something else has ended the question: it is asked again.
+    const again = () => { if (!isOld()) setTimeout(() => { if (!isOld()) ask(); }, 100); };
+    try { await work({ isOld, again, yields: () => { if (!isOld()) limit = 0; } }); } catch (error) { say(`no answer: ${error.message}`, true); }
     running -= 1;
     if (waiting && running === 0) run();
   };
@@ -80,21 +108,30 @@ const afterNextFrame = () => {
 const [afterKey, afterMove, afterLook] = [afterNextFrame(), afterNextFrame(), afterNextFrame()];
 const editor = Editor.create({
   parent: byId("editor"), label: "Source", words: start.words, readOnly: !isLive,
-  valueAt: (name, line, column) => inspector.valueAt(name, line, column),
+  valueAt: (name, line, column) => inspector.valueAt(name.replace(FIXED, ""), line, column),
   moved: (line, isPerson) => afterMove(() => matching.movedInSource(line, isPerson)),
   pointed: (line) => matching.pointedInSource(line),
   changed: (name, text) => {
     const doc = docs.get(name);
     if (!doc) return;
-    doc.text = text;
+    setText(name, doc, text);
     textChanged();
   },
 });
+// Another text of a file. The places of controls move with it; a control moves them itself.
+const setText = (name, doc, text) => {
+  if (name === scene && !isMoving) {
+    const moved = moving(doc.text, text);
+    for (const control of controls) control.places = control.places.map(moved);
+  }
+  doc.text = text;
+};
 // While a control moves, the picture follows, and all that is read of the texts comes when it rests. Of a key, the findings come first.
 let isMoving = false, rests = null;
 const textChanged = () => {
   edition += 1;
   isJudged = isJudging = false;
+  unsay("saved", "new", "person");
   clearTimeout(rests);
   if (isMoving) {
     rests = setTimeout(() => { look(); inspector.refresh(); }, 200);
@@ -112,11 +149,14 @@ const translation = Editor.create({
 });
 const matching = makeMatching({ editor, translation, shown: () => shown, stage: () => translated, files: () => names, open: (name) => open(name) });
 
+// The editor keeps a state for each name, and with it whether its text can be changed: that is a part of the name.
+const FIXED = "\0";
 const open = (name, line, column) => {
   const doc = docs.get(name);
   if (!doc) return;
   shown = name;
-  editor.show(name, doc.text, kindOf(name), !isLive || !doc.isWritable);
+  const isFixed = !isLive || !doc.isWritable;
+  editor.show(isFixed ? name + FIXED : name, doc.text, kindOf(name), isFixed);
   showFiles(); mark();
   if (line) editor.go(line, column);
 };
@@ -131,18 +171,18 @@ let filesShown = null;
 const showFiles = () => {
   const base = (name) => name.split(/[\\/]/).at(-1);
   // While a number changes, the list does not.
-  const now = JSON.stringify([shown, [...docs].map(([name, doc]) => [name, doc.isWritable, doc.text !== doc.saved, ofFile(name).map((one) => one.severity)])]);
+  const now = JSON.stringify([shown, [...docs].map(([name, doc]) => [name, doc.isWritable, isChanged(doc), ofFile(name).map((one) => one.severity)])]);
   if (now === filesShown) return;
   filesShown = now;
   const bases = [...docs.keys()].map(base);
-  byId("files").replaceChildren(...[...docs].map(([name, doc]) => {
+  swap(byId("files"), [...docs].map(([name, doc]) => {
     const found = ofFile(name);
     const worst = found.some((one) => one.severity === "error") ? "is-bad" : found.length ? "is-fair" : "";
     const label = bases.filter((other) => other === base(name)).length > 1 ? name : base(name);
-    return html("button", { "aria-pressed": String(name === shown), title: doc.isWritable || !isLive ? name : `${name} (cannot be changed here)`, class: `${worst}${doc.isWritable || !isLive ? "" : " is-fixed"}`, click: () => open(name) },
-      label + (doc.text !== doc.saved ? " •" : ""), found.length ? html("span", { class: "count" }, String(found.length)) : null);
+    return html("button", { "data-key": name, "aria-pressed": String(name === shown), title: doc.isWritable || !isLive ? name : `${name} (cannot be changed here${doc.fixed ? `: ${doc.fixed}` : ""})`, class: `${worst}${doc.isWritable || !isLive ? "" : " is-fixed"}`, click: () => open(name) },
+      label + (isChanged(doc) ? " •" : ""), found.length ? html("span", { class: "count" }, String(found.length)) : null);
   }));
-  const changed = [...docs.values()].filter((doc) => doc.text !== doc.saved && doc.isWritable);
+  const changed = [...docs.values()].filter((doc) => isChanged(doc) && doc.isWritable);
   byId("save").disabled = changed.length === 0;
   const verb = isServed ? "Save" : "Download";
   byId("save").textContent = changed.length > 1 ? `${verb} ${changed.length} files` : verb;
@@ -173,39 +213,47 @@ const rewrite = (name, changes) => {
   if (name === shown) { editor.rewrite(changes); return; }
   let text = "", at = 0;
   for (const { from, to, text: by } of changes) { text += doc.text.slice(at, from) + by; at = to; }
-  doc.text = text + doc.text.slice(at);
+  setText(name, doc, text + doc.text.slice(at));
   textChanged();
 };
 
 const showFindings = () => {
-  const item = (finding) => html("li", { class: finding.severity },
-    html("button", { class: "link", click: () => open(finding.file, finding.line, finding.column) }, `${finding.file.split(/[\\/]/).at(-1)}:${finding.line}:${finding.column}`),
+  const item = (finding, index) => html("li", { class: finding.severity },
+    html("button", { class: "link", "data-key": `at ${index}`, click: () => open(finding.file, finding.line, finding.column) }, `${finding.file.split(/[\\/]/).at(-1)}:${finding.line}:${finding.column}`),
     ` ${finding.severity} ${finding.code}: ${finding.message}`,
     finding.help ? html("div", { class: "help" }, `help: ${finding.help}`) : null,
-    isLive && finding.fixes.length ? html("div", {}, finding.fixes.map((fix) => html("button", { click: () => apply(fix), title: fix.applicability === "safe" ? "The picture stays the same" : "The picture may change" }, fix.title))) : null);
-  byId("findings").replaceChildren(...findings.map(item));
+    isLive && finding.fixes.length ? html("div", {}, finding.fixes.map((fix, at) => html("button", { "data-key": `fix ${index} ${at}`, click: () => apply(fix), title: fix.applicability === "safe" ? "The picture stays the same" : "The picture may change" }, fix.title))) : null);
+  swap(byId("findings"), findings.map(item));
   byId("findings-title").textContent = findings.length ? `Findings (${findings.length})` : "No findings";
 };
 
 // ---- Looking: findings, controls, translations.
 const target = () => byId("target").value;
+// The state of a file as it was read.
+const asRead = (raw) => ({ text: plain(raw), saved: plain(raw), raw });
+const follow = (name, doc, raw) => {
+  setText(name, doc, plain(raw));
+  Object.assign(doc, asRead(raw));
+  if (name === shown) editor.set(doc.text);
+};
 const take = (answer, isOutdated = false) => {
+  const last = shown;
   for (const file of answer.files) {
     const doc = docs.get(file.name);
-    if (!doc) docs.set(file.name, { text: file.text, saved: file.text, isWritable: file.is_writable ?? false });
+    const kind = { isWritable: file.is_writable ?? false, fixed: file.fixed };
+    if (!doc) docs.set(file.name, { ...asRead(file.text), ...kind });
     else {
-      doc.isWritable = file.is_writable ?? false;
+      if (doc.isWritable !== kind.isWritable && file.name === shown) shown = null;
+      Object.assign(doc, kind);
       // A text that nobody changed here follows the file.
-      if (!isOutdated && doc.text === doc.saved && doc.text !== file.text) {
-        doc.text = doc.saved = file.text;
-        if (file.name === shown) editor.set(file.text);
-      }
+      if (!isOutdated && !isChanged(doc) && doc.raw !== file.text) follow(file.name, doc, file.text);
     }
   }
   names = answer.files.map((file) => file.name);
   const read = new Set(answer.files.map((file) => file.name));
-  for (const [name, doc] of docs) if (!read.has(name) && name !== scene && doc.text === doc.saved) docs.delete(name);
+  for (const [name, doc] of docs) if (!read.has(name) && name !== scene && !isChanged(doc)) docs.delete(name);
   findings = isOutdated ? answer.findings.map((finding) => ({ ...finding, fixes: [] })) : answer.findings;
+  if (!shown && docs.has(last)) open(last);
   if (!shown || !docs.has(shown)) open(answer.files.find((file) => kindOf(file.name) === "glsl" && file.name.includes("frag"))?.name ?? answer.files.at(-1)?.name ?? scene);
   if (answer.programs.length || !findings.some((finding) => finding.severity === "error")) programs = answer.programs;
   showFiles(); mark(); showFindings();
@@ -213,20 +261,30 @@ const take = (answer, isOutdated = false) => {
   afterLook(() => {
     showTranslation(); showReflection();
     // Controls have places in the texts, which may have changed since.
-    if (!isOutdated && taken === edition) takeControls(answer.controls);
+    if (!isOutdated && taken === edition) takeControls(answer.controls, answer.files.find((file) => file.name === scene)?.text ?? "");
   });
 };
-const look = isLive ? latest(async () => {
-  const asked = edition;
+// Tells how many errors there are, behind what was said of a file.
+const sayErrors = () => {
+  const errors = findings.filter((one) => one.severity === "error").length;
+  const text = errors ? `${errors} error${errors > 1 ? "s" : ""}${pictured === scene ? ": the picture is the last one that could be drawn" : ""}` : "";
+  if (said.by === "saved") say(["saved", text].filter(Boolean).join("; "), false, "saved");
+  else if (text) say(text, false, "look");
+  else unsay("look");
+};
+const look = isLive ? latest(async ({ again }) => {
+  const asked = edition, of = scene;
   const answer = await ask({ ask: "look", target: target(), leaves_out: byId("leaves-out").checked });
-  if (answer.ok) { take(answer.ok, asked !== edition); const errors = findings.filter((one) => one.severity === "error").length; say(errors ? `${errors} error${errors > 1 ? "s" : ""}: the picture is the last one that could be drawn` : ""); }
-  else if (answer.status !== 409) say(answer.error, true);
+  if (of !== scene) return;
+  if (answer.ok) { take(answer.ok, asked !== edition); sayErrors(); }
+  else if (answer.status === 409) again();
+  else say(answer.error, true, "look");
 }, 400) : () => {};
 
 const showTranslation = () => {
   const stages = programs.flatMap((program, index) => program.stages.map((one) => ({ ...one, key: `${index} ${one.stage}`, label: programs.length > 1 ? `${program.name} ${one.stage}` : one.stage })));
   if (!stages.some((one) => one.key === stage)) stage = stages.find((one) => one.stage === "fragment")?.key ?? stages[0]?.key ?? null;
-  byId("stages").replaceChildren(...stages.map((one) => html("label", {}, html("input", { type: "radio", name: "stage", value: one.key, checked: one.key === stage, change: () => { stage = one.key; showTranslation(); } }), one.label)));
+  swap(byId("stages"), stages.map((one) => html("label", {}, html("input", { "data-key": one.key, type: "radio", name: "stage", value: one.key, checked: one.key === stage, change: () => { stage = one.key; showTranslation(); } }), one.label)));
   const now = stages.find((one) => one.key === stage);
   const text = now ? now.text ?? now.error ?? "" : "";
   translated = now ?? null;
@@ -253,44 +311,54 @@ const showReflection = () => {
 };
 
 // ---- Controls: they rewrite numbers of the scene's text.
-const written = (value, kind) => {
-  if (kind === "bool") return value ? "true" : "false";
-  if (kind === "integer") return String(Math.round(value));
-  const text = value.toFixed(4).replace(/0+$/, "").replace(/\.$/, ".0");
-  return text === "-0.0" ? "0.0" : text;
-};
-const setControl = (control, values) => {
+// Sets the values of a control; `typed` has the texts of those that a person typed. A place that a change has touched, or whose text is not
+// the one that was read, is left alone until the scene has been read again.
+const setControl = (control, values, typed = []) => {
+  const text = docs.get(scene)?.text ?? "";
   const changes = [];
+  const isKnown = (index) => control.places[index] && text.slice(...control.places[index]) === control.texts[index];
   values.forEach((value, index) => {
-    if (value !== control.values[index]) changes.push({ from: control.places[index][0], to: control.places[index][1], text: written(value, control.kind) });
+    if (value === control.values[index]) return;
+    if (isKnown(index)) changes.push({ index, from: control.places[index][0], to: control.places[index][1], text: typed[index] ?? written(value, control.kind) });
   });
   if (!changes.length) return;
   changes.sort((a, b) => a.from - b.from);
-  control.values = values;
+  control.values = control.values.map((old, index) => (changes.some((one) => one.index === index) ? values[index] : old));
+  for (const one of changes) control.texts[one.index] = one.text;
   // The places after a change move with it.
   const moved = (place) => changes.reduce((sum, one) => sum + (one.to <= place ? one.text.length - (one.to - one.from) : 0), place);
   const grown = new Map(changes.map((one) => [one.from, one.text.length]));
   for (const other of controls) {
-    other.places = other.places.map(([from, to]) => { const begin = moved(from); return [begin, grown.has(from) ? begin + grown.get(from) : begin + (to - from)]; });
+    other.places = other.places.map((place) => {
+      if (!place) return null;
+      const [from, to] = place, begin = moved(from);
+      return [begin, grown.has(from) ? begin + grown.get(from) : begin + (to - from)];
+    });
   }
   isMoving = true;
   rewrite(scene, changes);
   isMoving = false;
 };
 const hex = (values) => `#${values.slice(0, 3).map((value) => Math.round(255 * value).toString(16).padStart(2, "0")).join("")}`;
-const takeControls = (fresh) => {
+// Takes controls, whose places are those of `raw`, the scene as it was read.
+const takeControls = (fresh, raw) => {
+  const place = plainPlaces(raw), text = plain(raw);
+  for (const control of fresh) {
+    control.places = control.places.map((range) => range.map(place));
+    control.texts = control.places.map((range) => text.slice(...range));
+  }
   const key = (list) => list.map((control) => `${control.path.join(".")} ${control.kind} ${control.values.length}`).join("\n");
   if (key(fresh) === key(controls)) {
     fresh.forEach((control, index) => {
       const old = controls[index];
-      old.places = control.places;
+      [old.places, old.texts] = [control.places, control.texts];
       if (old.values.some((value, at) => value !== control.values[at])) { old.values = control.values; old.refresh?.(); }
     });
     return;
   }
   controls = fresh;
-  byId("controls-panel").hidden = !isLive || controls.length === 0;
-  byId("controls").replaceChildren(...controls.map(controlElement));
+  byId("controls-panel").hidden = !isLive || controls.length === 0 || !docs.get(scene)?.isWritable;
+  swap(byId("controls"), controls.map(controlElement));
 };
 // The name of a control, without what all of them share in a scene of one draw.
 const nameOf = ({ path }) => {
@@ -302,12 +370,12 @@ const controlElement = (control) => {
   const title = nameOf(control);
   const refreshers = [];
   if (control.kind === "bool") {
-    const box = html("input", { type: "checkbox", "aria-label": title, change: () => setControl(control, [box.checked ? 1 : 0]) });
+    const box = html("input", { type: "checkbox", "aria-label": title, "data-key": title, change: () => setControl(control, [box.checked ? 1 : 0]) });
     refreshers.push(() => { box.checked = control.values[0] === 1; });
     parts.push(html("div", { class: "one" }, box));
   } else {
     if (control.kind === "color") {
-      const color = html("input", { type: "color", "aria-label": `${title}, color`, input: () => {
+      const color = html("input", { type: "color", "aria-label": `${title}, color`, "data-key": `${title}, color`, input: () => {
         const rgb = [1, 3, 5].map((at) => Math.round(parseInt(color.value.slice(at, at + 2), 16) / 255 * 1e4) / 1e4);
         setControl(control, [...rgb, ...control.values.slice(3)]); refresh();
       } });
@@ -319,14 +387,20 @@ const controlElement = (control) => {
       const whole = control.kind === "integer";
       const [low, high] = control.kind === "color" ? [0, 1] : control.range;
       const label = control.values.length > 1 ? `${title} ${names[index]}` : title;
-      const set = (text) => {
-        const value = Number(text);
+      const set = (value, typed) => {
         if (!Number.isFinite(value)) return;
-        setControl(control, control.values.map((old, at) => (at === index ? value : old)));
+        setControl(control, control.values.map((old, at) => (at === index ? value : old)), { [index]: typed });
         refresh();
       };
-      const slider = html("input", { type: "range", min: low, max: high, step: whole ? 1 : (high - low) / 400, "aria-label": label, input: () => set(slider.value) });
-      const box = html("input", { type: "number", step: whole ? 1 : "any", "aria-label": `${label}, number`, change: () => set(box.value) });
+      const step = whole ? 1 : (high - low) / 400;
+      const slider = html("input", { type: "range", min: low, max: high, step, "aria-label": label, "data-key": label, input: () => set(rounded(Number(slider.value), step)) });
+      // What is typed is written, digit by digit.
+      const type = () => {
+        const typed = typedNumber(box.value, control.kind);
+        if (typed === undefined) box.value = control.values[index];
+        else set(Number(typed), typed);
+      };
+      const box = html("input", { type: "number", step: whole ? 1 : "any", "aria-label": `${label}, number`, "data-key": `${label}, number`, change: type });
       refreshers.push(() => { slider.value = control.values[index]; if (document.activeElement !== box) box.value = control.values[index]; });
       const name = control.values.length > 1 ? html("span", { class: "axis", "aria-hidden": "true" }, names[index]) : null;
       parts.push(html("div", { class: "one" }, name, slider, box));
@@ -398,14 +472,17 @@ const showJudged = (judged) => {
 // A picture of the reference that takes longer (ms) is drawn coarsely first, and so is the first one of a scene.
 const SLOW = 100;
 let pace = { scene: null, milliseconds: 0 };
-const draw = isLive ? latest(async ({ isOld, yields }) => {
+const draw = isLive ? latest(async ({ isOld, again, yields }) => {
   const gpu = document.querySelector("input[name=by]:checked").value === "gpu";
   const asked = scene;
   const show = (answer) => {
+    if (asked !== scene) return false;
     if (answer.ok) {
       byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
       showDrawn(answer.ok);
-    } else if (answer.status !== 409) byId("drawn").textContent = `Not drawn, so this is the last picture: ${answer.error}`;
+      pictured = asked;
+    } else if (answer.status === 409) { if (!isJudging) again(); }
+    else byId("drawn").textContent = `Not drawn${pictured === asked ? ", so this is the last picture" : ""}: ${answer.error}`;
     return Boolean(answer.ok);
   };
   if (!gpu && (pace.scene !== scene || pace.milliseconds > SLOW)) {
@@ -428,8 +505,17 @@ const judge = async () => {
   byId("judge").disabled = false;
   isJudging = false;
   if (asked !== edition) return;
-  if (answer.ok) { isJudged = true; showJudged(answer.ok); byId("verdict").scrollIntoView({ block: "nearest" }); }
+  if (answer.ok) { isJudged = true; pictured = scene; showJudged(answer.ok); byId("verdict").scrollIntoView({ block: "nearest" }); }
   else if (answer.status !== 409) byId("drawn").textContent = `Not judged: ${answer.error}`;
+};
+
+// The picture of another scene is none of this one.
+const forgetPicture = () => {
+  pictured = null;
+  byId("pictures").replaceChildren();
+  byId("drawn").textContent = "";
+  byId("pixel").textContent = HINT;
+  byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
 };
 
 // The numbers of the pixel under the pointer.
@@ -483,6 +569,7 @@ const inspector = (() => {
     now = Math.max(0, Math.min(steps.length - 1, index));
     const step = steps[now];
     byId("step").value = now;
+    byId("stepper").classList.remove("is-old");
     byId("step-first").disabled = byId("step-back").disabled = now === 0;
     byId("step-on").disabled = byId("step-last").disabled = now >= steps.length - 1;
     if (!step) return;
@@ -495,9 +582,9 @@ const inspector = (() => {
       html("code", {}, text(step)), ...(table ? [table] : []));
     const first = Math.max(0, now - WINDOW);
     const items = steps.slice(first, now + WINDOW + 1).map((one, index) => html("li", {},
-      html("button", { ...(first + index === now ? { "aria-current": "step" } : {}), click: () => show(first + index) },
+      html("button", { "data-key": first + index, tabindex: first + index === now ? 0 : -1, ...(first + index === now ? { "aria-current": "step" } : {}), click: () => show(first + index) },
         html("span", { class: "at" }, place(one)), html("span", { class: "text" }, "  ".repeat(Math.min(one.depth, 12)) + text(one)), html("span", { class: "value" }, told(one)))));
-    byId("step-list").replaceChildren(...items);
+    swap(byId("step-list"), items);
     const current = byId("step-list").querySelector("[aria-current]");
     if (current) byId("step-list").scrollTop = current.offsetTop - byId("step-list").offsetTop - 100;
     if (!isAsked || !step.file) return;
@@ -532,24 +619,40 @@ const inspector = (() => {
     if (!isAsked && step?.file === shown) editor.emphasize(step);
   };
   let isAsked = false;
-  const run = latest(async () => {
+  // What is shown is of another pixel, or of older texts.
+  const refuse = (reason) => {
+    byId("inspected").textContent = `Not inspected: ${reason}`;
+    byId("stepper").classList.add("is-old");
+  };
+  const run = latest(async ({ again }) => {
     const asked = edition, wasAsked = isAsked;
     isAsked = false;
     const answer = await ask({ ask: "trace", x: pixel[0], y: pixel[1] });
-    if (asked !== edition) return;
+    if (asked !== edition || !pixel) return;
     if (answer.ok) take(answer.ok, wasAsked);
-    else if (answer.status === 409) setTimeout(run, 300);
-    else byId("inspected").textContent = `Not inspected: ${answer.error}`;
+    else if (answer.status === 409) again();
+    else refuse(answer.error);
   }, 1500);
   byId("fragments").addEventListener("change", () => choose(Number(byId("fragments").value), true));
   byId("step").addEventListener("input", () => show(Number(byId("step").value)));
   for (const [id, to] of [["step-first", () => 0], ["step-back", () => now - 1], ["step-on", () => now + 1], ["step-last", () => steps.length - 1]]) byId(id).addEventListener("click", () => show(to()));
+  const LARGEST = 2 ** 32 - 1;
   const inspect = (x, y) => {
+    if (!(Math.max(x, y) <= LARGEST)) { refuse(`the picture has no pixel ${x}, ${y}`); return; }
     pixel = [x, y];
     [byId("inspect-x").value, byId("inspect-y").value] = pixel;
     isAsked = true;
     run();
   };
+  // The list is one stop of the Tab key; arrows go through it.
+  const KEYS = { ArrowDown: () => now + 1, ArrowUp: () => now - 1, PageDown: () => now + 10, PageUp: () => now - 10, Home: () => 0, End: () => steps.length - 1 };
+  byId("step-list").addEventListener("keydown", (event) => {
+    const to = KEYS[event.key];
+    if (!to || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    show(to());
+    byId("step-list").querySelector("[aria-current]")?.focus({ preventScroll: true });
+  });
   byId("inspect").addEventListener("click", () => inspect(Math.max(0, Math.trunc(Number(byId("inspect-x").value))), Math.max(0, Math.trunc(Number(byId("inspect-y").value)))));
   return {
     inspect,
@@ -584,7 +687,7 @@ const eye = () => (isLive ? [named("camera", "eye")].find((control) => control?.
 const centre = () => { const found = named("camera", "target"); return found?.values.length === 3 ? found.values : [0, 0, 0]; };
 const place = (control, offset) => {
   const to = centre();
-  setControl(control, offset.map((value, index) => Math.round((value + to[index]) * 1e4) / 1e4));
+  setControl(control, offset.map((value, index) => rounded(value + to[index], Math.hypot(...offset) / 1e3)));
   control.refresh?.();
 };
 const offset = () => { const to = centre(); return eye().values.map((value, index) => value - to[index]); };
@@ -612,7 +715,7 @@ const turn = (image, event) => {
 
 // ---- Scenes, saving, changes on disk.
 const choose = (name, text) => {
-  const changed = [...docs.values()].some((doc) => doc.text !== doc.saved);
+  const changed = [...docs.values()].some(isEdited);
   if (!isServed && location.hash) history.replaceState(null, "", location.pathname + location.search);
   if (changed && !confirm("Changes that are not saved will be gone. Go on?")) return false;
   docs.clear(); findings = []; controls = []; programs = []; stage = null;
@@ -620,39 +723,52 @@ const choose = (name, text) => {
   isJudged = isJudging = false;
   scene = name;
   shown = null;
-  inspector.forget(); studies.forget();
-  if (text !== undefined) docs.set(name, { text, saved: null, isWritable: true });
+  inspector.forget(); studies.forget(); forgetPicture(); conflicts.forget();
+  unsay("look", "saved", "new", "person");
+  if (text !== undefined) docs.set(name, { ...asRead(text), saved: null, made: plain(text), isWritable: true });
   look(); draw();
   return true;
 };
-const showScenes = ({ scenes, programs: lists }) => {
+let listed = null;
+const showScenes = ({ scenes, drawable = [] }) => {
   const option = (value, label) => html("option", { value }, label);
-  const alone = lists.filter((files) => files.some((name) => /frag|fs|ps/i.test(name.split(/[\\/]/).at(-1))));
+  // A scene that is new, or gone, is in the list as long as it is shown.
+  const own = scene && !scenes.includes(scene) ? [option(scene, docs.get(scene)?.saved === null ? `${scene} (new)` : scene)] : [];
+  const all = [...own, ...scenes.map((name) => option(name, name))];
+  listed = { scenes, drawable };
   byId("scenes").replaceChildren(
-    ...(scenes.length ? [html("optgroup", { label: "Scenes" }, scenes.map((name) => option(name, name)))] : []),
-    ...(alone.length ? [html("optgroup", { label: "New scene for" }, alone.map((files) => option(JSON.stringify(files), files.join(", "))))] : []));
+    ...(all.length ? [html("optgroup", { label: "Scenes" }, all)] : []),
+    ...(drawable.length ? [html("optgroup", { label: "New scene for" }, drawable.map((files) => option(JSON.stringify(files), files.join(", "))))] : []));
   if (scene) byId("scenes").value = scene;
+};
+const refreshScenes = async () => {
+  const { scenes, drawable } = await request("GET", "/api/list");
+  // An open list is not disturbed without need.
+  if (scenes && JSON.stringify({ scenes, drawable }) !== JSON.stringify(listed)) showScenes({ scenes, drawable });
 };
 // Who keeps unsaved changes keeps the scene, too: the list says so.
 const showScene = () => { byId("scenes").value = scene; };
 const chosen = async (value) => {
-  if (!value.startsWith("[")) { if (!choose(value)) showScene(); return; }
+  if (!value.startsWith("[")) { if (choose(value) && listed) showScenes(listed); showScene(); return; }
   say("writing a scene …");
   const made = await request("POST", "/api/new-scene", JSON.parse(value));
-  if (made.text && choose(made.name, made.text)) say("this scene is new: Save writes it");
+  if (made.text && choose(made.name, made.text)) { showScenes(listed); say("this scene is new: Save writes it", false, "new"); }
   else { showScene(); say(made.error ?? "", Boolean(made.error)); }
 };
-const save = async () => {
-  for (const [name, doc] of docs) {
-    if (doc.text === doc.saved || !doc.isWritable) continue;
-    const text = doc.text;
-    const answer = await request("POST", "/api/save", { name, text, was: doc.saved });
-    if (answer.ok) doc.saved = text;
-    else { say(`${name}: ${answer.error}`, true); return; }
-  }
-  say("saved");
-  showFiles();
-};
+const conflicts = makeConflicts({
+  write: async (name, was) => {
+    const doc = docs.get(name), text = doc.text, raw = restored(text, was ?? "");
+    const answer = await request("POST", "/api/save", { name, text: raw, was });
+    if (answer.ok) Object.assign(doc, { saved: text, raw });
+    return answer;
+  },
+  take: (name, disk) => { follow(name, docs.get(name), disk); textChanged(); },
+  done: () => { say("saved", false, "saved"); showFiles(); refreshScenes(); },
+  fail: (text) => { showFiles(); say(text, true); },
+  focus: () => editor.focus(),
+});
+const unsaved = () => [...docs].filter(([, doc]) => isChanged(doc) && doc.isWritable).map(([name, doc]) => [name, doc.saved === null ? null : doc.raw]);
+const save = () => conflicts.save(unsaved);
 // Without a server, the files go to the folder of downloads.
 const offer = (name, text) => {
   const link = html("a", { href: URL.createObjectURL(new Blob([text], { type: "text/plain" })), download: name });
@@ -660,7 +776,7 @@ const offer = (name, text) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 };
 const download = () => {
-  for (const [name, doc] of docs) if (doc.text !== doc.saved && doc.isWritable) offer(name.split(/[\\/]/).at(-1), doc.text);
+  for (const [name, doc] of docs) if (isChanged(doc) && doc.isWritable) offer(name.split(/[\\/]/).at(-1), restored(doc.text, doc.raw));
 };
 const share = async () => {
   try {
@@ -677,12 +793,12 @@ const openLink = async (text) => {
   scene = state.scene;
   const held = new Map(Object.keys(start.files).map((name) => [plainName(name), start.files[name].text]));
   for (const [name, own] of Object.entries(state.texts)) {
-    const saved = held.get(plainName(name));
-    if (saved !== undefined) docs.set(name, { text: own, saved, isWritable: true });
+    const raw = held.get(plainName(name));
+    if (raw !== undefined) docs.set(name, { ...asRead(raw), text: plain(own), isWritable: true });
   }
   shown = null;
   edition += 1;
-  inspector.forget(); studies.forget();
+  inspector.forget(); studies.forget(); forgetPicture();
   look(); draw();
 };
 const showGallery = () => {
@@ -697,12 +813,13 @@ const showGallery = () => {
 const watch = async () => {
   let number = 0;
   for (;;) {
-    try {
-      const answer = await request("GET", `/api/changes?since=${number}`);
-      if (answer.number !== number) { number = answer.number; look(); if (!isJudged && !isJudging) draw(); }
-    } catch {
-      say("`glisten play` has ended; start it again and open its new address", true);
-      return;
+    const answer = await request("GET", `/api/changes?since=${number}&page=${page}`);
+    if (answer.status === 0) return;
+    if (answer.number === undefined) await new Promise((resolve) => setTimeout(resolve, 1000));
+    else if (answer.number !== number) {
+      number = answer.number;
+      look(); refreshScenes();
+      if (!isJudged && !isJudging) draw();
     }
   }
 };
@@ -718,15 +835,18 @@ if (isLive) {
   byId("judge").addEventListener("click", judge);
   all("input[name=by]").forEach((radio) => radio.addEventListener("change", draw));
   addEventListener("keydown", (event) => { if ((event.ctrlKey || event.metaKey) && event.key === "s") { event.preventDefault(); (isServed ? save : download)(); } });
-  addEventListener("beforeunload", (event) => { if ([...docs.values()].some((doc) => doc.saved !== null && doc.text !== doc.saved)) event.preventDefault(); });
+  addEventListener("beforeunload", (event) => { if ([...docs.values()].some(isEdited)) event.preventDefault(); });
   scene = start.scene;
   showScenes(start.list);
   if (!scene) scene = start.list.scenes[0] ?? null;
   if (isServed) {
-    if (scene) { byId("scenes").value = scene; choose(scene); }
+    if (start.program) chosen(JSON.stringify(start.program));
+    else if (scene) { byId("scenes").value = scene; choose(scene); }
     else if (byId("scenes").options.length) chosen(byId("scenes").value);
     else say("this folder has neither a scene nor a shader", true);
     watch();
+    // Nobody waits for what its workers do.
+    addEventListener("pagehide", () => navigator.sendBeacon(`/api/gone?token=${start.token}&page=${page}`));
   } else {
     // What draws here is the reference, and WebGPU where the browser has it.
     byId("judge").hidden = byId("by").hidden = true;
