@@ -22,6 +22,7 @@ static WITHOUT_EXAMPLE: &[(&str, &str)] = &[
     ("E0729", "needs a binding by name; a fixture has it"),
     ("W0701", "needs a binding by name; a fixture has it"),
     ("W0708", "needs a binding by name; a fixture has it"),
+    ("E0132", "a name of 1,025 characters; the fixture has it"),
     ("W0108", "needs a second file; the fixtures have it"),
     ("W0115", "`lint --configurations` reports it; tests/it/configurations.rs makes it"),
     ("W0116", "examples are given a `#version` line; the fixtures have none"),

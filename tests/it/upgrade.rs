@@ -131,10 +131,11 @@ fn words_that_the_new_version_reserves_get_other_names() {
                void main() { gl_FragColor = row_major * centroid * s.sample; }\n";
     let core = "#version 150\nuniform float buffer; out vec4 shared_; void main() { shared_ = vec4(buffer); }\n";
     let folder = Folder::new(&[("a.frag", old.as_bytes()), ("b.frag", core.as_bytes())]);
-    for to in ["150", "450"] {
+    // `row_major` is a name again from 4.40 on.
+    for (to, said) in [("150", "row_major_ * centroid_ * s.sample"), ("450", "row_major * centroid_ * s.sample_")] {
         let output = folder.run(&["upgrade", "a.frag", "--to", to]);
         assert_eq!(code(&output), 0, "{to}: {}", err(&output));
-        assert!(out(&output).contains("row_major_ * centroid_ * s.sample"), "{}", out(&output));
+        assert!(out(&output).contains(said), "{}", out(&output));
     }
     let output = folder.run(&["upgrade", "b.frag", "--to", "450"]);
     assert_eq!(code(&output), 0, "{}", err(&output));

@@ -57,7 +57,7 @@ pub(super) struct Analyzer<'a> {
     /// Whether nothing is reported: what is analyzed has an error that was reported.
     pub(super) is_quiet: bool,
     /// The features whose lack has been reported, by bit.
-    pub(super) lacking: u64,
+    pub(super) lacking: u128,
     /// The current function.
     pub(super) body: Option<Body>,
     /// Types, functions, blocks and built-in variables by name.

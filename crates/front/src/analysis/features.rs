@@ -28,7 +28,7 @@ impl Analyzer<'_> {
 
     /// Reports a feature at `span` that the language lacks, at its first use.
     pub(super) fn require(&mut self, feature: Feature, span: Span) {
-        let bit = 1u64 << (feature as u32 % 64);
+        let bit = 1u128 << (feature as u32 % u128::BITS);
         if self.allows(feature, span) || self.lacking & bit != 0 {
             return;
         }

@@ -172,15 +172,18 @@ impl Analyzer<'_> {
         }
     }
 
-    /// Checks that a shader writes only one of `gl_FragColor`, `gl_FragData` and its own outputs.
+    /// Checks that a shader statically assigns only one of `gl_FragColor`, `gl_FragData` and its own outputs (§7.2): what a function
+    /// writes that nothing calls counts, too (§3.8).
     fn check_fragment_outputs(&mut self) {
-        if self.stage != Stage::Fragment || self.shader.mixes_outputs {
+        let is_old = |variable| self.declared.builtin(variable).is_some();
+        let any_old = is_old(BuiltinVariable::FragColor) || is_old(BuiltinVariable::FragData);
+        if self.stage != Stage::Fragment || self.shader.mixes_outputs || !any_old {
             return;
         }
+        let assigned = self.shader.statically_written();
         let written = |builtin: Option<BuiltinVariable>| {
-            self.shader
-                .globals()
-                .find(|(_, global)| global.storage == Storage::Out && global.written && global.builtin == builtin)
+            let mut outputs = self.shader.globals().filter(|(_, global)| global.storage == Storage::Out);
+            outputs.find(|(id, global)| assigned.contains(id) && global.builtin == builtin)
         };
         let color = written(Some(BuiltinVariable::FragColor));
         let data = written(Some(BuiltinVariable::FragData));

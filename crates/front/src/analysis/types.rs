@@ -5,7 +5,7 @@ use super::keywords;
 use super::scope::Entry;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
-use crate::hir::{ArraySize, Scalar, ScalarValue, Type, TypeId};
+use crate::hir::{ArraySize, Member, Scalar, ScalarValue, Type, TypeId};
 use crate::language::{Feature, Precision};
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -16,6 +16,9 @@ use crate::syntax::token::Symbol;
 
 /// The largest size of an array. No target could bind a larger one, which would only cost memory.
 const MAX_ARRAY_SIZE: u32 = 1 << 16;
+
+/// How many members of one uniform are compared with those of the other stage.
+const MOST_PRECISIONS: usize = 4096;
 
 impl Analyzer<'_> {
     /// The type that a specifier denotes, with the arrays after it. Enters a struct that the specifier declares.
@@ -209,6 +212,23 @@ impl Analyzer<'_> {
             _ => self.types.scalar_of(element).and_then(|scalar| self.precisions.of_scalar(scalar)),
         };
         if self.ast.version.is_es() { stated.map(|(word, _)| word).or(default) } else { None }
+    }
+
+    /// Notes the precision of a uniform or of a member of a uniform block, for the linker; of a struct, those of its members.
+    pub(super) fn note_precision(&mut self, name: String, stated: Option<(Precision, Span)>, ty: TypeId, span: Span) {
+        let mut pending = vec![(name, self.precision_of(stated, ty), ty, span)];
+        for _ in 0..MOST_PRECISIONS {
+            let Some((name, precision, ty, span)) = pending.pop() else { return };
+            if let Some(precision) = precision {
+                self.shader.precisions.push((name, precision, span));
+                continue;
+            }
+            let Type::Struct(id) = self.types.get(self.element_of(ty)) else { continue };
+            let members = self.types.structure(id).members.iter().zip(self.declared.precisions(id));
+            let members = members.take(MOST_PRECISIONS.saturating_sub(pending.len()));
+            let named = |member: &Member| format!("{name}.{}", member.name);
+            pending.extend(members.map(|(member, word)| (named(member), *word, member.ty, member.span)).rev());
+        }
     }
 
     fn check_default_precision(&mut self, ty: TypeId, at: Span) {

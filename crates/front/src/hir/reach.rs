@@ -4,6 +4,7 @@
 
 use super::{ExprId, ExprKind, FunctionId, GlobalId, ScalarValue, Shader, Stmt, StmtKind, VarRef, written_by};
 use crate::builtin::BuiltinVariable;
+use rustc_hash::FxHashSet;
 
 /// The globals and functions that a function or an initializer mentions.
 #[derive(Default)]
@@ -73,6 +74,12 @@ impl Shader {
             };
             self.apply(mentions, &mut functions, &mut globals);
         }
+    }
+
+    /// The globals that the body of any function writes, whether or not `main` calls it: those are statically assigned (§3.8).
+    pub fn statically_written(&self) -> FxHashSet<GlobalId> {
+        let written = |id: usize| self.mentions_of_function(FunctionId::new(id)).written;
+        (0..self.functions.len()).flat_map(written).collect()
     }
 
     fn apply(&mut self, mentions: Mentions, functions: &mut Vec<FunctionId>, globals: &mut Vec<GlobalId>) {

@@ -301,8 +301,9 @@ pub struct Shader {
     pub precise: bool,
     /// The size that the shader gives `gl_TexCoord` by declaring it again (GLSL 1.20 §7.6).
     pub tex_coords: Option<u32>,
-    /// In ES, the precisions of the uniforms, and of the members of uniform blocks as `Block.member`.
-    pub precisions: Vec<(String, Precision)>,
+    /// In ES, the precisions of the uniforms, of the members of their structs as `uniform.member`, and of those of uniform blocks
+    /// as `Block.member`, with the declaration of each.
+    pub precisions: Vec<(String, Precision, Span)>,
     /// How the result of a comparison becomes four components.
     pub depth_mode: DepthMode,
     /// Whether an engine makes outputs of `gl_FragColor` and `gl_FragData`, so that declared ones may stand next to them.

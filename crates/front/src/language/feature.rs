@@ -71,6 +71,16 @@ features! {
     LineContinuation "a joined line" since(420, 300), STAYS, PACK, "§3.2";
     /// The number of `#line` is that of the next line; before, of the line itself.
     LineNumbersNext "`#line` for the next line" since(330, 300), STAYS, NONE, "§3.3";
+    /// A comment over several lines is one space, also in a directive; before, "New-lines are not eliminated by comments".
+    CommentsAreSpaces "a comment over several lines in a directive" since(440, 300), STAYS, NONE, "§3.4";
+    /// A name in `#if` that is no macro "causes an error".
+    NamesInConditions "the rule for names in conditions" since(NEVER, 100), STAYS, NONE, "§3.4";
+    /// Nothing but a comment follows a directive, as every compiler of ES wants it.
+    DirectiveEnds "the rule for text after directives" since(NEVER, 100), STAYS, NONE, "§3.4";
+    /// `#extension` comes "before any non-preprocessor tokens", as every compiler of ES 3.00 wants it; those of 1.00 warn.
+    ExtensionsFirst "the rule for the place of `#extension`" since(NEVER, 300), STAYS, NONE, "§3.5";
+    /// "The maximum length of an identifier is 1024 characters."
+    ShortNames "the rule for the length of names" since(NEVER, 300), STAYS, NONE, "§3.9";
     /// `in` and `out` at global scope.
     InOut "a global `in` or `out`" since(130, 300), STAYS, NONE, "§4.3";
     /// `attribute` and `varying`.

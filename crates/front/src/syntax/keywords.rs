@@ -20,13 +20,15 @@ pub struct Keyword {
     pub keyword: Since,
     /// The first versions in which using it is an error.
     pub reserved: Since,
+    /// The first versions in which a word that was only reserved is a name again.
+    pub free: Since,
     /// Extensions, each of which makes it a keyword.
     pub extensions: Extensions,
 }
 
 const fn word(spelling: &'static str, kind: TokenKind, desktop: (u16, u16), es: (u16, u16)) -> Keyword {
     let (keyword, reserved) = (Since::new(desktop.0, es.0), Since::new(desktop.1, es.1));
-    Keyword { spelling, kind, keyword, reserved, extensions: Extensions::empty() }
+    Keyword { spelling, kind, keyword, reserved, free: Since::NEVER, extensions: Extensions::empty() }
 }
 
 const SHADER4: Extensions = Extensions::GPU_SHADER4;
@@ -48,13 +50,18 @@ impl Keyword {
         Self { extensions, ..self }
     }
 
+    /// The same word, which these versions reserve no more.
+    const fn until(self, desktop: u16, es: u16) -> Self {
+        Self { free: Since::new(desktop, es), ..self }
+    }
+
     /// The token kind of the word in a language. What came later, the keyword or its reservation, counts.
     pub fn kind_in(&self, version: Version, extensions: Extensions) -> TokenKind {
         let later = |a: Since, b: Since| if version.is_es() { a.es > b.es } else { a.desktop > b.desktop };
         let (keyword, reserved) = (version.reaches(self.keyword), version.reaches(self.reserved));
         if self.extensions.intersects(extensions) || (keyword && !(reserved && later(self.reserved, self.keyword))) {
             self.kind
-        } else if reserved {
+        } else if reserved && !version.reaches(self.free) {
             Reserved
         } else {
             Ident
@@ -273,7 +280,7 @@ pub static TABLE: &[Keyword] = &[
     word("typedef", Reserved, (NEVER, 110), (NEVER, 100)),
     word("template", Reserved, (NEVER, 110), (NEVER, 100)),
     word("this", Reserved, (NEVER, 110), (NEVER, 100)),
-    word("packed", Reserved, (NEVER, 110), (NEVER, 100)),
+    word("packed", Reserved, (NEVER, 110), (NEVER, 100)).until(440, 300),
     word("goto", Reserved, (NEVER, 110), (NEVER, 100)),
     word("inline", Reserved, (NEVER, 110), (NEVER, 100)),
     word("noinline", Reserved, (NEVER, 110), (NEVER, 100)),
@@ -306,47 +313,47 @@ pub static TABLE: &[Keyword] = &[
     word("image1D", Foreign, (420, 130), (NEVER, 300)),
     word("image2D", Foreign, (420, 130), (310, 300)),
     word("image3D", Foreign, (420, 130), (310, 300)),
-    word("imageCube", Foreign, (420, 130), (NEVER, 300)),
+    word("imageCube", Foreign, (420, 130), (310, 300)),
     word("iimage1D", Foreign, (420, 130), (NEVER, 300)),
     word("iimage2D", Foreign, (420, 130), (310, 300)),
-    word("iimage3D", Foreign, (420, 130), (NEVER, 300)),
-    word("iimageCube", Foreign, (420, 130), (NEVER, 300)),
+    word("iimage3D", Foreign, (420, 130), (310, 300)),
+    word("iimageCube", Foreign, (420, 130), (310, 300)),
     word("uimage1D", Foreign, (420, 130), (NEVER, 300)),
     word("uimage2D", Foreign, (420, 130), (310, 300)),
-    word("uimage3D", Foreign, (420, 130), (NEVER, 300)),
-    word("uimageCube", Foreign, (420, 130), (NEVER, 300)),
+    word("uimage3D", Foreign, (420, 130), (310, 300)),
+    word("uimageCube", Foreign, (420, 130), (310, 300)),
     word("image1DArray", Foreign, (420, 130), (NEVER, 300)),
-    word("image2DArray", Foreign, (420, 130), (NEVER, 300)),
+    word("image2DArray", Foreign, (420, 130), (310, 300)),
     word("iimage1DArray", Foreign, (420, 130), (NEVER, 300)),
-    word("iimage2DArray", Foreign, (420, 130), (NEVER, 300)),
+    word("iimage2DArray", Foreign, (420, 130), (310, 300)),
     word("uimage1DArray", Foreign, (420, 130), (NEVER, 300)),
-    word("uimage2DArray", Foreign, (420, 130), (NEVER, 300)),
-    word("image1DShadow", Reserved, (NEVER, 130), (NEVER, 300)),
-    word("image2DShadow", Reserved, (NEVER, 130), (NEVER, 300)),
-    word("image1DArrayShadow", Reserved, (NEVER, 130), (NEVER, 300)),
-    word("image2DArrayShadow", Reserved, (NEVER, 130), (NEVER, 300)),
-    word("imageBuffer", Foreign, (420, 130), (NEVER, 300)),
-    word("iimageBuffer", Foreign, (420, 130), (NEVER, 300)),
-    word("uimageBuffer", Foreign, (420, 130), (NEVER, 300)),
+    word("uimage2DArray", Foreign, (420, 130), (310, 300)),
+    word("image1DShadow", Reserved, (NEVER, 130), (NEVER, NEVER)).until(420, NEVER),
+    word("image2DShadow", Reserved, (NEVER, 130), (NEVER, NEVER)).until(420, NEVER),
+    word("image1DArrayShadow", Reserved, (NEVER, 130), (NEVER, NEVER)).until(420, NEVER),
+    word("image2DArrayShadow", Reserved, (NEVER, 130), (NEVER, NEVER)).until(420, NEVER),
+    word("imageBuffer", Foreign, (420, 130), (320, 300)),
+    word("iimageBuffer", Foreign, (420, 130), (320, 300)),
+    word("uimageBuffer", Foreign, (420, 130), (320, 300)),
     word("sizeof", Reserved, (NEVER, 110), (NEVER, 100)),
     word("cast", Reserved, (NEVER, 110), (NEVER, 100)),
     word("namespace", Reserved, (NEVER, 110), (NEVER, 100)),
     word("using", Reserved, (NEVER, 110), (NEVER, 100)),
-    word("row_major", Reserved, (NEVER, 130), (NEVER, NEVER)),
-    word("precise", Precise, (400, NEVER), (320, NEVER)).or(SHADER5),
-    word("dmat2", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat3", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat4", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat2x2", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat2x3", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat2x4", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat3x2", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat3x3", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat3x4", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat4x2", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat4x3", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("dmat4x4", Foreign, (400, NEVER), (NEVER, NEVER)),
-    word("patch", Foreign, (400, NEVER), (NEVER, 300)),
+    word("row_major", Reserved, (NEVER, 130), (NEVER, NEVER)).until(440, NEVER),
+    word("precise", Precise, (400, NEVER), (320, 310)).or(SHADER5),
+    word("dmat2", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat3", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat4", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat2x2", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat2x3", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat2x4", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat3x2", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat3x3", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat3x4", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat4x2", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat4x3", Foreign, (400, NEVER), (NEVER, 310)),
+    word("dmat4x4", Foreign, (400, NEVER), (NEVER, 310)),
+    word("patch", Foreign, (400, NEVER), (320, 300)),
     word("sample", Sample, (400, NEVER), (320, 300)).or(SHADER5),
     word("subroutine", Foreign, (400, NEVER), (NEVER, 300)),
     word("samplerCubeArray", Type, (400, NEVER), (320, 310)).or(CUBE_ARRAYS),
@@ -359,18 +366,18 @@ pub static TABLE: &[Keyword] = &[
     word("writeonly", Foreign, (420, NEVER), (310, 300)),
     word("atomic_uint", Foreign, (420, NEVER), (310, 300)),
     word("resource", Reserved, (NEVER, 420), (NEVER, 300)),
-    word("image2DRect", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("iimage2DRect", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("uimage2DRect", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("imageCubeArray", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("iimageCubeArray", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("uimageCubeArray", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("image2DMS", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("iimage2DMS", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("uimage2DMS", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("image2DMSArray", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("iimage2DMSArray", Foreign, (420, NEVER), (NEVER, NEVER)),
-    word("uimage2DMSArray", Foreign, (420, NEVER), (NEVER, NEVER)),
+    word("image2DRect", Foreign, (420, NEVER), (NEVER, 310)),
+    word("iimage2DRect", Foreign, (420, NEVER), (NEVER, 310)),
+    word("uimage2DRect", Foreign, (420, NEVER), (NEVER, 310)),
+    word("imageCubeArray", Foreign, (420, NEVER), (320, 310)),
+    word("iimageCubeArray", Foreign, (420, NEVER), (320, 310)),
+    word("uimageCubeArray", Foreign, (420, NEVER), (320, 310)),
+    word("image2DMS", Foreign, (420, NEVER), (NEVER, 310)),
+    word("iimage2DMS", Foreign, (420, NEVER), (NEVER, 310)),
+    word("uimage2DMS", Foreign, (420, NEVER), (NEVER, 310)),
+    word("image2DMSArray", Foreign, (420, NEVER), (NEVER, 310)),
+    word("iimage2DMSArray", Foreign, (420, NEVER), (NEVER, 310)),
+    word("uimage2DMSArray", Foreign, (420, NEVER), (NEVER, 310)),
     word("buffer", Foreign, (430, NEVER), (310, NEVER)),
     word("shared", Foreign, (430, NEVER), (310, NEVER)),
 ];
@@ -419,6 +426,11 @@ mod tests {
         assert_eq!(es("attribute"), [Some(Attribute), Some(Reserved), Some(Reserved)]);
         assert_eq!(es("flat"), [Some(Reserved), Some(Flat), Some(Flat)]);
         assert_eq!(es("texture"), [None; 3]);
+        assert_eq!(es("dmat2"), [Some(Ident), Some(Ident), Some(Reserved)]);
+        assert_eq!(es("packed"), [Some(Reserved), Some(Ident), Some(Ident)]);
+        let late = |spelling| [420, 430, 440].map(|number| kind(spelling, number, Profile::Core));
+        assert_eq!(late("packed"), [Some(Reserved), Some(Reserved), Some(Ident)]);
+        assert_eq!(late("image1DShadow"), [Some(Ident); 3]);
     }
 
     #[test]

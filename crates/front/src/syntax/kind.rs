@@ -1,9 +1,11 @@
 //! The cases that the text of the specification forbids and every driver silently accepts. glisten warns and cites
-//! the section; with `strict` it reports an error. All cases are rows of one table, each with its reason.
+//! the section; with `strict` it reports an error. All cases are rows of one table, each with its reason, and with the
+//! language whose compilers refuse it.
 
 use super::session::ParseSession;
 use crate::diagnostic::codes::{preprocess, syntax};
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::language::{Feature, Version};
 use crate::source::Span;
 
 /// A case that is forgiven.
@@ -13,61 +15,90 @@ pub(super) struct Kindness {
     code: &'static Code,
     /// Why drivers forgive it.
     reason: &'static str,
+    /// The rule of a language whose compilers do not, and the code of that error.
+    refused: Option<(Feature, &'static Code)>,
 }
 
 /// `\` at the end of a line.
-pub(super) static LINE_CONTINUATION: Kindness = Kindness {
-    code: &preprocess::LINE_CONTINUATION,
-    reason: "every driver joins the lines, as GLSL 4.20 and GL_ARB_shading_language_420pack have it",
-};
+pub(super) static LINE_CONTINUATION: Kindness = Kindness::new(
+    &preprocess::LINE_CONTINUATION,
+    "every driver joins the lines, as GLSL 4.20 and GL_ARB_shading_language_420pack have it",
+);
+/// `/* .. */` over several lines inside a directive.
+pub(super) static COMMENT_ACROSS_LINES: Kindness =
+    Kindness::new(&preprocess::COMMENT_ACROSS_LINES, "every driver reads a comment as one space, as GLSL 4.40 has it");
 /// `#if NAME` where no macro `NAME` is defined.
 pub(super) static UNDEFINED_IN_CONDITION: Kindness =
-    Kindness { code: &preprocess::UNDEFINED_IN_CONDITION, reason: "every driver counts it as 0, as C does" };
+    Kindness::new(&preprocess::UNDEFINED_IN_CONDITION, "every driver counts it as 0, as C does")
+        .refused(Feature::NamesInConditions, &preprocess::MALFORMED_CONDITION);
 /// Directives before `#version`.
-pub(super) static BEFORE_VERSION: Kindness = Kindness {
-    code: &preprocess::BEFORE_VERSION,
-    reason: "drivers accept directives there, because tools that put texts together write them there",
-};
+pub(super) static BEFORE_VERSION: Kindness = Kindness::new(
+    &preprocess::BEFORE_VERSION,
+    "drivers accept directives there, because tools that put texts together write them there",
+);
 /// `#extension` after the first token.
-pub(super) static LATE_EXTENSION: Kindness = Kindness {
-    code: &preprocess::LATE_EXTENSION,
-    reason: "drivers turn the extension on from there, because included texts bring their own lines",
-};
+pub(super) static LATE_EXTENSION: Kindness = Kindness::new(
+    &preprocess::LATE_EXTENSION,
+    "drivers turn the extension on from there, because included texts bring their own lines",
+)
+.refused(Feature::ExtensionsFirst, &preprocess::MISPLACED_EXTENSION);
 /// `#endif NAME`
-pub(super) static EXTRA_TEXT: Kindness = Kindness {
-    code: &preprocess::EXTRA_TEXT,
-    reason: "every driver ignores it, and many sources repeat the name after `#endif`",
-};
+pub(super) static EXTRA_TEXT: Kindness =
+    Kindness::new(&preprocess::EXTRA_TEXT, "every driver ignores it, and many sources repeat the name after `#endif`")
+        .refused(Feature::DirectiveEnds, &preprocess::MALFORMED_DIRECTIVE);
 /// `#include` without its extension.
-pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness = Kindness {
-    code: &preprocess::INCLUDE_WITHOUT_EXTENSION,
-    reason: "engines resolve it before the driver sees the text",
-};
+pub(super) static INCLUDE_WITHOUT_EXTENSION: Kindness =
+    Kindness::new(&preprocess::INCLUDE_WITHOUT_EXTENSION, "engines resolve it before the driver sees the text");
 /// `#pragma optimize(off)` inside a function.
 pub(super) static PRAGMA_IN_FUNCTION: Kindness =
-    Kindness { code: &preprocess::PRAGMA_IN_FUNCTION, reason: "no driver checks where such a pragma is" };
+    Kindness::new(&preprocess::PRAGMA_IN_FUNCTION, "no driver checks where such a pragma is");
 /// U+FEFF before the text.
-pub(super) static BYTE_ORDER_MARK: Kindness = Kindness {
-    code: &preprocess::BYTE_ORDER_MARK,
-    reason: "editors write it, and programs often take it away before the driver sees the text",
-};
+pub(super) static BYTE_ORDER_MARK: Kindness = Kindness::new(
+    &preprocess::BYTE_ORDER_MARK,
+    "editors write it, and programs often take it away before the driver sees the text",
+);
 /// `#ifdef` inside the arguments of a macro use.
 pub(super) static DIRECTIVE_IN_ARGUMENTS: Kindness =
-    Kindness { code: &preprocess::DIRECTIVE_IN_ARGUMENTS, reason: "preprocessors run it, as those of C++ do" };
+    Kindness::new(&preprocess::DIRECTIVE_IN_ARGUMENTS, "preprocessors run it, as those of C++ do");
 /// A macro whose name contains `__`.
-pub(super) static RESERVED_NAME: Kindness = Kindness {
-    code: &preprocess::RESERVED_NAME,
-    reason: "no driver uses such names, and include guards often have them",
-};
+pub(super) static RESERVED_NAME: Kindness =
+    Kindness::new(&preprocess::RESERVED_NAME, "no driver uses such names, and include guards often have them");
 /// `##` in GLSL 1.10 and 1.20.
 pub(super) static EARLY_PASTE: Kindness =
-    Kindness { code: &preprocess::EARLY_PASTE, reason: "the drivers of OpenGL join tokens in every version" };
+    Kindness::new(&preprocess::EARLY_PASTE, "the drivers of OpenGL join tokens in every version");
 /// `;` at global scope.
 pub(super) static STRAY_SEMICOLON: Kindness =
-    Kindness { code: &syntax::STRAY_SEMICOLON, reason: "every driver skips it, and macros leave it behind" };
+    Kindness::new(&syntax::STRAY_SEMICOLON, "every driver skips it, and macros leave it behind");
 
 impl Kindness {
-    /// The diagnostic for one occurrence; the caller adds labels and help.
+    const fn new(code: &'static Code, reason: &'static str) -> Self {
+        Self { code, reason, refused: None }
+    }
+
+    /// The same case, which is an error in languages with a rule.
+    const fn refused(self, rule: Feature, code: &'static Code) -> Self {
+        Self { refused: Some((rule, code)), ..self }
+    }
+
+    /// The code of the error in a language whose compilers refuse the case.
+    fn refusal(&self, version: Version) -> Option<&'static Code> {
+        self.refused.filter(|(rule, _)| version.has(*rule)).map(|(_, code)| code)
+    }
+
+    /// Whether the case is an error in a language.
+    pub(super) fn is_refused(&self, version: Version) -> bool {
+        self.refusal(version).is_some()
+    }
+
+    /// The diagnostic for one occurrence in a language; the caller adds labels and help.
+    pub(super) fn judged(&self, version: Version, strict: bool, span: Span, message: impl Into<String>) -> Diagnostic {
+        match self.refusal(version) {
+            Some(code) => Diagnostic::new(code, span, message),
+            None => self.diagnostic(strict, span, message),
+        }
+    }
+
+    /// The diagnostic for one occurrence in a language that forgives it; the caller adds labels and help.
     pub(super) fn diagnostic(&self, strict: bool, span: Span, message: impl Into<String>) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(self.code, span, message);
         if strict {
@@ -79,7 +110,7 @@ impl Kindness {
 
     /// Reports one occurrence.
     pub(super) fn report(&self, session: &mut ParseSession<'_>, strict: bool, span: Span, message: impl Into<String>) {
-        let diagnostic = self.diagnostic(strict, span, message);
+        let diagnostic = self.judged(session.version, strict, span, message);
         session.report(diagnostic);
     }
 }

@@ -25,13 +25,20 @@ impl Lexemes {
         let mut lexer = Lexer::new(Arc::clone(file.text()), file.base());
         let (mut names, mut trivia) = (Names::default(), Vec::new());
         let mut tokens = Vec::new();
+        let mut mode = Mode::Text;
         loop {
-            let token = lexer.next(Mode::Text, &mut names, &mut trivia);
+            let token = lexer.next(mode, &mut names, &mut trivia);
             trivia.clear();
-            if token.kind == TokenKind::Eof {
-                break;
+            match token.kind {
+                TokenKind::Eof => break,
+                TokenKind::Newline => mode = Mode::Text,
+                _ => {
+                    if Self::begins_directive(&token) {
+                        mode = Mode::Directive;
+                    }
+                    tokens.push(token);
+                }
             }
-            tokens.push(token);
         }
         let (starts, places) = index(&tokens);
         Self { tokens, names, starts, places }

@@ -21,6 +21,8 @@ pub(super) enum Trivia {
     Continuation(Span, bool),
     /// `/*` without an end; the span is that of the `/*`.
     Unterminated(Span),
+    /// The `/*` of a comment over several lines after which a directive goes on.
+    Crossed(Span),
 }
 
 /// How to treat the end of a line.
@@ -221,8 +223,10 @@ impl Lexer {
         }
     }
 
-    /// Skips white space and comments. In a directive, returns the end of the line.
+    /// Skips white space and comments. In a directive, returns the end of the line. A comment is one space there, whatever lines it has:
+    /// comments are replaced before directives are read (GLSL 4.60 §3.1, GLSL ES 3.00 §3.1).
     fn skip_space(&mut self, mode: Mode, flags: &mut TokenFlags, trivia: &mut Vec<Trivia>) -> Option<Token> {
+        let mut crossed = None;
         loop {
             match self.peek(0) {
                 b' ' | b'\t' | 0x0B | 0x0C => self.pos += 1,
@@ -235,16 +239,20 @@ impl Lexer {
                 }
                 b'/' if self.peek(1) == b'/' => self.line_comment(trivia),
                 b'/' if self.peek(1) == b'*' => {
+                    let start = self.offset();
                     if self.block_comment(trivia) {
-                        // A comment does not eliminate newlines (§3.4): a directive ends at one.
-                        self.at_line_start = true;
-                        if mode == Mode::Directive {
-                            return Some(Token::new(TokenKind::Newline, Span::new(self.last_end, self.last_end)));
+                        match mode {
+                            Mode::Text => self.at_line_start = true,
+                            Mode::Directive => crossed = Some(Span::new(start, start + 2)),
                         }
                     }
                 }
                 b'\\' if self.continuation_length().is_some() => self.continuation(trivia),
-                _ => return None,
+                _ => {
+                    let goes_on = self.at(0).is_some();
+                    trivia.extend(crossed.filter(|_| goes_on).map(Trivia::Crossed));
+                    return None;
+                }
             }
             flags.insert(TokenFlags::SPACE);
         }
@@ -481,5 +489,14 @@ mod tests {
         let (tokens, trivia) = lex("a // b\n/* c \n*/ d /* e");
         assert_eq!(tokens, ["a", "d"]);
         assert!(matches!(trivia[..], [Trivia::Unterminated(span)] if span == Span::new(19, 21)));
+    }
+
+    #[test]
+    fn a_comment_in_a_directive_is_a_space() {
+        let (mut names, mut trivia) = (Names::default(), Vec::new());
+        let mut lexer = Lexer::new("a /* b\n */ c /*\n*/\nd".into(), 1);
+        let mut kind = || lexer.next(Mode::Directive, &mut names, &mut trivia).kind;
+        assert_eq!([kind(), kind(), kind()], [TokenKind::Word, TokenKind::Word, TokenKind::Newline]);
+        assert!(matches!(trivia[..], [Trivia::Crossed(span)] if span == Span::new(3, 5)));
     }
 }

@@ -148,10 +148,9 @@ impl Analyzer<'_> {
                 let ty = self.with_array(base, &declarator.array);
                 let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
                 self.require_size(ty, declarator.name.span);
-                if let (Storage::Uniform, Some(precision)) = (context.storage, self.precision_of(record.precision, ty))
-                {
+                if context.storage == Storage::Uniform && self.ast.version.is_es() {
                     let name = format!("{}.{}", self.name(block.name), self.name(declarator.name));
-                    self.shader.precisions.push((name, precision));
+                    self.note_precision(name, record.precision, ty, declarator.name.span);
                 }
                 let matrix = layout.matrix.unwrap_or(context.matrix);
                 let place = self.member_place(&layout, context);

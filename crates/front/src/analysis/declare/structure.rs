@@ -47,7 +47,7 @@ impl Analyzer<'_> {
             self.require(Feature::NamelessStructs, span);
         }
         let good_name = spec.name.is_none_or(|name| self.check_name(name));
-        let mut members = MemberList::default();
+        let (mut members, mut precisions) = (MemberList::default(), Vec::new());
         for row in &spec.members {
             let record = self.qualifiers(&row.qualifiers, DeclarationContext::StructMember);
             let base = self.member_base(row);
@@ -55,6 +55,7 @@ impl Analyzer<'_> {
             for declarator in &row.declarators {
                 let ty = self.member_type(declarator, base, row);
                 let member = Member::plain(self.name(declarator.name), ty, declarator.name.span);
+                precisions.push(self.precision_of(record.precision, ty));
                 self.add_member(&mut members, declarator.name, member);
             }
         }
@@ -63,6 +64,9 @@ impl Analyzer<'_> {
         }
         let ty = self.add_structure(name, members, false, declared);
         self.note_members(ty, &spec.members);
+        if let (Type::Struct(id), true) = (self.types.get(ty), self.ast.version.is_es()) {
+            self.declared.add_precisions(id, precisions);
+        }
         if let Some(name) = spec.name {
             let good_name = good_name && self.check_block_name(name);
             self.enter(name, if good_name { Entry::Struct(ty) } else { Entry::Poison });

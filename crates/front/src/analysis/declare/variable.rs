@@ -144,8 +144,8 @@ impl Analyzer<'_> {
         if self.resizes(declarator, ty, storage) {
             return;
         }
-        if let (Storage::Uniform, Some(precision)) = (storage, self.precision_of(record.precision, ty)) {
-            self.shader.precisions.push((self.name(name).to_owned(), precision));
+        if storage == Storage::Uniform && self.ast.version.is_es() {
+            self.note_precision(self.name(name).to_owned(), record.precision, ty, name.span);
         }
         let global = self.new_global(name.span, self.name(name), ty, storage, record, &layout, initial);
         let id = self.add_global(global);

@@ -252,6 +252,13 @@ impl Analyzer<'_> {
         match self.balance((yes, no)) {
             Some((yes, no)) if !opaque => {
                 let ty = self.ty(yes);
+                if matches!(self.types.get(ty), Type::Array(..)) {
+                    self.require(Feature::ArrayObjects, self.span(no));
+                }
+                // "any type other than an array" (GLSL ES 1.00 §5.9), and compilers count a struct that contains one alike.
+                if self.types.is_struct_with_array(ty) {
+                    self.require_here(Feature::ArraysInValues, self.span(no));
+                }
                 self.push(ExprKind::Ternary(condition, yes, no), ty, span)
             }
             _ => {

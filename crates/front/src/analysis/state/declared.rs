@@ -2,6 +2,7 @@
 
 use crate::builtin::BuiltinVariable;
 use crate::hir::{FunctionId, GlobalId, Storage, StructId, TypeId};
+use crate::language::Precision;
 use crate::source::Span;
 use crate::syntax::token::Symbol;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -26,6 +27,8 @@ pub(in crate::analysis) struct Declared {
     blocks_of_interfaces: FxHashMap<(Symbol, Storage), Span>,
     /// The indices of the members, for structs with many members.
     members: FxHashMap<StructId, FxHashMap<Symbol, u32>>,
+    /// In ES, the precisions of the members of structs, by declaration or default.
+    precisions: FxHashMap<StructId, Vec<Option<Precision>>>,
     /// The built-in variables that are used or redeclared.
     builtins: FxHashMap<BuiltinVariable, GlobalId>,
     /// The variables of the fixed-function pipeline that are used or redeclared, and its structs.
@@ -95,6 +98,16 @@ impl Declared {
     /// Enters the indices of the members of a struct.
     pub(in crate::analysis) fn add_members(&mut self, id: StructId, indices: FxHashMap<Symbol, u32>) {
         self.members.insert(id, indices);
+    }
+
+    /// In ES, the precisions of the members of a struct.
+    pub(in crate::analysis) fn precisions(&self, id: StructId) -> &[Option<Precision>] {
+        self.precisions.get(&id).map_or(&[], Vec::as_slice)
+    }
+
+    /// Enters the precisions of the members of a struct.
+    pub(in crate::analysis) fn add_precisions(&mut self, id: StructId, list: Vec<Option<Precision>>) {
+        self.precisions.insert(id, list);
     }
 
     /// The global of a built-in variable, if it is used or redeclared.

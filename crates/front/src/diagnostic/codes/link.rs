@@ -302,8 +302,8 @@ codes! {
         good Program("#version 150\nvoid main() { gl_Position = vec4(0.0); }",
             "#version 330\nout vec4 c; void main() { c = vec4(1.0); }");
     UNIFORM_PRECISION_MISMATCH = "E0732" "uniform-precision-mismatch" Error "GLSL ES 3.00 §4.3.5"
-        "The stages of a program share their uniforms: a uniform, or a member of a uniform block, has the same precision \
-         wherever it is declared. Without a qualifier it has the default of its stage, and those differ: vertex shaders have \
+        "The stages of a program share their uniforms: a uniform, or a member of its struct or of a uniform block, has the same \
+         precision wherever it is declared. Without a qualifier it has the default of its stage, and those differ: vertex shaders have \
          `highp` for floats and integers, fragment shaders `mediump` for integers and none for floats."
         bad Program("#version 300 es\nuniform vec4 u; void main() { gl_Position = u; }",
             "#version 300 es\nprecision mediump float; uniform vec4 u; out vec4 c; void main() { c = u; }"),

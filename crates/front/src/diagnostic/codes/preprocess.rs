@@ -105,6 +105,14 @@ codes! {
     EXPANSION_TOO_DEEP = "E0130" "macro-expansion-too-deep" Error "GLSL 1.50 §3.3"
         "Macro uses may nest 4,096 levels deep, and 64 levels deep in each other's arguments."
         bad None, good None;
+    MISPLACED_EXTENSION = "E0131" "misplaced-extension" Error "GLSL ES 3.00 §3.5"
+        "From ES 3.00 on, `#extension` lines come before any token that does not belong to the preprocessor. In other versions this is \
+         the warning W0104, since their drivers accept it."
+        bad Fragment("#version 300 es\nprecision mediump float;\n#extension GL_OES_standard_derivatives : enable\nout vec4 c; void main() { c = vec4(1.0); }"),
+        good Fragment("#version 300 es\n#extension GL_OES_standard_derivatives : enable\nprecision mediump float;\nout vec4 c; void main() { c = vec4(1.0); }");
+    NAME_TOO_LONG = "E0132" "name-too-long" Error "GLSL ES 3.00 §3.9"
+        "From ES 3.00 on, a name has at most 1,024 characters, and so has that of a macro. The desktop language leaves it to drivers."
+        bad None, good Fragment("#version 300 es\nvoid main() {}");
 
     LINE_CONTINUATION = "W0101" "line-continuation" Warning "GLSL 1.50 §3.1"
         "Before 4.20 the language had no line continuation character: a backslash at the end of a line is an \
@@ -112,18 +120,20 @@ codes! {
          next line is code."
         bad Fragment("#define A 1.0 + \\\n    2.0\nvoid main() {}"), good Fragment("#define A 1.0 + 2.0\nvoid main() {}");
     UNDEFINED_IN_CONDITION = "W0102" "undefined-macro-in-condition" Warning "GLSL 1.50 §3.3"
-        "A name that is not a macro has no value in `#if`. C treats it as 0; in GLSL it is an error."
+        "A name that is not a macro has no value in `#if`. C treats it as 0; in GLSL it is an error. In GLSL ES, whose compilers \
+         refuse it, that error is E0109."
         bad Fragment("#if USE_FOG\n#endif\nvoid main() {}"),
         good Fragment("#if defined(USE_FOG) && USE_FOG\n#endif\nvoid main() {}");
     BEFORE_VERSION = "W0103" "directive-before-version" Warning "GLSL 1.50 §3.3"
         "`#version` must come before everything but comments and white space; other directives follow it."
         bad Vertex("#define A 1\n#version 150\nvoid main() {}"), good Vertex("#version 150\n#define A 1\nvoid main() {}");
     LATE_EXTENSION = "W0104" "late-extension" Warning "GLSL 1.50 §3.3"
-        "`#extension` lines must come before any token that does not belong to the preprocessor."
+        "`#extension` lines must come before any token that does not belong to the preprocessor. From ES 3.00 on, compilers refuse \
+         others, and this is the error E0131."
         bad Fragment("float a;\n#extension GL_ARB_draw_instanced : enable\nvoid main() {}"),
         good Fragment("#extension GL_ARB_draw_instanced : enable\nfloat a;\nvoid main() {}");
     EXTRA_TEXT = "W0105" "extra-text-after-directive" Warning "GLSL 1.50 §3.3"
-        "There is text after a directive that is already complete."
+        "There is text after a directive that is already complete. In GLSL ES, whose compilers refuse it, this is the error E0106."
         bad Fragment("#ifdef A\n#endif A\nvoid main() {}"), good Fragment("#ifdef A\n#endif // A\nvoid main() {}");
     EXTENSION_IGNORED = "W0106" "extension-ignored" Warning "GLSL 1.50 §3.3"
         "The source requests an extension that glisten does not implement or that is not in any registry, but does \
@@ -155,6 +165,11 @@ codes! {
          refuse it there. GLSL ES has it in no version, and there it is the error E0617."
         bad Fragment("#version 120\n#define J(a, b) a ## b\nvoid main() { gl_FragColor = vec4(J(1., 5)); }"),
         good Fragment("#version 130\n#define J(a, b) a ## b\nvoid main() { gl_FragColor = vec4(J(1., 5)); }");
+    COMMENT_ACROSS_LINES = "W0118" "comment-across-lines" Warning "GLSL 1.50 §3.4"
+        "Until GLSL 4.30, and in ES 1.00, a comment does not eliminate the ends of lines, so a directive ends where a line ends inside a \
+         comment. Drivers take each comment for one space, as later versions say, and the directive goes on after it."
+        bad Fragment("#define ONE /* a number\n    */ 1.0\nout vec4 c; void main() { c = vec4(ONE); }"),
+        good Fragment("/* a number\n    */\n#define ONE 1.0\nout vec4 c; void main() { c = vec4(ONE); }");
     UNKNOWN_STDGL_PRAGMA = "W0109" "unknown-stdgl-pragma" Warning "GLSL 1.50 §3.3"
         "Pragmas whose first word is STDGL are reserved for the language, which has only `invariant(all)`. Of the \
          others, `optimize` and `debug` take `(on)` or `(off)`. Unknown pragmas are ignored."

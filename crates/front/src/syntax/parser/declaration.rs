@@ -415,6 +415,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 let behind = self.behind_brackets();
                 !matches!(behind, TokenKind::LeftParen | TokenKind::Dot)
             }
+            TokenKind::Ident if self.is_later_qualifier() => true,
             TokenKind::Ident => matches!(self.behind_brackets(), TokenKind::Ident | TokenKind::Reserved),
             TokenKind::Reserved => {
                 let next = self.ahead(1).kind;

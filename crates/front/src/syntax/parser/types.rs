@@ -7,6 +7,7 @@ use crate::syntax::ast::{
     ArrayDim, Declarator, ExprId, ExprKind, LayoutId, MemberDecl, Qualifier, QualifierKind, StructSpec, TypeBase,
     TypeSpec,
 };
+use crate::syntax::keywords::{Keyword, TABLE};
 use crate::syntax::of_later_word;
 
 /// The qualifier that a token kind is by itself.
@@ -90,6 +91,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let declares = is_qualifier(next.kind) || matches!(next.kind, TokenKind::Type | TokenKind::Void);
         // What begins the next line may be a declaration of its own, after an unfinished one.
         declares && !next.starts_line()
+    }
+
+    /// Whether a qualifier of later versions is next, before a type: `highp float x` in GLSL 1.10.
+    pub(super) fn is_later_qualifier(&mut self) -> bool {
+        let is_word = |row: &Keyword, word: &str| row.spelling == word && is_qualifier(row.kind);
+        self.is_unknown_qualifier() && TABLE.iter().any(|row| is_word(row, self.session.spelling(self.current)))
     }
 
     fn unknown_qualifier(&mut self) {

@@ -333,13 +333,18 @@ impl Evaluator<'_> {
             let names = self.macros.iter().filter(similar).map(|definition| &*definition.name);
             let few = self.macros.len() <= MAX_COMPARED;
             let near = if few && session.may_suggest() { did_you_mean(&name, names) } else { None };
-            let message = format!("`{name}` is not defined and counts as 0");
+            // "Undefined identifiers .. do not default to '0'. Use of such identifiers causes an error" (GLSL ES 1.00 §3.4).
+            let version = session.version;
+            let message = match kind::UNDEFINED_IN_CONDITION.is_refused(version) {
+                true => format!("`{name}` is not defined, and a condition in {} has no value for it", version.name()),
+                false => format!("`{name}` is not defined and counts as 0"),
+            };
             let help = match near {
                 Some(near) => Advice::meant(near),
                 None => self.guarded(&name),
             };
-            let diagnostic = kind::UNDEFINED_IN_CONDITION.diagnostic(self.strict, token.span, message).help(help);
-            session.report(diagnostic);
+            let diagnostic = kind::UNDEFINED_IN_CONDITION.judged(version, self.strict, token.span, message);
+            session.report(diagnostic.help(help));
         }
         Ok(0)
     }

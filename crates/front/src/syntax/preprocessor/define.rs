@@ -89,6 +89,7 @@ impl Preprocessor<'_> {
     /// `#define NAME body`, `#define NAME(a, b) body`
     pub(super) fn define(&mut self, session: &mut ParseSession<'_>) {
         let Some(name) = self.macro_name(session, "#define") else { return };
+        self.check_length(session, name);
         let first = self.line_token(session);
         let mut tokens = Vec::new();
         let mut params = None;

@@ -62,7 +62,7 @@ impl Preprocessor<'_> {
         let span = session.sources.join(directive, behavior.span);
         if let Some(first) = self.first_token {
             let diagnostic = kind::LATE_EXTENSION
-                .diagnostic(self.strict, span, "`#extension` after the first token")
+                .judged(self.version, self.strict, span, "`#extension` after the first token")
                 .label(first, "the first token");
             session.report(diagnostic);
         }

@@ -1,10 +1,13 @@
 //! Turns preprocessing tokens into tokens: distinguishes keywords from names, converts numbers to values, and reports
 //! and drops what is not a token (GLSL 1.50 §3.1, §3.6, §4.1).
 
-use super::{ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
+use super::{Feature, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::codes::syntax;
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::syntax::number::{self, Malformed, Numeral, NumeralWarning};
+
+/// The most characters of a name in GLSL ES 3.00 (§3.9).
+const LONGEST_NAME: usize = 1024;
 
 impl Preprocessor<'_> {
     /// The token as the parser sees it; `None` if it is dropped.
@@ -54,12 +57,23 @@ impl Preprocessor<'_> {
 }
 
 impl Preprocessor<'_> {
-    /// Warns, once, about a reserved name.
+    /// Warns, once, about a reserved name, and reports one that is too long.
     fn check_word(&self, session: &mut ParseSession<'_>, token: Token) {
+        self.check_length(session, token);
         let name = session.spelling(token);
         if name.contains("__") {
             let message = format!("the name `{name}` is reserved: it holds two underscores in a row");
             kind::RESERVED_NAME.report(session, self.strict, token.span, message);
+        }
+    }
+
+    /// Reports a name, or that of a macro, that is longer than the language allows (GLSL ES 3.00 §3.5, §3.9).
+    pub(super) fn check_length(&self, session: &mut ParseSession<'_>, name: Token) {
+        let length = session.spelling(name).len();
+        if length > LONGEST_NAME && self.version.has(Feature::ShortNames) {
+            let message = format!("the name has {length} characters");
+            let here = "a name has at most 1,024 characters";
+            session.report(Diagnostic::new(&codes::NAME_TOO_LONG, name.span, message).here(here));
         }
     }
 }

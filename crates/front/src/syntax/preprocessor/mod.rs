@@ -108,6 +108,8 @@ pub(super) struct Preprocessor<'a> {
     trivia: Vec<Trivia>,
     version: Version,
     version_seen: bool,
+    /// The language that a `#version` line further down states.
+    announced: Option<Version>,
     /// The first directive before `#version`.
     before_version: Option<Span>,
     extensions: Extensions,
@@ -157,6 +159,7 @@ impl<'a> Preprocessor<'a> {
             trivia: Vec::new(),
             version: version::UNWRITTEN,
             version_seen: false,
+            announced: None,
             before_version: None,
             extensions: Extensions::empty(),
             extension_set: 0,
@@ -192,6 +195,7 @@ impl<'a> Preprocessor<'a> {
         this.define_from_outside(session, defines);
         // To define a macro from outside is no use of it.
         this.words.iter_mut().for_each(|word| word.asked = false);
+        this.announced = version::announced(session.sources.file(file).text());
         this.enter(session, file, Span::default());
         this.check_is_text(session, file);
         this
@@ -275,7 +279,8 @@ impl<'a> Preprocessor<'a> {
 
     /// Whether the version allows a backslash to join lines, rather than glisten forgiving it.
     fn joins_lines(&self) -> bool {
-        self.version.has_with(Feature::LineContinuation, self.extensions)
+        let joins = |version: Version| version.has_with(Feature::LineContinuation, self.extensions);
+        joins(self.version) || !self.version_seen && self.announced.is_some_and(joins)
     }
 
     /// Facts about a word.
@@ -370,6 +375,12 @@ impl<'a> Preprocessor<'a> {
                     let diagnostic = kind::LINE_CONTINUATION.diagnostic(self.strict, span, message);
                     session.report(diagnostic.help(help));
                 }
+                Trivia::Crossed(span) if !self.version.has(Feature::CommentsAreSpaces) => {
+                    let message = "a comment in a directive goes on after the end of its line";
+                    let diagnostic = kind::COMMENT_ACROSS_LINES.diagnostic(self.strict, span, message);
+                    session.report(diagnostic.help("end it on the line where it begins"));
+                }
+                Trivia::Crossed(_) => {}
                 Trivia::Continuation(span, _) => {
                     let bringing = Feature::LineContinuation.row().extensions;
                     if !self.version.has(Feature::LineContinuation)

@@ -17,9 +17,13 @@ impl IncludeResolver for Files {
 }
 
 fn run(text: &str, files: &'static [(&'static str, &'static str)]) -> (String, Vec<&'static str>, SourceMap) {
+    run_whole(format!("#version 150\n{text}"), files)
+}
+
+fn run_whole(text: String, files: &'static [(&'static str, &'static str)]) -> (String, Vec<&'static str>, SourceMap) {
     let mut sources = SourceMap::default();
     let mut diagnostics = Diagnostics::default();
-    let file = sources.add("main", format!("#version 150\n{text}")).expect("room");
+    let file = sources.add("main", text).expect("room");
     let mut session = ParseSession {
         version: super::version::UNWRITTEN,
         sources: &mut sources,
@@ -113,6 +117,41 @@ fn conditions() {
         assert_eq!((words.as_str(), codes), (if expected { "yes" } else { "no" }, Vec::new()), "{condition}");
     }
     check("#define HAS defined(FROM)\n#if HAS\nyes\n#endif", "yes");
+}
+
+#[test]
+fn comments_over_several_lines() {
+    let whole = |version: &str, text: &str| {
+        let (words, codes, _) = run_whole(format!("#version {version}\n{text}"), &[]);
+        (words, codes)
+    };
+    let text = "#define A /* x\n*/ 1 /*\n*/ + 2\n#if /*\n#if */ A /* y\n */\nA\n#endif /*\n*/";
+    assert_eq!(whole("440", text), ("1 + 2".to_owned(), Vec::new()));
+    assert_eq!(whole("300 es", text), ("1 + 2".to_owned(), Vec::new()));
+    assert_eq!(whole("430", text), ("1 + 2".to_owned(), vec!["W0118"; 3]));
+    assert_eq!(whole("100", text), ("1 + 2".to_owned(), vec!["W0118"; 3]));
+}
+
+#[test]
+fn names_that_are_too_long() {
+    let text = |version: &str, length: usize| {
+        let name = "a".repeat(length);
+        run_whole(format!("#version {version}\n#define M{name}\n#undef M{name}\n{name} {name}"), &[]).1
+    };
+    assert_eq!(text("300 es", 1023), Vec::<&str>::new());
+    assert_eq!(text("300 es", 1024), ["E0132"]);
+    assert_eq!(text("320 es", 1025), ["E0132"; 2]);
+    assert!(text("100", 1025).is_empty() && text("460", 1025).is_empty());
+}
+
+#[test]
+fn lines_above_the_version_are_joined() {
+    let of = |text: &str| run_whole(text.to_owned(), &[]);
+    let (words, codes, _) = of("// a \\\r\nb\r\n/* */ // c \\\r\nd\r\n#version 420\r\ne");
+    assert_eq!((words.as_str(), codes), ("e", Vec::new()));
+    let (words, codes, _) = of("// a \\\n#version 420\ne");
+    assert_eq!((words.as_str(), codes), ("e", vec!["W0101"]));
+    assert_eq!(of("// a \\\n#define B\n#version 410\ne").1, ["W0101", "W0103"]);
 }
 
 #[test]

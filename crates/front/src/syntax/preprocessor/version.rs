@@ -3,7 +3,7 @@
 use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix, codes::general};
 use crate::language::{EDITIONS, Edition, Feature};
-use crate::source::is_replaced;
+use crate::source::{is_replaced, version_line};
 use std::collections::BTreeSet;
 
 /// The change that moves a directive to the begin of a text.
@@ -25,6 +25,24 @@ pub(crate) const NOT_FIRST: &str = "`#version` does not come first";
 /// The words for profiles.
 const PROFILES: [&str; 3] = ["core", "compatibility", "es"];
 
+/// The language that the `#version` line of a text states, for the lines before it: from GLSL 4.20 on, a backslash joins lines before comments are
+/// read (4.60 §3.3), also there. A line that would itself be joined to a comment says nothing.
+pub(super) fn announced(text: &str) -> Option<Version> {
+    if !text.contains('\\') {
+        return None;
+    }
+    let line = version_line(text)?;
+    let above = text.get(..line.start)?.trim_end_matches([' ', '\t']);
+    let above = above.strip_suffix('\n').unwrap_or(above);
+    if above.strip_suffix('\r').unwrap_or(above).ends_with('\\') {
+        return None;
+    }
+    let mut words = text.get(line)?.trim_start_matches('#').split_whitespace().skip(1);
+    let number = words.next()?.parse().ok()?;
+    let profile = if words.next() == Some("es") { Profile::Es } else { Profile::Core };
+    Some(Version { number, profile, ..UNWRITTEN })
+}
+
 impl Preprocessor<'_> {
     /// `#version number profile`, without macro expansion.
     pub(super) fn version(&mut self, session: &mut ParseSession<'_>, directive: Span) {
@@ -35,22 +53,21 @@ impl Preprocessor<'_> {
         let Ok(parsed) = digits.parse::<u16>() else { return self.version_by_name(session, number) };
         let mut span = session.sources.join(directive, number.span);
         let profile = self.line_token(session);
-        let named = if !attached.is_empty() {
+        let (named, rest) = if !attached.is_empty() {
             let message = format!("`{attached}` is a word of its own");
             let finding = Diagnostic::new(&codes::MALFORMED_DIRECTIVE, number.span, message);
             session.report(finding.help(Advice::write(Applicability::Safe, format!("{digits} {attached}"))));
-            self.end_line_with_extra(session, profile);
-            attached.to_owned()
+            (attached.to_owned(), profile)
         } else if profile.kind == TokenKind::Word {
             span = session.sources.join(span, profile.span);
-            self.expect_line_end(session, "#version");
-            session.spelling(profile).to_owned()
+            let named = session.spelling(profile).to_owned();
+            (named, self.line_token(session))
         } else {
-            self.end_line_with_extra(session, profile);
-            String::new()
+            (String::new(), profile)
         };
         let profile_here = if named == "es" { Profile::Es } else { Profile::Core };
         let stated = Version { number: parsed, profile: profile_here, span };
+        self.end_version_line(session, rest, stated);
         if !self.check_place(session, stated) {
             return;
         }
@@ -90,11 +107,14 @@ impl Preprocessor<'_> {
         self.stop();
     }
 
-    fn end_line_with_extra(&mut self, session: &mut ParseSession<'_>, token: Token) {
-        if !matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
-            kind::EXTRA_TEXT.report(session, self.strict, token.span, "there is text after the complete `#version`");
-            self.skip_line(session);
+    /// Reports text after a complete `#version`, by the rule of the version that it states.
+    fn end_version_line(&mut self, session: &mut ParseSession<'_>, token: Token, stated: Version) {
+        if matches!(token.kind, TokenKind::Newline | TokenKind::Eof) {
+            return;
         }
+        let message = "there is text after the complete `#version`";
+        session.report(kind::EXTRA_TEXT.judged(stated, self.strict, token.span, message));
+        self.skip_line(session);
     }
 
     /// Whether the directive is valid here: it is the first, and no token comes before it.
