@@ -144,7 +144,7 @@ features! {
     /// Samplers, and blocks, are indexed by constant expressions alone.
     ConstantSamplers "the rule for the index of a sampler" since(130, 300), since(400, 320), NONE, "§4.1.7";
     /// Texture offsets that are not constant expressions (`textureGatherOffset`).
-    DynamicOffsets "a texture offset that is not constant" since(400, NEVER), STAYS, SHADER5, "§8.9";
+    DynamicOffsets "a texture offset that is not constant" since(400, 320), STAYS, SHADER5, "§8.9";
     /// Layout identifiers in capitals.
     AnyCaseLayouts "a layout identifier in capitals" since(140, NEVER), since(440, NEVER), NONE, "§4.3.5.2";
     /// A shader declares a function that is built in.
