@@ -44,7 +44,8 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         }
         if version.is_some() {
             // What is wrong with the tokens before is so in every version.
-            let is_of_tokens = matches!(diagnostic.code.id.get(..3), Some("E01" | "E02"));
+            let is_of_tokens =
+                matches!(diagnostic.code.id.get(..3), Some("E01" | "E02")) && *diagnostic.code != MISSING_VERSION;
             return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
         }
         if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {

@@ -16,6 +16,7 @@ mod expr;
 mod foreign;
 mod fragment;
 mod layout;
+mod misspelled;
 mod recover;
 mod statement;
 #[cfg(test)]
@@ -90,6 +91,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     overdeep: bool,
     /// Whether a closing brace was assumed for that reason.
     assumed_brace: bool,
+    /// The number of braces around the last `case` that is in no `switch`.
+    labelled: Option<i32>,
     /// The variables that the current declaration has named so far.
     declaring: Vec<Ident>,
     /// The current declaration of variables, if it is broken.
@@ -129,6 +132,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             returned_to: FxHashSet::default(),
             overdeep: false,
             assumed_brace: false,
+            labelled: None,
             declaring: Vec::new(),
             unfinished: None,
             taken: Vec::new(),

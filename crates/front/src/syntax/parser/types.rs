@@ -10,7 +10,7 @@ use crate::syntax::ast::{
 use crate::syntax::of_later_word;
 
 /// The qualifier that a token kind is by itself.
-fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
+pub(super) fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
     Some(match kind {
         TokenKind::Const => QualifierKind::Const,
         TokenKind::Attribute => QualifierKind::Attribute,
@@ -32,18 +32,6 @@ fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
         _ => return None,
     })
 }
-
-/// Words that are names in 1.50 and qualifiers in a later version, with that version.
-static LATER_QUALIFIERS: &[(&str, u16)] = &[
-    ("patch", 400),
-    ("sample", 400),
-    ("subroutine", 400),
-    ("coherent", 420),
-    ("restrict", 420),
-    ("readonly", 420),
-    ("writeonly", 420),
-    ("buffer", 430),
-];
 
 /// Whether it is `lowp`, `mediump` or `highp`.
 pub(super) fn is_precision(kind: &QualifierKind) -> bool {
@@ -74,7 +62,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 self.report_reserved_qualifier(token);
                 self.bump();
             } else if self.is_unknown_qualifier() {
-                self.unknown_qualifier();
+                list.extend(self.unknown_qualifier().map(|kind| Qualifier { kind, span: start }));
             } else {
                 return Ok(list);
             }
@@ -90,20 +78,6 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let declares = is_qualifier(next.kind) || matches!(next.kind, TokenKind::Type | TokenKind::Void);
         // What begins the next line may be a declaration of its own, after an unfinished one.
         declares && !next.starts_line()
-    }
-
-    fn unknown_qualifier(&mut self) {
-        let token = self.bump();
-        let name = self.session.spelling(token).to_owned();
-        let diagnostic = Diagnostic::new(
-            &codes::UNEXPECTED_TOKEN,
-            token.span,
-            format!("`{name}` is not a qualifier in this version"),
-        )
-        .here("expected a qualifier or a type");
-        let since = LATER_QUALIFIERS.iter().find(|row| row.0 == name).map(|row| row.1);
-        let help = since.map(|since| format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100));
-        self.session.report(of_later_word(diagnostic.maybe_help(help), &name, self.session.version));
     }
 
     /// A reserved word where only a qualifier makes sense, such as `static` in `static float x`.
