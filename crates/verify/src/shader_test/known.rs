@@ -153,7 +153,7 @@ const COMMANDS: &[&str] = &[
     "xfb draw arrays",
 ];
 
-/// What OpenGL can enable.
+/// The capabilities of OpenGL: what can be enabled.
 pub(super) const CAPABILITIES: &[&str] = &[
     "GL_ALPHA_TEST",
     "GL_BLEND",
@@ -252,7 +252,7 @@ pub(super) const PARAMETERS: &[&str] = &[
 pub(super) const WRAPS: &[&str] =
     &["clamp", "clamp_to_border", "clamp_to_edge", "mirrored_repeat", "mirror_clamp_to_edge", "repeat"];
 
-/// What a host may ask about an active uniform.
+/// The properties of an active uniform that a host may ask for.
 pub(super) const PROPERTIES: &[&str] = &[
     "GL_UNIFORM_ARRAY_STRIDE",
     "GL_UNIFORM_ATOMIC_COUNTER_BUFFER_INDEX",
