@@ -27,7 +27,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         let found = diagnostics.iter().skip(first).position(|diagnostic: &Diagnostic| *diagnostic.code == *code);
         found.map(|place| place + first)
     };
-    let version = place(&MISSING_VERSION);
+    let version = first_in_text(diagnostics, first);
     let feature = [&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].into_iter().filter_map(place).min();
     let start_of = |index: Option<usize>| {
         index.and_then(|index| diagnostics.iter().nth(index)).map_or(0, |diagnostic| diagnostic.primary.span.start)
@@ -61,4 +61,11 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         messages.push(diagnostic.message.clone());
         is_new
     });
+}
+
+/// The number of the error about a missing version that is the first in the text, among the diagnostics from number `first` on. The
+/// parser finds what it lacks before the analysis does.
+fn first_in_text(diagnostics: &Diagnostics, first: usize) -> Option<usize> {
+    let versions = diagnostics.iter().enumerate().skip(first).filter(|(_, found)| *found.code == MISSING_VERSION);
+    versions.min_by_key(|(_, found)| found.primary.span.start).map(|(number, _)| number)
 }
