@@ -62,6 +62,32 @@ fn a_mistake_in_a_shader_fails_with_its_line() {
     assert!(reason.starts_with("line 18:"), "{reason}");
 }
 
+/// A change of the fixture, and the reason for which it fails.
+const MISTAKES: &[(&str, &str, &str)] = &[
+    ("[test]", "[tests]", "`tests` is not a section; did you mean `test`?"),
+    ("[fragment shader]", "[fragment shader", "`]` is missing after `[fragment shader`"),
+    ("GLSL >= 1.50", "GLLS >= 1.50", "`GLLS` is not a requirement; did you mean `GLSL`?"),
+    ("draw rect", "drw rect", "`drw rect` is not a command; did you mean `draw rect`?"),
+    ("\nprobe", "\nprob", "is not a command; did you mean `probe"),
+    (
+        "\nuniform float weights 0.5",
+        "\nuniform flaot weights 0.5",
+        "`flaot` is not a type of a uniform; did you mean `float`?",
+    ),
+];
+
+#[test]
+fn a_mistyped_word_fails_and_is_no_skip() {
+    for (from, to, expected) in MISTAKES {
+        let (results, code) = changed(from, to);
+        assert_eq!(code, Some(1), "{to}");
+        for result in results {
+            assert_eq!(result["result"], "fail", "{to}");
+            assert!(result["reason"].as_str().is_some_and(|reason| reason.contains(expected)), "{result}");
+        }
+    }
+}
+
 #[test]
 fn what_is_not_supported_is_skipped_with_its_reason() {
     let (results, code) = changed("GLSL >= 1.50", "GLSL >= 4.70");

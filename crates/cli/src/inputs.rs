@@ -138,6 +138,8 @@ pub(crate) struct Inputs {
     pub(crate) groups: Vec<Group>,
     /// Folders that contain no shader.
     pub(crate) empty_folders: Vec<String>,
+    /// The files of `--program`s of one stage.
+    lone_programs: Vec<String>,
     /// The files that a search found and the command line does not name.
     pub(crate) found: BTreeSet<PathBuf>,
     /// The files that a search saw and did not take.
@@ -156,6 +158,15 @@ impl Inputs {
     pub(crate) fn tell_empty_folders(&self, console: &Console) {
         for folder in &self.empty_folders {
             console.remark(&format!("no shader was found in `{folder}`"));
+        }
+    }
+
+    /// Tells which `--program`s link nothing.
+    pub(crate) fn tell_lone_programs(&self, console: &Console) {
+        for name in &self.lone_programs {
+            console.remark(&format!(
+                "`--program {name}` is one file, and nothing is linked: write `--program a.vert,b.frag`"
+            ));
         }
     }
 
@@ -251,7 +262,12 @@ pub(crate) fn collect(
                 stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()),
             );
         }
-        groups.push(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed });
+        let group = Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed };
+        check_program(&group, files)?;
+        if let [input] = group.inputs.as_slice() {
+            inputs.lone_programs.push(input.name.clone());
+        }
+        groups.push(group);
     }
     let mut seen = BTreeSet::new();
     let alone = named.len() == 1 && args.programs.is_empty();
@@ -265,6 +281,20 @@ pub(crate) fn collect(
     inputs.groups = group(listed);
     inputs.groups.extend(groups);
     Ok(inputs)
+}
+
+/// Refuses a `--program` of one stage with a file of another stage after it: a space is where a comma is meant.
+fn check_program(group: &Group, files: &[PathBuf]) -> Result<(), Failure> {
+    let [input] = group.inputs.as_slice() else { return Ok(()) };
+    let is_other = |file: &&PathBuf| {
+        file.is_file()
+            && stages::by_name(file).is_some_and(|stage| stage != input.stage)
+            && identity(file) != identity(Path::new(&input.name))
+    };
+    let Some(other) = files.iter().find(is_other) else { return Ok(()) };
+    let (first, second) = (&input.name, other.display());
+    Err(Failure::usage(format!("`--program {first}` names one file, so that `{second}` is not part of the program"))
+        .help(format!("write `--program {first},{second}`")))
 }
 
 /// The program of these files, whatever their names are.

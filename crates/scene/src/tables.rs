@@ -91,7 +91,8 @@ impl Reader {
         for error in &errors {
             let span = error.span().map_or_else(Span::default, |range| self.span(range));
             let message = error.message().trim().replace('\n', ", ");
-            self.report(Diagnostic::new(self.codes.syntax, span, message));
+            let help = error.span().and_then(|range| quoted(text, range.start));
+            self.report(Diagnostic::new(self.codes.syntax, span, message).maybe_help(help));
         }
         errors.is_empty().then(|| document.into_inner())
     }
@@ -349,6 +350,15 @@ impl Reader {
         into.push(Number { value, span: self.span_of(node) });
         true
     }
+}
+
+/// The help to quote the key of a line, if it has brackets as names of uniforms do: `lights[0].color = ..`.
+fn quoted(text: &str, at: usize) -> Option<String> {
+    let start = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
+    let key = text.get(start..)?.lines().next()?.split_once('=')?.0.trim();
+    let is_name = |letter: char| letter.is_ascii_alphanumeric() || "_.[]".contains(letter);
+    let has_brackets = key.contains('[') && !key.starts_with('[');
+    (has_brackets && key.chars().all(is_name)).then(|| format!("write `\"{key}\"`: a key with brackets is quoted"))
 }
 
 /// A number that tells one table of a scene from another.

@@ -271,7 +271,11 @@ fn in_backquotes(text: &str) -> Arc<str> {
 
 impl IncludeResolver for DiskIncludes {
     fn remedy(&self, path: &str, from: &str) -> Option<String> {
-        let wanted: PathBuf = normal(Path::new(path.trim_start_matches('/')));
+        let name = path.trim_start_matches('/');
+        if name.is_empty() {
+            return None;
+        }
+        let wanted: PathBuf = normal(Path::new(name));
         let found = self.seen.nearest(&wanted, from)?;
         let folder = found.ancestors().nth(wanted.components().count())?;
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };

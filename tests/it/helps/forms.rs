@@ -52,6 +52,7 @@ static FORMS: &[(&str, &[(usize, Place)])] = &[
     ("write `_` before `_`, on both sides", &[(0, Place::BeforeWord)]),
     ("write `_` at its end", &[(0, Place::Close)]),
     ("call it `_`", &[(0, Place::Rename)]),
+    ("call it: `_`", &[(0, Place::Replace)]),
     ("begin the shader with `_`", &[(0, Place::Top)]),
     ("declare `_`", &[(0, Place::Top)]),
     ("`_` has it, or put `_` at the top", &[(0, Place::Version), (1, Place::Top)]),

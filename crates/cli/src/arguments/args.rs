@@ -136,9 +136,12 @@ impl LevelArgs {
     }
 }
 
+/// The word for all warnings.
+const WARNINGS: &str = "warnings";
+
 /// Sets the level of one code or group, or of all `warnings`. On failure, returns the message and a suggestion.
 pub(crate) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<(), (String, Option<String>)> {
-    if key == "warnings" {
+    if key == WARNINGS {
         if level == Level::Deny {
             levels.deny_warnings();
             return Ok(());
@@ -148,7 +151,7 @@ pub(crate) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<
     let Some(found) = Key::find(key) else {
         return Err((
             format!("there is no code or group `{key}`"),
-            nearest_code(key).map(|near| format!("did you mean `{near}`?")),
+            nearest_level(level, key).map(|near| format!("did you mean `{near}`?")),
         ));
     };
     let named = match found {
@@ -163,6 +166,12 @@ pub(crate) fn set_level(levels: &mut Levels, level: Level, key: &str) -> Result<
     }
     levels.set_key(found, level);
     Ok(())
+}
+
+/// The word that is most similar to `key` among those that may have a level.
+fn nearest_level(level: Level, key: &str) -> Option<&'static str> {
+    let warnings = did_you_mean(key, [WARNINGS]).filter(|_| level == Level::Deny);
+    warnings.or_else(|| nearest_code(key))
 }
 
 /// The identifier or name of the code that is most similar to `key`.

@@ -133,6 +133,7 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
         }
     };
     inputs.tell_empty_folders(console);
+    inputs.tell_lone_programs(console);
     let mut baselines = Baselines::given(&args.baseline)?;
     let groups = std::mem::take(&mut inputs.groups);
     let scenes = SceneRanges::read(&args.scene, session.compiler())?;

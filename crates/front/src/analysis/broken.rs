@@ -12,10 +12,9 @@ use crate::syntax::ast::{self, ArrayDim, Fragment, Ident, QualifierKind, Variabl
 impl Analyzer<'_> {
     /// Analyzes without reporting anything.
     pub(super) fn quietly<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
-        let (was_quiet, lacking) = (std::mem::replace(&mut self.is_quiet, true), self.lacking);
+        let was_quiet = std::mem::replace(&mut self.is_quiet, true);
         let result = work(self);
         self.is_quiet = was_quiet;
-        self.lacking = lacking;
         result
     }
 

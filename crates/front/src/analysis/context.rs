@@ -56,8 +56,6 @@ pub(super) struct Analyzer<'a> {
     pub(super) precisions: Precisions,
     /// Whether nothing is reported: what is analyzed has an error that was reported.
     pub(super) is_quiet: bool,
-    /// The features whose lack has been reported, by bit.
-    pub(super) lacking: u128,
     /// The current function.
     pub(super) body: Option<Body>,
     /// Types, functions, blocks and built-in variables by name.
@@ -95,7 +93,6 @@ impl<'a> Analyzer<'a> {
             extensions: Extensions::empty(),
             precisions: Precisions::of(stage, ast.version),
             is_quiet: false,
-            lacking: 0,
             body: None,
             declared: Declared::default(),
             uses: Uses::default(),

@@ -33,7 +33,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         let found = diagnostics.iter().skip(first).position(|diagnostic: &Diagnostic| *diagnostic.code == *code);
         found.map(|place| place + first)
     };
-    let version = place(&MISSING_VERSION);
+    let version = first_in_text(diagnostics, first);
     let feature = [&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].into_iter().filter_map(place).min();
     let is_extension = place(&UNSUPPORTED_EXTENSION).is_some();
     let start_of = |index: Option<usize>| {
@@ -51,7 +51,8 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         }
         if version.is_some() {
             // What is wrong with the tokens before is so in every version.
-            let is_of_tokens = matches!(diagnostic.code.id.get(..3), Some("E01" | "E02"));
+            let is_of_tokens =
+                matches!(diagnostic.code.id.get(..3), Some("E01" | "E02")) && *diagnostic.code != MISSING_VERSION;
             return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
         }
         if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
@@ -71,4 +72,11 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         messages.push(diagnostic.message.clone());
         is_new
     });
+}
+
+/// The number of the error about a missing version that is the first in the text, among the diagnostics from number `first` on. The
+/// parser finds what it lacks before the analysis does.
+fn first_in_text(diagnostics: &Diagnostics, first: usize) -> Option<usize> {
+    let versions = diagnostics.iter().enumerate().skip(first).filter(|(_, found)| *found.code == MISSING_VERSION);
+    versions.min_by_key(|(_, found)| found.primary.span.start).map(|(number, _)| number)
 }

@@ -1,13 +1,13 @@
 //! Rules that depend on the version: whether the language has a [`Feature`] at a place, and the message where it does
 //! not.
 //!
-//! *Holds:* each missing feature is reported once in a shader, and the analysis goes on as if the language had it.
+//! *Holds:* each use of a missing feature is reported, and the analysis goes on as if the language had it.
 
 use super::context::Analyzer;
 use crate::builtin::Availability;
 use crate::diagnostic::codes::qualifiers;
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
-use crate::hir::{ExprId, Type};
+use crate::hir::{ExprId, ExprKind, Type};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::{of_version, warning_of_use};
@@ -26,14 +26,31 @@ impl Analyzer<'_> {
         self.extensions.intersects(extensions)
     }
 
-    /// Reports a feature at `span` that the language lacks, at its first use.
+    /// Reports a feature at `span` that the language lacks.
     pub(super) fn require(&mut self, feature: Feature, span: Span) {
-        let bit = 1u128 << (feature as u32 % u128::BITS);
-        if self.allows(feature, span) || self.lacking & bit != 0 {
+        if !self.allows(feature, span) {
+            let finding = self.finding_of(feature, span);
+            self.report(finding);
+        }
+    }
+
+    /// Reports an operator on integers that the language lacks, by its sign.
+    pub(super) fn require_operator(&mut self, sign: &str, span: Span) {
+        let feature = Feature::IntegerOperators;
+        if self.allows(feature, span) {
             return;
         }
-        self.lacking |= bit;
-        self.report_lacking(feature, span);
+        self.report(self.finding_named(feature, span, &format!("`{sign}` on integers")));
+    }
+
+    /// Reports a whole array as a value that the language lacks. A constructor of an array is reported by itself.
+    pub(super) fn require_array_value(&mut self, value: ExprId, span: Span) {
+        let is_array = matches!(self.types.get(self.ty(value)), Type::Array(..));
+        let is_list = self.sources.snippet(self.span(value)).starts_with('{');
+        let is_reported = matches!(self.expr_at(value).kind, ExprKind::Construct(..)) && !is_list;
+        if is_array && !is_reported {
+            self.require(Feature::ArrayObjects, span);
+        }
     }
 
     /// Reports a feature at `span` that the language lacks, with what to write instead.
@@ -44,13 +61,6 @@ impl Analyzer<'_> {
         let finding = self.finding_of(feature, span);
         let help = help.filter(|_| self.ast.version.span.is_known());
         self.report(Diagnostic { help: help.or(finding.help.clone()), ..finding });
-    }
-
-    /// Reports a feature at `span` that the language lacks, at each use.
-    pub(super) fn require_here(&mut self, feature: Feature, span: Span) {
-        if !self.allows(feature, span) {
-            self.report_lacking(feature, span);
-        }
     }
 
     /// Reports an integer that only other versions convert to a `float`. ES has no conversions: its help is how to write the value.
@@ -77,16 +87,15 @@ impl Analyzer<'_> {
         self.report(Diagnostic { help: None, ..finding }.help(help));
     }
 
-    fn report_lacking(&mut self, feature: Feature, span: Span) {
-        let finding = self.finding_of(feature, span);
-        self.report(finding);
+    fn finding_of(&self, feature: Feature, span: Span) -> Diagnostic {
+        self.finding_named(feature, span, feature.row().name)
     }
 
-    fn finding_of(&self, feature: Feature, span: Span) -> Diagnostic {
+    fn finding_named(&self, feature: Feature, span: Span, name: &str) -> Diagnostic {
         let row = feature.row();
         let version = self.ast.version;
         let finding =
-            Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, format!("{} is not in {}", row.name, version.name()))
+            Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, format!("{name} is not in {}", version.name()))
                 .here("not in this version of the language")
                 .maybe_help(version.remedy(row.since, row.gone, row.extensions));
         of_version(finding, version)

@@ -76,6 +76,12 @@ pub(super) fn type_of(name: &str) -> Option<Type> {
     KEYWORDS.iter().find(|keyword| keyword.name == name).map(|keyword| keyword.ty)
 }
 
+/// The type keywords that are constructors, for "did you mean".
+pub(super) fn constructors() -> impl Iterator<Item = &'static str> {
+    let constructs = |ty: &Type| matches!(ty, Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..));
+    KEYWORDS.iter().filter(move |keyword| constructs(&keyword.ty)).map(|keyword| keyword.name)
+}
+
 /// All type keywords, for "did you mean".
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     KEYWORDS.iter().map(|keyword| keyword.name)

@@ -177,15 +177,15 @@ static ROWS: &[Row] = &[
 ];
 
 /// Identifiers that no declaration of glisten's takes, with the version that brought each.
-static LATER: &[(&str, u16)] = &[
-    ("stream", 400),
-    ("xfb_buffer", 440),
-    ("xfb_offset", 440),
-    ("xfb_stride", 440),
-    ("std430", 430),
-    ("bindless_sampler", NEVER),
-    ("set", NEVER),
-    ("push_constant", NEVER),
+static LATER: &[(&str, Since)] = &[
+    ("stream", Since::new(400, NEVER)),
+    ("xfb_buffer", Since::new(440, NEVER)),
+    ("xfb_offset", Since::new(440, NEVER)),
+    ("xfb_stride", Since::new(440, NEVER)),
+    ("std430", Since::new(430, 310)),
+    ("bindless_sampler", Since::NEVER),
+    ("set", Since::NEVER),
+    ("push_constant", Since::NEVER),
 ];
 
 /// The contents of a `layout(...)`.
@@ -363,14 +363,20 @@ impl Layout {
     }
 }
 
+/// The first version of a source's family that has a layout.
+fn came_with(spelling: &str, since: Since, version: Version) -> Option<String> {
+    let (family, number) = if version.is_es() { ("GLSL ES", since.es) } else { ("GLSL", since.desktop) };
+    (number != NEVER).then(|| format!("`{spelling}` came with {family} {}.{:02}", number / 100, number % 100))
+}
+
 fn unknown(spelling: &str, span: Span, version: Version) -> Diagnostic {
     let later = LATER.iter().find(|(name, _)| name.eq_ignore_ascii_case(spelling));
     let help = match later {
-        Some(&(_, since)) if version.reaches(Since::new(since, NEVER)) => {
+        Some(&(_, since)) if version.reaches(since) => {
             return Diagnostic::new(&NOT_SUPPORTED_YET, span, format!("the layout `{spelling}` is not supported yet"));
         }
-        Some((_, NEVER)) => Some(format!("`{spelling}` belongs to GLSL 4.50 for Vulkan").into()),
-        Some((_, since)) => Some(format!("`{spelling}` came with GLSL {}.{:02}", since / 100, since % 100).into()),
+        Some(&(_, Since::NEVER)) => Some(format!("`{spelling}` belongs to GLSL 4.50 for Vulkan").into()),
+        Some(&(_, since)) => came_with(spelling, since, version).map(Advice::from),
         None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(Advice::meant),
     };
     Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is not a layout identifier"))

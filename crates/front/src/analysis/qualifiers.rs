@@ -162,7 +162,11 @@ impl Analyzer<'_> {
             if !self.check_context(qualifier, row, context) {
                 continue;
             }
-            self.check_order(qualifier, row, &mut last);
+            // A `const` after `uniform` is one too many, in any order.
+            let is_conflict = matches!(qualifier.kind, QualifierKind::Const) && record.storage.is_some();
+            if !(is_conflict && context == Global) {
+                self.check_order(qualifier, row, &mut last);
+            }
             self.record(&mut record, qualifier);
         }
         record

@@ -66,9 +66,16 @@ impl Analyzer<'_> {
         self.arrays(base, dims, false)
     }
 
+    fn array_of_arrays(&self, element: TypeId, dim: Span) -> Diagnostic {
+        let message = format!("an array of `{}` is an array of arrays", self.type_name(element));
+        Diagnostic::new(&types::ARRAY_OF_ARRAYS, dim, message)
+            .here("a second dimension")
+            .help("put the inner array into a struct, or compute one index from two")
+    }
+
     /// The arrays of [`with_array`](Self::with_array). If `infers`, inner ones may lack sizes, too: a value tells them.
     pub(super) fn arrays(&mut self, base: TypeId, dims: &[ArrayDim], infers: bool) -> TypeId {
-        let mut ty = base;
+        let (mut ty, mut inner_dim) = (base, None);
         for dim in dims.iter().rev() {
             let size = self.array_size(dim);
             if ty == TypeId::VOID {
@@ -78,18 +85,15 @@ impl Analyzer<'_> {
             if let Type::Array(_, inner) = self.types.get(ty)
                 && (!infers && inner == ArraySize::Unsized || !self.allows(Feature::ArraysOfArrays, dim.span))
             {
-                let name = self.type_name(ty);
-                self.report(
-                    Diagnostic::new(
-                        &types::ARRAY_OF_ARRAYS,
-                        dim.span,
-                        format!("an array of `{name}` is an array of arrays"),
-                    )
-                    .here("a second dimension")
-                    .help("put the inner array into a struct, or compute one index from two"),
-                );
+                let finding =
+                    match inner_dim.filter(|_| self.ast.version.has_with(Feature::ArraysOfArrays, self.extensions)) {
+                        Some(inner) => unsized_element(inner),
+                        None => self.array_of_arrays(ty, dim.span),
+                    };
+                self.report(finding);
                 return TypeId::ERROR;
             }
+            inner_dim = Some(dim.span);
             ty = match size {
                 Some(size) if !ty.is_error() => self.types.array(ty, size),
                 _ => TypeId::ERROR,
@@ -140,6 +144,9 @@ impl Analyzer<'_> {
             Some(&ScalarValue::Uint(size)) => i64::from(size),
             _ => 0,
         };
+        if size == 0 && is_too_large(self.sources.snippet(span)) {
+            return None;
+        }
         if size <= 0 {
             self.report(
                 Diagnostic::new(&types::ARRAY_SIZE, span, format!("an array of {size} elements is none"))
@@ -319,6 +326,19 @@ impl Analyzer<'_> {
         for name in keywords::names() {
             known.push(name);
         }
+        known.push("return");
         did_you_mean(spelling, known).map(str::to_owned)
     }
+}
+
+/// The finding for `float a[2][]`: only the outermost dimension may be without a size (4.30 §4.1.9).
+fn unsized_element(dim: Span) -> Diagnostic {
+    Diagnostic::new(&types::UNSIZED_ARRAY, dim, "the elements of an array of arrays need a size")
+        .here("no size here")
+        .help("only the first pair of brackets may be empty")
+}
+
+/// Whether a text is a number of more than 32 bits, which is reported where it is read.
+fn is_too_large(text: &str) -> bool {
+    text.bytes().all(|byte| byte.is_ascii_digit()) && text.trim_start_matches('0').len() > 9
 }

@@ -45,11 +45,12 @@ impl Assumed {
 }
 
 /// What people write in ES by mistake, since OpenGL's language has it.
-const MISTAKES: [Feature; 4] =
-    [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::IntegerOperators, Feature::ArrayObjects];
+const MISTAKES: [Feature; 3] = [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::ArrayObjects];
 
 fn is_mistake(found: &Diagnostic) -> bool {
-    MISTAKES.iter().any(|feature| found.message.starts_with(feature.row().name))
+    // An operator is told by its sign.
+    found.message.contains("` on integers ")
+        || MISTAKES.iter().any(|feature| found.message.starts_with(feature.row().name))
 }
 
 /// The errors of a source that was read in some version.

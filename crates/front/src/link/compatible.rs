@@ -4,7 +4,8 @@
 //! A struct that two shaders declare has two handles. It matches if it has the same name and the same members in the
 //! same order.
 
-use crate::hir::{Member, ScalarValue, StructId, Type, TypeId, Types, Value};
+use crate::diagnostic::Diagnostic;
+use crate::hir::{Member, ScalarValue, Stage, StructId, Type, TypeId, Types, Value};
 
 /// Whether two types match across shaders.
 pub(super) fn same_type(types: &Types, a: TypeId, b: TypeId) -> bool {
@@ -24,6 +25,42 @@ fn same_struct(types: &Types, a: StructId, b: StructId) -> bool {
     a.name == b.name
         && a.members.len() == b.members.len()
         && a.members.iter().zip(&b.members).all(|(a, b)| a.name == b.name && same_type(types, a.ty, b.ty))
+}
+
+/// The first members in which two structs of one name differ, at any depth; `None` for one that a struct does not have.
+fn differing_members(types: &Types, a: TypeId, b: TypeId) -> Option<(Option<&Member>, Option<&Member>)> {
+    match (types.get(a), types.get(b)) {
+        (Type::Array(a, a_size), Type::Array(b, b_size)) if a_size == b_size => differing_members(types, a, b),
+        (Type::Struct(a), Type::Struct(b)) if types.structure(a).name == types.structure(b).name => {
+            let (a, b) = (&types.structure(a).members, &types.structure(b).members);
+            let same = |a: &Member, b: &Member| a.name == b.name && same_type(types, a.ty, b.ty);
+            let differs = |&index: &usize| !a.get(index).zip(b.get(index)).is_some_and(|(a, b)| same(a, b));
+            let index = (0..a.len().max(b.len())).find(differs)?;
+            let (a, b) = (a.get(index), b.get(index));
+            let inside = a.zip(b).filter(|(a, b)| a.name == b.name);
+            inside.and_then(|(a, b)| differing_members(types, a.ty, b.ty)).or(Some((a, b)))
+        }
+        _ => None,
+    }
+}
+
+/// Labels the first members in which two structs differ: each type with its stage.
+pub(super) fn with_members(
+    diagnostic: Diagnostic,
+    types: &Types,
+    (ours, our_stage): (TypeId, Stage),
+    (theirs, their_stage): (TypeId, Stage),
+) -> Diagnostic {
+    let Some((our, their)) = differing_members(types, ours, theirs) else { return diagnostic };
+    let sides = [(our, our_stage, their), (their, their_stage, our)];
+    sides.into_iter().fold(diagnostic, |diagnostic, (member, stage, other)| match (member, other) {
+        (Some(member), _) => {
+            let text = format!("`{} {}` in the {} stage", types.name(member.ty), member.name, stage.name());
+            diagnostic.label(member.span, text)
+        }
+        (None, Some(other)) => diagnostic.note(format!("the {} stage has no `{}`", stage.name(), other.name)),
+        (None, None) => diagnostic,
+    })
 }
 
 /// Whether two values are equal bit by bit: a NaN equals itself, and 0 differs from -0.

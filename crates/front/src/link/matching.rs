@@ -5,7 +5,7 @@
 //! shader are arrays of what the vertex shader writes.
 
 use super::Linker;
-use super::compatible::{Free, MemberDifference, block_parts, compare_members, same_type};
+use super::compatible::{Free, MemberDifference, block_parts, compare_members, same_type, with_members};
 use super::usage::{is_assigned, uses};
 use crate::diagnostic::{Applicability, Diagnostic, Edit, Fix, codes, did_you_mean};
 use crate::hir::{ArraySize, Global, GlobalId, Sampling, Shader, Stage, Storage, Type, TypeId, Types};
@@ -148,8 +148,8 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
             diagnostic = diagnostic.fix(fix);
         }
     } else if same_name.is_none() {
-        diagnostic =
-            diagnostic.help(format!("declare it in the {stage} stage: `{}`", declaration(ctx.types, consumer, input)));
+        diagnostic = diagnostic
+            .help(format!("declare it in the {stage} stage: `{}`", declaration(ctx.types, producer, consumer, input)));
     }
     ctx.report(diagnostic);
 }
@@ -190,13 +190,15 @@ fn only_unread<'a>(types: &Types, outputs: &[&'a Global], consumer: &Shader, inp
 }
 
 /// The declaration of an output that would feed an input, as GLSL.
-fn declaration(types: &Types, consumer: &Shader, input: &Global) -> String {
+fn declaration(types: &Types, producer: &Shader, consumer: &Shader, input: &Global) -> String {
     if let Some(block) = &input.block {
         return format!("out {} {{ .. }};", block.name);
     }
     let ty = if consumer.stage == Stage::Geometry { types.element(input.ty).unwrap_or(input.ty) } else { input.ty };
     let sampling = input.sampling.prefix();
-    format!("{}{sampling}out {} {};", interpolation_prefix(input), types.name(ty), input.name)
+    // The versions before 1.30 and ES 3.00 have no `out` there (1.20 §4.3.6).
+    let word = if producer.version.has(Feature::InOut) { "out" } else { "varying" };
+    format!("{}{sampling}{word} {} {};", interpolation_prefix(input), types.name(ty), input.name)
 }
 
 fn interpolation_prefix(global: &Global) -> String {
@@ -236,12 +238,15 @@ impl Pair<'_> {
         theirs: String,
         ours: String,
     ) {
+        ctx.report(self.finding(code, what, theirs, ours));
+    }
+
+    fn finding(&self, code: &'static crate::diagnostic::Code, what: &str, theirs: String, ours: String) -> Diagnostic {
         let name = self.input.match_name();
         let message = format!("`{name}` {what}");
-        let diagnostic = Diagnostic::new(code, self.input.span, message)
+        Diagnostic::new(code, self.input.span, message)
             .here(format!("{ours} in the {} stage", self.consumer.name()))
-            .label(self.output.span, format!("{theirs} in the {} stage", self.producer.name()));
-        ctx.report(diagnostic);
+            .label(self.output.span, format!("{theirs} in the {} stage", self.producer.name()))
     }
 }
 
@@ -270,7 +275,9 @@ fn check_type(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
         let same_spelling = theirs == ours;
         let what =
             if same_spelling { "is not the same struct in both stages" } else { "changes its type between the stages" };
-        pair.report(ctx, &codes::link::INTERFACE_TYPE_MISMATCH, what, theirs, ours);
+        let finding = pair.finding(&codes::link::INTERFACE_TYPE_MISMATCH, what, theirs, ours);
+        let input = per_vertex(types, pair.consumer, pair.input.ty).unwrap_or(pair.input.ty);
+        ctx.report(with_members(finding, types, (input, pair.consumer), (pair.output.ty, pair.producer)));
     }
 }
 

@@ -5,7 +5,7 @@
 //! read come first. Uniform blocks follow; the elements of an array of blocks have consecutive bindings.
 //! `gl_DepthRange` is a loose uniform with the default (0, 1, 1).
 
-use super::compatible::{Free, MemberDifference, block_parts, compare_members, same_type, same_value};
+use super::compatible::{Free, MemberDifference, block_parts, compare_members, same_type, same_value, with_members};
 use super::flatten::{join, parts};
 use super::layout::{self, MAX_BLOCK_BYTES, array_stride, extent, round_up, struct_members};
 use super::{Block, BlockIndex, Interface, Linker, RootIndex, SlotBinding, UniformLeaf, UniformRoot};
@@ -174,7 +174,7 @@ fn check_same(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, global: &G
         let diagnostic = Diagnostic::new(&codes::link::UNIFORM_TYPE_MISMATCH, global.span, message)
             .here(format!("`{}` in the {} stage", types.name(global.ty), stage.name()))
             .label(known.global.span, format!("`{}` in the {} stage", types.name(known.global.ty), known.stage.name()));
-        ctx.report(diagnostic);
+        ctx.report(with_members(diagnostic, types, (global.ty, stage), (known.global.ty, known.stage)));
         return;
     }
     if let (Some((value, declared)), Some(other)) = (known.default, global.value.as_ref())

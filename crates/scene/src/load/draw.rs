@@ -216,7 +216,9 @@ fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<
                 loader.missing_key(place, &message, &help);
                 continue;
             };
-            if let Some(name) = loader.reader.text(node, key) {
+            if let Some(name) = loader.reader.text(node, key)
+                && is_of_stage(&mut loader.reader, node, (key, stage), name)
+            {
                 files.push((stage, name.to_owned(), loader.reader.span_of(node)));
             }
         }
@@ -243,6 +245,33 @@ fn load_files(loader: &mut Loader<'_>, table: &DeTable<'_>, place: Span) -> Vec<
     };
     let file = |name: &str| format!("<glisten/programs/{name}>");
     vec![(Stage::Vertex, file(vertex), span), (Stage::Fragment, file(fragment), span)]
+}
+
+/// How the names of files end that tell their stage.
+const EXTENSIONS: &[(&str, Stage)] = &[
+    ("vert", Stage::Vertex),
+    ("vs", Stage::Vertex),
+    ("vsh", Stage::Vertex),
+    ("glslv", Stage::Vertex),
+    ("geom", Stage::Geometry),
+    ("gs", Stage::Geometry),
+    ("gsh", Stage::Geometry),
+    ("frag", Stage::Fragment),
+    ("fs", Stage::Fragment),
+    ("fsh", Stage::Fragment),
+    ("glslf", Stage::Fragment),
+];
+
+/// Whether a file may be of the stage that its key says. Reports one whose name says another.
+fn is_of_stage(reader: &mut Reader, node: &Node<'_>, (key, stage): (&str, Stage), name: &str) -> bool {
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    let told = EXTENSIONS.iter().find(|row| row.0.eq_ignore_ascii_case(extension)).map(|row| row.1);
+    let Some(other) = told.filter(|told| *told != stage) else { return true };
+    let span = reader.span_of(node);
+    let message = format!("`{key}` names the {} shader `{name}`", other.name());
+    let finding = Diagnostic::new(&SCENE_WRONG_VALUE, span, message).here(format!("not a {} shader", stage.name()));
+    reader.report(finding.help(format!("write it under `{}`", other.name())));
+    false
 }
 
 /// `[draw.defines]`: macros of the draw's program.

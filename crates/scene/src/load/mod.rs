@@ -363,6 +363,10 @@ impl Loader<'_> {
         if let Some(array) = node.get_ref().as_array() {
             return array.iter().collect();
         }
+        if self.reader.is_misspelled(table, "draw") {
+            // The draw is under the misspelled key, and these are its tables.
+            return Vec::new();
+        }
         let span = self.reader.span_of(node);
         let diagnostic = Diagnostic::new(&SCENE_WRONG_TYPE, span, "`draw` is a list of tables")
             .here("a single table")

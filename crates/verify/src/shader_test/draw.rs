@@ -1,5 +1,6 @@
 //! Turns draw commands of a test into draws of a scene.
 
+use super::known;
 use super::vertex_data::{Column, VertexData};
 use super::words::Words;
 use super::{TestResult, fail, skip};
@@ -134,7 +135,11 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
         None if mode.starts_with("GL_QUAD") => {
             return skip(line, format_args!("`{mode}` becomes triangles, whose gl_PrimitiveID is not the quad's"));
         }
-        None => return skip(line, format_args!("`{mode}` is not supported")),
+        None if known::MODES.contains(&mode) => return skip(line, format_args!("`{mode}` is not supported")),
+        None => {
+            let modes = MODES.iter().map(|row| row.0).chain(known::MODES.iter().copied());
+            return known::mistake(line, mode, "a mode of drawing", modes);
+        }
     };
     // `gl_VertexID` counts from `first`, which indices provide.
     let indices = match indices {

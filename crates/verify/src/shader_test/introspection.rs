@@ -1,7 +1,8 @@
 //! `active uniform NAME PNAME VALUE`: what a host would learn about a uniform (OpenGL 3.2 §2.11.4).
 
+use super::known::{self, PROPERTIES};
 use super::words::Words;
-use super::{TestResult, fail, skip, uniforms};
+use super::{TestResult, fail, uniforms};
 use glisten_front::hir::{MatrixLayout, Scalar, Type, Types};
 use glisten_front::link::{Program, UniformLeaf};
 
@@ -22,7 +23,7 @@ pub(super) fn check(program: &Program, words: &mut Words<'_>) -> Result<(), Test
         "GL_UNIFORM_ARRAY_STRIDE" => place(leaf.array_stride.unwrap_or(0)),
         "GL_UNIFORM_MATRIX_STRIDE" => place(leaf.matrix_stride.unwrap_or(0)),
         "GL_UNIFORM_IS_ROW_MAJOR" => is_row_major(&program.types, leaf).to_string(),
-        _ => return skip(line, format_args!("`active uniform` of `{property}`")),
+        _ => return known::unsupported(line, property, "a property of uniforms", PROPERTIES),
     };
     if found == wanted { Ok(()) } else { fail(line, format_args!("{property} of `{name}` is {found}, not {wanted}")) }
 }

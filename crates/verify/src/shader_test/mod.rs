@@ -23,12 +23,13 @@
 //! ```
 //!
 //! *Holds:* if a test requests something that this runner does not support, the test is skipped with its name, and
-//! never passes.
+//! never passes. A word that shader_runner does not have either fails it.
 //! *Not done here:* tessellation and compute shaders, lighting and fog of the fixed-function pipeline, transform feedback.
 
 mod draw;
 mod fixed;
 mod introspection;
+mod known;
 mod parameters;
 mod parse;
 mod probe;
@@ -62,6 +63,14 @@ impl TestResult {
             Self::Pass => "pass",
             Self::Fail(_) => "fail",
             Self::Skip(_) => "skip",
+        }
+    }
+
+    /// Puts what is likely the cause in front of the reason of a failure.
+    fn because(self, cause: Option<String>) -> Self {
+        match (self, cause) {
+            (Self::Fail(reason), Some(cause)) => Self::Fail(format!("{cause}; {reason}")),
+            (result, _) => result,
         }
     }
 

@@ -3,8 +3,9 @@
 //! *In:* `texparameter` commands. *Out:* what a scene's texture has. *Holds:* a base level is the first one that is kept, and a
 //! swizzle is applied to the texels, so that no runner knows of either.
 
+use super::known::{self, PARAMETERS, WRAPS};
 use super::words::Words;
-use super::{TestResult, fail, skip};
+use super::{TestResult, skip};
 use crate::scene::{Compare, Filter, Sampling, Texels, TextureLevel, Wrap};
 use glisten_front::hir::DepthMode;
 
@@ -95,12 +96,7 @@ impl Parameters {
             _ => {
                 let value = words.word()?;
                 if self.choose(name, value).is_none() {
-                    let text = format!("`texparameter {name} {value}`");
-                    return if name == "compare_func" {
-                        fail(line, format_args!("{text} compares nothing"))
-                    } else {
-                        skip(line, format_args!("{text} is not supported"))
-                    };
+                    return unsupported(line, name, value);
                 }
             }
         }
@@ -153,6 +149,23 @@ impl Parameters {
     }
 }
 
+/// Skips a parameter that is not supported, and fails for one that shader_runner does not have.
+fn unsupported(line: u32, name: &str, value: &str) -> Result<(), TestResult> {
+    let values: Vec<&str> = match name {
+        "min" | "mag" => FILTERS.iter().map(|row| row.0).collect(),
+        "wrap_s" | "wrap_t" | "wrap_r" => WRAPS.to_vec(),
+        "depth_mode" => DEPTH_MODES.iter().map(|row| row.0).collect(),
+        "compare_func" => Compare::NAMES.iter().map(|row| row.0).collect(),
+        name if SWIZZLES.contains(&name) => CHANNELS.iter().map(|row| row.0).collect(),
+        "border_color" => return skip(line, "`texparameter border_color` is not supported"),
+        _ => return known::mistake(line, name, "a parameter of textures", PARAMETERS.iter().copied()),
+    };
+    match values.contains(&value) {
+        true => skip(line, format_args!("`texparameter {name} {value}` is not supported")),
+        false => known::mistake(line, value, &format!("a value of `{name}`"), values),
+    }
+}
+
 #[cfg(test)]
 mod unit {
     use super::*;
@@ -171,9 +184,13 @@ mod unit {
     }
 
     #[test]
-    fn what_is_unknown_is_skipped_and_no_comparison_fails() {
+    fn what_is_not_supported_is_skipped_and_what_is_unknown_fails() {
         let set = |command| Parameters::default().set(&mut Words::new(3, command));
-        assert!(matches!(set("2D anisotropy much"), Err(TestResult::Skip(_))));
-        assert!(matches!(set("2D compare_func nearly"), Err(TestResult::Fail(_))));
+        for command in ["2D border_color 0 0 0 0", "2D wrap_s clamp_to_border"] {
+            assert!(matches!(set(command), Err(TestResult::Skip(_))), "{command}");
+        }
+        for command in ["2D anisotropy much", "2D compare_func nearly", "2D mag linaer", "2D wrap_s repaet"] {
+            assert!(matches!(set(command), Err(TestResult::Fail(_))), "{command}");
+        }
     }
 }

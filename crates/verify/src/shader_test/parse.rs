@@ -1,5 +1,6 @@
 //! Splits a test into its sections.
 
+use super::known::{self, SECTIONS};
 use super::{TestResult, fail, skip};
 use glisten_front::hir::Stage;
 
@@ -44,9 +45,14 @@ pub(super) fn parse(text: &str) -> Result<TestFile, TestResult> {
     let mut file = TestFile::default();
     let mut section = Section::Nothing;
     let mut commented = false;
+    let mut unsupported = Ok(());
     for (number, raw) in (1..).zip(text.lines()) {
         if let Some(name) = header(raw) {
-            section = open(&mut file, name, number)?;
+            check_header(raw, name, number)?;
+            section = open(&mut file, name, number).unwrap_or_else(|| {
+                unsupported = unsupported.clone().and(skip(number, format_args!("[{name}] is not supported")));
+                Section::Ignored
+            });
             continue;
         }
         // Some tests contain C comments.
@@ -70,6 +76,7 @@ pub(super) fn parse(text: &str) -> Result<TestFile, TestResult> {
             list.push(line);
         }
     }
+    unsupported?;
     if file.commands.is_empty() && file.shaders.is_empty() {
         return fail(1, "this is not a shader test: it has neither a shader nor a [test] section");
     }
@@ -102,15 +109,27 @@ fn uncommented(raw: &str, inside: &mut bool) -> String {
 
 /// The name in a section's header.
 fn header(raw: &str) -> Option<&str> {
-    let name = raw.strip_prefix('[')?.split(']').next()?;
+    let name = raw.strip_prefix('[')?.split(']').next()?.trim_end();
     let is_name =
         |name: &str| name.starts_with(char::is_alphabetic) && name.chars().all(|c| c.is_alphabetic() || c == ' ');
     is_name(name).then_some(name)
 }
 
-fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, TestResult> {
+/// Fails if shader_runner has no section of this name, or if the bracket is missing.
+fn check_header(raw: &str, name: &str, number: u32) -> Result<(), TestResult> {
+    if !SECTIONS.contains(&name) {
+        return known::mistake(number, name, "a section", SECTIONS.iter().copied());
+    }
+    match raw.contains(']') {
+        true => Ok(()),
+        false => fail(number, format_args!("`]` is missing after `[{name}`")),
+    }
+}
+
+/// Begins a section, or returns `None` for one that is not supported.
+fn open(file: &mut TestFile, name: &str, number: u32) -> Option<Section> {
     let shader = |stage, text, passthrough| ShaderText { stage, text, passthrough };
-    Ok(match name {
+    Some(match name {
         "require" => Section::Requirements,
         "vertex shader passthrough" => {
             file.shaders.push(shader(Stage::Vertex, String::new(), true));
@@ -125,7 +144,7 @@ fn open(file: &mut TestFile, name: &str, number: u32) -> Result<Section, TestRes
         "vertex data" => Section::VertexData,
         "test" => Section::Commands,
         "description" | "comment" => Section::Ignored,
-        _ => return skip(number, format_args!("[{name}] is not supported")),
+        _ => return None,
     })
 }
 
@@ -155,5 +174,16 @@ mod unit {
         let outcome = parse("[compute shader]\n").expect_err("unsupported");
         assert_eq!(outcome, TestResult::Skip("line 1: [compute shader] is not supported".into()));
         assert!(matches!(parse("hello"), Err(TestResult::Fail(_))));
+    }
+
+    #[test]
+    fn a_mistyped_section_fails() {
+        for (text, reason) in [
+            ("[compute shader]\n[tests]\n", "line 2: `tests` is not a section; did you mean `test`?"),
+            ("[fragmnt shader]\n", "line 1: `fragmnt shader` is not a section; did you mean `fragment shader`?"),
+            ("[fragment shader\n", "line 1: `]` is missing after `[fragment shader`"),
+        ] {
+            assert_eq!(parse(text), Err(TestResult::Fail(reason.into())));
+        }
     }
 }

@@ -56,7 +56,9 @@ pub(super) fn build(
     let expects = |phrase: &str| file.commands.iter().any(|line| line.text.starts_with(phrase));
     match &compilation.program {
         Some(program) if expects("link error") => {
-            return fail(0, format_args!("program `{}` links, and the test expects a link error", program.name));
+            let command = file.commands.iter().find(|line| line.text.starts_with("link error"));
+            let line = command.map_or(0, |line| line.number);
+            return fail(line, format_args!("program `{}` links, and the test expects a link error", program.name));
         }
         Some(program) if expects("draw") => {
             // A stage that is missing is that of the fixed-function pipeline.

@@ -1,5 +1,6 @@
 //! `[require]`: the requirements of a test.
 
+use super::known;
 use super::parse::Line;
 use super::words::Words;
 use super::{TestResult, fail, skip};
@@ -108,7 +109,7 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
                 }
             }
             name if is_extension(name) => {}
-            _ => return skip(line.number, format_args!("requires {}", line.text)),
+            other => return known::requirement(line, other),
         }
     }
     Ok(setup)
@@ -133,9 +134,15 @@ fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), TestResult> {
     }
 }
 
+/// The comparisons of requirements.
+const OPERATORS: &[&str] = &["!=", "<", "<=", "=", "==", ">", ">="];
+
 /// Evaluates a comparison such as `>= 1.50` with the supported value.
 fn comparison(words: &mut Words<'_>, ours: f64) -> Result<bool, TestResult> {
     let operator = words.word()?;
+    if !OPERATORS.contains(&operator) {
+        return known::mistake(words.line, operator, "a comparison", OPERATORS.iter().copied());
+    }
     let wanted = words.number()?;
     Ok(match operator {
         ">=" => ours >= wanted,
@@ -143,8 +150,7 @@ fn comparison(words: &mut Words<'_>, ours: f64) -> Result<bool, TestResult> {
         "<=" => ours <= wanted,
         "<" => ours < wanted,
         "=" | "==" => ours == wanted,
-        "!=" => ours != wanted,
-        _ => return fail(words.line, format_args!("`{operator}` compares nothing")),
+        _ => ours != wanted,
     })
 }
 
@@ -176,6 +182,9 @@ mod unit {
             "GLSL ES >= 3.20",
         ] {
             assert!(matches!(checked(unmet), Err(TestResult::Skip(_))), "{unmet}");
+        }
+        for mistaken in ["GLLS >= 1.50", "GLSL => 1.50", "SZIE 10 10", "GLSL 1.50"] {
+            assert!(matches!(checked(mistaken), Err(TestResult::Fail(_))), "{mistaken}");
         }
         assert_eq!(checked("SIZE 10 20").map(|setup| setup.size), Ok([10, 20]));
     }

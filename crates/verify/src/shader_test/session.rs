@@ -5,6 +5,7 @@
 
 use super::draw::{self, Geometry};
 use super::fixed::{self, FixedSetup};
+use super::known::{self, CAPABILITIES, COMPARISONS, FACTORS};
 use super::parse::{Line, TestFile, parse};
 use super::program::Built;
 use super::textures::Units;
@@ -28,6 +29,7 @@ pub(super) fn run(
 ) -> Result<(), TestResult> {
     let file = parse(text)?;
     let setup = require::check(&file.requirements)?;
+    known::check_commands(&file.commands)?;
     let data = vertex_data::parse(&file.vertex_data)?;
     let Some(built) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
     let mut session = TestSession::new(built, data, setup.size);
@@ -106,43 +108,56 @@ impl TestSession {
         let mut words = Words::new(line.number, &line.text);
         if probe::is_probe(&words) {
             let tolerance = self.tolerance;
-            return probe::check(words, self.drawn(backend)?, tolerance);
+            let short = self.uniforms.short.clone();
+            return probe::check(words, self.drawn(backend)?, tolerance).map_err(|failure| failure.because(short));
         }
+        self.change(line, &mut words)?;
+        words.end()
+    }
+
+    /// Runs a command that looks at no picture.
+    fn change(&mut self, line: &Line, words: &mut Words<'_>) -> Result<(), TestResult> {
         match words.word()? {
-            "clear" => self.clear(&mut words),
-            "draw" => self.draw(&mut words),
-            "uniform" if self.fixed.uniform(&words) => Ok(()),
-            "uniform" => self.uniforms.set(&self.program, &mut words, self.element),
+            "clear" => self.clear(words),
+            "draw" => self.draw(words),
+            "uniform" if self.fixed.uniform(words) => {
+                words.pass_over();
+                Ok(())
+            }
+            "uniform" => self.uniforms.set(&self.program, words, self.element),
             "tolerance" => {
                 self.tolerance = words.numbers()?;
                 Ok(())
             }
-            "enable" => self.capability(&mut words, true),
-            "disable" => self.capability(&mut words, false),
-            "texture" => self.units.create(&mut words),
-            "texparameter" => self.units.parameter(&mut words),
-            "active" if words.eat("uniform") => introspection::check(&self.program, &mut words),
+            "enable" => self.capability(words, true),
+            "disable" => self.capability(words, false),
+            "texture" => self.units.create(words),
+            "texparameter" => self.units.parameter(words),
+            "active" if words.eat("uniform") => introspection::check(&self.program, words),
             "link" if words.eat("success") => Ok(()),
-            "provoking" if words.eat("vertex") => self.provoking(&mut words),
+            "provoking" if words.eat("vertex") => self.provoking(words),
             "ubo" | "block" if words.eat("array index") => {
                 self.element = words.count()?;
                 Ok(())
             }
             "blend" if words.eat("func") => {
-                self.factors = (named(&mut words, BlendFactor::of_opengl)?, named(&mut words, BlendFactor::of_opengl)?);
+                self.factors = (factor(words)?, factor(words)?);
                 Ok(())
             }
             "depthfunc" => {
-                self.state.depth_func = named(&mut words, Compare::of_opengl)?;
+                self.state.depth_func = comparison(words)?;
                 Ok(())
             }
             "polygon" => skip(line.number, "`polygon mode`: WebGPU draws polygons filled"),
-            "ortho" => self.fixed.ortho(&mut words, [self.framebuffer.width, self.framebuffer.height]),
-            "frustum" => self.fixed.frustum(&mut words),
-            "color" => self.fixed.color(&mut words),
-            "clip" if words.eat("plane") => self.fixed.clip_plane(&mut words),
+            "ortho" => self.fixed.ortho(words, [self.framebuffer.width, self.framebuffer.height]),
+            "frustum" => self.fixed.frustum(words),
+            "color" => self.fixed.color(words),
+            "clip" if words.eat("plane") => self.fixed.clip_plane(words),
             // What no shader sees.
-            "hint" | "shade" => Ok(()),
+            "hint" | "shade" => {
+                words.pass_over();
+                Ok(())
+            }
             _ => skip(line.number, format_args!("`{}` is not supported", line.text)),
         }
     }
@@ -154,14 +169,18 @@ impl TestSession {
                 self.clear_color = words.numbers()?;
                 Ok(())
             }
-            ["depth", depth] if depth.parse() == Ok(1.0) => Ok(()),
+            ["depth", depth] if depth.parse() == Ok(1.0) => {
+                words.pass_over();
+                Ok(())
+            }
+            ["depth", ..] => skip(words.line, format_args!("`clear {}` is not supported", words.rest().join(" "))),
             [] => {
                 self.framebuffer.clear = self.clear_color;
                 self.draws.clear();
                 self.picture = None;
                 Ok(())
             }
-            _ => skip(words.line, format_args!("`clear {}` is not supported", words.rest().join(" "))),
+            [other, ..] => known::mistake(words.line, other, "cleared", ["color", "depth"]),
         }
     }
 
@@ -178,7 +197,7 @@ impl TestSession {
             "GL_BLEND" => self.blending = on,
             "GL_CULL_FACE" => self.state.cull = if on { Cull::Back } else { Cull::None },
             "GL_PROGRAM_POINT_SIZE" | "GL_VERTEX_PROGRAM_POINT_SIZE" => self.state.program_point_size = on,
-            _ => return skip(words.line, format_args!("`{name}` is not supported")),
+            _ => return known::unsupported(words.line, name, "a capability of OpenGL", CAPABILITIES),
         }
         Ok(())
     }
@@ -280,10 +299,12 @@ impl TestSession {
     }
 }
 
-fn named<T>(words: &mut Words<'_>, of: impl Fn(&str) -> Option<T>) -> Result<T, TestResult> {
+fn factor(words: &mut Words<'_>) -> Result<BlendFactor, TestResult> {
     let name = words.word()?;
-    match of(name) {
-        Some(value) => Ok(value),
-        None => skip(words.line, format_args!("`{name}` is not supported")),
-    }
+    BlendFactor::of_opengl(name).map_or_else(|| known::unsupported(words.line, name, "a factor", FACTORS), Ok)
+}
+
+fn comparison(words: &mut Words<'_>) -> Result<Compare, TestResult> {
+    let name = words.word()?;
+    Compare::of_opengl(name).map_or_else(|| known::unsupported(words.line, name, "a comparison", COMPARISONS), Ok)
 }

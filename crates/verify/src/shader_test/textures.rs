@@ -73,6 +73,7 @@ impl Units {
                 if words.rest().iter().any(|format| !["GL_RGBA", "GL_RGBA8", "GL_RGB"].contains(format)) {
                     return skip(line, "textures of this format");
                 }
+                words.pass_over();
                 let level = image(width, height, |x, y| match (x < width / 2, y < height / 2) {
                     (true, true) => RED,
                     (false, true) => GREEN,

@@ -1,10 +1,46 @@
 //! Uniform values that a test sets by name.
 
+use super::known;
 use super::words::Words;
 use super::{TestResult, fail, skip};
 use glisten_front::hir::{Scalar, ScalarValue};
 use glisten_front::link::{Program, UniformLeaf};
 use glisten_scene::values::{LeafShape, UniformValues};
+
+/// The types of uniforms that a test may name, with their scalars, columns and rows.
+pub(super) const TYPES: &[(&str, Scalar, u32, u32)] = &[
+    ("float", Scalar::Float, 1, 1),
+    ("vec2", Scalar::Float, 1, 2),
+    ("vec3", Scalar::Float, 1, 3),
+    ("vec4", Scalar::Float, 1, 4),
+    ("int", Scalar::Int, 1, 1),
+    ("ivec2", Scalar::Int, 1, 2),
+    ("ivec3", Scalar::Int, 1, 3),
+    ("ivec4", Scalar::Int, 1, 4),
+    ("uint", Scalar::Uint, 1, 1),
+    ("uvec2", Scalar::Uint, 1, 2),
+    ("uvec3", Scalar::Uint, 1, 3),
+    ("uvec4", Scalar::Uint, 1, 4),
+    ("bool", Scalar::Bool, 1, 1),
+    ("bvec2", Scalar::Bool, 1, 2),
+    ("bvec3", Scalar::Bool, 1, 3),
+    ("bvec4", Scalar::Bool, 1, 4),
+    ("mat2", Scalar::Float, 2, 2),
+    ("mat3", Scalar::Float, 3, 3),
+    ("mat4", Scalar::Float, 4, 4),
+    ("mat2x2", Scalar::Float, 2, 2),
+    ("mat2x3", Scalar::Float, 2, 3),
+    ("mat2x4", Scalar::Float, 2, 4),
+    ("mat3x2", Scalar::Float, 3, 2),
+    ("mat3x3", Scalar::Float, 3, 3),
+    ("mat3x4", Scalar::Float, 3, 4),
+    ("mat4x2", Scalar::Float, 4, 2),
+    ("mat4x3", Scalar::Float, 4, 3),
+    ("mat4x4", Scalar::Float, 4, 4),
+];
+
+/// How a type begins that this runner does not support.
+const UNSUPPORTED: &[&str] = &["double", "dvec", "dmat", "int64", "uint64", "i64vec", "u64vec", "handle"];
 
 /// The values of a program's uniforms, flat by root, and the unit of each sampler.
 #[derive(Clone, Debug)]
@@ -12,6 +48,8 @@ pub(super) struct Uniforms {
     pub(super) values: UniformValues,
     /// The unit of each sampler slot.
     pub(super) units: Vec<u32>,
+    /// The first value that lacks numbers. shader_runner takes what is in its memory, so it is told with a probe that fails.
+    pub(super) short: Option<String>,
 }
 
 impl Uniforms {
@@ -19,7 +57,7 @@ impl Uniforms {
     pub(super) fn new(program: &Program) -> Self {
         let values = UniformValues::initial(program);
         let units = program.interface.samplers.iter().map(|slot| slot.unit.unwrap_or(0)).collect();
-        Self { values, units }
+        Self { values, units, short: None }
     }
 
     /// Runs `uniform vec4 name 0 1 0 1`; `element` selects a block of an array of blocks.
@@ -27,25 +65,40 @@ impl Uniforms {
         let line = words.line;
         let ty = words.word()?;
         let name = words.word()?;
-        if ty == "double" || ty.starts_with('d') || ty.contains("64") {
+        if UNSUPPORTED.iter().any(|prefix| ty.starts_with(prefix)) {
             return skip(line, format_args!("uniforms of type `{ty}`"));
         }
+        let Some(&(_, scalar, columns, rows)) = TYPES.iter().find(|row| row.0 == ty) else {
+            return known::mistake(line, ty, "a type of a uniform", TYPES.iter().map(|row| row.0));
+        };
         if self.set_unit(program, name, words)? {
             return Ok(());
         }
         let Some((leaf, first)) = find(program, name, element) else {
             // A uniform that a compiler may call inactive has no location, and setting it is not an error.
-            return if is_declared(program, name) {
-                Ok(())
-            } else {
-                fail(line, format_args!("there is no uniform `{name}`"))
-            };
+            words.pass_over();
+            return if is_declared(program, name) { Ok(()) } else { no_uniform(program, line, name) };
         };
-        let Some(shape) = LeafShape::of(&program.types, leaf) else { return Ok(()) };
+        let Some(shape) = LeafShape::of(&program.types, leaf) else {
+            words.pass_over();
+            return Ok(());
+        };
+        let is_loose = program.interface.roots.get(leaf.root.0 as usize).is_none_or(|root| root.block.is_none());
+        // A boolean takes numbers of every type (OpenGL 3.2 §2.11.4); a block takes bytes.
+        let is_bool = scalar == Scalar::Bool || shape.scalar == Scalar::Bool;
+        let fits = (shape.columns, shape.rows) == (columns, rows) && (scalar == shape.scalar || is_bool);
+        if is_loose && !fits {
+            return fail(line, format_args!("`{name}` is a `{}`, not a `{ty}`", program.types.name(leaf.ty)));
+        }
         let mut numbers = Vec::new();
         while !words.rest().is_empty() {
             let value = if shape.scalar.is_integer() { words.integer()? } else { words.number()? };
             numbers.push(number(shape.scalar, value));
+        }
+        let (given, each) = (numbers.len(), shape.n_each());
+        if !given.is_multiple_of(each) || given == 0 {
+            let missing = format!("line {line}: a `{ty}` has {each} numbers, and {given} are given");
+            self.short.get_or_insert(missing);
         }
         if first as usize + numbers.len() > shape.n_values() || !self.values.set(leaf, first as usize, &numbers) {
             return fail(line, format_args!("more values than `{name}` holds"));
@@ -70,6 +123,13 @@ impl Uniforms {
         }
         Ok(true)
     }
+}
+
+/// Fails: a program has no uniform of this name. Says which one may be meant.
+fn no_uniform<T>(program: &Program, line: u32, name: &str) -> Result<T, TestResult> {
+    let interface = &program.interface;
+    let samplers = interface.samplers.iter().map(|slot| slot.name.as_str());
+    known::mistake(line, name, "a uniform", interface.uniforms.iter().map(|leaf| leaf.name.as_str()).chain(samplers))
 }
 
 fn number(scalar: Scalar, value: f64) -> ScalarValue {

@@ -1,8 +1,9 @@
 //! `[vertex data]`: a table whose columns are columns of attributes.
 
+use super::known::{self, DATA};
 use super::parse::Line;
 use super::words::{parse_integer, parse_number};
-use super::{TestResult, fail, skip};
+use super::{TestResult, fail, skip, uniforms};
 
 /// A column of the table: components of an attribute, or of one of its matrix columns or array elements.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,15 +59,23 @@ fn header(line: u32, word: &str) -> Result<Column, TestResult> {
         return fail(line, format_args!("`{word}` is not name/type/type"));
     };
     if !matches!(data, "float" | "int" | "uint") {
-        return skip(line, format_args!("attributes of `{data}`"));
+        return known::unsupported(line, data, "a type of vertex data", DATA);
     }
     let column = parts.next().and_then(|column| column.parse().ok()).unwrap_or(0);
     let (attribute, element) = match name.strip_suffix(']').and_then(|name| name.rsplit_once('[')) {
         Some((attribute, index)) => (attribute, index.parse().unwrap_or(0)),
         None => (name, 0),
     };
-    let Some(size) = components(shape) else { return skip(line, format_args!("attributes of type `{shape}`")) };
+    let Some(size) = components(shape) else { return other_shape(line, shape) };
     Ok(Column { attribute: attribute.into(), element, column, size, is_integer: data != "float", values: Vec::new() })
+}
+
+/// Skips attributes of doubles, and fails for what is no type.
+fn other_shape<T>(line: u32, shape: &str) -> Result<T, TestResult> {
+    match shape.starts_with('d') {
+        true => skip(line, format_args!("attributes of type `{shape}`")),
+        false => known::mistake(line, shape, "a type of an attribute", uniforms::TYPES.iter().map(|row| row.0)),
+    }
 }
 
 /// How many numbers a type has (for a matrix, per column): `vec3`, `mat2x3`, or just `3`.
@@ -114,5 +123,7 @@ mod unit {
         assert!(matches!(parse(&lines(&["p/float/2", "1"])), Err(TestResult::Fail(_))));
         assert!(matches!(parse(&lines(&["p/float/2", "1 2 3"])), Err(TestResult::Fail(_))));
         assert!(matches!(parse(&lines(&["p/double/2", "1 2"])), Err(TestResult::Skip(_))));
+        assert!(matches!(parse(&lines(&["p/flaot/2", "1 2"])), Err(TestResult::Fail(_))));
+        assert!(matches!(parse(&lines(&["p/float/vecc2", "1 2"])), Err(TestResult::Fail(_))));
     }
 }

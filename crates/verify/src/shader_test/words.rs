@@ -31,6 +31,20 @@ impl<'a> Words<'a> {
         self.words.get(self.next..).unwrap_or_default()
     }
 
+    /// Passes over the words that have not been read.
+    pub(super) fn pass_over(&mut self) {
+        self.next = self.words.len();
+    }
+
+    /// Fails if words are left that mean something.
+    pub(super) fn end(&self) -> Result<(), TestResult> {
+        match self.rest() {
+            [] => Ok(()),
+            [word, ..] if word.starts_with("//") || *word == ";" => Ok(()),
+            [word, ..] => fail(self.line, format_args!("`{word}` is too much at the end")),
+        }
+    }
+
     /// The next word.
     pub(super) fn word(&mut self) -> Result<&'a str, TestResult> {
         let Some(word) = self.words.get(self.next) else { return fail(self.line, "a word is missing at the end") };

@@ -164,7 +164,7 @@ impl Analyzer<'_> {
     fn check_member_storage(&mut self, record: &Qualifiers, context: &BlockContext) {
         self.check_member_word(record, (context.word, context.word_span));
         if let (Some(span), Storage::In) = (record.invariant, context.storage) {
-            self.require_here(Feature::InvariantInputs, span);
+            self.require(Feature::InvariantInputs, span);
         }
         if context.storage == Storage::Uniform || (self.stage == Stage::Vertex && context.storage == Storage::In) {
             self.no_interpolation(record, "a member of a uniform block");

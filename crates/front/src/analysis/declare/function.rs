@@ -23,7 +23,7 @@ impl Analyzer<'_> {
         let Some(id) = self.declare_function(header) else { return };
         self.note_function(id, header, NoteRole::Declares);
         if !self.declared.prototype(id) {
-            self.require_here(Feature::RepeatedPrototypes, header.name.span);
+            self.require(Feature::RepeatedPrototypes, header.name.span);
         }
     }
 
@@ -130,7 +130,7 @@ impl Analyzer<'_> {
         if functions::named(&function.name).iter().any(|row| row.availability.in_language(version, extensions)) {
             let redefines = self.is_builtin(&function);
             let rule = if redefines { Feature::BuiltinsHidden } else { Feature::BuiltinOverloads };
-            self.require_here(rule, name.span);
+            self.require(rule, name.span);
         }
         if function.name == "main" && header.is_whole {
             self.check_main(header, &function);
@@ -234,7 +234,7 @@ impl Analyzer<'_> {
             self.require(Feature::ArrayObjects, header.ty.span);
         }
         if self.types.is_struct_with_array(ty) {
-            self.require_here(Feature::ArraysInValues, header.ty.span);
+            self.require(Feature::ArraysInValues, header.ty.span);
         }
         if let Type::Array(_, ArraySize::Unsized) = self.types.get(ty) {
             self.report(

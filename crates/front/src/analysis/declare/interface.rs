@@ -102,7 +102,7 @@ impl Analyzer<'_> {
             self.misplaced(span, "`varying` takes no interpolation qualifier", "use `in` or `out`");
         }
         if let (Some(span), Storage::In) = (record.invariant, storage) {
-            self.require_here(Feature::InvariantInputs, span);
+            self.require(Feature::InvariantInputs, span);
         }
         self.require_crossing(ty, border, ty_span);
         if let Some(why) = self.cannot_cross(ty, border) {

@@ -70,7 +70,7 @@ impl Analyzer<'_> {
             return;
         }
         if storage == Storage::In {
-            self.require_here(Feature::InvariantInputs, name.span);
+            self.require(Feature::InvariantInputs, name.span);
         }
         let used = match member {
             Some(member) => self.uses.first_of_member(id, member),

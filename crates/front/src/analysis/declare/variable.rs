@@ -30,10 +30,11 @@ impl Analyzer<'_> {
         }
         let base = self.declared_type(declaration);
         self.check_precision(record.precision, base, declaration.ty.span);
-        let storage = self.global_storage(&record);
+        let has_value = declaration.declarators.iter().any(|declarator| declarator.initializer.is_some());
+        let storage = self.global_storage(&record, has_value);
         if declaration.declarators.is_empty() {
             if let (Some(span), Storage::In) = (record.invariant, storage) {
-                self.require_here(Feature::InvariantInputs, span);
+                self.require(Feature::InvariantInputs, span);
             }
             match (storage, self.types.get(base)) {
                 (Storage::Private, Type::Struct(_)) => self.layout(&record, LayoutSubject::Struct),
@@ -70,7 +71,7 @@ impl Analyzer<'_> {
     }
 
     /// The storage that a global's qualifiers mean in this stage.
-    fn global_storage(&mut self, record: &Qualifiers) -> Storage {
+    fn global_storage(&mut self, record: &Qualifiers, has_value: bool) -> Storage {
         if let (Some(constant), Some((word, span))) = (record.constant, record.storage) {
             self.report(
                 Diagnostic::new(
@@ -81,7 +82,10 @@ impl Analyzer<'_> {
                 .here("one too many")
                 .label(constant, "already `const`"),
             );
-            return Storage::Const;
+            // Without a value, `const` is the one that is too many.
+            if has_value {
+                return Storage::Const;
+            }
         }
         let Some((word, span)) = record.storage else {
             return if record.constant.is_some() { Storage::Const } else { Storage::Private };
@@ -139,7 +143,7 @@ impl Analyzer<'_> {
         let ty = self.sized_by_geometry(ty, storage, name.span);
         self.require_size(ty, name.span);
         if functions::named(self.name(name)).iter().any(|row| row.availability.in_version(self.ast.version)) {
-            self.require_here(Feature::BuiltinScope, name.span);
+            self.require(Feature::BuiltinScope, name.span);
         }
         if self.resizes(declarator, ty, storage) {
             return;
@@ -156,7 +160,7 @@ impl Analyzer<'_> {
     /// Reports an array without a size where the language wants one in each declaration.
     pub(in crate::analysis) fn require_size(&mut self, ty: TypeId, span: Span) {
         if matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized)) {
-            self.require_here(Feature::UnsizedArrays, span);
+            self.require(Feature::UnsizedArrays, span);
         }
     }
 
@@ -288,9 +292,7 @@ impl Analyzer<'_> {
         if self.ty(expr).is_error() {
             return (if storage == Storage::Const { TypeId::ERROR } else { ty }, None);
         }
-        if matches!(self.types.get(ty), Type::Array(..)) {
-            self.require(Feature::ArrayObjects, self.span(expr));
-        }
+        self.require_array_value(expr, self.span(expr));
         if storage == Storage::Private {
             self.check_private_initializer(expr);
             return (ty, Some(Initial { expr, value: None }));
@@ -323,7 +325,7 @@ impl Analyzer<'_> {
             return;
         }
         if self.strict || !self.ast.version.has(Feature::LooseGlobalInitializers) || !self.is_of_globals(expr) {
-            self.require_here(Feature::GlobalInitializers, span);
+            self.require(Feature::GlobalInitializers, span);
             return;
         }
         self.report(

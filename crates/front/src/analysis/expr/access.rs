@@ -171,7 +171,7 @@ impl Analyzer<'_> {
             }
         }
         if self.is_fragment_output(base) {
-            self.require_here(Feature::DynamicOutputs, at);
+            self.require(Feature::DynamicOutputs, at);
         }
         if size.is_none() && !self.is_geometry_input(base) {
             self.report(

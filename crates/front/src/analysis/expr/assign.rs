@@ -51,10 +51,10 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         if matches!(self.types.get(ty), Type::Array(..)) {
-            self.require(Feature::ArrayObjects, self.span(target));
+            self.require_array_value(value, self.span(target));
         }
         if self.types.is_struct_with_array(ty) {
-            self.require_here(Feature::ArraysInValues, self.span(target));
+            self.require(Feature::ArraysInValues, self.span(target));
         }
         let value = self.convert_or_report(value, ty, "the left side");
         if self.ty(value).is_error() {

@@ -1,7 +1,7 @@
 //! Analyzes calls of built-in functions (§8): resolves overloads over the rows of the table.
 
 use super::super::context::Analyzer;
-use super::overload::{Resolution, resolve};
+use super::overload::{Resolution, leading, resolve};
 use crate::builtin::functions::{self, Row, Signature};
 use crate::builtin::operations::{Class, Lookup};
 use crate::builtin::{Availability, BuiltinFunction};
@@ -12,6 +12,7 @@ use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 use crate::syntax::of_version;
+use std::cmp::Reverse;
 
 impl Analyzer<'_> {
     /// A call of a name that is a built-in function in some version.
@@ -171,14 +172,23 @@ impl Analyzer<'_> {
         self.report(finding);
     }
 
+    /// How many of the first arguments an overload of a row takes.
+    fn leading_arguments(&self, row: &'static Row, given: &[TypeId]) -> usize {
+        let conversions = self.rules().conversions;
+        let leading =
+            |signature: Signature| leading(self.types, conversions, given, signature.params().iter().copied());
+        row.signatures(self.stage).map(leading).max().unwrap_or(0)
+    }
+
     fn report_no_overload(&mut self, name: Ident, rows: &[&'static Row], given: &[TypeId]) {
         let mut finding = self.no_overload(name, given);
         let (version, extensions, stage) = (self.ast.version, self.extensions, self.stage);
-        let prototypes = rows.iter().filter(|row| row.availability.holds(version, extensions, stage));
-        // The overloads with the right number of parameters are the closest.
-        let mut closest: Vec<_> = prototypes.collect();
-        closest.sort_by_key(|row| row.params.len().abs_diff(given.len()));
-        for row in closest.iter().take(4) {
+        let prototypes = rows.iter().copied().filter(|row| row.availability.holds(version, extensions, stage));
+        // The overloads that take most of the first arguments are the closest, then those with the right number of parameters.
+        let mut closest: Vec<_> = prototypes.map(|row| (self.leading_arguments(row, given), row)).collect();
+        closest.sort_by_key(|(leading, row)| (Reverse(*leading), row.params.len().abs_diff(given.len())));
+        let any = closest.first().is_some_and(|(leading, _)| *leading > 0);
+        for (_, row) in closest.iter().filter(|(leading, _)| *leading > 0 || !any).take(4) {
             finding = finding.note(format!("there is `{}`", row.prototype()));
         }
         self.report(finding.maybe_help(derivative_help(rows, given, self)));

@@ -2,12 +2,13 @@
 //! are in `builtin`.
 
 use super::super::context::Analyzer;
+use super::super::keywords;
 use super::super::scope::{Entry, OverloadSet};
 use super::super::state::Signature;
 use super::super::state::{Denoted, NoteRole};
 use super::Purpose;
 use super::convert::Conversions;
-use super::overload::{Resolution, Rules, resolve};
+use super::overload::{Resolution, Rules, leading, resolve};
 use crate::builtin::functions;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::{names, types};
@@ -16,7 +17,9 @@ use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
+use crate::syntax::keywords::is_taken;
 use smallvec::SmallVec;
+use std::cmp::Reverse;
 
 /// The parameters of a candidate.
 pub(super) type Params = SmallVec<[(TypeId, ParamMode); 4]>;
@@ -102,8 +105,13 @@ impl Analyzer<'_> {
             self.report(finding);
             return false;
         }
+        let foreign = super::foreign::function(spelling);
+        if foreign.is_none() && is_taken(spelling, self.ast.version) {
+            // The parser has reported a keyword as a name.
+            return false;
+        }
         let near = |this: &mut Self| Some(Advice::meant(this.nearest_function(spelling)?));
-        let help = super::foreign::function(spelling).or_else(|| near(self));
+        let help = foreign.or_else(|| near(self));
         self.report(
             Diagnostic::new(&names::UNKNOWN_FUNCTION, name.span, format!("there is no function `{spelling}`"))
                 .here("not declared before this")
@@ -121,6 +129,9 @@ impl Analyzer<'_> {
             .map(|(symbol, _)| self.ast.names.spelling(symbol));
         let mut known: Vec<&str> = declared.collect();
         for name in functions::names() {
+            known.push(name);
+        }
+        for name in keywords::constructors() {
             known.push(name);
         }
         did_you_mean(spelling, known).map(str::to_owned)
@@ -181,6 +192,10 @@ impl Analyzer<'_> {
                     finding =
                         finding.help("a function of the shader hides all built-in ones of its name; give it another");
                 }
+                let conversions = self.rules().conversions;
+                let params = |id| self.shader.function(id).param_types();
+                let mut candidates = candidates;
+                candidates.sort_by_key(|&id| Reverse(leading(self.types, conversions, given, params(id))));
                 for &id in candidates.iter().take(4) {
                     finding = finding.label(self.shader.function(id).span, self.describe(id));
                 }

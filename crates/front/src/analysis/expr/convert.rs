@@ -90,6 +90,11 @@ impl Analyzer<'_> {
             let suffix = if whole == Scalar::Uint { "u" } else { "" };
             return Some(Advice::write(Applicability::Safe, format!("{number}{suffix}")));
         }
+        if !span.expansion.is_some()
+            && let Some(count) = comma_values(text)
+        {
+            return self.constructor_of_values(count, to, text);
+        }
         let short = if text.is_empty() || text.len() > 40 || span.expansion.is_some() { "..." } else { text };
         let around = |arguments: &str| {
             let call = |inner: &str| format!("{name}({})", arguments.replace("...", inner));
@@ -103,6 +108,19 @@ impl Analyzer<'_> {
             (Type::Array(_, ArraySize::Unsized), _) => Some("give the array a size in its declaration".into()),
             _ => None,
         }
+    }
+
+    /// The help for `(a, b, c)`, the last of whose values counts: the constructor that is meant takes all of them.
+    fn constructor_of_values(&self, count: usize, to: TypeId, text: &str) -> Option<Advice> {
+        let is_meant = match self.types.get(to) {
+            Type::Vector(_, size) => usize::from(size) == count,
+            Type::Matrix(columns, rows) => usize::from(columns) * usize::from(rows) == count,
+            _ => false,
+        };
+        let name = self.type_name(to);
+        let shown = if text.len() > 40 { "(..)" } else { text };
+        let sentence = format!("write `{name}{shown}`");
+        is_meant.then(|| Advice::new(Applicability::Unsafe, sentence, Place::Before, name))
     }
 
     /// Converts a numeric or boolean value component by component, as constructors do (§5.4.1).
@@ -119,6 +137,21 @@ impl Analyzer<'_> {
         let span = self.span(id);
         self.push(ExprKind::Convert(id), to, span)
     }
+}
+
+/// How many values are between the parentheses of `(a, b, c)`, if there are several.
+fn comma_values(text: &str) -> Option<usize> {
+    let inner = text.strip_prefix('(')?.strip_suffix(')')?;
+    let (mut depth, mut count) = (0_u32, 1);
+    for letter in inner.chars() {
+        match letter {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth = depth.checked_sub(1)?,
+            ',' if depth == 0 => count += 1,
+            _ => {}
+        }
+    }
+    (count > 1).then_some(count)
 }
 
 /// The digits before the point of a literal that is a whole number: `1` for `1.0`, `1.` and `1.0f`.

@@ -87,6 +87,9 @@ impl Analyzer<'_> {
                 }
                 ExprKind::Call(..) | ExprKind::BuiltinCall(..) => return refuse("the result of a call is a value"),
                 ExprKind::Ternary(..) => return refuse("the result of `?:` is a value"),
+                ExprKind::Literal(_) if self.sources.snippet(span).starts_with("gl_") => {
+                    return refuse("it is a built-in constant");
+                }
                 ExprKind::Literal(_) => return refuse("a literal is a value"),
                 _ => return refuse("this is a value, not a variable"),
             }

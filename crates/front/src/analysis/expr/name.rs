@@ -4,15 +4,18 @@
 use super::super::context::Analyzer;
 use super::super::scope::Entry;
 use super::super::state::{Denoted, NoteRole};
-use crate::builtin::{constants, fixed, variables};
+use crate::builtin::{constants, fixed, functions, variables};
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
-use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
-use crate::hir::{ExprId, ExprKind, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place, did_you_mean};
+use crate::hir::{ExprId, ExprKind, FunctionId, ScalarValue, Stage, Storage, Type, TypeId, VarRef};
 use crate::language::Since;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
 use crate::syntax::of_version;
+
+/// The keywords that make an expression or a statement alone.
+const STATEMENTS: &[&str] = &["break", "continue", "discard", "false", "return", "true"];
 
 impl Analyzer<'_> {
     /// The variable that a name denotes.
@@ -33,8 +36,12 @@ impl Analyzer<'_> {
                 self.member(base, member, span)
             }
             Entry::Poison => self.poison(span),
-            Entry::Struct(_) => self.not_a_variable(name, "a type", binding.span),
-            Entry::Functions(_) => self.not_a_variable(name, "a function", binding.span),
+            Entry::Struct(_) => self.not_a_variable(name, "a type", binding.span, None),
+            Entry::Functions(set) => {
+                let takes_none = |&id: &FunctionId| self.params_of(id).is_empty();
+                let call = self.call_of(name, self.scopes.functions(set).iter().all(takes_none));
+                self.not_a_variable(name, "a function", binding.span, Some(call))
+            }
         }
     }
 
@@ -87,7 +94,7 @@ impl Analyzer<'_> {
             let id = self.fixed_global(row);
             return self.variable(VarRef::Global(id), name.span);
         }
-        if self.is_quiet {
+        if self.is_quiet || self.is_uncalled_builtin(name) {
             return self.poison(name.span);
         }
         self.report_unknown(name);
@@ -163,6 +170,7 @@ impl Analyzer<'_> {
         let help = super::foreign::variable(spelling).map(Advice::from);
         let help = help.or_else(|| super::foreign::of_vulkan(spelling));
         let help = help.or_else(|| self.nearest_variable(spelling).map(Advice::meant));
+        let help = help.or_else(|| did_you_mean(spelling, STATEMENTS.iter().copied()).map(Advice::meant));
         let help = help.or_else(|| self.missing_macro(spelling).map(Advice::from));
         self.report(
             Diagnostic::new(&names::UNDECLARED, name.span, format!("`{spelling}` is not declared"))
@@ -201,13 +209,39 @@ impl Analyzer<'_> {
         did_you_mean(spelling, known).map(str::to_owned)
     }
 
-    fn not_a_variable(&mut self, name: Ident, what: &str, declared: Span) -> ExprId {
-        let spelling = self.name(name);
-        self.report(
-            Diagnostic::new(&names::NOT_A_VARIABLE, name.span, format!("`{spelling}` is {what}, not a variable"))
-                .here("a value is required here")
-                .label(declared, "declared here"),
-        );
+    fn not_a_variable(&mut self, name: Ident, what: &str, declared: Span, help: Option<Advice>) -> ExprId {
+        let finding = self.finding_of_no_variable(name, what).label(declared, "declared here");
+        self.report(finding.maybe_help(help));
         self.poison(name.span)
+    }
+
+    fn finding_of_no_variable(&self, name: Ident, what: &str) -> Diagnostic {
+        let spelling = self.name(name);
+        Diagnostic::new(&names::NOT_A_VARIABLE, name.span, format!("`{spelling}` is {what}, not a variable"))
+            .here("a value is required here")
+    }
+
+    /// Reports the name of a built-in function of this stage that is not called.
+    fn is_uncalled_builtin(&mut self, name: Ident) -> bool {
+        let (version, extensions, stage) = (self.ast.version, self.extensions, self.stage);
+        let rows = functions::named(self.name(name)).iter();
+        let rows: Vec<_> = rows.filter(|row| row.availability.holds(version, extensions, stage)).collect();
+        if rows.is_empty() {
+            return false;
+        }
+        self.note(name.span, Denoted::Builtin, NoteRole::Uses);
+        let call = self.call_of(name, rows.iter().all(|row| row.params.is_empty()));
+        let finding = self.finding_of_no_variable(name, "a function").help(call);
+        self.report(finding);
+        true
+    }
+
+    /// The help to call a function instead of naming it.
+    fn call_of(&self, name: Ident, takes_none: bool) -> Advice {
+        let spelling = self.name(name);
+        match takes_none {
+            true => Advice::new(Applicability::Unsafe, format!("call it: `{spelling}()`"), Place::After, "()"),
+            false => Advice::from(format!("call it: `{spelling}(..)`")),
+        }
     }
 }

@@ -50,7 +50,7 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         if operator == ast::UnaryOp::BitNot {
-            self.require(Feature::IntegerOperators, span);
+            self.require_operator("~", span);
         }
         if operator == ast::UnaryOp::Plus {
             if self.shader.root_variable(operand).is_none() {
@@ -101,7 +101,7 @@ impl Analyzer<'_> {
         use ast::BinaryOp as B;
         let operands = (left, right);
         if matches!(operator, B::Rem | B::BitAnd | B::BitXor | B::BitOr | B::Shl | B::Shr) {
-            self.require(Feature::IntegerOperators, self.span(right));
+            self.require_operator(operator.spelling(), self.span(right));
         }
         match operator {
             B::Add => self.arithmetic(BinaryOp::Add, operands),
@@ -222,11 +222,9 @@ impl Analyzer<'_> {
         let comparable = ty != TypeId::VOID
             && !self.types.contains_sampler(ty)
             && !matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized));
-        if matches!(self.types.get(ty), Type::Array(..)) {
-            self.require(Feature::ArrayObjects, self.span(right));
-        }
+        self.require_array_value(right, self.span(right));
         if self.types.is_struct_with_array(ty) {
-            self.require_here(Feature::ArraysInValues, self.span(right));
+            self.require(Feature::ArraysInValues, self.span(right));
         }
         comparable.then_some(Typed { left, right, operator, ty: TypeId::BOOL })
     }
@@ -257,7 +255,7 @@ impl Analyzer<'_> {
                 }
                 // "any type other than an array" (GLSL ES 1.00 §5.9), and compilers count a struct that contains one alike.
                 if self.types.is_struct_with_array(ty) {
-                    self.require_here(Feature::ArraysInValues, self.span(no));
+                    self.require(Feature::ArraysInValues, self.span(no));
                 }
                 self.push(ExprKind::Ternary(condition, yes, no), ty, span)
             }

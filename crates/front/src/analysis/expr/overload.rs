@@ -66,6 +66,17 @@ where
     }
 }
 
+/// How many of the first arguments a candidate takes, exactly or by conversions.
+pub(super) fn leading(
+    types: &Types,
+    conversions: Conversions,
+    arguments: &[TypeId],
+    params: impl IntoIterator<Item = (TypeId, ParamMode)>,
+) -> usize {
+    let takes = |(argument, param)| argument == param || conversions.convert(types, argument, param);
+    arguments.iter().zip(params).take_while(|&(&argument, (param, _))| takes((argument, param))).count()
+}
+
 fn fit(
     types: &Types,
     conversions: Conversions,

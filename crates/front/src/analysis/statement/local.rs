@@ -138,9 +138,7 @@ impl Analyzer<'_> {
         if self.ty(expr).is_error() {
             return (if constant { TypeId::ERROR } else { ty }, None, None);
         }
-        if matches!(self.types.get(ty), Type::Array(..)) {
-            self.require(Feature::ArrayObjects, self.span(expr));
-        }
+        self.require_array_value(expr, self.span(expr));
         if !constant {
             return (ty, Some(expr), None);
         }

@@ -71,7 +71,7 @@ codes! {
     UNSIZED_ARRAY = "E0414" "unsized-array" Error "GLSL 1.50 §4.1.9"
         "An array without a size can only be indexed with constants. To be indexed in any other way, passed, \
          assigned, returned, compared or asked for its length, it must have a size by then. Members of structs, \
-         parameters and return types must always have one."
+         parameters, return types and elements of arrays must always have one."
         bad Vertex("float a[]; uniform int i; void main() { gl_Position = vec4(a[i]); }"),
         good Vertex("float a[4]; uniform int i; void main() { gl_Position = vec4(a[i]); }");
     UNSIZED_CLIP_DISTANCES = "W0401" "unsized-clip-distances" Warning "GLSL 1.50 §4.1.9, §7.1"

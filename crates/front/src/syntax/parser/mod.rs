@@ -17,6 +17,7 @@ mod foreign;
 mod fragment;
 mod keyword_names;
 mod layout;
+mod misspelled;
 mod recover;
 mod statement;
 #[cfg(test)]
@@ -95,6 +96,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     overdeep: bool,
     /// Whether a closing brace was assumed for that reason.
     assumed_brace: bool,
+    /// The number of braces around the last `case` that is in no `switch`.
+    labelled: Option<i32>,
     /// The variables that the current declaration has named so far.
     declaring: Vec<Ident>,
     /// The current declaration of variables, if it is broken.
@@ -136,6 +139,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             returned_to: FxHashSet::default(),
             overdeep: false,
             assumed_brace: false,
+            labelled: None,
             declaring: Vec::new(),
             unfinished: None,
             taken: Vec::new(),

@@ -19,6 +19,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         loop {
             match self.kind() {
                 TokenKind::RightBrace => {
+                    self.labelled = self.labelled.filter(|braces| *braces < self.braces);
                     self.bump();
                     return statements;
                 }
@@ -57,6 +58,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn statement_kind(&mut self) -> Parse<StmtKind> {
+        if self.kind() == TokenKind::Ident {
+            self.correct_statement();
+        }
         match self.kind() {
             TokenKind::LeftBrace => Ok(StmtKind::Block(self.compound_statement())),
             TokenKind::Semicolon => {
@@ -70,6 +74,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             TokenKind::Do => self.do_statement(),
             TokenKind::Case | TokenKind::Default => Err(self.stray_case()),
             TokenKind::Continue => self.jump(StmtKind::Continue, "`continue`"),
+            TokenKind::Break if self.labelled == Some(self.braces) => self.jump(StmtKind::Error, "`break`"),
             TokenKind::Break => self.jump(StmtKind::Break, "`break`"),
             TokenKind::Discard => self.jump(StmtKind::Discard, "`discard`"),
             TokenKind::Return => self.return_statement(),
@@ -206,7 +211,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             self.bump();
         }
         self.eat(TokenKind::Colon);
-        // What follows the label is an ordinary statement.
+        // What follows the label is an ordinary statement, but a `break` belongs to the `switch` that is not there.
+        self.labelled = Some(self.braces);
         self.recovered = true;
         Reported
     }
@@ -245,6 +251,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let condition = self.condition_in_parens()?;
             let body = self.statement();
             arms.push((condition, body));
+            self.correct_else();
             if self.leaving_function || self.eat(TokenKind::Else).is_none() {
                 return Ok(StmtKind::If { arms, otherwise: None });
             }

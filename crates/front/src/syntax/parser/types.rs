@@ -11,7 +11,7 @@ use crate::syntax::keywords::{Keyword, TABLE};
 use crate::syntax::of_later_word;
 
 /// The qualifier that a token kind is by itself.
-fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
+pub(super) fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
     Some(match kind {
         TokenKind::Const => QualifierKind::Const,
         TokenKind::Attribute => QualifierKind::Attribute,
@@ -33,18 +33,6 @@ fn qualifier(kind: TokenKind) -> Option<QualifierKind> {
         _ => return None,
     })
 }
-
-/// Words that are names in 1.50 and qualifiers in a later version, with that version.
-static LATER_QUALIFIERS: &[(&str, u16)] = &[
-    ("patch", 400),
-    ("sample", 400),
-    ("subroutine", 400),
-    ("coherent", 420),
-    ("restrict", 420),
-    ("readonly", 420),
-    ("writeonly", 420),
-    ("buffer", 430),
-];
 
 /// Whether it is `lowp`, `mediump` or `highp`.
 pub(super) fn is_precision(kind: &QualifierKind) -> bool {
@@ -75,7 +63,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 self.report_reserved_qualifier(token);
                 self.bump();
             } else if self.is_unknown_qualifier() {
-                self.unknown_qualifier();
+                list.extend(self.unknown_qualifier().map(|kind| Qualifier { kind, span: start }));
             } else {
                 return Ok(list);
             }
@@ -97,20 +85,6 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn is_later_qualifier(&mut self) -> bool {
         let is_word = |row: &Keyword, word: &str| row.spelling == word && is_qualifier(row.kind);
         self.is_unknown_qualifier() && TABLE.iter().any(|row| is_word(row, self.session.spelling(self.current)))
-    }
-
-    fn unknown_qualifier(&mut self) {
-        let token = self.bump();
-        let name = self.session.spelling(token).to_owned();
-        let diagnostic = Diagnostic::new(
-            &codes::UNEXPECTED_TOKEN,
-            token.span,
-            format!("`{name}` is not a qualifier in this version"),
-        )
-        .here("expected a qualifier or a type");
-        let since = LATER_QUALIFIERS.iter().find(|row| row.0 == name).map(|row| row.1);
-        let help = since.map(|since| format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100));
-        self.session.report(of_later_word(diagnostic.maybe_help(help), &name, self.session.version));
     }
 
     /// A reserved word where only a qualifier makes sense, such as `static` in `static float x`.

@@ -124,7 +124,8 @@ impl Preprocessor<'_> {
             Diagnostic::new(&codes::LATE_VERSION, span, message).label(first, label).help("make it the first line")
         };
         if self.version_seen {
-            session.report(late("there is a second `#version`", self.version.span, "the first"));
+            let finding = late("there is a second `#version`", self.version.span, "the first");
+            session.report(finding.help("take it out: the first one is for the whole shader, with what it includes"));
             return false;
         }
         if let Some(first) = self.first_token {
