@@ -135,6 +135,7 @@ static DESCRIBING: &[(&str, &str)] = &[
     ("E0605", "the block to move it to is the author's"),
     ("E0609", "the value is the author's"),
     ("E0615", "which colors belong where is the author's"),
+    ("E0619", "which output has which location is the host's"),
     ("E0710", "what fits together is the author's"),
     ("E0712", "which colors belong where is the author's"),
     ("E0713", "the number is that of the host"),
@@ -150,6 +151,7 @@ static DESCRIBING: &[(&str, &str)] = &[
     ("L0044", "how the depth changes is the author's"),
     ("L0045", "it names a command"),
     ("L0049", "the host's data is not in the text"),
+    ("L0076", "only the author knows the largest number of steps"),
     ("W0602", "where in `main` the value is needed is the author's"),
     ("W0707", "which files are a program is the author's"),
 ];

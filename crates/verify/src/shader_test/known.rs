@@ -3,8 +3,7 @@
 //! *In:* a word or a line of a test. *Out:* nothing if shader_runner knows it, or a failure with the most similar word.
 //! *Not done here:* what this runner supports of it.
 
-use super::parse::Line;
-use super::words::Words;
+use super::words::{Line, Words};
 use super::{TestResult, fail, skip};
 use glisten_front::diagnostic::did_you_mean;
 

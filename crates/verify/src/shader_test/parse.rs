@@ -1,15 +1,9 @@
 //! Splits a test into its sections.
 
 use super::known::{self, SECTIONS};
+use super::words::Line;
 use super::{TestResult, fail, skip};
 use glisten_front::hir::Stage;
-
-/// A line and its number, counted from 1, without its comment and surrounding white space.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Line {
-    pub(super) number: u32,
-    pub(super) text: String,
-}
 
 /// A shader's text.
 #[derive(Clone, Debug, PartialEq, Eq)]

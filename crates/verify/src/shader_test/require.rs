@@ -1,8 +1,7 @@
 //! `[require]`: the requirements of a test.
 
 use super::known;
-use super::parse::Line;
-use super::words::Words;
+use super::words::{Line, Words};
 use super::{TestResult, fail, skip};
 use glisten_front::language::EXTENSIONS;
 

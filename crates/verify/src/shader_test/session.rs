@@ -6,12 +6,12 @@
 use super::draw::{self, Geometry};
 use super::fixed::{self, FixedSetup};
 use super::known::{self, CAPABILITIES, COMPARISONS, FACTORS};
-use super::parse::{Line, TestFile, parse};
+use super::parse::{TestFile, parse};
 use super::program::Built;
 use super::textures::Units;
 use super::uniforms::Uniforms;
 use super::vertex_data::{self, VertexData};
-use super::words::Words;
+use super::words::{Line, Words};
 use super::{TestBackend, TestResult, fail, introspection, probe, program, require, skip};
 use crate::scene::{BlendFactor, Compare, Cull, Draw, Format, Framebuffer, Primitive, Scene, State};
 use glisten_front::compiler::Compiler;

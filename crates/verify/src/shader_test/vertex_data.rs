@@ -1,8 +1,7 @@
 //! `[vertex data]`: a table whose columns are columns of attributes.
 
 use super::known::{self, DATA};
-use super::parse::Line;
-use super::words::{parse_integer, parse_number};
+use super::words::{Line, parse_integer, parse_number};
 use super::{TestResult, fail, skip, uniforms};
 
 /// A column of the table: components of an attribute, or of one of its matrix columns or array elements.

@@ -1,6 +1,13 @@
-//! Splits a command into words, separated by white space, commas and parentheses.
+//! Lines of a test, and their words, separated by white space, commas and parentheses.
 
 use super::{TestResult, fail};
+
+/// A line and its number, counted from 1, without its comment and surrounding white space.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Line {
+    pub(super) number: u32,
+    pub(super) text: String,
+}
 
 /// The words of a line that have not been read.
 #[derive(Clone, Debug)]
