@@ -141,7 +141,7 @@ fn texts_of_a_page_name_nothing_outside() {
     assert_eq!(made["name"], json!("shaders/a-scene.toml"), "`a.toml` is there");
     assert!(part_of(&asked("shaders/a-scene.toml", json!({ "shaders/a-scene.toml": made["text"] })).json()));
     // What only the page's texts name is not.
-    let secret = SCENE.replace("\"a.vert\"", "\"../secret.frag\"");
+    let secret = SCENE.replace("\"a.frag\"", "\"../secret.frag\"");
     for (name, text) in [
         ("shaders/a.toml", secret.clone()),
         ("shaders/evil.toml", secret.clone()),
