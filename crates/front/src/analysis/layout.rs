@@ -97,7 +97,7 @@ enum Effect {
     EarlyTests,
     /// The location of a uniform.
     HostLocation,
-    /// What is known of a depth: it changes no value.
+    /// A bound of a depth, which changes no value.
     Nothing,
 }
 

@@ -44,7 +44,7 @@ impl Assumed {
     }
 }
 
-/// What people write in ES by mistake, since OpenGL's language has it.
+/// The rules that people break in ES by mistake, since OpenGL's language has the freedom.
 const MISTAKES: [Feature; 3] = [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::ArrayObjects];
 
 fn is_mistake(found: &Diagnostic) -> bool {

@@ -45,7 +45,7 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
     for span in arrays_of_arrays(types, shader).take(1) {
         lacks.push(lacking(span, "array of arrays".into(), "compute one index from two"));
     }
-    for (name, span) in later_functions(shader, true) {
+    for (name, span) in later_functions(&program.types, shader, true) {
         lacks.push(lacking(span, format!("function `{name}`"), "compile for `--glsl-version 330`"));
     }
     if program.interface.outputs.iter().any(|output| output.index == 1) && shader.stage == Stage::Fragment {
@@ -65,21 +65,25 @@ fn arrays_of_arrays<'a>(types: &'a Types, shader: &'a Shader) -> impl Iterator<I
 }
 
 /// The errors for what GLSL 3.30 lacks.
-pub(super) fn of_330(shader: &Shader) -> Vec<Diagnostic> {
+pub(super) fn of_330(types: &Types, shader: &Shader) -> Vec<Diagnostic> {
     let lacks = |(name, span)| {
         let message = format!("GLSL 3.30 has no function `{name}` for these arguments");
         Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message).help("compile for `--glsl-version 450`")
     };
-    later_functions(shader, false).into_iter().map(lacks).collect()
+    later_functions(types, shader, false).into_iter().map(lacks).collect()
 }
 
 /// The functions that came after ES 3.00, or after 3.30 and without an extension, for the arguments of a call. Each with its first call.
-fn later_functions(shader: &Shader, is_es: bool) -> Vec<(&'static str, Span)> {
+fn later_functions(types: &Types, shader: &Shader, is_es: bool) -> Vec<(&'static str, Span)> {
     let mut found: Vec<(&'static str, Span)> = Vec::new();
     for expr in &shader.exprs {
         let ExprKind::BuiltinCall(function, arguments) = &expr.kind else { continue };
         let name = function.name();
         let given: SmallVec<[TypeId; 8]> = arguments.iter().map(|argument| shader.expr(*argument).ty).collect();
+        if is_es && given.iter().any(|ty| foreign_sampler(types, *ty).is_some()) {
+            // The sampler is refused, if it is used.
+            continue;
+        }
         let rows: SmallVec<[&Row; 8]> = function
             .operation()
             .prototypes()

@@ -51,7 +51,7 @@ pub(in crate::emit) fn write(
     let version = conventions.glsl_version;
     let lacks = match version {
         GlslVersion::Es300 => limits::of_es(program, shader),
-        GlslVersion::Desktop330 => limits::of_330(shader),
+        GlslVersion::Desktop330 => limits::of_330(&program.types, shader),
         GlslVersion::Desktop450 | GlslVersion::Vulkan => Vec::new(),
     };
     if !lacks.is_empty() {
