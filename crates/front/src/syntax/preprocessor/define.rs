@@ -248,7 +248,8 @@ impl Preprocessor<'_> {
                     return None;
                 }
                 TokenKind::HashHash => {
-                    if !std::mem::replace(&mut pastes, true) {
+                    let is_first = !std::mem::replace(&mut pastes, true);
+                    if is_first {
                         self.check_paste(session, token.span);
                     }
                 }
