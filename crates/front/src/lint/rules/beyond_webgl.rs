@@ -6,13 +6,14 @@ use super::super::{Findings, Place, Subject};
 use crate::hir::written_by;
 use crate::hir::{BinaryOp, Condition, ExprId, ExprKind, LocalId, LoopKind, Stage, Stmt, StmtKind, Storage, VarRef};
 use crate::source::Span;
+use rustc_hash::FxHashSet;
 
 const WEBGL: &str = "WebGL 1.0 refuses it, and OpenGL ES 2.0 may (GLSL ES 1.00 appendix A)";
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let es100 = |place: &&Place<'_>| place.shader.version.is_es() && place.shader.version.number == 100;
     for place in subject.places.iter().filter(es100) {
-        let mut indices = Vec::new();
+        let mut indices = FxHashSet::default();
         for statement in &place.statements {
             match &statement.kind {
                 StmtKind::Block(list) => indices.extend(index_of(list)),
@@ -42,14 +43,14 @@ fn index_of(block: &[Stmt]) -> Option<LocalId> {
 
 /// Reports loops that are not `for (int i = constant; i < constant; i += constant)`.
 fn check_loops(place: &Place<'_>, findings: &mut Findings<'_>) {
-    let mut proper: Vec<Span> = Vec::new();
+    let mut proper: FxHashSet<Span> = FxHashSet::default();
     for statement in &place.statements {
         let StmtKind::Block(list) = &statement.kind else { continue };
         let (Some(index), [Stmt { kind: StmtKind::Local(_, first), .. }, whole]) = (index_of(list), list.as_slice())
         else {
             continue;
         };
-        proper.push(whole.span);
+        proper.insert(whole.span);
         let StmtKind::Loop { condition, step, body, .. } = &whole.kind else { continue };
         let name = &place.function.local(index).name;
         let problem = match (first, condition, step) {
@@ -119,7 +120,7 @@ fn written(place: &Place<'_>, body: &[Stmt], index: LocalId) -> Option<Span> {
 }
 
 /// Reports indices that are neither constant nor made of constants and the indices of loops.
-fn check_indices(place: &Place<'_>, indices: &[LocalId], findings: &mut Findings<'_>) {
+fn check_indices(place: &Place<'_>, indices: &FxHashSet<LocalId>, findings: &mut Findings<'_>) {
     for &expr in &place.exprs {
         let ExprKind::Index(base, index) = place.kind(expr) else { continue };
         if !is_free(place, *base) && !is_constant_index(place, *index, indices) {
@@ -139,7 +140,7 @@ fn is_free(place: &Place<'_>, base: ExprId) -> bool {
 }
 
 /// A constant-index-expression.
-fn is_constant_index(place: &Place<'_>, expr: ExprId, indices: &[LocalId]) -> bool {
+fn is_constant_index(place: &Place<'_>, expr: ExprId, indices: &FxHashSet<LocalId>) -> bool {
     let mut pending = vec![expr];
     while let Some(expr) = pending.pop() {
         let kind = place.kind(expr);
