@@ -18,7 +18,7 @@ lints! {
         "GLSL ES 1.00 has loops and indices that OpenGL ES 2.0 need not support, and WebGL 1.0 refuses them: `while` and `do`; a \
          `for` whose index does not run from a constant to a constant by a constant; an index that is neither constant nor \
          made of the indices of loops, but for the uniforms of vertex shaders."
-        why "Machines of that time unroll every loop. GLSL ES 3.00 has no such limits."
+        why "Drivers of that time may unroll every loop. GLSL ES 3.00 has no such limits."
         bad Fragment("#version 100\nprecision highp float; uniform int n;\n\
             void main() { float a = 0.0; for (int i = 0; i < n; i++) { a += 0.1; } gl_FragColor = vec4(a); }"),
         good Fragment("#version 100\nprecision highp float; uniform int n;\n\
