@@ -16,8 +16,14 @@ pub struct Constant {
     pub section: &'static str,
 }
 
+/// A limit of OpenGL from a version on, which ES does not have.
 const fn row(name: &'static str, value: i32, version: u16) -> Constant {
-    Constant { name, value, availability: Availability::since(version), section: "§7.4" }
+    Constant { name, value, availability: Availability::from(Since::new(version, NEVER)), section: "§7.4" }
+}
+
+/// A limit that ES has, too.
+const fn also_es(constant: Constant) -> Constant {
+    Constant { availability: constant.availability.es(100), ..constant }
 }
 
 const fn pack420(name: &'static str, value: i32) -> Constant {
@@ -41,6 +47,11 @@ const fn es300(constant: Constant) -> Constant {
 /// A limit of a stage or a feature of later versions.
 const fn later(name: &'static str, value: i32, desktop: u16, es: u16) -> Constant {
     Constant { name, value, availability: Availability::from(Since::new(desktop, es)), section: "GLSL 4.60 §7.3" }
+}
+
+/// A limit that versions from these on have no more.
+const fn until(constant: Constant, gone: Since) -> Constant {
+    Constant { availability: constant.availability.until(gone), ..constant }
 }
 
 const fn es320(constant: Constant) -> Constant {
@@ -79,19 +90,19 @@ pub const MAX_GEOMETRY_OUTPUT_VERTICES: u32 = 256;
 
 /// All constants.
 pub static CONSTANTS: &[Constant] = &[
-    row("gl_MaxVertexAttribs", MAX_VERTEX_ATTRIBS as i32, 110),
+    also_es(row("gl_MaxVertexAttribs", MAX_VERTEX_ATTRIBS as i32, 110)),
     row("gl_MaxVertexUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 110),
-    row("gl_MaxVaryingFloats", 60, 110),
+    until(row("gl_MaxVaryingFloats", 60, 110), Since::new(420, NEVER)),
     row("gl_MaxVaryingComponents", 60, 130),
     row("gl_MaxVertexOutputComponents", MAX_VERTEX_OUTPUT_COMPONENTS as i32, 150),
     es320(row("gl_MaxGeometryInputComponents", MAX_GEOMETRY_INPUT_COMPONENTS as i32, 150)),
     es320(row("gl_MaxGeometryOutputComponents", MAX_GEOMETRY_OUTPUT_COMPONENTS as i32, 150)),
     row("gl_MaxFragmentInputComponents", MAX_FRAGMENT_INPUT_COMPONENTS as i32, 150),
-    row("gl_MaxVertexTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 110),
-    row("gl_MaxCombinedTextureImageUnits", MAX_COMBINED_TEXTURE_IMAGE_UNITS as i32, 110),
-    row("gl_MaxTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 110),
+    also_es(row("gl_MaxVertexTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 110)),
+    also_es(row("gl_MaxCombinedTextureImageUnits", MAX_COMBINED_TEXTURE_IMAGE_UNITS as i32, 110)),
+    also_es(row("gl_MaxTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 110)),
     row("gl_MaxFragmentUniformComponents", MAX_UNIFORM_COMPONENTS as i32, 110),
-    row("gl_MaxDrawBuffers", MAX_DRAW_BUFFERS as i32, 110),
+    also_es(row("gl_MaxDrawBuffers", MAX_DRAW_BUFFERS as i32, 110)),
     row("gl_MaxClipDistances", MAX_CLIP_DISTANCES as i32, 130),
     es320(row("gl_MaxGeometryTextureImageUnits", MAX_TEXTURE_IMAGE_UNITS as i32, 150)),
     es320(row("gl_MaxGeometryOutputVertices", MAX_GEOMETRY_OUTPUT_VERTICES as i32, 150)),
@@ -100,7 +111,7 @@ pub static CONSTANTS: &[Constant] = &[
     row("gl_MaxGeometryVaryingComponents", 64, 150),
     es(vectors("gl_MaxVertexUniformVectors", 256)),
     es(vectors("gl_MaxFragmentUniformVectors", 256)),
-    es(vectors("gl_MaxVaryingVectors", 15)),
+    until(es(vectors("gl_MaxVaryingVectors", 15)), Since::new(NEVER, 300)),
     es300(row("gl_MaxVertexOutputVectors", 16, NEVER)),
     es300(row("gl_MaxFragmentInputVectors", 15, NEVER)),
     compatibility(row("gl_MaxLights", 8, 110)),
@@ -179,6 +190,27 @@ mod tests {
         assert_eq!(value("gl_MaxClipPlanes", compatibility, Extensions::empty()), Some(8));
         assert_eq!(value("gl_MinProgramTexelOffset", core, Extensions::empty()), None);
         assert_eq!(value("gl_MinProgramTexelOffset", core, Extensions::SHADING_LANGUAGE_420PACK), Some(-8));
+        // GLSL ES 1.00 §7.4 and 3.00 §7.3 have lists of their own; GLSL 4.20 §7.3.1.
+        let es = |number| Version { number, profile: Profile::Es, span: Span::default() };
+        let late = Version { number: 420, ..core };
+        for (name, version, expected) in [
+            ("gl_MaxLights", es(100), None),
+            ("gl_MaxClipPlanes", es(300), None),
+            ("gl_MaxVaryingFloats", es(100), None),
+            ("gl_MaxVertexUniformComponents", es(310), None),
+            ("gl_MaxClipDistances", es(300), None),
+            ("gl_MaxVaryingVectors", es(100), Some(15)),
+            ("gl_MaxVaryingVectors", es(300), None),
+            ("gl_MaxVertexAttribs", es(100), Some(16)),
+            ("gl_MaxDrawBuffers", es(320), Some(8)),
+            ("gl_MaxGeometryOutputVertices", es(310), None),
+            ("gl_MaxGeometryOutputVertices", es(320), Some(256)),
+            ("gl_MaxVaryingFloats", core, Some(60)),
+            ("gl_MaxVaryingFloats", late, None),
+            ("gl_MaxVaryingFloats", Version { profile: Profile::Compatibility, ..late }, Some(60)),
+        ] {
+            assert_eq!(value(name, version, Extensions::empty()), expected, "{name} in {}", version.name());
+        }
     }
 
     #[test]

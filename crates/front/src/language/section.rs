@@ -120,21 +120,29 @@ impl<'a> Citation<'a> {
     }
 }
 
-/// A citation as it is in another version. Where that version lacks a section, or the citation is of another document, it
-/// stays.
+/// A citation as it is in another version, without the sections of a list that this version lacks. Where it lacks all of them, or the
+/// citation is of another document, it stays.
 ///
 /// ```
 /// use glisten_front::language::{Edition, cite};
 ///
 /// assert_eq!(cite("GLSL 1.50 §7.5.1", Edition { es: false, number: 120 }), "GLSL 1.20 §7.5");
 /// assert_eq!(cite("GLSL 1.50 §8.10", Edition { es: false, number: 120 }), "GLSL 1.50 §8.10");
+/// assert_eq!(cite("GLSL 1.50 §5.8, §4.1.10", Edition { es: true, number: 300 }), "GLSL ES 3.00 §5.8");
 /// ```
 pub fn cite(citation: &'static str, edition: Edition) -> Cow<'static, str> {
     let known = Citation::parse(citation).filter(|cited| cited.edition != edition);
-    match known.and_then(|cited| translated(&cited, edition)) {
+    match known.and_then(|cited| translated_in_part(&cited, edition)) {
         Some(places) => format!("{} {places}", edition.name()).into(),
         None => citation.into(),
     }
+}
+
+/// The sections of a list that a version has.
+fn translated_in_part(cited: &Citation<'_>, edition: Edition) -> Option<String> {
+    let parts = cited.places.split(", ").map(|places| Citation { places, ..*cited });
+    let parts: Vec<String> = parts.filter_map(|part| translated(&part, edition)).collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 fn translated(cited: &Citation<'_>, edition: Edition) -> Option<String> {

@@ -18,10 +18,12 @@ impl Analyzer<'_> {
             return false;
         }
         if spelling.starts_with("gl_") {
+            let rest = spelling.trim_start_matches("gl_");
+            let is_name = rest.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
             self.report(
                 Diagnostic::new(&names::RESERVED_NAME, name.span, format!("`{spelling}` cannot be declared"))
                     .here("names that start with `gl_` belong to OpenGL")
-                    .help(format!("call it `{}`", spelling.trim_start_matches("gl_"))),
+                    .maybe_help(is_name.then(|| format!("call it `{rest}`"))),
             );
             return false;
         }

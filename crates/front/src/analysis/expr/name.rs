@@ -4,7 +4,7 @@
 use super::super::context::Analyzer;
 use super::super::scope::Entry;
 use super::super::state::{Denoted, NoteRole};
-use crate::builtin::{constants, fixed, functions, variables};
+use crate::builtin::{Availability, constants, fixed, functions, variables};
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place, did_you_mean};
@@ -16,6 +16,20 @@ use crate::syntax::of_version;
 
 /// The keywords that make an expression or a statement alone.
 const STATEMENTS: &[&str] = &["break", "continue", "discard", "false", "return", "true"];
+
+/// A built-in name that glisten does not have yet.
+struct Unsupported {
+    name: &'static str,
+    /// The only stage in which it is missing.
+    stage: Option<Stage>,
+    since: Since,
+}
+
+const UNSUPPORTED: [Unsupported; 3] = [
+    Unsupported { name: "gl_Layer", stage: Some(Stage::Fragment), since: Since::new(430, 320) },
+    Unsupported { name: "gl_MaxComputeWorkGroupCount", stage: None, since: Since::new(430, 310) },
+    Unsupported { name: "gl_MaxComputeWorkGroupSize", stage: None, since: Since::new(430, 310) },
+];
 
 impl Analyzer<'_> {
     /// The variable that a name denotes.
@@ -105,8 +119,14 @@ impl Analyzer<'_> {
 
     fn report_unknown(&mut self, name: Ident) {
         let spelling = self.name(name);
-        if spelling == "gl_Layer" && self.stage == Stage::Fragment && self.ast.version.reaches(Since::new(430, 320)) {
-            let message = "`gl_Layer` in a fragment shader is not supported yet";
+        let is_here = |row: &&Unsupported| {
+            row.name == spelling
+                && row.stage.is_none_or(|stage| stage == self.stage)
+                && self.ast.version.reaches(row.since)
+        };
+        if let Some(row) = UNSUPPORTED.iter().find(is_here) {
+            let place = row.stage.map_or_else(String::new, |stage| format!(" in a {} shader", stage.name()));
+            let message = format!("`{spelling}`{place} is not supported yet");
             self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
             return;
         }
@@ -138,6 +158,15 @@ impl Analyzer<'_> {
                     .here(format!("only in {} shaders", stages.join(" and ")))
             };
             self.report(finding);
+            return;
+        }
+        if let Some(row) = constants::CONSTANTS.iter().find(|row| row.name == spelling) {
+            let message = format!("`{spelling}` is not in {}", self.ast.version.name());
+            let Availability { since, gone, extensions, .. } = row.availability;
+            let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message)
+                .here("not in this version of the language")
+                .maybe_help(self.ast.version.remedy(since, gone, extensions));
+            self.report(of_version(finding, self.ast.version));
             return;
         }
         if fixed::is_fixed(spelling) {
