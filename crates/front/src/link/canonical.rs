@@ -44,6 +44,7 @@ pub(super) fn unify(types: &mut Types, shaders: &mut [Shader], sizes: Sizes) {
     let changed = ids.into_iter().filter(|&id| unifier.canonical(id) != id).count();
     if changed > 0 {
         let known = unifier.known;
+        retype_members(types, &known);
         shaders.iter_mut().for_each(|shader| retype(shader, &known));
     }
 }
@@ -80,6 +81,18 @@ impl Unifier<'_> {
             (member.name, ty, member.matrix_layout, interpolation, flags, member.place)
         });
         Key { name, is_block, members: members.collect() }
+    }
+}
+
+/// The members of structs and blocks that stay have types that stay, too.
+fn retype_members(types: &mut Types, known: &FxHashMap<TypeId, TypeId>) {
+    let ids: Vec<TypeId> = types.ids().collect();
+    let canonical = |ty: TypeId| known.get(&ty).copied().unwrap_or(ty);
+    for id in ids {
+        let Type::Struct(structure) = types.get(id) else { continue };
+        if types.structure(structure).members.iter().any(|member| canonical(member.ty) != member.ty) {
+            types.structure_mut(structure).members.iter_mut().for_each(|member| member.ty = canonical(member.ty));
+        }
     }
 }
 
