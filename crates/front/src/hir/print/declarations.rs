@@ -328,7 +328,12 @@ impl Printer<'_> {
             BlockLayout::Packed => layout.push("packed".into()),
             BlockLayout::Std140 => layout.push("std140".into()),
         }
-        layout.extend(self.layout_words(id));
+        let words = self.layout_words(id);
+        let is_located = words.iter().any(|word| word.starts_with("location"));
+        if !is_located && self.has_locations(element, storage(global.storage)) {
+            layout.extend(global.location.map(|location| format!("location = {location}")));
+        }
+        layout.extend(words);
         layout.extend(block.binding.map(|binding| format!("binding = {binding}")));
         let layout = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
         let storage = storage(global.storage);
@@ -342,14 +347,24 @@ impl Printer<'_> {
     fn members(&mut self, ty: TypeId, storage: &str) {
         let Type::Struct(id) = self.types.get(ty) else { return };
         let types = self.types;
+        let has_locations = self.has_locations(ty, storage);
         self.indent += 1;
         for member in &types.structure(id).members {
-            let line = format!("{}{} {};", member_qualifiers(member, storage), self.type_name(member.ty), member.name);
+            let qualifiers = member_qualifiers(member, storage, has_locations);
+            let line = format!("{qualifiers}{} {};", self.type_name(member.ty), member.name);
             self.above(member.span);
             self.line(&line);
             self.behind(member.span);
         }
         self.indent -= 1;
+    }
+
+    /// Whether members of a block between stages have locations of their own (GLSL 4.40 §4.4.1).
+    fn has_locations(&self, ty: TypeId, storage: &str) -> bool {
+        let version = self.shader.version;
+        let can = matches!(storage, "in " | "out ") && version.profile != Profile::Es && version.number >= 440;
+        let located = |id| self.types.structure(id).members.iter().any(|member| member.place.location.is_some());
+        can && matches!(self.types.get(ty), Type::Struct(id) if located(id))
     }
 
     /// A constant as a constructor or literal.
@@ -378,13 +393,17 @@ impl Printer<'_> {
     }
 }
 
-fn member_qualifiers(member: &Member, storage: &str) -> String {
+fn member_qualifiers(member: &Member, storage: &str, has_locations: bool) -> String {
     let uniform = storage == "uniform ";
     let row_major = uniform && member.matrix_layout == MatrixLayout::RowMajor;
     let mut layout: Vec<String> = row_major.then(|| "row_major".to_owned()).into_iter().collect();
     if uniform {
         layout.extend(member.place.offset.map(|offset| format!("offset = {offset}")));
         layout.extend((member.place.align > 0).then(|| format!("align = {}", member.place.align)));
+    }
+    if has_locations {
+        layout.extend(member.place.location.map(|location| format!("location = {location}")));
+        layout.extend(member.place.component.map(|component| format!("component = {component}")));
     }
     let order = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
     let interpolation = member.interpolation.map_or(String::new(), |word| format!("{} ", word.name()));

@@ -51,10 +51,10 @@ impl NameTable {
         let struct_order = used_structs(types, shader);
         for &id in &struct_order {
             let name = match types.structure(id).name.as_str() {
-                "" => "Unnamed",
-                name => name,
+                "" => taken.claim(&unnamed(types, id)),
+                name => taken.claim(name),
             };
-            structs.insert(id, taken.claim(name));
+            structs.insert(id, name);
         }
         let mut table = Self { structs, struct_order, globals, functions, locals: Vec::new() };
         for function in &shader.functions {
@@ -102,6 +102,15 @@ impl NameTable {
 
     pub(super) fn local(&self, function: FunctionId, id: LocalId) -> &str {
         self.locals.get(function.index()).and_then(|locals| locals.get(id.index())).map_or("", String::as_str)
+    }
+}
+
+/// The name of a struct without one. All stages of a program give it the same, since uniforms of the struct match by its name.
+fn unnamed(types: &Types, id: StructId) -> String {
+    let is_before = |other: &TypeId| matches!(types.get(*other), Type::Struct(other) if other < id && types.structure(other).name.is_empty());
+    match types.ids().filter(is_before).count() {
+        0 => "Unnamed".to_owned(),
+        before => format!("Unnamed_{}", before + 1),
     }
 }
 

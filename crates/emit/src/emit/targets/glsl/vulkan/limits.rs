@@ -25,13 +25,6 @@ pub(super) fn of(types: &Types, shader: &Shader, conventions: &Conventions) -> V
                     `--window-origin upper-left` has";
         lacks.push(lacking(anchor, what.into(), "compile with `--window-origin upper-left`"));
     }
-    for global in shader.globals.iter().filter(|global| global.location.is_some()) {
-        let Type::Struct(id) = types.get(global.ty) else { continue };
-        if global.block.is_some() && types.structure(id).members.iter().any(|member| member.place.location.is_some()) {
-            let help = "give the block a location instead of its members";
-            lacks.push(lacking(global.span, "members of a block between stages have locations".into(), help));
-        }
-    }
     lacks.extend(whole_structs(types, shader).take(1).map(|span| {
         let help = "pass the sampler and the other members as parameters of their own";
         lacking(span, "a struct with a sampler is used as a whole, and Vulkan has no sampler in a block".into(), help)
