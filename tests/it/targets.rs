@@ -224,8 +224,16 @@ fn registers_are_those_of_the_reflection() {
 
 /// The program of a vertex and a fragment shader.
 fn pair(vertex: &str, fragment: &str) -> Program {
-    let sources = [("a.vert", vertex, Stage::Vertex), ("a.frag", fragment, Stage::Fragment)]
-        .map(|(name, text, stage)| Source { name: name.into(), text: format!("#version 150\n{text}").into(), stage });
+    pair_of(150, vertex, fragment)
+}
+
+fn pair_of(version: u16, vertex: &str, fragment: &str) -> Program {
+    let sources =
+        [("a.vert", vertex, Stage::Vertex), ("a.frag", fragment, Stage::Fragment)].map(|(name, text, stage)| Source {
+            name: name.into(),
+            text: format!("#version {version}\n{text}").into(),
+            stage,
+        });
     let compilation = compiler().compile(&sources);
     let messages: Vec<&str> = compilation.diagnostics.iter().map(|found| found.message.as_str()).collect();
     compilation.program.unwrap_or_else(|| panic!("{messages:?}"))
@@ -245,7 +253,7 @@ fn glsl_keeps_the_names_of_the_source() {
         "in vec2 v_uv; in vec3 v_eye; uniform sampler2D u_tex; struct Light { vec3 color; }; uniform Light u_light[2];\n\
          void main() { gl_FragColor = texture2D(u_tex, v_uv) * vec4(u_light[1].color * v_eye, 1.0); }",
     );
-    for version in [GlslVersion::Desktop330, GlslVersion::Desktop450, GlslVersion::Es300] {
+    for version in VERSIONS {
         let (vertex, fragment) = (glsl(&program, Stage::Vertex, version), glsl(&program, Stage::Fragment, version));
         for line in [
             "layout(location = 0) in vec4 a_position;",
@@ -264,6 +272,53 @@ fn glsl_keeps_the_names_of_the_source() {
     }
     let es = glsl(&program, Stage::Fragment, GlslVersion::Es300);
     assert!(es.starts_with("#version 300 es\nprecision highp float;\n"), "{es}");
+}
+
+/// The versions of GLSL that are written for OpenGL and WebGL.
+const VERSIONS: [GlslVersion; 3] = [GlslVersion::Desktop330, GlslVersion::Desktop450, GlslVersion::Es300];
+
+#[test]
+fn varyings_that_match_by_location_have_one_name() {
+    let vertex = "layout(location=0) in vec4 p; layout(location=1) out vec4 x; layout(location=2) out vec4 y;\n\
+                  void main() { gl_Position = p; x = p; y = p.yxwz; }";
+    let swapped = "layout(location=2) in vec4 x; layout(location=1) in vec4 y; uniform vec4 z; out vec4 o;\n\
+                   void main() { o = x - 2.0 * y + z; }";
+    let taken = "layout(location=2) in vec4 b; layout(location=1) in vec4 a; uniform vec4 x; out vec4 o;\n\
+                 void main() { o = b - 2.0 * a + x; }";
+    for version in VERSIONS {
+        let program = pair_of(410, vertex, swapped);
+        let text = glsl(&program, Stage::Fragment, version);
+        assert!(text.contains("o = y - 2.0 * x + z"), "{text}");
+        let program = pair_of(410, vertex, taken);
+        let (written, read) = (glsl(&program, Stage::Vertex, version), glsl(&program, Stage::Fragment, version));
+        assert!(written.contains("out vec4 x_2;") && written.contains("out vec4 y;"), "{written}");
+        assert!(read.contains("uniform vec4 x;") && read.contains("o = y - 2.0 * x_2 + x"), "{read}");
+    }
+}
+
+#[test]
+fn structs_of_both_stages_have_one_name() {
+    let light = "struct Light { vec4 pos; vec4 col; }; uniform struct { vec4 a; } tint;";
+    let program = pair(
+        &format!(
+            "uniform struct {{ float b; }} one; {light} layout(std140) uniform Sun {{ Light sun; }}; in vec4 p; out vec4 v;\n\
+             void main() {{ gl_Position = p * one.b; Light l = sun; v = l.pos + tint.a; }}"
+        ),
+        &format!(
+            "{light} layout(std140) uniform Points {{ Light points[4]; }}; in vec4 v; out vec4 c;\n\
+             vec4 shade(Light l) {{ return l.pos * l.col; }}\n\
+             void main() {{ c = v + tint.a; for (int i = 0; i < 4; i++) {{ Light l = points[i]; c += shade(l); }} }}"
+        ),
+    );
+    for version in VERSIONS {
+        let texts = [Stage::Vertex, Stage::Fragment].map(|stage| {
+            let text = glsl(&program, stage, version);
+            assert_eq!(text.matches("struct Light").count(), 1, "{text}");
+            assert!(text.contains("uniform Unnamed_2 tint;"), "{text}");
+            ("structs".to_owned(), stage, text)
+        });
+        validate(&texts, "glsl", &[], 2);
+    }
 }
 
 #[test]

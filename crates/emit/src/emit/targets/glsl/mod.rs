@@ -14,6 +14,7 @@
 //! | `commas` | commas of constant expressions |
 //! | `rewrite` | what later versions have dropped, in terms of what they have |
 //! | `names` | names that are words of the version |
+//! | `varyings` | one name for both ends of a varying that matches by location |
 //! | `vulkan` | what Vulkan's rules want: locations, sets, bindings, its coordinates |
 
 mod blocks;
@@ -21,6 +22,7 @@ mod commas;
 mod limits;
 mod names;
 mod rewrite;
+mod varyings;
 mod vulkan;
 
 pub(in crate::emit) use names::renamed;

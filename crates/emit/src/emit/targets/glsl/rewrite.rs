@@ -5,6 +5,7 @@
 
 use super::blocks::flatten;
 use super::commas::plain_commas;
+use super::varyings;
 use crate::target::GlslVersion;
 use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
@@ -18,7 +19,7 @@ use glisten_front::source::Span;
 /// Rewrites a stage for a version.
 pub(super) fn rewrite(types: &mut Types, shader: &mut Shader, program: &Program, version: GlslVersion) {
     locations(shader, program);
-    varying_names(shader, program);
+    varyings::match_by_name(shader, program);
     if version == GlslVersion::Es300 {
         flatten(types, shader, program);
     }
@@ -58,33 +59,6 @@ fn locations(shader: &mut Shader, program: &Program) {
             outputs.for_each(|row| place(row.global, row.location, dual.then_some(row.index)));
         }
         Stage::Geometry => {}
-    }
-}
-
-/// Varyings match by name: before 4.10 texts cannot give their locations, and the fragment stage of the compatibility
-/// profile reads `gl_FrontColor` as `gl_Color`.
-fn varying_names(shader: &mut Shader, program: &Program) {
-    if shader.version.number < 410 {
-        let is_varying = |stage: Stage, storage| match storage {
-            Storage::In => stage != Stage::Vertex,
-            Storage::Out => stage != Stage::Fragment,
-            Storage::Const | Storage::Private | Storage::Uniform => false,
-        };
-        let stage = shader.stage;
-        let varyings = shader.globals.iter_mut().filter(|global| is_varying(stage, global.storage));
-        varyings.for_each(|global| global.location = None);
-    }
-    let producer = program.stages.iter().rev().find(|stage| stage.stage != Stage::Fragment);
-    let Some(producer) = producer.filter(|_| shader.stage == Stage::Fragment) else { return };
-    for row in &program.interface.varyings {
-        let (Some(from), Some(to)) = (row.from, row.to) else { continue };
-        let name = &producer.global(from.global).name;
-        let taken = shader.globals.iter().any(|global| global.name == *name);
-        if let Some(global) =
-            shader.globals.get_mut(to.global.index()).filter(|global| !taken && global.block.is_none())
-        {
-            global.name.clone_from(name);
-        }
     }
 }
 
