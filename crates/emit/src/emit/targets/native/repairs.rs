@@ -4,21 +4,28 @@
 //! | --- | --- | --- |
 //! | samplers from a heap, through a buffer of indices that only wgpu binds | variables with registers | naga has an option for that |
 //! | `(float[3])0` | a list of zeros | glslang reads casts to arrays |
-//! | calls of constructing functions in initializers of globals | lists | glslang links them (it finds a recursion) |
+//! | calls of constructing functions in initializers of globals | lists, with zeros for what pads a struct | glslang links them (it finds a recursion) |
 //! | one `float` for all clip distances | vectors of up to four | naga writes built-in arrays |
 //! | `int2(int3(..))` as the offset of a lookup in a 3D texture | `int3(int3(..))` | naga counts its components |
 //!
 //! *In:* HLSL as naga writes it, one declaration per line. *Out:* the same program.
 
+use std::collections::BTreeMap;
+use std::slice::Iter;
+
+/// The members of each struct, as HLSL declares them: whether a member only pads.
+type Structs<'a> = BTreeMap<&'a str, Vec<bool>>;
+
 /// The text with all repairs.
 pub(super) fn repaired(text: &str) -> String {
+    let structs = structs(text);
     let mut result = String::with_capacity(text.len());
     for line in text.lines() {
         if is_of_heap(line) {
             continue;
         }
         let line = line.replace("int2(int3(", "int3(int3(");
-        let repaired = plain_sampler(&line).or_else(|| zeros(&line)).or_else(|| listed(&line));
+        let repaired = plain_sampler(&line).or_else(|| zeros(&line)).or_else(|| listed(&line, &structs));
         result.push_str(&repaired.unwrap_or(line));
         result.push('\n');
     }
@@ -55,33 +62,64 @@ fn zeros(line: &str) -> Option<String> {
     }
 }
 
-/// The initializer of a global as a list: `static float a[2] = Constructarray2_float_(1.0, 2.0);`.
-fn listed(line: &str) -> Option<String> {
+/// The structs of a text.
+fn structs(text: &str) -> Structs<'_> {
+    let mut structs = Structs::new();
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        let Some(name) = line.strip_prefix("struct ").and_then(|rest| rest.strip_suffix(" {")) else { continue };
+        let members = lines.by_ref().take_while(|member| *member != "};");
+        let pads = |member: &str| {
+            member.trim_start().starts_with("int _pad") || member.trim_start().starts_with("int _end_pad")
+        };
+        structs.insert(name, members.map(pads).collect());
+    }
+    structs
+}
+
+/// The initializer of a global as a list: `static float a[2] = Constructarray2_float_(1.0, 2.0);`. A list has a number for each scalar of
+/// the struct, also for those that pad it.
+fn listed(line: &str, structs: &Structs<'_>) -> Option<String> {
     let (declaration, value) = line.strip_prefix("static ").and_then(|rest| rest.split_once(" = "))?;
     if !value.contains("Construct") {
         return None;
     }
     let mut list = String::with_capacity(value.len());
-    // For each open parenthesis, whether it became a brace.
-    let mut open: Vec<bool> = Vec::new();
+    // For each open parenthesis, the members to come, if it became a brace.
+    let mut open: Vec<Option<Iter<'_, bool>>> = Vec::new();
     let mut word = String::new();
     for character in value.chars() {
         if character.is_ascii_alphanumeric() || character == '_' {
             word.push(character);
             continue;
         }
-        let constructs = character == '(' && word.starts_with("Construct");
-        if !constructs {
+        let constructed = word.strip_prefix("Construct").filter(|_| character == '(');
+        let members = constructed.map(|name| structs.get(name).map_or(&[] as &[bool], Vec::as_slice).iter());
+        if members.is_none() {
             list.push_str(&word);
         }
         word.clear();
         match character {
             '(' => {
-                open.push(constructs);
-                list.push_str(if constructs { "{ " } else { "(" });
+                list.push_str(if members.is_some() { "{ " } else { "(" });
+                open.push(members);
             }
-            ')' => list.push_str(if open.pop()? { " }" } else { ")" }),
+            ')' => match open.pop()? {
+                Some(members) => {
+                    members.for_each(|_| list.push_str(", 0"));
+                    list.push_str(" }");
+                }
+                None => list.push(')'),
+            },
             other => list.push(other),
+        }
+        if matches!(character, '(' | ',')
+            && let Some(Some(members)) = open.last_mut()
+        {
+            // Up to the next member that the call has an argument for.
+            let pads = members.by_ref().take_while(|pads| **pads).count();
+            let gap = if character == ',' { " 0," } else { "0, " };
+            list.push_str(&gap.repeat(pads));
         }
     }
     Some(format!("static {declaration} = {list}{word}"))
@@ -148,6 +186,12 @@ mod tests {
         assert_eq!(repaired("    float4 a = (float4)0;\n"), "    float4 a = (float4)0;\n");
         let text = "static S a[2] = Constructarray2_S_(ConstructS_((1.0 + 2.0), float2(3.0, 4.0)), b);\n";
         assert_eq!(repaired(text), "static S a[2] = { { (1.0 + 2.0), float2(3.0, 4.0) }, b };\n");
+        let declared = "struct S_ {\n    float a;\n    int _pad1_0;\n    float2 b;\n    int _end_pad_0;\n    int _end_pad_1;\n};\n";
+        let padded = "static S_ a[2] = { { (1.0 + 2.0), 0, float2(3.0, 4.0), 0, 0 }, b };\n";
+        assert_eq!(
+            repaired(&format!("{declared}{}", text.replace("static S ", "static S_ "))),
+            format!("{declared}{padded}")
+        );
     }
 
     #[test]
