@@ -249,6 +249,70 @@ fn sources_are_rewritten_and_glslang_takes_them() {
     assert!(taken > 35 && refused.len() < taken, "{taken} taken, refused: {refused:#?}");
 }
 
+/// The new text of a fragment shader, which glslang takes.
+fn rewritten(source: &str) -> String {
+    let folder = Folder::new(&[("a.frag", source.as_bytes())]);
+    let output = folder.run(&["upgrade", "-q", "--to", "vulkan", "-o", "new", "a.frag"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let text = fs::read_to_string(folder.path("new/a.frag")).expect("written");
+    let said = complaint(&folder.path("new"), &[(Stage::Fragment, text.clone())]);
+    assert!(said.is_none(), "{said:?}\n{text}");
+    text
+}
+
+#[test]
+fn a_uniform_may_follow_its_struct_on_a_line() {
+    let text = rewritten(
+        "#version 150\nin vec4 v; struct L { vec4 d; }; uniform L l; out vec4 c; void main() { c = v + l.d; }\n",
+    );
+    has(&text, &["struct L { vec4 d; };", "L l;\n};", "void main() { c = v + l.d; }"]);
+    has(
+        &rewritten(
+            "#version 150\nstruct L {\n    vec4 d;\n}; uniform L l[2];\nout vec4 c;\nvoid main() { c = l[0].d; }\n",
+        ),
+        &["L l[2];\n};"],
+    );
+}
+
+#[test]
+fn centers_of_pixels_at_integers_become_vulkans() {
+    let source = |layout: &str| {
+        format!(
+            "#version 150\n#extension GL_ARB_fragment_coord_conventions : require\nlayout({layout}) in vec4 gl_FragCoord;\n\
+             out vec4 c;\nvoid main() {{ c = gl_FragCoord; }}\n"
+        )
+    };
+    let text = rewritten(&source("pixel_center_integer"));
+    has(
+        &text,
+        &["vec4(gl_FragCoord.x - 0.5, framebufferHeight - gl_FragCoord.y - 0.5, gl_FragCoord.zw)", "c = fragCoord;"],
+    );
+    assert!(!text.contains("pixel_center_integer"), "{text}");
+    let folder = Folder::new(&[("a.frag", source("origin_upper_left, pixel_center_integer").as_bytes())]);
+    let output = folder.run(&["upgrade", "a.frag", "--to", "vulkan"]);
+    assert_eq!(code(&output), 1);
+    has(&err(&output), &["`pixel_center_integer`", "subtract 0.5"]);
+}
+
+#[test]
+fn members_of_varying_blocks_keep_their_locations() {
+    let source = |direction: &str, body: &str| {
+        format!(
+            "#version 440\nlayout(location = 1) {direction} B {{ vec2 a; layout(location = 4) flat int k; vec3 n; }} b;\n{body}"
+        )
+    };
+    let vertex = source("out", "in vec4 p; void main() { gl_Position = p; b.a = p.xy; b.k = 3; b.n = p.xyz; }");
+    let fragment = source("in", "out vec4 c; void main() { c = vec4(b.a, b.n.xy) + float(b.k); }");
+    let sources = [("a.vert", vertex, Stage::Vertex), ("a.frag", fragment, Stage::Fragment)]
+        .map(|(name, text, stage)| Source { name: name.into(), text: text.into(), stage });
+    let program = compiler().compile(&sources).program.expect("it compiles");
+    let texts = texts("block", &program, &conventions()).expect("Vulkan has it");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let said = complaint(folder.path(), &texts);
+    assert!(said.is_none(), "{said:?}\n{texts:#?}");
+    texts.iter().for_each(|(_, text)| has(text, &["layout(location = 1)", "layout(location = 4) flat int k;"]));
+}
+
 #[test]
 fn a_rewritten_source_is_the_same_source() {
     let vertex = "#version 150\nin vec4 p, q; // data\n// The camera.\nuniform mat4 mvp, normals;  // two of them\n\

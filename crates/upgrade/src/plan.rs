@@ -6,6 +6,7 @@
 use super::names::{FUNCTIONS, lookup};
 use super::tokens::{Token, closing, tokens};
 use glisten_front::Stage;
+use glisten_front::builtin::constants::{CONSTANTS, Constant};
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
 use glisten_front::builtin::functions;
 use glisten_front::language::{Profile, Storage, Types, Version};
@@ -170,6 +171,7 @@ impl Plan {
         let mut planner = Planner::new(texts, target, words);
         planner.taken(texts);
         planner.variables(texts);
+        planner.constants();
         planner.fixed(texts);
         planner.outputs(texts);
         planner.plan
@@ -299,7 +301,10 @@ impl<'t> Planner<'t> {
         let is_old = texts.iter().all(|text| text.version < 130);
         // ES 3.00 lets nobody define a built-in function again (§6.1).
         let keeps_own = target.is_for_vulkan() || target == Target::Es300;
-        let declared = declared_functions(texts, is_old, keeps_own);
+        let mut declared = declared_functions(texts, is_old, keeps_own);
+        if target == Target::Es300 {
+            declared.extend(globals_named_as_functions(texts));
+        }
         let is_function = |name: &str| declared.contains(name);
         let is_new_word = |name: &str| {
             // A function of older versions has another name now.
@@ -328,6 +333,15 @@ impl<'t> Planner<'t> {
             if new != name {
                 self.plan.notes.push(format!("`{name}` is a type now, and the variable is called `{new}`"));
             }
+        }
+    }
+
+    /// Constants that the target does not have: their values.
+    fn constants(&mut self) {
+        let language = self.plan.target.language();
+        let is_gone = |row: &&Constant| self.own.contains(row.name) && !row.availability.in_version(language);
+        for row in CONSTANTS.iter().filter(is_gone).collect::<Vec<_>>() {
+            Stage::ALL.into_iter().for_each(|stage| self.replace(stage, row.name, &row.value.to_string()));
         }
     }
 
@@ -452,6 +466,32 @@ fn declared_functions<'t>(texts: &[Text<'t>], is_old: bool, keeps_own: bool) -> 
             }
         }
     }
+    found
+}
+
+/// The global variables with names of built-in functions, which ES 3.00 does not let them have (§6.1), and which no text calls.
+fn globals_named_as_functions<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    let (mut found, mut called) = (BTreeSet::new(), BTreeSet::new());
+    for text in texts {
+        let all = tokens(text.text);
+        let mut depth = 0_usize;
+        for (index, token) in all.iter().enumerate() {
+            match token.text {
+                "{" | "(" | "[" => depth += 1,
+                "}" | ")" | "]" => depth = depth.saturating_sub(1),
+                name if token.is_word() && !functions::named(name).is_empty() => {
+                    let next = all.get(index + 1).map_or("", |next| next.text);
+                    if next == "(" {
+                        called.insert(name);
+                    } else if depth == 0 && [";", ",", "=", "["].contains(&next) {
+                        found.insert(name);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    found.retain(|name| !called.contains(name));
     found
 }
 
@@ -598,6 +638,28 @@ mod tests {
         let plan = Plan::new(&[text("float centroid, row_major, sample, x;", Stage::Vertex)], Target::Core150);
         assert_eq!(plan.word(Stage::Vertex, "centroid"), Some("centroid_"));
         assert_eq!(plan.word(Stage::Vertex, "x"), None);
+    }
+
+    #[test]
+    fn names_of_functions_that_es_has_are_no_globals() {
+        let old = text(
+            "uniform float round, sinh[2]; varying float cosh; float f(float tanh) { return cosh(tanh); }",
+            Stage::Fragment,
+        );
+        let plan = Plan::new(&[Text { version: 130, ..old }], Target::Es300);
+        let words = ["round", "sinh", "cosh", "tanh"].map(|word| plan.word(Stage::Vertex, word));
+        assert_eq!(words, [Some("round_"), Some("sinh_"), None, None]);
+        assert_eq!(Plan::new(&[Text { version: 130, ..old }], Target::Core450).word(Stage::Fragment, "round"), None);
+    }
+
+    #[test]
+    fn constants_that_are_gone_are_their_values() {
+        let old = text("for (int i = 0; i < gl_MaxLights; i++) { x[i] = gl_MaxDrawBuffers; }", Stage::Fragment);
+        let plan = Plan::new(&[old], Target::Core150);
+        assert_eq!(
+            ["gl_MaxLights", "gl_MaxDrawBuffers"].map(|word| plan.word(Stage::Fragment, word)),
+            [Some("8"), None]
+        );
     }
 
     #[test]

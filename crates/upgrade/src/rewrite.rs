@@ -338,15 +338,28 @@ fn first_code(code: &str, lines: &[(Range<usize>, Option<&str>)]) -> usize {
             }
             Some(_) => {}
             None => {
-                let line = code.get(range.clone()).unwrap_or("").trim();
+                let line = code.get(range.clone()).unwrap_or("");
                 // A default precision comes before what it is for.
-                if !line.is_empty() && !line.starts_with("precision") {
-                    return if depth > 0 { group } else { range.start };
+                let rest = after_precisions(line);
+                if !rest.is_empty() {
+                    let is_whole = rest.len() == line.trim_start().len();
+                    let start = if is_whole { range.start } else { range.start + (line.len() - rest.len()) };
+                    return if depth > 0 { group } else { start };
                 }
             }
         }
     }
     code.len()
+}
+
+/// The rest of a line after the default precisions that it begins with.
+fn after_precisions(line: &str) -> &str {
+    let mut rest = line.trim_start();
+    while rest.starts_with("precision") {
+        // One that goes on in the next line is the whole of this one.
+        rest = rest.split_once(';').map_or("", |(_, rest)| rest.trim_start());
+    }
+    rest
 }
 
 #[cfg(test)]
@@ -383,6 +396,13 @@ mod tests {
         let new = "#version 300 es // old\n#ifdef GL_ES\nprecision mediump float;\n#endif\nout mediump vec4 fragData[2];\n#ifdef A\n\
                    in vec2 p;\n#endif\nvoid main() { fragData[1] = fragData[0]; }\n";
         assert_eq!(upgraded(old, Stage::Fragment, Target::Es300), new);
+    }
+
+    #[test]
+    fn declarations_come_behind_a_precision_on_the_same_line() {
+        let old = "#version 100\nprecision mediump float; precision highp int; varying vec4 c; void main() { gl_FragColor = c; }\n";
+        let new = "#version 150\nprecision mediump float; precision highp int; out vec4 fragColor;\nin vec4 c; void main() { fragColor = c; }\n";
+        assert_eq!(upgraded(old, Stage::Fragment, Target::Core150), new);
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::style::{has_braces_below, indent_of};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Shader, Stage};
 use glisten_sources::engines::code::without_comments;
+use std::ops::Range;
 
 /// Names that Vulkan has for others, which are the same if the host draws from 0.
 static NAMES: &[(&str, &str)] = &[("gl_VertexID", "gl_VertexIndex"), ("gl_InstanceID", "gl_InstanceIndex")];
@@ -41,11 +42,23 @@ pub(super) fn names_frag_coord(chunks: &Chunks<'_>) -> bool {
     chunks.all.iter().any(|token| token.text == "gl_FragCoord")
 }
 
-/// The end of a redeclaration of the coordinates, which comes before any use.
-pub(super) fn redeclared(chunks: &Chunks<'_>) -> Option<usize> {
+/// The place of a redeclaration of the coordinates, which comes before any use.
+pub(super) fn redeclared(chunks: &Chunks<'_>) -> Option<Range<usize>> {
     let is_it = |index: &usize| chunks.word(*index) == "vec4" && chunks.word(*index + 1) == "gl_FragCoord";
     let name = (0..chunks.all.len()).find(is_it)? + 1;
-    (chunks.word(name + 1) == ";").then(|| chunks.place(name + 1).end)
+    let chunk = chunks.list.iter().find(|chunk| chunk.tokens.contains(&name))?;
+    (chunks.word(name + 1) == ";").then(|| chunks.range(chunk).start..chunks.place(name + 1).end)
+}
+
+/// Whether the centers of pixels are at integers, which Vulkan does not have.
+pub(super) fn has_integer_centers(shader: &Shader) -> bool {
+    shader.stage == Stage::Fragment && shader.frag_coord.pixel_center_integer
+}
+
+/// The coordinates as OpenGL has them, from those of Vulkan.
+pub(super) fn turned(height: &str, has_integer_centers: bool) -> String {
+    let shift = if has_integer_centers { " - 0.5" } else { "" };
+    format!("vec4(gl_FragCoord.x{shift}, {height} - gl_FragCoord.y{shift}, gl_FragCoord.zw)")
 }
 
 /// The edits of words and calls. The new name of `gl_FragCoord` is given if it changes.

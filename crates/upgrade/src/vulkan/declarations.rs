@@ -496,7 +496,11 @@ impl<'a> Text<'a> {
         let own = self.conditions.at(at);
         let n_same = |other: &Vec<Open>| own.iter().zip(other).take_while(|(a, b)| a == b).count();
         let common = all.iter().map(n_same).min().unwrap_or(0);
-        let place = own.get(common).map_or(self.line_start(at), |open| open.start);
+        let line = self.line_start(at);
+        let code = without_comments(self.chunks.text);
+        // Behind what is before it on its line, which may be the struct of the uniform.
+        let start = if code.get(line..at).is_none_or(|before| before.trim().is_empty()) { line } else { at };
+        let place = own.get(common).map_or(start, |open| open.start);
         let kept: Vec<Open> = own.iter().take(common).cloned().collect();
         for conditions in &all {
             let inner = conditions.get(common..).unwrap_or_default();

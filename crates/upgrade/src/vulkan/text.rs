@@ -118,6 +118,13 @@ impl Plan<'_> {
         let is_turned = self.turned.contains(key) || self.turned_parts.contains(key);
         let name = is_turned.then(|| free(self.names, "fragCoord"));
         let mut edits = coordinates::words(chunks, file.is_read_by(Stage::Fragment), name.as_deref());
+        if self.has_integer_centers(file) && coordinates::names_frag_coord(chunks) {
+            if !is_turned {
+                let what = "`pixel_center_integer` puts the centers of pixels at integers, which Vulkan does not";
+                return Err(format!("{what}; subtract 0.5 from `gl_FragCoord.xy` instead"));
+            }
+            edits.extend(coordinates::redeclared(chunks).map(|range| (range, String::new())));
+        }
         if file.is_read_by(Stage::Geometry) {
             let name = free(self.names, "emitVulkanVertex");
             edits.extend(coordinates::emissions(chunks, &name, !file.source_of.is_empty())?);
@@ -153,6 +160,12 @@ impl Plan<'_> {
         let name = free(self.names, "openglMain");
         edits.extend(shader.and_then(|shader| coordinates::main(chunks, shader, &name)).unwrap_or_default());
         Ok(edits)
+    }
+
+    /// Whether a program whose fragment source this is has the centers of pixels at integers.
+    fn has_integer_centers(&self, file: &File) -> bool {
+        let own = self.programs.iter().filter(|one| file.readers.contains(&(one.index, Stage::Fragment)));
+        own.filter_map(|one| one.program.stage(Stage::Fragment)).any(coordinates::has_integer_centers)
     }
 
     /// The block of the loose uniforms of a file.
@@ -212,14 +225,16 @@ impl Plan<'_> {
         between(&open, &[]).iter().for_each(|line| body.push_str(&format!("{line}\n")));
         let turned = height.filter(|_| is_turned).map_or_else(String::new, |(_, height)| {
             let name = free(self.names, "fragCoord");
-            format!("vec4 {name} = vec4(gl_FragCoord.x, {height} - gl_FragCoord.y, gl_FragCoord.zw);\n")
+            format!("vec4 {name} = {};\n", coordinates::turned(&height, self.has_integer_centers(file)))
         });
         let first = || place_of_declarations(&file.text);
         let (place, below) = moved.place.as_ref().map_or_else(first, |(place, _)| (*place, ""));
         let include = self.first_turned_include(&file.text);
         let (place, below) = if is_turned && include < place { (include, "") } else { (place, below) };
-        let after = coordinates::redeclared(chunks).filter(|_| is_turned).unwrap_or(0);
-        let (place, gap, below) = if after > place { (after, "\n", "") } else { (place, "", below) };
+        let after = coordinates::redeclared(chunks).filter(|_| is_turned).map_or(0, |range| range.end);
+        let (place, below) = if after > place { (after, "") } else { (place, below) };
+        let begins_a_line = file.text.get(..place).is_none_or(|before| before.is_empty() || before.ends_with('\n'));
+        let gap = if begins_a_line { "" } else { "\n" };
         let layout = match self.dialect.numbering {
             Numbering::All => format!("layout(std140, set = 0, binding = {})", self.numbers.of(layout.node)),
             _ => "layout(std140)".to_owned(),
