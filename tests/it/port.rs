@@ -354,6 +354,24 @@ fn what_cannot_be_ported_stays() {
 }
 
 #[test]
+fn a_program_that_wgsl_lacks_stays_and_the_others_are_ported() {
+    let folder = Folder::new(&[
+        ("in/ok.vert", b"#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n"),
+        ("in/ok.frag", b"#version 150\nuniform vec4 tint;\nout vec4 c;\nvoid main() { c = tint; }\n"),
+        ("in/point.vert", b"#version 150\nin vec4 p;\nvoid main() { gl_Position = p; gl_PointSize = 8.0; }\n"),
+        ("in/point.frag", b"#version 150\nout vec4 c;\nvoid main() { c = vec4(gl_PointCoord, 0.0, 1.0); }\n"),
+    ]);
+    for host in ["wgpu", "bevy"] {
+        let output = folder.run(&["port", "in", "--for", host, "-o", host, "--format", "json"]);
+        assert_eq!(code(&output), 1, "{}", err(&output));
+        let account: Value = serde_json::from_str(&out(&output)).expect("JSON");
+        assert_eq!((&account["summary"]["ported"], &account["summary"]["refused"]), (&1.into(), &1.into()));
+        has(&err(&output), &["`point` stays as it was", "gl_PointCoord"]);
+        assert_eq!(read(&folder, &format!("{host}/point.frag")), read(&folder, "in/point.frag"));
+    }
+}
+
+#[test]
 fn pictures_prove_a_port() {
     let folder = Folder::new(&[]);
     for (pack, host) in [("engine", "vulkan"), ("pack", "minecraft-26.2")] {

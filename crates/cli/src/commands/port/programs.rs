@@ -10,8 +10,10 @@ use crate::commands::upgrade::{ByPlan, Upgraded, checker, plan, plan_of_newer, w
 use crate::exit::Failure;
 use crate::inputs::{Group, Input};
 use crate::session::{Session, Unit, compile_anywhere};
+use glisten_emit::{Conventions, Target, emit};
 use glisten_front::compiler::{Compiler, Prepared, Source};
 use glisten_front::diagnostic::Diagnostic;
+use glisten_front::hir::{Shader, Stage};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use glisten_port::{Host, Outcome, ProgramReport};
 use glisten_upgrade::{Dialect, Includes, NewTree, Plan, Refused, TreeProgram, converts_depth, tree};
@@ -115,7 +117,13 @@ pub(super) fn ported(
         let is_older = unit.batch.sources.files().any(|(_, file)| is_empty(file.name(), file.text()));
         let (old, kind) = if is_older { (&older, StandIn::Nothing) } else { (&old, StandIn::Blocks) };
         done.is_older = is_older;
-        match new_program(unit, (old, kind), (&host, &readers), sources, &words)? {
+        let new = new_program(unit, (old, kind), (&host, &readers), sources, &words)?;
+        let lacks = |program: &TreeProgram| if host.has_wgsl { not_in_wgsl(program) } else { None };
+        let new = new.and_then(|(program, plan)| match lacks(&program) {
+            None => Ok((program, plan)),
+            because => Err((Outcome::Refused, because)),
+        });
+        match new {
             Ok((program, plan)) => {
                 done.index = Some(trees.len());
                 done.report.new = program.sources.iter().map(|source| source.name.clone()).collect();
@@ -229,6 +237,16 @@ fn new_program(
         }
         Err(refused) => Ok(Err((Outcome::Refused, Some(refused.to_string())))),
     }
+}
+
+/// Why WGSL cannot express a program. A geometry stage is refused as what the host lacks.
+fn not_in_wgsl(program: &TreeProgram) -> Option<String> {
+    let program = program.compiler.compile(&program.sources).program?;
+    if program.stage(Stage::Geometry).is_some() {
+        return None;
+    }
+    let refused = |shader: &Shader| emit(&program, shader.stage, Target::Wgsl, &Conventions::default()).err();
+    program.stages.iter().find_map(refused)?.first().map(told)
 }
 
 /// Why a stage of a file with several cannot become a file of its own.
