@@ -436,9 +436,58 @@ fn compare(op: Compare, reference: f64, stored: f64) -> bool {
 /// A lookup in one level.
 fn at_level(texture: &Texture, number: usize, request: &Request, linear: bool) -> [BoundedFloat; 4] {
     let Some(level) = level(texture, number) else { return super::MISSING.map(BoundedFloat::exact) };
+    if is_plain(request) {
+        return plain(texture, level, request, linear).map(BoundedFloat::exact);
+    }
     let footprint = if linear { footprint(texture, level, request, linear) } else { nearest(texture, level, request) };
     let result = blend(texture, level, request, &footprint, linear);
     if request.bounded { limited(texture, level, request, &footprint, linear, result) } else { result }
+}
+
+/// Whether a lookup is of numbers alone: without intervals, comparisons, and the edges of a cube.
+fn is_plain(request: &Request) -> bool {
+    !request.bounded && !request.kind.shadow && request.kind.dim != SamplerDim::Cube
+}
+
+/// A [plain](is_plain) lookup in a level: the same numbers as those of [`blend`] in the same order.
+fn plain(texture: &Texture, level: &TextureLevel, request: &Request, linear: bool) -> [f64; 4] {
+    let kind = request.kind;
+    let count = usize::from(kind.dimensions());
+    let wrap = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { texture.wrap };
+    // For each axis the texels left and right, and their weights.
+    let mut sides = [[(0i64, 1.0f64); 2]; 3];
+    for (axis, size) in [level.width, level.height, level.depth].into_iter().enumerate().take(count) {
+        let scale = if kind.dim == SamplerDim::Rect { 1.0 } else { f64::from(size) };
+        let base = request.at[axis].value * scale - if linear { 0.5 } else { 0.0 };
+        let floor = base.floor();
+        let first = index(floor).saturating_add(i64::from(request.offset[axis]));
+        let weight = if linear { base - floor } else { 0.0 };
+        let weight = request.weights.map_or(weight, |steps| steps.nearest(weight));
+        let place = |at| wrapped(wrap, at, size);
+        sides[axis] = [(place(first), 1.0 - weight), (place(first.saturating_add(1)), weight)];
+    }
+    if kind.arrayed {
+        sides[2][0].0 = layers(level.depth, request.layer).0;
+    }
+    if !linear {
+        return texel::floats(level, sides.map(|sides| sides[0].0));
+    }
+    let mut sum = [0.0; 4];
+    for corner in 0..1usize << count {
+        let mut at = sides.map(|sides| sides[0].0);
+        let mut weight = 1.0;
+        for axis in 0..count {
+            let side = sides[axis][corner >> axis & 1];
+            at[axis] = side.0;
+            weight *= side.1;
+        }
+        // A texel of weight 0 does not count, even if it is a NaN.
+        if weight != 0.0 {
+            let texel = texel::floats(level, at);
+            sum.iter_mut().zip(texel).for_each(|(sum, texel)| *sum += weight * texel);
+        }
+    }
+    sum
 }
 
 /// The weighted sum over the corners of the footprint.
