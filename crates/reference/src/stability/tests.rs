@@ -212,6 +212,27 @@ fn the_parts_of_a_clipped_triangle_have_no_edge_between_them() {
 }
 
 #[test]
+fn what_the_language_leaves_undefined_breaks() {
+    let cases = [
+        ("atan(at.y * t, at.x * t)", "", CauseKind::Domain),
+        ("float(int(gl_FragCoord.x) / k)", "int(gl_FragCoord.x) / k", CauseKind::Division),
+        ("clamp(at.x, 1.0, t)", "", CauseKind::Domain),
+        ("smoothstep(1.0, t, at.x)", "", CauseKind::Domain),
+    ];
+    for (expression, place, kind) in cases {
+        let body = format!("uniform float t; uniform int k; void main() {{ o = vec4({expression}); }}");
+        let (found, causes) = examined(&body);
+        let place = if place.is_empty() { expression } else { place };
+        assert_eq!(found.verdict, Stability::Broken, "{expression}");
+        assert_eq!(causes, [(place.to_owned(), kind)]);
+        assert!(found.causes[0].undefined.is_some() && found.causes[0].harm.is_some_and(|harm| harm > BOUND));
+    }
+    // Nobody sees it.
+    let body = "uniform float t; void main() { o = vec4(atan(at.y * t, at.x * t) * t + 0.5); }";
+    assert_eq!(examined(body).0.verdict, Stability::Stable);
+}
+
+#[test]
 fn a_sum_over_many_steps_accumulates() {
     let body =
         "void main() { float t = 0.0;\nfor (int i = 0; i < 3000; ++i) t += 0.1 + at.x * 1e-3;\n o = vec4(t - 300.0); }";
