@@ -93,7 +93,7 @@ static ROWS: &[Row] = &[
     ("`VSMShadowMap`", "`shadow`", "the same", &["shadowVariance"]),
     ("`CSM`", "`shadow`", "none", &["shadowSplit", "shadowCascade"]),
     ("spheres by their nearest point", "`area_light`", "none", &["areaSphere", "areaSphereFactor"]),
-    ("`FogExp2`", "`fog`", "none", &["fogFactor(float,float)"]),
+    ("`FogExp2`", "`fog`", "none", &["fogFactorSquared"]),
     ("`normalMap`, triplanar, parallax", "`normal_map`", "`normal_map`", &["normalMapped", "triplanarWeights"]),
     ("`OutlineEffect`", "`outline`", "`program = \"edge\"`", &["outlinePosition", "outlineThinned"]),
     ("`toneMapping`", "`tonemap`", "`tonemap`, `exposure` of the framebuffer", &["tonemapNeutral"]),

@@ -203,5 +203,9 @@ pub(super) static FORMS: &[Form] = forms! {
         let depth = a.f() * a.f();
         one((-depth).exp(), 4.0 + depth * (-depth).exp())
     };
+    "fog" "fogFactorSquared(float,float)" [White, Unit] |a| {
+        let depth = (a.f() * a.f()).powi(2);
+        one((-depth).exp(), 4.0 + 4.0 * depth * (-depth).exp())
+    };
     "fog" "fogFactor(float,vec3,float,float,float)" [Gain, Direction, White, Unit, Unit] ground_fog;
 };
