@@ -5,7 +5,7 @@
 // stability: (L.H)^2 is |L + V|^2 / 4, so that no half vector is needed
 //
 // Disney's diffuse reflection: smooth surfaces darken towards their rim, rough ones shine there. It is not scaled to keep
-// energy: it returns up to a third too much.
+// energy: it returns up to 0.56 too much, at grazing angles and a roughness of 1.
 #ifndef GLISTEN_BURLEY
 #define GLISTEN_BURLEY
 #include "safe.glsl"

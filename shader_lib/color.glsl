@@ -84,7 +84,8 @@ vec3 colorFromOklab(vec3 lab)
         -0.3413193965, 1.707614701) * lms;
 }
 
-// The color of a black body, linear Rec. 709 with the luminance 1. The red of a candle has no blue: channels are limited to >= 0.
+// The color of a black body, linear Rec. 709 with the luminance 1. The red of a candle has no blue: channels are limited
+// to >= 0, and the others share the luminance.
 //   kelvin  limited to [1000, 15000], where the fit of the locus is good to 1e-4 in u and v
 // bound: 2e-6 abs, the quotient of two polynomials
 vec3 colorTemperature(float kelvin)
@@ -98,7 +99,8 @@ vec3 colorTemperature(float kelvin)
     float Z = (2.0 - 0.5 * u) / v - 5.0;
     vec3 c = vec3(3.2404542 * X - 1.5371385 - 0.4985314 * Z, -0.969266 * X + 1.8760108 + 0.041556 * Z,
         0.0556434 * X - 0.2040259 + 1.0572252 * Z);
-    return max(c, vec3(0.0));
+    c = max(c, vec3(0.0));
+    return c / colorLuminance(c);
 }
 
 // The threshold of ordered dithering at a pixel, by Bayer's 8 by 8 matrix: (i + 0.5) / 64 - 0.5.

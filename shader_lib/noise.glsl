@@ -57,7 +57,7 @@ float noiseValue(vec3 p)
     return sum;
 }
 
-// Perlin's noise with gradients along the edges of a cube: -1 to 1, 0 at the corners of cells.
+// Perlin's noise with gradients along the edges of a cube: within -1.04 and 1.04, 0 at the corners of cells.
 // bound: 1.9e-6 abs
 float noiseGradient(vec3 p)
 {
@@ -115,17 +115,21 @@ float noiseWorley(vec3 p)
     vec3 f = p - low;
     ivec3 cell = ivec3(low);
     float nearest = 8.0;
-    for (int i = 0; i < 27; ++i) {
-        ivec3 to = ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
-        uint h = noiseHash(cell + to);
-        uint k = noiseHash(h);
-        vec3 d = vec3(to) + vec3(noiseUnit(h), noiseUnit(k), noiseUnit(noiseHash(k))) - f;
-        nearest = min(nearest, dot(d, d));
+    // What is farther away than 1 may be nearest from two cells away, which is rare.
+    for (int reach = 1; reach == 1 || (reach == 2 && nearest > 1.0); ++reach) {
+        int n = 2 * reach + 1;
+        for (int i = 0; i < n * n * n; ++i) {
+            ivec3 to = ivec3(i % n, (i / n) % n, i / (n * n)) - reach;
+            uint h = noiseHash(cell + to);
+            uint k = noiseHash(h);
+            vec3 d = vec3(to) + vec3(noiseUnit(h), noiseUnit(k), noiseUnit(noiseHash(k))) - f;
+            nearest = min(nearest, dot(d, d));
+        }
     }
     return sqrt(nearest);
 }
 
-// Octaves of Perlin's noise, each twice as fine and half as strong: within -2 and 2.
+// Octaves of Perlin's noise, each twice as fine and half as strong: within -2.08 and 2.08.
 //   octaves  limited to [1, 16]
 // bound: 2e-5 abs, sixteen octaves, the last at 65536 times the coordinates
 float noiseFractal(vec3 p, int octaves)

@@ -31,7 +31,7 @@ vec3 srgbEncode(vec3 linear)
 
 // A stored value as the linear one: 0 to 1.
 //   encoded  limited to [0, 1]
-// bound: 4e-7 rel
+// bound: 1e-6 rel, a steep power
 float srgbDecode(float encoded)
 {
     float v = safeUnit(encoded);
@@ -40,7 +40,7 @@ float srgbDecode(float encoded)
 }
 
 // The same for each channel.
-// bound: 4e-7 rel
+// bound: 1e-6 rel, a steep power
 vec3 srgbDecode(vec3 encoded)
 {
     return vec3(srgbDecode(encoded.r), srgbDecode(encoded.g), srgbDecode(encoded.b));

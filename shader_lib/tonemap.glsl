@@ -5,7 +5,8 @@
 // stability: finite for every finite color: the literal quotients are infinite over infinite above 1e19; Hable's is 0 at 0 by its form
 //
 // From the light of a scene, which has no largest value, to that of a screen, 0 to 1, all linear RGB with the primaries of
-// Rec. 709: encode it after that (module `srgb`). Negative channels count as 0. Above 2^40 all curves have reached their end.
+// Rec. 709: encode it after that (module `srgb`). Negative channels count as 0, and those above 2^40
+// as 2^40: all curves but Reinhard's have reached their end there.
 #ifndef GLISTEN_TONEMAP
 #define GLISTEN_TONEMAP
 #include "safe.glsl"

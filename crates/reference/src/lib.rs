@@ -25,6 +25,7 @@ mod work;
 
 pub use counts::{Counts, counts};
 pub use exec::Step;
+pub use exec::UndefinedKind;
 pub use expand::{expand, has_geometry_stage};
 pub use population::{as_llvmpipe, populate, simulate};
 pub use sample::Sample;

@@ -8,7 +8,7 @@
 //! `max`, a comparison, a loop or a `discard`. The places are found by changing the numbers of one of them alone.
 
 use crate::domain::F32;
-use crate::exec::{Code, Form, Guess, Numbers, Place};
+use crate::exec::{Code, Form, Guess, Numbers, Place, UndefinedKind};
 use crate::pipeline::{self, Study};
 use crate::{Precision, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
@@ -41,16 +41,20 @@ pub struct Undefined {
 }
 
 /// An expression or a variable that is undefined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UndefinedPlace {
     /// The expression, or the declaration of a variable.
     pub span: Span,
     /// The undefined thing, in words.
     pub what: &'static str,
+    /// How it is undefined.
+    pub kind: UndefinedKind,
     /// The number of pixels that depend on it alone; 0 if they depend on several places together.
     pub pixels: u64,
     /// One of them, column from the left and row from the top.
     pub example: [u32; 2],
+    /// The largest finite change of a channel that other numbers make.
+    pub change: f64,
 }
 
 /// The pixels of a scene that depend on something undefined; `None` if there are none.
@@ -58,6 +62,15 @@ pub struct UndefinedPlace {
 /// # Errors
 /// As [`render`](crate::render).
 pub fn undefined(scene: &Scene, options: &RenderOptions) -> Result<Option<Undefined>, Vec<Diagnostic>> {
+    undefined_among(scene, options, &[])
+}
+
+/// Those of [`undefined`] among some pixels of the picture; an empty list stands for all.
+pub(crate) fn undefined_among(
+    scene: &Scene,
+    options: &RenderOptions,
+    counted: &[bool],
+) -> Result<Option<Undefined>, Vec<Diagnostic>> {
     let mut places = Vec::new();
     let plain = draw(scene, options, None, None, &mut places)?;
     for draw in &scene.draws {
@@ -74,7 +87,7 @@ pub fn undefined(scene: &Scene, options: &RenderOptions) -> Result<Option<Undefi
         // Other numbers may make a loop endless, which is a change of its own, but of no particular pixel.
         let Ok(other) = draw(scene, options, Some(numbers), None, &mut places) else { continue };
         let before = pixels.iter().filter(|changed| **changed).count();
-        mark_changed(&mut pixels, &plain, &other);
+        mark_changed(&mut pixels, counted, &plain, &other);
         if pixels.iter().filter(|changed| **changed).count() > before {
             sensitive.push(numbers);
         }
@@ -82,7 +95,7 @@ pub fn undefined(scene: &Scene, options: &RenderOptions) -> Result<Option<Undefi
     if sensitive.is_empty() {
         return Ok(None);
     }
-    let places = examined(scene, options, (&plain, &pixels), (&places, &sensitive));
+    let places = examined(scene, options, (&plain, counted), (&places, &sensitive));
     Ok(Some(Undefined { pixels, places }))
 }
 
@@ -107,27 +120,24 @@ pub fn hides_undefined(scene: &Scene) -> Result<bool, Vec<Diagnostic>> {
 fn examined(
     scene: &Scene,
     options: &RenderOptions,
-    (plain, pixels): (&Picture, &[bool]),
+    (plain, counted): (&Picture, &[bool]),
     (places, sensitive): (&[Place], &[Numbers]),
 ) -> Vec<UndefinedPlace> {
     let mut found: Vec<UndefinedPlace> = Vec::new();
-    let only_one = places.len() == 1;
     for place in places.iter().take(MOST_PLACES) {
-        let mut changed = vec![false; pixels.len()];
-        if only_one {
-            changed.copy_from_slice(pixels);
-        } else {
-            for numbers in sensitive {
-                if let Ok(other) = draw(scene, options, Some(*numbers), Some(*place), &mut Vec::new()) {
-                    mark_changed(&mut changed, plain, &other);
-                }
+        let mut changed = vec![false; plain.covered.len()];
+        let mut change = 0.0_f64;
+        for numbers in sensitive {
+            if let Ok(other) = draw(scene, options, Some(*numbers), Some(*place), &mut Vec::new()) {
+                change = change.max(mark_changed(&mut changed, counted, plain, &other));
             }
         }
         let count = changed.iter().filter(|changed| **changed).count() as u64;
         if let Some(first) = changed.iter().position(|changed| *changed) {
             let columns = (plain.width as usize).max(1);
             let example = [(first % columns) as u32, (first / columns) as u32];
-            found.push(UndefinedPlace { span: place.span, what: place.what, pixels: count, example });
+            let (what, kind) = (place.what.text, place.what.kind);
+            found.push(UndefinedPlace { span: place.span, what, kind, pixels: count, example, change });
         }
     }
     found.sort_by_key(|place| std::cmp::Reverse(place.pixels));
@@ -154,13 +164,19 @@ fn draw(
     Ok(picture)
 }
 
-/// Marks the pixels that differ in coverage or in a bit of a channel.
-fn mark_changed(changed: &mut [bool], plain: &Picture, other: &Picture) {
+/// Marks the pixels that differ in coverage or in a bit of a channel, and tells the largest finite difference.
+fn mark_changed(changed: &mut [bool], counted: &[bool], plain: &Picture, other: &Picture) -> f64 {
     let bits = |value: f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
-    for (pixel, changed) in changed.iter_mut().enumerate() {
-        let mut pairs = plain.attachments.iter().zip(&other.attachments);
-        *changed |= plain.covered.get(pixel) != other.covered.get(pixel)
-            || pairs
-                .any(|(a, b)| a.get(pixel).map(|color| color.map(bits)) != b.get(pixel).map(|color| color.map(bits)));
+    let mut most = 0.0_f64;
+    let pixels = changed.iter_mut().enumerate().filter(|(pixel, _)| counted.get(*pixel).copied().unwrap_or(true));
+    for (pixel, changed) in pixels {
+        *changed |= plain.covered.get(pixel) != other.covered.get(pixel);
+        let pairs = plain.attachments.iter().zip(&other.attachments);
+        for (a, b) in pairs.filter_map(|(a, b)| a.get(pixel).zip(b.get(pixel))) {
+            *changed |= a.map(bits) != b.map(bits);
+            let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+            most = differences.filter(|difference| difference.is_finite()).fold(most, f64::max);
+        }
     }
+    most
 }

@@ -39,6 +39,19 @@ fn fast(expression: &str, u: f32, w: f32) -> String {
 }
 
 #[test]
+fn fast_math_drops_assignments_that_change_nothing() {
+    let text = |statements: &str| {
+        let fragment = format!(
+            "#version 150\nin vec4 v;\nuniform float u;\nuniform float w;\nout vec4 color;\n\
+             void main() {{ vec3 c = v.xyz; {statements} color = vec4(c, 1.0); }}\n"
+        );
+        let residual = residual(VERTEX, &fragment, &[("u", &[0.0]), ("w", &[1.0])], true, false);
+        residual.text(Stage::Fragment).expect("a stage").to_owned()
+    };
+    assert_eq!(text("c += u; c *= w; c -= vec3(u); c /= w;"), text(""));
+}
+
+#[test]
 fn fast_math_uses_algebra() {
     let cases: &[(&str, f32, f32, &str)] = &[
         ("v.x * u", 0.0, 0.0, "vec4(0.0)"),

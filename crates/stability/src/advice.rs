@@ -18,6 +18,11 @@ pub(super) fn advice(scene: &Scene, cause: &Cause) -> String {
         let shader = draw.program.stage(cause.stage)?;
         patterns::at(&draw.program.types, shader, cause.span).map(|found| (shader, found))
     });
+    if let (Some(_), Some((shader, found))) = (cause.undefined, in_draw)
+        && let Some(text) = of_undefined(shader, found)
+    {
+        return text.to_owned();
+    }
     let text = match (cause.kind, in_draw) {
         (CauseKind::Comparison, _) if cause.equality => EQUALITY,
         (CauseKind::Accumulation, Some((shader, found))) if !adds(shader, found) => FEEDBACK,
@@ -48,6 +53,24 @@ fn called(shader: &Shader, found: Found) -> Option<BuiltinFunction> {
         ExprKind::BuiltinCall(function, _) => Some(function),
         _ => None,
     }
+}
+
+/// The help for an expression that GLSL leaves undefined, where that for a loss of digits says less.
+fn of_undefined(shader: &Shader, found: Found) -> Option<&'static str> {
+    use glisten_front::hir::BinaryOp;
+    Some(match (&shader.expr(found.expr).kind, called(shader, found)) {
+        (_, Some(BuiltinFunction::Atan)) => "the zero vector has no angle: treat it apart",
+        (_, Some(BuiltinFunction::Clamp)) => "order the limits: `clamp(x, min(a, b), max(a, b))`",
+        (_, Some(BuiltinFunction::Smoothstep)) => {
+            "put the smaller edge first, `1.0 - smoothstep(low, high, x)` for a step down, and keep the edges apart"
+        }
+        (
+            ExprKind::Binary(BinaryOp::Div | BinaryOp::Rem, ..)
+            | ExprKind::Assign(Some(BinaryOp::Div | BinaryOp::Rem), ..),
+            _,
+        ) => "treat a divisor of 0 apart, and keep the operands of `%` from 0 up",
+        _ => return None,
+    })
 }
 
 /// The help for an expression of a known form.

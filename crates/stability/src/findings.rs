@@ -101,6 +101,9 @@ pub struct CauseFound {
     pub at: Spot,
     /// Whether the exact result jumps there, so that no rewriting helps.
     pub ill_posed: bool,
+    /// See [`Cause::undefined`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undefined: Option<&'static str>,
     /// Whether f64 is enough at that pixel, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub f64_enough: Option<bool>,
@@ -196,6 +199,7 @@ fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Op
             disagreements: cause.disagreements,
             at: Spot { x: cause.at[0], y: cause.at[1] },
             ill_posed: cause.ill_posed,
+            undefined: cause.undefined,
             f64_enough: None,
             help,
             diagnostic,
@@ -224,6 +228,16 @@ fn tenths(value: f64) -> f64 {
 }
 
 fn diagnostic(cause: &Cause, help: &str) -> Diagnostic {
+    if let Some(what) = cause.undefined {
+        let message = format!("GLSL leaves this undefined: {what}");
+        let change = cause.harm.unwrap_or(f64::INFINITY);
+        let harm = format!("other results change the picture by up to {change:.1e}");
+        let figures = format!("for example at pixel ({}, {})", cause.at[0], cause.at[1]);
+        return Diagnostic::new(&codes::scenes::UNSTABLE_EXPRESSION, cause.span, message)
+            .here(harm)
+            .note(figures)
+            .help(help);
+    }
     let message = match cause.kind {
         _ if cause.ill_posed && cause.disagreements > 0 => "the exact result jumps here: f32 decides it differently",
         _ if cause.ill_posed => "the exact result jumps here when its inputs move by one rounding",

@@ -6,6 +6,9 @@ use super::{call, function};
 use glisten::evaluate::Evaluator;
 use glisten_reference::Precision;
 
+/// The heights and turns of lights for narrow highlights.
+const NARROW: [u32; 2] = [768, 192];
+
 const UP: [f32; 3] = [0.0, 0.0, 1.0];
 
 /// The closed form of the albedo in EON's reference code divides 0 by 0 at a right angle to the normal, and takes the root of a negative number
@@ -43,6 +46,22 @@ fn the_reference_code_of_eon_is_no_number_at_grazing_angles() {
     }
 }
 
+/// By the model of their sources, smooth fibers return more light than there is at grazing angles.
+#[test]
+fn smooth_fibers_return_more_light_than_there_is() {
+    let both = [tables().expect("the scene is good").remove(1), pattern("sheen_albedo")];
+    let text = "#include <glisten/sheen.glsl>
+vec3 fibers(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r)
+{ return sheen(f, vec3(0.0), N, L, V, r, vec3(1.0), vec3(1.0)); }
+";
+    let compiler = crate::support::compiler().with_includes(glisten::library::Embedded);
+    let factor = Evaluator::new(&compiler, text, &format!("fibers{TABLED}"), &[]).expect("it is called");
+    for (roughness, eye, expected) in [(0.25, 0.05, 1.133), (0.25, 0.01, 1.497), (0.5, 0.05, 0.747)] {
+        let found = returned(&factor, &both, eye, roughness, NARROW);
+        assert!((found - expected).abs() < 2e-3, "{roughness} {eye}: {found}");
+    }
+}
+
 /// In the direct light of three.js, the body gets what was mirrored, too: white plastic returns more light than there is. Its fibers take 0.157
 /// of the light from what is below, whatever they return. With `FURNACE_TABLE=1` the figures are printed.
 #[test]
@@ -57,7 +76,7 @@ vec3 fibers(sampler2D a, sampler2D f, vec3 N, vec3 L, vec3 V, float r) { return 
     let at = |name: &str, roughness: f32, eye: f64| {
         let signature = format!("{name}{TABLED}");
         let factor = Evaluator::new(&compiler, theirs, &signature, &[]).expect("it is called");
-        returned(&factor, &both, eye, roughness)
+        returned(&factor, &both, eye, roughness, NARROW)
     };
     let mut table = String::new();
     let mut wrong = Vec::new();

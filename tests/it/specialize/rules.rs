@@ -33,6 +33,35 @@ fn of(expression: &str, u: f32, w: f32) -> String {
     residual(&fragment, &[("u", &[u]), ("w", &[w])]).text(Stage::Fragment).expect("a stage").to_owned()
 }
 
+/// What is left of `c` after some statements, where `u` is 0 and `w` is 1.
+fn left_of(statements: &str) -> String {
+    let fragment = format!(
+        "#version 150\nin vec4 v;\nuniform float u;\nuniform float w;\nout vec4 color;\n\
+         void main() {{ vec3 c = v.xyz; {statements} color = vec4(c, 1.0); }}\n"
+    );
+    residual(&fragment, &[("u", &[0.0]), ("w", &[1.0])]).text(Stage::Fragment).expect("a stage").to_owned()
+}
+
+#[test]
+fn what_leaves_a_variable_as_it_is_goes() {
+    let nothing = left_of("");
+    for statements in
+        ["c *= w;", "c /= w;", "c -= u;", "c -= vec3(u);", "c = c;", "c.xy = c.xy;", "c.x *= w;", "c = c * w;"]
+    {
+        assert_eq!(left_of(statements), nothing, "{statements}");
+    }
+    // -0 + 0 is 0, and places that differ are no identity.
+    for statements in ["c += u;", "c.xy = c.yx;", "c *= v.w;", "c -= w;"] {
+        assert_ne!(left_of(statements), nothing, "{statements}");
+    }
+    // One pass of a loop that is written out does nothing: what it declares goes, too.
+    let written_out = left_of("for (int i = 0; i < 2; ++i) { vec3 k = i == 0 ? v.yzw : vec3(u); c -= k * w; }");
+    assert_eq!(written_out.matches("vec3 k").count(), 1, "{written_out}");
+    let twice = left_of("c = clamp(clamp(c, 0.25, 0.5), 0.25, 0.5);");
+    assert_eq!(twice, left_of("c = clamp(c, 0.25, 0.5);"));
+    assert_ne!(twice, left_of("c = clamp(clamp(c, 0.25, 0.5), 0.5, 0.5);"));
+}
+
 #[test]
 fn a_literal_must_not_free_the_driver() {
     // Expression, values of u and w, and the uniforms that stay.

@@ -34,13 +34,48 @@ impl Numbers {
     }
 }
 
+/// How something is undefined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum UndefinedKind {
+    /// An operand that an operation has no result for.
+    Domain,
+    /// A division by 0 that has no result, an infinity included.
+    Division,
+    /// Something that is not there: a value, an element, a texel, a neighbor; or a NaN that is compared.
+    Absent,
+}
+
+/// An undefined thing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct UndefinedThing {
+    /// The thing, in words.
+    pub text: &'static str,
+    /// How it is undefined.
+    pub kind: UndefinedKind,
+}
+
 /// A place where something undefined was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The expression, or the declaration of a variable.
     pub span: Span,
-    /// The undefined thing, in words.
-    pub what: &'static str,
+    /// The undefined thing.
+    pub what: UndefinedThing,
+}
+
+/// An operation that has no result for an operand.
+const fn domain(text: &'static str) -> UndefinedThing {
+    UndefinedThing { text, kind: UndefinedKind::Domain }
+}
+
+/// A division by 0.
+const fn division(text: &'static str) -> UndefinedThing {
+    UndefinedThing { text, kind: UndefinedKind::Division }
+}
+
+/// Something that is not there.
+const fn absent(text: &'static str) -> UndefinedThing {
+    UndefinedThing { text, kind: UndefinedKind::Absent }
 }
 
 /// Numbers in the place of undefined ones; the places are collected.
@@ -54,12 +89,12 @@ pub struct Guess {
 }
 
 /// The name that a variable without a value has in reports.
-pub(super) const UNWRITTEN: &str = "a variable or a result that was never written";
-const NO_PLACE: &str = "a lookup at a coordinate that is no finite number";
-const SPLIT_LOOKUP: &str = "a lookup by derivatives that only a part of the quad runs";
+pub(super) const UNWRITTEN: UndefinedThing = absent("a variable or a result that was never written");
+const NO_PLACE: UndefinedThing = absent("a lookup at a coordinate that is no finite number");
+const SPLIT_LOOKUP: UndefinedThing = absent("a lookup by derivatives that only a part of the quad runs");
 /// GLSL 4.60 §4.7.1: operations on a NaN need not know that it is one. Drivers differ in `!=`.
-const NAN_COMPARED: &str = "a comparison with NaN";
-const SPLIT_DERIVATIVE: &str = "a derivative that only a part of the quad runs";
+const NAN_COMPARED: UndefinedThing = absent("a comparison with NaN");
+const SPLIT_DERIVATIVE: UndefinedThing = absent("a derivative that only a part of the quad runs");
 
 impl Guess {
     /// A guess, at one place or at all.
@@ -128,7 +163,7 @@ impl<D: Domain> Machine<D> {
         section: &Section,
         inner: &Inner,
         mask: u64,
-    ) -> Option<(&'static str, u64)> {
+    ) -> Option<(UndefinedThing, u64)> {
         self.guess.as_ref()?;
         let float = |operand| self.registers.float(operand);
         let int = |operand| self.registers.int(operand);
@@ -145,27 +180,27 @@ impl<D: Domain> Machine<D> {
             Inst::Float3 { op: Float3::Clamp, b, c, .. } => {
                 let (b, c) = (float(b), float(c));
                 (
-                    "`clamp` with a minimum above the maximum",
+                    domain("`clamp` with a minimum above the maximum"),
                     lanes_where(mask, |lane| b.at(lane).value() > c.at(lane).value()),
                 )
             }
             Inst::Float3 { op: Float3::Smoothstep, a, b, .. } => {
                 let (a, b) = (float(a), float(b));
                 let lanes = lanes_where(mask, |lane| a.at(lane).value() >= b.at(lane).value());
-                ("`smoothstep` with edges that are equal or in the wrong order", lanes)
+                (domain("`smoothstep` with edges that are equal or in the wrong order"), lanes)
             }
             Inst::Composite { op: Composite::Normalize, arguments, .. } => {
                 let all: Vec<_> = section.list(arguments).iter().map(|operand| float(*operand)).collect();
                 let is_zero = |lane: usize| all.iter().all(|one| one.at(lane).value() == 0.0);
-                ("`normalize` of a vector of length 0", lanes_where(mask, is_zero))
+                (division("`normalize` of a vector of length 0"), lanes_where(mask, is_zero))
             }
             Inst::FloatToInt { op: FloatToInt::Int, a, .. } => {
                 let fits = |x: f64| x > -2_147_483_649.0 && x < 2_147_483_648.0;
-                ("`int` of a number that no `int` has", lanes1(float(a), mask, |x| !fits(x)))
+                (domain("`int` of a number that no `int` has"), lanes1(float(a), mask, |x| !fits(x)))
             }
             Inst::FloatToInt { op: FloatToInt::Uint, a, .. } => {
                 let fits = |x: f64| x > -1.0 && x < 4_294_967_296.0;
-                ("`uint` of a number that no `uint` has", lanes1(float(a), mask, |x| !fits(x)))
+                (domain("`uint` of a number that no `uint` has"), lanes1(float(a), mask, |x| !fits(x)))
             }
             Inst::Compare { a, b, .. } => {
                 let (a, b) = (float(a), float(b));
@@ -176,22 +211,23 @@ impl<D: Domain> Machine<D> {
                 op.undefined_name()?;
                 let (a, b) = (int(a), int(b));
                 let what = if op.divides() {
-                    "a division of integers by 0, or of negative ones"
+                    division("a division of integers by 0, or of negative ones")
                 } else {
-                    "a shift by too much"
+                    domain("a shift by too much")
                 };
                 (what, lanes_where(mask, |lane| op.is_undefined(a.at(lane).interval(), b.at(lane).interval())))
             }
             Inst::LoadFloat { table, index, .. } | Inst::LoadInt { table, index, .. } => {
                 let (index, count) = (int(index), section.list(table).len() as i64);
                 let beyond = |lane: usize| !(0..count).contains(&i64::from(index.at(lane).bits() as i32));
-                ("an index outside of the array", lanes_where(mask, beyond))
+                (absent("an index outside of the array"), lanes_where(mask, beyond))
             }
             Inst::Texture { call } => {
                 let call = inner.textures.get(call as usize)?;
                 match call.lookup {
                     Lookup::Fetch => {
-                        ("`texelFetch` outside of the texture", lanes_where(mask, |lane| self.is_beyond(call, lane)))
+                        let lanes = lanes_where(mask, |lane| self.is_beyond(call, lane));
+                        (absent("`texelFetch` outside of the texture"), lanes)
                     }
                     Lookup::Implicit | Lookup::QueryLod
                         if inner.stage == Stage::Fragment && self.without_a_place(call, mask) == 0 =>
@@ -260,7 +296,7 @@ impl<D: Domain> Machine<D> {
         inst: &Inst,
         section: &Section,
         place: usize,
-        (what, lanes): (&'static str, u64),
+        (what, lanes): (UndefinedThing, u64),
     ) {
         let Some(guess) = self.guess.clone() else { return };
         let place = Place { span: section.spans.get(place).copied().unwrap_or_default(), what };
@@ -331,21 +367,21 @@ fn lanes1<N: Number>(a: Source<'_, N>, mask: u64, test: impl Fn(f64) -> bool) ->
 }
 
 /// The undefined case of a function of one number, and a test of the operand for it.
-type OfOne = (&'static str, fn(f64) -> bool);
+type OfOne = (UndefinedThing, fn(f64) -> bool);
 /// The undefined case of a function of two numbers, with its test.
-type OfTwo = (&'static str, fn(f64, f64) -> bool);
+type OfTwo = (UndefinedThing, fn(f64, f64) -> bool);
 
 /// For which operand a function is undefined (GLSL 1.50 §8.1, §8.2).
 fn of_one(op: Float1) -> Option<OfOne> {
     Some(match op {
-        Float1::Sqrt => ("`sqrt` of a negative number", |x| x < 0.0),
-        Float1::Inversesqrt => ("`inversesqrt` of 0 or less", |x| x <= 0.0),
-        Float1::Log => ("`log` of 0 or less", |x| x <= 0.0),
-        Float1::Log2 => ("`log2` of 0 or less", |x| x <= 0.0),
-        Float1::Asin => ("`asin` of a number beyond 1", |x| x.abs() > 1.0),
-        Float1::Acos => ("`acos` of a number beyond 1", |x| x.abs() > 1.0),
-        Float1::Acosh => ("`acosh` of a number below 1", |x| x < 1.0),
-        Float1::Atanh => ("`atanh` of 1 or more", |x| x.abs() >= 1.0),
+        Float1::Sqrt => (domain("`sqrt` of a negative number"), |x| x < 0.0),
+        Float1::Inversesqrt => (domain("`inversesqrt` of 0 or less"), |x| x <= 0.0),
+        Float1::Log => (domain("`log` of 0 or less"), |x| x <= 0.0),
+        Float1::Log2 => (domain("`log2` of 0 or less"), |x| x <= 0.0),
+        Float1::Asin => (domain("`asin` of a number beyond 1"), |x| x.abs() > 1.0),
+        Float1::Acos => (domain("`acos` of a number beyond 1"), |x| x.abs() > 1.0),
+        Float1::Acosh => (domain("`acosh` of a number below 1"), |x| x < 1.0),
+        Float1::Atanh => (domain("`atanh` of 1 or more"), |x| x.abs() >= 1.0),
         _ => return None,
     })
 }
@@ -353,12 +389,12 @@ fn of_one(op: Float1) -> Option<OfOne> {
 /// For which operands a function of two is undefined (GLSL 1.50 §8.1 to §8.3).
 fn of_two(op: Float2) -> Option<OfTwo> {
     Some(match op {
-        Float2::Pow => ("`pow` of a negative number, or of 0 with an exponent of 0 or less", |x, y| {
+        Float2::Pow => (domain("`pow` of a negative number, or of 0 with an exponent of 0 or less"), |x, y| {
             x < 0.0 || x == 0.0 && y <= 0.0
         }),
-        Float2::Atan2 => ("`atan` of (0, 0)", |y, x| y == 0.0 && x == 0.0),
-        Float2::Div => ("0.0 / 0.0", |a, b| a == 0.0 && b == 0.0),
-        Float2::Mod => ("`mod` by 0", |_, y| y == 0.0),
+        Float2::Atan2 => (domain("`atan` of (0, 0)"), |y, x| y == 0.0 && x == 0.0),
+        Float2::Div => (division("0.0 / 0.0"), |a, b| a == 0.0 && b == 0.0),
+        Float2::Mod => (division("`mod` by 0"), |_, y| y == 0.0),
         _ => return None,
     })
 }

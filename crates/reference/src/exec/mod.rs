@@ -74,6 +74,7 @@ mod ways;
 pub use code::{Code, Form};
 pub use exactly::Exactly;
 pub(crate) use guess::{Guess, Numbers, Place};
+pub use guess::{UndefinedKind, UndefinedThing};
 pub(crate) use identity::hashed;
 pub use machine::{LOOP_BUDGET, Machine, Purpose};
 pub use mute::{Muted, Operation};

@@ -1,6 +1,7 @@
 //! Runs instructions: masks and jumps.
 
 use super::code::{Inner, Runs, Section};
+use super::guess::UndefinedThing;
 use super::inst::Inst;
 use super::machine::Machine;
 use crate::domain::{Domain, Integer, Lanes};
@@ -161,7 +162,7 @@ impl<D: Domain> Machine<D> {
 impl<D: Domain> Machine<D> {
     /// Puts a guess in the place of what is undefined of an instruction that has just run.
     #[inline(always)]
-    fn guess(&mut self, inst: &Inst, section: &Section, place: usize, open: Option<(&'static str, u64)>) {
+    fn guess(&mut self, inst: &Inst, section: &Section, place: usize, open: Option<(UndefinedThing, u64)>) {
         if let Some(open) = open {
             self.put_guess(inst, section, place, open);
         }

@@ -35,6 +35,8 @@ pub(super) struct Prim {
     pub(super) id: u32,
     /// Whether a branch in the vertex stage is undecided for one of its vertices.
     pub(super) undecided: bool,
+    /// The edges beyond which another part of the primitive is: bit `i` is edge `i` of the shape.
+    pub(super) inner: u8,
 }
 
 /// The vertices of a primitive, and its provoking vertex.
@@ -218,7 +220,7 @@ fn point_prim<D: Domain>(vertices: &Vertices<D>, vertex: u32, id: u32, rule: Lin
     let size = vertices.size.get(vertex as usize).copied()?;
     let shape = point::shape(x, y, size)?;
     let undecided = is_undecided(vertices, &[vertex]);
-    Some(Prim { shape, corners: Corners::Point(vertex), provoking: vertex, front: true, id, undecided })
+    Some(Prim { shape, corners: Corners::Point(vertex), provoking: vertex, front: true, id, undecided, inner: 0 })
 }
 
 fn line_prim<D: Domain>(
@@ -237,7 +239,7 @@ fn line_prim<D: Domain>(
         LineRule::OpenGl => line::diamond_exit(Fixed::snap(from[0], from[1])?, Fixed::snap(to[0], to[1])?),
     };
     let shape = shape.widened(freedom(vertices, &ends));
-    Some(Prim { shape, corners: Corners::Line(ends), provoking, front: true, id, undecided })
+    Some(Prim { shape, corners: Corners::Line(ends), provoking, front: true, id, undecided, inner: 0 })
 }
 
 fn triangle_prims<D: Domain>(
@@ -251,7 +253,9 @@ fn triangle_prims<D: Domain>(
     let undecided = is_undecided(vertices, &corners);
     let polygon = vertices.clip_triangle(corners);
     let Some((&hub, rim)) = polygon.split_first() else { return };
-    for pair in rim.windows(2) {
+    // The part before, if it is there: its place in the list, and the number of the part.
+    let mut before: Option<(usize, usize)> = None;
+    for (part, pair) in rim.windows(2).enumerate() {
         let &[second, third] = pair else { continue };
         let corners = [hub, second, third];
         let snapped = corners.map(|vertex| window(vertices, vertex).and_then(|[x, y]| Fixed::snap(x, y)));
@@ -268,9 +272,25 @@ fn triangle_prims<D: Domain>(
         }
         if let Some(shape) = triangle::shape([a, b, c]) {
             let shape = shape.widened(freedom(vertices, &corners));
-            list.push(Prim { shape, corners: Corners::Triangle(corners), provoking, front, id, undecided });
+            let corners = Corners::Triangle(corners);
+            let mut prim = Prim { shape, corners, provoking, front, id, undecided, inner: 0 };
+            if let Some((place, number)) = before
+                && number + 1 == part
+                && let Some(known) = list.get_mut(place)
+                && known.front == front
+            {
+                known.inner |= to_hub(is_clockwise)[1];
+                prim.inner |= to_hub(is_clockwise)[0];
+            }
+            before = Some((list.len(), part));
+            list.push(prim);
         }
     }
+}
+
+/// The edges of a part's shape from the hub to its second corner and to its third, a bit each: a shape runs clockwise.
+fn to_hub(is_clockwise: bool) -> [u8; 2] {
+    if is_clockwise { [0b001, 0b100] } else { [0b100, 0b001] }
 }
 
 #[cfg(test)]

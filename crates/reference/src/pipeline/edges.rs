@@ -43,7 +43,7 @@ impl EdgeFragments {
         let mut starts = vec![0];
         for prim in list.iter().map(|&index| prims.get(index as usize)) {
             if let Some(prim) = prim {
-                band(&prim.shape, area, |near| {
+                band(&prim.shape, 0, area, |near| {
                     let (place, is_inside) = (local(area, near.x, near.y), near.is_inside);
                     fragments.push(EdgeFragment { place, is_inside, role: Role::Open, edges: near.edges });
                 });

@@ -65,7 +65,7 @@ pub(super) fn draw_bin<D: Domain>(
     for (number, prim) in list.iter().map(|&index| shading.prims.get(index as usize)).enumerate() {
         let Some(prim) = prim else { continue };
         if shading.mark_edges && !D::HAS_INTERVALS {
-            band(&prim.shape, area, |near| bin.mark_near_edge(near.x, near.y));
+            band(&prim.shape, prim.inner, area, |near| bin.mark_near_edge(near.x, near.y));
         }
         batch.begin(prim, Source::new(prim, shading.vertices));
         let mut near = EdgeRows::new(edges.of_prim(number));

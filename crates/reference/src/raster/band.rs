@@ -14,23 +14,29 @@ pub(crate) struct EdgePixel {
     pub(crate) y: i64,
     /// Whether the shape covers the pixel.
     pub(crate) is_inside: bool,
-    /// EdgePixel which edges: bit `i` is edge `i`.
+    /// Near which edges: bit `i` is edge `i`.
     pub(crate) edges: u8,
 }
 
-/// Calls `visit` with each pixel of `area` whose center is near an edge of the shape, and not beyond another one.
-pub(crate) fn band(shape: &Shape, area: Bounds, mut visit: impl FnMut(EdgePixel)) {
+/// Calls `visit` with each pixel of `area` whose center is near an edge of the shape, and not beyond another one. Edges of the set
+/// `inner`, bit `i` for edge `i`, have no band: they part the shape from another of the same primitive.
+pub(crate) fn band(shape: &Shape, inner: u8, area: Bounds, mut visit: impl FnMut(EdgePixel)) {
     let Shape::Convex { bounds, edges, count } = shape else { return };
     let area = bounds.intersect(area);
     let edges = edges.get(..*count).unwrap_or(&[]);
     let mut columns: SmallVec<[i64; 16]> = SmallVec::new();
     for y in area.y0..area.y1 {
         columns.clear();
-        edges.iter().for_each(|edge| columns.extend(columns_near(edge, area, y)));
+        outer(edges, inner).for_each(|edge| columns.extend(columns_near(edge, area, y)));
         columns.sort_unstable();
         columns.dedup();
-        columns.iter().filter_map(|&x| edge_pixel(edges, x, y)).for_each(&mut visit);
+        columns.iter().filter_map(|&x| edge_pixel(edges, inner, x, y)).for_each(&mut visit);
     }
+}
+
+/// The edges that have a band.
+fn outer(edges: &[Edge], inner: u8) -> impl Iterator<Item = &Edge> {
+    edges.iter().enumerate().filter(move |(index, _)| inner >> index & 1 == 0).map(|(_, edge)| edge)
 }
 
 /// The columns of a row near a line.
@@ -49,15 +55,16 @@ fn columns_near(edge: &Edge, area: Bounds, y: i64) -> std::ops::Range<i64> {
     low.max(area.x0)..high.min(area.x1)
 }
 
-fn edge_pixel(edges: &[Edge], x: i64, y: i64) -> Option<EdgePixel> {
+fn edge_pixel(edges: &[Edge], inner: u8, x: i64, y: i64) -> Option<EdgePixel> {
     let mut found = EdgePixel { x, y, is_inside: true, edges: 0 };
     for (index, edge) in edges.iter().enumerate() {
         let value = edge.at(x, y);
-        if value < -edge.near {
+        let is_outer = inner >> index & 1 == 0;
+        if value < if is_outer { -edge.near } else { 0 } {
             return None;
         }
         found.is_inside &= value >= 0;
-        found.edges |= u8::from(value.abs() <= edge.near) << index;
+        found.edges |= u8::from(is_outer && value.abs() <= edge.near) << index;
     }
     (found.edges != 0).then_some(found)
 }
@@ -76,13 +83,30 @@ mod tests {
     #[test]
     fn pixels_near_an_edge_are_found() {
         let mut found = Vec::new();
-        band(&shape([(2.495, 0.0), (12.0, 0.0), (2.495, 12.0)]), AREA, |near| found.push(near));
+        band(&shape([(2.495, 0.0), (12.0, 0.0), (2.495, 12.0)]), 0, AREA, |near| found.push(near));
         assert!(found.iter().any(|near| (near.x, near.y, near.is_inside) == (2, 5, true)), "{found:?}");
         assert!(found.iter().all(|near| near.x != 3 || near.y != 5));
         found.clear();
         // Just to the right of the center.
-        band(&shape([(2.505, 0.0), (12.0, 0.0), (2.505, 12.0)]), AREA, |near| found.push(near));
+        band(&shape([(2.505, 0.0), (12.0, 0.0), (2.505, 12.0)]), 0, AREA, |near| found.push(near));
         assert!(found.iter().any(|near| (near.x, near.y, near.is_inside) == (2, 5, false)), "{found:?}");
+    }
+
+    #[test]
+    fn the_parts_of_a_polygon_have_its_band() {
+        // A square in two parts; the centers of the diagonal's pixels are on it.
+        let [a, b, c, d] = [(2.5, 2.5), (12.5, 2.5), (12.5, 12.5), (2.5, 12.5)];
+        let mut found = Vec::new();
+        band(&shape([a, b, c]), 0b100, AREA, |near| found.push((near.x, near.y)));
+        band(&shape([a, c, d]), 0b001, AREA, |near| found.push((near.x, near.y)));
+        let on_rim = |x: i64, y: i64| {
+            let is_end = |at: i64| at == 2 || at == 12;
+            (2..=12).contains(&x) && (2..=12).contains(&y) && (is_end(x) || is_end(y))
+        };
+        assert!(found.iter().all(|&(x, y)| on_rim(x, y)), "{found:?}");
+        found.sort_unstable();
+        found.dedup();
+        assert_eq!(found.len(), 40, "{found:?}");
     }
 
     #[test]
@@ -100,9 +124,9 @@ mod tests {
             let Some(shape) = triangle::shape(corners) else { continue };
             let Shape::Convex { edges, count, .. } = &shape else { continue };
             let mut found = Vec::new();
-            band(&shape, AREA, |near| found.push(near));
+            band(&shape, 0, AREA, |near| found.push(near));
             let all = (0..16).flat_map(|y| (0..16).map(move |x| (x, y)));
-            let expected: Vec<EdgePixel> = all.filter_map(|(x, y)| edge_pixel(&edges[..*count], x, y)).collect();
+            let expected: Vec<EdgePixel> = all.filter_map(|(x, y)| edge_pixel(&edges[..*count], 0, x, y)).collect();
             assert_eq!(found, expected);
             total += found.len();
         }

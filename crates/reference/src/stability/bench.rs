@@ -154,6 +154,7 @@ impl Found {
             at: bench.errors.place(index),
             ill_posed,
             equality,
+            undefined: None,
         }
     }
 }

@@ -34,6 +34,7 @@ mod origin;
 mod record;
 #[cfg(test)]
 pub(crate) mod tests;
+mod undefined;
 
 pub use births::births;
 pub use draw::{Arithmetic, draw};
@@ -146,6 +147,9 @@ pub struct Cause {
     pub ill_posed: bool,
     /// Whether it compares for equality.
     pub equality: bool,
+    /// The undefined thing in words, if GLSL leaves the result undefined and f32 loses nothing: [`harm`](Self::harm) is then the largest
+    /// change of a channel that other results make.
+    pub undefined: Option<&'static str>,
 }
 
 /// How to examine a scene.
@@ -170,7 +174,8 @@ pub enum Stability {
     Stable,
     /// It is above the bound.
     Degraded,
-    /// A number that is not finite, or a decision that f32 takes the other way, changes a pixel by more than the bound.
+    /// A number that is not finite, a decision that f32 takes the other way, or a result that GLSL leaves undefined changes a pixel by
+    /// more than the bound.
     Broken,
 }
 
@@ -260,6 +265,7 @@ fn spans(tallies: &BTreeMap<Place, Tally>) -> Vec<SpanError> {
 /// The errors of [`cpu::render`](super::render).
 pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examination, Vec<Diagnostic>> {
     let format = scene.framebuffer.format;
+    let given = scene;
     let scene = &Scene { framebuffer: errors::unrounded(scene.framebuffer), ..scene.clone() };
     let drawing = drawing_options();
     let exact = pipeline::render::<F64>(scene, &drawing)?;
@@ -273,14 +279,19 @@ pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examin
     let worst = errors.worst().map_or(0.0, |(_, error)| error);
     let hurts = worst > options.least() || errors.not_finite() > 0;
     let tallies = if hurts || options.figures { recorded(scene, &drawing)?.1 } else { BTreeMap::new() };
-    let causes = if hurts {
+    let mut causes = if hurts {
         causes(&Bench::new(scene, format, &exact, (&errors, options.bound_relative)), &tallies, options)?
     } else {
         Vec::new()
     };
+    // Those whose harm is not finite come first.
+    let chosen = undefined::causes(given, &errors, options.bound, &causes)?;
+    let first = causes.iter().position(|cause| cause.harm.is_some()).unwrap_or(causes.len());
+    causes.splice(first..first, chosen);
     let breaks = |cause: &Cause| {
         let decides = cause.disagreements > 0 && cause.kind.is_decision();
-        (decides || cause.non_finite > 0) && cause.harm.is_none_or(|harm| harm > options.bound)
+        (decides || cause.non_finite > 0 || cause.undefined.is_some())
+            && cause.harm.is_none_or(|harm| harm > options.bound)
     };
     let verdict = match () {
         () if errors.not_finite() > 0 || causes.iter().any(breaks) => Stability::Broken,

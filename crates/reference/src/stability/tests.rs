@@ -4,7 +4,7 @@ use super::{BOUND, CauseKind, Examination, ExamineOptions, SpanError, Stability,
 use crate::RenderOptions;
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::source::SourceMap;
-use glisten_scene::{MemoryFiles, NoLibrary, Scene, load};
+use glisten_scene::{AttributeData, AttributeValues, MemoryFiles, NoLibrary, Scene, load};
 
 const VERTEX: &str =
     "#version 150\nin vec2 p;\nout vec2 at;\nvoid main() { at = p; gl_Position = vec4(p, 0.0, 1.0); }\n";
@@ -187,6 +187,49 @@ fn a_nan_that_max_may_hide_breaks() {
     assert_eq!(causes[0], ("normalize(h)".to_owned(), CauseKind::Division));
     assert_eq!(found.causes[0].harm, None);
     assert!(found.non_finite > 0);
+}
+
+/// The verdict on a triangle with these corners in a picture of 17x17 pixels, where the middle has no direction.
+fn of_triangle(corners: &str) -> Stability {
+    let (mut scene, _) = scene_of("void main() { o = vec4(normalize(gl_FragCoord.xy - vec2(8.5)), 0.0, 1.0); }", "");
+    (scene.framebuffer.width, scene.framebuffer.height) = (17, 17);
+    let values = corners.split(' ').map(|value| value.parse().expect("a number")).collect();
+    let draw = &mut scene.draws[0];
+    draw.attributes = vec![Some(AttributeData { size: 2, divisor: 0, values: AttributeValues::Float(values) })];
+    draw.vertex_count = 3;
+    let mut options =
+        ExamineOptions { bound: BOUND, bound_relative: 0.0, all: false, figures: false, progress: &mut |_, _| true };
+    examine(&scene, &mut options).unwrap_or_else(|found| panic!("{found:?}")).verdict
+}
+
+#[test]
+fn the_parts_of_a_clipped_triangle_have_no_edge_between_them() {
+    for corners in ["-1 -1 3 -1 -1 3", "-2.5 -2.5 2.5 -2.5 0 9", "-0.9 -0.8 0.9 -0.9 0 0.9"] {
+        assert_eq!(of_triangle(corners), Stability::Broken, "{corners}");
+    }
+    // The edge itself runs through the middle: either side may cover that pixel.
+    assert_eq!(of_triangle("-1 -1 1 1 -1 1"), Stability::Stable);
+}
+
+#[test]
+fn what_the_language_leaves_undefined_breaks() {
+    let cases = [
+        ("atan(at.y * t, at.x * t)", "", CauseKind::Domain),
+        ("float(int(gl_FragCoord.x) / k)", "int(gl_FragCoord.x) / k", CauseKind::Division),
+        ("clamp(at.x, 1.0, t)", "", CauseKind::Domain),
+        ("smoothstep(1.0, t, at.x)", "", CauseKind::Domain),
+    ];
+    for (expression, place, kind) in cases {
+        let body = format!("uniform float t; uniform int k; void main() {{ o = vec4({expression}); }}");
+        let (found, causes) = examined(&body);
+        let place = if place.is_empty() { expression } else { place };
+        assert_eq!(found.verdict, Stability::Broken, "{expression}");
+        assert_eq!(causes, [(place.to_owned(), kind)]);
+        assert!(found.causes[0].undefined.is_some() && found.causes[0].harm.is_some_and(|harm| harm > BOUND));
+    }
+    // Nobody sees it.
+    let body = "uniform float t; void main() { o = vec4(atan(at.y * t, at.x * t) * t + 0.5); }";
+    assert_eq!(examined(body).0.verdict, Stability::Stable);
 }
 
 #[test]

@@ -5,16 +5,18 @@
 //! | file | what goes |
 //! | --- | --- |
 //! | `uses` | counts who reads what |
-//! | `sweep` | stores that nobody reads, statements without effect |
+//! | `sweep` | stores that nobody reads, stores of what is there, statements without effect |
 //! | `once` | loops that run once |
 //! | `overwritten` | stores that are overwritten first |
 //! | `declare` | declarations apart from their values |
 //! | `inline` | functions that are one short expression |
+//! | `clamped` | the second of two equal clamps |
 //! | `trim` | members of structs, ends of uniform arrays |
 //! | `merge` | clones that came out alike |
 //! | `compact` | what nothing names: functions, parameters, locals, globals |
 //! | `unreached` | what reaches no output whatever the inputs are, in stages that are not evaluated |
 
+mod clamped;
 mod compact;
 mod declare;
 mod inline;
@@ -70,6 +72,7 @@ impl Pruned {
             let swept = sweep::sweep(types, &mut self.shader, &own, uses);
             let mut changed = swept.changed | overwritten_in(&mut self.shader, &swept.uses.functions);
             changed |= inline::inline(&mut self.shader);
+            changed |= clamped::join(&mut self.shader);
             merge::merge(&mut self.shader);
             changed |= self.compact(types, &own);
             if !changed {

@@ -86,6 +86,7 @@ impl Sweeper<'_> {
             }
             StmtKind::Block(body) => {
                 let body = self.body(body);
+                let body = self.without_unnamed(body);
                 if body.iter().any(|stmt| matches!(stmt.kind, StmtKind::Local(..))) {
                     out.push(Stmt { kind: StmtKind::Block(body), span });
                 } else {
@@ -134,6 +135,24 @@ impl Sweeper<'_> {
         }
     }
 
+    /// A block without the declarations of what it does not name. Blocks that were one loop declare the same locals, and another of them
+    /// may name these.
+    fn without_unnamed(&mut self, body: Vec<Stmt>) -> Vec<Stmt> {
+        let is_unnamed = |stmt: &Stmt| match stmt.kind {
+            StmtKind::Local(local, None) => {
+                let mut named = false;
+                self.shader.visit_body(&body, &mut |expr| {
+                    named |= matches!(self.shader.expr(expr).kind, ExprKind::Var(VarRef::Local(other)) if other == local);
+                });
+                !named
+            }
+            _ => false,
+        };
+        let unnamed: Vec<bool> = body.iter().map(is_unnamed).collect();
+        self.changed |= unnamed.contains(&true);
+        body.into_iter().zip(unnamed).filter(|(_, unnamed)| !unnamed).map(|(stmt, _)| stmt).collect()
+    }
+
     /// An expression for its effects alone.
     fn effect(&mut self, expr: ExprId, span: glisten_front::source::Span, out: &mut Vec<Stmt>) {
         let keep = Stmt { kind: StmtKind::Expr(expr), span };
@@ -152,6 +171,10 @@ impl Sweeper<'_> {
                     self.uses.value(self.types, self.shader, value, 1, None);
                     self.effect(value, span, out);
                 }
+            }
+            ExprKind::Assign(None, target, value) if self.is_same_place(target, value) => {
+                self.forget_effect(expr);
+                self.changed = true;
             }
             ExprKind::IncDec(_, target) if self.is_dead(target) && self.has_pure_indices(target) => {
                 self.forget_effect(expr);
@@ -289,6 +312,20 @@ impl Sweeper<'_> {
                 ExprKind::Member(base, _) | ExprKind::Swizzle(base, _) => at = *base,
                 _ => return true,
             }
+        }
+    }
+
+    /// Whether two expressions name the same place, by indices without effects.
+    fn is_same_place(&self, a: ExprId, b: ExprId) -> bool {
+        match (&self.shader.expr(a).kind, &self.shader.expr(b).kind) {
+            (ExprKind::Var(a), ExprKind::Var(b)) => a == b,
+            (ExprKind::Literal(a), ExprKind::Literal(b)) => crate::facts::same(*a, *b),
+            (ExprKind::Member(a, of_a), ExprKind::Member(b, of_b)) => of_a == of_b && self.is_same_place(*a, *b),
+            (ExprKind::Swizzle(a, of_a), ExprKind::Swizzle(b, of_b)) => of_a == of_b && self.is_same_place(*a, *b),
+            (ExprKind::Index(a, of_a), ExprKind::Index(b, of_b)) => {
+                self.is_same_place(*of_a, *of_b) && self.is_same_place(*a, *b)
+            }
+            _ => false,
         }
     }
 

@@ -50,6 +50,17 @@ pub(super) fn starts(op: BinaryOp, before: &[Fact], value: &[Fact]) -> bool {
     }
 }
 
+/// Whether `t op= v` leaves `t` as it is, from what is known of `t` before: what [`operand`] is for `t op v`.
+pub(super) fn keeps(op: BinaryOp, fast: bool, before: &[Fact], value: &[Fact]) -> bool {
+    match op {
+        BinaryOp::Mul | BinaryOp::Div => holds(before, value, &|_, c| is(c, 1.0)),
+        BinaryOp::Add | BinaryOp::Sub if fast && holds(before, value, &is_zero) => true,
+        BinaryOp::Add => holds(before, value, &adds_nothing),
+        BinaryOp::Sub => holds(before, value, &takes_nothing),
+        _ => false,
+    }
+}
+
 fn holds(kept: &[Fact], other: &[Fact], test: &dyn Fn(Fact, Fact) -> bool) -> bool {
     let len = kept.len().max(other.len());
     !other.is_empty()

@@ -8,7 +8,7 @@ use crate::facts::Fact;
 use crate::forward::Walked;
 use glisten_front::hir::{
     Case, Condition, ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, Scalar, ScalarValue, Shader, Stmt,
-    StmtKind, Storage, Type, TypeId, Types, Value, VarRef,
+    StmtKind, Storage, Type, TypeId, Types, Value, VarRef, may_act,
 };
 use glisten_front::link::SamplerSlot;
 use glisten_front::source::Span;
@@ -339,6 +339,14 @@ impl Writer<'_> {
                 return self.push(ExprKind::Assign(None, to, value), ty, span);
             }
             let before = self.walked.before.get(&id);
+            let known = before.map_or(&[][..], |before| before);
+            let neutral = identities::keeps(compound, self.walked.fast, known, self.walked.facts(value));
+            if neutral && !stored.is_apart() && !self.acts(target) {
+                // As a statement that does nothing it goes later.
+                let to = self.place(target);
+                let same = self.place(target);
+                return self.push(ExprKind::Assign(None, to, same), ty, span);
+            }
             let typed = self.walked.shader.expr(value).ty == ty;
             if typed && before.is_some_and(|before| identities::starts(compound, before, self.walked.facts(value))) {
                 let to = self.place(target);
@@ -349,6 +357,13 @@ impl Writer<'_> {
         let to = self.place(target);
         let value = self.expr(value, demand);
         self.push(ExprKind::Assign(op, to, value), ty, span)
+    }
+
+    /// Whether evaluating a place does something.
+    fn acts(&self, target: ExprId) -> bool {
+        let mut acts = false;
+        self.walked.shader.visit_expr(target, &mut |expr| acts |= may_act(&self.walked.shader.expr(expr).kind));
+        acts
     }
 
     /// Values that may be written as numbers.

@@ -19,7 +19,7 @@ pub enum BoundUnit {
     Color,
 }
 
-/// The error that is allowed beyond what moving the inputs by an ULP explains.
+/// The error that is allowed beyond four times the change that moving the inputs by an ULP makes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bound {
     /// The number.

@@ -18,7 +18,7 @@ const MOVES: u64 = 8;
 
 /// How many times the change by moving the inputs an error may be to count as explained: directions round twice, once when
 /// they are normalized and once as inputs, and the moves find half of the worst direction at best.
-const EXPLAINED: f64 = 4.0;
+pub(super) const EXPLAINED: f64 = 4.0;
 
 /// An unexplained error of this share of the result's size is another result altogether.
 const ANOTHER: f64 = 0.25;
@@ -34,7 +34,7 @@ pub struct Figures {
     pub max_ulp: f64,
     /// The largest error, in the same calls.
     pub max_abs: f64,
-    /// The largest error beyond what moving the inputs by an ULP explains, as the bound counts it.
+    /// The largest error beyond [`EXPLAINED`] times the change that moving the inputs by an ULP makes, as the bound counts it.
     pub unexplained: f64,
     /// By how much the function magnifies relative errors of its inputs, at the largest error.
     pub condition: f64,

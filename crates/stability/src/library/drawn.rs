@@ -1,10 +1,10 @@
 //! [`standard_programs`]: the programs of the library whose functions read uniforms, by the values of scenes.
 //!
 //! *In:* the library's scenes that draw with a standard program. *Out:* a [`FunctionFound`] for each: every pixel is a call, with
-//! the uniforms, the mesh and the textures of the scene as its arguments. *Holds:* as for functions, what moving the inputs by an ULP
-//! explains is no error. Figures are the same on every run.
+//! the uniforms, the mesh and the textures of the scene as its arguments. *Holds:* as for functions, an error
+//! of up to [`EXPLAINED`] times the change that moving the inputs by an ULP makes is none. Figures are the same on every run.
 
-use super::compare::share_left;
+use super::compare::{EXPLAINED, share_left};
 use super::{Bound, BoundUnit, Figures, FunctionFound};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_library::{Embedded, LibraryScene, SceneFiles};
@@ -19,9 +19,6 @@ const MODULE: &str = "standard";
 
 /// The error that is allowed beyond what the inputs explain, as a share of the color or of 1: a few lights, with a dozen roundings each.
 const PICTURE: f64 = 64.0 / 8_388_608.0;
-
-/// How many times the change by moving the inputs an error may be to count as explained.
-const EXPLAINED: f64 = 4.0;
 
 #[derive(Deserialize)]
 struct File {

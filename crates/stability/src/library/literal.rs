@@ -185,6 +185,7 @@ static LITERAL: &[(&str, &str)] = &[
     ("rimFactor(vec3,vec3,float)", "pow(1.0 - dot(N, V), k)"),
     ("fogMean(float)", "(1.0 - exp(-x)) / x"),
     ("fogFactor(float,float)", "exp(-r * density)"),
+    ("fogFactorSquared(float,float)", "exp(-pow(r * density, 2.0))"),
     (
         "fogFactor(float,vec3,float,float,float)",
         "exp(-density * exp(-falloff * height) * (1.0 - exp(-falloff * r * direction.y)) / (falloff * direction.y))",

@@ -188,7 +188,7 @@ fn cause(one: &SceneOnPage<'_>, cause: &CauseFound, anchors: &Anchors<'_>, input
         stage => cause.stage,
         message => sentence(&cause.diagnostic.message),
         harm => cause.harm.map(number),
-        share => cause.harm.map(|harm| share(harm, one.findings.picture.max_abs)),
+        share => cause.harm.filter(|_| cause.undefined.is_none()).map(|harm| share(harm, one.findings.picture.max_abs)),
         color => harm.map_or_else(|| css(NOT_FINITE), |harm| css(heat::scale(harm))),
         bits => number(cause.lost_bits),
         condition => number(cause.condition),

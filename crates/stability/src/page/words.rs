@@ -108,6 +108,9 @@ pub(super) fn verdict(findings: &Findings, verdict: Stability, bound: f64, pixel
         Stability::Stable => "f32 arithmetic does no harm to this picture",
         Stability::Degraded => "f32 arithmetic is too coarse for this picture",
         Stability::Broken if pixels > 0 => "f32 arithmetic breaks this picture",
+        Stability::Broken if findings.causes.iter().any(|cause| cause.undefined.is_some()) => {
+            "the picture depends on what GLSL leaves undefined"
+        }
         Stability::Broken => "f32 arithmetic decides differently than exact arithmetic, and the picture shows it",
     };
     format!("{opening}: {error}; {finite}.")

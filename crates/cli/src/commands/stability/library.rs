@@ -101,7 +101,7 @@ fn table(found: &[FunctionFound]) -> String {
     }
     let calls: usize = found.iter().map(|found| found.cases).sum();
     text + &format!(
-        "\n{} functions, {calls} calls. error: beyond what moving the inputs by an ULP explains; max abs: the largest error in \
+        "\n{} functions, {calls} calls. error: beyond four times the change by moving the inputs an ULP; max abs: the largest error in \
          all; condition: by\nhow much relative errors of the inputs grow there. naive: the same for the literal form, with the \
          number of its results that are not\nfinite (those in parentheses have no exact value either); cost: operations as a \
          multiple of the naive form's.\n",

@@ -14,7 +14,7 @@ static ROWS: &[Row] = &[
     ("`MeshLambertMaterial`", "`lambert`", "`diffuse`", &["lambertFactor"]),
     (
         "`MeshPhongMaterial`",
-        "`normalized`, or `blinn_phong` without its norm",
+        "`normalized`, with (k + 8) / 8 where three.js has (k + 2) / 8 and Schlick's Fresnel term; `blinn_phong` has no norm",
         "`specular_model = \"normalized\"`",
         &["normalizedBlinnFactor"],
     ),
@@ -72,7 +72,7 @@ static ROWS: &[Row] = &[
     ),
     (
         "`SpotLight.penumbra`, `.distance`",
-        "`punctual`",
+        "`punctual`: the edge is the square of a ramp, for three.js' smoothstep",
         "`cone`, `range` of a light",
         &["punctualCone", "punctualFalloff"],
     ),
@@ -93,7 +93,7 @@ static ROWS: &[Row] = &[
     ("`VSMShadowMap`", "`shadow`", "the same", &["shadowVariance"]),
     ("`CSM`", "`shadow`", "none", &["shadowSplit", "shadowCascade"]),
     ("spheres by their nearest point", "`area_light`", "none", &["areaSphere", "areaSphereFactor"]),
-    ("`FogExp2`", "`fog`", "none", &["fogFactor(float,float)"]),
+    ("`FogExp2`", "`fog`", "none", &["fogFactorSquared"]),
     ("`normalMap`, triplanar, parallax", "`normal_map`", "`normal_map`", &["normalMapped", "triplanarWeights"]),
     ("`OutlineEffect`", "`outline`", "`program = \"edge\"`", &["outlinePosition", "outlineThinned"]),
     ("`toneMapping`", "`tonemap`", "`tonemap`, `exposure` of the framebuffer", &["tonemapNeutral"]),

@@ -95,13 +95,13 @@ fn simplex(x: f64, y: f64) -> f64 {
     (70.0 * sum).clamp(-1.0, 1.0)
 }
 
-/// The nearest of the points in the cell of a place and around it.
+/// The nearest of the points in the cell of a place and in all cells up to two away: that of its own cell is nearer than 2.
 fn worley(p: V) -> f64 {
     let p = place(p);
     let low = p.map(f64::floor);
     let mut nearest = f64::INFINITY;
-    for step in 0..27 {
-        let to = [step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1];
+    for step in 0..125 {
+        let to = [step % 5 - 2, step / 5 % 5 - 2, step / 25 - 2];
         let cell = std::array::from_fn(|axis| low[axis] as i64 + to[axis]);
         let first = of_cell(cell);
         let second = hash(first);
@@ -202,6 +202,10 @@ pub(super) static FORMS: &[Form] = forms! {
     "fog" "fogFactor(float,float)" [White, Unit] |a| {
         let depth = a.f() * a.f();
         one((-depth).exp(), 4.0 + depth * (-depth).exp())
+    };
+    "fog" "fogFactorSquared(float,float)" [White, Unit] |a| {
+        let depth = (a.f() * a.f()).powi(2);
+        one((-depth).exp(), 4.0 + 4.0 * depth * (-depth).exp())
     };
     "fog" "fogFactor(float,vec3,float,float,float)" [Gain, Direction, White, Unit, Unit] ground_fog;
 };

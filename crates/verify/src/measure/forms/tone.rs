@@ -66,7 +66,8 @@ fn from_oklab(lab: V) -> V {
     rows(FROM_OKLAB, rows(cones, lab).map(|x| x.powi(3)))
 }
 
-/// Krystek's fit of the Planckian locus, CIE 1960, as X and Z for Y = 1, and that in the primaries of sRGB.
+/// Krystek's fit of the Planckian locus, CIE 1960, as X and Z for Y = 1, and that in the primaries of sRGB: what they cannot show is cut, and
+/// the luminance is 1 again.
 fn temperature(kelvin: f64) -> V {
     let t = kelvin / 1000.0;
     let u = (f(0.860_117_73) + f(0.154_118_25) * t + f(0.128_641_22) * t * t)
@@ -80,7 +81,9 @@ fn temperature(kelvin: f64) -> V {
         [-0.969_266, 1.876_010_8, 0.041_556],
         [0.055_643_4, -0.204_025_9, 1.057_225_2],
     ];
-    rows(srgb, xyz).map(|x| x.max(0.0))
+    let shown = rows(srgb, xyz).map(|x| x.max(0.0));
+    let luminance = rows([[0.212_6, 0.715_2, 0.072_2]; 3], shown)[0];
+    shown.map(|x| x / luminance)
 }
 
 /// Bayer's matrix by its recursion: M(2n) = 4 M(n) + [0 2; 3 1].
