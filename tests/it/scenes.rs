@@ -259,7 +259,7 @@ fn a_depth_is_the_layers_of_an_array() {
     }
 }
 
-/// What a program writes to more outputs than there are attachments is dropped, as by OpenGL.
+/// Outputs for which there is no attachment are dropped, as by OpenGL.
 #[test]
 fn outputs_without_an_attachment_are_dropped() {
     let vertex = "#version 150\nvoid main() { gl_Position = vec4(0.0, 0.0, 0.0, 1.0); }\n";
@@ -286,7 +286,7 @@ fn missing_data_is_an_error_and_missing_values_are_a_warning() {
         assert_eq!(codes, [warning], "{line}");
     }
     let loaded = changed("weights = [1, 2, 3]", "\"weights[1]\" = 2");
-    assert_eq!(told(&loaded), ["W0901: uniforms `weights[0]`, `weights[2]` get no value and are 0"]);
+    assert_eq!(told(&loaded), ["W0901: uniforms `weights[0]` and `weights[2]` get no value and are 0"]);
     let loaded = changed("ids = { width = 1, height = 1, values = [1, 2, -3, 4] }", "");
     assert!(loaded.scene.is_some() && told(&loaded)[0].starts_with("W0902"), "{:?}", told(&loaded));
 }

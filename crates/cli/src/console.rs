@@ -38,7 +38,7 @@ impl From<ColorChoice> for clap::ColorChoice {
 }
 
 impl ColorChoice {
-    /// What `--color` asks for among arguments that are not parsed: help and what is wrong with arguments obey it, too.
+    /// The `--color` of arguments that are not parsed: help and messages about arguments obey it, too.
     pub(crate) fn asked_for(arguments: &[OsString]) -> Self {
         let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
         let mut words = words.take_while(|word| word != "--");

@@ -376,7 +376,7 @@ fn check_program(reader: &mut Reader, program: &Program, framebuffer: &Framebuff
                 framebuffer.attachments,
                 if framebuffer.attachments == 1 { "" } else { "s" }
             );
-            let help = format!("to keep it, write `attachments = {}` under [framebuffer]", output.location + 1);
+            let help = format!("write `attachments = {}` under [framebuffer]", output.location + 1);
             reader.report(
                 Diagnostic::new(&OUTPUT_WITHOUT_ATTACHMENT, place, format!("{message}: it is dropped")).help(help),
             );

@@ -63,7 +63,7 @@ pub fn find(program: &Program, reflection: &Reflection, name: &str) -> Found {
     }
 }
 
-/// What hosts reach by a name.
+/// The things that hosts reach by a name.
 fn places(reflection: &Reflection, name: &str) -> Vec<Match> {
     let mut lines = exact(reflection, name);
     if lines.is_empty()
@@ -88,7 +88,7 @@ fn path_of_block(program: &Program, name: &str) -> Option<String> {
     (block != instance).then(|| format!("{block}{rest}"))
 }
 
-/// What the name of a block's instance leads to.
+/// The things that hosts name after a block, by the name of its instance.
 fn by_instance(reflection: &Reflection, name: &str, path: &str) -> Vec<Match> {
     let found = places(reflection, path);
     let Some(kind) = found.first().map(|first| first.kind) else { return Vec::new() };
