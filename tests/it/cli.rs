@@ -488,6 +488,15 @@ fn color_and_quiet_do_as_they_say() {
     assert!(!out(&plain).contains('\u{1b}') && err(&plain).contains("1 error"), "{}", err(&plain));
     let quiet = folder.run(&["lint", "-q", "tri.vert", "tri.frag"]);
     assert_eq!((out(&quiet), err(&quiet)), (out(&plain), String::new()));
+    // Help and messages about arguments, too, wherever the flag is.
+    for arguments in
+        [&["--color", "always", "--help"][..], &["lint", "--bad", "--color=always"], &["nope", "--color=always"]]
+    {
+        let colored = folder.run(arguments);
+        assert!(out(&colored).contains('\u{1b}') || err(&colored).contains('\u{1b}'), "{arguments:?}");
+    }
+    let plain = folder.run(&["--color", "never", "nope"]);
+    assert!(code(&plain) == 2 && !err(&plain).contains('\u{1b}'), "{}", err(&plain));
 }
 
 #[test]

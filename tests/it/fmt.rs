@@ -29,6 +29,26 @@ fn files_are_rewritten_once() {
 }
 
 #[test]
+fn files_that_are_no_text_are_left_alone() {
+    let files: [(&str, &[u8]); 4] = [
+        ("spirv.vert", b"\x03\x02\x23\x07\0\0\x01\0"),
+        ("wide.frag", b"\xff\xfev\0o\0i\0d\0"),
+        ("empty.frag", b" \n"),
+        ("empty.glsl", b""),
+    ];
+    let folder = Folder::new(&files);
+    for arguments in [&["fmt"][..], &["fmt", "--check"], &["fmt", "spirv.vert", "wide.frag", "empty.frag"]] {
+        let run = folder.run(arguments);
+        let told = err(&run);
+        assert!(code(&run) == 1 && out(&run).is_empty(), "{told}");
+        assert_eq!((told.matches("error[E0014]").count(), told.matches("error[E0013]").count()), (2, 1), "{told}");
+    }
+    for (name, bytes) in files {
+        assert_eq!(fs::read(folder.path(name)).expect(name), bytes, "{name}");
+    }
+}
+
+#[test]
 fn what_cannot_be_laid_out_is_kept() {
     let folder = Folder::new(&[
         ("a.frag", b"#version 150\nfloat   x = ;\nout vec4   c;\nvoid main(){c=vec4(1.0);}\n"),

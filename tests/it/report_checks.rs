@@ -51,6 +51,34 @@ fn what_is_exact_repeats_and_is_no_worse_than_itself() {
 }
 
 #[test]
+fn warnings_of_the_scene_are_told_and_can_be_denied() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let files = [
+        ("a.vert", "#version 150\nin vec2 p;\nvoid main() { gl_Position = vec4(p, 0.0, 1.0); }\n"),
+        ("a.frag", "#version 150\nuniform float level;\nout vec4 color;\nvoid main() { color = vec4(level); }\n"),
+        (
+            "a.toml",
+            "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+             [draw.attributes]\np = { size = 2, values = [-1, -1, 3, -1, -1, 3] }\n",
+        ),
+    ];
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    }
+    let (scene, out) = (folder.path().join("a.toml"), folder.path().join("out"));
+    let run = report_with(&scene, &out, &["-q", "--seconds", "0", "--deny", "warnings"]);
+    assert!(code(&run) == Some(1) && told(&run).contains("error[W0901]"), "{}", told(&run));
+    let run = report_with(&scene, &out, &["-q", "--seconds", "0", "--diagnostics", "json"]);
+    let found: Value = serde_json::from_slice(&run.stderr).expect("one document");
+    assert_eq!((code(&run), found[0]["code"].as_str()), (Some(0), Some("W0901")), "{}", told(&run));
+    // Nothing is covered: the triangle has no area.
+    let flat = files[2].1.replace("3, -1, -1, 3", "-1, -1, -1, -1");
+    std::fs::write(&scene, flat).expect("written");
+    let run = report_with(&scene, &out, &["-q", "--seconds", "0"]);
+    assert!(code(&run) == Some(0) && told(&run).contains("warning[W0909]"), "{}", told(&run));
+}
+
+#[test]
 fn what_got_worse_is_told() {
     let (folder, scene, first) = reported();
     let mut old = json(&first);

@@ -212,6 +212,8 @@ fn what_reaches_no_output_needs_no_data() {
         ("w = q;", "fc = v + w;", true),
         ("w = q;", "fc = v; if (w.x > 0.0) discard;", true),
         ("gl_Position += q;", "fc = v;", true),
+        ("if (false) gl_Position.x = q.x;", "fc = v;", false),
+        ("const bool ON = true; if (ON) gl_Position.x = q.x;", "fc = v;", true),
     ] {
         let vertex = format!(
             "#version 150\nin vec4 p;\nin vec4 q;\nout vec4 v;\nout vec4 w;\n\
@@ -229,6 +231,50 @@ fn what_reaches_no_output_needs_no_data() {
     }
 }
 
+/// The depth of a texture is taken for its layers, too.
+#[test]
+fn a_depth_is_the_layers_of_an_array() {
+    let vertex = "#version 150\nvoid main() { gl_Position = vec4(0.0, 0.0, 0.0, 1.0); }\n";
+    for (sampler, place, size, values) in [
+        ("sampler2DArray", "vec3(0.5)", "width = 1, height = 1", "[1, 2, 3, 4, 5, 6, 7, 8]"),
+        ("sampler1DArray", "vec2(0.5)", "width = 1, height = 1", "[1, 2, 3, 4, 5, 6, 7, 8]"),
+        ("sampler2DArrayShadow", "vec4(0.5)", "width = 1, height = 1", "[0.25, 0.75]"),
+    ] {
+        let fragment = format!(
+            "#version 150\nuniform {sampler} t;\nout vec4 fc;\nvoid main() {{ fc = vec4(texture(t, {place})); }}\n"
+        );
+        let depths = |key: &str| {
+            let size = if sampler == "sampler1DArray" { "width = 1" } else { size };
+            let scene = format!(
+                "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n[draw.textures]\n\
+                 t = {{ {size}, {key} = 2, values = {values} }}\n"
+            );
+            let files = MemoryFiles::new([("a.toml", scene.as_str()), ("a.vert", vertex), ("a.frag", &fragment)]);
+            let loaded = load("a.toml", &files, &compiler());
+            let found = told(&loaded);
+            let scene = loaded.scene.unwrap_or_else(|| panic!("{sampler}, {key}: {found:?}"));
+            format!("{:?}", scene.draws[0].textures)
+        };
+        assert_eq!(depths("depth"), depths("layers"), "{sampler}");
+    }
+}
+
+/// Outputs for which there is no attachment are dropped, as by OpenGL.
+#[test]
+fn outputs_without_an_attachment_are_dropped() {
+    let vertex = "#version 150\nvoid main() { gl_Position = vec4(0.0, 0.0, 0.0, 1.0); }\n";
+    let fragment = "#version 150\nout vec4 a; out vec4 b;\nvoid main() { a = vec4(1.0); b = vec4(0.0); }\n";
+    let scene = "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n";
+    let files = MemoryFiles::new([("a.toml", scene), ("a.vert", vertex), ("a.frag", fragment)]);
+    let loaded = load("a.toml", &files, &compiler());
+    assert!(loaded.scene.is_some());
+    assert!(
+        matches!(&told(&loaded)[..], [one] if one.starts_with("W0914") && one.contains("`b`")),
+        "{:?}",
+        told(&loaded)
+    );
+}
+
 #[test]
 fn missing_data_is_an_error_and_missing_values_are_a_warning() {
     let (code, _, text) = mistake("cell = { size = 1, values = [1, 2, 3] }", "");
@@ -239,6 +285,8 @@ fn missing_data_is_an_error_and_missing_values_are_a_warning() {
         let codes: Vec<&str> = loaded.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect();
         assert_eq!(codes, [warning], "{line}");
     }
+    let loaded = changed("weights = [1, 2, 3]", "\"weights[1]\" = 2");
+    assert_eq!(told(&loaded), ["W0901: uniforms `weights[0]` and `weights[2]` get no value and are 0"]);
     let loaded = changed("ids = { width = 1, height = 1, values = [1, 2, -3, 4] }", "");
     assert!(loaded.scene.is_some() && told(&loaded)[0].starts_with("W0902"), "{:?}", told(&loaded));
 }

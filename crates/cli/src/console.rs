@@ -1,13 +1,19 @@
 //! [`Console`]: the only place that prints.
 //!
 //! *Holds:* results go to standard output, everything else to standard error. If the reader of standard output goes
-//! away, the program ends silently; any other failure to write is reported.
+//! away, the program ends silently; any other failure to write is reported. Where diagnostics are a document for programs, nothing
+//! else is written to standard error but the failure that ends the command.
 
+use crate::arguments::args::DiagnosticFormat;
+use crate::batch::Batch;
 use crate::exit::Failure;
+use crate::told::Document;
 use clap::ValueEnum;
 use glisten_front::diagnostic::shortened;
-use glisten_front::diagnostic::write::clean;
+use glisten_front::diagnostic::write::{Scope, clean};
+use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// When to use colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -21,17 +27,69 @@ pub(crate) enum ColorChoice {
     Never,
 }
 
+impl From<ColorChoice> for clap::ColorChoice {
+    fn from(choice: ColorChoice) -> Self {
+        match choice {
+            ColorChoice::Auto => Self::Auto,
+            ColorChoice::Always => Self::Always,
+            ColorChoice::Never => Self::Never,
+        }
+    }
+}
+
+impl ColorChoice {
+    /// The `--color` of arguments that are not parsed: help and messages about arguments obey it, too.
+    pub(crate) fn asked_for(arguments: &[OsString]) -> Self {
+        let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
+        let mut words = words.take_while(|word| word != "--");
+        let mut choice = Self::Auto;
+        while let Some(word) = words.next() {
+            let value = match word.strip_prefix("--color") {
+                Some("") => words.next().map(|value| value.into_owned()),
+                Some(rest) => rest.strip_prefix('=').map(str::to_owned),
+                None => None,
+            };
+            choice = value.and_then(|value| Self::from_str(&value, false).ok()).unwrap_or(choice);
+        }
+        choice
+    }
+}
+
 /// Standard output and standard error, with the user's settings for them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Console {
     quiet: bool,
     color: ColorChoice,
+    document: Arc<Mutex<Option<Document>>>,
 }
 
 impl Console {
     /// A console with `--quiet` and `--color` as given.
     pub(crate) fn new(quiet: bool, color: ColorChoice) -> Self {
-        Self { quiet, color }
+        Self { quiet, color, document: Arc::default() }
+    }
+
+    fn document(&self) -> MutexGuard<'_, Option<Document>> {
+        self.document.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Keeps standard error for a document, if the format is one for programs.
+    pub(crate) fn set_format(&self, format: DiagnosticFormat) {
+        if format != DiagnosticFormat::Human {
+            self.document().get_or_insert_with(|| Document::new(format));
+        }
+    }
+
+    /// Adds batches to the document. Whether there is one.
+    pub(crate) fn document_has(&self, batches: &[&Batch], scope: Option<&Scope>) -> bool {
+        let mut document = self.document();
+        document.as_mut().map(|document| document.add(batches, scope)).is_some()
+    }
+
+    /// Writes the document, if there is one and something was reported to it.
+    pub(crate) fn write_document(&self) {
+        let text = self.document().as_mut().and_then(Document::take);
+        text.iter().for_each(|text| self.message(text));
     }
 
     /// Whether to omit progress and summaries.
@@ -83,9 +141,16 @@ impl Console {
         let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
     }
 
-    /// Writes a line to standard error, which `--quiet` omits.
+    /// Writes a line to standard error, which `--quiet` and a document omit.
     pub(crate) fn remark(&self, text: &str) {
         if !self.quiet {
+            self.aside(text);
+        }
+    }
+
+    /// Writes a line to standard error, which a document omits.
+    pub(crate) fn aside(&self, text: &str) {
+        if self.document().is_none() {
             self.message(&format!("{text}\n"));
         }
     }

@@ -173,22 +173,32 @@ fn nearest_file(path: &Path) -> Option<PathBuf> {
 
 /// The text of `bytes`, if they are text.
 pub(crate) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError> {
-    if bytes.iter().all(u8::is_ascii_whitespace) {
-        let mut empty = ReadError::new(&general::EMPTY_SOURCE, format!("`{name}` is empty"));
-        empty.help = Some("a shader starts with a line `#version 150`".to_owned());
-        return Err(empty);
-    }
-    if let Some(looks_like) = binary(&bytes) {
-        let mut binary = ReadError::new(&general::BINARY_SOURCE, format!("`{name}` is binary, not text"));
-        binary.help = looks_like.map(str::to_owned);
-        return Err(binary);
-    }
+    refuse_empty(name, &bytes)?;
+    refuse_binary(name, &bytes)?;
     let mut bytes = bytes;
     bytes.pop_if(|last| *last == END_OF_FILE);
     Ok(match String::from_utf8(bytes) {
         Ok(text) => text.into(),
         Err(error) => String::from_utf8_lossy(error.as_bytes()).into(),
     })
+}
+
+/// Reports a source without any text.
+pub(crate) fn refuse_empty(name: &str, bytes: &[u8]) -> Result<(), ReadError> {
+    if !bytes.iter().all(u8::is_ascii_whitespace) {
+        return Ok(());
+    }
+    let mut empty = ReadError::new(&general::EMPTY_SOURCE, format!("`{name}` is empty"));
+    empty.help = Some("a shader starts with a line `#version 150`".to_owned());
+    Err(empty)
+}
+
+/// Reports bytes that are no text.
+pub(crate) fn refuse_binary(name: &str, bytes: &[u8]) -> Result<(), ReadError> {
+    let Some(looks_like) = binary(bytes) else { return Ok(()) };
+    let mut binary = ReadError::new(&general::BINARY_SOURCE, format!("`{name}` is binary, not text"));
+    binary.help = looks_like.map(str::to_owned);
+    Err(binary)
 }
 
 /// `None` for text; otherwise the apparent file type, if it is known.

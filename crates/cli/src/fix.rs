@@ -202,17 +202,23 @@ impl Fixer {
         self.files.get(&path)
     }
 
-    /// Writes the files, or prints what would change in them, and tells how much that is.
+    /// Writes the files, or prints what would change in them, to standard output if it `has_output` for that, and tells how much
+    /// that is.
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub(crate) fn finish(self, console: &Console) -> Result<(), Failure> {
+    pub(crate) fn finish(self, has_output: bool, console: &Console) -> Result<(), Failure> {
         let changed: Vec<(&PathBuf, &Changed)> =
             self.files.iter().filter(|(_, file)| file.current() != file.text.text).collect();
         let mut n_written = 0;
         for (path, file) in &changed {
             if self.args.diff {
-                console.output(&diff(&file.name, &file.text.text, file.current()))?;
+                let diff = diff(&file.name, &file.text.text, file.current());
+                if has_output {
+                    console.output(&diff)?
+                } else {
+                    console.message(&diff)
+                }
                 n_written += 1;
             } else if is_unchanged(path, &file.original) {
                 files::replace(path, &file.text.bytes(file.current()))?;

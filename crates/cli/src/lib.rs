@@ -46,6 +46,7 @@ pub mod survey;
 mod texels;
 mod texts;
 mod threads;
+mod told;
 mod trace;
 mod unfinished;
 mod variants;
@@ -103,7 +104,7 @@ struct GlobalArgs {
 /// Runs the program with these arguments, the first being its own name, in this process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match parsed(arguments) {
-        Ok((command, console)) => carry_out(&command, console).into(),
+        Ok((command, console)) => carry_out(&command, &console).into(),
         Err(exit) => exit.into(),
     }
 }
@@ -117,17 +118,20 @@ pub fn run_supervised(arguments: impl IntoIterator<Item = OsString>) -> ExitCode
     };
     let resumes = matches!(command, Command::Test(_) | Command::Port(_));
     if command.draws_by_a_driver() {
-        Supervised { resumes }.run(&console, &|| carry_out(&command, console)).into()
+        Supervised { resumes }.run(&console, &|| carry_out(&command, &console)).into()
     } else {
-        carry_out(&command, console).into()
+        carry_out(&command, &console).into()
     }
 }
 
 /// The command of the arguments, or the exit code of wrong ones and of those that ask for help.
 fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Console), Exit> {
-    let arguments = responses::expanded(arguments.into_iter().collect())
-        .map_err(|failure| end(Err(failure), &Console::new(false, ColorChoice::Auto)))?;
-    let parsed = examples::with_examples_of(Cli::command(), &arguments).try_get_matches_from(arguments);
+    let given: Vec<OsString> = arguments.into_iter().collect();
+    let color = ColorChoice::asked_for(&given);
+    let arguments = responses::expanded(given).map_err(|failure| end(Err(failure), &Console::new(false, color)))?;
+    let color = ColorChoice::asked_for(&arguments);
+    let command = examples::with_examples_of(Cli::command(), &arguments).color(color.into());
+    let parsed = command.try_get_matches_from(arguments);
     let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).map_err(|error| usage(&error))?;
     let console = Console::new(cli.global.quiet, cli.global.color);
     if let Some(folder) = &cli.global.sandbox {
@@ -143,10 +147,10 @@ fn parsed(arguments: impl IntoIterator<Item = OsString>) -> Result<(Command, Con
 }
 
 /// Runs a command on a large stack, and reports a failure.
-fn carry_out(command: &Command, console: Console) -> Exit {
+fn carry_out(command: &Command, console: &Console) -> Exit {
     guard::silence_panics();
     // A thread with such a stack would take longer: it has to be woken, and its memory is slower to get.
-    let outcome = match guard::guarded(|| with_stack(LEVELS, || guard::guarded(|| command.run(&console)))) {
+    let outcome = match guard::guarded(|| with_stack(LEVELS, || guard::guarded(|| command.run(console)))) {
         Ok(Ok(outcome)) => outcome,
         Ok(Err(panic)) => {
             let message = format!("internal error: {panic}");
@@ -154,12 +158,14 @@ fn carry_out(command: &Command, console: Console) -> Exit {
                 .help("this is a fault of glisten; please report it with the input"))
         }
         // The command itself is guarded: there was no stack for it.
-        Err(_) => Err(Failure::new(
-            Exit::Machine,
-            format!("the system gives no memory for a stack of {} MiB", STACK_BYTES >> 20),
-        )),
+        Err(_) => {
+            memory::exhausted();
+            let message = format!("the system gives no memory for a stack of {} MiB", STACK_BYTES >> 20);
+            Err(Failure::new(Exit::Machine, message))
+        }
     };
-    end(outcome, &console)
+    console.write_document();
+    end(outcome, console)
 }
 
 /// Reports wrong arguments, or prints the requested help or version.

@@ -136,7 +136,8 @@ impl OutputPlan {
         kinds
     }
 
-    /// Two programs must not write the same file, nor one of the sources. `below` is where a program's outputs are in the folder.
+    /// Two programs must not write the same file, nor one of the sources, nor one of the `accounts` of the run. `below` is where a
+    /// program's outputs are in the folder.
     ///
     /// # Errors
     /// They would, in this folder.
@@ -145,6 +146,7 @@ impl OutputPlan {
         folder: &Path,
         below: impl Fn(&Group) -> PathBuf,
         groups: &[Group],
+        accounts: &[&Path],
     ) -> Result<(), Failure> {
         let mut writers: BTreeMap<PathBuf, &Group> = BTreeMap::new();
         groups
@@ -167,7 +169,10 @@ impl OutputPlan {
                 }
             }
         }
-        Ok(())
+        if accounts.is_empty() {
+            return Ok(());
+        }
+        overwrite::refuse_equal(writers.keys().map(PathBuf::as_path).chain(accounts.iter().copied()))
     }
 
     /// Whether the code for a target is without what reaches no output.

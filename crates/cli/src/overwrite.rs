@@ -1,6 +1,7 @@
-//! No output replaces a file that the same command reads.
+//! No output replaces a file that the same command reads, or another output.
 //!
-//! *In:* the names of files that are read, and of those to be written. *Out:* an error for a name that is both. *Holds:* links and other
+//! *In:* the names of files that are read, and of those to be written. *Out:* an error for a name that is both, or that is written twice.
+//! *Holds:* links and other
 //! names of a file are seen through; [`files::write`](crate::files::write) asks here, so each command that writes does. What changes
 //! files in place says so by [`files::replace`](crate::files::replace).
 
@@ -49,10 +50,53 @@ pub(crate) fn refuse(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses to write two outputs to one file.
+///
+/// # Errors
+/// Two of the names are those of one file.
+pub(crate) fn refuse_equal<'p>(outputs: impl IntoIterator<Item = &'p Path>) -> Result<(), Failure> {
+    let mut seen = BTreeSet::new();
+    for path in outputs {
+        // What is no file, such as `/dev/null`, takes any number.
+        let is_file = fs::metadata(path).map_or(true, |found| found.is_file());
+        if is_file && !seen.insert(own_name(path)) {
+            let message = format!("two outputs would both be written to `{}`", path.display());
+            return Err(Failure::usage(message).help("choose another name for one of them"));
+        }
+    }
+    Ok(())
+}
+
+/// The name that a file has, or would have, after links are followed.
+fn own_name(path: &Path) -> PathBuf {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let known = absolute.ancestors().find_map(|folder| Some((fs::canonicalize(folder).ok()?, folder)));
+    match known {
+        Some((own, folder)) => absolute
+            .strip_prefix(folder)
+            .map_or(own.clone(), |rest| if rest.as_os_str().is_empty() { own.clone() } else { own.join(rest) }),
+        None => absolute,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{note, refuse};
+    use super::{note, refuse, refuse_equal};
     use std::fs;
+
+    #[test]
+    fn two_outputs_of_one_name_are_refused() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = |name: &str| folder.path().join(name);
+        let are_refused = |names: [&str; 2]| {
+            let [one, other] = names.map(path);
+            refuse_equal([one.as_path(), other.as_path()]).is_err()
+        };
+        assert!(are_refused(["new", "new"]) && are_refused(["o/a.json", "./o/a.json"]));
+        assert!(!are_refused(["new", "newer"]) && !are_refused(["o/a.json", "a.json"]));
+        fs::write(path("there"), "").expect("written");
+        assert!(are_refused(["there", "there"]) && !are_refused([".", "."]));
+    }
 
     #[test]
     fn other_names_of_an_input_are_refused() {

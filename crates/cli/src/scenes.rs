@@ -7,12 +7,13 @@ use crate::exit::{Exit, Failure};
 use crate::files::{self, SceneFiles};
 use crate::process::guard;
 use crate::process::journal::{self, Note};
+use crate::process::memory;
 use crate::process::watchdog::{self, Watchdog};
 use crate::session::Session;
 use crate::threads::STACK_BYTES;
 use clap::{Args, ValueEnum};
-use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::NOTHING_COVERED;
+use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::{Error, Gpu, Via};
 use glisten_scene::{FileError, FileSource};
@@ -108,11 +109,6 @@ impl Read<'_> {
         &self.batch.sources
     }
 
-    /// Whether lines for people may stand between the diagnostics.
-    pub(crate) fn is_human(&self) -> bool {
-        self.session.is_human()
-    }
-
     /// Reports a failure to draw the scene.
     pub(crate) fn failed(self, error: DrawError) -> Result<Exit, Failure> {
         match error {
@@ -121,9 +117,9 @@ impl Read<'_> {
         }
     }
 
-    /// Reports what drawing found, and what has not been reported yet, as one list. Returns the exit code.
+    /// Reports what drawing found. Returns the exit code.
     pub(crate) fn finish(mut self, found: Vec<Diagnostic>) -> Result<Exit, Failure> {
-        if self.is_human() && found.is_empty() {
+        if found.is_empty() {
             return Ok(Exit::Ok);
         }
         self.session.add(&mut self.batch, found);
@@ -141,15 +137,20 @@ impl Read<'_> {
 
     /// The warning that nothing was drawn: no pixel is covered.
     pub(crate) fn nothing_covered(&self) -> Diagnostic {
+        self.at_draw(&NOTHING_COVERED, "nothing is covered: no fragment reached a pixel").help(
+            "look for triangles without area, a mesh outside the view, culled faces, a depth test that never passes, \
+             or a `discard` that always runs",
+        )
+    }
+
+    /// A diagnostic about the picture, at the first draw of the scene.
+    pub(crate) fn at_draw(&self, code: &'static Code, message: impl Into<String>) -> Diagnostic {
         let scene = self.sources().files().next().map(|(id, _)| self.sources().file(id));
         let span = scene.map_or_else(Span::default, |scene| {
             let at = scene.text().find("[[draw").map_or(0..0, |at| at..at + "[[draw".len());
             Span::new(scene.base() + at.start as u32, scene.base() + at.end as u32)
         });
-        Diagnostic::new(&NOTHING_COVERED, span, "nothing is covered: no fragment reached a pixel").help(
-            "look for triangles without area, a mesh outside the view, culled faces, a depth test that never passes, \
-             or a `discard` that always runs",
-        )
+        Diagnostic::new(code, span, message)
     }
 }
 
@@ -259,19 +260,6 @@ impl SceneArgs {
 
     /// Reads the scene and reports its diagnostics. Without a scene, returns the exit code.
     pub(crate) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
-        Ok(match self.begin(console)? {
-            Ok(mut read) if !read.is_human() => {
-                read.session.tell(&[&read.batch], false)?;
-                read.batch.diagnostics.clear();
-                Ok(read)
-            }
-            begun => begun,
-        })
-    }
-
-    /// Reads the scene. Its diagnostics are reported, for people at once, otherwise together with those of drawing
-    /// ([`Read::finish`]), so that they are one list. Without a scene, returns the exit code.
-    pub(crate) fn begin<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
         let mut session = self.session(console)?;
         refuse_shader(&self.scene)?;
         let loaded = guard::guarded(|| scene::load(&self.scene, &SceneFiles, session.compiler()));
@@ -283,10 +271,8 @@ impl SceneArgs {
         session.add(&mut batch, loaded.diagnostics);
         let exit = session.exit(&batch);
         let scene = loaded.scene.filter(|_| exit == Exit::Ok);
-        if session.is_human() || scene.is_none() {
-            session.tell(&[&batch], false)?;
-            batch.diagnostics.clear();
-        }
+        session.tell(&[&batch], false)?;
+        batch.diagnostics.clear();
         Ok(match scene {
             Some(scene) => Ok(Read { scene, session, batch }),
             None => {
@@ -357,10 +343,10 @@ impl MachineArgs {
             // After the time limit, nothing receives this.
             let _ = sender.send(guard::guarded(work));
         };
-        std::thread::Builder::new()
-            .stack_size(STACK_BYTES)
-            .spawn(job)
-            .map_err(|error| Failure::new(Exit::Machine, format!("the system gives no thread: {error}")))?;
+        std::thread::Builder::new().stack_size(STACK_BYTES).spawn(job).map_err(|error| {
+            memory::exhausted();
+            Failure::new(Exit::Machine, format!("the system gives no thread: {error}"))
+        })?;
         match receiver.recv_timeout(self.time_limit()) {
             Ok(Ok(result)) => result,
             Ok(Err(panic)) => {

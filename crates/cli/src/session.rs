@@ -17,6 +17,7 @@ use crate::process::guard;
 use crate::progress::Progress;
 use crate::strings;
 use crate::threads::Threads;
+use crate::told::Told;
 use crate::trace::Trace;
 use glisten_front::compiler::{Compilation, Compiler, Source};
 use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
@@ -100,6 +101,8 @@ pub(crate) struct Session<'a> {
     dropped: usize,
     /// The files of the run, for a command that tells them.
     scope: Option<Scope>,
+    /// Whether the command has `--fix`.
+    has_fixes: bool,
 }
 
 impl<'a> Session<'a> {
@@ -112,6 +115,7 @@ impl<'a> Session<'a> {
         jobs: usize,
     ) -> Result<Self, Failure> {
         let engines = Engines::new(sources)?;
+        console.set_format(levels.diagnostics);
         Ok(Self {
             console,
             compiler: compiler(sources, bindings, &engines),
@@ -121,6 +125,7 @@ impl<'a> Session<'a> {
             threads: Threads::new(jobs),
             dropped: 0,
             scope: None,
+            has_fixes: false,
         })
     }
 
@@ -166,6 +171,11 @@ impl<'a> Session<'a> {
     /// Sets the format of diagnostics.
     pub(crate) fn set_format(&mut self, format: DiagnosticFormat) {
         self.format = format;
+    }
+
+    /// Has people told how many findings `--fix` would change, which the command has.
+    pub(crate) fn offer_fixes(&mut self) {
+        self.has_fixes = true;
     }
 
     /// Sets what the run looks at, which is told with the diagnostics.
@@ -275,35 +285,36 @@ impl<'a> Session<'a> {
     /// is reported once, though several programs may share a file. Returns the exit code.
     pub(crate) fn tell(&self, batches: &[&Batch], to_output: bool) -> Result<Exit, Failure> {
         let all: Vec<&Batch> = self.configs.errors.iter().chain(batches.iter().copied()).collect();
+        let scope = self.scope.as_ref();
+        if to_output || self.is_human() || !self.console.document_has(&all, scope) {
+            self.write(&all, to_output)?;
+        }
+        let denied = scope.is_some_and(|scope| scope.not_checked.iter().any(|one| one.is_denied));
+        let exit = if denied { Exit::Content } else { Exit::Ok };
+        Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default().max(exit))
+    }
+
+    /// Writes diagnostics, each once.
+    fn write(&self, batches: &[&Batch], to_output: bool) -> Result<(), Failure> {
         let color = if to_output { self.console.colors_output() } else { self.console.colors_messages() };
         let mut told = Told::default();
         let mut human = String::new();
-        for batch in &all {
+        for batch in batches {
             let fresh = told.add(batch);
-            if self.format == DiagnosticFormat::Human {
+            if self.is_human() {
                 human.push_str(&write::human(&batch.sources, fresh, color));
             }
         }
-        let scope = self.scope.as_ref();
-        let text = match self.format {
-            DiagnosticFormat::Human => human,
-            DiagnosticFormat::Json => write::json(&told.findings, scope),
-            DiagnosticFormat::Sarif => write::sarif(&told.findings, scope),
-            DiagnosticFormat::Github => write::github(&told.findings, scope),
-            DiagnosticFormat::Gitlab => write::gitlab(&told.findings, scope),
-            DiagnosticFormat::Junit => write::junit(&told.findings, scope),
-        };
+        let text = told.text(self.format, self.scope.as_ref()).unwrap_or(human);
         if to_output {
             self.console.output(&text)?;
         } else {
             self.console.message(&text);
         }
-        if self.format == DiagnosticFormat::Human {
+        if self.is_human() {
             self.remark(&told.findings);
         }
-        let denied = scope.is_some_and(|scope| scope.not_checked.iter().any(|one| one.is_denied));
-        let exit = if denied { Exit::Content } else { Exit::Ok };
-        Ok(all.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default().max(exit))
+        Ok(())
     }
 
     /// Tells people what was not checked, and how much was found.
@@ -315,7 +326,7 @@ impl<'a> Session<'a> {
         let clean = || scope.filter(|scope| scope.files > 0).map(|scope| format!("{}: nothing found", counted(scope)));
         let Some(summary) = summary(findings, self.dropped).or_else(clean) else { return };
         self.console.remark(&summary);
-        if let Some(offer) = scope.and_then(|_| fixable(findings)) {
+        if let Some(offer) = scope.filter(|_| self.has_fixes).and_then(|_| fixable(findings)) {
             self.console.remark(&offer);
         }
         if let Some(error) = findings.iter().find(|finding| finding.severity == Severity::Error) {
@@ -364,6 +375,7 @@ fn is_told_last(diagnostic: &Diagnostic) -> bool {
         &scenes::SCENE_UNSET_UNIFORM,
         &scenes::SCENE_UNSET_TEXTURE,
         &scenes::NOTHING_COVERED,
+        &scenes::NAN_IN_PNG,
     ];
     LAST.iter().any(|code| code.id == diagnostic.code.id)
 }
@@ -372,28 +384,6 @@ fn is_told_last(diagnostic: &Diagnostic) -> bool {
 pub(crate) fn compiler(sources: &SourceArgs, bindings: &BindingArgs, engines: &Engines) -> Compiler {
     let compiler = Compiler::new(sources.options(bindings)).with_includes(engines.includes());
     compiler.with_preparation(engines.clone()).without_levels()
-}
-
-/// The diagnostics that have been reported.
-#[derive(Default)]
-struct Told {
-    findings: Vec<Finding>,
-    seen: BTreeSet<(write::Region, &'static str, String)>,
-}
-
-impl Told {
-    /// Adds a batch and returns its diagnostics that are new.
-    fn add<'b>(&mut self, batch: &'b Batch) -> Vec<&'b Diagnostic> {
-        let mut fresh = Vec::new();
-        for diagnostic in &batch.diagnostics {
-            let finding = Finding::new(&batch.sources, diagnostic);
-            if self.seen.insert((finding.region.clone(), finding.code.id, finding.message.clone())) {
-                self.findings.push(finding);
-                fresh.push(diagnostic);
-            }
-        }
-        fresh
-    }
 }
 
 /// How many files and programs a run looked at.

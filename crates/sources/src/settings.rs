@@ -11,6 +11,7 @@ use super::stages;
 use crate::engines::{self, Member, Profile, Style, combined};
 use glisten_front::compiler::{Prepared, Source, SourceSettings};
 use glisten_front::hir::Stage;
+use glisten_front::language::EDITIONS;
 use glisten_front::source::{Completion, Prelude, blanked};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -135,6 +136,9 @@ pub fn parse_version(text: &str) -> Result<String, String> {
     let profile = profile.trim();
     if number.len() != 3 || !["", "core", "compatibility", "es"].contains(&profile) {
         return Err(format!("`{text}` is no version: write a number and a profile, such as `150 core`"));
+    }
+    if !EDITIONS.iter().any(|edition| number.parse() == Ok(edition.number)) {
+        return Err(format!("there is no GLSL version {number}: `glisten versions` lists them"));
     }
     Ok(format!("{number} {profile}").trim().to_owned())
 }

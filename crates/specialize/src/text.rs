@@ -7,7 +7,8 @@ use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::functions::Row;
 use glisten_front::hir::{ExprId, ExprKind, Notes, Shader, Stage, TypeId, Types, print_with};
 use glisten_front::language::{Profile, Version};
-use glisten_front::source::{SourceMap, Span, comments};
+use glisten_front::source::comments::{self, AroundBody};
+use glisten_front::source::{SourceMap, Span};
 use std::cell::RefCell;
 
 /// The beginning of a line that says where the next one comes from. No source has it: control characters are replaced.
@@ -31,7 +32,19 @@ pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>)
         text.push('\n');
         lines.push(std::mem::take(&mut next));
     }
+    for line in sources.map_or_else(Vec::new, |sources| last_comments(&shader, sources)) {
+        text.push_str(&line);
+        text.push('\n');
+        lines.push(Span::default());
+    }
     (text, lines)
+}
+
+/// The comments at the end of the file that `main` is in.
+fn last_comments(shader: &Shader, sources: &SourceMap) -> Vec<String> {
+    let main = shader.main.map(|main| shader.function(main).span).filter(|span| span.is_known());
+    let file = main.and_then(|span| sources.file_of(span));
+    file.map_or_else(Vec::new, |file| comments::trailing(sources.file(file).text()))
 }
 
 /// The first version of OpenGL's language, from 1.50 on, that has all functions that the stage calls. Where no extension brings an overload to
@@ -79,6 +92,10 @@ impl Notes for Comments<'_> {
     }
 
     fn behind(&self, span: Span) -> Option<String> {
-        comments::behind(self.sources?, span)
+        comments::after(self.sources?, span)
+    }
+
+    fn around_body(&self, name: Span) -> Option<AroundBody> {
+        comments::around_body(self.sources?, name)
     }
 }

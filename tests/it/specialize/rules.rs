@@ -4,7 +4,7 @@ use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::operations::{Binary, Class, Numbers, Ternary};
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::{Compiler, Options, Source};
-use glisten_specialize::{Input, Known, Residual, specialize};
+use glisten_specialize::{Input, Known, Residual, specialize, specialize_with};
 use std::time::{Duration, Instant};
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin vec4 q;\nout vec4 v;\nvoid main() { v = q; gl_Position = p; }\n";
@@ -22,6 +22,37 @@ fn residual(fragment: &str, known: &[(&str, &[f32])]) -> Residual {
     let residual = specialize(&program, &values);
     assert!(residual.fault.is_none(), "{:?}", residual.fault);
     residual
+}
+
+/// Comments stay where their code stays, of both kinds, next to it and around bodies.
+#[test]
+fn comments_stay_with_their_code() {
+    let fragment = "#version 150\nin vec4 v; // from the vertices\nuniform float u; /* stays */\nuniform float w; // goes\n\
+        out vec4 color;\n\n// twice\nfloat twice(float a) /* of a */\n{\n    // the sum\n    return a + a; /* tail */\n    // last\n\
+        } // twice, done\n\nvoid main() {\n    if (w > 0.5) color = vec4(0.0); // never\n    \
+        else color = vec4(twice(u * v.x)); /* both */ // kinds\n}\n// the end\n/* of\n   it */\n";
+    let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", VERTEX, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let compiled = Compiler::new(Options::default()).compile(&sources);
+    let program = compiled.program.expect("it compiles");
+    let mut known = Known::default();
+    known.uniforms.insert("w".into(), vec![ScalarValue::Float(0.0)]);
+    let options =
+        glisten_specialize::Options { sources: Some(&compiled.sources), ..glisten_specialize::Options::default() };
+    let residual = specialize_with(&program, &known, &options);
+    let text = residual.text(Stage::Fragment).expect("a stage");
+    for kept in [
+        "// from the vertices",
+        "/* stays */",
+        "/* of a */",
+        "/* tail */",
+        "    // last\n}  // twice, done",
+        "/* both */ // kinds",
+        "}\n// the end\n/* of\n   it */\n",
+    ] {
+        assert!(text.contains(kept), "{kept}: {text}");
+    }
+    assert!(!text.contains("goes") && !text.contains("never"), "{text}");
 }
 
 /// The fragment stage of `color = EXPRESSION` with uniforms `u` and `w`, and the unknown `v`.

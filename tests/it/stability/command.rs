@@ -81,7 +81,7 @@ fn a_sweep_examines_the_worst_value() {
     let (_, same) = json(&folder(0.5, "[stability.sweep]\nsize = [1e-4, 1.0, 5]\n"), &[]);
     assert_eq!(same["sweep"], found["sweep"]);
     let unknown = folder(0.5, "").run(&["stability", "a.toml", "--sweep", "siz=0..1"]);
-    assert_eq!(code(&unknown), 1);
+    assert_eq!(code(&unknown), 2);
     assert!(err(&unknown).contains("did you mean `size`"), "{}", err(&unknown));
     let malformed = folder(0.5, "").run(&["stability", "a.toml", "--sweep", "size=0"]);
     assert_eq!(code(&malformed), 2, "{}", err(&malformed));

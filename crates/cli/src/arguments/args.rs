@@ -13,6 +13,7 @@ use glisten_front::link::FixedState;
 use glisten_sources::engines::{self, Style};
 use glisten_sources::parse_version;
 use glisten_verify::specialize::Contract;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The format of a result. `table` is another name for `human`.
@@ -84,6 +85,21 @@ pub(crate) struct ProgramArgs {
 }
 
 impl SourceArgs {
+    /// A macro with two values is a mistake of the command line.
+    ///
+    /// # Errors
+    /// There is one.
+    pub(crate) fn refuse_two_values(&self) -> Result<(), Failure> {
+        let mut values: BTreeMap<&str, &str> = BTreeMap::new();
+        for (name, value) in &self.defines {
+            if let Some(other) = values.insert(name, value).filter(|other| other != value) {
+                let message = format!("`-D {name}={value}`: the macro has another value, `{other}`, by another -D");
+                return Err(Failure::usage(message).help("leave one of them out"));
+            }
+        }
+        Ok(())
+    }
+
     /// The options of the compiler.
     pub(crate) fn options(&self, bindings: &BindingArgs) -> Options {
         Options {

@@ -79,6 +79,7 @@ impl Engines {
     /// # Errors
     /// A prelude that cannot be read.
     pub(crate) fn new(args: &SourceArgs) -> Result<Self, Failure> {
+        args.refuse_two_values()?;
         let mut preludes = Vec::new();
         for path in &args.preludes {
             preludes.push(files::read_prelude(path).map_err(|error| {

@@ -159,7 +159,7 @@ impl Cache {
             self.remote.as_ref().and_then(Remote::failure),
         ];
         for failure in failures.into_iter().flatten() {
-            console.message(&format!("warning: {failure}; the build goes on without it\n"));
+            console.aside(&format!("warning: {failure}; the build goes on without it"));
         }
         let (hits, misses) = (self.hits.load(Ordering::Relaxed), self.misses.load(Ordering::Relaxed));
         if (misses > 0 || self.is_limit_given)

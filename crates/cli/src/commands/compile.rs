@@ -80,6 +80,13 @@ enum EmitArg {
     Hir,
 }
 
+impl CompileArgs {
+    /// The files that tell what was read and written.
+    fn accounts(&self) -> impl Iterator<Item = &Path> {
+        self.depfile.iter().chain(&self.manifest).map(PathBuf::as_path)
+    }
+}
+
 /// Runs the command.
 pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
     if let Some(file) = &args.permutations {
@@ -96,8 +103,9 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         refuse_several(args, &plan, &inputs.groups)?;
     }
     let below = inputs.below();
-    plan.refuse_collisions(&folder, &below, &inputs.groups)?;
-    args.depfile.iter().chain(&args.manifest).try_for_each(|path| overwrite::refuse(path))?;
+    let accounts: Vec<&Path> = args.accounts().collect();
+    plan.refuse_collisions(&folder, &below, &inputs.groups, &accounts)?;
+    accounts.iter().try_for_each(|path| overwrite::refuse(path))?;
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     if let Some(EmitArg::Hir) = args.emit {
         let units = session.compile(std::mem::take(&mut inputs.groups));
@@ -134,7 +142,7 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         write(&folder, &outputs)?;
     }
     recall.close(console);
-    if exit == Exit::Ok {
+    if exit == Exit::Ok && !args.check {
         write_accounts(args, &plan, &folder, &below, &units, &made)?;
     }
     Ok(exit)
@@ -143,7 +151,7 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
 /// Compiles all variants of a file.
 fn permute(args: &CompileArgs, file: &Path, console: &Console) -> Outcome {
     overwrite::note(file);
-    args.depfile.iter().chain(&args.manifest).try_for_each(|path| overwrite::refuse(path))?;
+    args.accounts().try_for_each(overwrite::refuse)?;
     let folder = args.output.clone().unwrap_or_default();
     if is_standard_output(&folder) {
         return Err(Failure::usage("`-o -` writes one stage for one target to standard output: there are variants")

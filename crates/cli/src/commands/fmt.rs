@@ -1,14 +1,15 @@
 //! `glisten fmt`: brings sources into one style.
 //!
 //! *In:* files, folders, or standard input. *Out:* the files, rewritten; or which ones would change, or how. *Holds:* a file is
-//! replaced at once or not at all; a file whose bytes are not UTF-8 keeps them. In a file of another language, only strings change that
-//! are shaders.
+//! replaced at once or not at all; a file whose bytes are not UTF-8 keeps them, and what is no text is an error. In a file of another
+//! language, only strings change that are shaders.
 
 use crate::arguments::config::{self, Configs};
+use crate::batch::Batch;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
-use crate::files;
+use crate::files::{self, ReadError};
 use crate::process::guard;
 use crate::search;
 use crate::strings;
@@ -87,6 +88,9 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
     let one = |path: &PathBuf| {
         let name = path.to_string_lossy().into_owned();
         let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
+        if let Err(error) = refuse_no_text(&name, path, &bytes) {
+            return Ok(Err(as_batch(error, &name)));
+        }
         let text = Text::new(bytes);
         let options = styles.get(folder_of(path)).cloned().unwrap_or_default();
         let formatted = any_formatted(&text.text, path, &options);
@@ -94,16 +98,44 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
         if done.changes() && !args.check && !args.diff {
             files::replace(path, &done.text.bytes(&done.formatted.text))?;
         }
-        Ok(done)
+        Ok(Ok(done))
     };
-    let all = Threads::new(0).map(paths.iter().collect(), one);
-    let all: Vec<Done> = all.into_iter().collect::<Result<_, Failure>>()?;
+    let results = Threads::new(0).map(paths.iter().collect(), one);
+    let (mut all, mut exit) = (Vec::new(), Exit::Ok);
+    for result in results {
+        match result? {
+            Ok(done) => all.push(done),
+            Err(batch) => exit = exit.max(refused(&batch, console)),
+        }
+    }
     for done in all.iter().filter(|done| done.changes()) {
         told(args, console, done)?;
     }
     console.remark(&summary(&all, args.check || args.diff));
     let changes = all.iter().any(Done::changes);
-    Ok(if args.check && changes { Exit::Content } else { Exit::Ok })
+    Ok(if args.check && changes { exit.max(Exit::Content) } else { exit })
+}
+
+/// Reports bytes that are no source. An include and a file of another language may be empty.
+fn refuse_no_text(name: &str, path: &Path, bytes: &[u8]) -> Result<(), ReadError> {
+    if Host::of(path).is_none() && !stages::may_be_included(path) {
+        files::refuse_empty(name, bytes)?;
+    }
+    files::refuse_binary(name, bytes)
+}
+
+/// The error about a file, with its name.
+fn as_batch(error: ReadError, name: &str) -> Batch {
+    let mut batch = Batch::default();
+    let diagnostic = error.diagnostic(&mut batch.sources, name);
+    batch.diagnostics.push(diagnostic);
+    batch
+}
+
+/// Tells why nothing is formatted. Returns the exit code.
+fn refused(batch: &Batch, console: &Console) -> Exit {
+    console.message(&write::human(&batch.sources, &batch.diagnostics, console.colors_messages()));
+    Exit::of(&batch.diagnostics)
 }
 
 /// Reports what is wrong in the configurations of folders: a style that is half understood is not applied.
@@ -113,7 +145,7 @@ fn wrong_configuration<'p>(folders: impl Iterator<Item = &'p Path>, console: &Co
         configs.levels(&folder.join("source").to_string_lossy());
     }
     for batch in &configs.errors {
-        console.message(&write::human(&batch.sources, &batch.diagnostics, console.colors_messages()));
+        refused(batch, console);
     }
     (!configs.errors.is_empty()).then_some(Exit::Content)
 }
@@ -130,9 +162,13 @@ fn standard_input(args: &FmtArgs, console: &Console) -> Outcome {
     let mut bytes = Vec::new();
     let read = std::io::stdin().lock().read_to_end(&mut bytes);
     read.map_err(|error| Failure::usage(format!("cannot read standard input: {error}")))?;
-    let text = Text::new(bytes);
     let path = args.stdin_filename.clone().unwrap_or_else(|| "standard input".into());
     refuse_host(&path, args.embedded)?;
+    let name = path.display().to_string();
+    if let Err(error) = refuse_no_text(&name, &path, &bytes) {
+        return Ok(refused(&as_batch(error, &name), console));
+    }
+    let text = Text::new(bytes);
     let formatted = any_formatted(&text.text, &path, &config::style_of(folder_of(&path)));
     let done = Done { path, text, formatted };
     if args.check || args.diff {

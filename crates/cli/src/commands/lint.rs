@@ -107,6 +107,7 @@ impl LintArgs {
 pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, args.jobs)?;
     session.set_format(args.format.unwrap_or(args.levels.diagnostics));
+    session.offer_fixes();
     let mut listed = Listed::new();
     let mut inputs = match &args.permutations {
         None => {
@@ -170,8 +171,9 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
         (units, _) = checked(&mut session, groups.clone(), &inputs, &scenes, None);
         baselines.apply(&mut units, None);
     }
-    fixer.finish(console)?;
-    session.tell_units(&units, !args.fixes.prints())
+    fixer.finish(session.is_human(), console)?;
+    // Standard output has the diff, and findings for people are apart from it; a document for programs takes its place there.
+    session.tell_units(&units, !(args.fixes.prints() && session.is_human()))
 }
 
 /// How many configurations were looked at, for people.

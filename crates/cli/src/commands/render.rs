@@ -12,6 +12,7 @@ use crate::progress::Progress;
 use crate::scenes::{DrawError, SceneArgs, ViaArg};
 use crate::with::WithArgs;
 use clap::{Args, ValueEnum};
+use glisten_front::diagnostic::codes::scenes::NAN_IN_PNG;
 use glisten_gpu::Via;
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
@@ -97,7 +98,7 @@ enum PrecisionArg {
 pub(crate) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     args.backend.require()?;
     let target = Target::parse(&args.output)?;
-    let read = match args.scene.begin(console)? {
+    let read = match args.scene.read(console)? {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
@@ -111,18 +112,22 @@ pub(crate) fn run(args: &RenderArgs, console: &Console) -> Outcome {
         Err(error) => return read.failed(error),
     };
     drop(progress);
-    if let Some(adapter) = drawn_by.filter(|_| read.is_human()) {
+    if let Some(adapter) = drawn_by {
         console.remark(&format!("drawn by {adapter}{}", read.host_part()));
     }
     let (files, nans) = target.encode(&picture, read.scene.framebuffer.encode)?;
-    if nans > 0 {
-        console.remark(&format!("warning: {nans} numbers are NaN and are 0 in the PNG"));
-    }
     for (path, bytes) in files {
         files::write(&path, &bytes)?;
     }
     let is_empty = !read.scene.draws.is_empty() && !picture.covered.contains(&true);
-    let found = if is_empty { vec![read.nothing_covered()] } else { Vec::new() };
+    let mut found = Vec::new();
+    if is_empty {
+        found.push(read.nothing_covered());
+    }
+    if nans > 0 {
+        let message = format!("{nans} numbers are NaN, and are 0 in the PNG");
+        found.push(read.at_draw(&NAN_IN_PNG, message).help("a `.npy` or a `.exr` keeps them"));
+    }
     read.finish(found)
 }
 

@@ -144,7 +144,7 @@ pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
     drop(progress);
     let text = match args.format {
         ResultFormat::Json => serde_json::to_string_pretty(&results).expect("results are always JSON") + "\n",
-        ResultFormat::Human => human(&results),
+        ResultFormat::Human => human(&results, !console.is_quiet()),
     };
     console.output(&text)?;
     let failed = results.iter().any(|result| result.result == "fail");
@@ -335,8 +335,8 @@ fn first(diagnostics: &[Diagnostic]) -> String {
         .map_or_else(|| "it cannot be drawn".to_owned(), |first| format!("{} ({})", first.message, first.code))
 }
 
-/// One line for each test that did not pass, then the number of those that did.
-fn human(results: &[TestRow]) -> String {
+/// One line for each test that did not pass, then the numbers of all if they are asked for.
+fn human(results: &[TestRow], has_summary: bool) -> String {
     let mut text = String::new();
     for result in results.iter().filter(|result| result.result != "pass") {
         let reason = result.reason.as_deref().unwrap_or_default();
@@ -344,5 +344,8 @@ fn human(results: &[TestRow]) -> String {
         text.push_str(&format!("{} {} {}{test}: {reason}\n", result.result, result.backend, result.file));
     }
     let count = |name: &str| results.iter().filter(|result| result.result == name).count();
-    text + &format!("{} passed, {} failed, {} skipped\n", count("pass"), count("fail"), count("skip"))
+    if has_summary {
+        text.push_str(&format!("{} passed, {} failed, {} skipped\n", count("pass"), count("fail"), count("skip")));
+    }
+    text
 }

@@ -29,10 +29,10 @@ impl Watchdog {
         let shared = Arc::new(Shared::default());
         let watchdog = Self { limit, shared: Arc::clone(&shared) };
         watchdog.again();
-        let console = *console;
+        let console = console.clone();
         let watch = move || {
             if shared.passes() {
-                gave_up(limit, console);
+                gave_up(limit, &console);
             }
         };
         // A limit that nobody watches is no reason to fail.
@@ -79,9 +79,10 @@ pub(crate) fn sentence(limit: Duration) -> (String, &'static str) {
 
 /// Ends the program.
 #[expect(clippy::exit, reason = "the work that takes too long cannot be asked to return")]
-fn gave_up(limit: Duration, console: Console) {
+fn gave_up(limit: Duration, console: &Console) {
     let (message, help) = sentence(limit);
     console.clear_line();
+    console.write_document();
     console.failure(&message, Some(help));
     // Whoever watches over this process is not to take it for a crash.
     journal::note(&Note::Done(Exit::Content as u8));

@@ -14,6 +14,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{
     ArraySize, FunctionId, Global, GlobalId, Interpolation, Sampling, Stage, Storage, Type, TypeId, Value,
 };
+use glisten_front::link::usage::first_use;
 use glisten_front::link::{Attribute, Varying};
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, GlobalVariable, Handle};
 use std::collections::BTreeMap;
@@ -229,7 +230,9 @@ impl Ctx<'_, '_> {
                 continue;
             }
             let value = match global.builtin {
-                Some(builtin) if builtin != BuiltinVariable::ClipDistance => self.builtin_input(builtin, global)?,
+                Some(builtin) if builtin != BuiltinVariable::ClipDistance => {
+                    self.builtin_input(builtin, (id, global))?
+                }
                 _ => {
                     let own: Vec<Received> = arrived.iter().filter(|part| part.global == id).copied().collect();
                     self.assemble(global.ty, 0, &own)?
@@ -387,7 +390,11 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Compose { ty, components }))
     }
 
-    fn builtin_input(&mut self, builtin: BuiltinVariable, global: &Global) -> Try<Handle<Expression>> {
+    fn builtin_input(
+        &mut self,
+        builtin: BuiltinVariable,
+        (id, global): (GlobalId, &Global),
+    ) -> Try<Handle<Expression>> {
         use BuiltinVariable as B;
         let target = self.low.target;
         match builtin {
@@ -407,7 +414,7 @@ impl Ctx<'_, '_> {
             }
             B::PointCoord if self.low.draws_sprites() => self.sprite_coordinate(),
             B::PointCoord if !self.low.can().has_large_points => Err(lacking(
-                global.span,
+                first_use(self.shader, id).unwrap_or(global.span),
                 format!("{} has no `gl_PointCoord`", target.name()),
                 "draw points as quads with `--point-sprites`, or compile for SPIR-V",
             )),

@@ -16,6 +16,7 @@ use glisten_front::hir::{GlobalId, Stage};
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Format, Scene};
+use std::collections::BTreeSet;
 
 /// The number of bins that experiments draw at most.
 const MOST_BINS: usize = 16;
@@ -50,6 +51,11 @@ pub(super) struct Outcome {
 }
 
 impl Outcome {
+    /// Whether a pixel becomes finite.
+    pub(super) fn cures(&self, index: usize) -> bool {
+        self.gains.get(index).is_some_and(|gain| gain.is_infinite())
+    }
+
     /// The number of pixels that become finite.
     pub(super) fn cured(&self) -> u64 {
         self.gains.iter().filter(|gain| gain.is_infinite()).count() as u64
@@ -88,6 +94,12 @@ impl<'a> Bench<'a> {
         let columns = (self.errors.width as usize).div_ceil(BIN);
         let [x, y] = self.errors.place(index).map(|at| at as usize / BIN);
         self.bins.get(y * columns + x).copied().unwrap_or(false)
+    }
+
+    /// The pixels of what is drawn that are not finite.
+    pub(super) fn not_finite(&self) -> BTreeSet<usize> {
+        let errors = self.errors.errors.iter().enumerate();
+        errors.filter(|(index, error)| error.is_infinite() && self.holds(*index)).map(|(index, _)| index).collect()
     }
 
     /// Draws with a part of the error of some expressions left out.

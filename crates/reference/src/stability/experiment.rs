@@ -45,14 +45,16 @@ pub(super) fn causes(
     let total = candidates.len();
     let mut found = Vec::new();
     let mut jitter: Option<Vec<f64>> = None;
-    for (done, candidate) in candidates.into_iter().enumerate() {
+    let mut open = bench.not_finite();
+    for (done, candidate) in candidates.iter().enumerate() {
         if !(options.progress)(done, total) {
             break;
         }
-        if let Some(cause) = try_candidate(bench, &candidate, options, &mut jitter)? {
+        if let Some(cause) = try_candidate(bench, candidate, options, (&mut jitter, &mut open))? {
             found.push(cause);
         }
     }
+    found.extend(joint(bench, &candidates, &found, &open, options)?);
     found.extend(lost_before(bench, tallies, &loops, &found, options)?);
     let explained = found.iter().filter_map(|cause| cause.harm).fold(0.0, f64::max);
     let worst = bench.errors.worst().map_or(0.0, |(_, error)| error);
@@ -128,7 +130,7 @@ fn try_candidate(
     bench: &Bench<'_>,
     candidate: &Candidate,
     options: &ExamineOptions<'_>,
-    jitter: &mut Option<Vec<f64>>,
+    (jitter, open): (&mut Option<Vec<f64>>, &mut BTreeSet<usize>),
 ) -> Result<Option<Cause>, Vec<Diagnostic>> {
     let Candidate { stage, span, .. } = *candidate;
     let tally = &candidate.tally;
@@ -143,6 +145,7 @@ fn try_candidate(
     if outcome.harm < least {
         return Ok(None);
     }
+    open.retain(|index| !outcome.cures(*index));
     if candidate.own || kind == CauseKind::Cancellation {
         // Whether it is the rounding of many iterations, and not what the terms bring.
         let own = bench.without(stage, &spans, ErrorPart::Own)?;
@@ -164,6 +167,54 @@ fn try_candidate(
     let cured = outcome.cured();
     let found = Found { kind, cured, harm, index, ill_posed, equality };
     Ok(Some(found.cause(bench, (stage, span), tally)))
+}
+
+/// The causes of pixels that no expression alone makes finite, since several of them break each: those without which the others do
+/// not make as many finite.
+fn joint(
+    bench: &Bench<'_>,
+    candidates: &[Candidate],
+    known: &[Cause],
+    open: &BTreeSet<usize>,
+    options: &mut ExamineOptions<'_>,
+) -> Result<Vec<Cause>, Vec<Diagnostic>> {
+    for stage in [Stage::Fragment, Stage::Vertex] {
+        let mut born: Vec<&Candidate> =
+            candidates.iter().filter(|one| one.stage == stage && one.tally.non_finite() > 0).collect();
+        born.sort_by_key(|candidate| candidate.span);
+        let spans: Vec<Span> = born.iter().map(|candidate| candidate.span).collect();
+        if open.is_empty() || born.len() < 2 {
+            continue;
+        }
+        for part in [ErrorPart::All, ErrorPart::Limited] {
+            let all = bench.without(stage, &spans, part)?;
+            let cured: Vec<usize> = open.iter().copied().filter(|index| all.cures(*index)).collect();
+            let Some(&first) = cured.first() else { continue };
+            let mut found = Vec::new();
+            for (done, candidate) in born.iter().enumerate() {
+                let is_known = known.iter().any(|cause| cause.stage == stage && cause.span == candidate.span);
+                if is_known || !(options.progress)(done, born.len()) {
+                    continue;
+                }
+                let others: Vec<Span> = spans.iter().copied().filter(|span| *span != candidate.span).collect();
+                let rest = bench.without(stage, &others, part)?;
+                let own: Vec<usize> = cured.iter().copied().filter(|index| !rest.cures(*index)).collect();
+                found.extend(own.first().map(|index| broken_by(bench, candidate, own.len(), *index)));
+            }
+            if found.is_empty() {
+                found.extend(born.first().map(|candidate| broken_by(bench, candidate, cured.len(), first)));
+            }
+            return Ok(found);
+        }
+    }
+    Ok(Vec::new())
+}
+
+/// The cause of pixels that are not finite.
+fn broken_by(bench: &Bench<'_>, candidate: &Candidate, cured: usize, index: usize) -> Cause {
+    let Candidate { stage, span, kind, tally, .. } = candidate;
+    let of = Found { kind: *kind, cured: cured as u64, harm: None, index, ill_posed: false, equality: false };
+    of.cause(bench, (*stage, *span), tally)
 }
 
 /// Whether a comparison disagrees on numbers that are as good as f32 has them: the exact ones are at the threshold. A test for

@@ -159,6 +159,25 @@ fn examined(body: &str) -> (Examination, Vec<(String, CauseKind)>) {
     (found, causes)
 }
 
+/// Two expressions break the same pixels, so that none heals one alone.
+#[test]
+fn expressions_that_break_the_same_pixels_are_causes_together() {
+    let divided = "uniform float z;\nvoid main() { o = vec4(1.0 / z,\n2.0 / z, 0.0, 1.0); }";
+    let large = "void main() {\nfloat a = exp(at.x * at.x * 20.0 + 100.0);\nfloat b = exp(at.y * at.y * 20.0 + 100.0);\n\
+                 o = vec4(a / (a + 1.0), b / (b + 1.0), 0.0, 1.0); }";
+    for (body, wanted) in [
+        (divided, ["1.0 / z", "2.0 / z"]),
+        (large, ["exp(at.x * at.x * 20.0 + 100.0)", "exp(at.y * at.y * 20.0 + 100.0)"]),
+    ] {
+        let (found, causes) = examined(body);
+        assert_eq!(found.verdict, Stability::Broken);
+        let mut texts: Vec<&str> = causes.iter().map(|(text, _)| text.as_str()).collect();
+        texts.sort_unstable();
+        assert_eq!(texts, wanted);
+        assert!(found.causes.iter().all(|cause| cause.harm.is_none() && cause.non_finite > 0), "{:?}", found.causes);
+    }
+}
+
 #[test]
 fn a_cancellation_that_reaches_the_picture_is_a_cause_with_its_harm() {
     let body = "void main() { float x = (at.x + 2.0) * 1e-4; float c = 1.0 - cos(x);\nfloat q = c / (x * x); \

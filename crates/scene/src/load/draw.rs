@@ -17,7 +17,7 @@ use crate::fixed::{FixedFunction, OtherStage, other_stage, uses_fixed_state};
 use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
 use crate::tables::{Node, NumberValue, Reader, report_unknown_name};
 use glisten_front::diagnostic::codes::scenes::{
-    SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
+    OUTPUT_WITHOUT_ATTACHMENT, SCENE_CANNOT_DRAW, SCENE_WRONG_SIZE, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::hir::{Global, Scalar, Shader, Stage};
@@ -377,8 +377,10 @@ fn check_program(reader: &mut Reader, program: &Program, framebuffer: &Framebuff
                 if framebuffer.attachments == 1 { "" } else { "s" }
             );
             let help = format!("write `attachments = {}` under [framebuffer]", output.location + 1);
-            reader.report(Diagnostic::new(&SCENE_CANNOT_DRAW, place, message).help(help));
-            return None;
+            reader.report(
+                Diagnostic::new(&OUTPUT_WITHOUT_ATTACHMENT, place, format!("{message}: it is dropped")).help(help),
+            );
+            continue;
         }
         let holds = match framebuffer.format {
             Format::Rgba32Sint => Scalar::Int,

@@ -467,8 +467,10 @@ fn load_size(
     let flat = matches!(kind.dim, SamplerDim::D1 | SamplerDim::Buffer);
     let is_cube = kind.dim == SamplerDim::Cube;
     let limit = if kind.dim == SamplerDim::Buffer { MAX_TEXELS as u32 } else { MAX_SIDE };
-    let layers = side("layers", kind.arrayed, 1, MAX_SIDE);
-    let depth = side("depth", kind.dim == SamplerDim::D3, 1, MAX_SIDE);
+    // An array's layers may be told as its depth.
+    let by_depth = kind.arrayed && table.get("layers").is_none() && table.get("depth").is_some();
+    let layers = side(if by_depth { "depth" } else { "layers" }, kind.arrayed, 1, MAX_SIDE);
+    let depth = if by_depth { 1 } else { side("depth", kind.dim == SamplerDim::D3, 1, MAX_SIDE) };
     let alone = flat && !kind.arrayed;
     if kind.dim != SamplerDim::Multisample {
         side("samples", false, 1, 1);

@@ -434,8 +434,9 @@ impl<'p> Values<'p> {
             root.is_some_and(|root| root.active && root.default.is_none()) && !self.is_set(leaf)
         };
         let unset: Vec<&UniformLeaf> = interface.uniforms.iter().filter(is_open).collect();
-        let names: Vec<&str> = unset.iter().map(|leaf| leaf.name.as_str()).collect();
-        let message = match unset.len() {
+        let names: Vec<String> = unset.iter().flat_map(|leaf| self.names_without_value(leaf)).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let message = match names.len() {
             0 => return,
             1 => format!("uniform {} gets no value and is 0", names_of(&names)),
             _ => format!("uniforms {} get no value and are 0", names_of(&names)),
@@ -511,6 +512,22 @@ impl<'p> Values<'p> {
             (is_plain_transform(&name) && role.fits(ty)).then_some(role)
         };
         matrix_role(&name, ty).or_else(plain)
+    }
+
+    /// The name of a leaf that lacks a value, or those of its elements that do, if others have one.
+    fn names_without_value(&self, leaf: &UniformLeaf) -> Vec<String> {
+        let each = self.program.types.flat_len(leaf.ty).max(1) as usize;
+        let start = leaf.flat_offset as usize;
+        let set = self.set.get(leaf.root.0 as usize).and_then(|set| set.get(start..)).unwrap_or_default();
+        let elements = set.chunks(each).take(leaf.array_size.unwrap_or(1) as usize).enumerate();
+        let is_open = |(_, set): &(usize, &[bool])| !set.iter().all(|&set| set);
+        let open: Vec<usize> = elements.filter(is_open).map(|(element, _)| element).collect();
+        match leaf.array_size {
+            Some(size) if open.len() < size as usize => {
+                open.into_iter().map(|element| format!("{}[{element}]", leaf.name)).collect()
+            }
+            _ => vec![leaf.name.clone()],
+        }
     }
 
     fn is_set(&self, leaf: &UniformLeaf) -> bool {

@@ -15,8 +15,8 @@ use glisten_scene::compare::population::{MIN_MEMBERS, MIN_PIXELS, MIN_SHARE};
 use glisten_scene::compare::{Class, Compared, Comparison, Criterion, Gauge, Population, Verdict, Written};
 use glisten_scene::picture::Picture;
 
-/// The seed of the population.
-const SEED: u64 = 1;
+/// The seed of the population, the same for every scene.
+pub const POPULATION_SEED: u64 = 1;
 /// An envelope is narrow up to this share of the goal for evidence: 1/4080 of the range of the picture's values. Where
 /// all are, a population would find nothing.
 const NARROW: f64 = 1.0 / 16.0;
@@ -268,7 +268,8 @@ impl<'a> Expected<'a> {
         let Picture { width, height, .. } = self.picture;
         let undefined = self.undefined().map_or(&[][..], |undefined| &undefined.pixels);
         let ruler = Ruler::new(&self.picture, &self.written, self.options.width).without(undefined);
-        Population::new(SEED, [width, height], self.picture.attachments.len() as u32).with_gauge(Gauge::new(&ruler))
+        Population::new(POPULATION_SEED, [width, height], self.picture.attachments.len() as u32)
+            .with_gauge(Gauge::new(&ruler))
     }
 
     fn comparison<'j>(&'j self, faults: &'j [(&'static str, Picture)]) -> Comparison<'j> {

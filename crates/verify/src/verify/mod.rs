@@ -47,7 +47,7 @@ mod undefined;
 mod verification;
 mod weakness;
 
-pub use expected::Expected;
+pub use expected::{Expected, POPULATION_SEED};
 pub use files::write_pictures;
 #[cfg(feature = "stability")]
 pub use headline::{Headline, is_empty};

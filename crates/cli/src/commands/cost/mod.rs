@@ -15,8 +15,11 @@ use crate::scenes::MachineArgs;
 use crate::session::{Session, Unit};
 use clap::Args;
 use glisten_cost::{Assumptions, ProgramCost, cost};
+use glisten_front::diagnostic::did_you_mean;
+use glisten_front::hir::Storage;
 use rank::Measuring;
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use table::table;
 
@@ -78,6 +81,25 @@ fn parse_range(text: &str) -> Result<(String, Bounds), String> {
     }
 }
 
+/// A range of what no program has is a mistake.
+fn check_range(name: &str, units: &[Unit]) -> Result<(), Failure> {
+    let base = |path: &'_ str| path.find(['.', '[']).map_or(path.len(), |end| end);
+    let programs = || units.iter().filter_map(|unit| unit.program.as_ref());
+    let uniforms = programs().flat_map(|program| &program.interface.uniforms).map(|leaf| leaf.name.as_str());
+    let globals = programs().flat_map(|program| &program.stages).flat_map(|shader| &shader.globals);
+    let own = globals.filter(|global| global.storage == Storage::Uniform).map(|global| global.name.as_str());
+    let names: BTreeSet<&str> = uniforms.chain(own).filter_map(|path| path.get(..base(path))).collect();
+    let wanted = name.get(..base(name)).unwrap_or(name);
+    if names.contains(wanted) {
+        return Ok(());
+    }
+    let failure = Failure::usage(format!("no program has a uniform `{name}` (--range)"));
+    Err(match did_you_mean(wanted, names.iter().copied()) {
+        Some(near) => failure.help(format!("did you mean `{near}`?")),
+        None => failure,
+    })
+}
+
 /// Runs the command.
 pub(crate) fn run(args: &CostArgs, console: &Console) -> Outcome {
     let mut session = Session::new(console, &args.sources, &args.bindings, &args.levels, 0)?;
@@ -92,6 +114,9 @@ pub(crate) fn run(args: &CostArgs, console: &Console) -> Outcome {
     }
     let units = session.compile(inputs.groups);
     let exit = session.tell_units(&units, false)?;
+    if units.iter().all(Unit::is_program) {
+        args.range.iter().try_for_each(|(name, _)| check_range(name, &units))?;
+    }
     let costs: Vec<(&Unit, ProgramCost)> = units
         .iter()
         .filter_map(|unit| {

@@ -17,6 +17,7 @@ mod values;
 mod varyings;
 
 use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
+use crate::arguments::stages::StageArg;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
@@ -31,6 +32,7 @@ use glisten_front::hir::{Global, Shader, Stage, Storage};
 use glisten_front::link::Program;
 use glisten_scene::{default_tessellation, shape_names};
 use glisten_sources::engines::{Member, STYLES};
+use glisten_sources::stages::extension;
 use glisten_sources::{members, stages};
 use glisten_verify::scene::is_model_file;
 use reads::Reads;
@@ -45,10 +47,13 @@ use values::alternatives;
 pub(crate) const EXAMPLES: Examples =
     &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")];
 
+/// The name of standard input.
+const STANDARD_INPUT: &str = "-";
+
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
 pub(crate) struct NewSceneArgs {
-    /// The shaders of the program; a fragment shader alone gets a vertex shader for a triangle that covers the window, a vertex shader
+    /// The shaders of the program, or `-` for standard input, which becomes a file next to the scene; a fragment shader alone gets a vertex shader for a triangle that covers the window, a vertex shader
     /// alone a fragment shader that shows its varyings, and either the fixed-function pipeline's where that fits; or a model (.obj, .gltf, .glb), which gets a camera and lights
     #[arg(num_args = 1..=3, required = true, value_names = ["A.vert", "B.frag"])]
     files: Vec<String>,
@@ -58,6 +63,9 @@ pub(crate) struct NewSceneArgs {
     /// Draw this mesh: a file, or a shape such as `torus`
     #[arg(long, value_name = "FILE|SHAPE")]
     mesh: Option<String>,
+    /// The stage of standard input, and of a single file
+    #[arg(long, value_enum)]
+    stage: Option<StageArg>,
     /// The width and height of the window
     #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=4096))]
     size: u32,
@@ -74,7 +82,7 @@ impl NewSceneArgs {
     /// The arguments for the files of a program, without a mesh.
     pub(crate) fn of(files: Vec<String>, output: PathBuf, size: u32, sources: &SourceArgs, levels: &LevelArgs) -> Self {
         let (sources, levels) = (sources.clone(), levels.clone());
-        Self { files, output: Some(output), mesh: None, size, is_silent: true, sources, levels }
+        Self { files, output: Some(output), mesh: None, stage: None, size, is_silent: true, sources, levels }
     }
 }
 
@@ -92,7 +100,8 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
     }
     args.mesh.as_deref().map_or(Ok(()), check_mesh)?;
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
-    let inputs = match stages_of(args, &mut session, console)? {
+    let files = named_files(args)?;
+    let inputs = match stages_of(args, &files, &mut session, console)? {
         Ok(inputs) => inputs,
         Err(exit) => return Ok(exit),
     };
@@ -117,6 +126,36 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         None => console.output(&text)?,
     }
     Ok(exit)
+}
+
+/// The shaders by their names. A scene names files, so standard input becomes one.
+fn named_files(args: &NewSceneArgs) -> Result<Vec<String>, Failure> {
+    let is_input = |file: &&String| *file == STANDARD_INPUT;
+    match args.files.iter().filter(is_input).count() {
+        0 => return Ok(args.files.clone()),
+        1 => {}
+        _ => return Err(Failure::usage("standard input is one shader, and is named more than once")),
+    }
+    let Some(stage) = args.stage else {
+        let failure = Failure::usage("cannot tell the shader stage of standard input");
+        return Err(failure.help("add `--stage vertex` or another"));
+    };
+    let Some(output) = &args.output else {
+        let failure = Failure::usage("a scene names files, and standard input becomes one next to it");
+        return Err(failure.help("add `-o SCENE.toml`"));
+    };
+    let path = output.with_extension(extension(stage.into()));
+    if path.exists() {
+        let failure = Failure::usage(format!("`{}` exists already", path.display()));
+        return Err(failure.help("name it in the place of `-`, or remove it"));
+    }
+    let text = files::read_source("standard input", None).map_err(|error| {
+        let failure = Failure::new(Exit::Content, error.message);
+        if let Some(help) = error.help { failure.help(help) } else { failure }
+    })?;
+    files::write(&path, text.as_bytes())?;
+    let name = path.to_string_lossy().into_owned();
+    Ok(args.files.iter().map(|file| if is_input(&file) { name.clone() } else { file.clone() }).collect())
 }
 
 /// Refuses a mesh that is not there.
@@ -192,26 +231,28 @@ fn written(
 /// with errors.
 fn stages_of(
     args: &NewSceneArgs,
+    files: &[String],
     session: &mut Session<'_>,
     console: &Console,
 ) -> Result<Result<Vec<Input>, Exit>, Failure> {
     let input = |name: &str, stage| Input { name: name.to_owned(), path: Some(PathBuf::from(name)), stage, part: None };
-    if let [both] = args.files.as_slice() {
-        if contains_both(both) {
+    if let [both] = files {
+        if args.stage.is_none() && contains_both(both) {
             return Ok(Ok(vec![input(both, Stage::Vertex), input(both, Stage::Fragment)]));
         }
-        let stage = stages::by_name(Path::new(both)).unwrap_or(Stage::Fragment);
+        let told = args.stage.map(Stage::from).or_else(|| stages::by_name(Path::new(both)));
+        let stage = told.unwrap_or(Stage::Fragment);
         return alone(args, input(both, stage), session, console);
     }
-    let order = match args.files.len() {
+    let order = match files.len() {
         2 => &[Stage::Vertex, Stage::Fragment][..],
         _ => &[Stage::Vertex, Stage::Geometry, Stage::Fragment],
     };
-    let told = args.files.iter().map(|file| stages::by_name(Path::new(file)));
+    let told = files.iter().map(|file| stages::by_name(Path::new(file)));
     let told: Vec<Option<Stage>> = told.collect();
     let stage = |index: usize| told.get(index).copied().flatten().or(order.get(index).copied());
     let mut inputs: Vec<Input> =
-        args.files.iter().enumerate().filter_map(|(index, file)| Some(input(file, stage(index)?))).collect();
+        files.iter().enumerate().filter_map(|(index, file)| Some(input(file, stage(index)?))).collect();
     inputs.sort_by_key(|input| order.iter().position(|stage| *stage == input.stage));
     if inputs.windows(2).any(|pair| matches!(pair, [a, b] if a.stage == b.stage)) {
         let failure = Failure::usage("two of the files are of one stage");

@@ -28,6 +28,7 @@ use crate::inputs::{self, Group};
 use crate::lone;
 use crate::memo::Memo;
 use crate::outputs::{Output, OutputArgs, OutputPlan};
+use crate::overwrite;
 use crate::progress::Progress;
 use crate::recall::Recall;
 use crate::session::{self, Session, Unit, compile_group};
@@ -131,7 +132,9 @@ pub(crate) fn run(job: &Job<'_>, console: &Console) -> Outcome {
     run.write()?;
     run.recall.close(console);
     if exit == Exit::Ok {
-        run.write_accounts()?;
+        if !job.check {
+            run.write_accounts()?;
+        }
         let end = if run.variants == 1 { "" } else { "s" };
         console.remark(&format!("{} variant{end}, {} distinct", run.variants, run.shaders));
     }
@@ -259,6 +262,10 @@ impl Run<'_> {
             return Ok(());
         }
         let folder = self.job.folder;
+        let own = self.index.files().keys().map(|name| folder.join(name)).chain([folder.join(INDEX)]);
+        let accounts = self.job.depfile.iter().chain(&self.job.manifest).map(|path| path.to_path_buf());
+        let all: Vec<PathBuf> = own.chain(accounts).collect();
+        overwrite::refuse_equal(all.iter().map(PathBuf::as_path))?;
         files::make_folder(folder)?;
         let parts = self.index.files().keys().filter_map(|name| name.split('/').next());
         let folders: BTreeSet<PathBuf> = parts.map(|program| folder.join(program)).collect();

@@ -30,7 +30,7 @@ pub(super) fn run(args: &PlayArgs, output: &Path, console: &Console) -> Outcome 
     files::check_writable(output)?;
     let progress = Progress::new(console, 3);
     let of = SceneArgs::of(&args.start, &args.machine, &args.sources, &args.levels);
-    let read = match of.begin(console)? {
+    let read = match of.read(console)? {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };

@@ -179,27 +179,23 @@ fn assembled(args: &PortArgs, host: &Host, ported: &Ported, folder: &mut NewFold
 
 /// Writes the folder and tells the account.
 fn finish(args: &PortArgs, report: &Report, mut folder: NewFolder, console: &Console) -> Outcome {
-    let json = serde_json::to_string_pretty(&summarized(report)).unwrap_or_default() + "\n";
+    let account = summarized(report);
+    let text = |value: &serde_json::Value| serde_json::to_string_pretty(value).unwrap_or_default() + "\n";
+    let json = text(&account);
     let broken = |message: String| Failure::new(Exit::Content, format!("the page cannot be made: {message}"));
     let html = page(report).map_err(broken)?;
     folder.add(ACCOUNT[0], json.clone().into_bytes());
     folder.add(ACCOUNT[1], html.into_bytes());
-    let mut exit = Exit::Ok;
+    let mut differing: Option<Vec<PathBuf>> = None;
     match (&args.output, args.check) {
         (Some(output), true) => {
-            for name in folder.differing(output) {
-                console.output(&format!("{}\n", output.join(&name).display()))?;
-                exit = Exit::Content;
-            }
+            differing = Some(folder.differing(output).iter().map(|name| output.join(name)).collect());
         }
         (None, _) => {
             let refused = report.programs.iter().filter(|program| program.result == Result_::Refused);
             let changed = report.files.iter().map(|file| &file.file);
             let names: BTreeSet<&String> = changed.chain(refused.flat_map(|program| &program.files)).collect();
-            for name in names {
-                console.output(&format!("{}\n", args.pack.join(name).display()))?;
-                exit = Exit::Content;
-            }
+            differing = Some(names.iter().map(|name| args.pack.join(name)).collect());
         }
         (Some(output), false) => {
             let names = folder.differing(output);
@@ -213,12 +209,25 @@ fn finish(args: &PortArgs, report: &Report, mut folder: NewFolder, console: &Con
             console.remark(&format!("wrote {} files into {}", names.len(), output.display()));
         }
     }
-    if args.format == ResultFormat::Json && !args.check {
-        console.output(&json)?;
+    let names: Vec<String> = differing.iter().flatten().map(|path| path.display().to_string()).collect();
+    match (args.format, differing.is_some()) {
+        (ResultFormat::Json, true) => {
+            let mut account = account;
+            if let Some(object) = account.as_object_mut() {
+                object.insert("differing".to_owned(), serde_json::json!(names));
+            }
+            console.output(&text(&account))?;
+        }
+        (ResultFormat::Json, false) => console.output(&json)?,
+        (ResultFormat::Human, _) => {
+            console.output(&names.iter().map(|name| format!("{name}\n")).collect::<String>())?
+        }
     }
+    let exit = if names.is_empty() { Exit::Ok } else { Exit::Content };
     for program in report.programs.iter().filter(|program| program.result == Result_::Refused) {
         let because = program.because.as_deref().unwrap_or("");
-        console.remark(&format!("note: `{}` stays as it was: {because}", program.name));
+        // It is what the exit code is about, so `--quiet` does not omit it.
+        console.aside(&format!("note: `{}` stays as it was: {because}", program.name));
     }
     console.remark(&report.summary());
     // A check of a new folder asks whether it is as a port would write it now.

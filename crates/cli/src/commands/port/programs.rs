@@ -106,6 +106,10 @@ pub(super) fn ported(
         let first = by(compiler, group.clone(), StandIn::Blocks);
         if is_twice(&first.0) { by(compiler, group, StandIn::Nothing) } else { first }
     });
+    // People read in the account why a program stays.
+    if !session.is_human() {
+        session.tell_units(&units, false)?;
+    }
     let old = readers.compiler(session.compiler(), StandIn::Blocks);
     let older = readers.compiler(session.compiler(), StandIn::Nothing);
     let words = words(&units);

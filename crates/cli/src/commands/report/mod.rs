@@ -20,6 +20,7 @@ use crate::scenes::{DrawError, SceneArgs, ViaArg};
 use crate::session::Session;
 use clap::builder::ArgPredicate;
 use clap::{Args, ValueEnum};
+use glisten_front::diagnostic::Diagnostic;
 use glisten_front::source::SourceMap;
 use glisten_report::{Error, LIBRARY_SCENE, LibraryFiles, Limits, Options, Report, TIMING, Watcher, Ways, Weights};
 use glisten_verify::scene::{FileSource, is_model_file};
@@ -65,7 +66,7 @@ pub(crate) struct ReportArgs {
     /// The weights of operations: `operations` (the default), `llvmpipe`, `gpu`, or a file of your own
     #[arg(long, value_name = "NAME|FILE")]
     weights: Option<String>,
-    /// Time all variants at most this often (default: as the scene says, or 100)
+    /// Time all variants at most this often, and 6 times at least (default: as the scene says, or 100)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: Option<u32>,
     /// Time them for at most this many seconds, after all are drawn (default 30)
@@ -158,6 +159,11 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
     let checks = args.checks.read()?;
     let weights = weights(args.weights.as_deref())?;
     let session = args.scene.session(console)?;
+    // The library's scene is no file, and there is nothing to tell about it.
+    let read = match (!args.library).then(|| args.scene.read(console)).transpose()? {
+        Some(Err(exit)) => return Ok(exit),
+        read => read.and_then(Result::ok),
+    };
     files::make_folder(&args.output)?;
     let gpu = match args.scene.gpu() {
         Ok(gpu) => gpu,
@@ -201,6 +207,14 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         Err(error) => return failed(session, error, console),
     };
     write(args, console, &report)?;
+    let is_empty = !report.ways.iter().any(|way| way.picture.covered.contains(&true));
+    let exit = match read.filter(|read| is_empty && !read.scene.draws.is_empty()) {
+        Some(read) => {
+            let nothing = vec![read.nothing_covered()];
+            read.finish(nothing)?
+        }
+        None => Exit::Ok,
+    };
     if interrupt.is_pressed() {
         console.remark("interrupted; the report covers what had finished");
         return Ok(Exit::Interrupted);
@@ -210,7 +224,7 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         let message = format!("{message}; the report covers what had finished");
         return Err(Failure::new(Exit::Content, message).help(help));
     }
-    checks.apply(&report, &args.output, console)
+    Ok(checks.apply(&report, &args.output, console)?.max(exit))
 }
 
 /// The weights of that name, or in a file of that name.
@@ -232,7 +246,9 @@ fn weights(name: Option<&str>) -> Result<Weights, Failure> {
 fn failed(session: Session<'_>, error: Error, console: &Console) -> Outcome {
     match error {
         Error::Scene { sources, diagnostics, io_error } => {
-            let exit = told(session, *sources, DrawError::Diagnostics(diagnostics.into_iter().collect()))?;
+            // All else was told when the scene was read.
+            let errors = diagnostics.into_iter().filter(Diagnostic::is_error).collect();
+            let exit = told(session, *sources, DrawError::Diagnostics(errors))?;
             Ok(if io_error { exit.max(Exit::Usage) } else { exit })
         }
         Error::Reference { way, diagnostics } => {

@@ -120,34 +120,35 @@ impl Residuals {
 /// Runs the command.
 pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     refuse_equal_names(&args.scenes)?;
-    let progress = Progress::new(console, args.scenes.len());
-    let mut residuals = Residuals::default();
     let clock = if args.time { Some(Clock::new(&args.machine)?) } else { None };
-    let mut done = Vec::new();
-    let mut suggested = Vec::new();
-    let mut exit = Exit::Ok;
+    let (mut reads, mut exit) = (Vec::new(), Exit::Ok);
     for name in &args.scenes {
-        progress.say(name);
         let _watchdog = args.machine.watchdog(console);
-        let scene = SceneArgs::of(name, &args.machine, &args.sources, &args.levels);
-        match scene.read(console)? {
-            Ok(read) if args.suggest => {
-                check_dynamic(args, &read.scene)?;
-                suggested.push((stem(name), read.scene));
-            }
-            Ok(read) => match specialized(args, name, read, (clock.as_ref(), &mut residuals))? {
-                Ok(one) => done.push(one),
-                Err(worse) => exit = exit.max(worse),
-            },
+        match SceneArgs::of(name, &args.machine, &args.sources, &args.levels).read(console)? {
+            Ok(read) => reads.push((name, read)),
             Err(worse) => exit = exit.max(worse),
         }
+    }
+    // A scene that was not read may have the name.
+    if exit == Exit::Ok {
+        let scenes: Vec<&Scene> = reads.iter().map(|(_, read)| &read.scene).collect();
+        check_dynamic(&args.dynamic, &scenes)?;
+    }
+    if args.suggest {
+        let scenes = reads.into_iter().map(|(name, read)| (stem(name), read.scene)).collect();
+        let answer = suggest::run(scenes, &args.dynamic, &args.machine, (args.format, console));
+        return answer.map(|answer| answer.max(exit));
+    }
+    let progress = Progress::new(console, reads.len());
+    let mut residuals = Residuals::default();
+    let mut done = Vec::new();
+    for (name, read) in reads {
+        progress.say(name);
+        let _watchdog = args.machine.watchdog(console);
+        done.push(specialized(args, name, &read, (clock.as_ref(), &mut residuals))?);
         progress.step();
     }
     drop(progress);
-    if args.suggest {
-        let answer = suggest::run(suggested, &args.dynamic, &args.machine, (args.format, console));
-        return answer.map(|answer| answer.max(exit));
-    }
     if args.check {
         return checked(&done, console).map(|answer| answer.max(exit));
     }
@@ -193,10 +194,9 @@ fn stem(path: &str) -> String {
 fn specialized(
     args: &SpecializeArgs,
     name: &str,
-    read: Read<'_>,
+    read: &Read<'_>,
     (clock, residuals): (Option<&Clock>, &mut Residuals),
-) -> Result<Result<Done, Exit>, Failure> {
-    check_dynamic(args, &read.scene)?;
+) -> Result<Done, Failure> {
     let contract = args.contract.contract();
     let mut specialized = specialize_scene_by(contract, &read.scene, read.sources(), &args.dynamic);
     let mut times = None;
@@ -215,24 +215,17 @@ fn specialized(
         let [vertex, fragment] = files_of(&draw.program, read.sources());
         names.push([vertex, fragment, stem]);
     }
-    Ok(Ok(Done {
-        name: stem(name),
-        scene: read.scene.clone(),
-        specialized,
-        sources: read.sources().clone(),
-        names,
-        times,
-    }))
+    Ok(Done { name: stem(name), scene: read.scene.clone(), specialized, sources: read.sources().clone(), names, times })
 }
 
-/// A name of `--dynamic` that no program of a scene has is a mistake.
-fn check_dynamic(args: &SpecializeArgs, scene: &Scene) -> Result<(), Failure> {
-    for name in &args.dynamic {
-        let known = scene.draws.iter().any(|draw| names_anything(&draw.program.interface, name));
+/// A name of `--dynamic` that no program of any scene has is a mistake.
+fn check_dynamic(dynamic: &[String], scenes: &[&Scene]) -> Result<(), Failure> {
+    let interfaces = || scenes.iter().flat_map(|scene| &scene.draws).map(|draw| &draw.program.interface);
+    for name in dynamic {
+        let known = interfaces().any(|interface| names_anything(interface, name));
         if !known {
             let base = name.split(['[', '.']).next().unwrap_or(name);
-            let leaves = scene.draws.iter().flat_map(|draw| {
-                let interface = &draw.program.interface;
+            let leaves = interfaces().flat_map(|interface| {
                 let leaves = interface.uniforms.iter().map(|leaf| leaf.name.as_str());
                 leaves.chain(interface.samplers.iter().map(|slot| slot.name.as_str())).collect::<Vec<_>>()
             });

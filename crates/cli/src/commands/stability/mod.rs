@@ -10,6 +10,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::inputs;
+use crate::overwrite;
 use crate::pictures::Target;
 use crate::progress::Progress;
 use crate::scenes::{MachineArgs, Read, SceneArgs};
@@ -46,7 +47,7 @@ pub(crate) struct StabilityArgs {
     /// module, or one
     #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, conflicts_with_all = ["scenes", "sweeps", "stiff", "worst", "heat", "exact"])]
     library: Option<Option<String>>,
-    /// The number of calls of each function of the library
+    /// The number of calls of each function of the library; calls with extreme values are added, at most a quarter as many
     #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=65_536), requires = "library")]
     cases: u32,
     /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
@@ -162,6 +163,7 @@ pub(crate) fn run(args: &StabilityArgs, console: &Console) -> Outcome {
             console,
         );
     }
+    overwrite::refuse_equal(args.heat.iter().chain(&args.worst).map(PathBuf::as_path))?;
     let scenes = inputs::scene_files(&args.scenes)?;
     let mut done = Vec::new();
     let mut exit = Exit::Ok;
@@ -239,6 +241,8 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
             watchdog.again();
             started.elapsed() < limit / 2 || stop()
         };
+        // A name of the command line is wrong usage, and one of the scene is wrong content.
+        let sweeps = (sweeps.as_slice(), !args.sweeps.is_empty());
         match swept(sweeps, &read.scene, relative.unwrap_or(0.0), &progress, &mut goes_on)? {
             Ok((scene, sweep)) => (scene, sweep, None),
             Err(found) => return Ok(Err(found)),
@@ -288,7 +292,7 @@ type Swept = Result<(Scene, Option<SweepResult>), Vec<Diagnostic>>;
 /// The scene with the worst values of the sweeps, or as it is. Ends with what it has if `goes_on` is false before a picture; one
 /// is drawn in any case.
 fn swept(
-    sweeps: &[Sweep],
+    (sweeps, is_asked): (&[Sweep], bool),
     scene: &Scene,
     relative: f64,
     progress: &Progress,
@@ -299,7 +303,8 @@ fn swept(
     }
     let found: Result<Vec<Parameter>, String> =
         sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
-    let parameters = found.map_err(|message| Failure::new(Exit::Content, message))?;
+    let exit = if is_asked { Exit::Usage } else { Exit::Content };
+    let parameters = found.map_err(|message| Failure::new(exit, message))?;
     let combinations = sweep::combinations(sweeps).map_err(Failure::usage)?;
     let step = &mut |done: usize, of: usize| {
         progress.reach(done, of);

@@ -34,8 +34,8 @@ pub(crate) const EXAMPLES: Examples = &[
 /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
 #[derive(Args, Debug)]
 pub(crate) struct UpgradeArgs {
-    /// The shaders; files of one program are rewritten together, so that their stages still fit
-    #[arg(required_unless_present = "programs", value_name = "FILE")]
+    /// The shaders, or folders to search for them; files of one program are rewritten together, so that their stages still fit
+    #[arg(required_unless_present = "programs", value_name = "FILE|DIR")]
     files: Vec<PathBuf>,
     /// The language to write
     #[arg(long, value_enum, default_value_t, value_name = "VERSION")]
@@ -130,6 +130,7 @@ pub(crate) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
     if exit > Exit::Ok {
         return session.tell(&batches, false);
     }
+    session.tell(&[], false)?;
     let words = words(&units);
     let (mut texts, mut trees) = (Vec::new(), Vec::new());
     for unit in &units {

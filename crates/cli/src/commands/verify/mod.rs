@@ -12,6 +12,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::inputs;
+use crate::overwrite;
 use crate::pictures::Target;
 use crate::progress::Progress;
 use crate::scenes::{DrawError, Read, SceneArgs};
@@ -238,6 +239,8 @@ struct Report<'a> {
     weakness: Option<&'a Weakness>,
     /// The places in the picture that the language leaves undefined.
     undefined: &'a [UndefinedAt],
+    /// The seed of the population of simulated GPUs; null if none was drawn.
+    population_seed: Option<u64>,
     /// The adapter that drew, and its driver.
     adapter: &'a str,
     driver: &'a str,
@@ -258,6 +261,7 @@ pub(crate) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     if is_folder && (args.difference.is_some() || args.evidence.is_some()) {
         return Err(Failure::usage("--difference and --evidence are pictures of one scene, and this is a folder"));
     }
+    overwrite::refuse_equal(args.difference.iter().chain(&args.evidence).map(PathBuf::as_path))?;
     if is_folder || matches!(args.format, VerifyFormat::Github | VerifyFormat::Junit) {
         let scenes = inputs::scene_files(std::slice::from_ref(name))?;
         return folder::run(args, &scenes, console);
@@ -272,7 +276,7 @@ pub(crate) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
 /// Draws a scene and judges it. Of one scene, the text for people is printed; a scene that is not drawn is reported.
 fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit, Option<Judged>), Failure> {
     let is_alone = of.scene == args.scene.scene && args.format == VerifyFormat::Human;
-    let read = match of.begin(console)? {
+    let read = match of.read(console)? {
         Ok(read) => read,
         Err(exit) => return Ok((exit, None)),
     };
@@ -312,9 +316,7 @@ fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit
     let holds = verification.holds();
     if is_alone {
         let text = human(&verification, &runs, (&skipped, forms_bit_unequal), (&read, console));
-        if read.is_human() {
-            console.remark(&format!("drawn by {facts}{}", read.host_part()));
-        }
+        console.remark(&format!("drawn by {facts}{}", read.host_part()));
         console.output(&text)?;
     }
     let report = Report {
@@ -328,6 +330,7 @@ fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit
         share: verification.share,
         weakness: verification.weakness.as_ref(),
         undefined: &verification.undefined,
+        population_seed: verification.demands.likely.then_some(verify::POPULATION_SEED),
         adapter: &facts.name,
         driver: &facts.driver,
     };

@@ -6,7 +6,7 @@
 use super::{Run, Skip, worst_of};
 use glisten_scene::compare::Verdict;
 use glisten_verify::verify::{Conclusion, Verification, mark};
-use glisten_verify::verify::{Headline, is_empty};
+use glisten_verify::verify::{Headline, POPULATION_SEED, is_empty};
 
 /// The text for people.
 pub(super) fn told(verification: &Verification, runs: &[Run], skipped: &[Skip], bit_unequal: Option<u64>) -> String {
@@ -55,7 +55,7 @@ fn summary(verification: &Verification, runs: &[Run], worst: &Run, bit_unequal: 
     format!(
         "{}: {}: {} of {} covered pixels{blocks} judged ({share:.1} %){}\n\
          largest error {:.3e} ({:.1} ulp), rmse {:.3e}, flip {:.3e}; {}\n\
-         {}{equal}, reference {:.3} ms\n",
+         {}{equal}, reference {:.3} ms{}\n",
         vias.join(" and "),
         mark(verification.conclusion()),
         verdict.evidence.good(),
@@ -68,7 +68,13 @@ fn summary(verification: &Verification, runs: &[Run], worst: &Run, bit_unequal: 
         by(verdict),
         times.join(", "),
         worst.cpu_ms,
+        population(verification).map_or(String::new(), |population| format!("; {population}")),
     )
+}
+
+/// The population that was drawn, with its seed.
+fn population(verification: &Verification) -> Option<String> {
+    verification.demands.likely.then(|| format!("simulated GPUs of seed {POPULATION_SEED}"))
 }
 
 /// The standard of the comparison.
@@ -115,7 +121,10 @@ fn table(run: &Run, verification: &Verification) -> String {
     let faults: Vec<String> =
         verdict.known_faults.iter().map(|count| format!("{} ({})", count.pixels, count.fault)).collect();
     let faults = (!faults.is_empty()).then(|| ("known faults", faults.join(", ")));
-    let suspect = verdict.suspect.map(|count| ("suspect", count.to_string()));
+    let suspect = verdict.suspect.map(|count| match population(verification) {
+        Some(population) => ("suspect", format!("{count} ({population})")),
+        None => ("suspect", count.to_string()),
+    });
     let unlikely = (verdict.outside_likely > 0).then(|| ("outside likely", verdict.outside_likely.to_string()));
     let mut text = format!("{}: {}\n", run.via, mark(verdict.conclusion(&verification.demands)));
     for (name, value) in rows.into_iter().chain(suspect).chain(unlikely).chain(faults) {

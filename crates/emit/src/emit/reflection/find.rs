@@ -44,8 +44,27 @@ pub enum Found {
 }
 
 /// Looks up a name among attributes, varyings, outputs, uniforms, blocks and samplers, then among all other globals.
-/// `a[0]` finds the array `a`, `a[2]` its element, as `glGetUniformLocation` does (OpenGL 3.2 §2.11.4); a struct or a block finds its members.
+/// `a[0]` finds the array `a`, `a[2]` its element, as `glGetUniformLocation` does (OpenGL 3.2 §2.11.4); a struct or a block finds its
+/// members, and the instance of a block finds what hosts name after the block.
 pub fn find(program: &Program, reflection: &Reflection, name: &str) -> Found {
+    let mut lines = places(reflection, name);
+    let of_block = path_of_block(program, name);
+    if let (true, Some(path)) = (lines.is_empty(), &of_block) {
+        lines = by_instance(reflection, name, path);
+    }
+    if lines.is_empty() {
+        lines = globals(program, name);
+    }
+    let wanted = of_block.as_deref().unwrap_or(name);
+    if lines.is_empty() {
+        Found::Unknown { nearest: nearest(program, reflection, wanted) }
+    } else {
+        Found::Known(lines)
+    }
+}
+
+/// The things that hosts reach by a name.
+fn places(reflection: &Reflection, name: &str) -> Vec<Match> {
     let mut lines = exact(reflection, name);
     if lines.is_empty()
         && let Some(base) = name.strip_suffix("[0]")
@@ -58,10 +77,25 @@ pub fn find(program: &Program, reflection: &Reflection, name: &str) -> Found {
     if lines.is_empty() {
         lines = members(reflection, name);
     }
-    if lines.is_empty() {
-        lines = globals(program, name);
-    }
-    if lines.is_empty() { Found::Unknown { nearest: nearest(program, reflection, name) } } else { Found::Known(lines) }
+    lines
+}
+
+/// The path by which hosts name a part of a block that has an instance name: with the block's name (OpenGL 3.2 §2.11.4).
+fn path_of_block(program: &Program, name: &str) -> Option<String> {
+    let (instance, rest) = name.split_at(name.find(['.', '[']).unwrap_or(name.len()));
+    let mut globals = program.stages.iter().flat_map(|shader| &shader.globals);
+    let block = globals.find(|global| global.block.is_some() && global.name == instance)?.match_name();
+    (block != instance).then(|| format!("{block}{rest}"))
+}
+
+/// The things that hosts name after a block, by the name of its instance.
+fn by_instance(reflection: &Reflection, name: &str, path: &str) -> Vec<Match> {
+    let found = places(reflection, path);
+    let Some(kind) = found.first().map(|first| first.kind) else { return Vec::new() };
+    let head = format!("`{name}` is named `{path}` by hosts, after its block:");
+    let mut lines = vec![Match::new(kind, name, head, &serde_json::Value::Null)];
+    lines.extend(found.into_iter().map(|found| Match { part: true, ..found }));
+    lines
 }
 
 fn state(active: bool) -> &'static str {
@@ -119,7 +153,7 @@ fn exact(reflection: &Reflection, name: &str) -> Vec<Match> {
     lines
 }
 
-/// An element of an array of uniforms.
+/// An element of an array of uniforms, attributes or outputs.
 fn element(reflection: &Reflection, name: &str) -> Vec<Match> {
     let parts = name.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
     let Some((base, Ok(index))) = parts.map(|(base, index)| (base, index.parse::<u32>())) else { return Vec::new() };
@@ -134,7 +168,26 @@ fn element(reflection: &Reflection, name: &str) -> Vec<Match> {
         );
         Some(Match::new("uniform", name, line, row))
     });
-    found.collect()
+    let attributes = reflection.attributes.iter().filter(|row| row.name == base).filter_map(|row| {
+        let (ty, size) = element_type(&row.ty).filter(|(_, size)| index < *size)?;
+        let location = row.location.checked_add(index.checked_mul(row.columns.checked_div(size)?)?)?;
+        let active = state(row.active);
+        let line = format!("`{name}` is an element of the attribute `{base}`: {ty} at location {location}{active}");
+        Some(Match::new("attribute", name, line, row))
+    });
+    let outputs = reflection.outputs.iter().filter(|row| row.name == base).filter_map(|row| {
+        let (ty, _) = element_type(&row.ty).filter(|(_, size)| index < *size)?;
+        let number = row.location.checked_add(index)?;
+        let line = format!("`{name}` is an element of the fragment output `{base}`: {ty}, color number {number}");
+        Some(Match::new("output", name, line, row))
+    });
+    found.chain(attributes).chain(outputs).collect()
+}
+
+/// The type of an array's elements, and how many there are.
+fn element_type(ty: &str) -> Option<(&str, u32)> {
+    let (element, size) = ty.strip_suffix(']')?.split_once('[')?;
+    Some((element, size.parse().ok()?))
 }
 
 /// The members or columns of a struct, matrix or block.

@@ -6,7 +6,7 @@ codes! {
     NOT_SUPPORTED_YET = "E0001" "not-supported-yet" Error ""
         "The source uses a construct that glisten knows but does not support yet. The message names it. glisten \
          translates nothing rather than translating it incorrectly."
-        bad None, good None;
+        bad Text("#version 430\nlayout(std430) buffer Data { float values[]; };"), good Text("#version 430\nlayout(std140) uniform Data { float values[64]; };");
     INTERNAL = "E0002" "internal-error" Error ""
         "glisten contradicted itself. This is a bug in glisten and not in the source; please report it with the \
          source."
@@ -14,7 +14,7 @@ codes! {
     TOO_DEEP = "E0003" "nesting-too-deep" Error ""
         "Expressions, blocks and types may nest 256 levels deep. Long chains (`a + b + c`, `else if`) do not count \
          as nesting and may be far longer."
-        bad None, good Fragment("out vec4 c; void main() { c = vec4(((1.0))); }");
+        bad Text("c = vec4(((...(1.0)...)));   // 300 parentheses"), good Fragment("out vec4 c; void main() { c = vec4(((1.0))); }");
     TOO_LARGE = "E0004" "source-too-large" Error ""
         "A source may have 8 MiB after its includes."
         bad None, good None;
@@ -24,19 +24,19 @@ codes! {
         bad Text("glisten lint fong.vert"), good Text("glisten lint phong.vert");
     FILE_UNREADABLE = "E0011" "file-unreadable" Error ""
         "A file exists, but the system does not let it be read. The message contains the system's reason."
-        bad None, good None;
+        bad Text("chmod 000 lit.frag; glisten lint lit.frag"), good Text("chmod 644 lit.frag; glisten lint lit.frag");
     FILE_IS_FOLDER = "E0012" "file-is-folder" Error ""
-        "The path is a folder, but a file is required. Only `lint` searches folders."
-        bad Text("glisten compile shaders/ -o out"), good Text("glisten compile shaders/phong.vert shaders/phong.frag -o out");
+        "The path is a folder, but a file is required. `lint`, `compile`, `fmt` and some others search folders; the rest does not."
+        bad Text("glisten reflect shaders/"), good Text("glisten reflect shaders/phong.vert shaders/phong.frag");
     EMPTY_SOURCE = "E0013" "empty-source" Error "GLSL 1.50 §3.3"
         "The file is empty or contains only white space. A shader has at least a `#version` line and a `main`. An \
          empty file is most often the result of a failed save or download."
-        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
+        bad Text("glisten lint empty.vert   # a file of 0 bytes"), good Vertex("void main() { gl_Position = vec4(0.0); }");
     BINARY_SOURCE = "E0014" "binary-source" Error "GLSL 1.50 §3.1"
         "The file is not text: it contains NUL bytes, or many bytes that do not occur in text. Compiled SPIR-V, \
          images and UTF-16 text look like that. A single byte that is not UTF-8, or a single control character, is an \
          illegal character (E0103), and legal in comments."
-        bad None, good Vertex("void main() { gl_Position = vec4(0.0); }");
+        bad Text("glisten compile lit.vert.spv --stage vertex -o out"), good Vertex("void main() { gl_Position = vec4(0.0); }");
     OTHER_LANGUAGE = "E0018" "other-language" Error ""
         "The text is of another language: WGSL has attributes such as `@vertex`, HLSL has semantics such as `: SV_Position` and \
          `: register(b0)`. Other errors of the text are not reported, because they follow from that."

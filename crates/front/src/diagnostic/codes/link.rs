@@ -1,6 +1,6 @@
 //! Codes of the phase `link` (`E07xx`, `W07xx`).
 
-use super::Example::{Fragment, Geometry, None, Program, Shaders, Text, Vertex};
+use super::Example::{Fragment, Geometry, Program, Shaders, Text, Vertex};
 use crate::language::Stage;
 
 codes! {
@@ -269,7 +269,7 @@ codes! {
     BINDING_IGNORED = "W0701" "binding-ignored" Warning "ARB_explicit_attrib_location"
         "A location was bound by name, but the declaration in the text gives another one, which takes precedence. A \
          host that relies on its binding sends its data to the wrong location."
-        bad None, good Text("glisten compile --bind-attrib position=0 lit.vert -o out");
+        bad Text("glisten compile --bind-attrib position=1 lit.vert -o out   # lit.vert: layout(location = 0) in vec4 position;"), good Text("glisten compile --bind-attrib position=0 lit.vert -o out");
     LONE_WITHOUT_MAIN = "W0702" "lone-shader-without-main" Warning "GLSL 1.50 §6.1"
         "The shader has no `main`. That is legal for one of several shaders of a stage, but the shader alone does \
          nothing."

@@ -1,6 +1,6 @@
 //! Codes of the phase `preprocess` (`E01xx`): characters, comments, directives and macros (GLSL 1.50 §3.1 to §3.4).
 
-use super::Example::{Fragment, None, Vertex};
+use super::Example::{Fragment, None, Text, Vertex};
 
 codes! {
     ILLEGAL_CHARACTER = "E0103" "illegal-character" Error "GLSL 1.50 §3.1"
@@ -71,9 +71,10 @@ codes! {
         "By the specification, a shader without a `#version` line is written in GLSL 1.10. This one uses what 1.10 does \
          not have, so it is written in another version and must say so. Other errors of the source are not reported, \
          because they depend on its version."
-        bad None, good Fragment("#version 130\nin vec4 a; out vec4 c; void main() { c = a; }");
+        bad Text("in vec4 a; out vec4 c; void main() { c = a; }   // this is the first line of the file"), good Fragment("#version 130\nin vec4 a; out vec4 c; void main() { c = a; }");
     UNKNOWN_VERSION = "E0121" "unknown-version" Error "GLSL 1.50 §3.3"
-        "The `#version` line names a version that does not exist, or a profile that the version does not have."
+        "The `#version` line names a version that does not exist, or a profile that the version does not have. Other errors of the source \
+         are not reported, because they depend on its version."
         bad Vertex("#version 155\nvoid main() {}"), good Vertex("#version 150\nvoid main() {}");
     LATE_VERSION = "E0123" "late-version" Error "GLSL 1.50 §3.3"
         "`#version` must come before everything but comments and white space, and may occur only once. From ES 3.00 on, \
@@ -97,7 +98,7 @@ codes! {
     INCLUDE_TOO_DEEP = "E0128" "include-too-deep" Error "ARB_shading_language_include"
         "Files include each other more than 64 levels deep. Most often a file includes itself; `#ifndef` around its \
          text or `#pragma once` stops that."
-        bad None, good None;
+        bad Text("// light.glsl\n#include \"light.glsl\""), good Text("// light.glsl\n#ifndef LIGHT\n#define LIGHT\nvec3 light() { return vec3(1.0); }\n#endif");
     EXPANSION_TOO_LARGE = "E0129" "macro-expansion-too-large" Error "GLSL 1.50 §3.3"
         "The macros of a source may produce half a million tokens, and two more for each of its bytes. If one macro \
          uses another twice, which uses another twice and so on, some twenty of them exceed every limit."
@@ -112,7 +113,7 @@ codes! {
         good Fragment("#version 300 es\n#extension GL_OES_standard_derivatives : enable\nprecision mediump float;\nout vec4 c; void main() { c = vec4(1.0); }");
     NAME_TOO_LONG = "E0132" "name-too-long" Error "GLSL ES 3.00 §3.9"
         "From ES 3.00 on, a name has at most 1,024 characters, and so has that of a macro. The desktop language leaves it to drivers."
-        bad None, good Fragment("#version 300 es\nvoid main() {}");
+        bad Text("#version 300 es\nuniform float aaaaaaaa;   // and so on, 1,025 times `a`"), good Fragment("#version 300 es\nvoid main() {}");
 
     LINE_CONTINUATION = "W0101" "line-continuation" Warning "GLSL 1.50 §3.1"
         "Before 4.20 the language had no line continuation character: a backslash at the end of a line is an \
@@ -147,18 +148,18 @@ codes! {
     INCLUDE_WITHOUT_EXTENSION = "W0108" "include-without-extension" Warning "GLSL 1.50 §3.3"
         "`#include` is not a directive of GLSL 1.50. The extensions GL_ARB_shading_language_include and \
          GL_GOOGLE_include_directive provide it."
-        bad None,
+        bad Text("#include \"light.glsl\"   // without an #extension line before it"),
         good Fragment("#extension GL_GOOGLE_include_directive : enable\nvoid main() {}");
     BRANCH_IN_NO_CONFIGURATION = "W0115" "branch-in-no-configuration" Warning "GLSL 1.50 §3.3"
         "`lint --configurations` compiles a program with all values that its conditions name, in all pairs, of the macros that \
          are defined nowhere. Lines that are in none of these texts are dead, or wait for a value that no condition names."
-        bad None,
+        bad Text("#if LEVEL > 2 && LEVEL < 3   // no condition names a value between 2 and 3\nfloat unseen;\n#endif"),
         good Fragment("#if defined(LEVEL) && LEVEL > 2\n#endif\nvoid main() {}");
     ASSUMED_VERSION = "W0116" "assumed-version" Warning "GLSL ES 1.00 §3.4"
         "The source has no `#version` line, so it is GLSL 1.10 for OpenGL, and GLSL ES 1.00 for OpenGL ES and WebGL. It has \
          precision qualifiers, which 1.10 does not have, outside of `#ifdef GL_ES`; so it is read as ES 1.00, or as ES 3.00 if \
          it uses what 1.00 does not have. A `#version` line says it to everybody."
-        bad None,
+        bad Text("precision mediump float;   // this is the first line of the file\nvoid main() { gl_FragColor = vec4(1.0); }"),
         good Fragment("#version 100\nprecision mediump float;\nvoid main() { gl_FragColor = vec4(1.0); }");
     EARLY_PASTE = "W0117" "paste-before-1-30" Warning "GLSL 1.20 §3.3"
         "`##`, which joins two tokens, came with GLSL 1.30; 1.10 and 1.20 have no operator with a number sign. Some compilers \

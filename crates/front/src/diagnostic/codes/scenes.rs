@@ -1,6 +1,6 @@
 //! Codes for scene files and for running them (`E09xx`).
 
-use super::Example::{None, Text};
+use super::Example::Text;
 
 codes! {
     SCENE_FILE_UNREADABLE = "E0901" "unreadable-scene-file" Error ""
@@ -44,11 +44,12 @@ codes! {
         bad Text("i = { size = 1, kind = \"float\", values = [1] }  # in int i;"), good Text("i = { size = 1, values = [1] }");
     SCENE_BAD_ASSET = "E0911" "unreadable-mesh-or-image" Error ""
         "A mesh or image that the scene names was read, but its format is not as expected."
-        bad None, good None;
+        bad Text("mesh = { file = \"cut_off.glb\" }"), good Text("mesh = { file = \"whole.glb\" }");
     SCENE_CANNOT_DRAW = "E0912" "undrawable-scene" Error "OpenGL 3.2 §2.11"
-        "The scene describes an impossible draw: a program without a vertex stage, more color outputs than \
-         attachments, or a framebuffer past the limit."
-        bad None, good None;
+        "The scene describes an impossible draw: a program without a vertex stage, an output of another type than the \
+         framebuffer's numbers, a primitive that the geometry shader does not take, or a framebuffer past the limit."
+        bad Text("[framebuffer]\nformat = \"rgba32sint\"\n[[draw]]\nfragment = \"lit.frag\"   # out vec4 color;"),
+        good Text("[framebuffer]\nformat = \"rgba32float\"\n[[draw]]\nfragment = \"lit.frag\"");
     SCENE_LOOP_BUDGET = "E0913" "endless-loop" Error ""
         "While the CPU reference drew the scene, loops ran more than 16,777,216 instructions for 64 invocations \
          together, or the program reached a call that is longer than that with all the calls that it leads to. The reference \
@@ -93,6 +94,17 @@ codes! {
          never passes, and a `discard` that always runs."
         bad Text("mesh = { shape = \"plane\", position = \"p\" }  # in vec2 p; the plane has y = 0"),
         good Text("mesh = { shape = \"quad\", position = \"p\" }");
+    OUTPUT_WITHOUT_ATTACHMENT = "W0914" "output-without-attachment" Warning "OpenGL 3.2 §4.2.1"
+        "A program has more color outputs than the framebuffer has attachments. What it writes to the others is dropped, \
+         as OpenGL does."
+        bad Text("[framebuffer]\nattachments = 1\n[[draw]]\nfragment = \"two.frag\"   # out vec4 color; out vec4 depth;"),
+        good Text("[framebuffer]\nattachments = 2\n[[draw]]\nfragment = \"two.frag\"");
+    NAN_IN_PNG = "W0913" "nan-in-png" Warning ""
+        "A PNG has no NaN. The picture has some, and each of them is 0 in the file. Typical causes are `0.0 / 0.0`, `sqrt` \
+         of a negative number, `pow` of a negative base, and `normalize` of a vector without length. A `.npy` and a `.exr` \
+         keep NaN."
+        bad Text("color = vec4(sqrt(-1.0));  // and `glisten render scene.toml -o picture.png`"),
+        good Text("color = vec4(sqrt(max(x, 0.0)));");
     MESH_NARROWED = "W0910" "narrowed-mesh-data" Note "OpenGL 3.2 §2.8"
         "An attribute has fewer components than the mesh provides, so the last ones are dropped. A `plane`, for \
          example, has y = 0 everywhere: its x and y alone are triangles without area."
@@ -112,5 +124,5 @@ codes! {
     MODEL_SIMPLIFIED = "W0912" "simplified-model" Note ""
         "A model from the disk has something that its scene does not show: materials that are missing, a texture in a format \
          that is not read, points or lines. The rest is drawn."
-        bad None, good None;
+        bad Text("glisten render chair.obj -o chair.png   # and the file that `mtllib` names is not there"), good Text("glisten render chair.obj -o chair.png   # with `chair.mtl`");
 }

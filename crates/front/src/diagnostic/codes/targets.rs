@@ -1,6 +1,6 @@
 //! Codes for what a target cannot represent, found during lowering and emission (`E08xx`).
 
-use super::Example::{Geometry, None, Vertex};
+use super::Example::{Geometry, None, Text, Vertex};
 
 codes! {
     STAGE_NOT_IN_TARGET = "E0801" "stage-not-in-target" Error ""
@@ -12,7 +12,7 @@ codes! {
     FEATURE_NOT_IN_TARGET = "E0802" "feature-not-in-target" Error ""
         "The shader uses a feature that the target language lacks and that cannot be dropped without changing the \
          picture. The message names the feature, the target, and a way out."
-        bad None, good None;
+        bad Text("c = vec4(gl_PointCoord, 0.0, 1.0);   // --target wgsl"), good Text("c = vec4(gl_PointCoord, 0.0, 1.0);   // --target spirv");
     NESTING_TOO_DEEP_FOR_TARGET = "E0803" "nesting-too-deep-for-target" Error ""
         "Statements in the emitted text nest deeper than parsers of the target language accept: Tint accepts 127 \
          levels of WGSL, where an `if` or a loop takes two and a `switch` three. Move the inner statements into a \
@@ -29,7 +29,7 @@ codes! {
          the implicit level and in the base level. A lookup with a bias is compiled without it; one with a level or \
          gradients reads the base level. The picture is the same if the depth texture has one level, as shadow maps \
          have; `glisten render` and `glisten verify` reject a scene in which it has more."
-        bad None, good None;
+        bad Text("c = vec4(texture(shadow, position, 2.0));   // a sampler2DShadow with a bias"), good Text("c = vec4(texture(shadow, position));");
     LEFT_OUT = "W0803" "left-out" Note "OpenGL 3.2 §2.11.3"
         "With `-O`, which is the default for WGSL and SPIR-V, `glisten compile` leaves out what reaches no output: \
          functions, statements, varyings, attributes, uniforms and samplers on which nothing that is drawn depends. \

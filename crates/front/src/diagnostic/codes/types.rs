@@ -111,7 +111,7 @@ codes! {
          as the type has components, columns, elements or members."
         bad Fragment("#extension GL_ARB_shading_language_420pack : enable\nout vec4 c; void main() { vec3 a = {1.0, 2.0}; c = vec4(a, 1.0); }"),
         good Fragment("#extension GL_ARB_shading_language_420pack : enable\nout vec4 c; void main() { vec2 a = {1.0, 2.0}; c = vec4(a, a); }");
-    TOO_LARGE = "E0422" "too-large-to-bind" Error ""
+    TOO_LARGE = "E0422" "too-large-to-bind" Error "OpenGL 3.2 §2.11.4"
         "A type may contain 1,048,576 numbers, and so may all variables of a function, or those of a shader without \
          its uniforms; all uniforms of a shader may contain 262,144. A shader may have 4,096 inputs, outputs, \
          blocks and samplers. No target can bind more."

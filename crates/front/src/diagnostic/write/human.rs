@@ -38,7 +38,8 @@ fn one(sources: &SourceMap, diagnostic: &Diagnostic, color: bool) -> String {
         shown.extend(excerpts.label(label.span, &label.message, is_primary));
     }
     if !has_primary {
-        shown.extend(excerpts.label(primary, "", true));
+        // The excerpts are in the order of the files of the labels: that of the diagnostic comes first.
+        shown.splice(0..0, excerpts.label(primary, "", true));
     }
     let located = !shown.is_empty();
     let message = clean(&diagnostic.message);

@@ -15,6 +15,7 @@ mod statements;
 use super::{Function, FunctionId, Global, GlobalId, Shader, Type, TypeId, Types};
 use crate::builtin::BuiltinVariable;
 use crate::source::Span;
+use crate::source::comments::AroundBody;
 use names::{NameTable, ScopedNames};
 
 /// Comments for what is printed, by its span, and what is left out.
@@ -39,6 +40,10 @@ pub trait Notes {
     fn above(&self, span: Span) -> Vec<String>;
     /// The comment behind it on its last line.
     fn behind(&self, span: Span) -> Option<String>;
+    /// The comments around the body of the function of this name.
+    fn around_body(&self, _name: Span) -> Option<AroundBody> {
+        None
+    }
 }
 
 /// Prints a shader.
@@ -168,9 +173,11 @@ impl Printer<'_> {
         match &function.body {
             None => self.line(&format!("{head};")),
             Some(body) => {
-                self.line(&format!("{head} {{"));
+                let around = self.notes.and_then(|notes| notes.around_body(function.span)).unwrap_or_default();
+                self.line(format!("{head} {{  {}", around.head).trim_end());
                 self.body(body);
-                self.line("}");
+                around.last.iter().for_each(|line| self.line(&format!("    {line}")));
+                self.line(format!("}}  {}", around.behind).trim_end());
             }
         }
         self.function = None;

@@ -253,7 +253,10 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         )
         .here("expected `;`")
         .help(Advice::new(Applicability::Safe, "write `;` here", Place::Before, ";"));
+        // A brace that is missing, too, at the end of the file is another error.
+        let end_reported = self.end_reported;
         let _: Reported = self.report_found(diagnostic);
+        self.end_reported = end_reported;
         Ok(())
     }
 
