@@ -71,6 +71,38 @@ fn a_pixel_on_an_inner_edge_is_judged_by_its_owners() {
     }
 }
 
+/// A window of integers that a loop of `rounds` makes.
+fn looping(rounds: u32) -> Folder {
+    let text = format!(
+        "[framebuffer]\nwidth = 4\nheight = 4\nformat = \"rgba32sint\"\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nprimitive = \
+         \"triangles\"\n[draw.attributes]\np = {{ size = 2, values = [-1, -1, 3, -1, -1, 3] }}\n[draw.uniforms]\nn = {rounds}\n"
+    );
+    let fragment = "#version 150\nuniform int n;\nout ivec4 c;\nvoid main() {\n    int s = int(gl_FragCoord.x);\n    for (int i = 0; i < n; \
+                    ++i) s = s * 1664525 + 1013904223;\n    c = ivec4(s);\n}\n";
+    Folder::new(&[("a.vert", VERTEX.as_bytes()), ("a.frag", fragment.as_bytes()), ("a.toml", text.as_bytes())])
+}
+
+#[test]
+fn loops_that_the_driver_cuts_are_excused_and_the_verdict_says_that_nothing_was_checked() {
+    let (exit, json) = verify(&looping(65_000), &[]);
+    assert_eq!((exit, &json["verdict"], count(&json, "judged")), (0, &"holds".into(), 16), "{json}");
+    let folder = looping(70_000);
+    let (exit, json) = verify(&folder, &[]);
+    assert_eq!((exit, &json["verdict"], count(&json, "excused")), (0, &"holds".into(), 16), "{json}");
+    assert_eq!(json["known_faults"], serde_json::json!([{ "fault": "cut_loops", "pixels": 16 }]));
+    let told = out(&folder.run(&["verify", "a.toml"]));
+    let first =
+        "nothing was checked: known faults of the driver excuse 16 of 16 covered pixels (cut_loops); --no-known-faults";
+    assert!(told.starts_with(first), "{told}");
+    assert!(
+        told.contains("16 of 16 covered pixels judged or excused") && told.contains("no pixel was compared"),
+        "{told}"
+    );
+    assert!(!told.contains("largest error"), "{told}");
+    let (exit, json) = verify(&folder, &["--no-known-faults"]);
+    assert_eq!((exit, &json["verdict"], &json["outside"]), (1, &"fails".into(), &16.into()), "{json}");
+}
+
 #[test]
 fn noise_is_inconclusive_with_the_line_that_makes_it_so() {
     let noise = "#version 150\nin vec2 q;\nout vec4 c;\nvoid main() {\n    float x = 40.0 * q.x + 90.0 * q.y;\n    float n = \

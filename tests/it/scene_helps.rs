@@ -209,6 +209,15 @@ fn a_mesh_feeds_plain_names_and_a_missing_matrix_asks_for_its_role() {
 }
 
 #[test]
+fn an_element_with_a_wrong_value_is_not_missed_as_well() {
+    let text = "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nmesh = { shape = \"quad\" }\n[draw.uniforms]\n\"tint[1]\" = [1, 2]\n";
+    let loaded = read(LIT, FRAGMENT, text);
+    let told: Vec<(&str, bool)> =
+        loaded.diagnostics.iter().map(|found| (found.code.id, found.message.contains("`tint`"))).collect();
+    assert_eq!(told, [("E0908", true), ("W0901", false)]);
+}
+
+#[test]
 fn typos_are_told_before_their_consequences_and_all_in_one_run() {
     let head = "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n";
     let told = |text: &str| {

@@ -39,8 +39,9 @@ fn scene(points: &[Point], rest: &str) -> Scene {
 fn quads_draw_what_points_draw() {
     let gpu = gpu();
     let at = |x: f32, y: f32| [x, y, 0.25, 1.0];
-    let rows: [(&str, Vec<Point>, &str); 6] = [
+    let rows: [(&str, Vec<Point>, &str); 7] = [
         ("sizes", vec![(at(-0.5, -0.5), 4.0), (at(0.3, 0.52), 9.0), (at(0.1, -0.2), 16.5), (at(0.8, 0.8), 0.25)], ""),
+        ("largest", vec![(at(0.0, 0.0), 400.0)], ""),
         // Of a point whose center is outside, a GPU draws the part inside.
         (
             "border",

@@ -20,7 +20,7 @@ pub use emit::{
     interface_of, levels_of_comparisons, notes, reflect, reflection,
 };
 pub use target::{
-    BUFFER_WIDTH, ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, WindowOrigin, viewport_slot,
+    BUFFER_WIDTH, ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, TexelWrap, WindowOrigin, viewport_slot,
 };
 
 /// Lowers without emitting, for a benchmark of the two parts. Returns how many functions the lowered module has.

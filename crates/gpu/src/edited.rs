@@ -21,7 +21,7 @@ impl Gpu {
         scene: &Scene,
         edit: &dyn Fn(Stage, String) -> String,
     ) -> Result<Prepared, Error> {
-        let edited = |draw: &Draw, stage: Stage| match emitted(draw, stage, Target::Wgsl)? {
+        let edited = |draw: &Draw, stage: Stage| match emitted(&scene.framebuffer, draw, stage, Target::Wgsl)? {
             Emitted::Text(text) => Ok(Emitted::Text(edit(stage, text))),
             words @ Emitted::Words(_) => Ok(words),
         };

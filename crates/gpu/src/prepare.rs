@@ -11,7 +11,7 @@ use super::{Error, Foreign, Gpu, Via, multisample_upload};
 use glisten_emit::{self as emit, Conventions, Emitted, FloatWidth, Target};
 use glisten_front::hir::{SamplerDim, Stage, Type};
 use glisten_front::link::{Program, SlotBinding};
-use glisten_plan::bindings::{Binding, GROUPS, What, bindings, conventions, refuse_levels, targets};
+use glisten_plan::bindings::{Binding, GROUPS, What, bindings, conventions, refuse_levels, refuse_wraps, targets};
 use glisten_plan::states::{depth_stencil, primitive_state};
 use glisten_plan::vertices::{self, Rows};
 use glisten_plan::visibility::Visibility;
@@ -56,14 +56,15 @@ enum Origin {
 /// The stages of a draw.
 const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
 
-pub(super) fn emitted(draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
-    emit::emit(&draw.program, stage, target, &conventions(draw, target)).map_err(Error::Emit)
+pub(super) fn emitted(framebuffer: &Framebuffer, draw: &Draw, stage: Stage, target: Target) -> Result<Emitted, Error> {
+    emit::emit(&draw.program, stage, target, &conventions(framebuffer, draw, target)).map_err(Error::Emit)
 }
 
 /// A pipeline and what it was created for: draws of one program in one state share it.
 struct Made {
     program: Arc<Program>,
     state: State,
+    conventions: Conventions,
     instanced: Vec<bool>,
     replaced: Replaced,
     pipeline: wgpu::RenderPipeline,
@@ -90,7 +91,7 @@ impl Gpu {
         };
         self.require(feature_of(floats), &format!("{} in shaders", floats.ty()))?;
         let code = |draw: &Draw, stage| {
-            let conventions = Conventions { floats, ..conventions(draw, target) };
+            let conventions = Conventions { floats, ..conventions(&scene.framebuffer, draw, target) };
             emit::emit(&draw.program, stage, target, &conventions).map_err(Error::Emit)
         };
         self.prepare_replaced(scene, (target, Origin::Emitted), &|_| [None; 2], &|_, draw, stage| code(draw, stage))
@@ -124,12 +125,13 @@ impl Gpu {
             let [vertex, fragment] = replaced.map(|index| index.and_then(|index| foreign.get(index)));
             // All forms of a stage that can be read back.
             let forms = |stage: Stage| {
-                let all = [target, Target::Wgsl].map(|target| emitted(draw, stage, target));
+                let all = [target, Target::Wgsl].map(|target| emitted(&scene.framebuffer, draw, stage, target));
                 all.into_iter().filter_map(Result::ok)
             };
             let lean_fragment = || {
                 let program = lean(&draw.program);
-                emit::emit(&program, Stage::Fragment, target, &conventions(draw, target)).map_err(Error::Emit)
+                let conventions = conventions(&scene.framebuffer, draw, target);
+                emit::emit(&program, Stage::Fragment, target, &conventions).map_err(Error::Emit)
             };
             match (stage, vertex, fragment) {
                 (Stage::Vertex, Some(vertex), Some(fragment)) => {
@@ -143,7 +145,7 @@ impl Gpu {
                     fragment.code_instead_of(&draw.program.name, forms(stage), None)
                 }
                 (Stage::Fragment, Some(vertex), None) if vertex.leaves_out(forms(Stage::Vertex)) => lean_fragment(),
-                _ => emitted(draw, stage, target),
+                _ => emitted(&scene.framebuffer, draw, stage, target),
             }
         };
         self.prepare_replaced(scene, (target, Origin::Emitted), &|number| STAGES.map(|stage| of(number, stage)), &code)
@@ -167,7 +169,7 @@ impl Gpu {
         scene: &Scene,
         edit: &dyn Fn(Stage, Vec<u32>) -> Vec<u32>,
     ) -> Result<Prepared, Error> {
-        let edited = |draw: &Draw, stage: Stage| match emitted(draw, stage, Target::Spirv)? {
+        let edited = |draw: &Draw, stage: Stage| match emitted(&scene.framebuffer, draw, stage, Target::Spirv)? {
             Emitted::Words(words) => Ok(Emitted::Words(edit(stage, words))),
             text @ Emitted::Text(_) => Ok(text),
         };
@@ -219,13 +221,15 @@ impl Gpu {
         let sprites = sprites::applies(draw, target);
         beyond::refuse(draw)?;
         refuse_levels(draw)?;
+        refuse_wraps(draw)?;
         refuse_samples(draw)?;
         let bindings = bindings(program, sprites)?;
+        let conventions = conventions(framebuffer, draw, target);
         let rows = if sprites { vertices::rows_of_points(draw) } else { vertices::rows(draw) };
         let instanced: Vec<bool> = rows.iter().map(|rows| rows.step == wgpu::VertexStepMode::Instance).collect();
         let known = made.iter().position(|made| {
             let is_alike = made.state == draw.state && made.instanced == instanced && made.replaced == replaced;
-            Arc::ptr_eq(&made.program, program) && is_alike
+            Arc::ptr_eq(&made.program, program) && is_alike && made.conventions == conventions
         });
         let index = match known {
             Some(index) => index,
@@ -233,14 +237,14 @@ impl Gpu {
                 let [vertex, fragment] = STAGES.map(|stage| self.module(draw, stage, modules));
                 let modules = [vertex?, fragment?];
                 let visibility = match origin {
-                    Origin::Emitted => Visibility::of(program, &conventions(draw, target)),
+                    Origin::Emitted => Visibility::of(program, &conventions),
                     Origin::Other => Visibility::of_any_code(),
                 };
                 let layouts = self.layouts(&bindings, &visibility);
                 let primitive = if sprites { sprites::primitive_state() } else { primitive_state(&draw.state) };
                 let pipeline = self.pipeline(framebuffer, draw, primitive, &modules, &layouts, &rows);
                 let (program, state) = (Arc::clone(program), draw.state);
-                made.push(Made { program, state, instanced, replaced, pipeline, layouts });
+                made.push(Made { program, state, conventions, instanced, replaced, pipeline, layouts });
                 made.len() - 1
             }
         };

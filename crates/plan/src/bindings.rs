@@ -5,24 +5,58 @@
 
 use crate::states::{blend, color_format};
 use crate::{Error, slots, sprites};
-use glisten_emit::{self as emit, Conventions, Target};
+use glisten_emit::{self as emit, Conventions, Target, TexelWrap};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::FEATURE_NOT_IN_TARGET;
-use glisten_front::hir::{SamplerType, Type};
+use glisten_front::hir::{SamplerDim, SamplerType, Scalar, Type};
 use glisten_front::link::{Program, SlotBinding};
-use glisten_scene::{Draw, Format, Framebuffer};
+use glisten_front::source::Span;
+use glisten_scene::{Draw, Format, Framebuffer, Wrap};
 use wgpu_types as wgpu;
 
 /// Group 0 holds the uniform buffers, group 1 the textures and samplers.
 pub const GROUPS: usize = 2;
 
 /// The conventions for emission.
-pub fn conventions(draw: &Draw, target: Target) -> Conventions {
+pub fn conventions(framebuffer: &Framebuffer, draw: &Draw, target: Target) -> Conventions {
     Conventions {
+        texel_wrap: texel_wraps(draw).next().unwrap_or_default(),
+        color_attachments: Some(framebuffer.attachments),
         point_sprites: sprites::applies(draw, target),
         clip_distances: Some(draw.state.clip_distances),
         program_point_size: draw.state.program_point_size,
         ..Conventions::default()
+    }
+}
+
+/// The wrap modes of the integer textures of a draw whose texels the code looks for.
+fn texel_wraps(draw: &Draw) -> impl Iterator<Item = TexelWrap> {
+    let has_mode = |kind: SamplerType| {
+        kind.texel != Scalar::Float && matches!(kind.dim, SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D3)
+    };
+    let textures = draw.textures.iter().flatten().filter(move |texture| has_mode(texture.kind));
+    textures.map(|texture| match texture.wrap {
+        Wrap::Repeat => TexelWrap::Repeat,
+        Wrap::ClampToEdge => TexelWrap::ClampToEdge,
+        Wrap::MirroredRepeat => TexelWrap::MirroredRepeat,
+    })
+}
+
+/// Rejects integer textures of several wrap modes in one draw: its code has one for all of them.
+///
+/// # Errors
+/// The draw has such textures.
+pub fn refuse_wraps(draw: &Draw) -> Result<(), Error> {
+    let mut modes = texel_wraps(draw);
+    let first = modes.next();
+    match modes.all(|mode| Some(mode) == first) {
+        true => Ok(()),
+        false => {
+            let message = "the integer textures of this draw have different wrap modes, and the code, which computes their texels, has one";
+            let help = "give them one `wrap`, or draw by `--backend gl` or `cpu`";
+            let told = Diagnostic::new(&FEATURE_NOT_IN_TARGET, Span::default(), message).help(help);
+            Err(Error::Emit(vec![told]))
+        }
     }
 }
 

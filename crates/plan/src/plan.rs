@@ -128,9 +128,10 @@ fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes, written: &
     let program = &draw.program;
     beyond::refuse(draw)?;
     bindings::refuse_levels(draw)?;
+    bindings::refuse_wraps(draw)?;
     let sprites = sprites::applies(draw, Target::Wgsl);
     let all = bindings(program, sprites)?;
-    let conventions = conventions(draw, Target::Wgsl);
+    let conventions = conventions(framebuffer, draw, Target::Wgsl);
     let [vertex, fragment] = written.texts(program, conventions)?;
     let rows = if sprites { vertices::rows_of_points(draw) } else { vertices::rows(draw) };
     let buffers: Vec<Value> = rows.iter().map(|rows| vertex_buffer(rows, bytes)).collect();

@@ -47,14 +47,18 @@ fn says(verification: &Verification) -> String {
             format!("; nearest to its bound at pixel {}, {}{}", worst.x, worst.y, from.unwrap_or_default())
         });
         format!(
-            "{}: {}, {} of {} pixels covered, {:.1} % of them judged, {} outside; largest error {:.2e}{}",
+            "{}: {}, {} of {} pixels covered, {:.1} % of them {}, {} outside; {}{}",
             run.runner,
             verify::mark(verdict.conclusion(&verification.demands)),
             verdict.covered,
             verdict.pixels,
             100.0 * verdict.share_judged(&verification.demands),
+            verdict.judged_word(),
             verdict.outside,
-            verdict.max_abs,
+            match verdict.largest_error() {
+                Some(error) => format!("largest error {error:.2e}"),
+                None => "no pixel was compared".to_owned(),
+            },
             largest.unwrap_or_default(),
         )
     });

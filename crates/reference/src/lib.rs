@@ -35,7 +35,7 @@ pub use work::{Work, envelope_work, work};
 use domain::faults::{self, Fault, Faults, KnownFault};
 use domain::{Envelope, F32, F64, Profile};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::hir::Interpolation;
+use glisten_front::hir::{Interpolation, Shader, Stage, StmtKind};
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Draw, Framebuffer, Scene};
@@ -124,14 +124,27 @@ pub fn interpolation_reach(draw: &Draw, framebuffer: Framebuffer) -> Option<f64>
     pipeline::reach(draw, framebuffer, &RenderOptions { mark_edges: false, ..RenderOptions::default() })
 }
 
+/// Whether a function that runs has a loop.
+fn has_loops(shader: &Shader) -> bool {
+    shader.functions.iter().filter(|function| function.reachable).any(|function| {
+        let mut found = false;
+        shader.visit_statements(function.body.as_deref().unwrap_or_default(), &mut |statement| {
+            found |= matches!(statement.kind, StmtKind::Loop { .. });
+        });
+        found
+    })
+}
+
 /// The known faults of drivers that can show in a scene: the others need not be drawn.
 pub fn faults_of(scene: &Scene) -> Vec<&'static KnownFault> {
     let is_linear = |draw: &Draw| {
         let varyings = draw.program.interface.interpolated();
         varyings.into_iter().any(|varying| varying.active && varying.interpolation == Interpolation::Noperspective)
     };
+    let has_loop = |draw: &Draw| draw.program.stage(Stage::Fragment).is_some_and(has_loops);
     let applies = |known: &&KnownFault| match known.fault {
         Fault::ClippedNoperspective => scene.draws.iter().any(is_linear),
+        Fault::CutLoops => scene.draws.iter().any(has_loop),
     };
     faults::KNOWN.iter().filter(applies).collect()
 }

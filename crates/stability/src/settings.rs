@@ -89,7 +89,8 @@ impl Settings {
         let ranges = |table: BTreeMap<String, Spanned<RangeValue>>| -> Result<Vec<Sweep>, Box<Diagnostic>> {
             let each = table.into_iter().map(|(name, value)| {
                 let place = value.span();
-                of_value(&name, value.into_inner()).map_err(|message| wrong(place, message))
+                let sweep = of_value(&name, value.into_inner()).map_err(|message| wrong(place.clone(), message))?;
+                Ok(Sweep { place: at(place), ..sweep })
             });
             each.collect()
         };

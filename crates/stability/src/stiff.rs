@@ -251,7 +251,7 @@ fn trials(scene: &Scene, ranges: &[Sweep]) -> Vec<Trial> {
     let mut list: Vec<Trial> = Vec::new();
     for range in ranges {
         let Ok(parameter) = Parameter::find(scene, &range.name) else { continue };
-        let values = Sweep { count: FROM_RANGE, ..range.clone() }.values();
+        let Ok(values) = parameter.values(&Sweep { count: FROM_RANGE, ..range.clone() }) else { continue };
         list.push(scalar(&parameter, &values));
     }
     let stated =

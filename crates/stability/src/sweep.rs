@@ -2,8 +2,11 @@
 //!
 //! *In:* `NAME=LOW..HIGH:N`. *Out:* scenes with other values of the uniform. *Holds:* both ends are among the values.
 
+use glisten_front::diagnostic::codes::scenes::{SCENE_UNKNOWN_NAME, SCENE_WRONG_KIND};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::hir::{Scalar, ScalarValue};
+use glisten_front::link::{Program, UniformLeaf};
+use glisten_front::source::Span;
 use glisten_reference::stability::{Stability, pictures_of};
 use glisten_scene::Scene;
 use glisten_scene::values::{LeafShape, UniformValues};
@@ -18,7 +21,8 @@ pub const MOST: usize = 4096;
 /// The values of a uniform, or of a component of one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// The uniform as the reflection names it, with `.x` to `.w` for a component of a vector.
+    /// The uniform as the reflection names it, with `.x` to `.w` for a component of a vector, `[1].x` for one of a column of a
+    /// matrix.
     pub name: String,
     /// The first value.
     pub low: f64,
@@ -26,6 +30,8 @@ pub struct Sweep {
     pub high: f64,
     /// The number of values, 2 at least unless both ends are equal.
     pub count: usize,
+    /// Its place in a scene file; unknown if it is from elsewhere.
+    pub place: Span,
 }
 
 /// Reads `NAME=LOW..HIGH[:N]`.
@@ -64,7 +70,7 @@ impl Sweep {
             () if count.fract() != 0.0 || !(2.0..=MOST as f64).contains(&count) => {
                 Err(format!("a sweep has 2 to {MOST} values"))
             }
-            () => Ok(Self { name: name.to_owned(), low, high, count: count as usize }),
+            () => Ok(Self { name: name.to_owned(), low, high, count: count as usize, place: Span::default() }),
         }
     }
 
@@ -96,8 +102,8 @@ impl Parameter {
     /// Finds a uniform by its name.
     ///
     /// # Errors
-    /// No draw has it, or it is not a scalar.
-    pub fn find(scene: &Scene, name: &str) -> Result<Self, String> {
+    /// No draw has it, or it is not a scalar. The diagnostic has no place.
+    pub fn find(scene: &Scene, name: &str) -> Result<Self, Box<Diagnostic>> {
         let mut places = Vec::new();
         let mut trouble = None;
         for (index, draw) in scene.draws.iter().enumerate() {
@@ -109,15 +115,36 @@ impl Parameter {
         }
         match (places.is_empty(), trouble) {
             (false, _) => Ok(Self { name: name.to_owned(), places }),
-            (true, Some(message)) => Err(message),
-            (true, None) => {
-                let uniforms = scene.draws.iter().flat_map(|draw| &draw.program.interface.uniforms);
-                let names: Vec<&str> = uniforms.map(|leaf| leaf.name.as_str()).collect();
-                let near = did_you_mean(name, names.iter().copied());
-                let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-                Err(format!("no draw has a uniform `{name}`{hint}"))
+            (true, Some(message)) => Err(Box::new(Diagnostic::new(&SCENE_WRONG_KIND, Span::default(), message))),
+            (true, None) => Err(Box::new(unknown(scene, name))),
+        }
+    }
+
+    /// The values of a sweep over it. Those of integers are whole, each of them once.
+    ///
+    /// # Errors
+    /// An end is no value of its type. The diagnostic has the place of the sweep.
+    pub fn values(&self, sweep: &Sweep) -> Result<Vec<f64>, Box<Diagnostic>> {
+        for &(.., scalar) in &self.places {
+            let (name, least, most) = match scalar {
+                Scalar::Float => continue,
+                Scalar::Bool => ("bool", 0.0, 1.0),
+                Scalar::Int => ("int", f64::from(i32::MIN), f64::from(i32::MAX)),
+                Scalar::Uint => ("uint", 0.0, f64::from(u32::MAX)),
+            };
+            let is_value = |end: f64| end.fract() == 0.0 && (least..=most).contains(&end);
+            if !is_value(sweep.low) || !is_value(sweep.high) {
+                let message = format!("`{}` is declared {name}", self.name);
+                let help = format!("both ends of the sweep are whole numbers from {least} to {most}");
+                return Err(Box::new(Diagnostic::new(&SCENE_WRONG_KIND, sweep.place, message).here("here").help(help)));
             }
         }
+        let mut values = sweep.values();
+        if self.places.iter().any(|(.., scalar)| *scalar != Scalar::Float) {
+            values.iter_mut().for_each(|value| *value = value.round());
+            values.dedup();
+        }
+        Ok(values)
     }
 
     /// A number of a uniform by its position in it: a matrix's are column by column.
@@ -166,23 +193,42 @@ impl Parameter {
     }
 }
 
-/// The root and the position of a scalar in a program; `None` if the program has no such uniform.
-fn place(program: &glisten_front::link::Program, name: &str) -> Result<Option<(usize, usize, Scalar)>, String> {
-    let whole = UniformValues::find(program, name);
-    let (found, component) = match whole {
-        Some(found) => (found, None),
-        None => {
-            let component = name.rsplit_once('.').and_then(|(vector, component)| {
-                let index = ["x", "y", "z", "w"].iter().position(|letter| *letter == component)?;
-                Some((UniformValues::find(program, vector)?, index))
-            });
-            match component {
-                Some((found, index)) => (found, Some(index)),
-                None => return Ok(None),
-            }
-        }
+/// The uniforms of some sweeps with their values.
+///
+/// # Errors
+/// A sweep is of no uniform, or of none with such values. The diagnostic has its place.
+pub fn parameters(scene: &Scene, sweeps: &[Sweep]) -> Result<Vec<(Parameter, Vec<f64>)>, Box<Diagnostic>> {
+    let one = |sweep: &Sweep| {
+        let found = Parameter::find(scene, &sweep.name).map_err(|mut diagnostic| {
+            diagnostic.primary.span = sweep.place;
+            Box::new(diagnostic.here("here"))
+        })?;
+        let values = found.values(sweep)?;
+        Ok((found, values))
     };
-    let (leaf, element) = found;
+    sweeps.iter().map(one).collect()
+}
+
+/// That no draw has a uniform, with the nearest one, or all if they are few.
+fn unknown(scene: &Scene, name: &str) -> Diagnostic {
+    const MOST_NAMES: usize = 12;
+    let uniforms = scene.draws.iter().flat_map(|draw| &draw.program.interface.uniforms);
+    let mut names: Vec<&str> = uniforms.map(|leaf| leaf.name.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    let help = match did_you_mean(name, names.iter().copied()) {
+        Some(near) => Some(format!("did you mean `{near}`?")),
+        None if names.is_empty() => Some("the programs have no uniform at all".to_owned()),
+        None if names.len() <= MOST_NAMES => Some(format!("the programs have `{}`", names.join("`, `"))),
+        None => None,
+    };
+    Diagnostic::new(&SCENE_UNKNOWN_NAME, Span::default(), format!("no draw has a uniform `{name}`")).maybe_help(help)
+}
+
+/// The root and the position of a scalar in a program; `None` if the program has no such uniform.
+fn place(program: &Program, name: &str) -> Result<Option<(usize, usize, Scalar)>, String> {
+    let whole = UniformValues::find(program, name).map(|found| (found, None));
+    let Some(((leaf, element), part)) = whole.or_else(|| part_of(program, name)) else { return Ok(None) };
     let Some(shape) = LeafShape::of(&program.types, leaf) else {
         return Err(format!("`{name}` is a sampler; a sweep needs a number"));
     };
@@ -190,10 +236,13 @@ fn place(program: &glisten_front::link::Program, name: &str) -> Result<Option<(u
     if leaf.array_size.is_some() && element.is_none() {
         return Err(format!("`{name}` is an array: name an element, `{name}[0]`"));
     }
-    let index = match component {
+    let index = match part {
         None if n_each == 1 => 0,
+        None if shape.columns > 1 => return Err(format!("`{name}` is a matrix: name a number of it, `{name}[0].x`")),
         None => return Err(format!("`{name}` has {n_each} components: name one, `{name}.x`")),
-        Some(index) if index < n_each && shape.columns == 1 => index,
+        Some([column, row]) if n_each > 1 && column < shape.columns as usize && row < shape.rows as usize => {
+            column * shape.rows as usize + row
+        }
         Some(_) => return Err(format!("`{name}` is not a component of a vector")),
     };
     let element = element.unwrap_or(0) as usize;
@@ -201,6 +250,34 @@ fn place(program: &glisten_front::link::Program, name: &str) -> Result<Option<(u
         return Err(format!("`{name}` is past the end of the array"));
     }
     Ok(Some((leaf.root.0 as usize, leaf.flat_offset as usize + element * n_each + index, shape.scalar)))
+}
+
+/// A leaf, and its element.
+type Found<'p> = (&'p UniformLeaf, Option<u32>);
+
+/// The uniform with a component of a vector, or with a column and a row of a matrix: `light.position.x`, `m[1].x`, `m[1][0]`.
+fn part_of<'p>(program: &'p Program, name: &str) -> Option<(Found<'p>, Option<[usize; 2]>)> {
+    fn indexed(name: &str) -> Option<(&str, usize)> {
+        let (base, index) = name.strip_suffix(']')?.rsplit_once('[')?;
+        Some((base, index.parse().ok()?))
+    }
+    let lettered = |name: &'_ str| {
+        let (base, component) = name.rsplit_once('.')?;
+        Some((base.len(), ["x", "y", "z", "w"].iter().position(|letter| *letter == component)?))
+    };
+    let (length, row) = match indexed(name) {
+        Some((base, row)) => (base.len(), row),
+        None => lettered(name)?,
+    };
+    let base = name.get(..length)?;
+    let columns = |found: &Found<'_>| LeafShape::of(&program.types, found.0).map_or(1, |shape| shape.columns);
+    if let Some(found) = UniformValues::find(program, base) {
+        // A vector has no index here, and a matrix has two.
+        return (columns(&found) == 1 && lettered(name).is_some()).then_some((found, Some([0, row])));
+    }
+    let (base, column) = indexed(base)?;
+    let found = UniformValues::find(program, base).filter(|found| columns(found) > 1)?;
+    Some((found, Some([column, row])))
 }
 
 /// One drawing of a sweep.
@@ -318,16 +395,15 @@ fn spread(count: usize) -> Vec<usize> {
 ///
 /// # Errors
 /// There are more than [`MOST`].
-pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<f64>>, String> {
-    let count = sweeps.iter().fold(1usize, |count, sweep| count.saturating_mul(sweep.count));
+pub fn combinations(sweeps: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, String> {
+    let count = sweeps.iter().fold(1usize, |count, values| count.saturating_mul(values.len()));
     if count > MOST {
         return Err(format!(
             "the sweeps have {count} combinations, and {MOST} is the limit: give smaller counts, NAME=LOW..HIGH:N"
         ));
     }
     let mut all = vec![Vec::new()];
-    for sweep in sweeps {
-        let values = sweep.values();
+    for values in sweeps {
         all = all
             .iter()
             .flat_map(|start| values.iter().map(move |value| [start.as_slice(), &[*value]].concat()))
@@ -338,7 +414,7 @@ pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<f64>>, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Sweep, combinations, parse, spread};
+    use super::{combinations, parse, spread};
 
     #[test]
     fn a_sweep_is_read_with_both_ends_among_its_values() {
@@ -368,8 +444,7 @@ mod tests {
 
     #[test]
     fn combinations_are_limited() {
-        let sweep = |count: f64| Sweep::new("a", 0.0, 1.0, Some(count)).expect("it is well-formed");
-        assert_eq!(combinations(&[sweep(2.0), sweep(3.0)]).map(|all| all.len()), Ok(6));
-        assert!(combinations(&[sweep(100.0), sweep(100.0)]).is_err());
+        assert_eq!(combinations(&[vec![0.0, 1.0], vec![0.0, 0.5, 1.0]]).map(|all| all.len()), Ok(6));
+        assert!(combinations(&[vec![0.0; 100], vec![0.0; 100]]).is_err());
     }
 }

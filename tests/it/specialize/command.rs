@@ -360,6 +360,9 @@ fn mistakes_have_their_exit_codes() {
         let text = place.expect(code, &[&["specialize"], arguments].concat());
         assert!(text.contains(word), "{arguments:?}: {text}");
     }
+    // Nothing is written if there is nothing to write.
+    let text = place.expect(1, &["specialize", "bad.toml", "-o", "nothing"]);
+    assert!(!text.contains("wrote") && !place.path("nothing").exists(), "{text}");
     // Of several scenes the good one is written, and the bad one is told.
     place.expect(1, &["specialize", "a.toml", "bad.toml", "-o", "out"]);
     assert!(place.names("out").contains("a.frag"));

@@ -87,6 +87,53 @@ fn a_sweep_examines_the_worst_value() {
     assert_eq!(code(&malformed), 2, "{}", err(&malformed));
 }
 
+/// Integers, and a matrix.
+const COUNTED: &str = "#version 150\nin vec2 at;\nuniform int n;\nuniform uint u;\nuniform mat2 m;\nout vec4 o;\nvoid main() {\n    o = \
+    vec4(m * at, float(n) + float(u), 1.0);\n}\n";
+
+fn counted(more: &str) -> Folder {
+    let scene = format!("{SCENE}[draw.uniforms]\nn = 1\nu = 2\nm = [1, 0, 0, 1]\n{more}");
+    Folder::new(&[("a.vert", VERTEX.as_bytes()), ("a.frag", COUNTED.as_bytes()), ("a.toml", scene.as_bytes())])
+}
+
+#[test]
+fn a_sweep_of_integers_has_whole_values() {
+    let values = |sweep: &str, name: &str| -> Vec<f64> {
+        let (_, found) = json(&counted(""), &["--sweep", sweep]);
+        let points = found["sweep"]["points"].as_array().cloned().unwrap_or_default();
+        points.iter().filter_map(|point| point["values"][name].as_f64()).collect()
+    };
+    assert_eq!(values("n=0..10:4", "n"), [0.0, 3.0, 7.0, 10.0]);
+    assert_eq!(values("u=3..1:16", "u"), [3.0, 2.0, 1.0]);
+    assert_eq!(values("m[1].y=0.5..1:2", "m[1].y"), [0.5, 1.0]);
+    assert_eq!(values("m[1][0]=0.5..1:2", "m[1][0]"), [0.5, 1.0]);
+    for (sweep, told) in [
+        ("u=-5..5:3", "`u` is declared uint"),
+        ("n=0..1.5:3", "`n` is declared int"),
+        ("n=-3e9..3e9:3", "`n` is declared int"),
+        ("m[2].x=0..1", "`m[2].x` is not a component"),
+        ("m=0..1", "`m[0].x`"),
+    ] {
+        let output = counted("").run(&["stability", "a.toml", "--sweep", sweep]);
+        assert_eq!(code(&output), 1, "{sweep}");
+        assert!(err(&output).contains(told), "{sweep}: {}", err(&output));
+    }
+}
+
+#[test]
+fn a_mistake_in_a_stated_sweep_has_its_place() {
+    for (more, code_of, told) in [
+        ("[stability.sweep]\nzz = [0, 1]\n", "E0907", "the programs have `m`, `n`, `u`"),
+        ("[stability.range]\n\n\"m[0].w\" = [0, 1]\n", "E0910", "`m[0].w` is not a component"),
+        ("[stability.sweep]\nu = [-1, 1]\n", "E0910", "whole numbers from 0 to 4294967295"),
+    ] {
+        let output = counted(more).run(&["stability", "a.toml"]);
+        let told_all = err(&output);
+        assert_eq!(code(&output), 1, "{told_all}");
+        assert!(told_all.contains(code_of) && told_all.contains(told) && told_all.contains("a.toml:1"), "{told_all}");
+    }
+}
+
 #[test]
 fn a_search_finds_the_stiff_value_and_writes_a_scene_that_shows_it() {
     let folder = folder(0.5, "");

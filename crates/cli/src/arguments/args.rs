@@ -297,6 +297,7 @@ impl ConventionArgs {
                 FloatsArg::F32 => FloatWidth::Single,
                 FloatsArg::F64 => FloatWidth::Double,
             },
+            ..Conventions::default()
         }
     }
 }

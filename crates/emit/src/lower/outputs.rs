@@ -151,10 +151,13 @@ impl Ctx<'_, '_> {
                 _ => (output.ty, None),
             };
             let scalar = self.low.types.scalar_of(ty).unwrap_or(Scalar::Float);
-            for element in 0..len.unwrap_or(1) {
-                let name = match len {
-                    Some(_) => format!("{}_{element}", output.name),
-                    None => output.name.clone(),
+            // `gl_FragColor` is for all attachments.
+            let is_for_all = self.shader.global(output.global).builtin == Some(BuiltinVariable::FragColor);
+            let copies = self.low.conventions.color_attachments.filter(|_| is_for_all).unwrap_or(1);
+            for element in 0..len.unwrap_or(copies) {
+                let name = match (len, element) {
+                    (None, 0) => output.name.clone(),
+                    _ => format!("{}_{element}", output.name),
                 };
                 members.push(OutputMember {
                     name,

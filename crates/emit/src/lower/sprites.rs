@@ -5,7 +5,7 @@
 //! place in the point on as a varying.
 //!
 //! *Holds:* the pixels and `gl_PointCoord` are those of OpenGL 3.2 §3.4: a square of `gl_PointSize` pixels around the
-//! position; the place counts from the upper left (POINT_SPRITE_COORD_ORIGIN). The triangles are front faces. Of a point
+//! position, 255 at most; the place counts from the upper left (POINT_SPRITE_COORD_ORIGIN). The triangles are front faces. Of a point
 //! whose center is outside of the window, the part inside is drawn, as by the GPU's own points; OpenGL drops it (§2.17).
 
 use super::function::Ctx;
@@ -16,6 +16,9 @@ use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Stage, TypeId};
 use glisten_front::link::Interface;
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, Handle, MathFunction, TypeInner};
+
+/// The largest size of a point in pixels, as of the points of most drivers (`ALIASED_POINT_SIZE_RANGE`).
+const LARGEST_POINT: f32 = 255.0;
 
 /// The location of the varying with the place in the point: after all others.
 pub(crate) fn coordinate_location(interface: &Interface) -> u32 {
@@ -101,14 +104,15 @@ impl Ctx<'_, '_> {
         Ok(self.add(Expression::Compose { ty, components: vec![x, y, z, w] }))
     }
 
-    /// The size in pixels: at least one, and one unless the host enables PROGRAM_POINT_SIZE.
+    /// The size in pixels: at least one, at most [`LARGEST_POINT`], and one unless the host enables PROGRAM_POINT_SIZE.
     fn sprite_size(&mut self) -> Try<Handle<Expression>> {
         let one = self.float(1.0);
         let sized = self.low.builtin_global(BuiltinVariable::PointSize);
         match sized.filter(|_| self.low.conventions.program_point_size) {
             Some(global) => {
                 let size = self.output_part(global, 0, TypeId::FLOAT)?;
-                Ok(self.math2(MathFunction::Max, size, one))
+                let most = self.float(LARGEST_POINT);
+                Ok(self.math3(MathFunction::Clamp, size, one, most))
             }
             None => Ok(one),
         }

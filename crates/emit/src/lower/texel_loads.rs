@@ -1,13 +1,14 @@
 //! Lowers lookups in integer textures, which no target can sample: computes the texel and loads it.
 //!
 //! *Holds:* the filter is NEAREST, the only complete one for integer textures (OpenGL 3.2 §3.8.10 makes all others
-//! incomplete). The wrap mode is OpenGL's default, since a shader cannot see the sampler's state: REPEAT, for
-//! rectangles CLAMP_TO_EDGE. The level is the requested one, rounded, or else the base level.
+//! incomplete). A shader cannot see the sampler's state, so the host tells the wrap mode ([`TexelWrap`]); rectangles have
+//! CLAMP_TO_EDGE. The level is the requested one, rounded, or else the base level.
 
 use super::Try;
 use super::function::Ctx;
 use super::lacking;
 use super::textures::Lookup;
+use crate::target::TexelWrap;
 use glisten_front::hir::{SamplerDim, Scalar};
 use naga::{BinaryOperator, Expression, Handle, ImageQuery, MathFunction, SampleLevel, ScalarKind};
 
@@ -190,13 +191,29 @@ impl Ctx<'_, '_> {
         if let Some(offset) = lookup.shift {
             texel = self.op(BinaryOperator::Add, texel, offset);
         }
-        let wrapped = if rect { self.inside(texel, size, n) } else { self.repeated(texel, size) };
+        let wrapped = match self.low.conventions.texel_wrap {
+            _ if rect => self.inside(texel, size, n),
+            TexelWrap::ClampToEdge => self.inside(texel, size, n),
+            TexelWrap::Repeat => self.repeated(texel, size),
+            TexelWrap::MirroredRepeat => self.mirrored(texel, size, n),
+        };
         if n > 1 {
             return wrapped;
         }
         let zero = self.int(0);
         let ty = self.low.vector_type(Scalar::Int, 2);
         self.add(Expression::Compose { ty, components: vec![wrapped, zero] })
+    }
+
+    /// `texel` modulo twice the size; the second half runs back.
+    fn mirrored(&mut self, texel: Handle<Expression>, size: Handle<Expression>, n: u8) -> Handle<Expression> {
+        let period = self.op(BinaryOperator::Add, size, size);
+        let place = self.repeated(texel, period);
+        let one = self.int(1);
+        let one = self.splat(one, n);
+        let last = self.op(BinaryOperator::Subtract, period, one);
+        let back = self.op(BinaryOperator::Subtract, last, place);
+        self.math2(MathFunction::Min, place, back)
     }
 
     /// `texel` modulo `size`, never negative.

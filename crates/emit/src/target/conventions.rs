@@ -92,6 +92,19 @@ impl FloatWidth {
     }
 }
 
+/// The texel of an integer texture that is read for a coordinate outside of it. No target samples integers, so the code
+/// computes it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum TexelWrap {
+    /// REPEAT, which is OpenGL's default.
+    #[default]
+    Repeat,
+    /// CLAMP_TO_EDGE
+    ClampToEdge,
+    /// MIRRORED_REPEAT
+    MirroredRepeat,
+}
+
 /// The expectations of the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Conventions {
@@ -107,6 +120,10 @@ pub struct Conventions {
     pub program_point_size: bool,
     /// Whether points are drawn as quads in targets whose points are one pixel wide: WGSL and HLSL.
     pub point_sprites: bool,
+    /// The wrap mode of integer textures, in targets whose code loads their texels: all but GLSL. Rectangles and cubes clamp.
+    pub texel_wrap: TexelWrap,
+    /// How many color attachments `gl_FragColor` is written to, in all targets but GLSL; `None` for the first alone.
+    pub color_attachments: Option<u32>,
     /// The version of emitted GLSL.
     pub glsl_version: GlslVersion,
     /// Whether SPIR-V contains source lines.

@@ -10,7 +10,7 @@ mod slots;
 mod textures;
 
 pub(crate) use capabilities::Capabilities;
-pub use conventions::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, WindowOrigin};
+pub use conventions::{ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, TexelWrap, WindowOrigin};
 pub use language::Target;
 #[cfg_attr(target_family = "wasm", allow(unused_imports, reason = "MSL alone has kinds"))]
 pub(crate) use slots::SlotKind;

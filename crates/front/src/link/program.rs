@@ -1,5 +1,6 @@
 //! [`Program`] and its [`Interface`]: the result of a link, with all assigned locations, offsets and bindings.
 
+use crate::builtin::BuiltinVariable;
 use crate::hir::{
     ArraySize, GlobalId, Interpolation, MatrixLayout, Sampling, Shader, Stage, Type, TypeId, Types, Value,
 };
@@ -30,9 +31,14 @@ impl Program {
         self.stages.iter().find(|shader| shader.stage == stage)
     }
 
-    /// Whether an output is assigned to a color number.
+    /// Whether an output is assigned to a color number. `gl_FragColor` is for all of them.
     pub fn writes_color(&self, number: u32) -> bool {
+        let fragment = self.stage(Stage::Fragment);
         self.interface.outputs.iter().any(|output| {
+            let global = fragment.and_then(|shader| shader.globals.get(output.global.index()));
+            if global.is_some_and(|global| global.builtin == Some(BuiltinVariable::FragColor)) {
+                return true;
+            }
             let elements = match self.types.get(output.ty) {
                 Type::Array(_, ArraySize::Sized(size)) => size,
                 _ => 1,

@@ -11,7 +11,12 @@
 pub enum Fault {
     /// It computes `noperspective` varyings incorrectly for triangles that are clipped along an edge of constant x.
     ClippedNoperspective,
+    /// It ends the loops of fragments after [`MOST_ROUNDS`] rounds of all of them together.
+    CutLoops,
 }
+
+/// The rounds after which llvmpipe ends loops (`LP_MAX_TGSI_LOOP_ITERATIONS`).
+pub const MOST_ROUNDS: u64 = 65_535;
 
 /// A row of [`KNOWN`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +34,22 @@ pub struct KnownFault {
 }
 
 /// All known faults of Mesa 22.3.6's llvmpipe and lavapipe.
-pub static KNOWN: &[KnownFault] = &[KnownFault {
-    fault: Fault::ClippedNoperspective,
-    name: "clipped_noperspective",
-    rule: "OpenGL 3.2 2.19.1: noperspective varyings are linear in the window",
-    measured: "NaN, or wrong by the reciprocal of the difference of x",
-    applies: "triangles clipped along an edge whose ends have nearly one x and different w",
-}];
+pub static KNOWN: &[KnownFault] = &[
+    KnownFault {
+        fault: Fault::ClippedNoperspective,
+        name: "clipped_noperspective",
+        rule: "OpenGL 3.2 2.19.1: noperspective varyings are linear in the window",
+        measured: "NaN, or wrong by the reciprocal of the difference of x",
+        applies: "triangles clipped along an edge whose ends have nearly one x and different w",
+    },
+    KnownFault {
+        fault: Fault::CutLoops,
+        name: "cut_loops",
+        rule: "GLSL 1.50 6.3: a loop runs until its condition is false",
+        measured: "the state after 65,535 rounds",
+        applies: "fragments whose loops run more rounds than that together",
+    },
+];
 
 /// A set of faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -91,6 +91,11 @@ pub trait Domain: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn weights() -> Option<FixedPoint> {
         None
     }
+    /// The 16-bit float in which a framebuffer stores a number: the nearest one, or the other neighbor (OpenGL 3.2 §2.1.2).
+    #[inline(always)]
+    fn stored_half(exact: f64) -> f64 {
+        f64::from(half::f16::from_f64(exact))
+    }
     /// The error of a point's size, as a share of the allowed one, -1 to 1.
     #[inline(always)]
     fn point_size_share() -> f64 {

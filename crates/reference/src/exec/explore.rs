@@ -88,6 +88,20 @@ impl<D: Domain> Machine<D> {
         self.leave(joined);
     }
 
+    /// Lets the outputs of groups with lanes that were cut be anything.
+    pub(super) fn leave_cut(&mut self) {
+        if self.cut == 0 {
+            return;
+        }
+        let (group, members) = (self.ways.group, self.ways.members());
+        let groups = (0..self.ways.capacity()).map(|number| members << (number * group));
+        let unlimited = groups.filter(|lanes| self.cut & lanes != 0).fold(0, |all, lanes| all | lanes);
+        let perhaps_discarded = self.perhaps_discarded;
+        let joined = Joined { unlimited, ..self.first_outcome() };
+        self.leave(joined);
+        self.perhaps_discarded |= perhaps_discarded;
+    }
+
     fn run_ways(&mut self, mask: u64, allowance: u64) {
         let code = std::sync::Arc::clone(&self.code.inner);
         (self.discarded, self.undecided) = (0, 0);

@@ -48,6 +48,12 @@ pub struct Machine<D: Domain> {
     pub(super) allowance: u64,
     /// The [cost](super::cost) of what was executed since somebody asked.
     pub(super) executed: u64,
+    /// The rounds of loops after which lanes are [cut](Self::cut); none in most machines.
+    pub(super) most_rounds: Option<u64>,
+    /// The rounds of all loops in this run.
+    pub(super) rounds: u64,
+    /// The lanes that went on after that many rounds.
+    pub(super) cut: u64,
     pub(super) budget_exceeded: bool,
     /// The loop that exceeded it.
     pub(super) runaway: Span,
@@ -129,6 +135,9 @@ impl<D: Domain> Machine<D> {
             budget: LOOP_BUDGET,
             allowance: 0,
             executed: 0,
+            most_rounds: None,
+            rounds: 0,
+            cut: 0,
             budget_exceeded: false,
             runaway: Span::default(),
             observer,
@@ -152,6 +161,11 @@ impl<D: Domain> Machine<D> {
     /// Replaces [`LOOP_BUDGET`].
     pub fn limit_loops(&mut self, instructions: u64) {
         self.loop_budget = instructions;
+    }
+
+    /// Lets the outputs of a lane be anything, in a domain with envelopes, where its loops run more rounds than this together.
+    pub fn cut_loops(&mut self, rounds: u64) {
+        self.most_rounds = Some(rounds).filter(|_| D::HAS_INTERVALS);
     }
 
     fn port(ports: &[Port], class: Class, global: GlobalId, flat: u32) -> Option<usize> {
@@ -188,6 +202,7 @@ impl<D: Domain> Machine<D> {
         self.discarded = 0;
         self.undecided = 0;
         self.perhaps_discarded = 0;
+        (self.rounds, self.cut) = (0, 0);
         self.ways.begin_first();
         self.streams.clear();
         // A machine that has exceeded its budget is likely to do so again. Then it should end soon.
@@ -199,6 +214,7 @@ impl<D: Domain> Machine<D> {
         self.show_outputs(live.0 & !self.discarded);
         if D::HAS_INTERVALS {
             self.explore(live.0 | helpers.0);
+            self.leave_cut();
         }
         self.discarded &= live.0;
         self.perhaps_discarded &= live.0;

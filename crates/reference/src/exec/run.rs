@@ -107,6 +107,12 @@ impl<D: Domain> Machine<D> {
                     }
                 }
                 Inst::LoopBack { head, exit } => {
+                    if D::HAS_INTERVALS && !self.ways.exploring {
+                        self.rounds += 1;
+                        if self.most_rounds.is_some_and(|most| self.rounds >= most) {
+                            self.cut |= mask;
+                        }
+                    }
                     let cost = (place as u64).saturating_sub(u64::from(head)).max(1);
                     match self.budget.checked_sub(cost) {
                         Some(left) => {

@@ -55,6 +55,7 @@ mod worlds;
 
 use super::RenderOptions;
 use super::domain::Domain;
+use super::domain::faults::{Fault, MOST_ROUNDS};
 use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece, hashed};
 use super::raster::Shape;
 use assembly::Prim;
@@ -220,9 +221,12 @@ fn never_ends(draw: &Draw, place: Span) -> Diagnostic {
             .here("too long with all of the calls that it leads to")
             .help("each function that calls another one twice doubles the work: use a loop, or compute a value once");
     }
-    let told = Diagnostic::new(&SCENE_LOOP_BUDGET, place, "a loop of the program does not come to an end");
-    let budget = format!("left after it ran {LOOP_BUDGET} instructions for 64 invocations together");
-    told.here(budget).help("a loop needs a condition that turns false, a `break` or a `return`")
+    let message = "a loop of the program runs longer than the reference's budget, or does not come to an end";
+    let budget =
+        format!("left after it ran {LOOP_BUDGET} instructions for 64 invocations together, which is the budget");
+    let help =
+        "a loop needs a condition that turns false, a `break` or a `return`; one that ends takes fewer rounds here";
+    Diagnostic::new(&SCENE_LOOP_BUDGET, place, message).here(budget).help(help)
 }
 
 /// The distinct vertices of a draw, and for each position in the draw the index of its vertex.
@@ -337,6 +341,9 @@ fn draw_prims<D: Domain>(
             return;
         }
         let mut machine = take().unwrap_or_else(|| watch.machine(Stage::Fragment, code, shading.draw, shading.profile));
+        if shading.vertices.faults.excuses(Fault::CutLoops) {
+            machine.cut_loops(MOST_ROUNDS);
+        }
         watch.begin(&mut machine);
         machine.take_executed();
         draw_bin(shading, bin, list, &mut machine);

@@ -192,7 +192,7 @@ fn factor<D: Domain>(name: BlendFactor, source: [D::Float; 4], destination: [D::
 pub(super) fn store<D: Domain>(value: D::Float, format: Format) -> D::Float {
     let convert: fn(f64) -> f64 = match format {
         Format::Rgba32Float | Format::Rgba32Sint | Format::Rgba32Uint => return value,
-        Format::Rgba16Float => |x| f64::from(f16::from_f64(x)),
+        Format::Rgba16Float => D::stored_half,
         Format::Rgba8Unorm => unorm8,
     };
     let stored = convert(value.value());

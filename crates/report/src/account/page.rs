@@ -171,8 +171,8 @@ fn percent(share: f64) -> String {
 fn figures(before: &Figures, after: &Figures) -> Vec<Value> {
     let lines = [
         ("SPIR-V instructions", before.spirv_instructions, after.spirv_instructions),
-        ("Vertex operations", before.vertex_operations, after.vertex_operations),
-        ("Fragment operations", before.fragment_operations, after.fragment_operations),
+        ("Vertex operations, without those on integers", before.vertex_operations, after.vertex_operations),
+        ("Fragment operations, without those on integers", before.fragment_operations, after.fragment_operations),
         ("Varyings", before.varyings, after.varyings),
         ("Attributes", before.attributes, after.attributes),
         ("Bytes of attributes", before.attribute_bytes, after.attribute_bytes),

@@ -19,7 +19,7 @@
 //! The goal is 1/255 of the range of the picture's values, unless it is given: of all channels that the programs write,
 //! over the covered pixels, alpha included. A picture of one value has no range; its goal is 1/255 of 1/255 of its
 //! largest magnitude. In 8 bits, the goal is at least one step, because nothing
-//! is between, and two steps where a draw blends, which rounds twice.
+//! is between, and two steps where a draw blends, which rounds twice. In floats of 16 bits, these are steps at the largest magnitude.
 //!
 //! *Holds:* the counts of the classes add up to the number of covered pixels, and so do those of the widths.
 
@@ -140,6 +140,11 @@ impl Evidence {
     pub fn good(&self) -> u64 {
         self.judged + self.likely + self.edge + self.excused
     }
+
+    /// The pixels whose colors were compared with anything: all but those that are excused, undefined or undecided.
+    pub fn compared(&self) -> u64 {
+        self.judged + self.likely + self.edge + self.weak + self.unlimited
+    }
 }
 
 /// The number of covered pixels whose envelope has a width between two powers of ten. The width of a pixel is that of its
@@ -211,6 +216,8 @@ pub struct Written {
     step: f64,
     /// For floats, the distance as a share of the value.
     relative: f64,
+    /// For floats of 16 bits, what rounding may be off, as a share of the value; else 0.
+    coarse: f64,
 }
 
 impl Written {
@@ -238,7 +245,9 @@ impl Written {
         let blends = scene.draws.iter().any(|draw| draw.state.blend.is_some());
         // Blending rounds its factors and products as well (§4.1.7).
         let steps = if blends { 2.0 } else { 1.0 };
-        Self { channels, full: full_range(format), step: steps * step(format), relative: relative_step(format) }
+        let relative = relative_step(format);
+        let coarse = if format == Format::Rgba16Float { steps * relative } else { 0.0 };
+        Self { channels, full: full_range(format), step: steps * step(format), relative, coarse }
     }
 
     /// Every channel of some attachments, of floats.
@@ -248,12 +257,18 @@ impl Written {
             full: None,
             step: 0.0,
             relative: relative_step(Format::Rgba32Float),
+            coarse: 0.0,
         }
     }
 
     /// Whether a program writes the channel.
     pub fn is_written(&self, attachment: usize, channel: usize) -> bool {
         self.channels.get(attachment).is_some_and(|channels| channels[channel])
+    }
+
+    /// What rounding to the format may be off at a value; 0 for floats of 32 bits.
+    fn step_at(&self, value: f64) -> f64 {
+        self.step.max(self.coarse * value.abs())
     }
 
     /// Whether an interval excludes nothing.
@@ -338,7 +353,7 @@ impl<'a> Ruler<'a> {
         }
         let range = if low <= high { high - low } else { 0.0 };
         let magnitude = if low <= high { low.abs().max(high.abs()) } else { 0.0 };
-        let goal = width.unwrap_or_else(|| (range.max(magnitude * GOAL) * GOAL).max(written.step));
+        let goal = width.unwrap_or_else(|| (range.max(magnitude * GOAL) * GOAL).max(written.step_at(magnitude)));
         Self { cpu, written, without: &[], range, goal }
     }
 
@@ -365,12 +380,12 @@ impl<'a> Ruler<'a> {
     /// How far a number may be outside of what is likely for no reason: a step of the format, and a small share of the
     /// range.
     pub(super) fn rounding(&self, value: f64) -> f64 {
-        self.written.step.max(self.written.relative * value.abs()).max(self.range * LEAST)
+        self.step(value).max(self.written.relative * value.abs()).max(self.range * LEAST)
     }
 
-    /// The distance of neighboring values of the format; 0 for floats.
-    pub(super) fn step(&self) -> f64 {
-        self.written.step
+    /// What rounding to the format may be off at a value; 0 for floats of 32 bits.
+    pub(super) fn step(&self, value: f64) -> f64 {
+        self.written.step_at(value)
     }
 
     /// How far the mean of many numbers of this size may be off for no reason.
@@ -478,6 +493,10 @@ mod tests {
         assert_eq!(Ruler::new(&picture, &bytes, None).class(5), Class::Unlimited);
         assert!(Ruler::new(&picture, &bytes, None).goal > 1.0 / 255.0);
         assert_eq!(Ruler::new(&picture, &Written::everything(1), Some(2.0)).class(5), Class::Judged);
+        // A 16-bit float has 1024 steps to the next power of two, and a picture of one value has no range.
+        let one = Picture::of_colors(2, 1, vec![[1.0; 4]; 2]);
+        let halves = Written { coarse: relative_step(Format::Rgba16Float), ..Written::everything(1) };
+        assert_eq!(Ruler::new(&one, &halves, None).goal, 1.0 / 1024.0);
     }
 
     #[test]
@@ -495,7 +514,8 @@ mod tests {
     #[test]
     fn a_channel_that_is_not_written_measures_nothing() {
         let picture = reference(&[Interval::ALL]);
-        let written = Written { channels: vec![[false, true, true, false]], full: None, step: 0.0, relative: 0.0 };
+        let written =
+            Written { channels: vec![[false, true, true, false]], full: None, step: 0.0, relative: 0.0, coarse: 0.0 };
         let ruler = Ruler::new(&picture, &written, None);
         assert_eq!((ruler.range, ruler.class(2), ruler.width(2)), (0.0, Class::Judged, 0.0));
     }
@@ -516,7 +536,7 @@ mod tests {
     fn counts_add_up() {
         let mut evidence = Evidence::default();
         Class::ALL.iter().for_each(|class| evidence.add(*class));
-        assert_eq!((evidence.total(), evidence.good()), (8, 4));
+        assert_eq!((evidence.total(), evidence.good(), evidence.compared()), (8, 4, 5));
         assert!(Class::ALL.iter().all(|class| evidence.of(*class) == 1));
     }
 }

@@ -267,14 +267,15 @@ fn with(range: Interval, value: f64) -> Interval {
 }
 
 /// The range of the members with its margin; `None` if it is wider than the goal, or no range of numbers. In a format with
-/// steps, members that are one step apart agree.
+/// steps, or of 16 bits, members that are one step apart agree.
 fn widened(range: Interval, ruler: &Ruler<'_>, margin: f64) -> Option<(f64, f64)> {
     if range.may_be_nan || !(range.low <= range.high && range.low.is_finite() && range.high.is_finite()) {
         return None;
     }
-    let width = (range.width() - ruler.step()).max(0.0);
-    let rounding = ruler.rounding(range.low.abs().max(range.high.abs()));
-    let own = if ruler.step() > 0.0 { 0.0 } else { 2.0 * rounding };
+    let largest = range.low.abs().max(range.high.abs());
+    let (step, rounding) = (ruler.step(largest), ruler.rounding(largest));
+    let width = (range.width() - step).max(0.0);
+    let own = if step > 0.0 { 0.0 } else { 2.0 * rounding };
     let reach = margin * width + rounding;
     (width * (1.0 + 2.0 * margin) + own <= ruler.goal).then_some((range.low - reach, range.high + reach))
 }

@@ -105,9 +105,9 @@ impl Default for Demands {
 /// that both sides cover and that are decided and finite.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Verdict {
-    /// The largest difference.
+    /// The largest difference; 0 if nothing was compared ([`Verdict::largest_error`]).
     pub max_abs: f64,
-    /// The root mean square difference.
+    /// The root mean square difference; 0 if nothing was compared.
     pub rmse: f64,
     /// `-20 log10(rmse)` in dB for a peak of 1; `None` (null) if the pictures are equal.
     pub psnr: Option<f64>,
@@ -200,6 +200,16 @@ impl Verdict {
         let one_sided = self.undecided.saturating_sub(self.evidence.undecided);
         let allowed = if demands.allow_undecided { self.undecided } else { 0 };
         (self.evidence.good() + allowed) as f64 / (self.covered + one_sided).max(1) as f64
+    }
+
+    /// The largest difference; `None` if pixels are covered, but none was compared: all are excused, undefined or undecided.
+    pub fn largest_error(&self) -> Option<f64> {
+        (self.covered == 0 || self.evidence.compared() > 0).then_some(self.max_abs)
+    }
+
+    /// The word for the pixels of [`Self::share_judged`].
+    pub fn judged_word(&self) -> &'static str {
+        if self.evidence.excused > 0 { "judged or excused" } else { "judged" }
     }
 
     /// Whether there is a difference that the specifications do not explain.

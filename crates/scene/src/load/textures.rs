@@ -388,11 +388,13 @@ fn check_state(
     let fetched = kind.dim == SamplerDim::Multisample;
     let (key, message) = if fetched && filter != Filter::Nearest {
         ("filter", format!("`{name}` is a {}, whose samples cannot be filtered", kind.name()))
-    } else if integer && filter != Filter::Nearest {
-        ("filter", format!("`{name}` holds integers, which cannot be filtered"))
+    } else if integer && !matches!(filter, Filter::Nearest | Filter::NearestMipmapNearest) {
+        ("filter", format!("`{name}` holds integers, of which OpenGL reads the nearest one alone"))
     } else if kind.dim == SamplerDim::Rect && wrap != Wrap::ClampToEdge {
         ("wrap", format!("`{name}` is a {}, which can only clamp", kind.name()))
-    } else if mipmaps && (unfiltered || integer) {
+    } else if mipmaps && integer {
+        ("mipmaps", format!("`{name}` holds integers, of which there is no mean for mipmaps"))
+    } else if mipmaps && unfiltered {
         ("mipmaps", format!("`{name}` is a {}, which has no mipmaps", kind.name()))
     } else {
         return Some(());

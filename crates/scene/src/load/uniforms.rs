@@ -162,7 +162,8 @@ fn load_named<'p>(reader: &mut Reader, draw: &DeTable<'_>, (values, own): (&mut 
                 own.set(name.get_ref(), &floats(&scalars));
                 own.keep(target, scalars);
             }
-            None => values.mark(&target),
+            // Of an array with a wrong element no other one is missed.
+            None => values.mark(&Target { element: None, ..target }),
         }
     }
 }

@@ -129,9 +129,9 @@ pub struct Figures {
     pub uniform_bytes: u64,
     /// Textures.
     pub textures: u64,
-    /// Operations that the vertex stage executes for the picture.
+    /// Operations that the vertex stage executes for the picture, without those on integers.
     pub vertex_operations: u64,
-    /// Operations that the fragment stage executes for the picture.
+    /// Operations that the fragment stage executes for the picture, without those on integers.
     pub fragment_operations: u64,
 }
 

@@ -14,10 +14,10 @@ pub struct Headline {
 }
 
 impl Headline {
-    /// The sentence for the worst verdict of a verification; `None` if it holds.
+    /// The sentence for the worst verdict of a verification; `None` if it holds and something was checked.
     pub fn of(verification: &Verification, worst: &Verdict) -> Option<Self> {
         match verification.conclusion() {
-            Conclusion::Holds => None,
+            Conclusion::Holds => unchecked(worst),
             Conclusion::Inconclusive => Some(inconclusive(verification, worst)),
             Conclusion::Fails => Some(fails(worst)),
         }
@@ -31,6 +31,26 @@ fn of_contribution(one: &Contributed) -> (String, u32, u32) {
 /// `file:line:column`
 fn told((file, line, column): &(String, u32, u32)) -> String {
     format!("{file}:{line}:{column}")
+}
+
+/// What to know of a picture that holds although none of its pixels was compared with anything.
+fn unchecked(verdict: &Verdict) -> Option<Headline> {
+    if verdict.largest_error().is_some() {
+        return None;
+    }
+    let excused = match verdict.known_faults.as_slice() {
+        [] => String::new(),
+        faults => {
+            let names: Vec<&str> = faults.iter().map(|count| count.fault).collect();
+            format!(
+                ": known faults of the driver excuse {} of {} covered pixels ({}); --no-known-faults judges them",
+                verdict.evidence.excused,
+                verdict.covered,
+                names.join(", ")
+            )
+        }
+    };
+    Some(Headline { text: format!("nothing was checked{excused}"), place: None })
 }
 
 /// Why a picture is inconclusive.

@@ -94,10 +94,15 @@ impl fmt::Display for Verification {
             let verdict = &run.verdict;
             let mark = mark(verdict.conclusion(&self.demands));
             write!(f, "{}: {mark}: {} of {} pixels covered, ", run.runner, verdict.covered, verdict.pixels)?;
-            write!(f, "{:.1} % of them judged, ", 100.0 * verdict.share_judged(&self.demands))?;
+            let share = 100.0 * verdict.share_judged(&self.demands);
+            write!(f, "{share:.1} % of them {}, ", verdict.judged_word())?;
             write!(f, "{} outside, {} with another coverage, ", verdict.outside, verdict.coverage_mismatch)?;
             write!(f, "{} not finite on one side, ", verdict.finiteness_mismatch)?;
-            writeln!(f, "{} undecided; largest error {:.3e}", verdict.undecided, verdict.max_abs)?;
+            write!(f, "{} undecided; ", verdict.undecided)?;
+            match verdict.largest_error() {
+                Some(error) => writeln!(f, "largest error {error:.3e}")?,
+                None => writeln!(f, "no pixel was compared")?,
+            }
             if let Some(worst) = &verdict.worst {
                 writeln!(f, "  worst: {worst:?}")?;
             }

@@ -215,7 +215,8 @@ fn on(scene: &Scene, runner: &dyn Runner, lines: LineRule) -> Result<Judged, Str
 
 /// The figures of a verdict; those that are rare only where there are any.
 fn figures(verdict: &Verdict, share: f64) -> String {
-    let mut text = format!("{} pixels, {share:.0} % of them judged, {} outside", verdict.covered, verdict.outside);
+    let word = verdict.judged_word();
+    let mut text = format!("{} pixels, {share:.0} % of them {word}, {} outside", verdict.covered, verdict.outside);
     let rare = [
         (verdict.outside_likely + verdict.suspect.unwrap_or(0), "outside of what simulated GPUs drew"),
         (verdict.coverage_mismatch, "with another coverage"),

@@ -152,6 +152,9 @@ pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     if args.check {
         return checked(&done, console).map(|answer| answer.max(exit));
     }
+    if done.is_empty() {
+        return Ok(exit);
+    }
     let folder = args.output.clone().unwrap_or_default();
     files::make_folder(&folder)?;
     let conventions = args.conventions.conventions(false);

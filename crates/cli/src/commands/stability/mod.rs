@@ -214,6 +214,11 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
     let of_project = || config::stability_bound(Path::new(name));
     let bound = args.bound.or(settings.bound).or_else(of_project).unwrap_or(BOUND);
     let relative = args.bound_relative.or(settings.bound_relative);
+    for stated in [&settings.sweeps, &settings.ranges] {
+        if let Err(diagnostic) = sweep::parameters(&read.scene, stated) {
+            return Ok(Err(vec![*diagnostic]));
+        }
+    }
     let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
     let progress = Progress::new(console, 0).unless(args.format == StabilityFormat::Json);
     progress.say(name);
@@ -301,11 +306,17 @@ fn swept(
     if sweeps.is_empty() {
         return Ok(Ok((scene.clone(), None)));
     }
-    let found: Result<Vec<Parameter>, String> =
-        sweeps.iter().map(|sweep| Parameter::find(scene, &sweep.name)).collect();
     let exit = if is_asked { Exit::Usage } else { Exit::Content };
-    let parameters = found.map_err(|message| Failure::new(exit, message))?;
-    let combinations = sweep::combinations(sweeps).map_err(Failure::usage)?;
+    // Those of the scene have been found before.
+    let found = sweep::parameters(scene, sweeps).map_err(|diagnostic| {
+        let failure = Failure::new(exit, diagnostic.message);
+        match diagnostic.help {
+            Some(help) => failure.help(help),
+            None => failure,
+        }
+    })?;
+    let (parameters, values): (Vec<Parameter>, Vec<Vec<f64>>) = found.into_iter().unzip();
+    let combinations = sweep::combinations(&values).map_err(Failure::usage)?;
     let step = &mut |done: usize, of: usize| {
         progress.reach(done, of);
         goes_on()

@@ -18,8 +18,10 @@ struct Case {
     seconds: f64,
     /// `None` if it was not drawn.
     conclusion: Option<Conclusion>,
-    /// The covered pixels that are judged, and all of them.
+    /// The covered pixels that are judged or excused, and all of them.
     judged: [u64; 2],
+    /// The word for the former.
+    judged_word: &'static str,
     exit: Exit,
     headline: Option<Headline>,
     report: Value,
@@ -33,6 +35,7 @@ impl Case {
             seconds,
             conclusion: None,
             judged: [0; 2],
+            judged_word: "judged",
             exit,
             headline: None,
             report: Value::Null,
@@ -41,6 +44,7 @@ impl Case {
             let worst: Option<Run> = worst_of(&runs);
             case.conclusion = Some(verification.conclusion());
             case.headline = worst.as_ref().and_then(|worst| Headline::of(&verification, &worst.verdict));
+            case.judged_word = worst.as_ref().map_or("judged", |worst| worst.verdict.judged_word());
             case.judged = worst.map_or([0; 2], |worst| [worst.verdict.evidence.good(), worst.verdict.covered]);
             case.report = serde_json::from_str(&report).unwrap_or_default();
         }
@@ -93,8 +97,10 @@ pub(super) fn run(args: &VerifyArgs, scenes: &[String], console: &Console) -> Ou
 
 fn line(case: &Case) -> String {
     let [judged, covered] = case.judged;
-    let counts =
-        if case.conclusion.is_some() { format!(", {judged} of {covered} pixels judged") } else { String::new() };
+    let counts = match case.conclusion {
+        Some(_) => format!(", {judged} of {covered} pixels {}", case.judged_word),
+        None => String::new(),
+    };
     let mut text = format!("{}: {}{counts}\n", case.scene, case.mark());
     if let Some(headline) = &case.headline {
         text.push_str(&format!("  {}\n", headline.text));
@@ -185,6 +191,7 @@ mod tests {
             seconds: 0.5,
             conclusion,
             judged: [3, 4],
+            judged_word: "judged",
             exit,
             headline,
             report: Value::Null,

@@ -53,17 +53,16 @@ fn summary(verification: &Verification, runs: &[Run], worst: &Run, bit_unequal: 
         part => format!(" in blocks of {:.1} % of the picture", 100.0 * part),
     };
     format!(
-        "{}: {}: {} of {} covered pixels{blocks} judged ({share:.1} %){}\n\
-         largest error {:.3e} ({:.1} ulp), rmse {:.3e}, flip {:.3e}; {}\n\
+        "{}: {}: {} of {} covered pixels{blocks} {} ({share:.1} %){}\n\
+         {}, flip {:.3e}; {}\n\
          {}{equal}, reference {:.3} ms{}\n",
         vias.join(" and "),
         mark(verification.conclusion()),
         verdict.evidence.good(),
         verdict.covered,
+        verdict.judged_word(),
         parts(verdict),
-        verdict.max_abs,
-        verdict.max_ulp,
-        verdict.rmse,
+        errors(verdict),
         worst.flip,
         by(verdict),
         times.join(", "),
@@ -75,6 +74,19 @@ fn summary(verification: &Verification, runs: &[Run], worst: &Run, bit_unequal: 
 /// The population that was drawn, with its seed.
 fn population(verification: &Verification) -> Option<String> {
     verification.demands.likely.then(|| format!("simulated GPUs of seed {POPULATION_SEED}"))
+}
+
+/// In place of errors.
+const NONE_COMPARED: &str = "no pixel was compared";
+
+/// The errors, if any pixel was compared.
+fn errors(verdict: &Verdict) -> String {
+    match verdict.largest_error() {
+        Some(error) => {
+            format!("largest error {error:.3e} ({:.1} ulp), rmse {:.3e}", verdict.max_ulp, verdict.rmse)
+        }
+        None => NONE_COMPARED.to_owned(),
+    }
 }
 
 /// The standard of the comparison.
@@ -105,11 +117,18 @@ fn parts(verdict: &Verdict) -> String {
 fn table(run: &Run, verification: &Verification) -> String {
     let verdict = &run.verdict;
     let psnr = verdict.psnr.map_or("equal".to_owned(), |psnr| format!("{psnr:.1} dB"));
-    let rows = [
+    let errors = match verdict.largest_error() {
+        Some(error) => vec![
+            ("largest error", format!("{error:.3e} ({:.1} ulp)", verdict.max_ulp)),
+            ("rmse, psnr", format!("{:.3e}, {psnr}", verdict.rmse)),
+        ],
+        None => vec![("largest error", NONE_COMPARED.to_owned())],
+    };
+    let counts = [
         ("covered", format!("{} of {} pixels", verdict.covered, verdict.pixels)),
         ("judged", format!("{}{}", verdict.evidence.judged, parts(verdict))),
-        ("largest error", format!("{:.3e} ({:.1} ulp)", verdict.max_abs, verdict.max_ulp)),
-        ("rmse, psnr", format!("{:.3e}, {psnr}", verdict.rmse)),
+    ];
+    let rows = [
         ("flip", format!("{:.3e}", run.flip)),
         ("outside", format!("{} ({})", verdict.outside, by(verdict))),
         ("not bit-equal", format!("{} pixels", run.bit_unequal)),
@@ -127,7 +146,7 @@ fn table(run: &Run, verification: &Verification) -> String {
     });
     let unlikely = (verdict.outside_likely > 0).then(|| ("outside likely", verdict.outside_likely.to_string()));
     let mut text = format!("{}: {}\n", run.via, mark(verdict.conclusion(&verification.demands)));
-    for (name, value) in rows.into_iter().chain(suspect).chain(unlikely).chain(faults) {
+    for (name, value) in counts.into_iter().chain(errors).chain(rows).chain(suspect).chain(unlikely).chain(faults) {
         text.push_str(&format!("  {name:18} {value}\n"));
     }
     text + &worst_pixel(verdict)

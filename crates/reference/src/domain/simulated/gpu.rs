@@ -3,7 +3,7 @@
 //! *In:* a seed and a number. *Out:* the choices, the same for the same seed and number. *Holds:* a choice is a GPU's, not
 //! an operation's: the same operation on the same numbers always has the same result, as in hardware. The first two
 //! GPUs are drawn by no chance: number 0 rounds each operation to the nearest, number 1 as well but interpolates by
-//! planes and flushes subnormals, as most drivers do. The first [`Gpu::TYPICAL`] are as drivers are: their functions err by
+//! planes and flushes subnormals, as most drivers do, and stores 16-bit floats toward zero, as llvmpipe does. The first [`Gpu::TYPICAL`] are as drivers are: their functions err by
 //! no more than drivers' do. Those of the others err by up to what the rules allow; those of the first two of these as far
 //! as they may, up and down.
 
@@ -29,6 +29,8 @@ pub enum Planes {
 pub struct Gpu {
     seed: u64,
     pub(super) rounding: Rounding,
+    /// How it stores 16-bit floats.
+    stores: Rounding,
     pub(super) flushes: bool,
     /// Whether a product is added without being rounded.
     pub(super) fuses: bool,
@@ -82,6 +84,7 @@ enum Choice {
     WeightsDown = 1 << 16,
     LevelsDown,
     Positions,
+    Stores,
 }
 
 /// A function with an error of its own.
@@ -165,6 +168,7 @@ impl Gpu {
     pub const STRICT: Self = Self {
         seed: 0,
         rounding: Rounding::Nearest,
+        stores: Rounding::Nearest,
         flushes: false,
         fuses: false,
         sums_backward: false,
@@ -188,7 +192,10 @@ impl Gpu {
     pub fn of(seed: u64, number: u32) -> Self {
         match number {
             0 => return Self::STRICT,
-            1 => return Self { flushes: true, planes: Planes::FromCorner, ..Self::STRICT },
+            1 => {
+                let stores = Rounding::TowardZero;
+                return Self { stores, flushes: true, planes: Planes::FromCorner, ..Self::STRICT };
+            }
             _ => {}
         }
         let blank = Self { seed: mixed(seed ^ mixed(u64::from(number))) | 1, ..Self::STRICT };
@@ -201,6 +208,11 @@ impl Gpu {
             rounding: match blank.pick(Choice::Rounding, 8) {
                 0..4 => Rounding::Nearest,
                 4 => Rounding::TowardZero,
+                _ => Rounding::Either,
+            },
+            stores: match blank.pick(Choice::Stores, 3) {
+                0 => Rounding::Nearest,
+                1 => Rounding::TowardZero,
                 _ => Rounding::Either,
             },
             flushes: yes(Choice::Flush),
@@ -230,6 +242,7 @@ impl Gpu {
     #[must_use]
     pub fn llvmpipe(number: u32) -> Self {
         Self {
+            stores: Rounding::TowardZero,
             flushes: true,
             planes: Planes::FromCorner,
             sine: Some(number & 1 == 0),
@@ -364,6 +377,11 @@ impl Gpu {
         Rounder { rounding: self.rounding, seed: (self.seed >> 32) as u32, flushes: self.flushes }
     }
 
+    /// The 16-bit float in which it stores a number.
+    pub(super) fn halves(&self, exact: f64) -> f64 {
+        Rounder { rounding: self.stores, ..self.rounder() }.half(exact)
+    }
+
     /// The f32 to which it rounds.
     #[inline(always)]
     pub(super) fn rounded(&self, exact: f64) -> f64 {
@@ -391,6 +409,26 @@ mod tests {
                 assert!(gpu.rounding != Rounding::Nearest || found == nearest);
                 assert!(gpu.rounding != Rounding::TowardZero || found.abs() <= exact.abs());
                 assert_eq!(gpu.rounded(found), found, "an f32 stays");
+            }
+        }
+        assert!(counts.iter().all(|count| *count > 2), "{counts:?}");
+    }
+
+    #[test]
+    fn each_gpu_stores_a_16_bit_float_as_a_neighbor() {
+        let mut counts = [0; 3];
+        for number in 0..64 {
+            let gpu = Gpu::of(7, number);
+            counts[gpu.stores as usize] += 1;
+            for exact in (1..2000).map(|place| f64::from(place) * 0.000_7 - 0.5).chain([1e-8, -1e-8, 65_510.0, 1e9]) {
+                let nearest = half::f16::from_f64(exact);
+                let found = gpu.halves(exact);
+                let stored = half::f16::from_f64(found);
+                assert_eq!(f64::from(stored), found, "a 16-bit float");
+                assert!(stored.to_bits().abs_diff(nearest.to_bits()) % 0x8000 <= 1, "{exact} {found} {nearest}");
+                assert!(gpu.stores != Rounding::Nearest || stored == nearest);
+                assert!(gpu.stores != Rounding::TowardZero || found.abs() <= exact.abs());
+                assert_eq!(gpu.halves(found), found, "a 16-bit float stays");
             }
         }
         assert!(counts.iter().all(|count| *count > 2), "{counts:?}");

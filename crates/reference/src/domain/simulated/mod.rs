@@ -240,6 +240,9 @@ impl super::Domain for Simulated {
     fn weights() -> Option<FixedPoint> {
         Current::current().weights
     }
+    fn stored_half(exact: f64) -> f64 {
+        Current::current().halves(exact)
+    }
     fn point_size_share() -> f64 {
         Current::swing_of(Function::PointSize).at(0.0)
     }

@@ -4,6 +4,7 @@
 //! a loop over lanes is a few vector instructions; one number and a lane of eight are rounded alike.
 
 use crate::domain::WIDTH;
+use half::f16;
 
 /// The kind of rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,6 +71,29 @@ fn toward_zero(exact: f64) -> f32 {
     let nearest = exact as f32;
     let is_beyond = (f64::from(nearest).abs() > exact.abs()) & nearest.is_finite();
     f32::from_bits(nearest.to_bits().wrapping_sub(u32::from(is_beyond)))
+}
+
+impl Rounder {
+    /// The 16-bit float to which it rounds a number that is stored.
+    pub(super) fn half(self, exact: f64) -> f64 {
+        let nearest = f16::from_f64(exact);
+        let back = f64::from(nearest);
+        if back == exact || exact.is_nan() {
+            return back;
+        }
+        let is_beyond = back.abs() > exact.abs();
+        let is_moved = match self.rounding {
+            Rounding::Nearest => false,
+            Rounding::TowardZero => is_beyond,
+            Rounding::Either => chance(exact, self.seed),
+        };
+        if !is_moved {
+            return back;
+        }
+        // The size of a float grows with its bits, and 0 has the sign of the number.
+        let bits = nearest.to_bits();
+        f64::from(f16::from_bits(if is_beyond { bits - 1 } else { bits + 1 }))
+    }
 }
 
 /// The nearest neighbor, or the other one, by the digits that are lost.
