@@ -8,6 +8,7 @@ use glisten_front::hir::Stage;
 use glisten_front::lint;
 use std::collections::BTreeSet;
 use std::fs;
+use std::process::Command;
 
 #[test]
 fn rules_are_listed_by_group() {
@@ -40,6 +41,26 @@ fn groups_are_words_of_their_own() {
     }
     assert!(codes::all().all(|code| code.lint.is_some() == code.id.starts_with('L')), "each rule has a group");
     assert!(lint::rules().len() >= 50, "{}", lint::rules().len());
+}
+
+#[test]
+fn a_file_above_has_the_settings_of_its_own_folder() {
+    let shader = b"#version 150\nout vec4 c;\nvoid main() { float unused = 1.0; c = vec4(1.0); }\n" as &[u8];
+    let folder = Folder::new(&[
+        ("here/glisten.toml", b"exclude = [\"a.frag\"]\n[lint]\nunused-local = \"deny\"\n"),
+        ("here/a.frag", shader),
+        ("there/glisten.toml", b"[lint]\nunused-local = \"allow\"\n"),
+        ("there/a.frag", shader),
+    ]);
+    for (argument, from) in
+        [("../there/a.frag", "here"), ("../there", "here"), ("there", "."), ("../there/a.frag", "there")]
+    {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+        let output =
+            command.current_dir(folder.path(from)).args(["lint", argument]).output().expect("the program runs");
+        assert_eq!(code(&output), 0, "{argument} from {from}: {}{}", out(&output), err(&output));
+        assert!(err(&output).contains("1 file"), "{}", err(&output));
+    }
 }
 
 const SHADER: &str = "#version 150\nin vec3 n;\nin vec3 l;\nout vec4 c;\nvoid main() {\n    float unused = 1.0;\n    \

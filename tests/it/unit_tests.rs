@@ -67,6 +67,10 @@ fn each_kind_of_test_fails_where_it_should() {
         ("//! test\n//! 1.0, 2.0 => 1.0\nfloat f(float x) { return x; }", "line 2: the arguments are 2 numbers"),
         ("//! test\n//! 1.0 => 1.0, 2.0\nfloat f(float x) { return x; }", "line 2: 2 numbers are expected of 1"),
         ("//! test\nint nothing;", "no function follows"),
+        (
+            "#ifdef A\n//! test x = 1\nfloat f(float x) { return 2.0; }\n#endif\nbool g(float x) { return true; }",
+            "no function follows under the condition",
+        ),
         ("float g() { return y; }\n//! test\nbool f() { return true; }", "line 1: `y` is not declared (E0301)"),
         ("//! test\nbool f(sampler2D s) { return true; }", "which no number fills"),
         ("//! test x = 1\nvoid f(float x, out float y) { y = x; }", "is not passed in alone"),

@@ -92,7 +92,11 @@ impl Baseline {
             Failure::usage(error.message).help("`--update-baseline` writes it from the findings of the run")
         })?;
         let refused = |why: String| {
-            Failure::usage(format!("`{name}` is no baseline: {why}")).help("`--update-baseline` writes one")
+            let help = match args.update_baseline {
+                true => "delete it if it may be replaced, or name another file",
+                false => "`--update-baseline` writes one to another file",
+            };
+            Failure::usage(format!("`{name}` is no baseline: {why}")).help(help)
         };
         let document: Document = serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
         if document.version != VERSION {

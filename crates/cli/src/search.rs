@@ -143,7 +143,7 @@ impl Excludes {
         let Some(file) = self.nearest.of(path.parent().unwrap_or(Path::new(""))) else { return false };
         let patterns = self.by_file.entry(file).or_insert_with_key(|file| config::excluded(file));
         patterns.as_ref().is_some_and(|patterns| {
-            let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+            let absolute = config::real(path);
             absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
         })
     }

@@ -69,7 +69,7 @@ impl Budgets {
 
     /// The budget of a file.
     pub(crate) fn of(&self, file: &str) -> Option<&Budget> {
-        let absolute = std::path::absolute(file).ok()?;
+        let absolute = super::config::real(Path::new(file));
         let fits = |pattern: &str| {
             let mut patterns = GitignoreBuilder::new(&self.root);
             patterns.add_line(None, pattern).ok()?;

@@ -14,6 +14,24 @@ pub(super) struct Block {
     pub(super) lines: Vec<(u32, String)>,
 }
 
+impl Block {
+    /// The line that ends the conditional group (GLSL 1.50 §3.3) of the text that the comment is in, if it is in one.
+    pub(super) fn group(&self, text: &str) -> Option<u32> {
+        let mut depth = 0_usize;
+        for (index, line) in text.lines().enumerate().skip(self.last as usize) {
+            let Some(directive) = line.trim_start().strip_prefix('#').map(str::trim_start) else { continue };
+            if directive.starts_with("if") {
+                depth += 1;
+            } else if depth > 0 && directive.starts_with("endif") {
+                depth -= 1;
+            } else if depth == 0 && (directive.starts_with("el") || directive.starts_with("endif")) {
+                return u32::try_from(index + 1).ok();
+            }
+        }
+        None
+    }
+}
+
 /// The word that begins a test.
 const TEST: &str = "test";
 
@@ -56,6 +74,13 @@ pub(super) fn blocks(text: &str) -> Vec<Block> {
 #[cfg(test)]
 mod tests {
     use super::{blocks, has_tests};
+
+    #[test]
+    fn a_group_ends_with_its_own_directive() {
+        let text = "//! test\n#ifdef A\nfloat f();\n#else\n# if B\n//! test\n#endif\n#endif\nfloat g();\n";
+        let ends: Vec<Option<u32>> = blocks(text).iter().map(|block| block.group(text)).collect();
+        assert_eq!(ends, [None, Some(7)]);
+    }
 
     #[test]
     fn comments_are_found_with_their_lines() {

@@ -84,7 +84,7 @@ pub fn tests(name: &str, written: &str, compiler: &Compiler) -> Vec<UnitTest> {
     let compilation = compiler.compile(&[whole(text)]);
     blocks(written)
         .into_iter()
-        .map(|block| match Subject::of(&compilation, name, &block, HEAD_LINES) {
+        .map(|block| match Subject::of(&compilation, name, (&block, block.group(written)), HEAD_LINES) {
             Ok(subject) => {
                 let prepared = subject.prepare(compiler, text, &block);
                 UnitTest { name: subject.function.name.clone(), line: block.line, prepared }
@@ -103,8 +103,13 @@ struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// The first function behind a comment.
-    fn of(compilation: &'a Compilation, name: &str, block: &Block, offset: u32) -> Result<Self, String> {
+    /// The first function behind a comment, up to the last line of the conditional group that the comment is in.
+    fn of(
+        compilation: &'a Compilation,
+        name: &str,
+        (block, end): (&Block, Option<u32>),
+        offset: u32,
+    ) -> Result<Self, String> {
         let sources = &compilation.sources;
         let Some(program) = &compilation.program else { return Err(told(compilation, name, offset)) };
         let shader: Option<&Shader> = program.stages.first();
@@ -115,7 +120,10 @@ impl<'a> Subject<'a> {
             .filter_map(|function| Some((line(function)?, function)))
             .filter(|(line, _)| *line > block.last + offset)
             .min_by_key(|(line, _)| *line);
-        let (_, function) = next.ok_or("no function follows")?;
+        let (line, function) = next.ok_or("no function follows")?;
+        if end.is_some_and(|end| line > end + offset) {
+            return Err("no function follows under the condition (`#if`) that the comment is under".to_owned());
+        }
         Ok(Self { types: &program.types, function })
     }
 
