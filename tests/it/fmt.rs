@@ -97,14 +97,17 @@ fn standard_input_and_mistakes() {
     assert_eq!(code(&folder.run(&["fmt", "nowhere.frag"])), 2);
 }
 
-/// All GLSL of the repository, valid or not.
+/// All GLSL of the repository, valid or not; some files are none, and are there to be refused.
 fn sources(folder: &Path, into: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
         let extension = entry.extension().and_then(|extension| extension.to_str()).unwrap_or("");
         if entry.is_dir() {
             sources(&entry, into);
         } else if ["vert", "frag", "geom", "glsl", "fsh", "vsh", "fs", "vs"].contains(&extension) {
-            into.push(entry);
+            let bytes = fs::read(&entry).expect("a file");
+            if !bytes.contains(&0) && !bytes.iter().all(u8::is_ascii_whitespace) {
+                into.push(entry);
+            }
         }
     }
 }
