@@ -60,8 +60,8 @@ pub mod lint {
 /// Translates programs to targets, and reflects what a host needs to know.
 pub mod emit {
     pub use glisten_emit::{
-        ClipZ, Conventions, Emitted, FloatWidth, GlslVersion, Reflection, SpirvEnv, Target, TexelWrap, WindowOrigin,
-        emit, emit_single_file, reflect,
+        ClipZ, Conventions, Emitted, FloatWidth, GlslVersion, Reflection, SpirvEnv, Target, WindowOrigin, emit,
+        emit_single_file, reflect,
     };
     pub use glisten_specialize::{left_out, optimize};
 }

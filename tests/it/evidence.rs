@@ -85,7 +85,7 @@ fn looping(rounds: u32) -> Folder {
 #[test]
 fn loops_that_the_driver_cuts_are_excused_and_the_verdict_says_that_nothing_was_checked() {
     let (exit, json) = verify(&looping(65_000), &[]);
-    assert_eq!((exit, &json["verdict"], count(&json, "judged")), (0, &"holds".into(), 16), "{json}");
+    assert_eq!((exit, &json["verdict"], count(&json, "excused")), (0, &"holds".into(), 0), "{json}");
     let folder = looping(70_000);
     let (exit, json) = verify(&folder, &[]);
     assert_eq!((exit, &json["verdict"], count(&json, "excused")), (0, &"holds".into(), 16), "{json}");

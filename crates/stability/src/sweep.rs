@@ -209,7 +209,7 @@ pub fn parameters(scene: &Scene, sweeps: &[Sweep]) -> Result<Vec<(Parameter, Vec
     sweeps.iter().map(one).collect()
 }
 
-/// That no draw has a uniform, with the nearest one, or all if they are few.
+/// The error for a uniform that no draw has, with the nearest one, or all if they are few.
 fn unknown(scene: &Scene, name: &str) -> Diagnostic {
     const MOST_NAMES: usize = 12;
     let uniforms = scene.draws.iter().flat_map(|draw| &draw.program.interface.uniforms);

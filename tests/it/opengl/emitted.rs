@@ -6,11 +6,17 @@ use crate::drawing::from_disk;
 use crate::support::root;
 use glisten::scene::Scene;
 use glisten_emit::{Conventions, Emitted, GlslVersion, Target, emit};
+use glisten_scene::Draw;
 use glisten_scene::picture::Picture;
 use std::sync::Arc;
 
-/// The scene with the emitted texts of its programs; none if the version lacks something.
+/// The scene with the emitted texts of its programs; none if the version lacks something, or if `gl_FragColor` is for several
+/// attachments: as an output of the shader's own, it is for the first.
 fn emitted(scene: &Scene, glsl_version: GlslVersion) -> Option<Scene> {
+    let is_for_all = |draw: &Draw| draw.program.interface.outputs.iter().any(|output| output.name == "gl_FragColor");
+    if scene.framebuffer.attachments > 1 && scene.draws.iter().any(is_for_all) {
+        return None;
+    }
     let conventions = Conventions { glsl_version, ..Conventions::default() };
     let mut scene = scene.clone();
     for draw in &mut scene.draws {

@@ -216,7 +216,7 @@ pub struct Written {
     step: f64,
     /// For floats, the distance as a share of the value.
     relative: f64,
-    /// For floats of 16 bits, what rounding may be off, as a share of the value; else 0.
+    /// For floats of 16 bits, how far rounding may be off, as a share of the value; else 0.
     coarse: f64,
 }
 
@@ -266,7 +266,7 @@ impl Written {
         self.channels.get(attachment).is_some_and(|channels| channels[channel])
     }
 
-    /// What rounding to the format may be off at a value; 0 for floats of 32 bits.
+    /// How far rounding to the format may be off at a value; 0 for floats of 32 bits.
     fn step_at(&self, value: f64) -> f64 {
         self.step.max(self.coarse * value.abs())
     }
@@ -383,7 +383,7 @@ impl<'a> Ruler<'a> {
         self.step(value).max(self.written.relative * value.abs()).max(self.range * LEAST)
     }
 
-    /// What rounding to the format may be off at a value; 0 for floats of 32 bits.
+    /// How far rounding to the format may be off at a value; 0 for floats of 32 bits.
     pub(super) fn step(&self, value: f64) -> f64 {
         self.written.step_at(value)
     }

@@ -33,7 +33,7 @@ fn told((file, line, column): &(String, u32, u32)) -> String {
     format!("{file}:{line}:{column}")
 }
 
-/// What to know of a picture that holds although none of its pixels was compared with anything.
+/// The warning for a picture that holds although none of its pixels was compared with anything.
 fn unchecked(verdict: &Verdict) -> Option<Headline> {
     if verdict.largest_error().is_some() {
         return None;

@@ -3,9 +3,9 @@
 //! *In:* a seed and a number. *Out:* the choices, the same for the same seed and number. *Holds:* a choice is a GPU's, not
 //! an operation's: the same operation on the same numbers always has the same result, as in hardware. The first two
 //! GPUs are drawn by no chance: number 0 rounds each operation to the nearest, number 1 as well but interpolates by
-//! planes and flushes subnormals, as most drivers do, and stores 16-bit floats toward zero, as llvmpipe does. The first [`Gpu::TYPICAL`] are as drivers are: their functions err by
-//! no more than drivers' do. Those of the others err by up to what the rules allow; those of the first two of these as far
-//! as they may, up and down.
+//! planes and flushes subnormals, as most drivers do, and stores 16-bit floats toward zero, as llvmpipe does. The first
+//! [`Gpu::TYPICAL`] are as drivers are: their functions err by no more than drivers' do. Those of the others err by up to
+//! what the rules allow; those of the first two of these as far as they may, up and down.
 
 use super::levels::{Levels, Measure};
 use super::rounding::{Rounder, Rounding};
