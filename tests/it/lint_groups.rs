@@ -44,6 +44,21 @@ fn groups_are_words_of_their_own() {
 }
 
 #[test]
+fn standard_input_has_the_findings_of_a_file() {
+    let shader = "#version 150\nout vec4 c;\nvoid main() { float unused = 1.0; c = vec4(1.0); }\n";
+    let folder = Folder::new(&[("a.frag", shader.as_bytes())]);
+    let codes = |output: &std::process::Output| {
+        let rows: serde_json::Value = serde_json::from_str(&out(output)).expect("JSON");
+        rows.as_array().expect("an array").iter().map(|row| row["code"].to_string()).collect::<Vec<_>>()
+    };
+    let file = folder.run(&["lint", "a.frag", "--warn", "style", "--format", "json"]);
+    let input =
+        folder.run_with_input(&["lint", "-", "--stage", "fragment", "--warn", "style", "--format", "json"], shader);
+    assert!(codes(&file).len() > 1, "{}", out(&file));
+    assert_eq!(codes(&file), codes(&input));
+}
+
+#[test]
 fn a_file_above_has_the_settings_of_its_own_folder() {
     let shader = b"#version 150\nout vec4 c;\nvoid main() { float unused = 1.0; c = vec4(1.0); }\n" as &[u8];
     let folder = Folder::new(&[

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The name of standard input in diagnostics.
-pub(crate) const STDIN: &str = "<stdin>";
+pub(crate) const STDIN: &str = glisten_front::source::SourceMap::STDIN;
 
 /// Completes sources.
 #[derive(Clone, Debug, Default)]

@@ -43,7 +43,8 @@ impl<'a> Texts<'a> {
 
     /// Whether a span is written in the file of the shader itself, outside of macros.
     pub(super) fn is_own(&self, shader: &Shader, span: Span) -> bool {
-        let own = shader.origin.file.filter(|file| !self.sources.file(*file).name().starts_with('<'));
+        let is_edited = |name: &str| !name.starts_with('<') || name == SourceMap::STDIN;
+        let own = shader.origin.file.filter(|file| is_edited(self.sources.file(*file).name()));
         span.is_known() && !span.expansion.is_some() && own.is_some() && self.sources.file_of(span) == own
     }
 

@@ -221,6 +221,9 @@ impl SourceMap {
     /// The name of the text that contains the macros defined from outside. It is not the name of a file.
     pub const COMMAND_LINE: &'static str = "<command line>";
 
+    /// The name of a shader that is read from standard input. Other names in angle brackets are those of texts that nobody edits.
+    pub const STDIN: &'static str = "<stdin>";
+
     /// Adds a text. Returns `None` if the map has no room for it ([`Self::MAX_BYTES`]).
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> Option<FileId> {
         let text = text.into();
