@@ -578,3 +578,21 @@ fn all_mistakes_of_a_configuration_are_told_at_their_places() {
     }
     assert_eq!(code(&told), 1);
 }
+
+#[test]
+fn a_file_with_pragma_once_is_one_file_under_all_names() {
+    let folder = Folder::new(&[
+        ("inc/b.glsl", b"#pragma once\nconst float K = 1.0;\n"),
+        (
+            "inc/a.frag",
+            b"#version 150\n#extension GL_ARB_shading_language_include : require\n#include \"b.glsl\"\n\
+              #include \"../inc/b.glsl\"\n#include \"./b.glsl\"\nout vec4 c;\nvoid main() { c = vec4(K); }\n",
+        ),
+    ]);
+    for from in [".", "inc"] {
+        let file = if from == "." { "inc/a.frag" } else { "a.frag" };
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+        let output = command.current_dir(folder.path(from)).args(["lint", file]).output().expect("the program runs");
+        assert_eq!(code(&output), 0, "from {from}: {}{}", out(&output), err(&output));
+    }
+}

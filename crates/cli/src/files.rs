@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The largest file that is read at all. Sources have a smaller limit of their own, with its own code.
@@ -44,6 +44,13 @@ impl ReadError {
         let base = sources.add(name, "").map_or(0, |id| sources.file(id).base());
         Diagnostic::new(self.code, Span::new(base, base), self.message).maybe_help(self.help)
     }
+}
+
+/// The whole path of a file or folder, without `..`: the folder above `a/..` is not that of the name before, and `a` may be a link.
+pub(crate) fn real(path: &Path) -> PathBuf {
+    let goes_up = path.components().any(|part| part == Component::ParentDir);
+    let real = if goes_up { fs::canonicalize(path) } else { std::path::absolute(path) };
+    real.unwrap_or_else(|_| path.to_owned())
 }
 
 /// Reads a source text. Bytes that are not UTF-8 become U+FFFD.

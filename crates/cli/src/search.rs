@@ -7,6 +7,7 @@
 use crate::arguments::config::{self, Nearest};
 use crate::arguments::engine::Engines;
 use crate::exit::Failure;
+use crate::files;
 use crate::inputs;
 use glisten_sources::stages;
 use ignore::WalkBuilder;
@@ -143,7 +144,7 @@ impl Excludes {
         let Some(file) = self.nearest.of(path.parent().unwrap_or(Path::new(""))) else { return false };
         let patterns = self.by_file.entry(file).or_insert_with_key(|file| config::excluded(file));
         patterns.as_ref().is_some_and(|patterns| {
-            let absolute = config::real(path);
+            let absolute = files::real(path);
             absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
         })
     }

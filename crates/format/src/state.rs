@@ -61,6 +61,8 @@ pub(super) struct State {
     macro_call: bool,
     /// Whether the statement is the `while` of a `do`.
     ends_do: bool,
+    /// Whether a `case` or `default` label has just ended.
+    labeled: bool,
 }
 
 /// The kind of a `{`.
@@ -90,7 +92,8 @@ impl State {
                 self.mid && matches!(last, Frame::Paren { hangs: false, .. } | Frame::List { hangs: false }),
             );
         }
-        let is_label = !self.mid && (next.is("case") || next.is("default"));
+        // The block of a label stands where the label does.
+        let is_label = !self.mid && (next.is("case") || next.is("default") || next.is("{") && self.labeled);
         let innermost = frames.iter().rposition(|frame| matches!(frame, Frame::Code { .. } | Frame::Members));
         let mut hanging = 0;
         for (at, frame) in frames.iter().enumerate() {
@@ -125,6 +128,7 @@ impl State {
             return;
         }
         self.count += 1;
+        self.labeled = false;
         let starts = !self.mid;
         let body = std::mem::take(&mut self.body_next);
         match lexeme.text {
@@ -158,7 +162,9 @@ impl State {
                 if let Some(Frame::Code { in_case, .. }) = self.frames.last_mut() {
                     *in_case = true;
                 }
-                return self.begin();
+                self.begin();
+                self.labeled = true;
+                return;
             }
             _ => {}
         }

@@ -117,6 +117,9 @@ fn long_lines_are_broken_where_they_may() {
     let below = Options { indent: None, braces_below: true, ..Options::default() };
     let text = format("void f() { if (a) { b; c; } else { d; e; } }", &[], &below).text;
     assert_eq!(text, "void f()\n{\n\tif (a)\n\t{\n\t\tb;\n\t\tc;\n\t}\n\telse\n\t{\n\t\td;\n\t\te;\n\t}\n}\n");
+    let text = format("void f() { switch (a) { case 0: case 1: { b; break; } default: c; } }", &[], &below).text;
+    let labels = "\t\tcase 0:\n\t\tcase 1:\n\t\t{\n\t\t\tb;\n\t\t\tbreak;\n\t\t}\n\t\tdefault:\n\t\t\tc;\n\t}\n}\n";
+    assert_eq!(text, format!("void f()\n{{\n\tswitch (a)\n\t{{\n{labels}"));
 }
 
 #[test]

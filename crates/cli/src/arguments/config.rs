@@ -52,7 +52,7 @@ use glisten_scene::is_allowed;
 use glisten_scene::tables::{CONFIGURATION, Reader};
 use ignore::gitignore::{Gitignore, GitignoreBuilder};
 use std::collections::HashMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::de::DeTable;
 
@@ -210,13 +210,6 @@ fn style(reader: &mut Reader, table: &DeTable<'_>) -> glisten_format::Options {
     glisten_format::Options { indent, width, braces_below }
 }
 
-/// The whole path of a file or folder, without `..`: the folder above `a/..` is not that of the name before, and `a` may be a link.
-pub(crate) fn real(path: &Path) -> PathBuf {
-    let goes_up = path.components().any(|part| part == Component::ParentDir);
-    let real = if goes_up { std::fs::canonicalize(path) } else { std::path::absolute(path) };
-    real.unwrap_or_else(|_| path.to_owned())
-}
-
 /// The nearest configurations of folders. Each folder is looked at once.
 #[derive(Debug, Default)]
 pub(crate) struct Nearest(HashMap<PathBuf, Option<PathBuf>>);
@@ -227,7 +220,7 @@ impl Nearest {
         if let Some(known) = self.0.get(folder) {
             return known.clone();
         }
-        let found = self.of_absolute(&real(folder));
+        let found = self.of_absolute(&files::real(folder));
         self.0.insert(folder.to_owned(), found.clone());
         found
     }
@@ -278,7 +271,7 @@ pub(crate) fn stability_bound(scene: &Path) -> Option<f64> {
     let folder = scene.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let (configuration, path) = Configuration::nearest(folder)?;
     let root = path.parent()?;
-    let absolute = real(scene);
+    let absolute = files::real(scene);
     let fits = |pattern: &str| {
         let mut patterns = GitignoreBuilder::new(root);
         patterns.add_line(None, pattern).ok()?;

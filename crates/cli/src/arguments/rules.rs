@@ -64,7 +64,7 @@ impl Rule {
     /// Whether the rule is for this file.
     pub(crate) fn fits(&self, path: &Path) -> bool {
         self.patterns.as_ref().is_none_or(|patterns| {
-            let absolute = super::config::real(path);
+            let absolute = files::real(path);
             absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
         })
     }

@@ -12,6 +12,7 @@
 //! *In:* tables. *Out:* [`Budgets`] and ranges. *Holds:* what is wrong is reported at its place and left out.
 
 use crate::arguments::bounds::Bounds;
+use crate::files;
 use glisten_cost::{CLASSES, ProgramCost, Ranges, StageCost};
 use glisten_front::diagnostic::codes::general::{BAD_CONFIG, OVER_BUDGET};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
@@ -69,7 +70,7 @@ impl Budgets {
 
     /// The budget of a file.
     pub(crate) fn of(&self, file: &str) -> Option<&Budget> {
-        let absolute = super::config::real(Path::new(file));
+        let absolute = files::real(Path::new(file));
         let fits = |pattern: &str| {
             let mut patterns = GitignoreBuilder::new(&self.root);
             patterns.add_line(None, pattern).ok()?;

@@ -198,6 +198,12 @@ impl File<'_> {
         axes.extend(self.keywords(table, span, paths));
         for (key, node) in self.reader.table_at(table, "values").into_iter().flatten() {
             let Some(name) = self.reader.macro_name(key) else { continue };
+            if axes.iter().any(|axis: &Axis| axis.choices.iter().any(|choice| choice.contains_key(&name))) {
+                let place = self.reader.span(key.span());
+                let message = format!("`{name}` has values here, and is in `defines` or in a line of keywords, too");
+                self.wrong(place, message, Some("leave it out in one of the two".to_owned()));
+                continue;
+            }
             axes.extend(stated::values(&mut self.reader, node, &name).map(|values| Axis::of_values(&name, values)));
         }
         let lists = self.reader.texts_at(table, "variants");
@@ -265,6 +271,7 @@ mod tests {
             ("[[program]]\nfiles = [\"a.frag\"]\nlist = 1\n", "list"),
             ("[[program]]\nfiles = [\"a.frag\"]\nskip = [\"LITT\"]\nvalues = { LIT = [1] }\n", "did you mean `LIT`"),
             ("[[program]]\nfiles = [\"a.frag\"]\nvalues = { LIT = 1 }\n", "not a list"),
+            ("[[program]]\nfiles = [\"a.frag\"]\ndefines = { LIT = 1 }\nvalues = { LIT = [1, 2] }\n", "in `defines`"),
             ("[[program]]\nfiles = [\"a.frag\"]\nvalues = { LIT = [] }\n", "no value"),
             ("[[program]]\nfiles = [\"a.frag\"]\nvalues = { \"1\" = [1] }\n", "not a name"),
             ("[[program]]\nfiles = [\"a.frag\"]\nkeywords = [\"multi A\"]\n", "multi_compile"),

@@ -72,7 +72,9 @@ impl Preprocessor<'_> {
         let file = self.find_include(session, header);
         self.outcome.directives.includes.push(IncludeName { span: header.span, file });
         let Some(file) = file else { return };
-        let entered = !self.once.contains(&file);
+        // Under another name, such as that of a link, it is the same file: nothing tells files apart here but their texts.
+        let text = |file: FileId| session.sources.file(file).text();
+        let entered = !self.once.iter().any(|once| *once == file || text(*once) == text(file));
         self.outcome.inclusions.push(Inclusion { directive, file: entered.then_some(file) });
         if !entered {
             return;
