@@ -115,7 +115,7 @@ fn a_sweep_of_integers_has_whole_values() {
         ("m=0..1", "`m[0].x`"),
     ] {
         let output = counted("").run(&["stability", "a.toml", "--sweep", sweep]);
-        assert_eq!(code(&output), 1, "{sweep}");
+        assert_eq!(code(&output), 2, "{sweep}");
         assert!(err(&output).contains(told), "{sweep}: {}", err(&output));
     }
 }
