@@ -28,7 +28,6 @@ pub use scenes::{LibraryScene, scene_files, scenes};
 pub use wgsl::{Overloads, wgsl};
 
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
-use glisten_specialize::Known;
 
 /// The folder of the modules in an include: `<glisten/...>`.
 const FOLDER: &str = "glisten/";
@@ -178,7 +177,7 @@ impl glisten_scene::Library for Embedded {
     fn attributes_that_reach(&self, program: &glisten_front::Program) -> Vec<bool> {
         let optimized = glisten_specialize::optimize(program);
         // What is under a condition that is never true is left out only by evaluation.
-        let evaluated = glisten_specialize::specialize(program, &Known::default());
+        let evaluated = glisten_specialize::specialize(program, &glisten_specialize::Known::default());
         let is_left = |name: &str| {
             let attributes = &evaluated.program.interface.attributes;
             evaluated.fault.is_some() || attributes.iter().any(|attribute| attribute.active && attribute.name == name)
