@@ -34,7 +34,7 @@ pub struct Figures {
     pub max_ulp: f64,
     /// The largest error, in the same calls.
     pub max_abs: f64,
-    /// The largest error beyond [`EXPLAINED`] times the change that moving the inputs by an ULP makes, as the bound counts it.
+    /// The largest error beyond four times the change that moving the inputs by an ULP makes, as the bound counts it.
     pub unexplained: f64,
     /// By how much the function magnifies relative errors of its inputs, at the largest error.
     pub condition: f64,
