@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The name of standard input on the command line.
-const STDIN: &str = "-";
+pub(crate) const STDIN: &str = "-";
 
 /// A shader to read.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -68,7 +68,7 @@ impl Done {
 
 /// Runs the command.
 pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
-    if args.files.iter().any(|file| file.as_os_str() == "-") {
+    if args.files.iter().any(|file| file.as_os_str() == crate::inputs::STDIN) {
         return standard_input(args, console);
     }
     if let Some(name) = &args.stdin_filename {

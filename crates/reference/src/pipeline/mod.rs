@@ -224,8 +224,7 @@ fn never_ends(draw: &Draw, place: Span) -> Diagnostic {
     let message = "a loop of the program runs longer than the reference's budget, or does not come to an end";
     let budget =
         format!("left after it ran {LOOP_BUDGET} instructions for 64 invocations together, which is the budget");
-    let help =
-        "a loop needs a condition that turns false, a `break` or a `return`; one that ends takes fewer rounds here";
+    let help = "a loop needs a condition that turns false, a `break` or a `return`; a loop that does end must run fewer rounds here";
     Diagnostic::new(&SCENE_LOOP_BUDGET, place, message).here(budget).help(help)
 }
 

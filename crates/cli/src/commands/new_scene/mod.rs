@@ -23,7 +23,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::fullscreen;
-use crate::inputs::{Group, Input};
+use crate::inputs::{Group, Input, STDIN};
 use crate::session::{Session, Unit};
 use choice::{Choice, Taste};
 use clap::Args;
@@ -46,9 +46,6 @@ use values::alternatives;
 /// Examples of its use.
 pub(crate) const EXAMPLES: Examples =
     &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")];
-
-/// The name of standard input.
-const STANDARD_INPUT: &str = "-";
 
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
@@ -130,7 +127,7 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
 
 /// The shaders by their names. A scene names files, so standard input becomes one.
 fn named_files(args: &NewSceneArgs) -> Result<Vec<String>, Failure> {
-    let is_input = |file: &&String| *file == STANDARD_INPUT;
+    let is_input = |file: &&String| *file == STDIN;
     match args.files.iter().filter(is_input).count() {
         0 => return Ok(args.files.clone()),
         1 => {}

@@ -200,8 +200,8 @@ impl File<'_> {
             let Some(name) = self.reader.macro_name(key) else { continue };
             if axes.iter().any(|axis: &Axis| axis.choices.iter().any(|choice| choice.contains_key(&name))) {
                 let place = self.reader.span(key.span());
-                let message = format!("`{name}` has values here, and is in `defines` or in a line of keywords, too");
-                self.wrong(place, message, Some("leave it out in one of the two".to_owned()));
+                let message = format!("`{name}` has values here, and is also in `defines` or in a line of keywords");
+                self.wrong(place, message, Some("remove it from one of the two".to_owned()));
                 continue;
             }
             axes.extend(stated::values(&mut self.reader, node, &name).map(|values| Axis::of_values(&name, values)));

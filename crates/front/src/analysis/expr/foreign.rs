@@ -77,7 +77,7 @@ static LATER: &[(&str, Since)] = &[
     ("barrier", Since::new(400, 310)), ("memoryBarrier", Since::new(420, 310)),
 ];
 
-/// Built-in variables of later versions, with the first ones that have them.
+/// Built-in variables and constants of later versions, with the first ones that have them.
 #[rustfmt::skip]
 static LATER_VARIABLES: &[(&str, Since)] = &[
     ("gl_SamplePosition", Since::new(400, 320)), ("gl_SampleMask", Since::new(400, 320)),
@@ -85,6 +85,7 @@ static LATER_VARIABLES: &[(&str, Since)] = &[
     ("gl_CullDistance", Since::new(450, NEVER)), ("gl_HelperInvocation", Since::new(450, 310)),
     ("gl_DrawID", Since::new(460, NEVER)), ("gl_BaseVertex", Since::new(460, NEVER)),
     ("gl_BaseInstance", Since::new(460, NEVER)),
+    ("gl_MaxComputeWorkGroupCount", Since::new(430, 310)), ("gl_MaxComputeWorkGroupSize", Since::new(430, 310)),
 ];
 
 /// Whether a version has a variable that glisten does not support.

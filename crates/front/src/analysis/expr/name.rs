@@ -17,20 +17,6 @@ use crate::syntax::of_version;
 /// The keywords that make an expression or a statement alone.
 const STATEMENTS: &[&str] = &["break", "continue", "discard", "false", "return", "true"];
 
-/// A built-in name that glisten does not have yet.
-struct Unsupported {
-    name: &'static str,
-    /// The only stage in which it is missing.
-    stage: Option<Stage>,
-    since: Since,
-}
-
-const UNSUPPORTED: [Unsupported; 3] = [
-    Unsupported { name: "gl_Layer", stage: Some(Stage::Fragment), since: Since::new(430, 320) },
-    Unsupported { name: "gl_MaxComputeWorkGroupCount", stage: None, since: Since::new(430, 310) },
-    Unsupported { name: "gl_MaxComputeWorkGroupSize", stage: None, since: Since::new(430, 310) },
-];
-
 impl Analyzer<'_> {
     /// The variable that a name denotes.
     pub(super) fn name_expr(&mut self, name: Ident) -> ExprId {
@@ -119,14 +105,8 @@ impl Analyzer<'_> {
 
     fn report_unknown(&mut self, name: Ident) {
         let spelling = self.name(name);
-        let is_here = |row: &&Unsupported| {
-            row.name == spelling
-                && row.stage.is_none_or(|stage| stage == self.stage)
-                && self.ast.version.reaches(row.since)
-        };
-        if let Some(row) = UNSUPPORTED.iter().find(is_here) {
-            let place = row.stage.map_or_else(String::new, |stage| format!(" in a {} shader", stage.name()));
-            let message = format!("`{spelling}`{place} is not supported yet");
+        if spelling == "gl_Layer" && self.stage == Stage::Fragment && self.ast.version.reaches(Since::new(430, 320)) {
+            let message = "`gl_Layer` in a fragment shader is not supported yet";
             self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
             return;
         }
