@@ -1,6 +1,8 @@
 // Does the lessons of docs/tutorial.md in Chromium, to the letter. The arguments: the server's address, the browser, the module
 // playwright-core. Prints one JSON object of what it saw.
 
+import { valueUnder } from "./pointer.mjs";
+
 const [address, executablePath, module] = process.argv.slice(2);
 const { chromium } = await import(module);
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
@@ -49,7 +51,7 @@ try {
     await page.click("#step-back");
   }
   seen.step = await textOf("#step-now");
-  const place = await page.evaluate(() => {
+  const place = () => page.evaluate(() => {
     const found = [...document.querySelectorAll("#editor .cm-line")].find((one) => one.textContent.includes("light * albedo"));
     const walker = document.createTreeWalker(found, NodeFilter.SHOW_TEXT);
     for (let node = walker.nextNode(); node; node = walker.nextNode()) {
@@ -63,10 +65,7 @@ try {
     }
     return null;
   });
-  await page.mouse.move(2, 2);
-  await page.mouse.move(...place, { steps: 3 });
-  await page.waitForSelector(".cm-value", limit);
-  seen.value = await page.textContent(".cm-value");
+  seen.value = await valueUnder(page, place);
   before = await picture();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);

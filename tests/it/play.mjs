@@ -2,6 +2,8 @@
 // window, the page as a file. The arguments: the server's address, an exported page, the browser, the module playwright-core.
 // Prints one JSON object of what it saw.
 
+import { valueUnder } from "./pointer.mjs";
+
 const [address, exported, executablePath, module] = process.argv.slice(2);
 const { chromium } = await import(module);
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
@@ -71,9 +73,10 @@ try {
   seen.back = await stepOf();
   seen.emphasis = await page.locator("#editor .cm-step").first().textContent();
   // The value of an expression under the pointer.
-  await page.locator("#editor .cm-step").first().hover();
-  await page.waitForSelector(".cm-value", limit);
-  seen.value = await page.textContent(".cm-value");
+  seen.value = await valueUnder(page, async () => {
+    const step = await page.locator("#editor .cm-step").first().boundingBox();
+    return [step.x + step.width / 2, step.y + step.height / 2];
+  });
   await page.mouse.move(2, 2);
 
   // What the picture does not need is crossed out, until the texts change.
