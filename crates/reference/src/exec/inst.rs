@@ -634,18 +634,37 @@ impl TextureCall {
         }
     }
 
+    /// The files of the coordinates and of the level.
+    fn classes(&self) -> (Class, Class) {
+        let by_integer = |integer: bool| if integer { Class::Int } else { Class::Float };
+        let is_fetch = self.lookup == Lookup::Fetch;
+        (by_integer(is_fetch), by_integer(is_fetch || self.lookup == Lookup::Size))
+    }
+
+    /// Whether a condition holds for all operands that are read.
+    pub(super) fn all_read(&self, holds: impl Fn(Class, Operand) -> bool) -> bool {
+        let (coordinates, levels) = self.classes();
+        let all = |class: Class, operands: &[Operand]| operands.iter().all(|operand| holds(class, *operand));
+        holds(Class::Int, self.sampler)
+            && all(coordinates, &self.coordinate)
+            && all(levels, self.level.as_slice())
+            && all(Class::Float, self.reference.as_slice())
+            && all(Class::Float, &self.dx)
+            && all(Class::Float, &self.dy)
+            && all(Class::Int, &self.offset)
+            && all(Class::Int, self.component.as_slice())
+    }
+
     /// Visits all operands.
     pub(super) fn visit(&mut self, f: &mut dyn FnMut(Class, Use, &mut Operand)) {
-        let by_integer = |integer: bool| if integer { Class::Int } else { Class::Float };
+        let (coordinates, levels) = self.classes();
         f(Class::Int, Use::Read, &mut self.sampler);
-        let coordinates = by_integer(self.lookup == Lookup::Fetch);
         self.coordinate.iter_mut().for_each(|operand| f(coordinates, Use::Read, operand));
-        let levels = by_integer(matches!(self.lookup, Lookup::Fetch | Lookup::Size));
         self.level.iter_mut().for_each(|operand| f(levels, Use::Read, operand));
         self.reference.iter_mut().for_each(|operand| f(Class::Float, Use::Read, operand));
         self.dx.iter_mut().chain(&mut self.dy).for_each(|operand| f(Class::Float, Use::Read, operand));
         self.offset.iter_mut().chain(&mut self.component).for_each(|operand| f(Class::Int, Use::Read, operand));
-        let results = by_integer(self.has_integer_results());
+        let results = if self.has_integer_results() { Class::Int } else { Class::Float };
         self.results.iter_mut().for_each(|operand| f(results, Use::Write, operand));
     }
 }

@@ -13,6 +13,9 @@ use glisten_scene::picture::Interval;
 impl<D: Domain> Machine<D> {
     /// Runs a texture instruction in these lanes. Returns the lanes whose texture is undecided.
     pub(super) fn texture(&mut self, call: &TextureCall, stage: Stage, mask: u64) -> u64 {
+        if self.texture_once(call, stage) || self.fetch_plain(call, mask) {
+            return 0;
+        }
         let mut undecided = 0;
         for lane in Mask(mask).lanes() {
             let slot = self.registers.int(call.sampler).at(lane);
@@ -36,13 +39,7 @@ impl<D: Domain> Machine<D> {
         for (k, result) in call.results.iter().enumerate() {
             match sampled {
                 Sampled::Floats(values) => {
-                    let BoundedFloat { value, low, high } = values[k % 4];
-                    let interval = Interval { low, high, may_be_nan: value.is_nan() };
-                    self.registers
-                        .floats
-                        .register(*result)
-                        .spread()
-                        .set(lane, D::Float::with_interval(value, interval));
+                    self.registers.floats.register(*result).spread().set(lane, number(values[k % 4]));
                 }
                 Sampled::Ints(bits) => {
                     let BoundedInt { bits, low, high } = bits[k % 4];
@@ -51,6 +48,12 @@ impl<D: Domain> Machine<D> {
             }
         }
     }
+}
+
+/// A component of a result, as the domain has it.
+#[inline(always)]
+pub(super) fn number<N: Number>(BoundedFloat { value, low, high }: BoundedFloat) -> N {
+    N::with_interval(value, Interval { low, high, may_be_nan: value.is_nan() })
 }
 
 impl<D: Domain> Machine<D> {
@@ -88,16 +91,16 @@ fn nothing(call: &TextureCall) -> Sampled {
 }
 
 /// A texture instruction in one lane.
-struct LaneLookup<'a, D: Domain> {
-    registers: &'a Registers<D>,
-    call: &'a TextureCall,
-    lane: usize,
+pub(super) struct LaneLookup<'a, D: Domain> {
+    pub(super) registers: &'a Registers<D>,
+    pub(super) call: &'a TextureCall,
+    pub(super) lane: usize,
     /// Whether to use the second values.
-    second: bool,
+    pub(super) second: bool,
 }
 
 impl<D: Domain> LaneLookup<'_, D> {
-    fn sampled(&self, texture: Option<&Texture>, stage: Stage) -> Sampled {
+    pub(super) fn sampled(&self, texture: Option<&Texture>, stage: Stage) -> Sampled {
         match (texture, self.call.lookup) {
             (None, Lookup::Size | Lookup::Levels) => Sampled::Ints([BoundedInt::default(); 4]),
             (None, _) => nothing(self.call),

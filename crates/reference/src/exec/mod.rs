@@ -64,6 +64,7 @@ mod note;
 mod observe;
 mod registers;
 mod run;
+mod short_lookup;
 mod show;
 mod step;
 mod streams;

@@ -20,7 +20,7 @@ mod texel;
 
 pub(crate) use lod::{Gradients, Steps, level_bounds, steps_in_texels};
 pub(crate) use sample::{Request, gather, sample};
-pub(crate) use texel::{fetch, size};
+pub(crate) use texel::{fetch, fetch_floats, size};
 
 use glisten_scene::Texture;
 

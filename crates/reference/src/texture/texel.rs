@@ -5,6 +5,7 @@ use glisten_front::hir::{SamplerDim, SamplerType};
 use glisten_scene::{Texels, Texture, TextureLevel};
 
 /// The index of a texel in its level; `None` outside.
+#[inline]
 pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {
     let inside = |k: i64, count: u32| (0..i64::from(count)).contains(&k);
     let [x, y, z] = at;
@@ -13,6 +14,7 @@ pub(super) fn place(level: &TextureLevel, at: [i64; 3]) -> Option<usize> {
 }
 
 /// A texel as floats; (0, 0, 0, 0) outside.
+#[inline]
 pub(super) fn floats(level: &TextureLevel, at: [i64; 3]) -> [f64; 4] {
     let Some(place) = place(level, at) else { return [0.0; 4] };
     match &level.texels {
@@ -32,8 +34,14 @@ pub(super) fn bits(level: &TextureLevel, at: [i64; 3]) -> [u32; 4] {
     }
 }
 
-/// `texelFetch`: coordinates in texels of the level, the layer last.
-pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32, offset: &[i32]) -> Sampled {
+/// The level and the texel that `texelFetch` reads: coordinates in texels of the level, the layer last. `None` past the last level.
+fn fetched<'a>(
+    texture: &'a Texture,
+    kind: SamplerType,
+    at: &[i32],
+    level: i32,
+    offset: &[i32],
+) -> Option<(&'a TextureLevel, [i64; 3])> {
     let dimensions = usize::from(kind.dimensions());
     let mut place = [0i64; 3];
     for (axis, to) in place.iter_mut().enumerate().take(dimensions) {
@@ -43,13 +51,30 @@ pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32
     if kind.arrayed {
         place[2] = i64::from(at.get(dimensions).copied().unwrap_or(0));
     }
-    let found = usize::try_from(level).ok().and_then(|level| texture.levels.get(level));
-    let Some(level) = found else { return nothing(kind) };
+    let level = usize::try_from(level).ok().and_then(|level| texture.levels.get(level))?;
+    Some((level, place))
+}
+
+/// `texelFetch`.
+pub(crate) fn fetch(texture: &Texture, kind: SamplerType, at: &[i32], level: i32, offset: &[i32]) -> Sampled {
+    let Some((level, place)) = fetched(texture, kind, at, level, offset) else { return nothing(kind) };
     if kind.texel == glisten_front::hir::Scalar::Float {
         Sampled::Floats(floats(level, place).map(BoundedFloat::exact))
     } else {
         Sampled::Ints(bits(level, place).map(BoundedInt::exact))
     }
+}
+
+/// `texelFetch` of floats, as numbers alone.
+#[inline]
+pub(crate) fn fetch_floats(
+    texture: &Texture,
+    kind: SamplerType,
+    at: [i32; 3],
+    level: i32,
+    offset: [i32; 3],
+) -> [f64; 4] {
+    fetched(texture, kind, &at, level, &offset).map_or([0.0; 4], |(level, place)| floats(level, place))
 }
 
 fn nothing(kind: SamplerType) -> Sampled {

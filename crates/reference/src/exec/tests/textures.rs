@@ -67,6 +67,29 @@ fn offsets_projection_and_fetches() {
     assert_eq!(look("sampler2D", "texture(t, vec2(0.0 / 0.0, 0.25))", nearest())[0], 0.0);
 }
 
+/// One lookup for all lanes, texels without intervals, and a lookup per lane.
+#[test]
+fn each_way_of_a_fetch_reads_the_same_texels() {
+    let in_lanes =
+        "uniform sampler2D t; in float a; void main() { o = texelFetch(t, ivec2(int(a) % 5, int(a) / 32), 0); }";
+    let program = compiled(in_lanes);
+    let textures = [Some(Arc::new(plane(Filter::Nearest, Wrap::Repeat)))];
+    let plain = output(&program, &ran::<F64>(&program, &textures, |_, lane| lane as f64));
+    let bounded = output(&program, &ran::<Envelope>(&program, &textures, |_, lane| lane as f64));
+    for (lane, (plain, bounded)) in plain.into_iter().zip(bounded).enumerate() {
+        let (x, y) = (lane % 5, lane / 32);
+        // The fifth column is outside.
+        let texel = 4.0 * y as f64 + x as f64;
+        let expected = if x < 4 { [texel, 10.0 + texel, 0.0, 1.0] } else { [0.0; 4] };
+        assert_eq!(plain, expected, "lane {lane}");
+        assert_eq!(bounded.map(|number| number.value()), expected, "lane {lane}");
+        assert!(bounded.iter().all(|number| number.interval().width() == 0.0), "lane {lane}: {bounded:?}");
+        let once = format!("uniform sampler2D t; void main() {{ o = texelFetch(t, ivec2({x}, {y}), 0); }}");
+        let program = compiled(&once);
+        assert_eq!(output(&program, &ran::<F64>(&program, &textures, |_, _| 0.0))[lane], expected);
+    }
+}
+
 #[test]
 fn levels_of_detail() {
     let chain =
