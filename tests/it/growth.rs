@@ -1,9 +1,10 @@
 //! Work grows with the input: texts of a size at which a pass over all of it for each of its parts would take minutes.
 
 use crate::support::compiler;
+use glisten_emit::{Conventions, Target, emit_traced};
 use glisten_front::Source;
 use glisten_front::diagnostic::write::{findings, human};
-use glisten_front::hir::Stage;
+use glisten_front::hir::{Stage, print};
 use std::time::{Duration, Instant};
 
 /// The number of parts.
@@ -64,6 +65,49 @@ fn lint_is_linear() {
             let shown = found.iter().step_by(found.len() / 2_000 + 1);
             human(&compilation.sources, shown, false);
             findings(&compilation.sources, &found);
+        });
+    }
+}
+
+/// Writers of code walk the whole program once.
+#[test]
+fn emission_is_linear() {
+    let many = MANY / 20;
+    let few = |part: &dyn Fn(usize) -> String| (0..many).map(part).collect::<String>();
+    let texts = [
+        ("comments", in_main(&few(&|i| format!("// about {i}\nx += 1.0; // behind {i}\n")))),
+        ("comments of statements that are gone", in_main(&few(&|i| format!("// about {i}\nfloat a{i};\n")))),
+        ("names", in_main(&"{ float a = x; x += a; }\n".repeat(many))),
+        ("calls", {
+            let call = |i: usize| format!("float f{}(float x) {{ return f{i}(x) + 1.0; }}\n", i + 1);
+            let calls = format!("float f0(float x) {{ return x; }}\n{}", few(&call));
+            in_main(&format!("x = f{many}(x);")).replace("void main", &format!("{calls}void main"))
+        }),
+        ("uniforms", {
+            let uniforms = few(&|i| format!("uniform float u{i};\n"));
+            in_main(&few(&|i| format!("x += u{i};\n"))).replace("void main", &format!("{uniforms}void main"))
+        }),
+        (
+            "conditions on one line",
+            in_main(&format!("if (n == 0) x = 1.0; {}", few(&|i| format!("else if (n == {}) x = 2.0; ", i + 1)))),
+        ),
+    ];
+    for (what, text) in texts {
+        let source = Source { name: "long.frag".into(), text: text.into(), stage: Stage::Fragment };
+        let compilation = compiler().compile(&[source]);
+        let program = compilation.program.unwrap_or_else(|| panic!("{what}: {:?}", compilation.diagnostics));
+        let sources = Some(&compilation.sources);
+        for target in [Target::Wgsl, Target::Glsl] {
+            soon(&format!("{what}, {target:?}"), || {
+                let emitted = emit_traced(&program, Stage::Fragment, target, &Conventions::default(), sources);
+                assert!(emitted.is_ok(), "{what}: {:?}", emitted.err());
+            });
+        }
+        soon(&format!("{what}, printed"), || {
+            assert!(!print(&program.types, &program.stages[0]).is_empty());
+        });
+        soon(&format!("{what}, cost"), || {
+            glisten_cost::cost(&program, &compilation.sources, &glisten_cost::Assumptions::default());
         });
     }
 }

@@ -201,7 +201,8 @@ fn a_struct_between_uniforms_is_before_the_block() {
                 uniform Light light;\nout vec4 c;\nvoid main() {\n    c = light.color * squared(gain);\n}\n";
     let new = fragment(text);
     has(&new, "struct Light {\n    vec4 color;\n};\n");
-    assert!(new.find("struct Light") < new.find("uniform Uniforms"), "{new}");
+    let of = |part: &str| new.find(part).unwrap_or_else(|| panic!("no `{part}` in {new}"));
+    assert!(of("struct Light") < of("uniform Uniforms"), "{new}");
     // One that uses one of them is in the way.
     let folder = Folder::new(&[("a.frag", text.replace("return x * x", "return x * gain").as_bytes())]);
     let output = folder.run(&["upgrade", "--to", "vulkan", "a.frag"]);

@@ -69,6 +69,7 @@ pub(crate) fn files_under(folder: &Path) -> Vec<PathBuf> {
 pub(crate) fn files_with(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let mut files = files_under(folder);
     files.retain(|path| path.extension().is_some_and(|found| found == extension));
+    assert!(!files.is_empty(), "no file .{extension} in {}", folder.display());
     files
 }
 

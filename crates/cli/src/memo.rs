@@ -47,8 +47,9 @@ impl Memo {
         conventions: &Conventions,
         sources: &SourceMap,
     ) -> Result<Content, Vec<Diagnostic>> {
-        let make =
-            |program: &Program| emit::emit_with_sources(program, stage, target, conventions, Some(sources)).map(code);
+        let make = |program: &Program| {
+            emit::emit_traced(program, stage, target, conventions, Some(sources)).map(|traced| code(traced.emitted))
+        };
         let part = program.stage(stage).zip(emit::interface_of(program, stage, target));
         let Some((shader, interface)) = part else { return make(program) };
         // Comments and names of files come from the texts.

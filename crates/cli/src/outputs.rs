@@ -247,7 +247,8 @@ impl OutputPlan {
                 let (stage, conventions) = (shader.stage, &self.conventions);
                 let made = match memo {
                     Some(memo) => memo.code(emitted, stage, *target, conventions, sources),
-                    None => emit::emit_with_sources(emitted, stage, *target, conventions, Some(sources)).map(code),
+                    None => emit::emit_traced(emitted, stage, *target, conventions, Some(sources))
+                        .map(|traced| code(traced.emitted)),
                 };
                 match made {
                     Ok(made) => {

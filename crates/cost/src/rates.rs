@@ -55,8 +55,9 @@ impl Rates {
                 rates.raise_global(index, Rate::Draw);
             }
         }
+        // Results flow to callers, and arguments to callees: both ways in each round.
         while std::mem::take(&mut rates.changed) {
-            for &function in order {
+            for &function in order.iter().chain(order.iter().rev()) {
                 let body = shader.function(function).body.as_deref().unwrap_or(&[]);
                 Pass { shader, function, rates: &mut rates }.list(body, Rate::Constant);
             }

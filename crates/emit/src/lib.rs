@@ -16,8 +16,8 @@ mod target;
 mod width;
 
 pub use emit::{
-    Emitted, Origin, Reflection, Traced, emit, emit_functions, emit_single_file, emit_traced, emit_with_sources,
-    interface_of, levels_of_comparisons, notes, reflect, reflection,
+    Emitted, Origin, Reflection, Traced, emit, emit_functions, emit_single_file, emit_traced, interface_of,
+    levels_of_comparisons, notes, reflect, reflection,
 };
 pub use target::{
     BUFFER_WIDTH, ClipZ, Conventions, FloatWidth, GlslVersion, SpirvEnv, Target, TexelWrap, WindowOrigin, viewport_slot,

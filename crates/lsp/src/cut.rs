@@ -4,6 +4,7 @@
 //! ahead (GLSL 1.50 §4.2), so what follows has no effect on what a name before it denotes.
 
 use glisten_front::source::blanked;
+use glisten_front::source::comments::comment_len;
 
 /// The open brackets of a text, outside of comments and directives, with their places.
 pub(crate) fn open_brackets(text: &str) -> Vec<(usize, char)> {
@@ -11,13 +12,8 @@ pub(crate) fn open_brackets(text: &str) -> Vec<(usize, char)> {
     let (mut open, mut at, mut starts_line) = (Vec::new(), 0, true);
     while let Some(&byte) = bytes.get(at) {
         match byte {
-            b'/' if bytes.get(at + 1) == Some(&b'/') => {
-                at += text.get(at..).and_then(|rest| rest.find('\n')).unwrap_or(bytes.len());
-                continue;
-            }
-            b'/' if bytes.get(at + 1) == Some(&b'*') => {
-                let end = text.get(at + 2..).and_then(|rest| rest.find("*/")).map_or(bytes.len(), |end| at + end + 4);
-                at = end;
+            b'/' if matches!(bytes.get(at + 1), Some(b'/' | b'*')) => {
+                at += text.get(at..).map_or(1, comment_len);
                 continue;
             }
             b'#' if starts_line => {
@@ -66,17 +62,15 @@ pub(crate) fn is_in_comment(text: &str, offset: usize) -> bool {
     let mut at = 0;
     while at < offset {
         let rest = text.get(at..).unwrap_or("");
-        let end = match bytes.get(at..at + 2) {
-            Some(b"//") => at + rest.find('\n').unwrap_or(rest.len()),
-            Some(b"/*") => at + rest.get(2..).and_then(|rest| rest.find("*/")).map_or(rest.len(), |end| end + 4),
-            _ => {
+        let comment = comment_len(rest);
+        if comment == 0 {
+            at += 1;
+            while !text.is_char_boundary(at) {
                 at += 1;
-                while !text.is_char_boundary(at) {
-                    at += 1;
-                }
-                continue;
             }
-        };
+            continue;
+        }
+        let end = at + comment;
         let is_line = rest.starts_with("//");
         if offset < end || is_line && offset == end || end >= bytes.len() && !is_line && !rest.ends_with("*/") {
             return true;

@@ -71,9 +71,9 @@ pub fn refuse_levels(draw: &Draw) -> Result<(), Error> {
         .flatten()
         .any(|texture| texture.kind.shadow && texture.levels.len() > 1 && texture.filter.uses_levels());
     match emit::levels_of_comparisons(&draw.program).next().filter(|_| deep) {
-        Some(span) => {
+        Some((span, help)) => {
             let message = "no target compares depth in a level of detail of the shader's choice, and this depth texture has several";
-            Err(Error::Emit(vec![Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message)]))
+            Err(Error::Emit(vec![Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message).help(help)]))
         }
         None => Ok(()),
     }

@@ -173,7 +173,8 @@ impl Compiled {
             return Err(Error::argument(format!("the program has no {} stage", stage.name())));
         }
         let sources = Some(&self.report.sources);
-        let emitted = emit::emit_with_sources(program, stage, target, &self.settings.conventions, sources);
+        let emitted =
+            emit::emit_traced(program, stage, target, &self.settings.conventions, sources).map(|traced| traced.emitted);
         emitted
             .map(Emitted::into_bytes)
             .map_err(|errors| Error::content(write::human(&self.report.sources, &errors, false).trim_end().to_owned()))

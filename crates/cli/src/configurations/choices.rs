@@ -4,6 +4,7 @@
 //! directives: comments and continued lines are understood, macros are not expanded. A macro that a text defines for good is no
 //! choice; one that it defines where nothing else did (`#ifndef A`, `#define A 4`) is one. Include guards are none.
 
+use glisten_front::source::comments::comment_len;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The most values of a macro that are tried.
@@ -293,14 +294,10 @@ fn without_comments(text: &str) -> String {
     while let Some(at) = rest.find('/') {
         let (before, from) = rest.split_at(at);
         out.push_str(before);
-        let length = if from.starts_with("//") {
-            from.find('\n').unwrap_or(from.len())
-        } else if from.starts_with("/*") {
-            from.get(2..).and_then(|inner| inner.find("*/")).map_or(from.len(), |at| at + 4)
-        } else {
+        let length = comment_len(from).max(1);
+        if length == 1 {
             out.push('/');
-            1
-        };
+        }
         let (gone, after) = from.split_at(length);
         if length > 1 {
             out.push(' ');

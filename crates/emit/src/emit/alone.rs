@@ -54,7 +54,7 @@ fn seen_by(mut varying: Varying, is_vertex: bool) -> Varying {
 #[cfg(test)]
 mod tests {
     use super::interface_of;
-    use crate::{Conventions, Target, emit_with_sources};
+    use crate::{Conventions, Target, emit_traced};
     use glisten_front::{Compiler, Options, Program, Source, Stage};
     use std::fs;
     use std::path::Path;
@@ -94,7 +94,9 @@ mod tests {
                 let alone = Program { stages, interface, ..program.clone() };
                 let emitted = |program: &Program| {
                     let conventions = Conventions::default();
-                    emit_with_sources(program, stage, target, &conventions, Some(&compilation.sources)).ok()
+                    emit_traced(program, stage, target, &conventions, Some(&compilation.sources))
+                        .ok()
+                        .map(|traced| traced.emitted)
                 };
                 assert!(emitted(program) == emitted(&alone), "{} {stage:?} {target:?}", program.name);
             }

@@ -22,4 +22,4 @@ pub use alone::interface_of;
 pub use emitted::{Emitted, Origin, Traced};
 pub use notes::{levels_of_comparisons, notes};
 pub use reflection::{Reflection, reflect};
-pub use write::{emit, emit_functions, emit_single_file, emit_traced, emit_with_sources};
+pub use write::{emit, emit_functions, emit_single_file, emit_traced};

@@ -31,25 +31,11 @@ pub fn emit(
     target: Target,
     conventions: &Conventions,
 ) -> Result<Emitted, Vec<Diagnostic>> {
-    emit_with_sources(program, stage, target, conventions, None)
+    emit_traced(program, stage, target, conventions, None).map(|traced| traced.emitted)
 }
 
-/// Emits like [`emit`], with the comments of the sources, and with the texts that source lines in SPIR-V refer to
-/// ([`Conventions::debug_lines`]).
-///
-/// # Errors
-/// The same as those of [`emit`].
-pub fn emit_with_sources(
-    program: &Program,
-    stage: Stage,
-    target: Target,
-    conventions: &Conventions,
-    sources: Option<&SourceMap>,
-) -> Result<Emitted, Vec<Diagnostic>> {
-    emit_traced(program, stage, target, conventions, sources).map(|traced| traced.emitted)
-}
-
-/// Emits like [`emit_with_sources`], and tells which lines come from which places of the source.
+/// Emits like [`emit`], with the comments of the sources and the texts that source lines in SPIR-V refer to
+/// ([`Conventions::debug_lines`]), and tells which lines come from which places of the source.
 ///
 /// # Errors
 /// The same as those of [`emit`].

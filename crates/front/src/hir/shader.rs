@@ -458,6 +458,21 @@ impl Shader {
         }
     }
 
+    /// The indices on the way to a part of a variable, the last one first.
+    pub fn indices_of_place(&self, place: ExprId) -> Vec<ExprId> {
+        let (mut found, mut at) = (Vec::new(), place);
+        loop {
+            match &self.expr(at).kind {
+                ExprKind::Index(inner, index) => {
+                    found.push(*index);
+                    at = *inner;
+                }
+                ExprKind::Member(inner, _) | ExprKind::Swizzle(inner, _) => at = *inner,
+                _ => return found,
+            }
+        }
+    }
+
     /// The global of a handle of this shader.
     pub fn global(&self, id: GlobalId) -> &Global {
         &self.globals[id.index()]

@@ -81,20 +81,28 @@ impl Shader {
     /// The functions that `root` reaches, callees before callers, `root` last. Recursion, an error in the source, is
     /// cut.
     pub fn callees_first(&self, root: FunctionId) -> Vec<FunctionId> {
+        self.callees_first_of([root])
+    }
+
+    /// The functions that these reach, each once and after those that it calls, in the order of the roots.
+    pub fn callees_first_of(&self, roots: impl IntoIterator<Item = FunctionId>) -> Vec<FunctionId> {
         let mut order = Vec::new();
         let mut seen = vec![false; self.functions.len()];
-        let mut stack = vec![(root, false)];
-        while let Some((id, done)) = stack.pop() {
-            if done {
-                order.push(id);
-                continue;
+        let mut stack = Vec::new();
+        for root in roots {
+            stack.push((root, false));
+            while let Some((id, done)) = stack.pop() {
+                if done {
+                    order.push(id);
+                    continue;
+                }
+                match seen.get_mut(id.index()) {
+                    Some(seen) if !*seen => *seen = true,
+                    _ => continue,
+                }
+                stack.push((id, true));
+                stack.extend(self.callees(id).into_iter().rev().map(|callee| (callee, false)));
             }
-            match seen.get_mut(id.index()) {
-                Some(seen) if !*seen => *seen = true,
-                _ => continue,
-            }
-            stack.push((id, true));
-            stack.extend(self.callees(id).into_iter().rev().map(|callee| (callee, false)));
         }
         order
     }

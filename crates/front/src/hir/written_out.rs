@@ -10,16 +10,10 @@ impl Shader {
     /// The number of expressions of each function, with those of the functions that it calls in place of each call.
     pub fn written_out(&self) -> Vec<u64> {
         let mut sizes = vec![0_u64; self.functions.len()];
-        let mut done = vec![false; self.functions.len()];
-        for (root, _) in self.functions() {
-            for id in self.callees_first(root) {
-                if done.get(id.index()).copied().unwrap_or(true) {
-                    continue;
-                }
-                let size = self.own_size(id, &sizes);
-                if let (Some(slot), Some(done)) = (sizes.get_mut(id.index()), done.get_mut(id.index())) {
-                    (*slot, *done) = (size, true);
-                }
+        for id in self.callees_first_of(self.functions().map(|(id, _)| id)) {
+            let size = self.own_size(id, &sizes);
+            if let Some(slot) = sizes.get_mut(id.index()) {
+                *slot = size;
             }
         }
         sizes

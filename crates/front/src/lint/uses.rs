@@ -85,12 +85,12 @@ fn visit(shader: &Shader, root: ExprId, is_whole: bool, locals: &mut [LocalUse])
             }
             ExprKind::Assign(_, target, value) => {
                 written(*target, locals, !is_dropped);
-                pending.extend(indices(shader, *target).into_iter().map(|index| (index, false)));
+                pending.extend(shader.indices_of_place(*target).into_iter().map(|index| (index, false)));
                 pending.push((*value, false));
             }
             ExprKind::IncDec(_, target) => {
                 written(*target, locals, !is_dropped);
-                pending.extend(indices(shader, *target).into_iter().map(|index| (index, false)));
+                pending.extend(shader.indices_of_place(*target).into_iter().map(|index| (index, false)));
             }
             ExprKind::Comma(first, second) => pending.extend([(*first, true), (*second, is_dropped)]),
             ExprKind::Call(..) | ExprKind::BuiltinCall(..) => {
@@ -103,28 +103,13 @@ fn visit(shader: &Shader, root: ExprId, is_whole: bool, locals: &mut [LocalUse])
                     };
                     if outs.contains(&argument) {
                         written(argument, locals, reads);
-                        pending.extend(indices(shader, argument).into_iter().map(|index| (index, false)));
+                        pending.extend(shader.indices_of_place(argument).into_iter().map(|index| (index, false)));
                     } else {
                         pending.push((argument, false));
                     }
                 }
             }
             _ => pending.extend(kind.children().into_iter().map(|child| (child, false))),
-        }
-    }
-}
-
-/// The indices on the way to a part of a variable.
-fn indices(shader: &Shader, target: ExprId) -> Vec<ExprId> {
-    let (mut found, mut at) = (Vec::new(), target);
-    loop {
-        match &shader.expr(at).kind {
-            ExprKind::Index(inner, index) => {
-                found.push(*index);
-                at = *inner;
-            }
-            ExprKind::Member(inner, _) | ExprKind::Swizzle(inner, _) => at = *inner,
-            _ => return found,
         }
     }
 }
@@ -274,7 +259,7 @@ pub(super) fn written_by_parts(shader: &Shader, id: ExprId) -> (Vec<(ExprId, boo
         }
         _ => false,
     };
-    let inner = written.iter().flat_map(|target| indices(shader, *target)).collect();
+    let inner = written.iter().flat_map(|target| shader.indices_of_place(*target)).collect();
     (written.iter().map(|target| (*target, reads(*target))).collect(), inner)
 }
 

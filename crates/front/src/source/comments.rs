@@ -80,6 +80,18 @@ pub fn after(sources: &SourceMap, span: Span) -> Option<String> {
     None
 }
 
+/// The length in bytes of the comment that a text begins with; 0 if it begins with none. The line break that ends a comment of one
+/// line is no part of it. A comment without an end goes on to the end of the text.
+pub fn comment_len(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    match bytes {
+        [b'/', b'/', ..] => bytes.iter().take_while(|byte| !matches!(**byte, b'\n' | b'\r')).count(),
+        // `/*/` has no end yet.
+        [b'/', b'*', inner @ ..] => inner.windows(2).position(|pair| pair == b"*/").map_or(bytes.len(), |end| end + 4),
+        _ => 0,
+    }
+}
+
 /// The comments at the beginning of a text, as far as they end in it, and what is after them.
 fn taken(text: &str) -> (&str, &str) {
     let mut at = 0;

@@ -4,6 +4,7 @@
 //! *Out:* the order in which the preprocessor reads them. *Holds:* the text of a source is never changed, so its lines and
 //! columns stay; each prelude is a text of its own, with its own name.
 
+use super::comments::comment_len;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -95,10 +96,9 @@ pub fn version_line(text: &str) -> Option<Range<usize>> {
     let (mut at, mut first_on_line) = (if text.starts_with(mark) { mark.len_utf8() } else { 0 }, true);
     while let Some(&byte) = bytes.get(at) {
         let rest = text.get(at..).unwrap_or("");
-        if rest.starts_with("//") {
-            at += rest.find(['\n', '\r']).unwrap_or(rest.len());
-        } else if rest.starts_with("/*") {
-            at += rest.find("*/").map_or(rest.len(), |end| end + 2);
+        let comment = comment_len(rest);
+        if comment > 0 {
+            at += comment;
         } else if byte == b'#' && first_on_line && is_version(rest) {
             return Some(at..at + rest.find(['\n', '\r']).unwrap_or(rest.len()));
         } else {
@@ -133,6 +133,7 @@ mod tests {
     #[test]
     fn the_version_line_is_found_outside_of_comments() {
         for (text, line) in [
+            ("/*/ no\n#version 330\n*/\n#version 150", Some("#version 150")),
             ("#version 150\nvoid", Some("#version 150")),
             ("// #version 110\n/* #version 120\n */ # version 330 core // é", Some("# version 330 core // é")),
             ("\u{feff}void main() {} // #version 150", None),

@@ -71,7 +71,7 @@ fn words_of(stage: Stage, text: &str) -> Result<Vec<u32>, String> {
 /// read first; glslang reads it last: seed 800808 of commit 0d7f9e0f.
 fn reads_before_change(shader: &Shader) -> bool {
     let changed = |one: ExprId, later: &[ExprId]| {
-        root(shader, one).is_some_and(|variable| later.iter().any(|one| may_change(shader, *one, variable)))
+        shader.root_variable(one).is_some_and(|variable| later.iter().any(|one| may_change(shader, *one, variable)))
     };
     shader.exprs.iter().any(|expr| match &expr.kind {
         ExprKind::Call(_, arguments) => arguments
@@ -107,23 +107,12 @@ fn is_constant(shader: &Shader, id: ExprId) -> bool {
     is_constant
 }
 
-/// The variable of which an expression is a part.
-fn root(shader: &Shader, mut id: ExprId) -> Option<VarRef> {
-    loop {
-        match &shader.expr(id).kind {
-            ExprKind::Var(variable) => return Some(*variable),
-            ExprKind::Member(base, _) | ExprKind::Swizzle(base, _) | ExprKind::Index(base, _) => id = *base,
-            _ => return None,
-        }
-    }
-}
-
 /// Whether an expression may change a variable: it assigns to it, or calls a function.
 fn may_change(shader: &Shader, id: ExprId, variable: VarRef) -> bool {
     let mut found = false;
     shader.visit_expr(id, &mut |inner| match &shader.expr(inner).kind {
         ExprKind::Assign(_, target, _) | ExprKind::IncDec(_, target) => {
-            found |= root(shader, *target) == Some(variable);
+            found |= shader.root_variable(*target) == Some(variable);
         }
         ExprKind::Call(..) | ExprKind::BuiltinCall(..) => found |= takes(shader, inner, variable),
         _ => {}
@@ -135,11 +124,13 @@ fn may_change(shader: &Shader, id: ExprId, variable: VarRef) -> bool {
 fn takes(shader: &Shader, id: ExprId, variable: VarRef) -> bool {
     match &shader.expr(id).kind {
         ExprKind::Call(_, arguments) => {
-            matches!(variable, VarRef::Global(_)) || arguments.iter().any(|one| root(shader, *one) == Some(variable))
+            matches!(variable, VarRef::Global(_))
+                || arguments.iter().any(|one| shader.root_variable(*one) == Some(variable))
         }
         ExprKind::BuiltinCall(function, arguments) => {
             let writes = ["modf", "frexp", "uaddCarry", "usubBorrow", "umulExtended", "imulExtended"];
-            writes.contains(&function.name()) && arguments.iter().any(|one| root(shader, *one) == Some(variable))
+            writes.contains(&function.name())
+                && arguments.iter().any(|one| shader.root_variable(*one) == Some(variable))
         }
         _ => false,
     }

@@ -13,6 +13,7 @@ use glisten_front::analysis::Denoted;
 use glisten_front::builtin::functions;
 use glisten_front::hir::{LocalKind, Storage};
 use glisten_front::index::{Occurrence, Role, SymbolKind};
+use glisten_front::source::comments::comment_len;
 use glisten_front::syntax::keywords;
 use glisten_front::syntax::token::TokenKind;
 use lsp_types::{
@@ -175,9 +176,9 @@ fn directive(names: &Names<'_>, lexeme: &Lexeme<'_>, tokens: &mut Vec<Token>) {
         let start = lexeme.start + at;
         let Some(first) = rest.chars().next() else { break };
         let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-        let (length, color) = if rest.starts_with("//") || rest.starts_with("/*") {
-            let end = if rest.starts_with("//") { rest.find('\n') } else { rest.find("*/").map(|end| end + 2) };
-            (end.unwrap_or(rest.len()), Some((Color::Comment, 0)))
+        let comment = comment_len(rest);
+        let (length, color) = if comment > 0 {
+            (comment, Some((Color::Comment, 0)))
         } else if is_include && matches!(first, '"' | '<') {
             let close = if first == '"' { '"' } else { '>' };
             (

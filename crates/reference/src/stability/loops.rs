@@ -57,7 +57,7 @@ impl Loops {
                 repeated.insert(callee);
             }
             ExprKind::Assign(operator, to, value) => {
-                let Some(variable) = root(shader, to) else { return };
+                let Some(variable) = shader.root_variable(to) else { return };
                 if operator.is_some() {
                     self.accumulate.insert(expr.span);
                 }
@@ -75,18 +75,6 @@ impl Loops {
                 self.accumulate.insert(shader.expr(id).span);
             }
         });
-    }
-}
-
-/// The variable that an l-value is a part of.
-fn root(shader: &Shader, id: ExprId) -> Option<VarRef> {
-    let mut id = id;
-    loop {
-        match shader.expr(id).kind {
-            ExprKind::Var(variable) => return Some(variable),
-            ExprKind::Member(inner, _) | ExprKind::Index(inner, _) | ExprKind::Swizzle(inner, _) => id = inner,
-            _ => return None,
-        }
     }
 }
 

@@ -103,11 +103,9 @@ impl Names {
 /// take no derivative, discard nothing, and read no global but constants and uniforms.
 pub(super) fn pure_functions(shader: &Shader) -> BTreeSet<FunctionId> {
     let mut pure: BTreeSet<FunctionId> = BTreeSet::new();
-    for root in shader.functions().map(|(id, _)| id) {
-        for id in shader.callees_first(root) {
-            if is_pure(shader, id, &pure) {
-                pure.insert(id);
-            }
+    for id in shader.callees_first_of(shader.functions().map(|(id, _)| id)) {
+        if is_pure(shader, id, &pure) {
+            pure.insert(id);
         }
     }
     pure

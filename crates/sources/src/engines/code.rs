@@ -4,6 +4,7 @@
 //! preprocessed: code in a conditional group counts.
 
 use glisten_front::source::blanked;
+use glisten_front::source::comments::comment_len;
 use std::sync::Arc;
 
 /// The text with spaces for its comments.
@@ -12,18 +13,11 @@ pub fn without_comments(text: &str) -> Arc<str> {
     let mut at = 0;
     while let Some(found) = text.get(at..).and_then(|rest| rest.find('/')).map(|found| at + found) {
         let rest = text.get(found..).unwrap_or("");
-        let end = match rest.as_bytes() {
-            [b'/', b'/', ..] => found + rest.find('\n').unwrap_or(rest.len()),
-            [b'/', b'*', ..] => {
-                found + rest.get(2..).and_then(|rest| rest.find("*/")).map_or(rest.len(), |end| end + 4)
-            }
-            _ => {
-                at = found + 1;
-                continue;
-            }
-        };
-        ranges.push(found..end);
-        at = end;
+        let comment = comment_len(rest);
+        if comment > 0 {
+            ranges.push(found..found + comment);
+        }
+        at = found + comment.max(1);
     }
     blanked(text, &ranges)
 }

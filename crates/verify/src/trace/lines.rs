@@ -56,7 +56,10 @@ fn invocation_lines(invocation: &ToldInvocation, (number, of): (usize, usize), s
     let steps = outside_of_the_library(&invocation.steps, shown);
     for (index, step) in steps.iter().enumerate() {
         let before = index.checked_sub(1).and_then(|before| steps.get(before)).copied();
-        if is_left_out(step, before, steps.get(index + 1).copied(), shown) {
+        let next = steps.get(index + 1).copied();
+        // The variable of `i++` is told with its new value before the expression.
+        let next_is_stepped = next.zip(steps.get(index + 2)).is_some_and(|(next, after)| steps_it(after, next));
+        if is_left_out(step, before, next.filter(|_| !next_is_stepped), shown) {
             continue;
         }
         if let Some(place) = step.place.as_ref().filter(|_| !matches!(step.kind, "input" | "output"))
@@ -114,11 +117,20 @@ fn steps_it(step: &ToldStep, before: &ToldStep) -> bool {
 /// Whether the next step tells the same, or people seldom want to see it.
 fn is_left_out(step: &ToldStep, before: Option<&ToldStep>, next: Option<&ToldStep>, shown: Shown) -> bool {
     let repeats = |next: &ToldStep| {
-        let ends_there = match (&step.place, &next.place) {
-            (Some(step), Some(next)) => step.file == next.file && step.end == next.end,
+        // An operand of `&&` is not its result, even if both are true.
+        let before = next.text.strip_suffix(step.text.as_str()).map(str::trim_end);
+        let compares = |before: &str| ["==", "<=", ">=", "!="].iter().any(|operator| before.ends_with(operator));
+        let is_assigned = before.is_none_or(|before| before.is_empty() || before.ends_with('=') && !compares(before));
+        let ends_there = is_assigned
+            && match (&step.place, &next.place) {
+                (Some(step), Some(next)) => step.file == next.file && step.end == next.end,
+                _ => false,
+            };
+        let is_declared_with_it = match (&step.place, &next.place) {
+            (Some(step), Some(next)) => step.file == next.file && next.start <= step.start,
             _ => false,
         };
-        let takes_it = matches!(next.kind, "local") && next.depth == step.depth
+        let takes_it = matches!(next.kind, "local") && next.depth == step.depth && is_declared_with_it
             || ends_there && matches!(next.kind, "value" | "if" | "loop" | "switch");
         takes_it && next.value.value == step.value.value
     };

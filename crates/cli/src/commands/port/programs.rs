@@ -12,7 +12,10 @@ use crate::inputs::{Group, Input};
 use crate::session::{Session, Unit, compile_anywhere};
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::compiler::{Compiler, Prepared, Source};
-use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::names::{REDEFINED, UNKNOWN_FUNCTION};
+use glisten_front::diagnostic::codes::preprocess::INCLUDE_NOT_FOUND;
+use glisten_front::diagnostic::codes::types::NO_OVERLOAD;
+use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::hir::{Shader, Stage};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use glisten_port::{Host, Outcome, ProgramReport};
@@ -294,10 +297,11 @@ fn by_plan(
 
 /// The remedy for an error that comes from a file of the host that is not there.
 fn lacking(unit: &Unit, error: &Diagnostic, host: &Host) -> Option<String> {
-    static CODES: &[&str] = &["E0127", "E0302", "E0304", "E0403"];
+    static CODES: [&Code; 4] = [&INCLUDE_NOT_FOUND, &REDEFINED, &UNKNOWN_FUNCTION, &NO_OVERLOAD];
     let mut names = unit.batch.sources.files().map(|(_, file)| file.name());
-    let is_missing = error.code.id == "E0127" || names.any(|name| name.starts_with('<') && name.ends_with(".glsl>"));
-    let is_it = host.is_minecraft && is_missing && CODES.contains(&error.code.id);
+    let is_missing =
+        *error.code == INCLUDE_NOT_FOUND || names.any(|name| name.starts_with('<') && name.ends_with(".glsl>"));
+    let is_it = host.is_minecraft && is_missing && CODES.contains(&error.code);
     is_it.then(|| {
         "files of the game are not there, or are of another version: `-I GAME` names the assets of the version that the pack was made \
          for"

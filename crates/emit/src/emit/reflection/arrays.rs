@@ -60,9 +60,13 @@ pub struct StructMember {
 pub(super) fn arrays(program: &Program) -> Vec<StructArray> {
     let Program { types, interface, .. } = program;
     let mut found = Vec::new();
-    for (index, root) in interface.roots.iter().enumerate() {
-        let leaves: Vec<&UniformLeaf> =
-            interface.uniforms.iter().filter(|leaf| leaf.root.0 as usize == index).collect();
+    let mut of_roots: Vec<Vec<&UniformLeaf>> = vec![Vec::new(); interface.roots.len()];
+    for leaf in &interface.uniforms {
+        if let Some(leaves) = of_roots.get_mut(leaf.root.0 as usize) {
+            leaves.push(leaf);
+        }
+    }
+    for (root, leaves) in interface.roots.iter().zip(of_roots) {
         for (path, ty) in starts(types, interface, root) {
             below(types, &path, ty, &mut |path, ty, size| {
                 found.extend(array(types, interface, root, &leaves, path, ty, size));

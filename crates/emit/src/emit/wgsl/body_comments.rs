@@ -4,8 +4,10 @@
 //! comments. *Holds:* a comment on a line of its own goes above the statement that follows it, or to the end of its block;
 //! a comment behind code goes behind the statement of that line. If that statement was left out, so is its comment.
 
+use super::commented::{Braces, Candidate, Candidates};
 use super::comments::of_wgsl;
-use super::tree::{BlockId, Body, StmtKind};
+use super::tree::Body;
+use glisten_front::source::comments::comment_len;
 use glisten_front::source::{SourceMap, Span};
 
 /// A comment in the body of a function. Positions are offsets in the file.
@@ -21,17 +23,6 @@ struct Comment {
     next: usize,
 }
 
-/// A statement of the tree with its range in the file.
-#[derive(Clone, Copy, Debug)]
-struct Candidate {
-    start: usize,
-    end: usize,
-    brace: usize,
-    block: BlockId,
-    at: usize,
-    compound: bool,
-}
-
 /// Adds the comments of the function whose head is at `head`.
 pub(super) fn add(body: &mut Body<'_>, sources: &SourceMap, head: Span) {
     if !head.is_known() {
@@ -43,8 +34,7 @@ pub(super) fn add(body: &mut Body<'_>, sources: &SourceMap, head: Span) {
     let text: &str = file.text();
     let Some(from) = (head.start as usize).checked_sub(base) else { return };
     let found = read(text, from);
-    let mut candidates = Vec::new();
-    collect(body, BlockId(0), base, &found, &mut candidates);
+    let candidates = Candidates::of(body, base, &found.braces);
     space(body, text, &candidates);
     for comment in &found.comments {
         put(body, text, comment, &candidates, &found);
@@ -55,18 +45,7 @@ pub(super) fn add(body: &mut Body<'_>, sources: &SourceMap, head: Span) {
 #[derive(Debug, Default)]
 struct Found {
     comments: Vec<Comment>,
-    /// Where blocks begin and end, in order, with the brace that is innermost from there on.
-    braces: Vec<(usize, usize)>,
-    /// Where the body begins and ends.
-    range: (usize, usize),
-}
-
-impl Found {
-    /// The innermost brace around a position.
-    fn brace_at(&self, at: usize) -> usize {
-        let after = self.braces.partition_point(|(start, _)| *start < at);
-        after.checked_sub(1).and_then(|index| self.braces.get(index)).map_or(0, |(_, brace)| *brace)
-    }
+    braces: Braces,
 }
 
 /// Reads the first block after a position.
@@ -77,8 +56,8 @@ fn read(text: &str, from: usize) -> Found {
     let mut last = from;
     let mut at = from;
     while let Some(&byte) = bytes.get(at) {
-        let rest = bytes.get(at..).unwrap_or_default();
-        let len = comment_len(rest);
+        // Inside of a character of several bytes there is none.
+        let len = text.get(at..).map_or(0, comment_len);
         if len > 0 {
             if let (Some(brace), Some(own)) = (open.last(), text.get(at..at + len)) {
                 let newline = text.get(last..at).is_some_and(|between| between.contains('\n'));
@@ -92,11 +71,11 @@ fn read(text: &str, from: usize) -> Found {
         match byte {
             b'{' => {
                 open.push(at);
-                found.braces.push((at, at));
+                found.braces.list.push((at, at));
             }
             b'}' => {
                 open.pop();
-                found.braces.push((at, open.last().copied().unwrap_or(0)));
+                found.braces.list.push((at, open.last().copied().unwrap_or(0)));
             }
             _ => {}
         }
@@ -109,26 +88,14 @@ fn read(text: &str, from: usize) -> Found {
         if byte == b'}' && open.is_empty() {
             break;
         }
-        if byte == b';' && open.is_empty() && found.braces.is_empty() {
+        if byte == b';' && open.is_empty() && found.braces.list.is_empty() {
             // A prototype has no body.
             return Found::default();
         }
         at += 1;
     }
-    found.range = (found.braces.first().map_or(from, |(start, _)| *start), at);
+    found.braces.range = (found.braces.list.first().map_or(from, |(start, _)| *start), at);
     found
-}
-
-/// The length of the comment at the beginning of a text; 0 if there is none. The end of the line is not a part of it.
-fn comment_len(bytes: &[u8]) -> usize {
-    if bytes.starts_with(b"//") {
-        return bytes.iter().take_while(|byte| **byte != b'\n' && **byte != b'\r').count();
-    }
-    if bytes.starts_with(b"/*") {
-        let end = bytes.get(2..).unwrap_or_default().windows(2).position(|pair| pair == b"*/");
-        return end.map_or(bytes.len(), |end| end + 4);
-    }
-    0
 }
 
 /// The lines of a comment without the indentation of the source.
@@ -147,30 +114,10 @@ fn lines_of(text: &str, start: usize, comment: &str) -> Vec<String> {
     of_wgsl(&lines).into_iter().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// The statements of the tree in their order.
-fn collect(body: &Body<'_>, id: BlockId, base: usize, found: &Found, candidates: &mut Vec<Candidate>) {
-    let Some(block) = body.blocks.get(id.0) else { return };
-    for (at, stmt) in block.statements.iter().enumerate() {
-        for span in [stmt.span, stmt.declared] {
-            let Some(range) = span.to_range().filter(|_| !matches!(stmt.kind, StmtKind::Empty)) else { continue };
-            let (Some(start), Some(end)) = (range.start.checked_sub(base), range.end.checked_sub(base)) else {
-                continue;
-            };
-            if start > found.range.0 && end <= found.range.1 {
-                let mut compound = false;
-                stmt.kind.for_each_block(&mut |_| compound = true);
-                let brace = found.brace_at(start);
-                candidates.push(Candidate { start, end, brace, block: id, at, compound });
-            }
-        }
-        stmt.kind.for_each_block(&mut |inner| collect(body, inner, base, found, candidates));
-    }
-}
-
 /// Keeps the empty lines between the paragraphs of the source.
-fn space(body: &mut Body<'_>, text: &str, candidates: &[Candidate]) {
+fn space(body: &mut Body<'_>, text: &str, candidates: &Candidates) {
     let mut last = usize::MAX;
-    for one in candidates {
+    for one in candidates.iter() {
         // Several statements may come from one.
         let is_first = std::mem::replace(&mut last, one.start) != one.start;
         if is_first && follows_empty_line(text, one.start) {
@@ -186,7 +133,7 @@ fn follows_empty_line(text: &str, at: usize) -> bool {
     before.get(before.len() - between..).is_some_and(|blank| blank.matches('\n').count() > 1)
 }
 
-fn put(body: &mut Body<'_>, text: &str, comment: &Comment, candidates: &[Candidate], found: &Found) {
+fn put(body: &mut Body<'_>, text: &str, comment: &Comment, candidates: &Candidates, found: &Found) {
     match comment.behind {
         Some(token) => put_behind(body, text, comment, token, candidates, found),
         None => put_above(body, text, comment, candidates),
@@ -194,24 +141,25 @@ fn put(body: &mut Body<'_>, text: &str, comment: &Comment, candidates: &[Candida
 }
 
 /// A comment on a line of its own.
-fn put_above(body: &mut Body<'_>, text: &str, comment: &Comment, candidates: &[Candidate]) {
+fn put_above(body: &mut Body<'_>, text: &str, comment: &Comment, candidates: &Candidates) {
     let next = text.get(comment.next..).unwrap_or("");
     if next.starts_with('}') {
-        let last = candidates.iter().rev().find(|one| one.brace == comment.brace && one.start < comment.start);
+        let last = candidates.last_in(comment.brace, comment.start);
         if let Some(block) = last.and_then(|last| body.blocks.get_mut(last.block.0)) {
             block.end.extend_from_slice(&comment.lines);
         }
         return;
     }
-    let exact = candidates.iter().find(|one| one.start == comment.next);
-    let around =
-        || candidates.iter().rev().find(|one| !one.compound && one.start < comment.next && comment.next < one.end);
+    let exact = candidates.from(comment.next).filter(|one| one.start == comment.next);
+    let around = || {
+        let around = candidates.simple(comment.next, comment.next + 1);
+        around.max_by_key(|(number, _)| *number).map(|(_, one)| one)
+    };
     let begins = ["else", "case", "default", "{", "do"].iter().any(|word| next.starts_with(word));
-    // The same paragraph goes up to an empty line.
-    let paragraph = paragraph_end(next) + comment.next;
     let later = || {
-        let after = candidates.iter().filter(|one| one.start > comment.next);
-        after.min_by_key(|one| one.start).filter(|one| begins || (one.brace == comment.brace && one.start < paragraph))
+        let after = candidates.from(comment.next + 1)?;
+        let is_near = || after.brace == comment.brace && is_one_paragraph(text, comment.next, after.start);
+        (begins || is_near()).then_some(after)
     };
     let Some(target) = exact.or_else(around).or_else(later) else { return };
     if follows_empty_line(text, comment.start) {
@@ -220,16 +168,14 @@ fn put_above(body: &mut Body<'_>, text: &str, comment: &Comment, candidates: &[C
     above(body, *target, &comment.lines);
 }
 
-/// The length of a text up to its first empty line.
-fn paragraph_end(text: &str) -> usize {
-    let mut end = 0;
-    for line in text.split_inclusive('\n') {
-        if line.trim().is_empty() {
-            break;
-        }
-        end += line.len();
-    }
-    end
+/// Whether no line between two places is empty.
+fn is_one_paragraph(text: &str, from: usize, to: usize) -> bool {
+    let between = text.get(from..to).unwrap_or("");
+    // The last line goes on at `to`.
+    let whole = between.rfind('\n').map_or("", |end| between.get(..end).unwrap_or(""));
+    between.is_empty()
+        || whole.is_empty() && !between.starts_with('\n')
+        || whole.lines().all(|line| !line.trim().is_empty())
 }
 
 fn above(body: &mut Body<'_>, target: Candidate, lines: &[String]) {
@@ -245,17 +191,16 @@ fn put_behind(
     text: &str,
     comment: &Comment,
     token: usize,
-    candidates: &[Candidate],
+    candidates: &Candidates,
     found: &Found,
 ) {
     let before = text.get(..token).unwrap_or("");
     let single = comment.lines.len() == 1;
     let opens = [")", "else", ":"].iter().any(|end| before.ends_with(end));
-    if opens || before.ends_with('{') && token > found.range.0 + 1 {
+    if opens || before.ends_with('{') && token > found.braces.range.0 + 1 {
         // The head of a block.
-        let first = candidates.iter().filter(|one| one.start > comment.start).min_by_key(|one| one.start);
-        let inside = first.filter(|first| {
-            let around = candidates.iter().any(|one| one.compound && one.start < comment.start && first.end <= one.end);
+        let inside = candidates.from(comment.start + 1).filter(|first| {
+            let around = candidates.is_around(comment.start, first.end);
             around && (single || before.ends_with('{')) && (!before.ends_with('{') || first.brace + 1 == token)
         });
         let Some(first) = inside else { return };
@@ -267,15 +212,19 @@ fn put_behind(
         return;
     }
     if before.ends_with('{') {
-        if let Some(first) = candidates.iter().min_by_key(|one| one.start) {
+        if let Some(first) = candidates.from(0) {
             above(body, *first, &comment.lines);
         }
         return;
     }
     let line = before.rfind('\n').map_or(0, |at| at + 1);
-    let on_line = |one: &&Candidate| one.end <= token && one.end >= line && (!one.compound || before.ends_with('}'));
-    let ended = candidates.iter().filter(on_line).max_by_key(|one| (one.end, !one.compound, one.block.0, one.at));
-    let within = || candidates.iter().find(|one| one.start < comment.start && comment.start < one.end && !one.compound);
+    let simple = candidates.simple(token, line).map(|(_, one)| one).filter(|one| one.end <= token);
+    let compound = before.ends_with('}').then(|| candidates.that_end(line, token)).into_iter().flatten();
+    let ended = simple.chain(compound).max_by_key(|one| (one.end, !one.compound, one.block.0, one.at));
+    let within = || {
+        let around = candidates.simple(comment.start, comment.start + 1);
+        around.min_by_key(|(number, _)| *number).map(|(_, one)| one)
+    };
     match ended {
         Some(ended) if single => {
             let stmt = body.blocks.get_mut(ended.block.0).and_then(|block| block.statements.get_mut(ended.at));

@@ -16,10 +16,11 @@
 //! | `effects`, `order`, `plan` | which values have names, and which are written where they are used |
 //! | `function`, `expressions`, `lookups`, `inverse` | statements and expressions |
 //! | `loops`, `declarations` | `for`, `while`, `+=`; `let` and `var` at their places |
-//! | `notes`, `comments`, `body_comments` | comments next to declarations, in WGSL's form, inside of functions |
+//! | `notes`, `comments`, `body_comments`, `commented` | comments next to declarations, in WGSL's form, inside of functions, and the statements that they may belong to |
 //! | `tree`, `levels`, `print` | the tree and its text |
 
 mod body_comments;
+mod commented;
 mod comments;
 mod declarations;
 mod effects;

@@ -232,8 +232,8 @@ fn translated(text: &str) -> String {
     let program = compilation.program.expect("a program");
     let sources = Some(&compilation.sources);
     let conventions = Conventions::default();
-    let emitted = crate::emit_with_sources(&program, Stage::Fragment, Target::Wgsl, &conventions, sources);
-    let crate::Emitted::Text(text) = emitted.expect("emitted") else { panic!("WGSL is text") };
+    let emitted = crate::emit_traced(&program, Stage::Fragment, Target::Wgsl, &conventions, sources);
+    let crate::Emitted::Text(text) = emitted.expect("emitted").emitted else { panic!("WGSL is text") };
     read(&text, Style::Full);
     let start = ["\n//", "\nfn ", "\n@fragment"].iter().filter_map(|word| Some(text.get(1..)?.find(word)? + 1)).min();
     text.get(start.unwrap_or(0)..).unwrap_or_default().trim().to_owned()
@@ -292,14 +292,20 @@ fn calls_with_effects_keep_their_order() {
     assert_eq!(text.matches("next()").count(), 3, "{text}");
 }
 
+/// Asserts that a text has both parts, the first one first.
+fn assert_in_order(text: &str, parts: [&str; 2]) {
+    let [first, second] = parts.map(|part| text.find(part).unwrap_or_else(|| panic!("no `{part}` in {text}")));
+    assert!(first < second, "{parts:?} in {text}");
+}
+
 #[test]
 fn a_variable_keeps_its_value_between_iterations() {
     let kept = "void main() { int k = 0; float s = 0.0; while (s < u) { k++; s += float(k); } c = vec4(s); }";
     let text = body_of(kept);
-    assert!(text.find("var k: i32 = 0;") < text.find("while s < uniforms.u {"), "{text}");
+    assert_in_order(&text, ["var k: i32 = 0;", "while s < uniforms.u {"]);
     let inside = "void main() { c = i; for (int j = 0; j < 4; j++) { vec2 k; k.x = i.x; k.y = c.x; c.xy += k; } }";
     let text = body_of(inside);
-    assert!(text.find("for (var j = 0;") < text.find("var k: vec2<f32>;"), "{text}");
+    assert_in_order(&text, ["for (var j = 0;", "var k: vec2<f32>;"]);
     assert!(text.contains("c = vec4(c.xy + k, c.zw);"), "{text}");
 }
 

@@ -214,12 +214,28 @@ impl Analyzer<'_> {
             passed.push(match mode {
                 ParamMode::In | ParamMode::ConstIn => self.convert(argument, ty).unwrap_or(argument),
                 ParamMode::Out | ParamMode::Inout => {
-                    good &= self.require_lvalue(argument, Purpose::Argument);
+                    good &= self.require_lvalue(argument, Purpose::Argument) && self.require_written(argument, ty);
                     argument
                 }
             });
         }
         good.then_some(passed)
+    }
+
+    /// Reports an argument that an `out` parameter cannot be converted to when the function returns (§6.1.1). Overloads are
+    /// found as in a language that has the conversion.
+    fn require_written(&mut self, argument: ExprId, param: TypeId) -> bool {
+        let ty = self.ty(argument);
+        if ty == param || ty.is_error() || param.is_error() || self.conversions().convert(self.types, param, ty) {
+            return true;
+        }
+        let (ty, param) = (self.type_name(ty), self.type_name(param));
+        let message = format!("{} is a `{ty}`, and the function writes a `{param}`", self.quote(argument));
+        let finding = Diagnostic::new(&types::MISMATCH, self.span(argument), message)
+            .here(format!("this is a `{ty}`"))
+            .help(format!("pass a variable of the type `{param}`"));
+        self.report(finding);
+        false
     }
 
     /// The rules of overloads at the current declaration.

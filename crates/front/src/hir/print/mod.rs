@@ -147,17 +147,7 @@ impl Printer<'_> {
     /// The functions in print order, callees before callers: first those that `main` needs, then the others.
     fn function_order(&self) -> Vec<FunctionId> {
         let roots = self.shader.main.into_iter().chain(self.shader.functions().map(|(id, _)| id));
-        let mut order: Vec<FunctionId> = Vec::new();
-        let mut printed = vec![false; self.shader.functions.len()];
-        for root in roots {
-            for id in self.shader.callees_first(root) {
-                if let Some(done) = printed.get_mut(id.index()).filter(|done| !**done) {
-                    *done = true;
-                    order.push(id);
-                }
-            }
-        }
-        order
+        self.shader.callees_first_of(roots)
     }
 
     fn function(&mut self, id: FunctionId) {

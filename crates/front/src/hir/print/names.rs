@@ -20,18 +20,26 @@ pub(super) type ScopedNames<'a> = &'a dyn Fn(&NameTable, &Function) -> Vec<Strin
 
 /// The names that are taken.
 #[derive(Default)]
-struct Taken(FxHashSet<String>);
+struct Taken {
+    names: FxHashSet<String>,
+    /// The last number behind each name that was taken.
+    last: FxHashMap<String, u32>,
+}
 
 impl Taken {
     fn claim(&mut self, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 1;
-        while !self.0.insert(name.clone()) {
-            number += 1;
-            let gap = if wanted.ends_with('_') { "" } else { "_" };
-            name = format!("{wanted}{gap}{number}");
+        if self.names.insert(wanted.to_owned()) {
+            return wanted.to_owned();
         }
-        name
+        let gap = if wanted.ends_with('_') { "" } else { "_" };
+        let number = self.last.entry(wanted.to_owned()).or_insert(1);
+        loop {
+            *number += 1;
+            let name = format!("{wanted}{gap}{number}");
+            if self.names.insert(name.clone()) {
+                return name;
+            }
+        }
     }
 }
 
@@ -77,7 +85,7 @@ impl NameTable {
         }
         loop {
             let claimed = taken.claim(name);
-            if !global.0.contains(&claimed) && functions::named(&claimed).is_empty() {
+            if !global.names.contains(&claimed) && functions::named(&claimed).is_empty() {
                 return claimed;
             }
         }
@@ -123,18 +131,18 @@ fn global_name(
 ) -> String {
     if let Some(builtin) = global.builtin {
         let name = builtin_name(builtin);
-        taken.0.insert(name.to_owned());
+        taken.names.insert(name.to_owned());
         return name.to_owned();
     }
     match &global.block {
         None => taken.claim(&global.name),
         Some(block) => {
-            taken.0.insert(block.name.clone());
+            taken.names.insert(block.name.clone());
             match &block.instance {
                 Some(instance) => taken.claim(instance),
                 None => {
                     for member in members(types, global.ty) {
-                        taken.0.insert(member);
+                        taken.names.insert(member);
                     }
                     String::new()
                 }

@@ -125,6 +125,7 @@ impl Printer<'_> {
         let unsigned = self.types.get(self.shader.expr(selector).ty) == Type::Scalar(crate::hir::Scalar::Uint);
         let selector = self.expr(selector);
         self.line(&format!("switch ({selector}) {{"));
+        let mut body_from = self.text.len();
         for case in cases {
             for label in &case.labels {
                 let label = match *label {
@@ -136,7 +137,13 @@ impl Printer<'_> {
                 };
                 self.line(&label);
             }
+            body_from = self.text.len();
             self.body(&case.body);
+        }
+        // A label at the end of a `switch` has a statement (§6.2).
+        let is_comment = |line: &str| line.trim_start().starts_with("//") || line.trim().is_empty();
+        if !cases.is_empty() && self.text.get(body_from..).is_some_and(|body| body.lines().all(is_comment)) {
+            self.line("    break;");
         }
         self.line("}");
     }

@@ -75,28 +75,13 @@ fn components_read(program: &Program, fragment: &Shader, input: GlobalId) -> Com
                     if root == VarRef::Global(input) {
                         read.extend(components);
                     }
-                    pending.extend(indices(fragment, expr));
+                    pending.extend(fragment.indices_of_place(expr));
                 }
                 None => pending.extend(fragment.children(expr)),
             }
         }
     }
     read
-}
-
-/// The indices on the way to a part of a variable.
-fn indices(shader: &Shader, mut at: ExprId) -> Vec<ExprId> {
-    let mut found = Vec::new();
-    loop {
-        match &shader.expr(at).kind {
-            ExprKind::Index(inner, index) => {
-                found.push(*index);
-                at = *inner;
-            }
-            ExprKind::Member(inner, _) | ExprKind::Swizzle(inner, _) => at = *inner,
-            _ => return found,
-        }
-    }
 }
 
 /// Whether `main` or a function that it calls without a condition reads the input without one.

@@ -44,6 +44,8 @@ impl Compiler<'_> {
         let scalar = |value: Option<&Val>| value.and_then(|value| component(value, 0));
         let (Some(count), Some(offset)) = (scalar(Some(count)), scalar(rest.last())) else { return Val::new() };
         let mask = self.mask(count);
+        // A field without bits is defined at any offset, and no shift finds it.
+        let offset = self.unless(count, 0, offset);
         let inserted: &[Operand] =
             if op == BitFunction::Insert { values.get(1).map_or(&[], |value| value) } else { &[] };
         (0..first.len())
@@ -57,10 +59,18 @@ impl Compiler<'_> {
             .collect()
     }
 
-    /// The lowest `count` bits; all of them for 32, where the shift does nothing.
+    /// An amount to shift by, and 0 if `count` is `zero`: there the result of the shift is not read.
+    fn unless(&mut self, count: Operand, zero: u32, amount: Operand) -> Operand {
+        let (zero, nothing) = (self.emit.int(zero), self.emit.int(0));
+        let is_zero = self.int2(Int2::Equal, count, zero);
+        self.select(File::Int, is_zero, nothing, amount)
+    }
+
+    /// The lowest `count` bits; all of them for 32.
     fn mask(&mut self, count: Operand) -> Operand {
         let (one, all, limit) = (self.emit.int(1), self.emit.int(u32::MAX), self.emit.int(32));
-        let power = self.int2(Int2::Shl, one, count);
+        let amount = self.unless(count, 32, count);
+        let power = self.int2(Int2::Shl, one, amount);
         let below = self.int2(Int2::Sub, power, one);
         let is_all = self.int2(Int2::LessEqualSigned, limit, count);
         self.select(File::Int, is_all, all, below)
@@ -74,6 +84,7 @@ impl Compiler<'_> {
         }
         let bits = self.emit.int(32);
         let spare = self.int2(Int2::Sub, bits, count);
+        let spare = self.unless(count, 0, spare);
         let raised = self.int2(Int2::Shl, field, spare);
         self.int2(Int2::ShrSigned, raised, spare)
     }

@@ -121,28 +121,17 @@ impl Effects {
     }
 }
 
-/// The variable of an l-value.
+/// Adds the variable of an l-value.
 fn root(shader: &Shader, place: ExprId, assigned: &mut Assigned) {
-    let mut place = place;
-    loop {
-        match shader.expr(place).kind {
-            ExprKind::Var(VarRef::Global(global)) => {
-                if matches!(shader.global(global).storage, Storage::Out | Storage::Private) {
-                    assigned.globals.insert(global);
-                }
-                return;
+    match shader.root_variable(place) {
+        Some(VarRef::Global(global)) => {
+            if matches!(shader.global(global).storage, Storage::Out | Storage::Private) {
+                assigned.globals.insert(global);
             }
-            ExprKind::Var(VarRef::Local(local)) => {
-                assigned.locals.insert(local);
-                return;
-            }
-            ExprKind::Member(base, _)
-            | ExprKind::Index(base, _)
-            | ExprKind::Swizzle(base, _)
-            | ExprKind::Convert(base) => {
-                place = base;
-            }
-            _ => return,
         }
+        Some(VarRef::Local(local)) => {
+            assigned.locals.insert(local);
+        }
+        None => {}
     }
 }

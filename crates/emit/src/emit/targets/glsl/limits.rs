@@ -10,8 +10,8 @@ use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
 use glisten_front::hir::{
-    ExprKind, Global, Interpolation, Member, SamplerDim, SamplerType, Sampling, Shader, Stage, Storage, Type, TypeId,
-    Types,
+    ExprId, ExprKind, Global, Interpolation, Member, ParamMode, SamplerDim, SamplerType, Sampling, Shader, Stage,
+    Storage, Type, TypeId, Types, VarRef,
 };
 use glisten_front::language::NEVER;
 use glisten_front::link::Program;
@@ -42,6 +42,15 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
             }
         }
     }
+    for (argument, param) in written_by_conversion(types, shader) {
+        let what = format!("implicit conversion, here of an `{}` that a function writes", types.name(param));
+        let help = "pass a variable of the parameter's type, and convert what it then has";
+        lacks.push(lacking(shader.expr(argument).span, what, help));
+    }
+    for index in indices_of_outputs(shader) {
+        let what = "index of a fragment output that is not constant".into();
+        lacks.push(lacking(index, what, "compute in a variable, and copy it to the output"));
+    }
     for span in arrays_of_arrays(types, shader).take(1) {
         lacks.push(lacking(span, "array of arrays".into(), "compute one index from two"));
     }
@@ -62,6 +71,35 @@ fn arrays_of_arrays<'a>(types: &'a Types, shader: &'a Shader) -> impl Iterator<I
     let results = shader.functions.iter().map(|function| (function.ret, function.span));
     let values = shader.exprs.iter().map(|expr| (expr.ty, expr.span));
     globals.chain(locals).chain(results).chain(values).filter(move |(ty, _)| nests(*ty)).map(|(_, span)| span)
+}
+
+/// The indices of fragment outputs that are not constant (GLSL ES 3.00 §4.3.6).
+fn indices_of_outputs(shader: &Shader) -> Vec<Span> {
+    let is_output = |var: VarRef| match var {
+        VarRef::Global(id) => shader.stage == Stage::Fragment && shader.global(id).storage == Storage::Out,
+        VarRef::Local(_) => false,
+    };
+    let indices = shader.exprs.iter().filter_map(|expr| match expr.kind {
+        ExprKind::Index(base, index) if shader.root_variable(base).is_some_and(is_output) => Some(index),
+        _ => None,
+    });
+    let indices = indices.map(|index| shader.expr(index));
+    indices.filter(|index| !matches!(index.kind, ExprKind::Literal(_))).map(|index| index.span).collect()
+}
+
+/// The arguments of `out` and `inout` parameters that have another type than these, which is told, too.
+fn written_by_conversion(types: &Types, shader: &Shader) -> Vec<(ExprId, TypeId)> {
+    let mut found = Vec::new();
+    for expr in &shader.exprs {
+        let ExprKind::Call(function, arguments) = &expr.kind else { continue };
+        for (argument, (ty, mode)) in arguments.iter().zip(shader.function(*function).param_types()) {
+            let is_written = matches!(mode, ParamMode::Out | ParamMode::Inout);
+            if is_written && types.get(shader.expr(*argument).ty) != types.get(ty) {
+                found.push((*argument, ty));
+            }
+        }
+    }
+    found
 }
 
 /// The errors for what GLSL 3.30 lacks.
@@ -132,6 +170,9 @@ fn of_global(types: &Types, shader: &Shader, global: &Global) -> Option<(String,
     if global.storage == Storage::Uniform && members.iter().any(placed) {
         return Some(("`offset` and `align` in a block".into(), "fill the gaps with members"));
     }
+    if between && let Some(what) = foreign_varying(types, global) {
+        return Some((what.into(), "declare a variable, or an array, for each member"));
+    }
     let noperspective = |member: &Member| member.interpolation == Some(Interpolation::Noperspective);
     if between && (global.interpolation == Interpolation::Noperspective || members.iter().any(noperspective)) {
         return Some((
@@ -149,6 +190,28 @@ fn of_global(types: &Types, shader: &Shader, global: &Global) -> Option<(String,
         return Some(("arrays of attributes".into(), "declare one attribute for each element"));
     }
     None
+}
+
+/// The part of a varying's type that ES lacks (GLSL ES 3.00 §4.3.4, §4.3.6). A block becomes a varying for each member.
+fn foreign_varying(types: &Types, global: &Global) -> Option<&'static str> {
+    let of = |ty| match types.get(ty) {
+        Type::Array(element, _) if matches!(types.get(element), Type::Struct(_)) => {
+            Some("arrays of structs between stages")
+        }
+        Type::Struct(id) => {
+            let nests = |member: &Member| matches!(types.get(member.ty), Type::Array(..) | Type::Struct(_));
+            let mut members = types.structure(id).members.iter();
+            members.any(nests).then_some("structs with arrays or structs between stages")
+        }
+        _ => None,
+    };
+    match types.get(global.ty) {
+        Type::Array(..) if global.block.is_some() => Some("arrays of blocks between stages"),
+        Type::Struct(id) if global.block.is_some() => {
+            types.structure(id).members.iter().find_map(|member| of(member.ty))
+        }
+        _ => of(global.ty),
+    }
 }
 
 fn of_builtin(shader: &Shader, builtin: BuiltinVariable) -> Option<(String, &'static str)> {
