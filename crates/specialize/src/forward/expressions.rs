@@ -173,7 +173,7 @@ impl Forward<'_> {
             None => {
                 let mark = self.store.mark();
                 self.forks += 1;
-                self.refine(left, op == LogicalOp::And);
+                self.refine(left, a.id, op == LogicalOp::And);
                 let b = self.eval(right);
                 self.forks -= 1;
                 let changes = self.store.changes(mark);
@@ -200,11 +200,11 @@ impl Forward<'_> {
         }
         self.forks += 1;
         let mark = self.store.mark();
-        self.refine(condition, true);
+        self.refine(condition, c.id, true);
         let a = self.eval(yes);
         let changes = self.store.changes(mark);
         self.store.roll_back(mark);
-        self.refine(condition, false);
+        self.refine(condition, c.id, false);
         let b = self.eval(no);
         self.forks -= 1;
         self.store.meet(&changes, mark);

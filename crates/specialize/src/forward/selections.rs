@@ -46,7 +46,7 @@ impl Forward<'_> {
                 None => {
                     let mark = self.store.mark();
                     self.forks = forks + 1;
-                    self.refine(*condition, true);
+                    self.refine(*condition, c.id, true);
                     let body = self.statements(body);
                     if self.store.live {
                         ways.push((mark, self.store.changes(mark)));
@@ -57,7 +57,7 @@ impl Forward<'_> {
                         self.forks = forks;
                         return;
                     }
-                    self.refine(*condition, false);
+                    self.refine(*condition, c.id, false);
                     kept.push((c.id, body));
                 }
             }
