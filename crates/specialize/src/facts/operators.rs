@@ -27,9 +27,9 @@ fn convert_one(fact: Fact, to: Scalar) -> Fact {
     Fact::result(what, &[fact])
 }
 
-/// Whole numbers as floats: never -0, and rounded once.
+/// Whole numbers as floats: never -0, and rounded once, or by the reference in f64 not at all.
 fn whole(low: f64, high: f64) -> Range {
-    let range = Range::between(f64::from(low as f32), f64::from(high as f32));
+    let range = Range::between(low.min(f64::from(low as f32)), high.max(f64::from(high as f32)));
     Range { negative_zero: false, ..range }
 }
 
