@@ -21,9 +21,7 @@ impl Forward<'_> {
         for (condition, body) in arms {
             let c = self.eval(*condition);
             let truth = at(&c.facts, 0).truth();
-            if let Some(truth) = truth {
-                self.tell(self.shader.expr(*condition).span, Reason::Condition(*condition, truth));
-            }
+            self.tell_truth(*condition, truth);
             if truth.is_some() && !self.is_pure(c.id) {
                 // It is decided, and does something all the same.
                 if kept.is_empty() {

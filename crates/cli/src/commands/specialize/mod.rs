@@ -249,12 +249,15 @@ fn check_dynamic(dynamic: &[String], scenes: &[&Scene]) -> Result<(), Failure> {
 }
 
 /// Tells what could be left out.
-fn checked(done: &[Done], console: &Console) -> Outcome {
+fn checked(done: &[Done<'_>], console: &Console) -> Outcome {
     let mut text = String::new();
     for one in done {
         let count: usize = one.specialized.draws.iter().map(|draw| draw.left_out.len()).sum();
         let line = match count {
             0 => format!("{}: nothing can be left out\n", one.name),
+            0 if one.specialized.is_shorter_than(&one.read.scene) => {
+                format!("{}: parts of expressions can be left out\n", one.name)
+            }
             1 => format!("{}: 1 thing can be left out\n", one.name),
             count => format!("{}: {count} things can be left out\n", one.name),
         };
