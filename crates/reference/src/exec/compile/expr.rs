@@ -368,7 +368,7 @@ impl Compiler<'_> {
     }
 
     fn assignment(&mut self, op: Option<BinaryOp>, place: ExprId, value: ExprId) -> Val {
-        let path = self.path(place);
+        let path = self.path_before(place, self.effects.has(value));
         let ty = self.ty(place);
         let value = match op {
             None => self.expr(value),
