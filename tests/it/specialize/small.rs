@@ -1,6 +1,8 @@
 //! Small programs of what a partial evaluation may easily take for certain: their residuals draw the same bytes.
 
-use super::{difference, load};
+use super::{bits, difference, load};
+use glisten::scene::Scene;
+use glisten::source::SourceMap;
 use glisten::specialize::specialize_scene;
 
 /// A fragment shader after its `#version` and its interface, the values of uniforms, and a texture.
@@ -20,6 +22,18 @@ const INDEX: &str = "int index() { return int(v.x > 0.0) + int(v.y > 0.0); }\n";
 
 /// How the residual of such a program differs.
 fn wrong(small: &Small<'_>) -> Option<String> {
+    let (scene, sources) = scene_of(small);
+    let specialized = specialize_scene(&scene, &sources, &[]);
+    let fault = specialized.draws.iter().find_map(|draw| draw.fault.clone());
+    fault.or_else(|| difference(&scene, &specialized))
+}
+
+/// The picture of such a program.
+fn picture(small: &Small<'_>) -> Result<Vec<u64>, String> {
+    bits(&scene_of(small).0)
+}
+
+fn scene_of(small: &Small<'_>) -> (Scene, SourceMap) {
     let vertex = "#version 150\nin vec2 p;\nout vec2 v;\nvoid main() { v = p; gl_Position = vec4(p, 0.0, 1.0); }\n";
     let Small { version, text, uniforms, textures } = small;
     let fragment = format!("#version {version}\nin vec2 v;\nout vec4 color;\n{INDEX}{text}\n");
@@ -31,8 +45,7 @@ fn wrong(small: &Small<'_>) -> Option<String> {
     for (name, text) in [("a.vert", vertex), ("a.frag", fragment.as_str()), ("a.toml", scene.as_str())] {
         std::fs::write(folder.path().join(name), text).expect("written");
     }
-    let (scene, sources) = load(&folder.path().join("a.toml")).unwrap_or_else(|| panic!("no scene of\n{text}"));
-    difference(&scene, &specialize_scene(&scene, &sources, &[]))
+    load(&folder.path().join("a.toml")).unwrap_or_else(|| panic!("no scene of\n{text}"))
 }
 
 fn all_draw_the_same(list: &[Small<'_>]) {
@@ -104,6 +117,36 @@ fn a_condition_says_nothing_of_what_it_changes() {
     let texts = list.map(|body| format!("{UP}void main() {{ color = vec4(0.0); {body} }}"));
     let wrong: Vec<String> = texts.iter().filter_map(|text| wrong(&small(text))).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), list.len(), wrong.join("\n"));
+}
+
+#[test]
+fn a_part_is_chosen_before_its_value_is_computed() {
+    const UP: &str =
+        "int up(inout int k) { return k++; }\nvoid change(inout int k, inout float x) { k = 2; x += 10.0; }\n";
+    let list = [
+        "if (v.x > 0.0) a[k] += float(k++);",
+        "if (v.x > 0.0) a[k] = float(up(k)) + 5.0;",
+        "if (v.x > 0.0) a.zyx[k] *= float(k = 2) + 5.0;",
+        "if (v.x > 0.0) change(k, a[k]);",
+        "for (int i = 0; i < index(); i++) a[k % 3] -= float(k += 2);",
+    ];
+    let texts = list.map(|body| {
+        format!("{UP}void main() {{ vec3 a = vec3(1, 2, 3); int k = int(v.y < 9.0); {body} color = vec4(a, k); }}")
+    });
+    // With the index known, and with the index open.
+    let known = texts.clone().map(|text| text.replace("int(v.y < 9.0)", "1"));
+    let pictures = |text: &String| picture(&small(text));
+    for (open, known) in texts.iter().zip(&known) {
+        assert_eq!(pictures(open), pictures(known), "{known}");
+        assert_eq!(wrong(&small(open)).or_else(|| wrong(&small(known))), None);
+    }
+}
+
+#[test]
+fn a_switch_whose_last_case_does_nothing_is_still_one() {
+    all_draw_the_same(&[small(
+        "void main() { float x = 0.0; color = vec4(0.0); switch (index()) { case 0: color.x = 1.0; break; case 1: default: x = v.x; } }",
+    )]);
 }
 
 #[test]
