@@ -456,12 +456,13 @@ mod tests {
         at(&builtin(&call), 0).range()
     }
 
-    /// All ranges between two of the ends, with numbers in them.
+    /// All ranges between two of the ends, with numbers in them. All are numbers of f32.
     fn ranges() -> impl Iterator<Item = (Range, [f64; 5])> {
-        let pairs =
-            ENDS.iter().enumerate().flat_map(|(index, low)| ENDS.iter().skip(index).map(move |high| (*low, *high)));
-        pairs.map(|(low, high)| {
-            let within = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| low + (high - low) * share);
+        let single = |value: f64| f64::from(value as f32);
+        let ends = move || ENDS.iter().map(move |end| single(*end));
+        let pairs = ends().enumerate().flat_map(move |(index, low)| ends().skip(index).map(move |high| (low, high)));
+        pairs.map(move |(low, high)| {
+            let within = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| single(low + (high - low) * share).clamp(low, high));
             (Range::between(low, high), within)
         })
     }
