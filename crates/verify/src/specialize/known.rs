@@ -98,6 +98,7 @@ fn state(draw: &Draw, framebuffer: &Framebuffer) -> KnownState {
         clip_distances: direct.then_some(draw.state.clip_distances),
         front_facing: front_facing.filter(|_| direct),
         attachments: Some(framebuffer.attachments),
+        depth_test: Some(draw.state.depth_test),
         framebuffer: Some([framebuffer.width, framebuffer.height]),
         vertices,
         instances: Some(draw.instances),
