@@ -102,7 +102,7 @@ fn fits(shader: &Shader, small: &Small, arguments: &[ExprId]) -> bool {
             shader.visit_expr(*argument, &mut |expr| {
                 let kind = &shader.expr(expr).kind;
                 let derives = matches!(kind, ExprKind::BuiltinCall(function, _) if function.implicit_derivatives());
-                plain &= !may_act(kind) && !(derives && *conditional);
+                plain &= !(may_act(kind) || derives && *conditional);
             });
             let short = matches!(shader.expr(*argument).kind, ExprKind::Var(_) | ExprKind::Literal(_));
             plain && (*uses <= 1 || short)
