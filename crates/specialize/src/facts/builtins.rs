@@ -413,7 +413,11 @@ mod tests {
     use glisten_front::builtin::BuiltinFunction as F;
     use glisten_front::hir::{TypeId, Types};
 
-    const FUNCTIONS: &[(F, fn(f64) -> f64)] = &[
+    /// Functions of one number and of two, by their formulas in f64.
+    type OfOne = fn(f64) -> f64;
+    type OfTwo = fn(f64, f64) -> f64;
+
+    const FUNCTIONS: &[(F, OfOne)] = &[
         (F::Exp, f64::exp),
         (F::Exp2, f64::exp2),
         (F::Log, f64::ln),
@@ -436,7 +440,7 @@ mod tests {
         (F::Degrees, f64::to_degrees),
         (F::Length, f64::abs),
     ];
-    const PAIRS: &[(F, fn(f64, f64) -> f64)] = &[
+    const PAIRS: &[(F, OfTwo)] = &[
         (F::Min, f64::min),
         (F::Max, f64::max),
         (F::Step, |edge, x| if x < edge { 0.0 } else { 1.0 }),
