@@ -2,7 +2,7 @@
 //!
 //! *In:* a loop, the statements before it, and what is known of values. *Out:* the fewest and the most rounds, and from where they are
 //! known. *Holds:* rounds are counted by running the counter; a bound that is a uniform is limited by its stated range, or by the
-//! arrays that the counter indexes. *Not done here:* loops that are left by `break`, which the paths show.
+//! arrays that the counter indexes. *Not done here:* loops that are left by `break`: who walks their paths knows it.
 
 use super::known::Known;
 use glisten_front::hir::written_by;

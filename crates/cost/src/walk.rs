@@ -163,7 +163,6 @@ impl<'a> Walk<'a> {
 
     fn repeat(&mut self, known: &Known<'_>, repeat: Repeat<'_>, span: Span, before: &[Stmt]) -> Flow {
         let trips = trips(known, repeat, before, self.assumed);
-        self.seen.loops.push((span, trips));
         let mut head = self.decision(span);
         if let Some(condition) = repeat.condition {
             let condition = self.expr(condition.expr);
@@ -171,6 +170,10 @@ impl<'a> Walk<'a> {
         }
         let step = repeat.step.map_or_else(Paths::nothing, |step| self.expr(step));
         let body = self.list(known, repeat.body);
+        // On the shortest path the first round leaves the loop.
+        let leaves = [Exit::Break, Exit::Return, Exit::End].iter().any(|exit| body.at(*exit).is_some());
+        let least = if leaves { trips.least.min(1) } else { trips.least };
+        self.seen.loops.push((span, Trips { least, ..trips }));
         let end = self.paths.way_or(body.at(Exit::Next), body.at(Exit::Continue));
         let round = self.paths.then(Flow::leaving(Exit::Next, end), step);
         let round = self.paths.then(round, head).at(Exit::Next);

@@ -9,14 +9,14 @@ use super::figures::spread;
 use super::front::{margin, mark};
 use super::model::{Adapter, Ended, Report, Timing, Truth, Way};
 use super::options::{Error, Options, Watcher, Ways};
-use super::plan::{Drawn, Plan, PlannedWay, base_of, plan};
+use super::plan::{DECLARED, Drawn, Plan, PlannedWay, base_of, plan};
 use super::ways::{self, Origin};
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::Diagnostics;
 use glisten_front::source::SourceMap;
 use glisten_gpu::Gpu;
 use glisten_verify::scene::{self, FileError, FileSource, Loaded, Scene};
-use glisten_verify::specialize::specialize_scene_by;
+use glisten_verify::specialize::{Contract, specialize_scene_by};
 
 /// Compares the variants of the scene at `path`.
 ///
@@ -37,9 +37,11 @@ pub fn run(
         watcher.step("looking for variants");
         files.find(scene, &mut plan);
     }
+    if let Some(contract) = options.specialized {
+        files.specialize(contract, &mut plan)?;
+    }
     let mut drawing = Drawing { gpu, options, truths: Vec::new(), done: Vec::new(), skipped: Vec::new(), steps: 0 };
-    let drawn = if options.specialized.is_some() { 2 * plan.ways.len() } else { plan.ways.len() };
-    watcher.steps(plan.truths.len() + 2 * drawn + Limits::default().rounds as usize / 4);
+    watcher.steps(plan.truths.len() + 2 * plan.ways.len() + Limits::default().rounds as usize / 4);
     for truth in &plan.truths {
         if !watcher.is_stopped() {
             drawing.truth(truth, &files.scene_of(&truth.drawn)?, watcher)?;
@@ -53,7 +55,7 @@ pub fn run(
         rounds: options.rounds.or(plan.rounds).unwrap_or(Limits::default().rounds),
         time: options.time.unwrap_or(Limits::default().time),
     };
-    let all = drawing.done.len() + drawing.skipped.len() == drawn;
+    let all = drawing.done.len() + drawing.skipped.len() == plan.ways.len();
     let (steps, empty) = (drawing.steps, drawing.empty());
     let Drawing { truths, done, skipped, .. } = drawing;
     let (mut ways, candidates): (Vec<Way>, Vec<Candidate>) =
@@ -80,7 +82,7 @@ pub fn run(
     })
 }
 
-/// Draws all variants, and each specialized where that is asked for.
+/// Draws all variants.
 fn draw_ways(
     files: &Files<'_>,
     plan: &Plan,
@@ -93,13 +95,6 @@ fn draw_ways(
         }
         let scene = files.scene_of(&planned.drawn)?;
         drawing.way(planned, &scene, watcher)?;
-        if let Some(contract) = drawing.options.specialized {
-            let name = format!("{}, specialized", planned.name);
-            let specialized = specialize_scene_by(contract, &scene, &SourceMap::default(), &[]);
-            let programs = Some(specialized.draws.into_iter().map(|draw| draw.texts).collect());
-            let planned = PlannedWay { name, kind: "specialized", programs, ..planned.clone() };
-            drawing.way(&planned, &specialized.scene, watcher)?;
-        }
     }
     Ok(())
 }
@@ -164,6 +159,29 @@ impl Files<'_> {
         let load = |text: &str| self.scene_of(&Drawn::Text(text.to_owned())).ok();
         let origin = Origin { name: &name, scene, text: &text, load: &load };
         plan.add(scene, ways::found(&origin));
+    }
+
+    /// Adds each variant specialized. Of a variant that was found by itself none is added that draws as another one.
+    fn specialize(&self, contract: Contract, plan: &mut Plan) -> Result<(), Error> {
+        let planned = std::mem::take(&mut plan.ways);
+        for (index, way) in planned.iter().enumerate() {
+            let scene = self.scene_of(&way.drawn)?;
+            plan.ways.push(way.clone());
+            let specialized = specialize_scene_by(contract, &scene, &SourceMap::default(), &[]);
+            let others = plan.ways.iter().chain(planned.iter().skip(index + 1));
+            let same = |other: &PlannedWay| match &other.drawn {
+                Drawn::Scene(scene) => other.floats == way.floats && !ways::differs(scene, &specialized.scene),
+                Drawn::Text(_) => false,
+            };
+            if way.kind != DECLARED && others.into_iter().any(same) {
+                continue;
+            }
+            let name = format!("{}, specialized", way.name);
+            let programs = Some(specialized.draws.into_iter().map(|draw| draw.texts).collect());
+            let drawn = Drawn::Scene(Box::new(specialized.scene));
+            plan.ways.push(PlannedWay { name, kind: "specialized", programs, drawn, ..way.clone() });
+        }
+        Ok(())
     }
 
     fn scene_of(&self, drawn: &Drawn) -> Result<Scene, Error> {

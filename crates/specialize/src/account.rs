@@ -8,7 +8,9 @@ use crate::forward::{Reason, Walked};
 use crate::known::Known;
 use crate::left::Left;
 use glisten_front::Program;
-use glisten_front::hir::{ExprId, ExprKind, Global, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, VarRef};
+use glisten_front::hir::{
+    ExprId, ExprKind, Global, LogicalOp, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, VarRef,
+};
 use glisten_front::link::{Interface, UniformLeaf};
 use glisten_front::source::{SourceMap, Span};
 use rustc_hash::FxHashSet;
@@ -201,20 +203,30 @@ impl Account<'_> {
         };
         match &stmt.kind {
             StmtKind::If { arms, otherwise } => {
-                for (condition, body) in arms {
-                    self.branch(shader, *condition, body, inside(body), kept);
-                }
-                if !otherwise.is_empty() {
-                    let last = arms.last().map(|(condition, _)| *condition);
-                    if inside(otherwise) {
-                        self.statements(shader, otherwise, kept);
-                    } else if let Some(condition) = last {
-                        let name = format!("else of `{}`", self.text(shader.expr(condition).span));
-                        let because = self.because(shader, condition);
-                        let span = otherwise.first().map_or(stmt.span, |first| first.span);
-                        let extent = self.extent(span, otherwise);
-                        self.tell_all(Kind::Branch, name, span, because, extent);
+                let conditions: Vec<ExprId> = arms.iter().map(|(condition, _)| *condition).collect();
+                for (index, (condition, body)) in arms.iter().enumerate() {
+                    if !inside(body) {
+                        let before = conditions.get(..index).unwrap_or_default();
+                        self.branch(shader, *condition, body, self.not_taken(shader, before, *condition));
+                        continue;
                     }
+                    if kept.contains(&stmt.span) {
+                        self.operands(shader, *condition);
+                    } else {
+                        self.always(shader, *condition);
+                    }
+                    self.statements(shader, body, kept);
+                }
+                if inside(otherwise) {
+                    self.statements(shader, otherwise, kept);
+                } else if let (Some((last, before)), Some(first)) = (conditions.split_last(), otherwise.first()) {
+                    let name = format!("else of `{}`", self.text(shader.expr(*last).span));
+                    let because = match self.holds(shader, *last) {
+                        Some(true) => self.because(shader, *last),
+                        _ => self.not_taken(shader, before, *last),
+                    };
+                    let extent = self.extent(first.span, otherwise);
+                    self.tell_all(Kind::Branch, name, first.span, because, extent);
                 }
             }
             StmtKind::Loop { body, .. } if !kept.contains(&stmt.span) || !inside(body) => {
@@ -250,12 +262,18 @@ impl Account<'_> {
                     }
                 }
             }
-            StmtKind::Block(body) | StmtKind::Loop { body, .. } => self.statements(shader, body, kept),
+            StmtKind::Block(body) => self.statements(shader, body, kept),
+            StmtKind::Loop { body, .. } => {
+                stmt.kind.exprs().into_iter().for_each(|expr| self.operands(shader, expr));
+                self.statements(shader, body, kept);
+            }
             StmtKind::Break | StmtKind::Continue | StmtKind::Return(None) => {}
             StmtKind::Local(local, None) => {
                 let _ = local;
             }
-            _ if kept.contains(&stmt.span) => {}
+            _ if kept.contains(&stmt.span) => {
+                stmt.kind.exprs().into_iter().for_each(|expr| self.operands(shader, expr))
+            }
             _ => {
                 let moved = self
                     .how
@@ -264,33 +282,106 @@ impl Account<'_> {
                     .find(|one| one.span.start >= stmt.span.start && one.span.end <= stmt.span.end);
                 let because = match moved {
                     Some(moved) => format!("it moved to the vertex stage, as `{}`", moved.name),
-                    None if self.evaluates() => "nothing that is drawn depends on it, or its value is known".to_owned(),
-                    None => "nothing reads what it computes".to_owned(),
+                    None => self.unread(),
                 };
                 self.tell(Kind::Statement, self.line(stmt.span), stmt.span, because);
             }
         }
     }
 
-    fn branch(&mut self, shader: &Shader, condition: ExprId, body: &[Stmt], inside: bool, kept: &FxHashSet<Span>) {
-        if inside {
-            self.statements(shader, body, kept);
-            return;
-        }
+    /// A branch that is gone.
+    fn branch(&mut self, shader: &Shader, condition: ExprId, body: &[Stmt], because: String) {
         let span = shader.expr(condition).span;
-        let because = self.because(shader, condition);
         let extent = self.extent(span, body);
         self.tell_all(Kind::Branch, self.text(span), span, because, extent);
     }
 
+    /// A selection of which the body is left, since its condition always holds.
+    fn always(&mut self, shader: &Shader, condition: ExprId) {
+        if self.holds(shader, condition) == Some(true) {
+            let span = shader.expr(condition).span;
+            self.tell(Kind::Statement, self.line(span), span, self.because(shader, condition));
+        }
+    }
+
+    /// Whether a condition is known to hold, or not to, in every call and round.
+    fn holds(&self, shader: &Shader, condition: ExprId) -> Option<bool> {
+        match self.decided(shader.stage, shader.expr(condition).span) {
+            Some(Reason::Condition(_, truth)) => Some(*truth),
+            _ => None,
+        }
+    }
+
+    /// The reason why a branch is gone that other conditions stand before: the first that decides it.
+    fn not_taken(&self, shader: &Shader, before: &[ExprId], own: ExprId) -> String {
+        let taken = before.iter().find(|condition| self.holds(shader, **condition) == Some(true));
+        match taken {
+            Some(taken) => self.because(shader, *taken),
+            None if self.holds(shader, own) == Some(true) => self.unread(),
+            None => self.because(shader, own),
+        }
+    }
+
+    /// The reason why something is gone that is evaluated.
+    fn unread(&self) -> String {
+        let reason = if self.evaluates() {
+            "nothing that is drawn depends on it, or its value is known"
+        } else {
+            "nothing reads what it computes"
+        };
+        reason.to_owned()
+    }
+
+    /// What is gone of expressions in a statement that is left: what decided conditions do not choose.
+    fn operands(&mut self, shader: &Shader, root: ExprId) {
+        let mut pending = vec![root];
+        while let Some(id) = pending.pop() {
+            let kind = &shader.expr(id).kind;
+            let chosen = match kind {
+                ExprKind::Ternary(condition, yes, no) => {
+                    let truth = self.holds(shader, *condition);
+                    if let Some(truth) = truth {
+                        self.operand(shader, *condition, if truth { *no } else { *yes }, truth);
+                    }
+                    truth.map(|truth| if truth { *yes } else { *no })
+                }
+                // The left operand decides, and the right one is not evaluated, or it does not matter.
+                ExprKind::Logical(op, left, right) => {
+                    let truth = self.holds(shader, *left);
+                    let decides = truth == Some(*op == LogicalOp::Or);
+                    if let Some(truth) = truth {
+                        self.operand(shader, *left, if decides { *right } else { *left }, truth);
+                    }
+                    truth.map(|_| if decides { *left } else { *right })
+                }
+                _ => None,
+            };
+            match chosen {
+                Some(chosen) => pending.push(chosen),
+                None => pending.extend(kind.children().into_iter().rev()),
+            }
+        }
+    }
+
+    /// An operand that is gone, since the condition of it is known.
+    fn operand(&mut self, shader: &Shader, condition: ExprId, gone: ExprId, truth: bool) {
+        let text = self.text(shader.expr(condition).span);
+        let name = if truth && gone != condition { format!("else of `{text}`") } else { text };
+        let because = self.because(shader, condition);
+        self.tell(Kind::Branch, name, shader.expr(gone).span, because);
+    }
+
     /// The reason why a condition is decided: the values of what it names.
     fn because(&self, shader: &Shader, condition: ExprId) -> String {
+        let text = || self.text(shader.expr(condition).span);
         let decided = match self.decided(shader.stage, shader.expr(condition).span) {
-            Some(Reason::Condition(_, truth)) => format!("`{}` is {truth}", self.text(shader.expr(condition).span)),
-            Some(Reason::Selector(_)) => format!("`{}` is known", self.text(shader.expr(condition).span)),
+            Some(Reason::Condition(_, truth)) => format!("`{}` is {truth}", text()),
+            Some(Reason::Both) => format!("`{}` is known: true in some calls or rounds, false in others", text()),
+            Some(Reason::Selector(_)) => format!("`{}` is known", text()),
             _ => return "nobody reads what it computes".to_owned(),
         };
-        let values = self.values(shader, condition);
+        let mut values = self.values(shader, condition);
+        values.retain(|value| *value != decided);
         if values.is_empty() { decided } else { format!("{decided}: {}", values.join(", ")) }
     }
 

@@ -163,7 +163,11 @@ fn live_colors(shader: &Shader, program: &Program, known: &Known) -> Vec<bool> {
             _ => true,
         }
     };
-    shader.globals().map(|(id, global)| global.storage == Storage::Out && attached(id)).collect()
+    let live = |(id, global): (GlobalId, &glisten_front::hir::Global)| match global.builtin {
+        Some(BuiltinVariable::FragDepth) => known.state.depth_test != Some(false),
+        _ => global.storage == Storage::Out && attached(id),
+    };
+    shader.globals().map(live).collect()
 }
 
 /// Which globals of the vertex stage somebody reads at its end; `wanted` are the fragment stage's globals that are left.

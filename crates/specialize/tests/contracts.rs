@@ -77,6 +77,10 @@ fn fast_math_uses_algebra() {
         ("normalize(normalize(v.xyz)), u", 1.0, 0.0, "vec4(normalize(v.xyz), 1.0)"),
         ("max(clamp(v.x, 0.0, 1.0), u)", 0.0, 0.0, "vec4(clamp(v.x, 0.0, 1.0))"),
         ("(m * m) * v", 0.0, 0.0, "vec4(m * (m * v))"),
+        ("mat4(u) * v", 1.0, 0.0, "vec4(v)"),
+        ("mat4(u) * (m * v)", 1.0, 0.0, "vec4(m * v)"),
+        ("v * mat4(u)", 2.0, 0.0, "vec4(v * 2.0)"),
+        ("mat2(u, 0.0, 0.0, w) * v.xy, 0.0, 0.0", 2.0, 3.0, "vec4(v.xy * vec2(2.0, 3.0), 0.0, 0.0)"),
     ];
     let mut wrong = Vec::new();
     for (expression, u, w, wanted) in cases {

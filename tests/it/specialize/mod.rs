@@ -15,6 +15,7 @@ mod qualifiers;
 mod random;
 mod reach;
 mod rules;
+mod small;
 
 #[cfg(feature = "gpu")]
 pub(crate) use drawn::{Instead, share};

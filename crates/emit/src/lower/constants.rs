@@ -10,12 +10,39 @@ use super::{Lower, Try, for_each_operand, internal};
 use glisten_front::hir::{
     ArraySize, ExprId, FunctionId, LocalKind, Scalar, ScalarValue, Storage, Type, TypeId, Value, VarRef,
 };
-use naga::{AddressSpace, BinaryOperator, Expression, GlobalVariable, Handle, Literal, TypeInner};
+use naga::{
+    AddressSpace, Arena, BinaryOperator, Expression, GlobalVariable, Handle, Literal, MathFunction, Module, TypeInner,
+    UnaryOperator,
+};
 
 /// Whether a float has a literal. The largest float has none: its shortest decimal spelling is a little larger than
 /// it is, and Tint rejects that.
 fn is_spellable(value: f32) -> bool {
     value.abs() < f32::MAX
+}
+
+/// The numbers of a constant scalar or vector; none where they are not evident.
+fn numbers(module: &Module, expressions: &Arena<Expression>, handle: Handle<Expression>) -> Vec<f64> {
+    match &expressions[handle] {
+        Expression::Constant(constant) => numbers(module, &module.global_expressions, module.constants[*constant].init),
+        Expression::ZeroValue(ty) => match module.types[*ty].inner {
+            TypeInner::Scalar(_) => vec![0.0],
+            TypeInner::Vector { size, .. } => vec![0.0; size as usize],
+            _ => Vec::new(),
+        },
+        Expression::Literal(Literal::F32(value)) => vec![f64::from(*value)],
+        Expression::Literal(Literal::I32(value)) => vec![f64::from(*value)],
+        Expression::Literal(Literal::U32(value)) => vec![f64::from(*value)],
+        Expression::Unary { op: UnaryOperator::Negate, expr } => {
+            numbers(module, expressions, *expr).into_iter().map(|value| -value).collect()
+        }
+        Expression::Splat { size, value } => numbers(module, expressions, *value).repeat(*size as usize),
+        Expression::Compose { components, .. } => {
+            let parts = || components.iter().map(|part| numbers(module, expressions, *part));
+            if parts().any(|part| part.is_empty()) { Vec::new() } else { parts().flatten().collect() }
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// Whether every part of a value has a literal.
@@ -141,7 +168,8 @@ impl Ctx<'_, '_> {
     }
 
     /// Hides operands from the target's constant evaluation. Targets reject constant expressions whose result does
-    /// not fit, and integer division by a constant 0. What GLSL calls constant has been evaluated already; an operand
+    /// not fit, integer division by a constant 0, and a clamp whose constant limits are the wrong way round, of which GLSL
+    /// only says that the result is undefined (§8.3). What GLSL calls constant has been evaluated already; an operand
     /// that became constant during lowering (`(n++, 5)`) is read from a variable. naga 30 panics where it evaluates a
     /// selection by a vector that is composed of others, or between such vectors.
     pub(super) fn kept_from_evaluation(&mut self, expression: Expression) -> Expression {
@@ -159,6 +187,14 @@ impl Ctx<'_, '_> {
                 let hidden = self.hidden_operand(left);
                 let right = if hidden == left { self.hidden_operand(right) } else { right };
                 Expression::Binary { op, left: hidden, right }
+            }
+            Expression::Math { fun: MathFunction::Clamp, arg, arg1: Some(low), arg2: Some(high), .. }
+                if self.is_reversed(low, high) =>
+            {
+                let above = self.math2(MathFunction::Max, arg, low);
+                let arg1 = Some(high);
+                let below = Expression::Math { fun: MathFunction::Min, arg: above, arg1, arg2: None, arg3: None };
+                self.kept_from_evaluation(below)
             }
             Expression::Math { fun, arg, arg1, arg2, arg3 } if self.is_known(&expression) => {
                 let hidden = self.hidden_operand(arg);
@@ -245,6 +281,12 @@ impl Ctx<'_, '_> {
             Expression::ZeroValue(_) => true,
             _ => zero(&operand),
         }
+    }
+
+    /// Whether constant limits of a clamp are the wrong way round.
+    fn is_reversed(&self, low: Handle<Expression>, high: Handle<Expression>) -> bool {
+        let [low, high] = [low, high].map(|limit| numbers(&self.low.module, self.expressions(), limit));
+        low.iter().zip(&high).any(|(low, high)| low > high)
     }
 
     /// The type of a constant, as far as it is evident.

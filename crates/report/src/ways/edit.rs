@@ -172,7 +172,7 @@ pub(super) fn with_draw(scene: &Scene, index: usize, draw: Draw) -> Option<Scene
 }
 
 /// Whether two scenes of as many draws differ in anything that is drawn with: programs, uniforms, textures, vertices.
-pub(super) fn differs(a: &Scene, b: &Scene) -> bool {
+pub(crate) fn differs(a: &Scene, b: &Scene) -> bool {
     let text = |draw: &Draw| -> Vec<String> {
         draw.program.stages.iter().map(|shader| stage_text(&draw.program.types, shader)).collect()
     };

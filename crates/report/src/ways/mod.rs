@@ -26,6 +26,7 @@ mod tables;
 mod tests;
 mod vertex;
 
+pub(crate) use edit::differs;
 pub use library::{LIBRARY_SCENE, LibraryFiles};
 
 use glisten_emit::FloatWidth;
@@ -130,8 +131,7 @@ impl List {
 
     /// Adds a variant, unless it is one that is there, or one that no GPU could draw.
     fn add(&mut self, way: FoundWay) {
-        let is_new =
-            self.ways.iter().all(|known| known.floats != way.floats || edit::differs(&known.scene, &way.scene));
+        let is_new = self.ways.iter().all(|known| known.floats != way.floats || differs(&known.scene, &way.scene));
         if is_new && self.ways.len() < Self::MOST && edit::is_emitted(&way.scene) {
             self.ways.push(way);
         }

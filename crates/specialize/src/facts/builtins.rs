@@ -265,11 +265,13 @@ fn exponential(x: Range, f: fn(f64) -> f64) -> Range {
 }
 
 fn logarithm(x: Range, f: fn(f64) -> f64) -> Range {
+    let of_positive = |x: Range| x.growing(f, 16.0, 1e-6);
     if x.low <= 0.0 {
-        let high = if x.high > 0.0 { f(x.high) * 1.001 + 1e-3 } else { f64::INFINITY };
+        let greatest = Range { low: x.high, nan: false, ..x };
+        let high = if x.high > 0.0 { of_positive(greatest).high } else { f64::INFINITY };
         return Range { low: f64::NEG_INFINITY, high, nan: x.nan || x.low < 0.0, negative_zero: true };
     }
-    x.growing(f, 16.0, 1e-6)
+    of_positive(x)
 }
 
 fn angle(call: &Call<'_>, operands: &[Fact; 3]) -> Fact {
@@ -314,7 +316,9 @@ fn pow(x: Fact, y: Fact) -> Fact {
 
 fn modulo(x: Fact, y: Fact) -> Fact {
     let (dividend, divisor) = (x.range(), y.range());
-    let what = if dividend.is_finite() && divisor.is_finite() && !divisor.has_zero() {
+    let finite = dividend.is_finite() && divisor.is_finite() && !divisor.has_zero();
+    // A quotient that overflows makes anything of the difference.
+    let what = if finite && dividend.div(divisor).is_finite() {
         let reach = divisor.magnitude() + dividend.magnitude() * 1e-6;
         Range::between(-reach, reach)
     } else {
@@ -400,4 +404,100 @@ fn quantified(all: bool, facts: &[Fact]) -> Fact {
     };
     let operands = if facts.is_empty() { &[Fact::ANY] } else { facts };
     Fact::result(what, operands)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Call, Fact, Range, builtin};
+    use crate::facts::{Facts, at};
+    use glisten_front::builtin::BuiltinFunction as F;
+    use glisten_front::hir::{TypeId, Types};
+
+    /// Functions of one number and of two, by their formulas in f64.
+    type OfOne = fn(f64) -> f64;
+    type OfTwo = fn(f64, f64) -> f64;
+
+    const FUNCTIONS: &[(F, OfOne)] = &[
+        (F::Exp, f64::exp),
+        (F::Exp2, f64::exp2),
+        (F::Log, f64::ln),
+        (F::Log2, f64::log2),
+        (F::Sqrt, f64::sqrt),
+        (F::Inversesqrt, |x| 1.0 / x.sqrt()),
+        (F::Sin, f64::sin),
+        (F::Cos, f64::cos),
+        (F::Asin, f64::asin),
+        (F::Acos, f64::acos),
+        (F::Atan, f64::atan),
+        (F::Abs, f64::abs),
+        (F::Sign, |x| if x == 0.0 { 0.0 } else { x.signum() }),
+        (F::Floor, f64::floor),
+        (F::Ceil, f64::ceil),
+        (F::Trunc, f64::trunc),
+        (F::Fract, |x| x - x.floor()),
+        (F::RoundEven, f64::round_ties_even),
+        (F::Radians, f64::to_radians),
+        (F::Degrees, f64::to_degrees),
+        (F::Length, f64::abs),
+    ];
+    const PAIRS: &[(F, OfTwo)] = &[
+        (F::Min, f64::min),
+        (F::Max, f64::max),
+        (F::Step, |edge, x| if x < edge { 0.0 } else { 1.0 }),
+        (F::Pow, f64::powf),
+        (F::Mod, |x, y| x - y * (x / y).floor()),
+        (F::Atan, f64::atan2),
+        (F::Distance, |x, y| (x - y).abs()),
+        (F::Dot, |x, y| x * y),
+    ];
+    const ENDS: &[f64] =
+        &[-1e30, -1000.0, -2.5, -1.0, -1e-6, 0.0, 1e-30, 1e-20, 0.1, 0.5, 0.99, 1.0, 1.5, 3.0, 88.0, 1e6, 1e30];
+
+    fn range(function: F, arguments: &[Range]) -> Range {
+        let arguments: Vec<(Facts, TypeId)> =
+            arguments.iter().map(|range| (Facts::from_elem(Fact::in_range(*range), 1), TypeId::FLOAT)).collect();
+        let call = Call { types: &Types::new(), function, arguments: &arguments, ty: TypeId::FLOAT, twice: false };
+        at(&builtin(&call), 0).range()
+    }
+
+    /// All ranges between two of the ends, with numbers in them. All are numbers of f32.
+    fn ranges() -> impl Iterator<Item = (Range, [f64; 5])> {
+        let single = |value: f64| f64::from(value as f32);
+        let ends = move || ENDS.iter().map(move |end| single(*end));
+        let pairs = ends().enumerate().flat_map(move |(index, low)| ends().skip(index).map(move |high| (low, high)));
+        pairs.map(move |(low, high)| {
+            let within = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| single(low + (high - low) * share).clamp(low, high));
+            (Range::between(low, high), within)
+        })
+    }
+
+    /// Whether a result, rounded or not, is in a range. What vanishes or overflows in f32 is not judged in f64.
+    fn has(range: Range, result: f64) -> bool {
+        let single = f64::from(result as f32);
+        let is_in = |value: f64| if value.is_nan() { range.nan } else { range.low <= value && value <= range.high };
+        is_in(single) && (single == 0.0 || single.is_infinite() || is_in(result))
+    }
+
+    #[test]
+    fn a_range_has_all_that_a_function_of_numbers_in_a_range_may_be() {
+        let mut wrong = Vec::new();
+        for (x, within) in ranges() {
+            for (function, of) in FUNCTIONS {
+                let result = range(*function, &[x]);
+                let missed = within.iter().find(|x| !has(result, of(**x)));
+                wrong.extend(missed.map(|missed| format!("{}({missed:e}) of {x:?}: {result:?}", function.name())));
+            }
+            for (y, others) in ranges().step_by(5) {
+                for (function, of) in PAIRS {
+                    let result = range(*function, &[x, y]);
+                    let all = within.iter().flat_map(|x| others.iter().map(move |y| (*x, *y)));
+                    let missed = all.into_iter().find(|(x, y)| !has(result, of(*x, *y)));
+                    wrong.extend(
+                        missed.map(|missed| format!("{}{missed:?} of {x:?}, {y:?}: {result:?}", function.name())),
+                    );
+                }
+            }
+        }
+        assert!(wrong.is_empty(), "{} are wrong:\n{}", wrong.len(), wrong[..wrong.len().min(20)].join("\n"));
+    }
 }

@@ -27,9 +27,9 @@ fn convert_one(fact: Fact, to: Scalar) -> Fact {
     Fact::result(what, &[fact])
 }
 
-/// Whole numbers as floats: never -0, and rounded once.
+/// Whole numbers as floats: never -0, and rounded once, or by the reference in f64 not at all.
 fn whole(low: f64, high: f64) -> Range {
-    let range = Range::between(f64::from(low as f32), f64::from(high as f32));
+    let range = Range::between(low.min(f64::from(low as f32)), high.max(f64::from(high as f32)));
     Range { negative_zero: false, ..range }
 }
 
@@ -76,14 +76,7 @@ fn component(op: BinaryOp, scalar: Scalar, left: Fact, right: Fact) -> Fact {
 
 /// A product or quotient, and whether constants are among its factors.
 fn product(op: BinaryOp, left: Fact, right: Fact) -> Fact {
-    let what = match float(op, left.range(), right.range()) {
-        // Whatever the factors are, it is exactly this.
-        What::Float(Range { low: 0.0, high: 0.0, nan: false, negative_zero: false }) => {
-            What::Value(ScalarValue::Float(0.0))
-        }
-        what => what,
-    };
-    let fact = Fact::result(what, &[left, right]);
+    let fact = Fact::result(float(op, left.range(), right.range()), &[left, right]);
     let grows = |constant: Fact, divides: bool| {
         let range = constant.range();
         if divides { range.has_zero() || range.low.abs().min(range.high.abs()) < 1.0 } else { range.magnitude() > 1.0 }
@@ -101,16 +94,21 @@ fn answer(truth: Option<bool>) -> What {
 }
 
 fn float(op: BinaryOp, a: Range, b: Range) -> What {
-    match op {
-        BinaryOp::Add => What::Float(a.add(b)),
-        BinaryOp::Sub => What::Float(a.sub(b)),
-        BinaryOp::Mul => What::Float(a.mul(b)),
-        BinaryOp::Div => What::Float(a.div(b)),
-        BinaryOp::Less => answer(a.less(b)),
-        BinaryOp::Greater => answer(b.less(a)),
-        BinaryOp::LessEqual => answer(a.less_equal(b)),
-        BinaryOp::GreaterEqual => answer(b.less_equal(a)),
-        _ => What::Any,
+    let range = match op {
+        BinaryOp::Add => a.add(b),
+        BinaryOp::Sub => a.sub(b),
+        BinaryOp::Mul => a.mul(b),
+        BinaryOp::Div => a.div(b),
+        BinaryOp::Less => return answer(a.less(b)),
+        BinaryOp::Greater => return answer(b.less(a)),
+        BinaryOp::LessEqual => return answer(a.less_equal(b)),
+        BinaryOp::GreaterEqual => return answer(b.less_equal(a)),
+        _ => return What::Any,
+    };
+    match range {
+        // Whatever the operands are, it is exactly this.
+        Range { low: 0.0, high: 0.0, nan: false, negative_zero: false } => What::Value(ScalarValue::Float(0.0)),
+        range => What::Float(range),
     }
 }
 

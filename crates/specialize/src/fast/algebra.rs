@@ -7,6 +7,7 @@
 //! | --- | --- |
 //! | `x / c` | `x * (1 / c)` |
 //! | `(x * a) * b`, `(x + a) - b` and their like | one operation with one constant |
+//! | `D * v` of a constant diagonal matrix | `v`, or `v` times the diagonal |
 //! | `A * (B * v)` of constant matrices | `(A * B) * v` |
 //! | `(A * B) * v` of others | `A * (B * v)` |
 //! | `pow(x, n)` of a whole n | products, or `sqrt`, `inversesqrt` |
@@ -273,6 +274,18 @@ impl Algebra<'_> {
     }
 
     fn matrices(&mut self, a: ExprId, b: ExprId, expr: &Expr) -> Option<ExprKind> {
+        for (matrix, other) in [(a, b), (b, a)] {
+            let Some(diagonal) = self.diagonal(matrix).filter(|_| self.shader.expr(other).ty == expr.ty) else {
+                continue;
+            };
+            if Self::is_all(&diagonal, 1.0) {
+                return Some(self.shader.expr(other).kind.clone());
+            }
+            if !self.is_matrix(other) {
+                let diagonal = self.literal(&diagonal, expr.span);
+                return Some(ExprKind::Binary(BinaryOp::Mul, other, diagonal));
+            }
+        }
         // Two constants next to each other.
         if let Some((b, v)) = self.factors(b)
             && self.is_matrix(a)
@@ -301,6 +314,25 @@ impl Algebra<'_> {
             return Some(ExprKind::Binary(BinaryOp::MatMul, a, first));
         }
         None
+    }
+
+    /// The diagonal of a constant matrix without anything else, one number if all of it are the same.
+    fn diagonal(&self, id: ExprId) -> Option<Value> {
+        let Type::Matrix(columns, rows) = self.types.get(self.shader.expr(id).ty) else { return None };
+        let value = self.constant(id).filter(|_| columns == rows)?;
+        let size = usize::from(rows);
+        let on_diagonal = |index: usize| index / size == index % size;
+        let zero = |scalar: &ScalarValue| matches!(scalar, ScalarValue::Float(0.0));
+        if value.scalars.iter().enumerate().any(|(index, scalar)| !on_diagonal(index) && !zero(scalar)) {
+            return None;
+        }
+        let scalars: Vec<ScalarValue> = value.scalars.iter().step_by(size + 1).copied().collect();
+        match scalars.first() {
+            Some(first) if scalars.iter().all(|scalar| scalar == first) => {
+                Some(Value { ty: TypeId::FLOAT, scalars: vec![*first] })
+            }
+            _ => Some(Value { ty: TypeId::vector(Scalar::Float, rows), scalars }),
+        }
     }
 
     fn is_matrix(&self, id: ExprId) -> bool {

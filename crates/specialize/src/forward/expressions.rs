@@ -157,23 +157,27 @@ impl Forward<'_> {
         self.improved(Operation::Binary(op), &[a, b], ty, facts)
     }
 
+    /// Notes whether a condition is decided.
+    pub(super) fn tell_truth(&mut self, condition: ExprId, truth: Option<bool>) {
+        let reason = truth.map_or(super::Reason::Open, |truth| super::Reason::Condition(condition, truth));
+        self.tell(self.shader.expr(condition).span, reason);
+    }
+
     fn logical(&mut self, op: LogicalOp, left: ExprId, right: ExprId, own: Own) -> Val {
         let a = self.eval(left);
         let decided = op == LogicalOp::Or;
-        match at(&a.facts, 0).truth() {
-            Some(truth) if truth == decided => {
-                self.tell(self.shader.expr(right).span, super::Reason::Condition(left, truth));
-                a
-            }
-            Some(truth) => {
-                self.tell(self.shader.expr(left).span, super::Reason::Condition(left, truth));
+        let truth = at(&a.facts, 0).truth();
+        self.tell_truth(left, truth);
+        match truth {
+            Some(truth) if truth == decided => a,
+            Some(_) => {
                 let b = self.eval(right);
                 if self.is_pure(a.id) { b } else { self.give(ExprKind::Logical(op, a.id, b.id), own, b.facts) }
             }
             None => {
                 let mark = self.store.mark();
                 self.forks += 1;
-                self.refine(left, op == LogicalOp::And);
+                self.refine(left, a.id, op == LogicalOp::And);
                 let b = self.eval(right);
                 self.forks -= 1;
                 let changes = self.store.changes(mark);
@@ -190,8 +194,9 @@ impl Forward<'_> {
 
     fn ternary(&mut self, condition: ExprId, yes: ExprId, no: ExprId, own: Own) -> Val {
         let c = self.eval(condition);
-        if let Some(truth) = at(&c.facts, 0).truth() {
-            self.tell(self.shader.expr(condition).span, super::Reason::Condition(condition, truth));
+        let truth = at(&c.facts, 0).truth();
+        self.tell_truth(condition, truth);
+        if let Some(truth) = truth {
             let chosen = self.eval(if truth { yes } else { no });
             if self.is_pure(c.id) {
                 return chosen;
@@ -200,11 +205,11 @@ impl Forward<'_> {
         }
         self.forks += 1;
         let mark = self.store.mark();
-        self.refine(condition, true);
+        self.refine(condition, c.id, true);
         let a = self.eval(yes);
         let changes = self.store.changes(mark);
         self.store.roll_back(mark);
-        self.refine(condition, false);
+        self.refine(condition, c.id, false);
         let b = self.eval(no);
         self.forks -= 1;
         self.store.meet(&changes, mark);

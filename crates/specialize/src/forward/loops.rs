@@ -206,8 +206,8 @@ impl Forward<'_> {
         };
         let before = if parts.kind == LoopKind::DoWhile { None } else { test(self) };
         let mark = self.store.mark();
-        if let Some(condition) = parts.condition.filter(|_| parts.kind != LoopKind::DoWhile) {
-            self.refine(condition.expr, true);
+        if let (Some(condition), Some(written)) = (parts.condition, before.as_ref()) {
+            self.refine(condition.expr, written.expr, true);
         }
         let body = self.statements(parts.body);
         // Whatever path an iteration took, the variables that it assigns to were forgotten.

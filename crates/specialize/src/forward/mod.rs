@@ -56,12 +56,28 @@ pub(crate) struct Note {
 pub(crate) enum Reason {
     /// The condition is known to hold, or not to.
     Condition(ExprId, bool),
+    /// The condition is known, and holds in some calls or rounds, but not in all.
+    Both,
+    /// Somewhere it is open.
+    Open,
     /// The loop runs so many times and is written out.
     Unrolled(u32),
     /// The loop runs at most so many times, as it may be left before, and is written out.
     UnrolledUpTo(u32),
     /// The selector of a switch is known.
     Selector(ExprId),
+}
+
+impl Reason {
+    /// What holds of a place that is decided in two ways.
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (known, other) if known == other => known,
+            (Self::Open, _) | (_, Self::Open) => Self::Open,
+            (Self::Condition(..) | Self::Both, Self::Condition(..) | Self::Both) => Self::Both,
+            (known, _) => known,
+        }
+    }
 }
 
 /// A stage that was walked.
@@ -305,8 +321,9 @@ impl<'a> Forward<'a> {
         self.fuel > 0
     }
 
+    /// Notes what was decided at a place. It is walked once for each call and round, which may decide it otherwise.
     fn tell(&mut self, place: Span, reason: Reason) {
-        self.reasons.entry(place).or_insert(reason);
+        self.reasons.entry(place).and_modify(|known| *known = known.and(reason)).or_insert(reason);
     }
 
     fn statement(kind: glisten_front::hir::StmtKind, span: Span) -> Stmt {

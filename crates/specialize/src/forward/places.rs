@@ -13,10 +13,36 @@ pub(super) struct Place {
     /// The first scalar, and how many follow.
     start: u32,
     len: u32,
-    /// Indices that are not known: stride and count.
-    open: SmallVec<[(u32, u32); 2]>,
+    /// Indices that are not known.
+    open: SmallVec<[Open; 2]>,
     /// Of a swizzle: the components in its order.
     components: Option<SmallVec<[u8; 4]>>,
+}
+
+/// What an index that is not known chooses among.
+#[derive(Clone, Debug)]
+enum Open {
+    /// So many parts, each of so many scalars.
+    Parts { len: u32, count: u32 },
+    /// The components of a swizzle.
+    Components(SmallVec<[u8; 4]>),
+}
+
+impl Open {
+    /// Where the parts start, from the start of the whole on.
+    fn starts(&self) -> SmallVec<[u32; 4]> {
+        match self {
+            Self::Parts { len, count } => (0..*count).map(|index| index * len).collect(),
+            Self::Components(components) => components.iter().map(|component| u32::from(*component)).collect(),
+        }
+    }
+
+    fn count(&self) -> u64 {
+        match self {
+            Self::Parts { count, .. } => u64::from(*count),
+            Self::Components(components) => components.len() as u64,
+        }
+    }
 }
 
 /// At most so many parts are looked at for an index that is not known.
@@ -25,13 +51,14 @@ const MOST_PARTS: u64 = 1 << 12;
 impl Place {
     /// The starts of all parts that it may be; `None` if they are too many.
     fn starts(&self) -> Option<Vec<u32>> {
-        let count = self.open.iter().fold(1u64, |count, (_, n)| count.saturating_mul(u64::from(*n)));
+        let count = self.open.iter().fold(1u64, |count, open| count.saturating_mul(open.count()));
         if count.saturating_mul(u64::from(self.len)) > MOST_PARTS {
             return None;
         }
         let mut starts = vec![self.start];
-        for (stride, count) in &self.open {
-            starts = starts.iter().flat_map(|start| (0..*count).map(move |index| start + index * stride)).collect();
+        for open in &self.open {
+            let own = open.starts();
+            starts = starts.iter().flat_map(|start| own.iter().map(move |offset| start + offset)).collect();
         }
         Some(starts)
     }
@@ -120,13 +147,10 @@ impl Forward<'_> {
                     parts.reduce(|a, b| facts::join(&a, &b)).unwrap_or_default()
                 };
                 let facts = facts.into_iter().map(|fact| Fact { constant: false, ..fact }).collect();
-                let place = place.map(|place| match &place.components {
-                    Some(_) => place,
-                    None => {
-                        let mut open = place.open.clone();
-                        open.push((len, count));
-                        Place { open, len, ..place }
-                    }
+                let place = place.map(|place| {
+                    let Place { key, start, mut open, components, .. } = place;
+                    open.push(components.map_or(Open::Parts { len, count }, Open::Components));
+                    Place { key, start, len, open, components: None }
                 });
                 self.named(kind, own, place, facts)
             }

@@ -1,28 +1,43 @@
 //! What a condition says of the variables in it, where it holds or does not.
 //!
 //! *In:* a condition that was just evaluated. *Out:* narrower facts of locals. *Holds:* a comparison of floats that holds
-//! says that neither is NaN; one that does not hold says nothing, since a NaN may be the reason.
+//! says that neither is NaN; one that does not hold says nothing, since a NaN may be the reason. Of a variable that the
+//! condition assigns to a comparison says nothing: it may have seen an earlier value.
 
 use super::Forward;
+use super::effects::Assigned;
 use crate::facts::{Fact, Range, What, at};
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, LogicalOp, Scalar, ScalarValue, UnaryOp, VarRef};
 
 impl Forward<'_> {
-    /// Takes it that a condition is so.
-    pub(super) fn refine(&mut self, condition: ExprId, holds: bool) {
+    /// Takes it that a condition is so, which was evaluated as `written`.
+    pub(super) fn refine(&mut self, condition: ExprId, written: ExprId, holds: bool) {
+        let assigned = if self.is_pure(written) {
+            Assigned::default()
+        } else {
+            self.effects.assigned(self.shader, &[], &[condition])
+        };
         let mut pending = vec![(condition, holds)];
         while let Some((condition, holds)) = pending.pop() {
             match self.shader.expr(condition).kind {
                 ExprKind::Unary(UnaryOp::Not, inner) => pending.push((inner, !holds)),
                 ExprKind::Logical(LogicalOp::And, a, b) if holds => pending.extend([(a, true), (b, true)]),
                 ExprKind::Logical(LogicalOp::Or, a, b) if !holds => pending.extend([(a, false), (b, false)]),
-                ExprKind::Binary(op, left, right) => self.compared(op, left, right, holds),
+                ExprKind::Binary(op, left, right) => self.compared(op, (left, right), holds, &assigned),
                 _ => {}
             }
         }
     }
 
-    fn compared(&mut self, op: BinaryOp, left: ExprId, right: ExprId, holds: bool) {
+    fn compared(&mut self, op: BinaryOp, (left, right): (ExprId, ExprId), holds: bool, assigned: &Assigned) {
+        let changes = |id: ExprId| match self.shader.root_variable(id) {
+            Some(VarRef::Local(local)) => assigned.locals.contains(&local),
+            Some(VarRef::Global(global)) => assigned.globals.contains(&global),
+            None => false,
+        };
+        if changes(left) || changes(right) {
+            return;
+        }
         let scalar = match self.types.get(self.shader.expr(left).ty) {
             glisten_front::hir::Type::Scalar(scalar) => scalar,
             _ => return,

@@ -21,9 +21,7 @@ impl Forward<'_> {
         for (condition, body) in arms {
             let c = self.eval(*condition);
             let truth = at(&c.facts, 0).truth();
-            if let Some(truth) = truth {
-                self.tell(self.shader.expr(*condition).span, Reason::Condition(*condition, truth));
-            }
+            self.tell_truth(*condition, truth);
             if truth.is_some() && !self.is_pure(c.id) {
                 // It is decided, and does something all the same.
                 if kept.is_empty() {
@@ -46,7 +44,7 @@ impl Forward<'_> {
                 None => {
                     let mark = self.store.mark();
                     self.forks = forks + 1;
-                    self.refine(*condition, true);
+                    self.refine(*condition, c.id, true);
                     let body = self.statements(body);
                     if self.store.live {
                         ways.push((mark, self.store.changes(mark)));
@@ -57,7 +55,7 @@ impl Forward<'_> {
                         self.forks = forks;
                         return;
                     }
-                    self.refine(*condition, false);
+                    self.refine(*condition, c.id, false);
                     kept.push((c.id, body));
                 }
             }

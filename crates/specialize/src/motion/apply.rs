@@ -230,14 +230,25 @@ impl Copy<'_> {
         if let Some(link) = self.links.varying(id) {
             return link.vertex;
         }
-        if let Some(Some(known)) = self.links.shared.get(&id) {
-            return *known;
-        }
         let global = self.from.global(id);
-        if let Some((known, _)) = self.to.globals().find(|(_, other)| other.name == global.name) {
+        let shared = self.links.shared.get(&id).copied().flatten();
+        let known = shared.or_else(|| Some(self.to.globals().find(|(_, other)| other.name == global.name)?.0));
+        if let Some(known) = known {
+            self.settle(known, global);
             return known;
         }
         self.to.globals.push(Global { initializer: None, ..global.clone() });
         GlobalId::new(self.to.globals.len() - 1)
+    }
+
+    /// A uniform that is a constant in the fragment stage is one in the vertex stage, too, if nothing there reads it.
+    fn settle(&mut self, known: GlobalId, constant: &Global) {
+        let names = |expr: &Expr| matches!(expr.kind, ExprKind::Var(VarRef::Global(named)) if named == known);
+        if constant.storage != Storage::Const || self.to.exprs.iter().any(names) {
+            return;
+        }
+        if let Some(global) = self.to.globals.get_mut(known.index()).filter(|one| one.storage == Storage::Uniform) {
+            *global = Global { initializer: None, ..constant.clone() };
+        }
     }
 }

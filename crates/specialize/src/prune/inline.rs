@@ -1,9 +1,11 @@
 //! Functions of which nothing but one short expression is left go where they are called.
 //!
 //! *In:* a stage. *Out:* the stage; whether anything went. *Holds:* arguments are without effects, and each stands for a
-//! parameter that is used at most once, or is as short as a name or a number.
+//! parameter that is used at most once, or is as short as a name or a number. One with implicit derivatives (§8.7, §8.8) does
+//! not go where fragments next to each other may not both evaluate it.
 
 use glisten_front::hir::{Expr, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, VarRef, may_act};
+use smallvec::SmallVec;
 
 /// A function may be so many expressions long to be written where it is called from several places.
 const SHORT: usize = 5;
@@ -14,6 +16,8 @@ struct Small {
     params: usize,
     /// How often each parameter is used.
     uses: Vec<u32>,
+    /// Whether a use of each parameter is evaluated under a condition.
+    conditional: Vec<bool>,
     length: usize,
 }
 
@@ -52,9 +56,19 @@ fn small(shader: &Shader, callee: FunctionId) -> Option<Small> {
     let [Stmt { kind: StmtKind::Return(Some(result)), .. }] = function.body.as_deref()? else { return None };
     let in_only = (0..function.param_count).all(|index| crate::forward::is_in(function.param_mode(index)));
     let mut uses = vec![0u32; function.param_count];
+    let mut conditional = vec![false; function.param_count];
     let (mut length, mut plain) = (0, in_only);
     shader.visit_expr(*result, &mut |expr| {
         length += 1;
+        for part in under_condition(&shader.expr(expr).kind) {
+            shader.visit_expr(part, &mut |inner| {
+                if let ExprKind::Var(VarRef::Local(local)) = shader.expr(inner).kind
+                    && let Some(conditional) = conditional.get_mut(local.index())
+                {
+                    *conditional = true;
+                }
+            });
+        }
         match shader.expr(expr).kind {
             ExprKind::Var(VarRef::Local(local)) => match uses.get_mut(local.index()) {
                 Some(uses) => *uses += 1,
@@ -65,7 +79,16 @@ fn small(shader: &Shader, callee: FunctionId) -> Option<Small> {
             _ => {}
         }
     });
-    plain.then_some(Small { result: *result, params: function.param_count, uses, length })
+    plain.then_some(Small { result: *result, params: function.param_count, uses, conditional, length })
+}
+
+/// The operands that are evaluated only if another one is so.
+fn under_condition(kind: &ExprKind) -> SmallVec<[ExprId; 2]> {
+    match kind {
+        ExprKind::Ternary(_, yes, no) => SmallVec::from_slice(&[*yes, *no]),
+        ExprKind::Logical(_, _, right) => SmallVec::from_slice(&[*right]),
+        _ => SmallVec::new(),
+    }
 }
 
 fn fits(shader: &Shader, small: &Small, arguments: &[ExprId]) -> bool {
@@ -74,10 +97,12 @@ fn fits(shader: &Shader, small: &Small, arguments: &[ExprId]) -> bool {
         return true;
     }
     arguments.len() == small.params
-        && arguments.iter().zip(&small.uses).all(|(argument, uses)| {
+        && arguments.iter().zip(&small.uses).zip(&small.conditional).all(|((argument, uses), conditional)| {
             let mut plain = true;
             shader.visit_expr(*argument, &mut |expr| {
-                plain &= !may_act(&shader.expr(expr).kind);
+                let kind = &shader.expr(expr).kind;
+                let derives = matches!(kind, ExprKind::BuiltinCall(function, _) if function.implicit_derivatives());
+                plain &= !(may_act(kind) || derives && *conditional);
             });
             let short = matches!(shader.expr(*argument).kind, ExprKind::Var(_) | ExprKind::Literal(_));
             plain && (*uses <= 1 || short)

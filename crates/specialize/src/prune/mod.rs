@@ -126,11 +126,13 @@ impl Pruned {
 /// Removes stores that are overwritten first from functions.
 fn overwritten_in(shader: &mut Shader, functions: &[FunctionId]) -> bool {
     let mut changed = false;
+    let of_main = overwritten::globals_of_main(shader);
     for id in functions {
         let Some(body) = shader.functions.get_mut(id.index()).and_then(|function| function.body.take()) else {
             continue;
         };
-        let (body, removed) = overwritten::remove(shader, shader.function(*id), body);
+        let (body, removed) =
+            overwritten::remove(shader, *id, if Some(*id) == shader.main { &of_main } else { &[] }, body);
         changed |= removed;
         if let Some(function) = shader.functions.get_mut(id.index()) {
             function.body = Some(body);

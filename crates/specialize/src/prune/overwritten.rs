@@ -1,34 +1,36 @@
 //! Stores that are overwritten before anybody reads them.
 //!
-//! *In:* a body. *Out:* the body without them. *Holds:* only whole locals that nothing else can name are followed; what a
-//! loop reads anywhere is taken to be read at its end and wherever it is left.
+//! *In:* a body. *Out:* the body without them. *Holds:* only whole locals are followed, and in `main` whole globals that no other function
+//! names; what a loop reads anywhere is taken to be read at its end and wherever it is left.
 
-use glisten_front::hir::{ExprId, ExprKind, Function, LocalId, ParamMode, Shader, Stmt, StmtKind, VarRef, may_act};
+use glisten_front::hir::{
+    ExprId, ExprKind, FunctionId, ParamMode, Shader, Stage, Stmt, StmtKind, Storage, VarRef, may_act,
+};
 
-/// Locals that are read later, a bit each: a set is copied for each branch.
+/// Variables that are read later, a bit each: a set is copied for each branch. The locals come first, then the globals.
 #[derive(Clone, Debug, Default)]
 struct Live(Vec<u64>);
 
 impl Live {
-    fn contains(&self, local: LocalId) -> bool {
-        self.0.get(local.index() / 64).is_some_and(|word| word >> (local.index() % 64) & 1 == 1)
+    fn contains(&self, slot: usize) -> bool {
+        self.0.get(slot / 64).is_some_and(|word| word >> (slot % 64) & 1 == 1)
     }
 
-    fn insert(&mut self, local: LocalId) {
-        let word = local.index() / 64;
+    fn insert(&mut self, slot: usize) {
+        let word = slot / 64;
         if self.0.len() <= word {
             self.0.resize(word + 1, 0);
         }
         if let Some(word) = self.0.get_mut(word) {
-            *word |= 1 << (local.index() % 64);
+            *word |= 1 << (slot % 64);
         }
     }
 
     /// Whether it was there.
-    fn remove(&mut self, local: LocalId) -> bool {
-        let was = self.contains(local);
-        if let Some(word) = self.0.get_mut(local.index() / 64) {
-            *word &= !(1 << (local.index() % 64));
+    fn remove(&mut self, slot: usize) -> bool {
+        let was = self.contains(slot);
+        if let Some(word) = self.0.get_mut(slot / 64) {
+            *word &= !(1 << (slot % 64));
         }
         was
     }
@@ -43,28 +45,81 @@ impl Live {
 
 struct Walk<'a> {
     shader: &'a Shader,
-    /// The live locals where a `break` or `continue` leads, innermost last.
+    n_locals: usize,
+    /// The globals that are followed.
+    globals: &'a [bool],
+    /// The live variables where a `break` or `continue` leads, innermost last.
     jumps: Vec<Live>,
-    /// The live locals where the function is left.
+    /// The live variables where the function is left.
     end: Live,
     changed: bool,
 }
 
-/// Removes such stores from a function's body; whether there were any.
-pub(super) fn remove(shader: &Shader, function: &Function, body: Vec<Stmt>) -> (Vec<Stmt>, bool) {
-    let params = function.params().iter().enumerate();
-    let given_back = params.filter(|(_, param)| {
-        matches!(param.kind, glisten_front::hir::LocalKind::Param(ParamMode::Out | ParamMode::Inout))
-    });
-    let mut end = Live::default();
-    given_back.for_each(|(index, _)| end.insert(LocalId::new(index)));
-    let mut walk = Walk { shader, jumps: Vec::new(), end: end.clone(), changed: false };
-    let mut live = end;
+/// The globals that may be followed in `main`: those that it alone names. What a geometry stage emits it reads.
+pub(super) fn globals_of_main(shader: &Shader) -> Vec<bool> {
+    let own = |global: &glisten_front::hir::Global| {
+        matches!(global.storage, Storage::Out | Storage::Private) && global.block.is_none()
+    };
+    let mut followed: Vec<bool> = shader.globals.iter().map(own).collect();
+    if shader.stage == Stage::Geometry {
+        followed.fill(false);
+    }
+    let mut see = |expr: ExprId| {
+        if let ExprKind::Var(VarRef::Global(global)) = shader.expr(expr).kind
+            && let Some(followed) = followed.get_mut(global.index())
+        {
+            *followed = false;
+        }
+    };
+    for (id, function) in shader.functions() {
+        if Some(id) != shader.main {
+            shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut see);
+        }
+    }
+    for initializer in shader.globals.iter().filter_map(|global| global.initializer) {
+        shader.visit_expr(initializer, &mut see);
+    }
+    followed
+}
+
+/// Removes such stores from a function's body; whether there were any. `globals` says which globals are followed.
+pub(super) fn remove(shader: &Shader, function: FunctionId, globals: &[bool], body: Vec<Stmt>) -> (Vec<Stmt>, bool) {
+    let function = shader.function(function);
+    let mut walk = Walk {
+        shader,
+        n_locals: function.locals.len(),
+        globals,
+        jumps: Vec::new(),
+        end: Live::default(),
+        changed: false,
+    };
+    for (index, param) in function.params().iter().enumerate() {
+        if matches!(param.kind, glisten_front::hir::LocalKind::Param(ParamMode::Out | ParamMode::Inout)) {
+            walk.end.insert(index);
+        }
+    }
+    for (id, global) in shader.globals() {
+        if let Some(slot) = walk.slot(VarRef::Global(id)).filter(|_| global.storage == Storage::Out) {
+            walk.end.insert(slot);
+        }
+    }
+    let mut live = walk.end.clone();
     let body = walk.body(body, &mut live);
     (body, walk.changed)
 }
 
 impl Walk<'_> {
+    /// The place of a variable in the sets, if it is followed.
+    fn slot(&self, variable: VarRef) -> Option<usize> {
+        match variable {
+            VarRef::Local(local) => Some(local.index()),
+            VarRef::Global(global) => {
+                let followed = self.globals.get(global.index()).copied().unwrap_or(false);
+                followed.then_some(self.n_locals + global.index())
+            }
+        }
+    }
+
     fn body(&mut self, body: Vec<Stmt>, live: &mut Live) -> Vec<Stmt> {
         let mut out = Vec::with_capacity(body.len());
         for stmt in body.into_iter().rev() {
@@ -81,13 +136,14 @@ impl Walk<'_> {
         let kind = match kind {
             StmtKind::Expr(expr) => {
                 if let ExprKind::Assign(None, target, value) = self.shader.expr(expr).kind
-                    && let ExprKind::Var(VarRef::Local(local)) = self.shader.expr(target).kind
+                    && let ExprKind::Var(variable) = self.shader.expr(target).kind
+                    && let Some(slot) = self.slot(variable)
                 {
-                    if !live.contains(local) && self.is_plain(value) {
+                    if !live.contains(slot) && self.is_plain(value) {
                         self.changed = true;
                         return None;
                     }
-                    live.remove(local);
+                    live.remove(slot);
                     self.read(value, live);
                 } else {
                     self.read(expr, live);
@@ -95,7 +151,7 @@ impl Walk<'_> {
                 StmtKind::Expr(expr)
             }
             StmtKind::Local(local, initializer) => {
-                let dead = !live.remove(local);
+                let dead = !live.remove(local.index());
                 let initializer = match initializer {
                     Some(expr) if dead && self.is_plain(expr) => {
                         self.changed = true;
@@ -172,13 +228,17 @@ impl Walk<'_> {
         Some(Stmt { kind, span })
     }
 
-    /// All locals that an expression names are taken to be read.
+    /// All variables that an expression names are taken to be read.
     fn read(&self, root: ExprId, live: &mut Live) {
-        self.shader.visit_expr(root, &mut |expr| {
-            if let ExprKind::Var(VarRef::Local(local)) = self.shader.expr(expr).kind {
-                live.insert(local);
-            }
-        });
+        self.shader.visit_expr(root, &mut |expr| self.named(expr, live));
+    }
+
+    fn named(&self, expr: ExprId, live: &mut Live) {
+        if let ExprKind::Var(variable) = self.shader.expr(expr).kind
+            && let Some(slot) = self.slot(variable)
+        {
+            live.insert(slot);
+        }
     }
 
     fn read_all(&self, kind: &StmtKind, live: &mut Live) {
@@ -186,14 +246,10 @@ impl Walk<'_> {
             self.read(expr, live);
         }
         for body in kind.bodies() {
-            self.shader.visit_body(body, &mut |expr| {
-                if let ExprKind::Var(VarRef::Local(local)) = self.shader.expr(expr).kind {
-                    live.insert(local);
-                }
-            });
+            self.shader.visit_body(body, &mut |expr| self.named(expr, live));
         }
         if let StmtKind::Loop { condition: Some(condition), .. } = kind {
-            condition.local.into_iter().for_each(|local| live.insert(local));
+            condition.local.into_iter().for_each(|local| live.insert(local.index()));
         }
     }
 

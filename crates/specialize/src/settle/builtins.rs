@@ -12,6 +12,7 @@
 //! | `mix(a, b, c)` | drop `a` or `b` | kept unless both are finite |
 //! | `pow(x, c)` | write products, roots or 1 | kept unless `x` >= 0 and `c` > 0 |
 //! | `min`, `max`, `clamp` | saturate, which turns a NaN to 0 | kept where another argument may be NaN |
+//! | `clamp` | refuse limits that are the wrong way round | kept unless they are in order |
 //! | `normalize(v)`, `reflect` | drop what a component of 0 is multiplied with | no 0 unless the rest is finite |
 //! | `smoothstep`, `mod`, lookups with a divisor | divide by it at once | kept unless that is defined |
 //! | `bitfieldExtract` and so on | refuse what is out of range | kept unless it is known to be in range |
@@ -151,7 +152,11 @@ fn extremum(operands: &Operands<'_>) -> Own {
 
 fn clamp(operands: &Operands<'_>) -> Own {
     let [x, low, high] = [0, 1, 2].map(|index| operands.has_no_nan(index));
-    smallvec![keep_unless(low && high), keep_unless(x), keep_unless(x)]
+    // Limits the wrong way round are undefined (§8.3), and validators of WGSL refuse them as literals.
+    let reversed = (0..operands.components())
+        .any(|index| operands.fact(2, index).range().less(operands.fact(1, index).range()) == Some(true));
+    let limits = keep_unless(x && !reversed);
+    smallvec![keep_unless(low && high), limits, limits]
 }
 
 fn mix(operands: &Operands<'_>) -> Own {

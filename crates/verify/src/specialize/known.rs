@@ -5,7 +5,7 @@
 use glisten_front::hir::{GlobalId, Scalar, ScalarValue, Stage};
 use glisten_front::link::{Interface, UniformLeaf};
 use glisten_scene::dynamic::{names_sampler, names_uniform};
-use glisten_scene::{AttributeData, Cull, Draw, Framebuffer, Primitive, Texels, Texture};
+use glisten_scene::{AttributeData, Cull, Draw, Filter, Framebuffer, Primitive, Texels, Texture};
 use glisten_specialize::{Input, Known, KnownState, KnownTexture};
 
 /// What a draw fixes. What `dynamic` names, of the draw's own list or of this one, is not fixed: a uniform, an element or a
@@ -98,6 +98,7 @@ fn state(draw: &Draw, framebuffer: &Framebuffer) -> KnownState {
         clip_distances: direct.then_some(draw.state.clip_distances),
         front_facing: front_facing.filter(|_| direct),
         attachments: Some(framebuffer.attachments),
+        depth_test: Some(draw.state.depth_test),
         framebuffer: Some([framebuffer.width, framebuffer.height]),
         vertices,
         instances: Some(draw.instances),
@@ -202,7 +203,21 @@ fn known_texture(texture: &Texture) -> KnownTexture {
         .collect::<Option<Vec<_>>>();
     // The result of a comparison depends on its reference value.
     let channels = if kind.shadow { [Input::Between(0.0, 1.0); 4] } else { channels(texture) };
+    let mixes = texture.filter != Filter::Nearest || texture.sampling.magnifies_linearly(texture.filter);
+    let channels = if mixes { channels.map(mixed) } else { channels };
     KnownTexture { sizes: sizes.unwrap_or_default(), channels }
+}
+
+/// What a filter makes of the values of a channel by weights that add up to 1. A sum of terms of which one is -0 may be 0 of
+/// either sign, and so may what is left of a small negative number.
+fn mixed(channel: Input) -> Input {
+    match channel {
+        Input::Value(ScalarValue::Float(value)) if value == 0.0 && value.is_sign_negative() => {
+            Input::Between(value, value)
+        }
+        Input::Unsigned(low, high) if low < 0.0 => Input::Between(low, high),
+        channel => channel,
+    }
 }
 
 fn channels(texture: &Texture) -> [Input; 4] {

@@ -11,7 +11,7 @@ use glisten_front::source::{SourceMap, Span};
 use glisten_scene::dynamic::{names_anything, names_element};
 use glisten_scene::{AttributeData, AttributeValues, Draw, Scene};
 use glisten_specialize::{Extent, LeftOut, Moved, Options, Residual};
-use glisten_variants::specialize_smallest;
+use glisten_variants::{specialize_smallest, spirv_instructions};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -40,6 +40,15 @@ pub struct SpecializedScene {
     pub scene: Scene,
     /// What became of each draw's program.
     pub draws: Vec<SpecializedDraw>,
+}
+
+impl SpecializedScene {
+    /// Whether the residual programs have fewer instructions than those of the original.
+    pub fn is_shorter_than(&self, original: &Scene) -> bool {
+        let instructions =
+            |scene: &Scene| -> u64 { scene.draws.iter().map(|draw| spirv_instructions(&draw.program)).sum() };
+        instructions(&self.scene) < instructions(original)
+    }
 }
 
 /// What became of a draw's program.

@@ -18,7 +18,6 @@ use clap::Args;
 use glisten_emit::{self as emit, Conventions, Target};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
-use glisten_front::source::SourceMap;
 use glisten_reference::Precision;
 use glisten_report::account::{PAGE, SceneOnPage, page};
 use glisten_scene::dynamic::names_anything;
@@ -77,14 +76,12 @@ pub(crate) struct SpecializeArgs {
 }
 
 /// A specialized scene on its way to its files.
-struct Done {
+struct Done<'a> {
     /// The scene file's stem.
     name: String,
     /// The original.
-    scene: Scene,
+    read: Read<'a>,
     specialized: SpecializedScene,
-    /// The texts of the original.
-    sources: SourceMap,
     /// For each draw the files of the original's shaders and the stem of the residual.
     names: Vec<[String; 3]>,
     /// The times of original and residual.
@@ -145,7 +142,7 @@ pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     for (name, read) in reads {
         progress.say(name);
         let _watchdog = args.machine.watchdog(console);
-        done.push(specialized(args, name, &read, (clock.as_ref(), &mut residuals))?);
+        done.push(specialized(args, name, read, (clock.as_ref(), &mut residuals))?);
         progress.step();
     }
     drop(progress);
@@ -163,9 +160,13 @@ pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
     }
     let mut programs: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut drawn = Vec::new();
-    for one in &done {
+    for index in 0..done.len() {
+        let Some(one) = done.get(index) else { break };
         let _watchdog = args.machine.watchdog(console);
-        drawn.push(write_scene(args, &folder, one, console)?);
+        match write_scene(args, &folder, one, console) {
+            Ok(pair) => drawn.push(pair),
+            Err(error) => return done.swap_remove(index).read.failed(error),
+        }
         programs.insert(one.name.clone(), one.names.iter().map(|[_, _, stem]| stem.clone()).collect());
     }
     let json = serde_json::to_string_pretty(&programs).expect("names are always JSON") + "\n";
@@ -194,12 +195,12 @@ fn stem(path: &str) -> String {
     Path::new(path).file_stem().map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-fn specialized(
+fn specialized<'a>(
     args: &SpecializeArgs,
     name: &str,
-    read: &Read<'_>,
+    read: Read<'a>,
     (clock, residuals): (Option<&Clock>, &mut Residuals),
-) -> Result<Done, Failure> {
+) -> Result<Done<'a>, Failure> {
     let contract = args.contract.contract();
     let mut specialized = specialize_scene_by(contract, &read.scene, read.sources(), &args.dynamic);
     let mut times = None;
@@ -218,7 +219,7 @@ fn specialized(
         let [vertex, fragment] = files_of(&draw.program, read.sources());
         names.push([vertex, fragment, stem]);
     }
-    Ok(Done { name: stem(name), scene: read.scene.clone(), specialized, sources: read.sources().clone(), names, times })
+    Ok(Done { name: stem(name), read, specialized, names, times })
 }
 
 /// A name of `--dynamic` that no program of any scene has is a mistake.
@@ -249,11 +250,14 @@ fn check_dynamic(dynamic: &[String], scenes: &[&Scene]) -> Result<(), Failure> {
 }
 
 /// Tells what could be left out.
-fn checked(done: &[Done], console: &Console) -> Outcome {
+fn checked(done: &[Done<'_>], console: &Console) -> Outcome {
     let mut text = String::new();
     for one in done {
         let count: usize = one.specialized.draws.iter().map(|draw| draw.left_out.len()).sum();
         let line = match count {
+            0 if one.specialized.is_shorter_than(&one.read.scene) => {
+                format!("{}: parts of expressions can be left out\n", one.name)
+            }
             0 => format!("{}: nothing can be left out\n", one.name),
             1 => format!("{}: 1 thing can be left out\n", one.name),
             count => format!("{}: {count} things can be left out\n", one.name),
@@ -306,9 +310,9 @@ fn write_residual(
 fn write_scene(
     args: &SpecializeArgs,
     folder: &Path,
-    one: &Done,
+    one: &Done<'_>,
     console: &Console,
-) -> Result<(Account, Pictures), Failure> {
+) -> Result<(Account, Pictures), DrawError> {
     let shaders: Vec<ShaderFiles> = one
         .names
         .iter()
@@ -317,42 +321,34 @@ fn write_scene(
         .collect();
     let text = write(&one.specialized.scene, &shaders);
     files::write(&folder.join(format!("{}.toml", one.name)), text.as_bytes())?;
-    let (name, scene) = (one.name.clone(), one.scene.clone());
+    let (name, scene) = (one.name.clone(), one.read.scene.clone());
     let (specialized, names) = (one.specialized.clone(), one.names.clone());
     let counted = args.machine.within_time(move || {
         let drawn = pictures(&scene, &specialized.scene, Precision::F32)?;
         Ok((account(&name, &scene, &specialized, &names)?, drawn))
     });
-    match counted {
-        Ok((mut account, pictures)) => {
-            account.time = one.times;
-            let json = serde_json::to_string_pretty(&account).expect("an account is always JSON") + "\n";
-            files::write(&folder.join(format!("{}.account.json", one.name)), json.as_bytes())?;
-            if !console.is_quiet() {
-                console.output(&table(&account))?;
-                if let Some(times) = &account.time {
-                    console.output(&time::line(&account.scene, times))?;
-                }
-            }
-            Ok((account, pictures))
-        }
-        Err(DrawError::Failure(failure)) => Err(failure),
-        Err(DrawError::Diagnostics(found)) => {
-            let message = found.first().map_or_else(String::new, |found| found.message.clone());
-            Err(Failure::new(Exit::Content, format!("`{}` cannot be drawn: {message}", one.name)))
+    let (mut account, pictures) = counted?;
+    account.time = one.times;
+    let json = serde_json::to_string_pretty(&account).expect("an account is always JSON") + "\n";
+    files::write(&folder.join(format!("{}.account.json", one.name)), json.as_bytes())?;
+    if !console.is_quiet() {
+        console.output(&table(&account))?;
+        if let Some(times) = &account.time {
+            console.output(&time::line(&account.scene, times))?;
         }
     }
+    Ok((account, pictures))
 }
 
 /// Writes the page of all scenes.
-fn write_page(folder: &Path, done: &[Done], drawn: &[(Account, Pictures)]) -> Result<(), Failure> {
+fn write_page(folder: &Path, done: &[Done<'_>], drawn: &[(Account, Pictures)]) -> Result<(), Failure> {
     let scenes: Vec<SceneOnPage<'_>> = done
         .iter()
         .zip(drawn)
         .map(|(one, (account, pictures))| SceneOnPage {
             account,
-            scene: &one.scene,
-            sources: &one.sources,
+            scene: &one.read.scene,
+            sources: one.read.sources(),
             specialized: &one.specialized,
             pictures,
         })

@@ -5,6 +5,7 @@ use super::effects::Assigned;
 use super::facts::Definition;
 use super::{Compiler, Scope, Val};
 use glisten_front::diagnostic::codes;
+use glisten_front::fold;
 use glisten_front::hir::{
     BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Scalar, Type, TypeId, UnaryOp,
 };
@@ -37,6 +38,12 @@ impl Compiler<'_> {
             }
             ExprKind::Construct(kind, arguments) => self.construct(*kind, arguments, expr.ty),
             ExprKind::Unary(op, inner) => {
+                // `-1.0` is a number like any other: nothing is executed for it.
+                if let ExprKind::Literal(value) = self.shader.expr(*inner).kind
+                    && let Some(value) = fold::unary(*op, value)
+                {
+                    return Val::from_slice(&[self.literal(value)]);
+                }
                 let value = self.expr(*inner);
                 self.unary(*op, &value, expr.ty)
             }
@@ -361,7 +368,7 @@ impl Compiler<'_> {
     }
 
     fn assignment(&mut self, op: Option<BinaryOp>, place: ExprId, value: ExprId) -> Val {
-        let path = self.path(place);
+        let path = self.path_before(place, self.effects.has(value));
         let ty = self.ty(place);
         let value = match op {
             None => self.expr(value),

@@ -38,6 +38,11 @@ pub(super) struct Path {
 impl Compiler<'_> {
     /// Evaluates the indices of a path, and its base if that is not a variable.
     pub(super) fn path(&mut self, expr: ExprId) -> Path {
+        self.path_before(expr, false)
+    }
+
+    /// The same, where the path is used after what `changes` variables: its indices stay what they are now.
+    pub(super) fn path_before(&mut self, expr: ExprId, changes: bool) -> Path {
         // From the outside in, then from the base out, so that indices are evaluated left to right.
         let shader = self.shader;
         let mut steps = vec![expr];
@@ -61,12 +66,12 @@ impl Compiler<'_> {
         });
         let mut path = Path { base: start, offset: 0, dynamic: SmallVec::new(), ty, swizzle: None };
         for step in steps.into_iter().rev() {
-            self.step(&mut path, step);
+            self.step(&mut path, step, changes || later_effects);
         }
         path
     }
 
-    fn step(&mut self, path: &mut Path, expr: ExprId) {
+    fn step(&mut self, path: &mut Path, expr: ExprId, keeps: bool) {
         match shader_kind(self, expr) {
             ExprKind::Member(_, member) => {
                 if let Type::Struct(id) = self.types.get(path.ty) {
@@ -82,6 +87,7 @@ impl Compiler<'_> {
                 let whole = self.types.flat_len(self.ty(base));
                 let value = self.expr(index);
                 let index = value.first().copied().unwrap_or_else(|| self.emit.int(0));
+                let index = if keeps { self.emit.keep(Class::Int, index) } else { index };
                 self.index(path, index, stride, whole.checked_div(stride).unwrap_or(0));
                 path.ty = element;
             }

@@ -268,7 +268,7 @@ impl Compiler<'_> {
                 values.push(if index < last_effect { self.keep_all(*argument, value) } else { value });
                 continue;
             }
-            let path = self.path(*argument);
+            let path = self.path_before(*argument, true);
             let value = if mode == ParamMode::Inout { self.read_path(&path) } else { Val::new() };
             let value = if mode == ParamMode::Inout { self.keep_all(*argument, value) } else { value };
             values.push(value);
