@@ -276,15 +276,22 @@ fn removable(text: &str, code: &str, range: &Range<usize>) -> usize {
 /// Sets the version.
 fn version_edit(text: &Text<'_>, target: Target, version: Option<Range<usize>>, code: &str, edits: &mut Vec<Edit>) {
     let line = target.version_line();
+    let start = if text.text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let is_below =
+        |range: &Range<usize>| text.text.get(start..range.start).is_some_and(|above| !above.trim().is_empty());
     match version {
+        // What is above it stays above all else.
+        Some(range) if target.begins_with_version() && is_below(&range) => {
+            let rest = text.text.get(range.end..).unwrap_or("");
+            let end = range.end + rest.find('\n').map_or(rest.len(), |at| at + 1);
+            edits.push((start..start, format!("{line}\n")));
+            edits.push((range.start..range.start + removable(text.text, code, &(range.start..end)), String::new()));
+        }
         Some(range) => {
             let length = code.get(range.clone()).map_or(0, |line| line.trim_end().len());
             edits.push((range.start..range.start + length, line.to_owned()));
         }
-        None => {
-            let start = if text.text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-            edits.push((start..start, format!("{line}\n")));
-        }
+        None => edits.push((start..start, format!("{line}\n"))),
     }
 }
 
