@@ -406,6 +406,18 @@ mod tests {
     }
 
     #[test]
+    fn the_version_of_es_moves_above_comments() {
+        let old = "// License\n\n#version 150 // old\nin vec4 c;\nout vec4 d;\nvoid main() { d = c; }\n";
+        let new = upgraded(old, Stage::Fragment, Target::Es300);
+        assert!(new.starts_with("#version 300 es\n// License\n\n // old\n"), "{new}");
+        let alone = upgraded(&old.replace(" // old", ""), Stage::Fragment, Target::Es300);
+        assert!(alone.starts_with("#version 300 es\n// License\n\n") && !alone.contains("150"), "{alone}");
+        assert!(
+            upgraded(old, Stage::Fragment, Target::Core330).starts_with("// License\n\n#version 330 core // old\n")
+        );
+    }
+
+    #[test]
     fn declarations_come_behind_a_precision_on_the_same_line() {
         let old = "#version 100\nprecision mediump float; precision highp int; varying vec4 c; void main() { gl_FragColor = c; }\n";
         let new = "#version 150\nprecision mediump float; precision highp int; out vec4 fragColor;\nin vec4 c; void main() { fragColor = c; }\n";

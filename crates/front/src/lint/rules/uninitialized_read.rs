@@ -41,8 +41,9 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
 struct Walk<'a> {
     shader: &'a Shader,
     function: &'a Function,
+    /// Whether each local is assigned.
     assigned: Vec<bool>,
-    /// The same for globals.
+    /// Whether each global is assigned.
     globals: Vec<bool>,
     reads: Vec<(VarRef, ExprId)>,
 }

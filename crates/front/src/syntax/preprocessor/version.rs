@@ -1,7 +1,7 @@
 //! `#version`, and the end of the main file, where the lack of one is known (GLSL 1.50 §3.3).
 
 use super::{Mode, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
-use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix, codes::general};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix, Place, codes::general};
 use crate::language::{EDITIONS, Edition, Feature};
 use crate::source::{is_replaced, version_line};
 use std::collections::BTreeSet;
@@ -94,7 +94,7 @@ impl Preprocessor<'_> {
 
     /// Reports the missing `#`, and reads the directive.
     pub(super) fn bare_version(&mut self, session: &mut ParseSession<'_>, token: Token) {
-        let help = Advice::write(Applicability::Safe, "#version");
+        let help = Advice::new(Applicability::Safe, "put `#` in front of it", Place::Before, "#");
         let finding = Diagnostic::new(&codes::MALFORMED_DIRECTIVE, token.span, "`version` without `#` is no directive");
         session.report(finding.here("expected `#version`").help(help));
         self.version(session, token.span);
