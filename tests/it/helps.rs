@@ -126,7 +126,6 @@ fn branch(condition: &str, before: &str) -> Shader {
 
 /// Codes whose help quotes code that is not to be pasted, and the reason.
 static DESCRIBING: &[(&str, &str)] = &[
-    ("E0209", "where the brace is missing is not known"),
     ("E0211", "the type is the author's"),
     ("E0406", "it lists the sets of names"),
     ("E0416", "the vector may be a long expression before the dot"),

@@ -444,7 +444,7 @@ fn a_file_with_several_stages_becomes_a_file_for_each() {
         &err(&output),
         &[
             "`taken` stays as it was: `taken.vert` is there already, and its file has several stages",
-            "3 programs: 2 ported, 0 unchanged, 0 for it already, 1 left as they were; 3 files change, 2 are copied; 2 proved",
+            "3 programs: 2 ported, 0 unchanged, 0 for it already, 1 left as it was; 3 files change, 2 are copied; 2 proved",
         ],
     );
     let [vertex, fragment] = ["vert", "frag"].map(|stage| read(&folder, &format!("out/bloom.{stage}")));

@@ -92,6 +92,20 @@ fn a_varying_of_an_old_header_has_a_file_for_each_stage() {
 }
 
 #[test]
+fn the_extension_for_includes_has_the_name_that_glslang_takes() {
+    let fragment = "#version 150\n#extension GL_ARB_shading_language_include : require\n#include \"tint.glsl\"\nout vec4 c;\n\
+        void main() { c = tint(); }\n";
+    let folder = Folder::new(&[("a.frag", fragment.as_bytes()), ("tint.glsl", b"vec4 tint() { return vec4(1.0); }\n")]);
+    let output = folder.run(&["upgrade", "a.frag", "--to", "vulkan", "-o", "new"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let new = read(&folder, "new/a.frag");
+    has(&new, &["#version 450\n#extension GL_GOOGLE_include_directive : require\n"]);
+    assert_eq!(new.matches("#extension").count(), 1, "{new}");
+    let said = complaint(&folder.path("."), &[(Stage::Fragment, new.clone())]);
+    assert!(said.is_none(), "{said:?}\n{new}");
+}
+
+#[test]
 fn what_a_false_condition_hides_changes_too() {
     let fragment = "#version 150\nuniform vec4 tint;\n#ifdef GLOW\nuniform float glow, halo[3]; // both\nuniform sampler2D light;\n#endif\n\
         #ifdef SKIN\nstruct Bone { mat4 m; };\nuniform Bone bones[4];\n#endif\nout vec4 c;\nvoid main() {\n    c = tint;\n#ifdef GLOW\n    c += glow * halo[1];\n#endif\n}\n";

@@ -337,6 +337,10 @@ fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) ->
     let stage = if alone { given.or(told) } else { told.or(given) }.or_else(|| engines.stage(path));
     // Reading reports what is not a readable file; its stage does not matter then.
     let stage = stage.or_else(|| (!path.is_file()).then_some(Stage::Vertex));
+    let unread = stages::unread(path).filter(|_| stage.is_none());
+    if let Some(unread) = unread {
+        return Err(Failure::usage(format!("glisten does not read {unread} shaders, such as `{name}`")));
+    }
     match stage {
         Some(stage) => Ok(vec![Input { name: name.to_owned(), path: Some(path.to_owned()), stage, part: None }]),
         None => Err(Failure::usage(format!("cannot tell the shader stage of `{name}`")).help(match Host::of(path) {

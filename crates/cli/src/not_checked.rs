@@ -200,12 +200,15 @@ fn whole(path: &Path, because: String) -> NotChecked {
     NotChecked { region: Region { file, line: 1, column: 1, end_line: 1, end_column: 1 }, because, is_denied: false }
 }
 
+/// How the reason begins for a stage that no command reads.
+const UNREAD: &str = "glisten does not read";
+
 fn because(why: Why) -> String {
     match why {
         Why::NoMain => "it has no `main`, and no file that is checked includes it".to_owned(),
         Why::Assembly => "it is in the assembly language of ARB_vertex_program".to_owned(),
         Why::NoStage => "its name does not tell its stage".to_owned(),
-        Why::Stage(stage) => format!("glisten does not read {stage} shaders"),
+        Why::Stage(stage) => format!("{UNREAD} {stage} shaders"),
     }
 }
 
@@ -225,6 +228,8 @@ pub(crate) fn told(scope: &Scope, color: bool) -> String {
     if files.iter().any(|one| one.because.contains("#version")) {
         text.push_str("  = help: say their version: `--assume-version 150`, or `version` in a `[[source]]` table of glisten.toml\n");
     }
-    text.push_str("  = help: name a file to see its errors; `--deny not-checked` makes this an error\n\n");
+    let may_be_read = files.iter().any(|one| !one.because.starts_with(UNREAD));
+    let how = if may_be_read { "name a file to see its errors; " } else { "" };
+    text.push_str(&format!("  = help: {how}`--deny not-checked` makes this an error\n\n"));
     text
 }

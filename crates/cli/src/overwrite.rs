@@ -8,7 +8,7 @@
 use crate::exit::Failure;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// The files that were read.
@@ -68,15 +68,18 @@ pub(crate) fn refuse_equal<'p>(outputs: impl IntoIterator<Item = &'p Path>) -> R
 }
 
 /// The name that a file has, or would have, after links are followed.
-fn own_name(path: &Path) -> PathBuf {
+pub(crate) fn own_name(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let known = absolute.ancestors().find_map(|folder| Some((fs::canonicalize(folder).ok()?, folder)));
-    match known {
-        Some((own, folder)) => absolute
-            .strip_prefix(folder)
-            .map_or(own.clone(), |rest| if rest.as_os_str().is_empty() { own.clone() } else { own.join(rest) }),
-        None => absolute,
+    let Some((mut own, folder)) = known else { return absolute };
+    // Nothing of the rest is there yet, so it has no links.
+    for part in absolute.strip_prefix(folder).into_iter().flat_map(Path::components) {
+        match part {
+            Component::ParentDir => drop(own.pop()),
+            part => own.push(part),
+        }
     }
+    own
 }
 
 #[cfg(test)]
@@ -93,6 +96,7 @@ mod tests {
             refuse_equal([one.as_path(), other.as_path()]).is_err()
         };
         assert!(are_refused(["new", "new"]) && are_refused(["o/a.json", "./o/a.json"]));
+        assert!(are_refused(["new", "o/../new"]) && are_refused(["new", "o/p/../../new"]));
         assert!(!are_refused(["new", "newer"]) && !are_refused(["o/a.json", "a.json"]));
         fs::write(path("there"), "").expect("written");
         assert!(are_refused(["there", "there"]) && !are_refused([".", "."]));

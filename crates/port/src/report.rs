@@ -93,14 +93,15 @@ impl Report {
     pub fn summary(&self) -> String {
         let n = self.programs.len();
         let plural = if n == 1 { "" } else { "s" };
+        let of = |number: usize, one: &str, many: &str| format!("{number} {}", if number == 1 { one } else { many });
         let mut text = format!(
-            "{n} program{plural}: {} ported, {} unchanged, {} for it already, {} left as they were; {} files change, {} are copied",
+            "{n} program{plural}: {} ported, {} unchanged, {} for it already, {}; {}, {}",
             self.count(Outcome::Ported),
             self.count(Outcome::Unchanged),
             self.count(Outcome::Already),
-            self.count(Outcome::Refused),
-            self.files.len(),
-            self.copied,
+            of(self.count(Outcome::Refused), "left as it was", "left as they were"),
+            of(self.files.len(), "file changes", "files change"),
+            of(self.copied, "is copied", "are copied"),
         );
         if self.programs.iter().any(|program| program.proof.is_some()) {
             let [proved, open, failed] = ["proved", "inconclusive", "failed"].map(|word| self.proofs(word));

@@ -58,6 +58,11 @@ impl Target {
         }
     }
 
+    /// Whether the language wants its `#version` in the first line (GLSL ES 3.00 §3.4).
+    pub(super) fn begins_with_version(self) -> bool {
+        self == Self::Es300
+    }
+
     /// The number of the language.
     fn number(self) -> u16 {
         match self {

@@ -276,15 +276,22 @@ fn removable(text: &str, code: &str, range: &Range<usize>) -> usize {
 /// Sets the version.
 fn version_edit(text: &Text<'_>, target: Target, version: Option<Range<usize>>, code: &str, edits: &mut Vec<Edit>) {
     let line = target.version_line();
+    let start = if text.text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let is_below =
+        |range: &Range<usize>| text.text.get(start..range.start).is_some_and(|above| !above.trim().is_empty());
     match version {
+        // What is above it stays above all else.
+        Some(range) if target.begins_with_version() && is_below(&range) => {
+            let rest = text.text.get(range.end..).unwrap_or("");
+            let end = range.end + rest.find('\n').map_or(rest.len(), |at| at + 1);
+            edits.push((start..start, format!("{line}\n")));
+            edits.push((range.start..range.start + removable(text.text, code, &(range.start..end)), String::new()));
+        }
         Some(range) => {
             let length = code.get(range.clone()).map_or(0, |line| line.trim_end().len());
             edits.push((range.start..range.start + length, line.to_owned()));
         }
-        None => {
-            let start = if text.text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-            edits.push((start..start, format!("{line}\n")));
-        }
+        None => edits.push((start..start, format!("{line}\n"))),
     }
 }
 
@@ -396,6 +403,18 @@ mod tests {
         let new = "#version 300 es // old\n#ifdef GL_ES\nprecision mediump float;\n#endif\nout mediump vec4 fragData[2];\n#ifdef A\n\
                    in vec2 p;\n#endif\nvoid main() { fragData[1] = fragData[0]; }\n";
         assert_eq!(upgraded(old, Stage::Fragment, Target::Es300), new);
+    }
+
+    #[test]
+    fn the_version_of_es_moves_above_comments() {
+        let old = "// License\n\n#version 150 // old\nin vec4 c;\nout vec4 d;\nvoid main() { d = c; }\n";
+        let new = upgraded(old, Stage::Fragment, Target::Es300);
+        assert!(new.starts_with("#version 300 es\n// License\n\n // old\n"), "{new}");
+        let alone = upgraded(&old.replace(" // old", ""), Stage::Fragment, Target::Es300);
+        assert!(alone.starts_with("#version 300 es\n// License\n\n") && !alone.contains("150"), "{alone}");
+        assert!(
+            upgraded(old, Stage::Fragment, Target::Core330).starts_with("// License\n\n#version 330 core // old\n")
+        );
     }
 
     #[test]

@@ -103,7 +103,7 @@ impl Budget {
             if spent <= limit {
                 continue;
             }
-            let message = format!("the longest path has {} {spent}, over the budget of {limit}", noun(name));
+            let message = format!("the longest path has {}, over the budget of {limit}", spending(name, spent));
             let mut finding = Diagnostic::new(&OVER_BUDGET, stage.span, message);
             if let Some(line) = stage.lines.iter().max_by_key(|line| (of(&line.longest), line.span.start)) {
                 finding = finding.label(line.span, format!("{} of them on this line", of(&line.longest)));
@@ -124,13 +124,15 @@ impl Budget {
     }
 }
 
-fn noun(class: &str) -> &'static str {
+/// How much a path has of a class, in words.
+fn spending(class: &str, number: u64) -> String {
+    let of = |one: &str, many: &str| format!("{number} {}", if number == 1 { one } else { many });
     match class {
-        "arithmetic" => "a number of arithmetic operations of",
-        "special" => "a number of divisions and transcendental functions of",
-        "lookups" => "a number of texture lookups of",
-        "branches" => "a number of branches of",
-        _ => "a weight of",
+        "arithmetic" => of("arithmetic operation", "arithmetic operations"),
+        "special" => of("division or transcendental function", "divisions and transcendental functions"),
+        "lookups" => of("texture lookup", "texture lookups"),
+        "branches" => of("branch", "branches"),
+        _ => format!("a weight of {number}"),
     }
 }
 

@@ -44,13 +44,16 @@ fn unknown(key: &str) -> Failure {
     }
 }
 
-/// A line for each code: the code, its severity, its name, the first sentence of its page.
+/// A line for each code: the code, its severity, its name, the first sentence of its page. Those of one phase are together, errors
+/// first, and then in the order of their numbers.
 fn list() -> String {
     let width = codes::all().map(|code| code.name.len()).max().unwrap_or_default();
     let line = |code: &Code| {
         format!("{:6} {:8} {:width$}  {}\n", code.id, code.severity.to_string(), code.name, first_sentence(code.page))
     };
-    codes::all().map(line).collect()
+    let mut all: Vec<&Code> = codes::all().collect();
+    all.sort_by_key(|code| (code.lint.is_some(), code.id.get(1..3), code.id));
+    all.into_iter().map(line).collect()
 }
 
 /// The text up to the first period that a new sentence follows.

@@ -28,18 +28,30 @@ pub(crate) fn run(args: &ManArgs, console: &Console) -> Outcome {
         return Ok(Exit::Ok);
     };
     files::make_folder(folder)?;
-    let commands: Vec<Command> = program.get_subcommands().filter(|it| it.get_name() != "help").cloned().collect();
-    let mut n_pages = 1;
-    for command in commands {
-        let name = format!("glisten-{}", command.get_name());
-        // The page is found by `man glisten-lint`, and its synopsis says `glisten lint`.
-        let command = command.display_name(name.clone());
-        files::write(&folder.join(format!("{name}.1")), &page(command)?)?;
-        n_pages += 1;
+    let mut pages = Vec::new();
+    pages_of("glisten", program, &mut pages)?;
+    for (name, page) in &pages {
+        files::write(&folder.join(format!("{name}.1")), page)?;
     }
-    files::write(&folder.join("glisten.1"), &page(program)?)?;
-    console.remark(&format!("wrote {n_pages} pages to {}", folder.display()));
+    console.remark(&format!("wrote {} pages to {}", pages.len(), folder.display()));
     Ok(Exit::Ok)
+}
+
+/// The page of a command, and those of the commands below it. One is found by `man glisten-lint`, and its synopsis says
+/// `glisten lint`.
+fn pages_of(name: &str, command: Command, pages: &mut Vec<(String, Vec<u8>)>) -> Result<(), Failure> {
+    let command = without_help(command).display_name(name.to_owned());
+    for inner in command.get_subcommands().filter(|inner| !inner.is_hide_set()) {
+        pages_of(&format!("{name}-{}", inner.get_name()), inner.clone(), pages)?;
+    }
+    pages.push((name.to_owned(), page(command)?));
+    Ok(())
+}
+
+/// A command whose page does not list `help`, which has no page.
+fn without_help(command: Command) -> Command {
+    let has_help = command.get_subcommands().any(|inner| inner.get_name() == "help");
+    if has_help { command.mut_subcommand("help", |help| help.hide(true)) } else { command }
 }
 
 fn page(command: Command) -> Result<Vec<u8>, Failure> {

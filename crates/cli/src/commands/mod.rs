@@ -149,7 +149,7 @@ commands! {
     /// Show scenes in a browser, and draw them again while they change
     #[cfg(feature = "play")]
     Play(play::PlayArgs) draws never;
-    /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
+    /// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60, ES 3.00 or for Vulkan
     Upgrade(upgrade::UpgradeArgs) draws never;
     /// Port a folder of shaders to another host: Minecraft on Vulkan, Vulkan, wgpu, Bevy, WebGL 2
     Port(port::PortArgs) draws asked;

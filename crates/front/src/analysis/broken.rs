@@ -21,7 +21,7 @@ impl Analyzer<'_> {
     /// The fragment of a statement.
     pub(super) fn local_fragment(&mut self, fragment: &Fragment, span: Span, out: &mut Vec<Stmt>) {
         if let Some(body) = &mut self.body {
-            body.returns |= fragment.names.is_empty();
+            body.returns |= fragment.variables.is_none();
         }
         if let Some(variables) = self.usable(fragment) {
             self.quietly(|this| this.local_variables(variables, out));

@@ -8,6 +8,7 @@ use crate::diagnostic::{Advice, Applicability, Diagnostic, Severity, did_you_mea
 use crate::hir::{BlockLayout, MatrixLayout, PrimitiveIn, PrimitiveOut};
 use crate::language::{Extensions, Feature, NEVER, Since, Version};
 use crate::source::Span;
+use crate::syntax::NOT_YET;
 use crate::syntax::ast::{ExprKind as AstExprKind, LayoutId, Literal};
 use crate::syntax::of_version;
 use crate::syntax::warning_of_use;
@@ -178,7 +179,19 @@ static ROWS: &[Row] = &[
 
 /// Identifiers that no declaration of glisten's takes, with the version that brought each.
 static LATER: &[(&str, Since)] = &[
+    ("vertices", Since::new(400, 320)),
+    ("quads", Since::new(400, 320)),
+    ("isolines", Since::new(400, 320)),
+    ("equal_spacing", Since::new(400, 320)),
+    ("fractional_even_spacing", Since::new(400, 320)),
+    ("fractional_odd_spacing", Since::new(400, 320)),
+    ("cw", Since::new(400, 320)),
+    ("ccw", Since::new(400, 320)),
+    ("point_mode", Since::new(400, 320)),
     ("stream", Since::new(400, NEVER)),
+    ("local_size_x", Since::new(430, 310)),
+    ("local_size_y", Since::new(430, 310)),
+    ("local_size_z", Since::new(430, 310)),
     ("xfb_buffer", Since::new(440, NEVER)),
     ("xfb_offset", Since::new(440, NEVER)),
     ("xfb_stride", Since::new(440, NEVER)),
@@ -186,6 +199,24 @@ static LATER: &[(&str, Since)] = &[
     ("bindless_sampler", Since::NEVER),
     ("set", Since::NEVER),
     ("push_constant", Since::NEVER),
+];
+
+/// The formats of images, which are not supported.
+#[rustfmt::skip]
+static IMAGE_FORMATS: &[(&str, Since)] = &[
+    ("rgba32f", Since::new(420, 310)), ("rgba16f", Since::new(420, 310)), ("r32f", Since::new(420, 310)),
+    ("rgba8", Since::new(420, 310)), ("rgba8_snorm", Since::new(420, 310)), ("rgba32i", Since::new(420, 310)),
+    ("rgba16i", Since::new(420, 310)), ("rgba8i", Since::new(420, 310)), ("r32i", Since::new(420, 310)),
+    ("rgba32ui", Since::new(420, 310)), ("rgba16ui", Since::new(420, 310)), ("rgba8ui", Since::new(420, 310)),
+    ("r32ui", Since::new(420, 310)), ("rg32f", Since::new(420, NEVER)), ("rg16f", Since::new(420, NEVER)),
+    ("r11f_g11f_b10f", Since::new(420, NEVER)), ("r16f", Since::new(420, NEVER)), ("rgba16", Since::new(420, NEVER)),
+    ("rgb10_a2", Since::new(420, NEVER)), ("rg16", Since::new(420, NEVER)), ("rg8", Since::new(420, NEVER)),
+    ("r16", Since::new(420, NEVER)), ("r8", Since::new(420, NEVER)), ("rgba16_snorm", Since::new(420, NEVER)),
+    ("rg16_snorm", Since::new(420, NEVER)), ("rg8_snorm", Since::new(420, NEVER)), ("r16_snorm", Since::new(420, NEVER)),
+    ("r8_snorm", Since::new(420, NEVER)), ("rg32i", Since::new(420, NEVER)), ("rg16i", Since::new(420, NEVER)),
+    ("rg8i", Since::new(420, NEVER)), ("r16i", Since::new(420, NEVER)), ("r8i", Since::new(420, NEVER)),
+    ("rgb10_a2ui", Since::new(420, NEVER)), ("rg32ui", Since::new(420, NEVER)), ("rg16ui", Since::new(420, NEVER)),
+    ("rg8ui", Since::new(420, NEVER)), ("r16ui", Since::new(420, NEVER)), ("r8ui", Since::new(420, NEVER)),
 ];
 
 /// The contents of a `layout(...)`.
@@ -233,7 +264,11 @@ impl Analyzer<'_> {
         // In 1.50 the identifiers are not case-sensitive.
         let named = || ROWS.iter().filter(|row| row.name.eq_ignore_ascii_case(spelling));
         let Some(row) = named().find(|row| row.subjects.contains(&subject)).or_else(|| named().next()) else {
-            self.report(unknown(spelling, id.name.span, self.ast.version));
+            let is_format = IMAGE_FORMATS.iter().any(|row| row.0 == spelling && self.ast.version.reaches(row.1));
+            // The image that has a format is not supported, which is reported there.
+            if !is_format {
+                self.report(unknown(spelling, id.name.span, self.ast.version));
+            }
             return None;
         };
         if !self.allows_layout(row, spelling, id.name.span) {
@@ -370,13 +405,16 @@ fn came_with(spelling: &str, since: Since, version: Version) -> Option<String> {
 }
 
 fn unknown(spelling: &str, span: Span, version: Version) -> Diagnostic {
-    let later = LATER.iter().find(|(name, _)| name.eq_ignore_ascii_case(spelling));
+    let named = |list: &'static [(&'static str, Since)]| list.iter().find(|row| row.0.eq_ignore_ascii_case(spelling));
+    let later = named(LATER).or_else(|| named(IMAGE_FORMATS));
     let help = match later {
         Some(&(_, since)) if version.reaches(since) => {
             return Diagnostic::new(&NOT_SUPPORTED_YET, span, format!("the layout `{spelling}` is not supported yet"));
         }
         Some(&(_, Since::NEVER)) => Some(format!("`{spelling}` belongs to GLSL 4.50 for Vulkan").into()),
-        Some(&(_, since)) => came_with(spelling, since, version).map(Advice::from),
+        Some(&(_, since)) => {
+            came_with(spelling, since, version).map(|sentence| Advice::from(format!("{sentence}; {NOT_YET}")))
+        }
         None => did_you_mean(spelling, ROWS.iter().map(|row| row.name)).map(Advice::meant),
     };
     Diagnostic::new(&qualifiers::UNKNOWN_LAYOUT, span, format!("`{spelling}` is not a layout identifier"))

@@ -50,6 +50,8 @@ pub(super) struct Qualifiers {
     pub(super) layout: Vec<LayoutId>,
     /// The first `layout(...)`.
     pub(super) layout_span: Option<Span>,
+    /// Whether a local variable has a storage qualifier, which only global ones have. That has been reported.
+    pub(super) belongs_outside: bool,
 }
 
 impl Qualifiers {
@@ -155,10 +157,18 @@ impl DeclarationContext {
 impl Analyzer<'_> {
     /// Checks a list of qualifiers: none twice, each allowed here, in the order of §4.7.
     pub(super) fn qualifiers(&mut self, list: &[Qualifier], context: DeclarationContext) -> Qualifiers {
-        let mut record = Qualifiers::default();
+        let outside = list.iter().find(|one| context == Local && class_of(&one.kind) == Class::Storage);
+        if let Some(storage) = outside {
+            self.report_outside(storage);
+        }
+        let mut record = Qualifiers { belongs_outside: outside.is_some(), ..Qualifiers::default() };
         let mut last: Option<(u8, &Qualifier)> = None;
         for qualifier in list {
             let Some(row) = row_of(class_of(&qualifier.kind)) else { continue };
+            // What goes with a storage qualifier is right where that is.
+            if record.belongs_outside && !row.contexts.contains(&context) {
+                continue;
+            }
             if !self.check_context(qualifier, row, context) {
                 continue;
             }
@@ -187,6 +197,20 @@ impl Analyzer<'_> {
             .help(Advice::new(Applicability::Safe, "remove it", Place::Over, "")),
         );
         false
+    }
+
+    /// Reports a storage qualifier inside a function. Without it the variable would be another one, so that is no fix.
+    fn report_outside(&mut self, storage: &Qualifier) {
+        let word = self.sources.snippet(storage.span).to_owned();
+        self.report(
+            Diagnostic::new(
+                &qualifiers::MISPLACED,
+                storage.span,
+                format!("a variable inside a function cannot be `{word}`"),
+            )
+            .here("not allowed here")
+            .help("declare it at global scope, before the function"),
+        );
     }
 
     fn check_order<'q>(&mut self, qualifier: &'q Qualifier, row: &ClassRow, last: &mut Option<(u8, &'q Qualifier)>) {

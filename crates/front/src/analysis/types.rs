@@ -327,7 +327,9 @@ impl Analyzer<'_> {
             known.push(name);
         }
         known.push("return");
-        did_you_mean(spelling, known).map(str::to_owned)
+        let meant = did_you_mean(spelling, known).map(str::to_owned)?;
+        self.note_meant(&meant);
+        Some(meant)
     }
 }
 

@@ -3,10 +3,9 @@
 //! *In:* the stages before and after the rasterizer. *Out:* a varying for each element that the fragment stage reads.
 //! No target passes the built-in variable to that stage, so it takes locations as other varyings do.
 
-use super::declared::plural;
 use super::{Varying, VaryingEnd};
 use crate::builtin::BuiltinVariable;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, codes, plural};
 use crate::hir::{GlobalId, Interpolation, Sampling, Shader, TypeId, Types};
 
 /// The clip distances that a fragment stage reads.

@@ -9,7 +9,7 @@
 
 use super::Linker;
 use super::locations::Locations;
-use crate::diagnostic::{Code, Diagnostic, codes};
+use crate::diagnostic::{Code, Diagnostic, codes, plural};
 use crate::hir::{Global, GlobalId};
 
 /// A variable that needs a location.
@@ -133,10 +133,4 @@ fn place_free(rows: &mut [Locations<Option<GlobalId>>], variable: &Variable<'_>)
     let first = row.lowest(variable.count, Option::is_none)?;
     row.run_mut(first, variable.count)?.fill(Some(variable.id));
     Some(first)
-}
-
-/// `1 location`, `3 locations`
-pub(super) fn plural(count: u32, noun: &str) -> String {
-    let ending = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{ending}")
 }

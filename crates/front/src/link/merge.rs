@@ -192,6 +192,10 @@ impl Merge<'_> {
         let Some(known) = self.all.functions.get_mut(place.index()) else { return };
         if let Some(problem) = function_problem(known, &function) {
             self.found.push(problem);
+            // There is a definition, if of another function.
+            if function.body.is_some() {
+                known.body.get_or_insert_default();
+            }
             return;
         }
         if known.body.is_none() && function.body.is_some() {

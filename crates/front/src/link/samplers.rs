@@ -4,11 +4,10 @@
 //! Samplers that are read come first, so that the bindings in use have no gaps either.
 
 use super::compatible::same_type;
-use super::declared::plural;
 use super::flatten::parts;
 use super::{Linker, SamplerSlot, SlotBinding};
 use crate::builtin::constants::{MAX_COMBINED_TEXTURE_IMAGE_UNITS, MAX_TEXTURE_IMAGE_UNITS};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, codes, plural};
 use crate::hir::{ArraySize, Global, GlobalId, MatrixLayout, Shader, Stage, Storage, Type, TypeId};
 use crate::source::Span;
 

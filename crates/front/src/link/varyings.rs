@@ -9,12 +9,11 @@
 
 use super::clip_distances::ClipDistances;
 use super::compatible::same_type;
-use super::declared::plural;
 use super::flatten::{join, parts};
 use super::locations::Locations;
 use super::matching::Outputs;
 use super::{Linker, Varying, VaryingEnd};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, codes, plural};
 use crate::hir::{
     ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Sampling, Scalar, Shader, Storage, Type, TypeId, Types,
 };

@@ -108,6 +108,12 @@ impl Lexemes {
             .filter(|(_, token)| Self::begins_directive(token))
             .map(|(index, _)| (self.tokens.get(index + 1).map_or("", |word| self.spelling(word)), index))
     }
+
+    /// Whether the file defines a macro of a name.
+    pub fn defines(&self, name: &str) -> bool {
+        let named = |index: usize| self.tokens.get(index + 2).is_some_and(|token| self.spelling(token) == name);
+        self.directives().any(|(word, index)| word == "define" && named(index))
+    }
 }
 
 /// The indices of words and numbers, sorted by their symbols, and where those of each symbol begin.

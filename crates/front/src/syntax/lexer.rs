@@ -79,6 +79,10 @@ fn class(byte: u8) -> u8 {
     CLASS[byte as usize]
 }
 
+/// The quotes of strings, opening and closing, those of word processors among them. GLSL has none.
+pub(super) const QUOTES: &[(char, char)] =
+    &[('"', '"'), ('\'', '\''), ('\u{201c}', '\u{201d}'), ('\u{2018}', '\u{2019}')];
+
 impl Lexer {
     /// A lexer for `text`, whose first byte has the global offset `base`.
     pub(super) fn new(text: Arc<str>, base: u32) -> Self {
@@ -130,7 +134,7 @@ impl Lexer {
             WORD => self.word(),
             DIGIT => self.number(),
             _ if byte >= 0x80 && self.foreign_letter().is_some() => self.word(),
-            _ if byte == b'"' => self.string(),
+            _ if (matches!(byte, b'"' | b'\'') || byte >= 0x80) && self.opens_string() => self.string(),
             _ if byte == b'.' && class(self.peek(1)) == DIGIT => self.number(),
             _ => self.operator(byte),
         };
@@ -167,17 +171,25 @@ impl Lexer {
         character.is_alphanumeric().then(|| character.len_utf8())
     }
 
-    /// Reads a string literal of C; a quote without a partner is a single character.
+    /// Whether a quote is next.
+    fn opens_string(&self) -> bool {
+        let rest = self.text.get(self.pos..).unwrap_or("");
+        QUOTES.iter().any(|pair| rest.starts_with(pair.0))
+    }
+
+    /// Reads a string or a character of C; a quote without a partner is a single character.
     fn string(&mut self) -> TokenKind {
-        let rest = self.text.as_bytes().get(self.pos + 1..).unwrap_or(&[]);
-        let end = rest.iter().position(|byte| matches!(byte, b'"' | b'\n' | b'\r'));
-        match end.filter(|&end| rest.get(end) == Some(&b'"')) {
-            Some(length) => {
-                self.pos += length + 2;
+        let mut letters = self.text.get(self.pos..).unwrap_or("").char_indices();
+        let opening = letters.next().map_or('"', |(_, letter)| letter);
+        let closing = QUOTES.iter().find(|pair| pair.0 == opening).map_or(opening, |pair| pair.1);
+        let ends = |letter: char| letter == closing || matches!(letter, '\n' | '\r');
+        match letters.find(|(_, letter)| ends(*letter)).filter(|(_, letter)| *letter == closing) {
+            Some((length, _)) => {
+                self.pos += length + closing.len_utf8();
                 TokenKind::Invalid
             }
             None => {
-                self.pos += 1;
+                self.pos += opening.len_utf8();
                 TokenKind::Unknown
             }
         }

@@ -37,7 +37,7 @@ use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
 pub use preprocessor::is_no_text;
 use session::{ExtensionSets, ParseSession};
-pub(crate) use unstated::{of_later_word, of_version};
+pub(crate) use unstated::{NOT_YET, of_later_word, of_version};
 
 /// ParseOptions of a parse.
 #[derive(Clone, Debug)]

@@ -42,7 +42,7 @@ macro_rules! token_kinds {
 }
 
 token_kinds! {
-    /// After the last token. The payload is 1 if the preprocessor gave up and its error has been reported.
+    /// After the last token. The payload is 1 if the tokens ended because of an error, which has been reported.
     Eof "end of file",
     /// The end of a line, only inside directives.
     Newline "end of line",
@@ -168,6 +168,8 @@ bitflags::bitflags! {
         const SPACE = 2;
         /// The name of a macro inside its own expansion, which is never expanded again.
         const NO_EXPAND = 4;
+        /// An error has been reported at the token, or at what was dropped before it.
+        const REPORTED = 8;
     }
 }
 

@@ -4,9 +4,13 @@
 //! (§3.3).
 
 use super::keywords::{Keyword, TABLE};
+use super::token::TokenKind;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::preprocess::MISSING_VERSION;
 use crate::language::{NEVER, Since, Version};
+
+/// The rest of the help for what a later version has and glisten does not support.
+pub(crate) const NOT_YET: &str = "glisten does not support it yet";
 
 /// The finding that the language lacks something. Where the text does not state its version, that is the error.
 pub(crate) fn of_version(finding: Diagnostic, version: Version) -> Diagnostic {
@@ -30,6 +34,8 @@ pub(crate) fn of_later_word(finding: Diagnostic, word: &str, version: Version) -
         // Advice that needs no other version comes first.
         let has_own = finding.help.as_ref().is_some_and(|help| help.starts_with("write `"));
         let remedy = version.remedy(row.keyword, Since::NEVER, row.extensions).filter(|_| !has_own);
+        let is_foreign = row.kind == TokenKind::Foreign;
+        let remedy = remedy.map(|remedy| if is_foreign { format!("{remedy}; {NOT_YET}") } else { remedy });
         return match remedy {
             Some(remedy) => Diagnostic { help: Some(remedy), fixes: Vec::new(), ..finding },
             None => finding,

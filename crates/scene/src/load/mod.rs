@@ -264,7 +264,9 @@ impl Loader<'_> {
             framebuffer,
         };
         let mut draws = Vec::new();
-        let mut complete = is_complete;
+        // Nothing is known of draws that are no list.
+        let are_listed = table.get("draw").is_none_or(|node| node.get_ref().as_array().is_some());
+        let mut complete = is_complete && are_listed;
         let nodes = self.draw_tables(table);
         for node in &nodes {
             match load_draw(self, node, &around) {

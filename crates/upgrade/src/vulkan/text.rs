@@ -22,6 +22,12 @@ use glisten_front::hir::{Global, Shader, Stage, Storage};
 use glisten_sources::engines::code::{is_name, without_comments};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// OpenGL's extension for includes.
+const OPENGL_INCLUDE: &str = "GL_ARB_shading_language_include";
+
+/// The line by which glslang takes includes.
+const INCLUDE_LINE: &str = "#extension GL_GOOGLE_include_directive : enable";
+
 /// The plan by which all texts of a tree are rewritten.
 pub(super) struct Plan<'a> {
     pub(super) dialect: &'a Dialect,
@@ -92,6 +98,7 @@ impl Plan<'_> {
         edits.extend(moved.edits);
         edits.extend(self.renamed(&chunks));
         edits.extend(self.directives(&file.text, &conditions));
+        edits.extend(self.include_extensions(&file.text, &conditions));
         if self.dialect.coordinates {
             edits.extend(self.coordinates(key, file, &chunks)?);
         }
@@ -335,6 +342,20 @@ impl Plan<'_> {
         edits
     }
 
+    /// OpenGL's extension for includes, which glslang does not take for Vulkan, in the name that it takes there.
+    fn include_extensions(&self, text: &str, conditions: &Conditions) -> Vec<Edit> {
+        if self.dialect.numbering != Numbering::All {
+            return Vec::new();
+        }
+        let wanted = extension_of(self.dialect.extension.as_deref().unwrap_or(INCLUDE_LINE));
+        let place = |one: &Directive| {
+            let line = text.get(one.range.clone())?;
+            let at = one.range.start + line.find(OPENGL_INCLUDE)?;
+            Some((at..at + OPENGL_INCLUDE.len(), wanted.to_owned()))
+        };
+        conditions.list.iter().filter(|one| one.word() == "extension").filter_map(place).collect()
+    }
+
     /// Names that the host has changed.
     fn renamed(&self, chunks: &Chunks<'_>) -> Vec<Edit> {
         let mut edits = Vec::new();
@@ -352,8 +373,8 @@ impl Plan<'_> {
     fn with_extension(&self, key: &Key, file: &File, text: String) -> String {
         let is_source = !file.source_of.is_empty();
         let includes = || Conditions::new(&text).list.iter().any(|one| one.word() == "include");
-        let for_includes = (self.dialect.numbering == Numbering::All && is_source && includes())
-            .then_some("#extension GL_GOOGLE_include_directive : enable");
+        let for_includes =
+            (self.dialect.numbering == Numbering::All && is_source && includes()).then_some(INCLUDE_LINE);
         let wanted = self.dialect.extension.as_deref().filter(|_| is_source).or(for_includes);
         // glslang takes a backslash at the end of a line from 4.20 on (GLSL 4.20 §3.1).
         let needs_joining = self.dialect.numbering != Numbering::All && is_source && self.continues_lines(key);
@@ -385,10 +406,14 @@ impl Plan<'_> {
     }
 }
 
+/// The name in an `#extension` line.
+fn extension_of(line: &str) -> &str {
+    line.split_whitespace().nth(1).unwrap_or(line)
+}
+
 /// A text with a line after `#version`, if it has none of that name.
 fn with_line(text: String, line: &str) -> String {
-    let name = line.split_whitespace().nth(1).unwrap_or(line);
-    if text.contains(name) {
+    if text.contains(extension_of(line)) {
         return text;
     }
     let Some(version) = glisten_front::source::version_line(&text) else { return text };

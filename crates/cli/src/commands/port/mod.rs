@@ -27,6 +27,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::inputs;
+use crate::overwrite::own_name;
 use crate::session::Session;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -111,9 +112,7 @@ pub(crate) fn run(args: &PortArgs, console: &Console) -> Outcome {
 
 /// Refuses a new folder that is inside of the old one, or around it.
 fn apart(pack: &Path, output: &Path) -> Result<(), Failure> {
-    let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let known = |path: &Path| std::fs::canonicalize(path).unwrap_or_else(|_| whole(path));
-    let (pack, output) = (known(pack), known(output));
+    let (pack, output) = (own_name(pack), own_name(output));
     if output.starts_with(&pack) || pack.starts_with(&output) {
         let failure = Failure::usage(format!("`{}` is inside of the other folder, or around it", output.display()));
         return Err(failure.help("name another folder"));

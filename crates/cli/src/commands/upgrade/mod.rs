@@ -1,4 +1,4 @@
-//! `glisten upgrade`: rewrites old shaders as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00.
+//! `glisten upgrade`: rewrites old shaders as 1.50 core, 3.30, 4.50, 4.60, ES 3.00 or for Vulkan.
 //!
 //! *In:* the files of programs that compile, or folders. *Out:* their new texts, and those of the files that they include, which
 //! compile, too, on standard output or in files; with `--scene`, the proof that the picture stays. *Holds:* nothing is written
@@ -31,7 +31,7 @@ pub(crate) const EXAMPLES: Examples = &[
     ("glisten upgrade a.vert a.frag --in-place --scene a.toml", "if the picture of a scene stays the same"),
 ];
 
-/// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60 or ES 3.00
+/// Rewrite old shaders (GLSL 1.10 to 1.40, compatibility, ES 1.00) as 1.50 core, 3.30, 4.50, 4.60, ES 3.00 or for Vulkan
 #[derive(Args, Debug)]
 pub(crate) struct UpgradeArgs {
     /// The shaders, or folders to search for them; files of one program are rewritten together, so that their stages still fit

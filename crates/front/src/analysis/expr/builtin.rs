@@ -23,7 +23,7 @@ impl Analyzer<'_> {
         let available = || rows.iter().copied().filter(|row| row.availability.holds(version, extensions, stage));
         let signatures = || available().flat_map(|row| row.signatures(stage).map(move |signature| (row, signature)));
         if available().next().is_none() {
-            self.report_unavailable(name, rows);
+            self.report_unavailable(name, rows, &given);
             return self.poison(span);
         }
         // Most calls match exactly, and then no candidates need to be collected.
@@ -51,6 +51,15 @@ impl Analyzer<'_> {
             return self.composed(row.function, &arguments, span);
         }
         self.push(ExprKind::BuiltinCall(row.function, arguments), signature.ret, span)
+    }
+
+    /// Reports a built-in function that is not available here. Nothing is known of the arguments.
+    pub(super) fn require_builtin(&mut self, name: Ident) {
+        let (stage, version, extensions) = (self.stage, self.ast.version, self.extensions);
+        let rows = functions::named(self.name(name));
+        if !rows.iter().any(|row| row.availability.holds(version, extensions, stage)) {
+            self.report_unavailable(name, rows, &[]);
+        }
     }
 
     /// Whether a built-in function has the name and the parameters of a function of the shader.
@@ -136,7 +145,9 @@ impl Analyzer<'_> {
         false
     }
 
-    fn report_unavailable(&mut self, name: Ident, rows: &[&'static Row]) {
+    /// Reports a built-in function that this stage, version or profile has not. `given` are the types of the arguments, as far as
+    /// they are known.
+    fn report_unavailable(&mut self, name: Ident, rows: &[&'static Row], given: &[TypeId]) {
         let (spelling, stage) = (self.name(name), self.stage.name());
         let (version, extensions) = (self.ast.version, self.extensions);
         let elsewhere: Vec<&str> = Stage::ALL
@@ -146,21 +157,11 @@ impl Analyzer<'_> {
             .collect();
         let finding = if elsewhere.is_empty() {
             let message = format!("the function `{spelling}` is not in {}", version.name());
-            let remedies = || {
-                rows.iter().filter_map(|row| {
-                    let Availability { since, gone, extensions, compatibility_only, .. } = row.availability;
-                    if compatibility_only && version.reaches(since) {
-                        return Some("only the compatibility profile has it".to_owned());
-                    }
-                    let remedy = version.remedy(since, gone, extensions)?;
-                    let is_renamed = version.reaches(since) && row.function.name() != spelling;
-                    Some(if is_renamed { format!("write `{}`; {remedy}", row.function.name()) } else { remedy })
-                })
-            };
-            // One of the overloads may be for the other language alone.
-            let remedy = remedies().find(|remedy| !remedy.starts_with("only")).or_else(|| remedies().next());
+            // The overload that takes these arguments may need another extension than the others.
+            let mut rows: Vec<&'static Row> = rows.to_vec();
+            rows.sort_by_key(|row| !self.takes(row, given));
             let finding = Diagnostic::new(&names::BUILTIN_UNAVAILABLE, name.span, message).here("not available here");
-            of_version(finding.maybe_help(remedy), version)
+            of_version(finding.maybe_help(self.remedy(spelling, &rows)), version)
         } else {
             Diagnostic::new(
                 &names::BUILTIN_UNAVAILABLE,
@@ -170,6 +171,29 @@ impl Analyzer<'_> {
             .here(format!("only in {} shaders", elsewhere.join(" and ")))
         };
         self.report(finding);
+    }
+
+    /// How the source gets one of some rows, which it has not: the first of them by preference.
+    fn remedy(&self, spelling: &str, rows: &[&'static Row]) -> Option<String> {
+        let version = self.ast.version;
+        let remedies = || {
+            rows.iter().filter_map(|row| {
+                let Availability { since, gone, extensions, compatibility_only, .. } = row.availability;
+                if compatibility_only && version.reaches(since) {
+                    return Some("only the compatibility profile has it".to_owned());
+                }
+                let remedy = version.remedy(since, gone, extensions)?;
+                let is_renamed = version.reaches(since) && row.function.name() != spelling;
+                Some(if is_renamed { format!("write `{}`; {remedy}", row.function.name()) } else { remedy })
+            })
+        };
+        // One of the overloads may be for the other language alone.
+        remedies().find(|remedy| !remedy.starts_with("only")).or_else(|| remedies().next())
+    }
+
+    /// Whether an overload of a row takes these arguments, in the versions that have it.
+    fn takes(&self, row: &'static Row, given: &[TypeId]) -> bool {
+        row.params.len() == given.len() && self.leading_arguments(row, given) == given.len()
     }
 
     /// How many of the first arguments an overload of a row takes.
@@ -191,7 +215,14 @@ impl Analyzer<'_> {
         for (_, row) in closest.iter().filter(|(leading, _)| *leading > 0 || !any).take(4) {
             finding = finding.note(format!("there is `{}`", row.prototype()));
         }
-        self.report(finding.maybe_help(derivative_help(rows, given, self)));
+        let elsewhere: Vec<&'static Row> = rows
+            .iter()
+            .copied()
+            .filter(|row| row.availability.stages.has(stage) && !row.availability.in_language(version, extensions))
+            .filter(|row| self.takes(row, given))
+            .collect();
+        let help = derivative_help(rows, given, self).or_else(|| self.remedy(self.name(name), &elsewhere));
+        self.report(finding.maybe_help(help));
     }
 }
 

@@ -49,14 +49,20 @@ impl Analyzer<'_> {
             }
             None => {
                 let arguments = self.arguments(arguments);
-                let Some(arguments) = arguments.filter(|_| self.is_known_builtin(name)) else {
-                    return self.poison(span);
-                };
-                self.builtin_call(name, arguments, span)
+                let is_known = self.is_known_builtin(name, arguments.is_some());
+                match arguments.filter(|_| is_known) {
+                    Some(arguments) => self.builtin_call(name, arguments, span),
+                    None => {
+                        if is_known {
+                            self.require_builtin(name);
+                        }
+                        self.poison(span)
+                    }
+                }
             }
             Some(entry) => {
-                let arguments = self.arguments(arguments);
-                if entry != Entry::Poison && arguments.is_some() {
+                self.arguments(arguments);
+                if entry != Entry::Poison {
                     let (spelling, declared) = (self.name(name), binding.map_or(Span::default(), |found| found.span));
                     self.report(
                         Diagnostic::new(&names::NOT_A_FUNCTION, name.span, format!("`{spelling}` is not a function"))
@@ -91,12 +97,17 @@ impl Analyzer<'_> {
         whole.then_some(arguments)
     }
 
-    fn is_known_builtin(&mut self, name: Ident) -> bool {
+    /// Whether a name is that of a built-in function; otherwise it is reported. What its arguments lack explains an unsupported one:
+    /// there is no `imageStore` without an image.
+    fn is_known_builtin(&mut self, name: Ident, are_whole: bool) -> bool {
         let spelling = self.name(name);
         if !functions::named(spelling).is_empty() {
             return true;
         }
         if super::foreign::is_unsupported(spelling, self.ast.version, self.extensions) {
+            if !are_whole {
+                return false;
+            }
             let message = format!("the function `{spelling}` is not supported yet");
             let mut finding = Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message);
             if let Some((why, instead)) = super::foreign::reason(spelling) {
@@ -134,7 +145,13 @@ impl Analyzer<'_> {
         for name in keywords::constructors() {
             known.push(name);
         }
-        did_you_mean(spelling, known).map(str::to_owned)
+        if let Some(meant) = did_you_mean(spelling, known) {
+            return Some(meant.to_owned());
+        }
+        // `retrun (x);`
+        let meant = did_you_mean(spelling, ["return"])?;
+        self.note_meant(meant);
+        Some(meant.to_owned())
     }
 
     fn user_call(&mut self, name: Ident, set: OverloadSet, arguments: Vec<ExprId>, span: Span) -> ExprId {

@@ -1,8 +1,8 @@
 //! Analyzes constructors (§5.4) and brings them into the normal forms of [`ConstructKind`].
 
 use super::super::context::Analyzer;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::types;
+use crate::diagnostic::{Diagnostic, plural};
 use crate::hir::{ArraySize, ConstructKind, ExprId, ExprKind, Scalar, StructId, Swizzle, Type, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
@@ -194,7 +194,8 @@ impl Analyzer<'_> {
         if let ArraySize::Sized(size) = size
             && size != given
         {
-            let message = format!("an array of {size} elements takes {size} arguments, not {given}");
+            let [elements, taken] = ["element", "argument"].map(|noun| plural(size, noun));
+            let message = format!("an array of {elements} takes {taken}, not {given}");
             let at = self.past(&arguments, size as usize, head);
             self.report(Diagnostic::new(&types::CONSTRUCTOR, at, message).here(format!("{given} given")));
             return self.poison(span);
@@ -225,7 +226,8 @@ impl Analyzer<'_> {
             self.types.structure(id).members.iter().map(|member| (member.name.clone(), member.ty)).collect();
         let (name, declared) = (self.type_name(ty), self.types.structure(id).span);
         if members.len() != arguments.len() {
-            let message = format!("`{name}` takes {} arguments, not {}", members.len(), arguments.len());
+            let taken = plural(members.len() as u32, "argument");
+            let message = format!("`{name}` takes {taken}, not {}", arguments.len());
             let at = self.past(&arguments, members.len(), head);
             self.report(Diagnostic::new(&types::CONSTRUCTOR, at, message).label(declared, "declared here"));
             return self.poison(span);

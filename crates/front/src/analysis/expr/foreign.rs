@@ -4,8 +4,9 @@
 
 use crate::diagnostic::{Advice, Applicability, Place};
 use crate::language::{self, Extensions, NEVER, Since, Version};
+use crate::syntax::NOT_YET;
 
-/// Functions of HLSL and similar languages, and their equivalent in GLSL.
+/// Functions of HLSL, WGSL and similar languages, and their equivalent in GLSL.
 #[rustfmt::skip]
 static FUNCTIONS: &[(&str, &str)] = &[
     ("lerp", "write `mix(a, b, t)`"),
@@ -24,6 +25,13 @@ static FUNCTIONS: &[(&str, &str)] = &[
     ("tex2D", "write `texture(s, p)`"),
     ("texCUBE", "write `texture(s, p)`"),
     ("tex2Dlod", "write `textureLod(s, p.xy, p.w)`"),
+    ("textureSample", "write `texture(s, p)`; declare one `sampler2D` instead of the texture and its sampler"),
+    ("textureSampleLevel", "write `textureLod(s, p, level)`; declare one `sampler2D` instead of the texture and its sampler"),
+    ("textureSampleBias", "write `texture(s, p, bias)`; declare one `sampler2D` instead of the texture and its sampler"),
+    ("textureSampleGrad", "write `textureGrad(s, p, ddx, ddy)`; declare one `sampler2D` instead of the texture and its sampler"),
+    ("textureSampleCompare", "write `texture(s, vec3(p, reference))`, with a `sampler2DShadow`"),
+    ("textureLoad", "write `texelFetch(s, ivec2(p), level)`, with a `sampler2D` in place of the texture"),
+    ("textureDimensions", "write `textureSize(s, level)`, with a `sampler2D` in place of the texture"),
     ("printf", "a shader can only write to its outputs"),
 ];
 
@@ -120,7 +128,7 @@ pub(super) fn function(name: &str) -> Option<Advice> {
     };
     foreign.or_else(ty).or_else(|| {
         let since = LATER.iter().find(|row| row.0 == name)?.1.desktop;
-        Some(format!("`{name}` came with GLSL {}.{:02}", since / 100, since % 100).into())
+        Some(format!("`{name}` came with GLSL {}.{:02}; {NOT_YET}", since / 100, since % 100).into())
     })
 }
 

@@ -90,11 +90,22 @@ impl Analyzer<'_> {
                 ExprKind::Literal(_) if self.sources.snippet(span).starts_with("gl_") => {
                     return refuse("it is a built-in constant");
                 }
-                ExprKind::Literal(_) => return refuse("a literal is a value"),
+                // `a.length()` is a number, too.
+                ExprKind::Literal(_) if is_written(self.sources.snippet(span)) => {
+                    return refuse("a literal is a value");
+                }
                 _ => return refuse("this is a value, not a variable"),
             }
         }
     }
+}
+
+/// Whether the text of a literal is one.
+fn is_written(text: &str) -> bool {
+    let text = text.trim_start_matches(['(', ' ']);
+    text.starts_with(|first: char| first.is_ascii_digit() || first == '.')
+        || text.starts_with("true")
+        || text.starts_with("false")
 }
 
 /// Whether a swizzle has a component twice.

@@ -179,13 +179,24 @@ impl Analyzer<'_> {
         let help = super::foreign::variable(spelling).map(Advice::from);
         let help = help.or_else(|| super::foreign::of_vulkan(spelling));
         let help = help.or_else(|| self.nearest_variable(spelling).map(Advice::meant));
-        let help = help.or_else(|| did_you_mean(spelling, STATEMENTS.iter().copied()).map(Advice::meant));
-        let help = help.or_else(|| self.missing_macro(spelling).map(Advice::from));
+        let spelling = spelling.to_owned();
+        let statement = || did_you_mean(&spelling, STATEMENTS.iter().copied());
+        let statement = if help.is_none() { statement() } else { None };
+        statement.into_iter().for_each(|word| self.note_meant(word));
+        let help = help.or_else(|| statement.map(Advice::meant));
+        let help = help.or_else(|| self.missing_macro(&spelling).map(Advice::from));
         self.report(
             Diagnostic::new(&names::UNDECLARED, name.span, format!("`{spelling}` is not declared"))
                 .here("not known here")
                 .maybe_help(help),
         );
+    }
+
+    /// Notes the word that a misspelled one is taken for. With a `return`, the function returns.
+    pub(in crate::analysis) fn note_meant(&mut self, word: &str) {
+        if let Some(body) = self.body.as_mut().filter(|_| word == "return") {
+            body.returns = true;
+        }
     }
 
     /// The help for a name in capitals, which is most likely a macro that the application defines.

@@ -362,7 +362,9 @@ impl Analyzer<'_> {
             ("<" | ">" | "<=" | ">=", _) if vectors => {
                 Some("compare vectors with `lessThan`, `greaterThan` and so on".into())
             }
-            ("%", _) => Some("`%` is for integers; use `mod(a, b)` for floats".into()),
+            ("%", _) if kinds.iter().any(|(_, scalar)| !matches!(scalar, Some(Scalar::Int | Scalar::Uint))) => {
+                Some("`%` is for integers; use `mod(a, b)` for floats".into())
+            }
             ("&" | "|" | "^", [(_, Some(Scalar::Bool)), (_, Some(Scalar::Bool))]) => {
                 Some(format!("write `{spelling}{spelling}` between booleans"))
             }

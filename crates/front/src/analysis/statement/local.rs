@@ -46,7 +46,7 @@ impl Analyzer<'_> {
         let name = declarator.name;
         let good_name = self.check_name(name);
         let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());
-        let ty = self.check_local_type(ty, declaration, declarator);
+        let ty = self.check_local_type(ty, record, declaration, declarator);
         let ty = if self.check_local_size(ty, name.span) { ty } else { TypeId::ERROR };
         let constant = record.constant.is_some();
         let declared = ty;
@@ -97,15 +97,23 @@ impl Analyzer<'_> {
         Some(id)
     }
 
-    fn check_local_type(&mut self, ty: TypeId, declaration: &VariableDecl, declarator: &Declarator) -> TypeId {
+    fn check_local_type(
+        &mut self,
+        ty: TypeId,
+        record: &Qualifiers,
+        declaration: &VariableDecl,
+        declarator: &Declarator,
+    ) -> TypeId {
         if ty == TypeId::VOID {
             let span = declaration.ty.span;
             self.report(Diagnostic::new(&types::VOID_VALUE, span, "a variable cannot be `void`").here("not a value"));
             return TypeId::ERROR;
         }
         if self.types.contains_sampler(ty) {
-            let help = "declare it at global scope, as a `uniform`, or make it a parameter";
-            self.report_sampler(ty, declaration.ty.span, declarator.name.span, help);
+            if !record.belongs_outside {
+                let help = "declare it at global scope, as a `uniform`, or make it a parameter";
+                self.report_sampler(ty, declaration.ty.span, declarator.name.span, help);
+            }
             return TypeId::ERROR;
         }
         ty

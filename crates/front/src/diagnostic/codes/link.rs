@@ -38,8 +38,8 @@ codes! {
             "out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
             "flat in vec4 v; out vec4 c; void main() { c = v; }"),
         good Program(
-            "flat out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
-            "flat in vec4 v; out vec4 c; void main() { c = v; }");
+            "noperspective out vec4 v; void main() { v = vec4(1.0); gl_Position = vec4(0.0); }",
+            "noperspective in vec4 v; out vec4 c; void main() { c = v; }");
     QUALIFIER_MISMATCH = "E0705" "qualifier-mismatch" Error "GLSL 1.50 §4.3.9"
         "`centroid`, `sample` and `invariant` must be on both sides of an interface between stages, or on neither. From 4.30 and \
          ES 3.10 on, the qualifiers of the fragment stage count alone."

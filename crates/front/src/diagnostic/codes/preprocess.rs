@@ -165,7 +165,7 @@ codes! {
         "`##`, which joins two tokens, came with GLSL 1.30; 1.10 and 1.20 have no operator with a number sign. Some compilers \
          refuse it there. GLSL ES has it in no version, and there it is the error E0617."
         bad Fragment("#version 120\n#define J(a, b) a ## b\nvoid main() { gl_FragColor = vec4(J(1., 5)); }"),
-        good Fragment("#version 130\n#define J(a, b) a ## b\nvoid main() { gl_FragColor = vec4(J(1., 5)); }");
+        good Fragment("#version 130\n#define J(a, b) a ## b\nout vec4 c; void main() { c = vec4(J(1., 5)); }");
     COMMENT_ACROSS_LINES = "W0118" "comment-across-lines" Warning "GLSL 1.50 §3.4"
         "Until GLSL 4.30, and in ES 1.00, a comment does not eliminate the ends of lines, so a directive ends where a line ends inside a \
          comment. Drivers take each comment for one space, as later versions say, and the directive goes on after it."

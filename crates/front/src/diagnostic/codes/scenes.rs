@@ -45,9 +45,10 @@ codes! {
     SCENE_BAD_ASSET = "E0911" "unreadable-mesh-or-image" Error ""
         "A mesh or image that the scene names was read, but its format is not as expected."
         bad Text("mesh = { file = \"cut_off.glb\" }"), good Text("mesh = { file = \"whole.glb\" }");
-    SCENE_CANNOT_DRAW = "E0912" "undrawable-scene" Error "OpenGL 3.2 §2.11"
+    SCENE_CANNOT_DRAW = "E0912" "undrawable-scene" Error ""
         "The scene describes an impossible draw: a program without a vertex stage, an output of another type than the \
-         framebuffer's numbers, a primitive that the geometry shader does not take, or a framebuffer past the limit."
+         framebuffer's numbers, a primitive that the geometry shader does not take, or a framebuffer past the limit. Or a \
+         pixel is asked for that its picture has not."
         bad Text("[framebuffer]\nformat = \"rgba32sint\"\n[[draw]]\nfragment = \"lit.frag\"   # out vec4 color;"),
         good Text("[framebuffer]\nformat = \"rgba32float\"\n[[draw]]\nfragment = \"lit.frag\"");
     SCENE_LOOP_BUDGET = "E0913" "endless-loop" Error ""

@@ -65,7 +65,7 @@ codes! {
         "Overloads differ in the types of their parameters. Two declarations with the same parameter types are the \
          same function, so their return type and all qualifiers must be the same."
         bad Fragment("float f(float a) { return a; } int f(float a) { return 1; } out vec4 c; void main() { c = vec4(0.0); }"),
-        good Fragment("float f(float a) { return a; } int f(int a) { return 1; } out vec4 c; void main() { c = vec4(0.0); }");
+        good Fragment("float f(float a) { return a; } int f(int a) { return a; } out vec4 c; void main() { c = vec4(f(0.5), f(1), 0.0, 1.0); }");
     TOO_MANY_OVERLOADS = "E0513" "too-many-overloads" Error ""
         "A name may have at most 1,024 overloads."
         bad None, good None;

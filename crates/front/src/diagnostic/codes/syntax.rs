@@ -48,7 +48,7 @@ codes! {
         bad Vertex("uniform float a;\nb = 2.0;\nvoid main() {}"), good Vertex("uniform float a;\nfloat b = 2.0;\nvoid main() {}");
     MEMBER_INITIALIZER = "E0212" "member-initializer" Error "GLSL 1.50 §4.1.8, §4.3.7"
         "Members of structs and blocks have no initializers of their own."
-        bad Vertex("struct S { float a = 1.0; };\nvoid main() {}"), good Vertex("struct S { float a; };\nvoid main() {}");
+        bad Vertex("struct S { float a = 1.0; };\nvoid main() {}"), good Vertex("struct S { float a; };\nvoid main() { S s = S(1.0); gl_Position = vec4(s.a); }");
     MISSING_BLOCK_QUALIFIER = "E0213" "missing-block-qualifier" Error "GLSL 1.50 §4.3.7"
         "An interface block begins with `uniform`, `in` or `out`."
         bad Vertex("Lights { vec4 a; };\nvoid main() {}"), good Vertex("uniform Lights { vec4 a; };\nvoid main() {}");

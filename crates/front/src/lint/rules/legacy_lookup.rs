@@ -38,12 +38,18 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         else {
             continue;
         };
-        if OLD.contains(&name) && subject.texts.is_own(place.shader, span) {
+        // A macro of this name is what a header makes of the old word: it is not the function.
+        let is_macro =
+            || subject.texts.files(place.shader).iter().any(|file| subject.texts.lexemes(*file).defines(name));
+        if OLD.contains(&name) && subject.texts.is_own(place.shader, span) && !is_macro() {
             let new = function.name();
-            let fix =
-                subject.texts.replace(Applicability::Safe, span, new).filter(|_| is_free(subject, place, *function));
             let finding = findings.at(span, format!("`{name}` is the name of before GLSL 1.30"));
-            findings.push(finding.help(format!("write `{new}`")).maybe_fix(fix));
+            findings.push(if is_free(subject, place, *function) {
+                let fix = subject.texts.replace(Applicability::Safe, span, new);
+                finding.help(format!("write `{new}`")).maybe_fix(fix)
+            } else {
+                finding.help(format!("give what is named `{new}` here another name, then write `{new}`"))
+            });
         }
     }
 }

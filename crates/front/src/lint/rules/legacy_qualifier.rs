@@ -4,8 +4,7 @@ use super::super::{Findings, Subject};
 use crate::diagnostic::Applicability;
 use crate::hir::{Stage, Storage};
 use crate::language::Since;
-use crate::syntax::Lexemes;
-use crate::syntax::token::{Token, TokenKind};
+use crate::syntax::token::TokenKind;
 use std::collections::BTreeSet;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
@@ -25,7 +24,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             let own = before.get(start.map_or(0, |start| start + 1)..).unwrap_or(&[]);
             let old = own.iter().find(|token| matches!(lexemes.spelling(token), "attribute" | "varying"));
             // A macro of this name is what a header makes of the old word: it is not the keyword.
-            let Some(old) = old.filter(|token| !is_macro(&lexemes, token)) else { continue };
+            let Some(old) = old.filter(|token| !lexemes.defines(lexemes.spelling(token))) else { continue };
             if !told.insert(old.span.start) {
                 continue;
             }
@@ -36,15 +35,4 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             findings.push(finding.help(format!("write `{new}`")).maybe_fix(fix));
         }
     }
-}
-
-/// Whether the file defines a macro with the name of a token.
-fn is_macro(lexemes: &Lexemes, token: &Token) -> bool {
-    let spelled = |token: &Token| lexemes.spelling(token);
-    lexemes.tokens().windows(3).any(|three| match three {
-        [hash, define, name] => {
-            hash.kind == TokenKind::Hash && spelled(define) == "define" && spelled(name) == spelled(token)
-        }
-        _ => false,
-    })
 }

@@ -1,11 +1,12 @@
-//! `uninitialized-read`: reads a local or an `out` parameter before anything can have been assigned to it.
+//! `uninitialized-read`: reads a local, an `out` parameter, an output or another global before anything can have been assigned to it.
 //!
 //! The traversal follows the text. An earlier assignment on any path counts, and the assignments in a loop count from
-//! its first line on. So the rule errs on the side of silence.
+//! its first line on. Globals count in `main`, up to the first call of a function, which may assign them. So the rule errs on the side of
+//! silence.
 
 use super::super::{Findings, Subject, running};
 use crate::hir::written_by;
-use crate::hir::{ExprId, ExprKind, Function, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, VarRef};
+use crate::hir::{ExprId, ExprKind, Function, Global, LocalKind, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef};
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let program = subject.program;
@@ -15,13 +16,23 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                 index < function.param_count && local.kind != LocalKind::Param(ParamMode::Out)
                     || local.kind == LocalKind::Const
             });
-            let mut walk = Walk { shader, function, assigned: assigned.collect(), reads: Vec::new() };
+            let is_main = function.name == "main";
+            let is_unset = |global: &Global| {
+                matches!(global.storage, Storage::Out | Storage::Private) && global.initializer.is_none()
+            };
+            let globals = shader.globals.iter().map(|global| !(is_main && is_unset(global)));
+            let (assigned, globals) = (assigned.collect(), globals.collect());
+            let mut walk = Walk { shader, function, assigned, globals, reads: Vec::new() };
             walk.body(body);
-            for (id, read) in walk.reads {
-                let local = function.local(id);
-                let message = format!("`{}` is read before anything is assigned to it", local.name);
+            for (variable, read) in walk.reads {
+                let (name, declared) = match variable {
+                    VarRef::Local(id) => (&function.local(id).name, function.local(id).span),
+                    VarRef::Global(id) => (&shader.global(id).name, shader.global(id).span),
+                };
+                let message = format!("`{name}` is read before anything is assigned to it");
                 let finding = findings.at(shader.expr(read).span, message).here("an undefined value");
-                findings.push(finding.label(local.span, "declared here without a value"));
+                let label = Some((declared, "declared here without a value")).filter(|(span, _)| span.is_known());
+                findings.push(label.into_iter().fold(finding, |finding, (span, text)| finding.label(span, text)));
             }
         }
     }
@@ -30,22 +41,31 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
 struct Walk<'a> {
     shader: &'a Shader,
     function: &'a Function,
+    /// Whether each local is assigned.
     assigned: Vec<bool>,
-    reads: Vec<(LocalId, ExprId)>,
+    /// Whether each global is assigned.
+    globals: Vec<bool>,
+    reads: Vec<(VarRef, ExprId)>,
 }
 
 impl Walk<'_> {
-    fn assign(&mut self, id: LocalId) {
-        if let Some(assigned) = self.assigned.get_mut(id.index()) {
-            *assigned = true;
-        }
+    fn assign(&mut self, variable: VarRef) {
+        let assigned = match variable {
+            VarRef::Local(id) => self.assigned.get_mut(id.index()),
+            VarRef::Global(id) => self.globals.get_mut(id.index()),
+        };
+        assigned.into_iter().for_each(|assigned| *assigned = true);
     }
 
-    /// Reports the first read of a local.
-    fn read(&mut self, id: LocalId, expr: ExprId) {
-        if self.assigned.get(id.index()) == Some(&false) && !self.function.local(id).name.is_empty() {
-            self.reads.push((id, expr));
-            self.assign(id);
+    /// Notes the first read of a variable.
+    fn read(&mut self, variable: VarRef, expr: ExprId) {
+        let (assigned, is_named) = match variable {
+            VarRef::Local(id) => (self.assigned.get(id.index()), !self.function.local(id).name.is_empty()),
+            VarRef::Global(id) => (self.globals.get(id.index()), true),
+        };
+        if assigned == Some(&false) && is_named {
+            self.reads.push((variable, expr));
+            self.assign(variable);
         }
     }
 
@@ -60,7 +80,7 @@ impl Walk<'_> {
         match &statement.kind {
             StmtKind::Local(id, Some(initializer)) => {
                 self.expr(*initializer);
-                self.assign(*id);
+                self.assign(VarRef::Local(*id));
             }
             StmtKind::Loop { condition, step, body, .. } => {
                 self.assign_all(body);
@@ -69,7 +89,7 @@ impl Walk<'_> {
                 }
                 if let Some(condition) = condition {
                     self.expr(condition.expr);
-                    condition.local.into_iter().for_each(|id| self.assign(id));
+                    condition.local.into_iter().for_each(|id| self.assign(VarRef::Local(id)));
                 }
                 self.body(body);
                 step.iter().for_each(|step| self.expr(*step));
@@ -97,7 +117,7 @@ impl Walk<'_> {
         let shader = self.shader;
         shader.visit_statements(body, &mut |statement| {
             if let StmtKind::Local(id, Some(_)) = statement.kind {
-                self.assign(id);
+                self.assign(VarRef::Local(id));
             }
             for expr in statement.kind.exprs() {
                 self.assign_in(expr);
@@ -109,10 +129,11 @@ impl Walk<'_> {
         let shader = self.shader;
         shader.visit_expr(root, &mut |expr| {
             written_by(shader, expr, &mut |target| {
-                if let Some(VarRef::Local(id)) = shader.root_variable(target) {
-                    self.assign(id);
-                }
+                shader.root_variable(target).into_iter().for_each(|variable| self.assign(variable));
             });
+            if matches!(shader.expr(expr).kind, ExprKind::Call(..)) {
+                self.globals.fill(true);
+            }
         });
     }
 
@@ -120,7 +141,7 @@ impl Walk<'_> {
     fn expr(&mut self, id: ExprId) {
         let shader = self.shader;
         match &shader.expr(id).kind {
-            ExprKind::Var(VarRef::Local(local)) => self.read(*local, id),
+            ExprKind::Var(variable) => self.read(*variable, id),
             ExprKind::Assign(None, target, value) => {
                 self.indices(*target);
                 self.expr(*value);

@@ -14,7 +14,7 @@ use crate::syntax::{kind, of_later_word};
 /// never closes its brackets would be searched to its end from each statement.
 const MAX_AHEAD: usize = 1024;
 /// How many tokens a function may have for its forgotten `{` to be found.
-const MAX_BODY: usize = 1 << 16;
+pub(super) const MAX_BODY: usize = 1 << 16;
 
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// external_declaration
@@ -38,8 +38,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             _ => self.global(),
         };
         let kind = kind.unwrap_or_else(|_: Reported| {
-            let fragment = self.fragment(before, start.span);
             self.recover_declaration(before);
+            self.name_skipped();
+            let fragment = self.fragment(before, start.span);
             DeclarationKind::Broken(Box::new(fragment))
         });
         let span = self.since(start.span);
@@ -146,7 +147,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// function_definition, after its header
-    fn function_definition(&mut self, header: FunctionHeader) -> Parse<DeclarationKind> {
+    pub(super) fn function_definition(&mut self, header: FunctionHeader) -> Parse<DeclarationKind> {
         self.function_brace = self.current.span;
         let body: Vec<Stmt> = self.compound_statement();
         self.leaving_function = false;
@@ -192,20 +193,33 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if self.kind() == TokenKind::Precision {
             return self.precision();
         }
+        if let Some(reported) = self.definition_of_type() {
+            return Err(reported);
+        }
         let start = self.current.span;
         let qualifiers = self.qualifiers()?;
         if !qualifiers.is_empty() {
             match (self.kind(), self.ahead(1).kind) {
                 (TokenKind::Semicolon, _) => return Ok(DeclarationKind::Requalify { qualifiers, names: Vec::new() }),
                 (TokenKind::Ident, TokenKind::Comma | TokenKind::Semicolon) => return self.requalify(qualifiers),
-                (TokenKind::Ident, TokenKind::Equal) => return Err(self.missing_type()),
+                (TokenKind::Ident, TokenKind::Equal) => {
+                    let name = Ident { symbol: self.current.symbol(), span: self.current.span };
+                    let reported = self.missing_type();
+                    self.declaring.push(name);
+                    return Err(reported);
+                }
                 _ => {}
             }
         }
         if self.kind() == TokenKind::Ident && self.ahead(1).kind == TokenKind::LeftBrace {
             return self.block(qualifiers);
         }
+        let mut qualifiers = qualifiers;
+        if self.kind() == TokenKind::LeftBrace && !qualifiers.is_empty() {
+            return Err(self.nameless_block());
+        }
         let ty = self.type_specifier()?;
+        self.late_qualifiers(&mut qualifiers, &ty)?;
         if matches!(self.kind(), TokenKind::Semicolon) || self.forgot_semicolon(&ty) {
             return Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators: Vec::new() }));
         }
@@ -218,7 +232,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         let name = self.ident("a name")?;
         if self.kind() == TokenKind::LeftParen {
-            return Ok(DeclarationKind::Prototype(self.function_header(start, qualifiers, ty, name)?));
+            // If the header is broken, the name is known all the same.
+            self.declaring.push(name);
+            let header = self.function_header(start, qualifiers, ty, name)?;
+            self.declaring.clear();
+            return Ok(DeclarationKind::Prototype(header));
         }
         let mut declarators = Vec::new();
         let done = self.declarators(name, &ty, &mut declarators);
@@ -230,10 +248,35 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(DeclarationKind::Variables(variables))
     }
 
+    /// Reports `typedef vec4 color;` or `using namespace glm;`, and reads it up to its name, which is known all the same.
+    fn definition_of_type(&mut self) -> Option<Reported> {
+        let word = self.session.spelling(self.current).to_owned();
+        if self.kind() != TokenKind::Reserved || !matches!(word.as_str(), "typedef" | "using") {
+            return None;
+        }
+        let message = format!("the reserved word `{word}` begins no declaration");
+        let help = match word.as_str() {
+            "typedef" => "a macro can be another name of a type: `#define color vec4`",
+            _ => "leave it out: GLSL has no namespaces",
+        };
+        let diagnostic = Diagnostic::new(&codes::RESERVED_WORD, self.current.span, message)
+            .here("reserved for later versions")
+            .help(help);
+        let reported = self.report_found(diagnostic);
+        self.bump();
+        if word == "typedef" && self.type_specifier().is_ok() && self.kind() == TokenKind::Ident {
+            let name = self.bump();
+            self.declaring.push(Ident { symbol: name.symbol(), span: name.span });
+        }
+        Some(reported)
+    }
+
     /// Whether what follows the `}` of a struct cannot be a variable, so that a `;` must be missing.
     fn forgot_semicolon(&mut self, ty: &TypeSpec) -> bool {
         let begins = |kind| is_qualifier(kind) || matches!(kind, TokenKind::Type | TokenKind::Void | TokenKind::Struct);
-        matches!(ty.base, TypeBase::Struct(_)) && self.current.starts_line() && begins(self.kind())
+        // In `Ray make(..)`, the first name is a type.
+        let names = |this: &mut Self| this.kind() == TokenKind::Ident && this.ahead(1).kind == TokenKind::Ident;
+        matches!(ty.base, TypeBase::Struct(_)) && self.current.starts_line() && (begins(self.kind()) || names(self))
     }
 
     /// `precision highp float`
@@ -276,11 +319,43 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if self.kind() == TokenKind::Ident {
             let name = self.ident("the name of an instance")?;
             instance = Some((name, self.array_specifiers()?));
+            if self.kind() == TokenKind::Comma {
+                self.declaring.push(name);
+                return Err(self.second_instance());
+            }
         }
         if qualifiers.is_empty() {
             return Ok(DeclarationKind::Error);
         }
         Ok(DeclarationKind::Block(BlockDecl { qualifiers, name, members, instance }))
+    }
+
+    /// Reports `B {..} b, d;`, and reads the names.
+    fn second_instance(&mut self) -> Reported {
+        let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, "a block has one instance")
+            .here("expected `;`")
+            .help("write an array of instances, such as `b[2]`, or declare another block");
+        let reported = self.report_found(diagnostic);
+        while self.eat(TokenKind::Comma).is_some() && self.kind() == TokenKind::Ident {
+            let name = self.bump();
+            self.declaring.push(Ident { symbol: name.symbol(), span: name.span });
+        }
+        reported
+    }
+
+    /// Reports a block without a name, and reads it. The names that it declares are known all the same.
+    fn nameless_block(&mut self) -> Reported {
+        let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, "the block has no name")
+            .here("expected the name of a block");
+        let reported = self.report_found(diagnostic);
+        let Ok(members) = self.member_list() else { return reported };
+        if self.kind() == TokenKind::Ident {
+            let instance = self.bump();
+            self.declaring.push(Ident { symbol: instance.symbol(), span: instance.span });
+        } else {
+            self.declaring.extend(members.iter().flat_map(|member| &member.declarators).map(|one| one.name));
+        }
+        reported
     }
 
     /// init_declarator_list, from its first name on
@@ -380,8 +455,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// parameter_declaration
     fn parameter(&mut self) -> Parse<ParamDecl> {
         let start = self.current.span;
-        let qualifiers = self.qualifiers()?;
+        let mut qualifiers = self.qualifiers()?;
         let ty = self.type_specifier()?;
+        self.late_qualifiers(&mut qualifiers, &ty)?;
         if matches!(self.kind(), TokenKind::Star | TokenKind::Ampersand) {
             let spelling = self.kind().spelling();
             let message = format!("`{spelling}` before a parameter: there are neither pointers nor references");

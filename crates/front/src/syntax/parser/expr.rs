@@ -398,7 +398,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         let span = self.since(opening.span);
         let name = self.session.sources.snippet(span).trim_matches(['(', ')', ' ']).to_owned();
-        let ty = crate::language::foreign::type_name(&name).unwrap_or(&name);
+        // Any other name may be a variable, with an operator missing behind it.
+        let Some(ty) = crate::language::foreign::type_name(&name) else { return Ok(()) };
         let message = format!("`({name})` is not a cast: GLSL has none");
         let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, message);
         Err(self.report_found(diagnostic.help(format!("write `{ty}(..)` around the value"))))

@@ -39,6 +39,14 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.kind() == TokenKind::Foreign && QUALIFIERS.contains(&self.session.spelling(self.current))
     }
 
+    /// Whether `buffer B {` is next where `buffer` is no keyword yet. A struct of that name makes no sense there.
+    pub(super) fn is_storage_block(&mut self) -> bool {
+        self.kind() == TokenKind::Ident
+            && self.session.spelling(self.current) == "buffer"
+            && self.ahead(1).kind == TokenKind::Ident
+            && self.ahead(2).kind == TokenKind::LeftBrace
+    }
+
     /// Reports the keyword and reads it.
     pub(super) fn foreign(&mut self) -> Reported {
         let token = self.bump();

@@ -3,9 +3,12 @@
 //! *In:* the expressions and names that were read before the error. *Out:* a [`Fragment`], so that names in broken text are known to an
 //! editor, and variables have their types. *Not done here:* saying anything about it; the error has been reported.
 
-use super::{Mark, Parser, TokenSource};
+use super::{Mark, Parser, TokenKind, TokenSource};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprId, ExprKind, Fragment, VariableDecl};
+use crate::syntax::ast::{self, Expr, ExprId, ExprKind, Fragment, VariableDecl};
+
+/// How many tokens of a broken statement are searched for the names that it declares.
+const MAX_SKIPPED: usize = 256;
 
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// The number of expressions so far.
@@ -18,6 +21,34 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.declaring.clear();
         self.unfinished = None;
         self.taken.clear();
+    }
+
+    /// Looks for the names that a broken statement or declaration declares, if none was read before the error: `vec4<f32> x = ..`,
+    /// `layout(location 0) in vec3 a;`.
+    pub(super) fn name_skipped(&mut self) {
+        use TokenKind::*;
+        if !self.declaring.is_empty() || self.taken.len() > MAX_SKIPPED {
+            return;
+        }
+        let mut depth = 0_i32;
+        let mut names = Vec::new();
+        let next = self.taken.iter().skip(1).chain([&self.current]);
+        for (index, (token, next)) in self.taken.iter().zip(next).enumerate() {
+            match token.kind {
+                LeftParen | LeftBrace | LeftBracket => depth += 1,
+                RightParen | RightBrace | RightBracket => depth -= 1,
+                _ => {}
+            }
+            let before: [TokenKind; 4] = std::array::from_fn(|back| {
+                index.checked_sub(back + 1).and_then(|at| self.taken.get(at)).map_or(Eof, |token| token.kind)
+            });
+            let is_typed = matches!(before, [Type, ..] | [RightAngle, Type | Ident, LeftAngle, Type]);
+            let is_declared = is_typed && matches!(next.kind, Equal | Semicolon | Comma | LeftBracket);
+            if depth == 0 && token.kind == Ident && is_declared {
+                names.push(ast::Ident { symbol: token.symbol(), span: token.span });
+            }
+        }
+        self.declaring = names;
     }
 
     /// The understood part of the statement or declaration that began at a mark.

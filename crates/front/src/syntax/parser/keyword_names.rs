@@ -80,7 +80,7 @@ fn is_name_between(before: TokenKind, keyword: TokenKind, after: TokenKind) -> b
 }
 
 /// Whether a token is an operator, or assigns.
-fn is_operator(kind: TokenKind) -> bool {
+pub(super) fn is_operator(kind: TokenKind) -> bool {
     kind as u8 >= TokenKind::Question as u8
 }
 

@@ -206,6 +206,26 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         open.pop()
     }
 
+    /// The bracket that a macro in the statement opens and does not close, where it is written, and the macro's name.
+    pub(super) fn open_in_macro(&self) -> Option<(Span, &str)> {
+        let mut open: Vec<Token> = Vec::new();
+        for token in &self.taken {
+            match token.kind {
+                TokenKind::LeftParen | TokenKind::LeftBracket => open.push(*token),
+                TokenKind::RightParen | TokenKind::RightBracket => {
+                    let partner = open.pop()?.span;
+                    if partner.expansion != token.span.expansion
+                        && let Some(expansion) = self.session.sources.expansion(partner.expansion)
+                    {
+                        return Some((Span::new(partner.start, partner.end), &expansion.name));
+                    }
+                }
+                _ => {}
+            }
+        }
+        None
+    }
+
     /// Puts the tokens of the statement from a number on back. There are no braces among them.
     fn go_back(&mut self, number: usize) {
         self.recovered = true;

@@ -4,6 +4,7 @@
 //! *Holds:* a text that could be valid is left as it is. *Not done here:* names that make a valid statement by themselves, such as
 //! `retrun;`; the analysis knows that nobody declares them.
 
+use super::keyword_names::is_operator;
 use super::types::{is_qualifier, qualifier};
 use super::{Parser, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
@@ -52,8 +53,25 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             if self.has_condition() {
                 self.correct(|kind| WITH_CONDITION.contains(&kind));
             }
-        } else if (behind_number || behind_constructor) && !next.starts_line() {
+        } else if (behind_number || behind_constructor || self.is_value_behind()) && !next.starts_line() {
             self.correct(|kind| kind == TokenKind::Return);
+        }
+    }
+
+    /// Whether a name is next and behind it what can only be a value: `retrun x * 0.5`, `retrun a.b`, `retrun f(2.0)`, `retrun true`.
+    fn is_value_behind(&mut self) -> bool {
+        use TokenKind::*;
+        match (self.ahead(1).kind, self.ahead(2).kind) {
+            (True | False, _) | (Ident, Dot) => true,
+            (Ident, LeftParen) => {
+                let behind = self.past_bracket(2, LeftParen, RightParen);
+                // Between the parentheses of a prototype there are names and types alone.
+                let mut inner = (3..behind - 1).map(|at| self.ahead(at).kind);
+                let computes = |kind| matches!(kind, Int | Uint | Float | Dot | LeftParen) || is_operator(kind);
+                inner.any(computes) || is_operator(self.ahead(behind).kind)
+            }
+            (Ident, after) => is_operator(after) && after != Equal,
+            _ => false,
         }
     }
 

@@ -28,7 +28,7 @@ use super::ast::{Ast, BinaryOp, ExprId, Ident, VariableDecl};
 use super::keywords::TABLE;
 use super::of_later_word;
 use super::session::{ParseSession, TokenSource};
-use super::token::{Token, TokenKind};
+use super::token::{Token, TokenFlags, TokenKind};
 use crate::diagnostic::codes::{general, syntax as codes};
 use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::language::NEVER;
@@ -234,6 +234,10 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             return Err(reported);
         }
         let diagnostic = layout::unclosed(opening, self.previous.span.after());
+        let diagnostic = match self.open_in_macro() {
+            Some((span, name)) => diagnostic.label(span, format!("the macro `{name}` does not close this")),
+            None => diagnostic,
+        };
         Err(self.report_found(diagnostic))
     }
 
@@ -300,18 +304,50 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
 
     /// Reports that something else was expected.
     fn unexpected(&mut self, expected: &str) -> Reported {
+        if self.current.flags.contains(TokenFlags::REPORTED) {
+            return Reported;
+        }
         let found = self.describe(self.current);
         let diagnostic =
             Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, format!("expected {expected}, found {found}"))
                 .here(format!("expected {expected}"));
         let word = self.session.spelling(self.current);
         let diagnostic = of_later_word(diagnostic, word, self.session.version);
+        let diagnostic = self.blame_macro(diagnostic);
         if diagnostic.code.id == codes::UNEXPECTED_TOKEN.id
             && let Some(reported) = self.left_unfinished(expected)
         {
             return reported;
         }
         self.report_found(diagnostic)
+    }
+
+    /// Names the macro that is the reason: its `;` ended a statement, as in `#define PI 3.14;`, or a blank before its `(` took its
+    /// parameters away, as in `#define SQ (x) x * x`.
+    fn blame_macro(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let span = self.previous.span;
+        let is_elsewhere = self.previous.kind == TokenKind::Semicolon && self.current.span.expansion != span.expansion;
+        let Some(expansion) = self.session.sources.expansion(span.expansion).filter(|_| is_elsewhere) else {
+            return self.blame_blank(diagnostic);
+        };
+        let written = Span::new(span.start, span.end);
+        diagnostic
+            .label(written, format!("the macro `{}` has this `;`", expansion.name))
+            .help("leave the `;` out of the macro")
+    }
+
+    fn blame_blank(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let sources = &self.session.sources;
+        let Some(expansion) = sources.expansion(self.current.span.expansion) else { return diagnostic };
+        let behind = |span: Span, text: &str| {
+            sources.snippet(Span { start: span.end, end: span.end + text.len() as u32, ..span }) == text
+        };
+        let (name, call, definition) = (&expansion.name, expansion.call, expansion.definition);
+        let is_plain = sources.snippet(call) == &**name;
+        if self.previous.kind == TokenKind::RightParen && is_plain && behind(call, "(") && behind(definition, " (") {
+            return diagnostic.help(format!("`{name}` has no parameters: write their `(` right behind its name"));
+        }
+        diagnostic
     }
 
     /// Reports an error at the next token, unless the tokens ended because of an error that has been reported. The

@@ -1,10 +1,14 @@
 //! Parses statements (GLSL 1.50 §6.2 to §6.4, §9).
 
+use super::declaration::MAX_BODY;
 use super::{Mark, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
-use crate::diagnostic::{Advice, Applicability, Diagnostic};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::source::Span;
-use crate::syntax::ast::{Condition, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
+use crate::syntax::ast::{Condition, Declaration, DeclarationKind, ExprId, Stmt, StmtKind, SwitchItem, VariableDecl};
 use crate::syntax::of_later_word;
+
+/// How many tokens the header of a statement may have for its forgotten `(` to be found.
+const MAX_HEADER: usize = 256;
 
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// compound_statement; reports a missing closing brace.
@@ -46,10 +50,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let before = self.mark();
         self.begin();
         let kind = self.nested(Self::statement_kind).unwrap_or_else(|_: Reported| {
-            let fragment = self.fragment(before, start);
             if !self.leaving_function {
                 self.recover_statement(before);
+                self.name_skipped();
             }
+            let fragment = self.fragment(before, start);
             if fragment.is_empty() { StmtKind::Error } else { StmtKind::Broken(Box::new(fragment)) }
         });
         self.taken.clear();
@@ -84,6 +89,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     .here("expected a statement");
                 Err(self.report_found(diagnostic))
             }
+            TokenKind::LeftBracket if self.is_attribute() => self.attribute(),
             TokenKind::Ident | TokenKind::Reserved if self.is_later_switch() => Ok(self.later_switch()),
             TokenKind::Ident if self.is_misspelled_else_if() => {
                 let name = self.session.spelling(self.current).to_owned();
@@ -96,6 +102,27 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
             _ => self.simple_statement(),
         }
+    }
+
+    /// Whether an attribute of HLSL is next, such as `[unroll]`: brackets before a statement that begins with a keyword.
+    fn is_attribute(&mut self) -> bool {
+        let behind = self.past_bracket(0, TokenKind::LeftBracket, TokenKind::RightBracket);
+        matches!(
+            self.ahead(behind).kind,
+            TokenKind::For | TokenKind::While | TokenKind::Do | TokenKind::If | TokenKind::Switch
+        )
+    }
+
+    /// Reports the attribute, and reads the statement behind it.
+    fn attribute(&mut self) -> Parse<StmtKind> {
+        let opening = self.current.span;
+        while self.bump().kind != TokenKind::RightBracket {}
+        let span = self.since(opening);
+        let message = format!("`{}` is an attribute, and GLSL has none", self.session.sources.snippet(span));
+        let help = Advice::new(Applicability::Safe, "leave it out", Place::Over, "");
+        let finding = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, message).here("expected a statement").help(help);
+        self.session.report(finding);
+        self.statement_kind()
     }
 
     /// Whether `elseif (..) statement` is next, rather than a call of something named so.
@@ -142,7 +169,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             return Ok(StmtKind::Expr(expr));
         }
         if self.begins_function_definition() {
-            return Err(self.nested_function());
+            return self.nested_function();
         }
         let kind = self.local_declaration()?;
         if let Err(reported) = self.semicolon("the declaration") {
@@ -185,18 +212,56 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.ahead(behind).kind == TokenKind::LeftBrace && self.ahead(behind - 1).kind == TokenKind::RightParen
     }
 
-    /// Handles a function inside a function: parses it as if the outer one had ended.
-    fn nested_function(&mut self) -> Reported {
+    /// Handles a function inside a function. If the braces of the file are in pairs, it is one; otherwise it is parsed as if the outer
+    /// one had ended.
+    fn nested_function(&mut self) -> Parse<StmtKind> {
         let name = self.ahead(1);
+        let is_nested = self.braces_are_paired();
         let message = format!("the function `{}` is defined inside a function", self.session.spelling(name));
         let diagnostic = Diagnostic::new(&codes::NESTED_FUNCTION, name.span, message)
             .here("functions can only be defined at global scope")
             .label(self.function_brace, "the function around it begins here")
-            .help("if this is not a nested function, a `}` is missing above");
+            .help(match is_nested {
+                true => "move it out, and make parameters of what it reads of the function around it",
+                false => "if this is not a nested function, a `}` is missing above",
+            });
         self.session.report(diagnostic);
+        if is_nested {
+            return self.inner_function();
+        }
         self.leaving_function = true;
         self.assumed_brace = true;
-        Reported
+        Err(Reported)
+    }
+
+    /// Reads a function inside a function, as if it were in front of the outer one.
+    fn inner_function(&mut self) -> Parse<StmtKind> {
+        let (start, outer_brace) = (self.current, self.function_brace);
+        let DeclarationKind::Prototype(mut header) = self.declaration()? else { return Err(Reported) };
+        // It may read what the outer one declares, which is not known in front of it.
+        header.is_whole = false;
+        let kind = self.function_definition(header)?;
+        self.function_brace = outer_brace;
+        let extensions = self.session.extensions_at(start);
+        self.ast.declarations.push(Declaration { kind, span: self.since(start.span), extensions });
+        Ok(StmtKind::Empty)
+    }
+
+    /// Whether each brace that is open is closed up to the end of the file. That is sought only once.
+    fn braces_are_paired(&mut self) -> bool {
+        if std::mem::replace(&mut self.sought_brace, true) {
+            return false;
+        }
+        let mut depth = self.braces;
+        for at in 0..MAX_BODY {
+            match self.ahead(at).kind {
+                TokenKind::LeftBrace => depth += 1,
+                TokenKind::RightBrace => depth -= 1,
+                TokenKind::Eof => return depth == 0,
+                _ => {}
+            }
+        }
+        false
     }
 
     fn stray_case(&mut self) -> Reported {
@@ -226,9 +291,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// Parses `( production )`. Returns `None` if the production failed and parsing can go on after its `)`.
     fn in_parens<R>(&mut self, production: impl FnOnce(&mut Self) -> Parse<R>) -> Parse<Option<R>> {
-        let opening: Token = self.expect(TokenKind::LeftParen)?;
+        let opening: Option<Token> = self.opening_paren()?;
         let result = production(self).and_then(|inner| {
-            self.close(opening, TokenKind::RightParen, "`)` or an operator")?;
+            match opening {
+                Some(opening) => self.close(opening, TokenKind::RightParen, "`)` or an operator")?,
+                None if self.kind() == TokenKind::LeftBrace => self.previous,
+                None => self.expect(TokenKind::RightParen)?,
+            };
             Ok(inner)
         });
         match result {
@@ -241,6 +310,29 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 }
             }
         }
+    }
+
+    /// The `(` after a keyword. A missing one before a body in braces is reported and assumed: `for int i = 0; i < 3; i++ {`.
+    fn opening_paren(&mut self) -> Parse<Option<Token>> {
+        if self.kind() == TokenKind::LeftParen || !self.body_ends_line() {
+            return self.expect(TokenKind::LeftParen).map(Some);
+        }
+        let reported = self.unexpected("`(`");
+        if self.recovered { Err(reported) } else { Ok(None) }
+    }
+
+    /// Whether there is a `{` behind something on this line.
+    fn body_ends_line(&mut self) -> bool {
+        for at in 0..MAX_HEADER {
+            let token = self.ahead(at);
+            match token.kind {
+                _ if token.starts_line() => return false,
+                TokenKind::LeftBrace => return at > 0,
+                TokenKind::RightBrace | TokenKind::Eof => return false,
+                _ => {}
+            }
+        }
+        false
     }
 
     /// selection_statement; a loop handles `else if`.

@@ -2,6 +2,7 @@
 
 use super::{Parse, Parser, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Applicability, Diagnostic};
+use crate::language::Extensions;
 use crate::source::Span;
 use crate::syntax::ast::{
     ArrayDim, Declarator, ExprId, ExprKind, LayoutId, MemberDecl, Qualifier, QualifierKind, StructSpec, TypeBase,
@@ -56,7 +57,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             } else if self.kind() == TokenKind::Layout || self.is_later_layout() {
                 let kind = QualifierKind::Layout(self.layout()?);
                 list.push(Qualifier { kind, span: self.since(start) });
-            } else if self.is_foreign_qualifier() {
+            } else if self.is_foreign_qualifier() || self.is_storage_block() {
                 let _: super::Reported = self.foreign();
             } else if self.is_reserved_qualifier() {
                 let token = self.current;
@@ -68,6 +69,37 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 return Ok(list);
             }
         }
+    }
+
+    /// Reports qualifiers behind the type, as in `vec3 in n`, and reads them as if they were in front of it.
+    pub(super) fn late_qualifiers(&mut self, list: &mut Vec<Qualifier>, ty: &TypeSpec) -> Parse<()> {
+        let behind = match self.kind() {
+            TokenKind::Layout if self.ahead(1).kind == TokenKind::LeftParen => {
+                let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
+                self.ahead(behind)
+            }
+            kind if qualifier(kind).is_some() => self.ahead(1),
+            _ => return Ok(()),
+        };
+        // What begins the next line is a declaration of its own, and one without a name behind it is a name.
+        let is_late = (behind.kind == TokenKind::Ident || is_qualifier(behind.kind)) && !behind.starts_line();
+        if self.current.starts_line() || !is_late {
+            return Ok(());
+        }
+        let first = self.current.span;
+        list.extend(self.qualifiers()?);
+        let snippet = |span| self.session.sources.snippet(span).to_owned();
+        let (words, name) = (snippet(self.since(first)), snippet(ty.span));
+        let help = match ty.base {
+            TypeBase::Struct(_) => Advice::from("write it before the type"),
+            _ => Advice::write(Applicability::Safe, format!("{words} {name}")),
+        };
+        let diagnostic =
+            Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.since(ty.span), format!("`{words}` is behind the type"))
+                .here("qualifiers come before the type")
+                .help(help);
+        self.session.report(diagnostic);
+        Ok(())
     }
 
     /// A name where only a qualifier makes sense, such as `coherent` in `coherent uniform float x`.
@@ -89,7 +121,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// A reserved word where only a qualifier makes sense, such as `static` in `static float x`.
     fn is_reserved_qualifier(&mut self) -> bool {
-        if self.kind() != TokenKind::Reserved {
+        if self.kind() != TokenKind::Reserved || self.is_unsigned_int() {
             return false;
         }
         let next = self.ahead(1).kind;
@@ -170,6 +202,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 self.note_later_statement();
                 TypeBase::Named(self.ident("a type")?)
             }
+            TokenKind::Reserved if self.is_unsigned_int() => self.reserved_unsigned(),
             TokenKind::Reserved => {
                 self.report_reserved_type();
                 TypeBase::Error
@@ -201,6 +234,28 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             self.bump();
         }
         TypeBase::Keyword(self.session.names.intern("uint"))
+    }
+
+    /// Whether `unsigned int` is next, in a language that has `uint`.
+    fn is_unsigned_int(&mut self) -> bool {
+        let next = self.ahead(1);
+        self.session.spelling(self.current) == "unsigned"
+            && next.kind == TokenKind::Type
+            && self.session.spelling(next) == "int"
+            && TABLE.iter().any(|row| {
+                row.spelling == "uint" && row.kind_in(self.session.version, Extensions::empty()) == TokenKind::Type
+            })
+    }
+
+    /// Reports `unsigned int` of C, and reads it as the `uint` that is meant.
+    fn reserved_unsigned(&mut self) -> TypeBase {
+        let start = self.current.span;
+        let base = self.unsigned();
+        let message = "`unsigned int` has another name in GLSL";
+        let help = Advice::write(Applicability::Safe, "uint");
+        let diagnostic = Diagnostic::new(&codes::RESERVED_WORD, self.since(start), message);
+        self.session.report(diagnostic.here("reserved for later versions").help(help));
+        base
     }
 
     /// Reports a reserved word used as a type, at each use, since no declaration can make it right.
@@ -268,8 +323,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// struct_declaration
     fn member(&mut self) -> Parse<MemberDecl> {
         let start = self.current.span;
-        let qualifiers = self.qualifiers()?;
+        let mut qualifiers = self.qualifiers()?;
         let ty = self.type_specifier()?;
+        self.late_qualifiers(&mut qualifiers, &ty)?;
         let mut declarators = Vec::new();
         loop {
             declarators.push(self.member_declarator()?);

@@ -84,9 +84,8 @@ impl Preprocessor<'_> {
             TokenKind::Word => directive_named(session.spelling(token)),
             _ => None,
         };
-        let Some(directive) = directive else {
-            self.unknown_directive(session, token, span);
-            return;
+        let Some(directive) = directive.or_else(|| unknown_directive(session, token, span)) else {
+            return self.skip_line(session);
         };
         if !self.version_seen && directive != Directive::Version {
             self.before_version.get_or_insert(span);
@@ -112,17 +111,6 @@ impl Preprocessor<'_> {
             Directive::Include => self.include(session, span, false),
             Directive::Import => self.include(session, span, true),
         }
-    }
-
-    fn unknown_directive(&mut self, session: &mut ParseSession<'_>, token: Token, span: Span) {
-        let name = session.sources.snippet(token.span).to_owned();
-        let near = did_you_mean(&name, DIRECTIVES.iter().map(|row| row.0));
-        let of_engine = ENGINES.iter().find(|row| row.0 == name).map(|row| Advice::from(row.1));
-        let help = of_engine.or(near.map(|near| Advice::meant(format!("#{near}"))));
-        let diagnostic = Diagnostic::new(&codes::UNKNOWN_DIRECTIVE, span, format!("there is no directive `#{name}`"))
-            .maybe_help(help);
-        session.report(diagnostic);
-        self.skip_line(session);
     }
 
     /// The next token of the directive's line, without macro expansion.
@@ -430,4 +418,16 @@ impl Preprocessor<'_> {
             frame.number = small(string);
         }
     }
+}
+
+/// Reports a directive that there is not. A misspelled one is read as the one that is meant.
+fn unknown_directive(session: &mut ParseSession<'_>, token: Token, span: Span) -> Option<Directive> {
+    let name = session.sources.snippet(token.span).to_owned();
+    let near = did_you_mean(&name, DIRECTIVES.iter().map(|row| row.0));
+    let of_engine = ENGINES.iter().find(|row| row.0 == name).map(|row| Advice::from(row.1));
+    let help = of_engine.clone().or(near.map(|near| Advice::meant(format!("#{near}"))));
+    let diagnostic =
+        Diagnostic::new(&codes::UNKNOWN_DIRECTIVE, span, format!("there is no directive `#{name}`")).maybe_help(help);
+    session.report(diagnostic);
+    near.filter(|_| of_engine.is_none()).and_then(directive_named)
 }

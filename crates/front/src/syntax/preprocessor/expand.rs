@@ -399,6 +399,7 @@ impl Preprocessor<'_> {
             );
             let span = session.sources.call_site(Span { expansion: id, ..left.span });
             session.report(Diagnostic::new(&codes::INVALID_PASTE, span, message).label(left.span, "the left side"));
+            tokens.iter_mut().skip(boundary).take(1).for_each(|token| token.flags.insert(TokenFlags::REPORTED));
             return;
         }
         joined.span = Span { expansion: id, ..left.span };

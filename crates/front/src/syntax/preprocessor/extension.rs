@@ -43,14 +43,16 @@ impl Preprocessor<'_> {
         }
         let colon = self.line_token(session);
         if colon.kind != TokenKind::Colon {
-            return self.malformed(session, colon, "`#extension` needs `:` and a behavior after the name");
+            self.malformed(session, colon, "`#extension` needs `:` and a behavior after the name");
+            return self.enable_meant(session, name);
         }
         let behavior = self.line_token(session);
         let spelled =
             if behavior.kind == TokenKind::Word { session.spelling(behavior).to_owned() } else { String::new() };
         let Some(meant) = BEHAVIORS.iter().find(|row| row.0 == spelled).map(|row| row.1) else {
             let message = "the behavior is `require`, `enable`, `warn` or `disable`";
-            return self.malformed(session, behavior, message);
+            self.malformed(session, behavior, message);
+            return self.enable_meant(session, name);
         };
         let rest = self.line_token(session);
         if !matches!(rest.kind, TokenKind::Newline | TokenKind::Eof) {
@@ -69,6 +71,20 @@ impl Preprocessor<'_> {
         let spelled = session.spelling(name).to_owned();
         let before = self.extensions;
         self.set_behavior(session, name, &spelled, meant, span);
+        self.extensions_changed(session, before);
+    }
+
+    /// Enables the extension of a line that is malformed, so that its uses raise no more messages.
+    fn enable_meant(&mut self, session: &mut ParseSession<'_>, name: Token) {
+        let before = self.extensions;
+        let spelled = session.spelling(name);
+        if let Some(row) = EXTENSIONS.iter().find(|row| row.name == spelled && row.is_for(self.version)) {
+            self.extensions.insert(row.bit);
+        }
+        self.extensions_changed(session, before);
+    }
+
+    fn extensions_changed(&mut self, session: &mut ParseSession<'_>, before: Extensions) {
         if self.extensions != before {
             self.extension_set = session.extension_sets.number(self.extensions);
             self.set_keywords();

@@ -4,7 +4,9 @@
 use super::{Feature, ParseSession, Preprocessor, Span, Token, TokenKind, codes, kind};
 use crate::diagnostic::codes::syntax;
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
+use crate::syntax::lexer::QUOTES;
 use crate::syntax::number::{self, Malformed, Numeral, NumeralWarning};
+use crate::syntax::token::TokenFlags;
 
 /// The most characters of a name in GLSL ES 3.00 (§3.9).
 const LONGEST_NAME: usize = 1024;
@@ -25,13 +27,19 @@ impl Preprocessor<'_> {
             TokenKind::Unknown => {
                 // A character that looks like one of the language replaces it, so that this is one error and not
                 // many.
-                token.kind = illegal_character(session, token.span)?;
+                let Some(kind) = illegal_character(session, token.span) else {
+                    // Blanks of word processors leave nothing out.
+                    self.dropped = !is_blank(session.sources.snippet(token.span));
+                    return None;
+                };
+                token.kind = kind;
             }
             TokenKind::Hash | TokenKind::HashHash => {
                 let message = format!("`{}` where no directive can be", token.kind.spelling());
                 let diagnostic = Diagnostic::new(&codes::MISPLACED_HASH, token.span, message)
                     .here("neither first on its line nor an operator");
                 session.report(diagnostic);
+                self.dropped = true;
                 return None;
             }
             TokenKind::Eof => {
@@ -49,6 +57,9 @@ impl Preprocessor<'_> {
             }
             _ => {}
         }
+        token
+            .flags
+            .set(TokenFlags::REPORTED, std::mem::take(&mut self.dropped) || token.flags.contains(TokenFlags::REPORTED));
         self.last_kind = token.kind;
         self.first_token.get_or_insert(token.span);
         token.extensions = self.extension_set;
@@ -107,6 +118,7 @@ fn number(session: &mut ParseSession<'_>, token: &mut Token) {
                 _ => TokenKind::Int,
             };
             (token.kind, token.payload) = (kind, 0);
+            token.flags.insert(TokenFlags::REPORTED);
         }
     }
 }
@@ -148,7 +160,7 @@ fn decimal(digits: &str) -> Advice {
 /// Reports the first character of a token that GLSL does not have.
 fn invalid_token(session: &mut ParseSession<'_>, token: Token) {
     let text = session.spelling(token);
-    if text.starts_with('"') {
+    if text.starts_with(|first| QUOTES.iter().any(|pair| pair.0 == first)) {
         let diagnostic = Diagnostic::new(&codes::ILLEGAL_CHARACTER, token.span, "a string, and GLSL has none");
         session.report(diagnostic);
         return;
@@ -179,16 +191,40 @@ static LOOK_ALIKES: &[(char, TokenKind)] = &[
     ('\u{ff09}', TokenKind::RightParen),
 ];
 
+/// Blanks that word processors and editors substitute for spaces, or put between characters, with what stands for them.
+static BLANKS: &[(char, &str, &str)] = &[
+    ('\u{00a0}', "a no-break space", " "),
+    ('\u{2007}', "a figure space", " "),
+    ('\u{2009}', "a thin space", " "),
+    ('\u{202f}', "a narrow no-break space", " "),
+    ('\u{3000}', "an ideographic space", " "),
+    ('\u{200b}', "a zero width space", ""),
+    ('\u{2060}', "a word joiner", ""),
+    ('\u{feff}', "a byte order mark inside the source", ""),
+];
+
+fn is_blank(text: &str) -> bool {
+    BLANKS.iter().any(|row| text.starts_with(row.0))
+}
+
 /// Reports a character. Returns the token that it resembles, if any.
 fn illegal_character(session: &mut ParseSession<'_>, span: Span) -> Option<TokenKind> {
     let character = session.sources.snippet(span).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
+    if let Some((_, name, instead)) = BLANKS.iter().find(|row| row.0 == character) {
+        let sentence = if instead.is_empty() { "leave it out" } else { "write a space" };
+        let help = Advice::new(Applicability::Safe, sentence, Place::Over, *instead);
+        let message = format!("{name} (U+{:04X})", character as u32);
+        session.report(Diagnostic::new(&codes::ILLEGAL_CHARACTER, span, message).help(help));
+        return None;
+    }
     let (message, help) = match character {
         char::REPLACEMENT_CHARACTER => ("the source is not UTF-8 here".to_owned(), None),
-        '"' | '\'' => (format!("`{character}` is not a character of GLSL"), Some("there are no strings in GLSL")),
+        _ if QUOTES.iter().any(|pair| character == pair.0 || character == pair.1) => {
+            (format!("`{character}` is not a character of GLSL"), Some("there are no strings in GLSL"))
+        }
         '\\' => {
             ("`\\` is not a character of GLSL".to_owned(), Some("a backslash is only allowed at the end of a line"))
         }
-        '\u{feff}' => ("a byte order mark inside the source".to_owned(), None),
         _ if character.is_control() => {
             (format!("the control character {:#04x} is not a character of GLSL", character as u32), None)
         }

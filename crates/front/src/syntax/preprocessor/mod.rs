@@ -118,6 +118,10 @@ pub(super) struct Preprocessor<'a> {
     /// The first token handed to the parser.
     first_token: Option<Span>,
     stopped: bool,
+    /// Whether a comment without an end took the rest of a file. That has been reported.
+    is_cut: bool,
+    /// Whether what was just read is no token, and was reported and dropped.
+    dropped: bool,
     bytes: usize,
     steps: usize,
     argument_depth: usize,
@@ -165,6 +169,8 @@ impl<'a> Preprocessor<'a> {
             extension_set: 0,
             first_token: None,
             stopped: false,
+            is_cut: false,
+            dropped: false,
             bytes: 0,
             steps: 0,
             argument_depth: 0,
@@ -226,7 +232,7 @@ impl<'a> Preprocessor<'a> {
 
     /// The token after the last.
     fn end(&self, span: Span) -> Token {
-        Token { payload: u32::from(self.stopped), ..Token::new(TokenKind::Eof, span) }
+        Token { payload: u32::from(self.stopped || self.is_cut), ..Token::new(TokenKind::Eof, span) }
     }
 
     /// Begins to read a file, unless that exceeds the limit of bytes.
@@ -328,6 +334,7 @@ impl<'a> Preprocessor<'a> {
             }
             match token.kind {
                 TokenKind::Hash if token.starts_line() => self.directive(session, token),
+                TokenKind::Word if self.is_bare_version(session, token) => self.bare_version(session, token),
                 TokenKind::Eof if collecting => return token,
                 TokenKind::Eof => {
                     if !self.leave(session) {
@@ -342,9 +349,8 @@ impl<'a> Preprocessor<'a> {
     /// Leaves a file at its end. Returns false if it is the main file.
     fn leave(&mut self, session: &mut ParseSession<'_>) -> bool {
         let Some(frame) = self.frames.last_mut() else { return false };
-        for conditional in frame.conditionals.drain(..) {
-            conditional.report_unterminated(session);
-        }
+        let open = frame.conditionals.drain(..).filter(|_| !self.is_cut);
+        open.for_each(|conditional| conditional.report_unterminated(session));
         if self.frames.len() == 1 {
             return false;
         }
@@ -394,6 +400,7 @@ impl<'a> Preprocessor<'a> {
                     let diagnostic = Diagnostic::new(&codes::UNTERMINATED_COMMENT, span, message)
                         .here("`/*` without a `*/` after it");
                     session.report(diagnostic);
+                    self.is_cut = true;
                 }
             }
         }

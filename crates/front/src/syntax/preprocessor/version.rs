@@ -1,7 +1,7 @@
 //! `#version`, and the end of the main file, where the lack of one is known (GLSL 1.50 §3.3).
 
-use super::{ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
-use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix, codes::general};
+use super::{Mode, ParseSession, Preprocessor, Profile, Span, Token, TokenKind, Version, codes, keywords, kind};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix, Place, codes::general};
 use crate::language::{EDITIONS, Edition, Feature};
 use crate::source::{is_replaced, version_line};
 use std::collections::BTreeSet;
@@ -80,6 +80,25 @@ impl Preprocessor<'_> {
             number.span,
             profile_span,
         );
+    }
+
+    /// Whether a text begins with `version 150`, whose `#` is missing.
+    pub(super) fn is_bare_version(&self, session: &mut ParseSession<'_>, token: Token) -> bool {
+        if self.first_token.is_some() || self.version_seen || session.spelling(token) != "version" {
+            return false;
+        }
+        let Some(mut lexer) = self.frames.last().map(|frame| frame.lexer.clone()) else { return false };
+        let next = lexer.next(Mode::Directive, &mut session.names, &mut Vec::new());
+        next.kind == TokenKind::Number
+    }
+
+    /// Reports the missing `#`, and reads the directive.
+    pub(super) fn bare_version(&mut self, session: &mut ParseSession<'_>, token: Token) {
+        let help = Advice::new(Applicability::Safe, "put `#` in front of it", Place::Before, "#");
+        let finding = Diagnostic::new(&codes::MALFORMED_DIRECTIVE, token.span, "`version` without `#` is no directive");
+        session.report(finding.here("expected `#version`").help(help));
+        self.version(session, token.span);
+        self.enter_preludes(session);
     }
 
     /// A line without a number. If a build fills one in, what the command line or an engine assumes stands for it.

@@ -18,7 +18,7 @@ lints! {
             "out vec4 tint; void main() { tint = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 tint; out vec4 c; void main() { c = tint; }");
     UNINITIALIZED_READ = "L0005" "uninitialized-read" Warning Correctness No "0.1.0" "GLSL 1.50 §4.1"
-        "A variable or an `out` parameter is read before anything can have been assigned to it. Its value is \
+        "A variable, an output or an `out` parameter is read before anything can have been assigned to it. Its value is \
          undefined: zero on one machine and anything on another."
         why "The value is undefined on every path."
         bad Fragment("out vec4 c; void main() { vec4 sum; sum += vec4(1.0); c = sum; }"),

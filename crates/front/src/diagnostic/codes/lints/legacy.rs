@@ -3,7 +3,8 @@
 use super::super::Example::{Fragment, Vertex};
 
 lints! {    LEGACY_LOOKUP = "L0070" "legacy-lookup" Note Legacy Safe "0.1.0" "GLSL 1.50 §8.7"
-        "A lookup has the name that it had before GLSL 1.30: `texture2D` is `texture`."
+        "A lookup has the name that it had before GLSL 1.30: `texture2D` is `texture`. `shadow2D` and its like are left out, since \
+         their results are vectors."
         why
         "Drivers accept it in these versions, and later ones drop it; sources of 1.20 and before are left out."
         bad Fragment(

@@ -18,7 +18,7 @@ lints! {
         "`pow` of a negative base is undefined, also for whole exponents: drivers compute it with a logarithm and \
          return NaN."
         why "The base is known, so there is no doubt."
-        bad Fragment("uniform float k; out vec4 c; void main() { c = vec4(pow(-2.0, k)); }"),
+        bad Fragment("in float k; out vec4 c; void main() { c = vec4(pow(-2.0, k)); }"),
         good Fragment("in float k; out vec4 c; void main() { c = vec4(pow(2.0, k)); }");
     FLOAT_EQUALITY = "L0026" "float-equality" Off Numerics No "0.1.0" "GLSL 1.50 §4.1.4"
         "`==` or `!=` compares floats that were computed. Rounding, which differs between machines, decides the \
