@@ -134,7 +134,7 @@ fn emit_stages(
             Extent::Functions(wanted) => crate::lower::lower_functions(program, stage, target, conventions, wanted)?,
             Extent::Stage | Extent::SingleFile => crate::lower::lower(program, stage, target, conventions)?,
         };
-        deep |= program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
+        deep |= program.stage(stage).is_some_and(|shader| shader.depth > 32) || is_nested(&module, 24);
         if let Some(found) = targets::limit(target, &module, &slots) {
             return Err(vec![found]);
         }
