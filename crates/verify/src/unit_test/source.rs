@@ -125,8 +125,8 @@ fn mains(code: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// The text with blanks in place of comments: each byte of them is a space, line ends stay.
-fn without_comments(text: &str) -> String {
+/// The places of the comments of a text.
+pub(super) fn comments(text: &str) -> Vec<Range<usize>> {
     let mut ranges = Vec::new();
     let mut at = 0;
     while let Some(place) = text.get(at..).and_then(|rest| rest.find('/')) {
@@ -143,8 +143,13 @@ fn without_comments(text: &str) -> String {
         ranges.push(start..end);
         at = end;
     }
+    ranges
+}
+
+/// The text with blanks in place of comments: each byte of them is a space, line ends stay.
+fn without_comments(text: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();
-    for byte in ranges.into_iter().flatten() {
+    for byte in comments(text).into_iter().flatten() {
         if let Some(byte) = bytes.get_mut(byte).filter(|byte| !matches!(byte, b'\n' | b'\r')) {
             *byte = b' ';
         }
