@@ -55,7 +55,7 @@ export class Module {
     }
     const length = new DataView(reply.buffer).getUint32(0, true);
     const object = JSON.parse(new TextDecoder().decode(reply.subarray(4, 4 + length)));
-    if (object.error) throw new GlistenError(object.error.message, object.error.kind);
+    if (object.error) throw new GlistenError(object.error.message, object.error.kind, JSON.parse(object.error.diagnostics ?? "[]"));
     object.bytes = ([offset, count]) => reply.slice(4 + length + offset, 4 + length + offset + count);
     return object;
   }
