@@ -121,6 +121,27 @@ fn what_is_left_out_is_skipped_and_what_is_commented_out_is_none() {
 }
 
 #[test]
+fn standard_input_and_diagnostics_are_those_of_every_command() {
+    let folder = Folder::new(&[]);
+    let cpu = ["--backend", "cpu"];
+    let tested =
+        |arguments: &[&str], text: &str| folder.run_with_input(&[&["test", "-"], &cpu[..], arguments].concat(), text);
+    // A stray semicolon.
+    let warned = "//! test\nbool f() { return true; }\n;\n";
+    let output = tested(&[], warned);
+    assert_eq!((out(&output).as_str(), code(&output)), ("1 passed, 0 failed, 0 skipped\n", 0));
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(told.contains("warning[") && told.contains(":3:"), "{told}");
+    assert_eq!(code(&tested(&["--deny", "warnings"], warned)), 1);
+    let output = tested(&["--diagnostics", "json"], warned);
+    let found: Vec<Value> = serde_json::from_slice(&output.stderr).expect("it is JSON");
+    assert_eq!((found[0]["line"].as_u64(), found[0]["severity"].as_str()), (Some(3), Some("warning")));
+    let shader = "[require]\nGLSL >= 1.50\n[vertex shader passthrough]\n[fragment shader]\nout vec4 c;\nvoid main() { c = vec4(0.0); }\n[test]\nclear\n";
+    assert_eq!(out(&tested(&[], shader)), "1 passed, 0 failed, 0 skipped\n");
+    assert_eq!(code(&tested(&[], "float f();\n")), 2, "there is no test");
+}
+
+#[test]
 fn the_envelope_is_the_tolerance_and_a_wrong_formula_is_outside_of_it() {
     let right = "//! test x = 0.1..10\nvoid f(float x, out float got, out float expected)\n{ got = exp(log(x)); expected = x; }";
     assert_eq!(reason(right), None);

@@ -42,9 +42,6 @@ pub(super) fn vertex(version: &str) -> String {
     format!("#version {version}\n{VERTEX}")
 }
 
-/// How many lines are in front of the text.
-pub(crate) const HEAD_LINES: u32 = 2;
-
 /// The text of a call.
 pub(super) struct Call {
     pub(super) text: String,
@@ -66,7 +63,7 @@ fn head(Text { version, text, .. }: Text<'_>) -> String {
 }
 
 /// A shader with the text and an empty `main`.
-pub(crate) fn whole(text: Text<'_>) -> Source {
+fn whole(text: Text<'_>) -> Source {
     let whole = head(text) + "out vec4 glisten_result;\nvoid main() { glisten_result = vec4(0.0); }\n";
     Source { name: text.name.into(), text: whole.into(), stage: Stage::Fragment }
 }

@@ -32,8 +32,8 @@ use std::fmt;
 use std::sync::Arc;
 
 pub use generate::Text;
+pub(crate) use generate::signature_of;
 pub use generate::signatures;
-pub(crate) use generate::{HEAD_LINES, signature_of, whole};
 
 /// How many rows of inputs share a line of the picture.
 const ROWS_A_LINE: usize = 64;

@@ -105,7 +105,8 @@ fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, TestResult> {
 /// The pixels of a rectangle; as in C, fractions are dropped.
 fn area(line: u32, sides: [f64; 4]) -> Result<Area, TestResult> {
     let [x, y, width, height] = sides.map(f64::trunc);
-    if !(x >= 0.0 && y >= 0.0) {
+    let last = f64::from(u32::MAX);
+    if !((0.0..last).contains(&x) && (0.0..last).contains(&y)) {
         return fail(line, format_args!("the probe looks at ({x}, {y}), outside of the window"));
     }
     if !(width >= 1.0 && height >= 1.0) {

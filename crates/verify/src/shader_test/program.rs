@@ -38,6 +38,22 @@ impl Built {
     }
 }
 
+/// The shaders of a test called `name`.
+fn sources(name: &str, file: &TestFile, setup: &Setup) -> Vec<Source> {
+    let source = |shader: &ShaderText| {
+        let text = if shader.passthrough { passthrough(setup) } else { versioned(shader, setup) };
+        Source { name: name.into(), text: text.into(), stage: shader.stage }
+    };
+    file.shaders.iter().map(source).collect()
+}
+
+/// The compilation of the shaders of a test, unless it has an error that the test wants, or that is told as a skip.
+pub(super) fn compilation(name: &str, file: &TestFile, setup: &Setup, compiler: &Compiler) -> Option<Compilation> {
+    let compilation = compiler.compile(&sources(name, file, setup));
+    let is_wanted = file.commands.iter().any(|line| line.text.starts_with("link error"));
+    (compilation.program.is_some() || !is_wanted && !is_unsupported(&compilation)).then_some(compilation)
+}
+
 /// The program, or `None` if it does not link and the test expects `link error`.
 pub(super) fn build(
     name: &str,
@@ -45,14 +61,7 @@ pub(super) fn build(
     setup: &Setup,
     compiler: &Compiler,
 ) -> Result<Option<Built>, TestResult> {
-    let mut sources: Vec<Source> = file
-        .shaders
-        .iter()
-        .map(|shader| {
-            let text = if shader.passthrough { passthrough(setup) } else { versioned(shader, setup) };
-            Source { name: name.into(), text: text.into(), stage: shader.stage }
-        })
-        .collect();
+    let mut sources = sources(name, file, setup);
     let mut compilation = compiler.compile(&sources);
     let expects = |phrase: &str| file.commands.iter().any(|line| line.text.starts_with(phrase));
     match &compilation.program {
@@ -174,10 +183,7 @@ mod unit {
     fn a_text_without_a_version_gets_that_of_the_test() {
         let setup = Setup { size: [1, 1], compatibility: false, version: 130, es: false };
         let versioned = |text: &str, header, setup: &Setup| {
-            super::versioned(
-                &ShaderText { stage: Stage::Fragment, text: text.into(), header, passthrough: false },
-                setup,
-            )
+            versioned(&ShaderText { stage: Stage::Fragment, text: text.into(), header, passthrough: false }, setup)
         };
         assert_eq!(versioned("void main() {}\n", 2, &setup), "#version 130\n\nvoid main() {}\n");
         assert_eq!(versioned("#version 150\n", 2, &setup), "\n\n#version 150\n");

@@ -21,7 +21,7 @@ mod source;
 mod table;
 mod value;
 
-use crate::evaluate::{EvaluateError, Evaluator, HEAD_LINES, Text, signature_of, whole};
+use crate::evaluate::{EvaluateError, Evaluator, Text, signature_of};
 use crate::numeric::Shape;
 use crate::shader_test::{TestBackend, TestResult};
 use block::{Block, blocks};
@@ -83,20 +83,20 @@ struct Reference {
     others: Vec<Vec<Interval>>,
 }
 
-/// The tests of a source called `name`.
-pub fn tests(name: &str, written: &str, compiler: &Compiler) -> Vec<UnitTest> {
+/// The tests of a source called `name`, and its compilation as a shader.
+pub fn tests(name: &str, written: &str, compiler: &Compiler) -> (Vec<UnitTest>, Compilation) {
     let bare = Bare::new(written);
     let text = Text { name, version: &bare.version, text: &bare.text };
-    let (compilation, inspection) = compiler.inspect(&[whole(text)], None);
+    let (compilation, inspection) = bare.compile(name, compiler);
     let left_out = LeftOut::of(&compilation, &inspection, name);
     let test = |block: Block| {
         let unnamed = format!("test in line {}", block.line);
         let line = block.line;
-        if left_out.has(line + HEAD_LINES) {
+        if left_out.has(line) {
             let reason = format!("line {line}: the condition (`#if`) that the comment is under does not hold");
             return UnitTest { name: unnamed, line, prepared: Err(TestResult::Skip(reason)) };
         }
-        match Subject::of(&compilation, name, (&block, block.group(written)), HEAD_LINES) {
+        match Subject::of(&compilation, name, &block, block.group(written)) {
             Ok(subject) => {
                 let prepared = subject.prepare(compiler, text, &block).map_err(TestResult::Fail);
                 UnitTest { name: subject.function.name.clone(), line, prepared }
@@ -104,7 +104,7 @@ pub fn tests(name: &str, written: &str, compiler: &Compiler) -> Vec<UnitTest> {
             Err(message) => UnitTest { name: unnamed, line, prepared: Err(TestResult::Fail(message)) },
         }
     };
-    blocks(written).into_iter().map(test).collect()
+    (blocks(written).into_iter().map(test).collect(), compilation)
 }
 
 /// The lines of a text that conditions of the preprocessor leave out.
@@ -138,24 +138,19 @@ struct Subject<'a> {
 
 impl<'a> Subject<'a> {
     /// The first function behind a comment, up to the last line of the conditional group that the comment is in.
-    fn of(
-        compilation: &'a Compilation,
-        name: &str,
-        (block, end): (&Block, Option<u32>),
-        offset: u32,
-    ) -> Result<Self, String> {
+    fn of(compilation: &'a Compilation, name: &str, block: &Block, end: Option<u32>) -> Result<Self, String> {
         let sources = &compilation.sources;
-        let Some(program) = &compilation.program else { return Err(told(compilation, name, offset)) };
+        let Some(program) = &compilation.program else { return Err(told(compilation, name)) };
         let shader: Option<&Shader> = program.stages.first();
         let line = |function: &Function| line_in(sources, name, function);
         let functions = shader.into_iter().flat_map(|shader| &shader.functions);
         let behind = functions.filter(|function| function.body.is_some() && function.name != "main");
         let next = behind
             .filter_map(|function| Some((line(function)?, function)))
-            .filter(|(line, _)| *line > block.last + offset)
+            .filter(|(line, _)| *line > block.last)
             .min_by_key(|(line, _)| *line);
         let (line, function) = next.ok_or("no function follows")?;
-        if end.is_some_and(|end| line > end + offset) {
+        if end.is_some_and(|end| line > end) {
             return Err("no function follows under the condition (`#if`) that the comment is under".to_owned());
         }
         Ok(Self { types: &program.types, function })
@@ -288,16 +283,14 @@ fn line_in(sources: &SourceMap, name: &str, function: &Function) -> Option<u32> 
 }
 
 /// The first error of a compilation, with its line in the source.
-fn told(compilation: &Compilation, name: &str, offset: u32) -> String {
+fn told(compilation: &Compilation, name: &str) -> String {
     let sources = &compilation.sources;
     let Some(error) = compilation.diagnostics.iter().find(|found| found.is_error()) else {
         return "the source does not compile".to_owned();
     };
     let place = sources.location(sources.call_site(error.primary.span)).map(|at| {
         let file = sources.file(at.file).name();
-        let own = file == name;
-        let line = if own { at.line.saturating_sub(offset) } else { at.line };
-        if own { format!("line {line}: ") } else { format!("{file}:{line}: ") }
+        if file == name { format!("line {}: ", at.line) } else { format!("{file}:{}: ", at.line) }
     });
     format!("{}{} ({})", place.unwrap_or_default(), error.message, error.code)
 }
