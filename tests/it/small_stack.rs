@@ -21,18 +21,20 @@ fn main_of(body: &str) -> String {
     )
 }
 
-fn around(open: &str, inner: &str, close: &str) -> String {
-    main_of(&(open.repeat(DEEP) + inner + &close.repeat(DEEP)))
+/// `per` is the number of levels that each repetition nests.
+fn around(per: usize, open: &str, inner: &str, close: &str) -> String {
+    main_of(&(open.repeat(DEEP / per) + inner + &close.repeat(DEEP / per)))
 }
 
-fn in_value(open: &str, close: &str) -> String {
-    main_of(&format!("c = vec4({}u{});", open.repeat(DEEP), close.repeat(DEEP)))
+fn in_value(per: usize, open: &str, close: &str) -> String {
+    let count = DEEP / per;
+    main_of(&format!("c = vec4({}u{});", open.repeat(count), close.repeat(count)))
 }
 
 /// Each way to nest, and each chain.
 fn texts() -> Vec<(&'static str, String)> {
     let mut loops = String::new();
-    for index in 0..DEEP {
+    for index in 0..DEEP / 2 {
         let _ = write!(loops, "for (int i{index} = 0; i{index} < k; i{index}++) {{ ");
     }
     let calls: String = (1..LONG / 5).fold("float f0(float x) { return x; }\n".to_owned(), |mut text, index| {
@@ -42,16 +44,16 @@ fn texts() -> Vec<(&'static str, String)> {
     let last = LONG / 5 - 1;
     vec![
         ("flat", main_of("c = vec4(u);")),
-        ("parentheses", in_value("(", ")")),
-        ("calls", in_value("f(", ")")),
-        ("built-ins", in_value("sin(", ")")),
-        ("right operands", in_value("(u + ", ")")),
-        ("selections", in_value("(u > 0.0 ? u : ", ")")),
-        ("assignments", main_of(&format!("{}u{}; c = vec4(a);", "a = (".repeat(DEEP), ")".repeat(DEEP)))),
-        ("blocks", around("{ ", "c = vec4(u);", " }")),
-        ("ifs", around("if (u > 0.0) { ", "c = vec4(u);", " }")),
-        ("switches", around("switch (k) { case 0: ", "c = vec4(u);", " }")),
-        ("loops", main_of(&(loops + "c = vec4(u);" + &" }".repeat(DEEP)))),
+        ("parentheses", in_value(1, "(", ")")),
+        ("calls", in_value(1, "f(", ")")),
+        ("built-ins", in_value(1, "sin(", ")")),
+        ("right operands", in_value(2, "(u + ", ")")),
+        ("selections", in_value(2, "(u > 0.0 ? u : ", ")")),
+        ("assignments", main_of(&format!("{}u{}; c = vec4(a);", "a = (".repeat(DEEP / 2), ")".repeat(DEEP / 2)))),
+        ("blocks", around(1, "{ ", "c = vec4(u);", " }")),
+        ("ifs", around(2, "if (u > 0.0) { ", "c = vec4(u);", " }")),
+        ("switches", around(1, "switch (k) { case 0: ", "c = vec4(u);", " }")),
+        ("loops", main_of(&(loops + "c = vec4(u);" + &" }".repeat(DEEP / 2)))),
         ("else", main_of(&("if (u > 0.0) c = vec4(u); else ".repeat(LONG) + "c = vec4(u);"))),
         ("a sum", main_of(&format!("c = vec4(u{});", " + u".repeat(LONG)))),
         ("signs", main_of(&format!("c = vec4({}u);", "- ".repeat(DEEP - 40)))),
@@ -59,7 +61,7 @@ fn texts() -> Vec<(&'static str, String)> {
             "functions",
             format!("#version 150\nout vec4 c;\nuniform float u;\n{calls}void main() {{ c = vec4(f{last}(u)); }}\n"),
         ),
-        ("an error", around("{ ", "c = vec4(v);", " }")),
+        ("an error", around(1, "{ ", "c = vec4(v);", " }")),
     ]
 }
 

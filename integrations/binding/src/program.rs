@@ -181,9 +181,7 @@ impl Compiled {
         }
         let sources = Some(&self.report.sources);
         let emitted = emit::emit_with_sources(program, stage, target, &self.settings.conventions, sources);
-        emitted
-            .map(Emitted::into_bytes)
-            .map_err(|errors| self.report.error(&errors))
+        emitted.map(Emitted::into_bytes).map_err(|errors| self.report.error(&errors))
     }
 
     /// What a host needs to know of the program as it is emitted for WGSL, as JSON.

@@ -152,9 +152,8 @@ impl Scenery {
         let mut go_on = |_, _| true;
         let mut options =
             ExamineOptions { bound: BOUND, bound_relative: 0.0, all: false, figures: false, progress: &mut go_on };
-        let (findings, _) = find(scene, &self.report.sources, &mut options, None).map_err(|errors| {
-            self.report.error(&errors)
-        })?;
+        let (findings, _) =
+            find(scene, &self.report.sources, &mut options, None).map_err(|errors| self.report.error(&errors))?;
         serde_json::to_string_pretty(&findings).map_err(|error| Error::content(format!("no JSON: {error}")))
     }
 }
