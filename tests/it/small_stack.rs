@@ -88,7 +88,6 @@ fn used(name: &str, text: String) {
 }
 
 #[test]
-#[ignore = "an overflow ends all tests: to be run by itself"]
 fn no_nesting_needs_the_stack_of_the_host() {
     for (name, text) in texts() {
         let thread = std::thread::Builder::new().name(name.to_owned()).stack_size(STACK);
