@@ -140,7 +140,7 @@ typedef uint32_t glisten_precision;
 // The vertex stage.
 #define GLISTEN_STAGE_VERTEX 1
 
-// The geometry stage, which is checked but has no code.
+// The geometry stage: only GLSL has code for it.
 #define GLISTEN_STAGE_GEOMETRY 2
 
 // The fragment stage.

@@ -225,7 +225,18 @@ static ORDER: &[(&str, &[&str])] = &[
     ("crates/sources/src", &["engines", "embedded", "stages", "disk", "includes", "programs", "settings", "host"]),
     (
         "crates/verify/src",
-        &["scene", "verify", "evaluate", "measure", "environment", "shader_test", "unit_test", "specialize", "trace"],
+        &[
+            "numeric",
+            "scene",
+            "verify",
+            "evaluate",
+            "measure",
+            "environment",
+            "shader_test",
+            "unit_test",
+            "specialize",
+            "trace",
+        ],
     ),
 ];
 

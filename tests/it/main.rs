@@ -164,6 +164,7 @@ mod scenes;
 mod shader_test;
 #[cfg(feature = "cli")]
 mod shown_inputs;
+mod small_stack;
 mod snapshots;
 #[cfg(feature = "reference")]
 mod specialize;

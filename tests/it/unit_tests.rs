@@ -68,8 +68,20 @@ fn each_kind_of_test_fails_where_it_should() {
         ("//! test\n//! 1.0 => 1.0, 2.0\nfloat f(float x) { return x; }", "line 2: 2 numbers are expected of 1"),
         ("//! test\nint nothing;", "no function follows"),
         (
-            "#ifdef A\n//! test x = 1\nfloat f(float x) { return 2.0; }\n#endif\nbool g(float x) { return true; }",
+            "#ifndef A\n//! test x = 1\n#endif\nbool g(float x) { return true; }",
             "no function follows under the condition",
+        ),
+        ("//! test\n//! vec2(1) => 1.0\nfloat f(float x) { return x; }", "line 2: the arguments are 2 numbers"),
+        (
+            "//! test\n//! 1.0 => float(1)\nint f(float x) { return int(x); }",
+            "line 2: `float(1)` is a `float`, not a `int`",
+        ),
+        ("//! test\n//! 1.5 => 2\nint f(int x) { return x + 1; }", "line 2: `1.5` is not of type `int`"),
+        ("//! test\n//! -1 => 4294967295u\nuint f(uint x) { return x; }", "line 2: `-1` does not fit in a `uint`"),
+        ("//! test\n//! 0 => 1.0\nfloat f(bool x) { return 1.0; }", "`0` is not a `bool`: write `true` or `false`"),
+        (
+            "//! test x = 0..1, k in 1 2\nbool f(float x, int k) { return !(x == 1.0 && k == 1); }",
+            "line 1: `f(x = 1.0, k = 1)` is false (1 of 256 cases fail)",
         ),
         ("float g() { return y; }\n//! test\nbool f() { return true; }", "line 1: `y` is not declared (E0301)"),
         ("//! test\nbool f(sampler2D s) { return true; }", "which no number fills"),
@@ -78,6 +90,55 @@ fn each_kind_of_test_fails_where_it_should() {
         let reason = reason(text).unwrap_or_else(|| panic!("{text} passes"));
         assert!(reason.contains(told), "{text}: {reason}");
     }
+}
+
+#[test]
+fn integers_have_all_of_their_bits_on_both_backends() {
+    let wrong = "//! test\n//! 8388608 => 8388609\n//! 2147483647 => 2147483646\nint f(int x) { return x; }\n\
+        //! test\n//! 4294967295u => 4294967294u\nuint g(uint x) { return x; }\n";
+    let (wrongs, exit) = rows("a.glsl", wrong, &[]);
+    assert_eq!((wrongs.len(), exit), (4, 1));
+    for row in &wrongs {
+        assert_eq!(row["result"], "fail", "{row}");
+    }
+    assert_eq!(wrongs[0]["reason"], "line 2: `f(x = 8388608)` is 8388608, not 8388609 (2 of 2 cases fail)");
+    let right = "//! test\n//! -2147483648, 4294967295u => ivec2(-2147483648, -1)\nivec2 f(int x, uint y) { return ivec2(x, int(y)); }\n\
+        //! test x in 16777217 2147483647 -16777217\nbool g(int x) { return x == 16777217 || x == 2147483647 || x == -16777217; }\n\
+        //! test x in 0xffffffffu 65536u\nvoid h(uint x, out uvec3 got, out uvec3 expected) { got = uvec3(x); expected = uvec3(x, x, x); }\n";
+    let (rights, exit) = rows("a.glsl", right, &[]);
+    assert_eq!((rights.len(), exit), (6, 0), "{rights:?}");
+}
+
+#[test]
+fn what_is_left_out_is_skipped_and_what_is_commented_out_is_none() {
+    let text = "/*\n//! test\nbool f() { return false; }\n*/\n#ifdef A\n//! test\nbool g() { return false; }\n#else\n//! test\nbool h() { return true; }\n#endif\n";
+    let (found, exit) = rows("a.glsl", text, &["--backend", "cpu"]);
+    let results: Vec<_> = found.iter().map(|row| (row["line"].as_u64(), row["result"].as_str())).collect();
+    assert_eq!((results, exit), (vec![(Some(6), Some("skip")), (Some(9), Some("pass"))], 0));
+    assert_eq!(found[0]["reason"], "line 6: the condition (`#if`) that the comment is under does not hold");
+    let (found, exit) = rows("a.glsl", text, &["--backend", "cpu", "-D", "A"]);
+    assert_eq!((found[0]["result"].as_str(), found[1]["result"].as_str(), exit), (Some("fail"), Some("skip"), 1));
+}
+
+#[test]
+fn standard_input_and_diagnostics_are_those_of_every_command() {
+    let folder = Folder::new(&[]);
+    let cpu = ["--backend", "cpu"];
+    let tested =
+        |arguments: &[&str], text: &str| folder.run_with_input(&[&["test", "-"], &cpu[..], arguments].concat(), text);
+    // A stray semicolon.
+    let warned = "//! test\nbool f() { return true; }\n;\n";
+    let output = tested(&[], warned);
+    assert_eq!((out(&output).as_str(), code(&output)), ("1 passed, 0 failed, 0 skipped\n", 0));
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(told.contains("warning[") && told.contains(":3:"), "{told}");
+    assert_eq!(code(&tested(&["--deny", "warnings"], warned)), 1);
+    let output = tested(&["--diagnostics", "json"], warned);
+    let found: Vec<Value> = serde_json::from_slice(&output.stderr).expect("it is JSON");
+    assert_eq!((found[0]["line"].as_u64(), found[0]["severity"].as_str()), (Some(3), Some("warning")));
+    let shader = "[require]\nGLSL >= 1.50\n[vertex shader passthrough]\n[fragment shader]\nout vec4 c;\nvoid main() { c = vec4(0.0); }\n[test]\nclear\n";
+    assert_eq!(out(&tested(&[], shader)), "1 passed, 0 failed, 0 skipped\n");
+    assert_eq!(code(&tested(&[], "float f();\n")), 2, "there is no test");
 }
 
 #[test]

@@ -9,11 +9,9 @@ pub const BYTES_A_LEVEL: usize = 8 << 10;
 /// Runs a traversal that recurses `depth` levels with enough stack: on the caller's stack if as much is left of it, else on
 /// a new one on the same thread. A level may use [`BYTES_A_LEVEL`].
 pub fn with_stack<R>(depth: u32, walk: impl FnOnce() -> R) -> R {
-    const SHALLOW: u32 = 48;
+    /// The levels of a traversal that hardly recurses: what it calls needs stack, too.
+    const SHALLOW: u32 = 24;
     const LEAST: usize = 4 << 20;
-    if depth <= SHALLOW {
-        return walk();
-    }
-    let bytes = (depth as usize * BYTES_A_LEVEL).max(LEAST);
-    stacker::maybe_grow(bytes, bytes, walk)
+    let bytes = depth.max(SHALLOW) as usize * BYTES_A_LEVEL;
+    stacker::maybe_grow(bytes, bytes.max(LEAST), walk)
 }

@@ -204,7 +204,7 @@ impl Builder<'_> {
             span: Span::default(),
         });
         self.shader.main = Some(FunctionId::new(0));
-        self.shader.expr_depth = 64;
+        self.shader.depth = 64;
         (self.shader, self.attributes)
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::fixed::{FixedFunction, Pipeline};
 use crate::picture::Encoding;
-use glisten_front::hir::{PrimitiveIn, SamplerType, ScalarValue, Stage};
+use glisten_front::hir::{PrimitiveIn, SamplerDim, SamplerType, Scalar, ScalarValue, Stage};
 use glisten_front::link::{FixedState, Program};
 use std::sync::Arc;
 
@@ -408,6 +408,32 @@ pub struct Texture {
     pub compare: Compare,
     /// Further parameters.
     pub sampling: Sampling,
+}
+
+impl Texture {
+    /// The texture of a unit that has none: one texel (or one per face) of (level, level, level, 1). OpenGL's level is 0 (§3.8.15).
+    pub fn unset(kind: SamplerType, level: u8) -> Self {
+        let depth = if kind.dim == SamplerDim::Cube { 6 } else { 1 };
+        let texels = match kind.texel {
+            Scalar::Int => Texels::Int(vec![[i32::from(level), i32::from(level), i32::from(level), 1]; depth as usize]),
+            Scalar::Uint => {
+                Texels::Uint(vec![[u32::from(level), u32::from(level), u32::from(level), 1]; depth as usize])
+            }
+            Scalar::Float | Scalar::Bool => {
+                Texels::Float(vec![[f32::from(level), f32::from(level), f32::from(level), 1.0]; depth as usize])
+            }
+        };
+        // As many samples as every driver has.
+        let count = if kind.dim == SamplerDim::Multisample { 4 } else { 1 };
+        Self {
+            kind,
+            levels: vec![TextureLevel { width: 1, height: 1, depth, texels }; count],
+            filter: Filter::Nearest,
+            wrap: Wrap::ClampToEdge,
+            compare: Compare::Lequal,
+            sampling: Sampling::default(),
+        }
+    }
 }
 
 /// Further parameters of a texture.

@@ -23,7 +23,7 @@ pub fn optimize(program: &Program) -> Program {
 
 /// A stage without what reaches none of its outputs that are `live`, by their globals.
 pub fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -> Shader {
-    prune::without_unreached(types, shader, live)
+    shader.on_stack(|| prune::without_unreached(types, shader, live))
 }
 
 /// Optimizes like [`optimize`], by a function that does what [`without_unreached`] does: one that remembers stages, say.

@@ -15,6 +15,7 @@
 pub mod environment;
 pub mod evaluate;
 pub mod measure;
+mod numeric;
 pub mod scene;
 pub mod shader_test;
 pub mod specialize;

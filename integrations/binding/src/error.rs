@@ -26,6 +26,8 @@ pub struct Error {
     pub message: String,
     /// The file that cannot be read, if it is about one.
     pub file: Option<Unreadable>,
+    /// What is wrong in a source, as JSON, if a diagnostic says it.
+    pub diagnostics: Option<String>,
 }
 
 /// A file that cannot be read.
@@ -40,12 +42,12 @@ pub struct Unreadable {
 impl Error {
     /// An error in an argument.
     pub fn argument(message: impl Into<String>) -> Self {
-        Self { kind: Kind::Argument, message: message.into(), file: None }
+        Self { kind: Kind::Argument, message: message.into(), file: None, diagnostics: None }
     }
 
     /// An error in a shader or a scene.
     pub fn content(message: impl Into<String>) -> Self {
-        Self { kind: Kind::Content, message: message.into(), file: None }
+        Self { kind: Kind::Content, message: message.into(), file: None, diagnostics: None }
     }
 }
 
@@ -62,7 +64,7 @@ pub fn guarded<R>(call: impl FnOnce() -> Result<R, Error>) -> Result<R, Error> {
     // What the call worked on is dropped or immutable; nothing examines a half-changed state again.
     catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|payload| {
         let message = format!("internal error: {}; please report it with the input", text_of(payload.as_ref()));
-        Err(Error { kind: Kind::Internal, message, file: None })
+        Err(Error { kind: Kind::Internal, message, file: None, diagnostics: None })
     })
 }
 

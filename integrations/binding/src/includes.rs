@@ -3,8 +3,10 @@
 //! *Holds:* `"x"` is searched next to the including file, then in the folders in order; `<x>` in the folders, then among the
 //! modules of the library. The host's function is asked first.
 
+use crate::paths::joined;
 use glisten::library::Embedded;
 use glisten::source::{IncludeForm, IncludeResolver, Included};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -39,6 +41,26 @@ pub struct Includes {
 }
 
 impl Includes {
+    /// Looks among these files of the host, too, after its function: next to the including file, then from the root. Their paths are
+    /// without `.` and `..`.
+    pub fn look_in(&mut self, files: Arc<BTreeMap<String, Vec<u8>>>) {
+        let inner = self.ask.take();
+        self.ask = Some(Arc::new(move |path, angled, from| {
+            match inner.as_ref().map_or(Answer::Pass, |ask| ask(path, angled, from)) {
+                Answer::Pass => {}
+                told => return told,
+            }
+            let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let near = (!angled && !path.starts_with('/')).then(|| joined(folder, path));
+            let names = near.into_iter().chain([joined("", path)]);
+            let found = names.into_iter().find_map(|name| Some((files.get(&name)?, name)));
+            found.map_or(Answer::Pass, |(bytes, name)| Answer::Found {
+                name,
+                text: String::from_utf8_lossy(bytes).into_owned(),
+            })
+        }));
+    }
+
     fn on_disk(&self, path: &str, form: IncludeForm, from: &str) -> Option<Result<Included, String>> {
         if self.in_memory {
             return None;

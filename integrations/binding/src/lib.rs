@@ -7,6 +7,7 @@
 
 mod error;
 mod includes;
+mod paths;
 mod program;
 #[cfg(feature = "render")]
 mod scene;
@@ -16,6 +17,7 @@ mod upgrade;
 
 pub use error::{Error, Kind, Unreadable, guarded};
 pub use includes::{Answer, Includes};
+pub use paths::joined;
 pub use program::{Compiled, Format, compile, target_of_word, targets};
 #[cfg(feature = "render")]
 pub use scene::{Drawn, Files, Scenery};

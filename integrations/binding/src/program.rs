@@ -74,6 +74,13 @@ impl Report {
         });
     }
 
+    /// The error that these diagnostics are, which only a use of the program shows.
+    pub(crate) fn error(&self, found: &[Diagnostic]) -> Error {
+        let message = write::human(&self.sources, found, false).trim_end().to_owned();
+        let diagnostics = Some(write::json(&write::findings(&self.sources, found), None));
+        Error { diagnostics, ..Error::content(message) }
+    }
+
     pub(crate) fn findings(&self) -> Vec<Finding> {
         write::findings(&self.sources, &self.diagnostics)
     }
@@ -173,11 +180,9 @@ impl Compiled {
             return Err(Error::argument(format!("the program has no {} stage", stage.name())));
         }
         let sources = Some(&self.report.sources);
-        let emitted =
-            emit::emit_traced(program, stage, target, &self.settings.conventions, sources).map(|traced| traced.emitted);
-        emitted
-            .map(Emitted::into_bytes)
-            .map_err(|errors| Error::content(write::human(&self.report.sources, &errors, false).trim_end().to_owned()))
+        emit::emit_traced(program, stage, target, &self.settings.conventions, sources)
+            .map(|traced| traced.emitted.into_bytes())
+            .map_err(|errors| self.report.error(&errors))
     }
 
     /// What a host needs to know of the program as it is emitted for WGSL, as JSON.

@@ -4,13 +4,14 @@
 //! scene never changes, and can be drawn from many threads.
 
 use crate::error::{Error, Kind, Unreadable};
+use crate::paths::joined;
 use crate::program::{Format, Report};
 use crate::settings::Settings;
 use glisten::scene::{DiskFiles, FileError, FileSource, Scene};
 use glisten::{Precision, RenderOptions, render};
-use glisten_front::diagnostic::write;
 use glisten_front::diagnostic::write::Finding;
 use glisten_verify::scene;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A host's function for files: the bytes at a path, or why there are none.
@@ -24,6 +25,13 @@ pub enum Files {
     Disk,
     /// Where the host says.
     Host(Read),
+}
+
+impl Files {
+    /// Files of a host, whose paths are without `.` and `..`.
+    pub fn of(files: Arc<BTreeMap<String, Vec<u8>>>) -> Self {
+        Self::Host(Arc::new(move |path| files.get(&joined("", path)).cloned().ok_or(FileError::Missing)))
+    }
 }
 
 impl FileSource for Files {
@@ -96,7 +104,7 @@ impl Scenery {
             let errors = report.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
             let message = errors.map(|diagnostic| diagnostic.message.clone()).collect::<Vec<_>>().join("; ");
             let file = noted.unreadable.into_inner().unwrap_or_else(PoisonError::into_inner);
-            return Err(Error { kind: Kind::File, message, file });
+            return Err(Error { kind: Kind::File, message, file, diagnostics: None });
         }
         let scene = loaded.scene.filter(|_| !report.has_errors());
         Ok(Self { report, scene })
@@ -127,9 +135,7 @@ impl Scenery {
     /// The scene has errors, or something that the reference does not support.
     pub fn draw(&self, precision: Precision) -> Result<Drawn, Error> {
         let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
-        let picture = render(self.scene()?, &options).map_err(|errors| {
-            Error::content(write::human(&self.report.sources, &errors, false).trim_end().to_owned())
-        })?;
+        let picture = render(self.scene()?, &options).map_err(|errors| self.report.error(&errors))?;
         let glisten::Picture { width, height, attachments, covered, .. } = picture;
         Ok(Drawn { width, height, attachments, covered })
     }
@@ -146,9 +152,8 @@ impl Scenery {
         let mut go_on = |_, _| true;
         let mut options =
             ExamineOptions { bound: BOUND, bound_relative: 0.0, all: false, figures: false, progress: &mut go_on };
-        let (findings, _) = find(scene, &self.report.sources, &mut options, None).map_err(|errors| {
-            Error::content(write::human(&self.report.sources, &errors, false).trim_end().to_owned())
-        })?;
+        let (findings, _) =
+            find(scene, &self.report.sources, &mut options, None).map_err(|errors| self.report.error(&errors))?;
         serde_json::to_string_pretty(&findings).map_err(|error| Error::content(format!("no JSON: {error}")))
     }
 }

@@ -9,7 +9,7 @@ pub type StageNumber = u32;
 pub const GLISTEN_STAGE_OF_NAME: StageNumber = 0;
 /// The vertex stage.
 pub const GLISTEN_STAGE_VERTEX: StageNumber = 1;
-/// The geometry stage, which is checked but has no code.
+/// The geometry stage: only GLSL has code for it.
 pub const GLISTEN_STAGE_GEOMETRY: StageNumber = 2;
 /// The fragment stage.
 pub const GLISTEN_STAGE_FRAGMENT: StageNumber = 3;

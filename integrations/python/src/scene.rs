@@ -2,7 +2,7 @@
 
 use crate::failure::raised;
 use crate::input::{Settings, format, reraised};
-use glisten_binding::{Error, FileError, Files, Precision, Scenery, guarded};
+use glisten_binding::{Error, Files, Precision, Scenery, guarded, joined};
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use std::collections::BTreeMap;
@@ -25,10 +25,16 @@ pub(crate) fn load(
     path: &str,
     files: Option<BTreeMap<String, Vec<u8>>>,
 ) -> PyResult<Scene> {
-    let (settings, trouble) = settings.for_call(py);
-    let files = files.map_or(Files::Disk, |files| {
-        Files::Host(Arc::new(move |path: &str| files.get(path).cloned().ok_or(FileError::Missing)))
-    });
+    let (mut settings, trouble) = settings.for_call(py);
+    let files = match files {
+        None => Files::Disk,
+        Some(files) => {
+            let files = files.into_iter().map(|(path, bytes)| (joined("", &path), bytes));
+            let files: Arc<BTreeMap<String, Vec<u8>>> = Arc::new(files.collect());
+            settings.includes.look_in(Arc::clone(&files));
+            Files::of(files)
+        }
+    };
     let scenery = py.detach(|| guarded(|| Scenery::load(&settings, path, &files)));
     reraised(&trouble)?;
     Ok(Scene { scenery: scenery.map_err(raised)? })

@@ -1,8 +1,10 @@
 """The Python package: what it returns, what it raises, and that threads and notebooks may use it."""
 
+import copy
 import errno
 import json
 import pathlib
+import pickle
 import runpy
 import subprocess
 import sys
@@ -170,6 +172,45 @@ def test_pictures_are_arrays(tmp_path):
         glisten.load("s.toml", files={"s.toml": "[framebuffer]\nwidht = 3\n"})
     with pytest.raises(ValueError):
         glisten.load("s.toml", files=SCENE).render("f16")
+
+
+def test_files_in_memory_are_those_on_a_disk():
+    """Paths are without `.` and `..`, and includes are among the files."""
+    draw = SCENE["s.toml"].replace("v.vert", "../v.vert").replace("f.frag", "f.frag")
+    tinted = '#version 150\n#include "../parts/tint.glsl"\nout vec4 c;\nvoid main() { c = tint(); }\n'
+    files = {
+        "d/s.toml": draw,
+        "./v.vert": SCENE["v.vert"],
+        "d/f.frag": tinted,
+        "parts/tint.glsl": '#include "one.glsl"\nvec4 tint() { return vec4(ONE); }\n',
+        "parts/one.glsl": b"#define ONE 1.0\n",
+    }
+    assert glisten.render("./d/s.toml", files=files).covered.any()
+    with pytest.raises(TypeError, match="not a `int`"):
+        glisten.load("s.toml", files={"s.toml": 7})
+
+
+def test_what_drawing_shows_has_diagnostics():
+    endless = SCENE["f.frag"].replace("{ c =", "{ while (gl_FragCoord.x > -1.0) ; c =")
+    with pytest.raises(glisten.CompileError) as raised:
+        glisten.render("s.toml", files={**SCENE, "f.frag": endless})
+    assert [(one.code, one.file) for one in raised.value.diagnostics] == [("E0913", "f.frag")]
+
+
+def test_errors_can_be_copied():
+    with pytest.raises(glisten.CompileError) as raised:
+        glisten.compile({"a.frag": "#version 150\nvoid main() { x = 1; }\n"})
+    for again in [pickle.loads(pickle.dumps(raised.value)), copy.copy(raised.value)]:
+        assert type(again) is glisten.CompileError
+        assert (str(again), again.diagnostics) == (str(raised.value), raised.value.diagnostics)
+
+
+def test_wrong_arguments_are_named():
+    for number in [-1, 99, 1 << 40]:
+        with pytest.raises(ValueError, match=f"{number} is not a location"):
+            glisten.compile(PROGRAM, attributes={"p": number})
+    with pytest.raises(TypeError, match="`defines` is a mapping of names, not a `list`"):
+        glisten.compile(PROGRAM, defines=["LEVEL"])
 
 
 def test_threads_get_the_same_bytes():

@@ -8,10 +8,10 @@ const list = (value) => (Array.isArray(value) ? value : [value]);
 function optionsOf(options) {
   const pairs = [];
   for (const [name, value] of Object.entries(options.options ?? {}))
-    for (const one of list(value)) pairs.push([dashed(name), String(one)]);
+    for (const one of value === undefined ? [] : list(value)) pairs.push([dashed(name), String(one)]);
   return {
     options: pairs,
-    defines: Object.entries(options.defines ?? {}).map(([name, value]) => [name, value === true ? "" : String(value)]),
+    defines: Object.entries(options.defines ?? {}).map(([name, value]) => [name, value === true ? "1" : String(value)]),
     attributes: Object.entries(options.attributes ?? {}),
     outputs: Object.entries(options.outputs ?? {}),
     includes: typeof options.includes === "object" ? entries(options.includes) : {},

@@ -27,7 +27,7 @@ export type Include = (
 export interface Options {
   /** Included files by their names, or a function that is asked for each. */
   includes?: Readonly<Record<string, string>> | ReadonlyMap<string, string> | Include;
-  /** Macros; `true` for one without a value. */
+  /** Macros; `true` is 1, as `-D NAME` is. */
   defines?: Readonly<Record<string, string | number | true>>;
   /** Locations of vertex attributes, as `glBindAttribLocation` sets them. */
   attributes?: Readonly<Record<string, number>>;

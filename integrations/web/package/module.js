@@ -10,6 +10,19 @@ export class GlistenError extends Error {
   }
 }
 
+/** Whether an engine says that its stack is too small: V8 and JavaScriptCore by a `RangeError`, SpiderMonkey by its own error. */
+const isOverflow = (trap) => /call stack|too much recursion/i.test(trap.message ?? "");
+
+/** The error of sources that an engine's stack is too small for. */
+function overflow(request) {
+  const message = "the source nests too deep, or has too long a chain of operators, for the stack of this JavaScript engine";
+  const file = request.sources?.[0]?.name ?? request.path ?? "";
+  const place = { file, line: 1, column: 1, end_line: 1, end_column: 1 };
+  const told = { severity: "error", code: "E0003", name: "nesting-too-deep", message };
+  const nothing = { help: null, fixes: [], labels: [], notes: [], section: null, presented_line: null };
+  return new GlistenError(`error[E0003]: ${message}`, "content", [{ ...place, ...told, ...nothing }]);
+}
+
 /** Calls of one module. A trap ends its instance, and the next call gets a new one. */
 export class Module {
   constructor(compiled) {
@@ -31,6 +44,7 @@ export class Module {
       reply = read(glisten_call());
     } catch (trap) {
       this.instance = null;
+      if (isOverflow(trap)) throw overflow(request);
       let why = "";
       try {
         why = new TextDecoder().decode(read(glisten_fault()));
@@ -41,7 +55,7 @@ export class Module {
     }
     const length = new DataView(reply.buffer).getUint32(0, true);
     const object = JSON.parse(new TextDecoder().decode(reply.subarray(4, 4 + length)));
-    if (object.error) throw new GlistenError(object.error.message, object.error.kind);
+    if (object.error) throw new GlistenError(object.error.message, object.error.kind, JSON.parse(object.error.diagnostics ?? "[]"));
     object.bytes = ([offset, count]) => reply.slice(4 + length + offset, 4 + length + offset + count);
     return object;
   }

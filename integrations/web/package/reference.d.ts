@@ -24,4 +24,4 @@ export declare function render(
   path: string,
   files: Files,
   options?: Options & { precision?: "f64" | "f32"; floats?: false },
-): Picture<Uint8ClampedArray>;
+): Picture<InstanceType<Uint8ClampedArrayConstructor>>;

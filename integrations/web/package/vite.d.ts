@@ -11,10 +11,11 @@ export interface ImportedProgram {
 export interface GlistenPlugin {
   name: string;
   enforce: "pre";
+  configResolved(config: { root: string }): void;
   resolveId(id: string, importer?: string): Promise<string | null>;
   load(id: string): Promise<string | null>;
 }
-/** The plugin. Included files are looked for next to the including one, then in `folders`. */
+/** The plugin. Included files are looked for next to the including one, then in `folders`, which are relative to Vite's root. */
 export default function glisten(
   options?: Omit<Options, "includes"> & { target?: Exclude<Target, "spirv">; folders?: readonly string[] },
 ): GlistenPlugin;

@@ -29,9 +29,14 @@ export default function glisten(given = {}) {
   // A source without a `#version` line is WebGL's, unless an engine says otherwise (WebGL 1.0 §4.3: GLSL ES 1.00).
   const { assumeVersion = rest.options?.engine ? undefined : "100", ...flags } = rest.options ?? {};
   const options = { ...rest, options: assumeVersion === undefined ? flags : { ...flags, assumeVersion } };
+  let searched = folders.map((folder) => resolve(folder));
   return {
     name: "glisten",
     enforce: "pre",
+    /** Folders are relative to Vite's root; Rollup has none, and they are relative to the working folder. */
+    configResolved({ root }) {
+      searched = folders.map((folder) => resolve(root, folder));
+    },
     async resolveId(id, importer) {
       if (!id.endsWith(SUFFIX)) return null;
       const file = id.slice(0, -SUFFIX.length);
@@ -47,7 +52,7 @@ export default function glisten(given = {}) {
         return { name, text: readFileSync(name, "utf8") };
       });
       const includes = (path, angled, from) => {
-        const found = [...(angled ? [] : [dirname(from)]), ...folders].map((folder) => join(folder, path)).find(existsSync);
+        const found = [...(angled ? [] : [dirname(from)]), ...searched].map((folder) => join(folder, path)).find(existsSync);
         if (!found) return null;
         this.addWatchFile(found);
         return { name: found, text: readFileSync(found, "utf8") };
@@ -56,9 +61,14 @@ export default function glisten(given = {}) {
       try {
         program = compile(sources, { ...options, target, includes });
       } catch (error) {
-        const at = error instanceof GlistenError ? error.diagnostics.find((one) => one.severity === "error") : undefined;
+        const all = error instanceof GlistenError ? error.diagnostics : [];
+        const at = all.find((one) => one.severity === "error");
         if (!at) throw error;
-        return this.error({ message: error.message, id, loc: { file: at.file, line: at.line, column: at.column - 1 } });
+        // The first line, which is what a terminal and a browser show first, is that of the error.
+        const message = at === all[0] ? error.message : `${at.message} (${at.code})\n\n${error.message}`;
+        // The place is in a file of the program, which need not be the one that is imported. Columns of Rollup count from 0.
+        const file = resolve(at.file);
+        return this.error({ message, id: file, loc: { file, line: at.line, column: at.column - 1 } });
       }
       program.diagnostics.forEach((one) => this.warn(`${one.file}:${one.line}:${one.column}: ${one.message} (${one.code})`));
       const code = Object.entries(program.stages).map(([stage, byTarget]) => [stage, byTarget[target]]);

@@ -108,6 +108,23 @@ test("hostile input is an error, and the next call works", () => {
   }
 });
 
+test("a chain that the engine has no stack for is an error of the source", () => {
+  const long = `#version 150\nuniform float u;\nout vec4 c;\nvoid main() { c = vec4(u${" + u".repeat(16_000)}); }\n`;
+  try {
+    // An engine may have stack enough.
+    assert.match(compiler.compile({ "a.frag": long }).stages.fragment.wgsl, /@fragment/);
+  } catch (error) {
+    const [{ code, file }] = error.diagnostics;
+    assert.deepEqual([error.kind, code, file], ["content", "E0003", "a.frag"]);
+  }
+  assert.match(compiler.compile(program).stages.vertex.wgsl, /@vertex/);
+});
+
+test("an option that is undefined is none, and a macro that is true is 1", () => {
+  const asked = { "a.frag": "#version 150\nout vec4 c;\n#if A\nvoid main() { c = vec4(1.0); }\n#endif\n" };
+  assert.ok(compiler.compile(asked, { defines: { A: true }, options: { clipZ: undefined } }).stages.fragment);
+});
+
 const scene = "[framebuffer]\nwidth = 8\nheight = 4\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nprimitive = \"triangle_strip\"\n" +
   "[draw.attributes]\np = { size = 2, values = [-1, -1, 1, -1, -1, 1, 1, 1] }\n[draw.uniforms]\ntint = [1, 0.5, 0, 1]\n";
 
@@ -122,6 +139,9 @@ test("render draws what ImageData takes", () => {
 
 test("a loop without an end is an error, and the next picture is drawn", () => {
   const endless = FRAGMENT.replace("{ color", "{ while (at.x < 9.0) ; color");
-  assert.throws(() => reference.render("a.toml", { "a.toml": scene, "a.vert": VERTEX, "a.frag": endless }), reference.GlistenError);
+  assert.throws(() => reference.render("a.toml", { "a.toml": scene, "a.vert": VERTEX, "a.frag": endless }), (error) => {
+    assert.deepEqual([error.kind, error.diagnostics.map(({ code, file }) => [code, file])], ["content", [["E0913", "a.frag"]]]);
+    return true;
+  });
   assert.equal(reference.render("a.toml", { "a.toml": scene, ...program }).width, 8);
 });

@@ -25,6 +25,7 @@ async function imported(texts, name, options = {}) {
       warn: (warning) => warnings.push(warning),
     };
     const plugin = glisten(options);
+    plugin.configResolved({ root: folder });
     const id = await plugin.resolveId.call(host, `./${name}?glisten`, join(folder, "main.js"));
     const code = await plugin.load.call(host, id);
     const module = errors.length === 0 ? (await import(`data:text/javascript,${encodeURIComponent(code)}`)).default : null;
@@ -86,6 +87,25 @@ test("errors have their file and line", async () => {
   assert.ok(error.loc.file.endsWith("/f.glsl"), error.loc.file);
   assert.deepEqual([error.loc.line, error.loc.column], [2, 11]);
   assert.match(error.message, /`x` is not declared/);
+});
+
+test("folders are relative to the root, and what is watched has a whole path", async () => {
+  const texts = { "src/a.frag": '#version 150\n#include "common.glsl"\nout vec4 c;\nvoid main() { c = tint(); }\n', "shaders/common.glsl": "vec4 tint() { return vec4(1.0); }\n" };
+  const { module, errors, watched } = await imported(texts, "src/a.frag", { folders: ["shaders"] });
+  assert.deepEqual(errors, []);
+  assert.match(module.fragment, /@fragment/);
+  assert.deepEqual(watched, Object.keys(texts).sort());
+});
+
+test("an error in another file than the imported one is told there, before warnings", async () => {
+  const stages = { "a.vert": vertex, "a.frag": '#version 150\nin vec3 n;\nout vec4 c;\nvoid main() { c = vec4(n, 1.0); }\n' };
+  const { errors: [between] } = await imported(stages, "a.vert");
+  assert.ok(between.id.endsWith("/a.frag") && between.loc.file === between.id, between.id);
+  assert.deepEqual([between.loc.line, between.loc.column], [2, 8]);
+  const wrong = { "a.frag": '#version 150\n#include "f.glsl"\nout vec4 c;\nvoid main() { c = vec4(f()); }\n', "f.glsl": "float f() { return x; }\n" };
+  const { errors: [error] } = await imported(wrong, "a.frag");
+  assert.ok(error.id.endsWith("/f.glsl"), error.id);
+  assert.match(error.message, /^`x` is not declared \(E0301\)\n/);
 });
 
 test("a file may have both stages", async () => {

@@ -1,18 +1,21 @@
 //! `glisten test`: runs `.shader_test` files, and the functions of sources under `//! test`, on the GPU and with the CPU reference.
 
-use crate::arguments::args::{ResultFormat, SourceArgs};
-use crate::arguments::engine::Engines;
+use crate::arguments::args::{BindingArgs, LevelArgs, ResultFormat, SourceArgs};
+use crate::arguments::engine::STDIN as SHOWN_STDIN;
+use crate::batch::Batch;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
+use crate::inputs::STDIN;
 use crate::process::guard;
 use crate::process::journal::{self, Note};
 use crate::progress::Progress;
 use crate::scenes::{gpu_failure, open_gpu};
 use crate::search;
+use crate::session::Session;
 use clap::{Args, ValueEnum};
-use glisten_front::compiler::{Compiler, Options};
+use glisten_front::compiler::{Compilation, Compiler, Options};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::{LineRule, Precision, RenderOptions};
@@ -31,7 +34,7 @@ pub(crate) const EXAMPLES: Examples = &[("glisten test tests/", "all .shader_tes
 /// Run .shader_test files, and the functions of shaders under a comment `//! test`
 #[derive(Args, Debug)]
 pub(crate) struct TestArgs {
-    /// Test files and shaders, or folders to search for them
+    /// Test files and shaders, folders to search for them, or `-` for standard input
     #[arg(required = true, value_name = "FILE|DIR")]
     paths: Vec<PathBuf>,
     /// The backend
@@ -51,6 +54,8 @@ pub(crate) struct TestArgs {
     format: ResultFormat,
     #[command(flatten)]
     sources: SourceArgs,
+    #[command(flatten)]
+    levels: LevelArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -107,37 +112,43 @@ pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
     if files.is_empty() {
         return Err(Failure::usage(format!("there is no .{EXTENSION} file, and no shader with `//! test`")));
     }
-    let engines = Engines::new(&args.sources)?;
-    let options = Options { defines: args.sources.defines.clone(), strict: args.sources.strict, ..Options::default() };
-    let compiler = Compiler::new(options).with_includes(engines.includes()).with_preparation(engines.clone());
+    let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 1)?;
     let mut backends = backends(args)?;
     let progress = Progress::new(console, files.len());
-    let mut results = Vec::new();
+    let (mut results, mut batches) = (Vec::new(), Vec::new());
     let mut known = Known::read();
     for path in &files {
-        let name = path.display().to_string();
+        let is_stdin = path.as_os_str() == STDIN;
+        let name = if is_stdin { SHOWN_STDIN.to_owned() } else { path.display().to_string() };
         progress.say(&name);
-        let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
-        let text = String::from_utf8_lossy(&bytes);
-        if is_source(path) && has_tests(&text) {
-            results.extend(units(&name, &text, &compiler, &mut backends, &mut known));
-            progress.step();
-            continue;
-        }
-        // A mistyped name does not pass as a test that is skipped.
-        if path.extension().is_none_or(|extension| extension != EXTENSION)
-            && !text.lines().any(|line| line.trim() == TEST)
-        {
+        let text =
+            if is_stdin { files::read_source(&name, None).map(|text| text.to_string()) } else { text_of(&name, path) };
+        let text = text.map_err(|error| Failure::usage(error.message))?;
+        let is_test = has_section(&text);
+        let compilation = if is_source(path) && has_tests(&text) && !(is_stdin && is_test) {
+            let (rows, compilation) = units(&name, &text, session.compiler(), &mut backends, &mut known);
+            results.extend(rows);
+            compilation
+        } else if is_source(path) && !is_test {
+            // A mistyped name does not pass as a test that is skipped.
             return Err(Failure::usage(format!("`{name}` has no section `{TEST}`, and no shader with `//! test`")));
-        }
-        for (backend, draws) in &mut backends {
-            let row = known.take(&name, backend).unwrap_or_else(|| {
-                let _work = (*backend == GPU).then(|| journal::at_work(&journal::drawing(&name)));
-                let row = TestRow::new(&name, backend, &one(&name, &text, draws.as_mut()));
-                row.keep();
-                row
-            });
-            results.push(row);
+        } else {
+            let compiler = Compiler::new(Options::default()).without_levels();
+            for (backend, draws) in &mut backends {
+                let row = known.take(&name, backend).unwrap_or_else(|| {
+                    let _work = (*backend == GPU).then(|| journal::at_work(&journal::drawing(&name)));
+                    let row = TestRow::new(&name, backend, &one(&name, &text, &compiler, draws.as_mut()));
+                    row.keep();
+                    row
+                });
+                results.push(row);
+            }
+            guard::guarded(|| shader_test::compilation(&name, &text, &compiler)).ok().flatten()
+        };
+        if let Some(Compilation { sources, diagnostics, .. }) = compilation {
+            let mut batch = Batch { sources, diagnostics: Vec::new() };
+            session.add(&mut batch, diagnostics);
+            batches.push(batch);
         }
         progress.step();
     }
@@ -146,9 +157,20 @@ pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
         ResultFormat::Json => serde_json::to_string_pretty(&results).expect("results are always JSON") + "\n",
         ResultFormat::Human => human(&results, !console.is_quiet()),
     };
+    let exit = session.tell(&batches.iter().collect::<Vec<_>>(), false)?;
     console.output(&text)?;
     let failed = results.iter().any(|result| result.result == "fail");
-    Ok(if failed { Exit::Content } else { Exit::Ok })
+    Ok(if failed { Exit::Content } else { exit })
+}
+
+/// The text of a file.
+fn text_of(name: &str, path: &Path) -> Result<String, files::ReadError> {
+    files::read(name, path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Whether a text is a test file.
+fn has_section(text: &str) -> bool {
+    text.lines().any(|line| line.trim() == TEST)
 }
 
 /// Whether a file is a shader, and not a test file.
@@ -157,10 +179,19 @@ fn is_source(path: &Path) -> bool {
 }
 
 /// Runs the tests in the functions of a source.
-fn units(name: &str, text: &str, compiler: &Compiler, backends: &mut [Named], known: &mut Known) -> Vec<TestRow> {
-    let found = match guard::guarded(|| tests(name, text, compiler)) {
+fn units(
+    name: &str,
+    text: &str,
+    compiler: &Compiler,
+    backends: &mut [Named],
+    known: &mut Known,
+) -> (Vec<TestRow>, Option<Compilation>) {
+    let (found, compilation) = match guard::guarded(|| tests(name, text, compiler)) {
         Ok(found) => found,
-        Err(panic) => return vec![TestRow::new(name, "cpu", &TestResult::Fail(format!("internal error: {panic}")))],
+        Err(panic) => {
+            let result = TestResult::Fail(format!("internal error: {panic}"));
+            return (vec![TestRow::new(name, "cpu", &result)], None);
+        }
     };
     let mut rows = Vec::new();
     for test in &found {
@@ -180,7 +211,7 @@ fn units(name: &str, text: &str, compiler: &Compiler, backends: &mut [Named], kn
             rows.push(row.of(name, test));
         }
     }
-    rows
+    (rows, Some(compilation))
 }
 
 /// The results of processes before this one, which a driver took down.
@@ -238,14 +269,17 @@ impl TestRow {
 }
 
 /// Runs a test. A panic fails it and does not affect the others.
-fn one(name: &str, text: &str, backend: &mut dyn TestBackend) -> TestResult {
-    let compiler = Compiler::new(Options::default());
-    guard::guarded(|| shader_test::run(name, text, &compiler, backend))
+fn one(name: &str, text: &str, compiler: &Compiler, backend: &mut dyn TestBackend) -> TestResult {
+    guard::guarded(|| shader_test::run(name, text, compiler, backend))
         .unwrap_or_else(|panic| TestResult::Fail(format!("internal error: {panic}")))
 }
 
 /// Collects the files at a path: the path itself, or the files in it, in the order of their names.
 fn collect(path: &Path, found: &mut Vec<PathBuf>, depth: u32) -> Result<(), Failure> {
+    if path.as_os_str() == STDIN {
+        found.push(path.to_owned());
+        return Ok(());
+    }
     let unreadable = |error: std::io::Error| Failure::usage(format!("cannot read `{}`: {error}", path.display()));
     if !std::fs::metadata(path).map_err(unreadable)?.is_dir() {
         found.push(path.to_owned());

@@ -120,14 +120,17 @@ fn emit_stages(
             Extent::Functions(wanted) => crate::lower::lower_functions(program, stage, target, conventions, wanted)?,
             Extent::Stage | Extent::SingleFile => crate::lower::lower(program, stage, target, conventions)?,
         };
-        deep |= program.stage(stage).is_some_and(|shader| shader.expr_depth > 32) || is_nested(&module, 24);
+        deep |= program.stage(stage).is_some_and(|shader| shader.depth > 32) || is_nested(&module, 24);
         if let Some(found) = targets::limit(target, &module, &slots) {
             return Err(vec![found]);
         }
         modules.push((module, floats));
     }
-    // naga's validator and writers recurse over nested blocks, which the parser bounds at 256.
-    const NESTING: u32 = 512;
+    // naga's validator and writers recurse over nested blocks, which the parser bounds at 256. A level of a writer, a `switch` of HLSL, say,
+    // takes as much stack as four of ours.
+    const NESTING: u32 = 2048;
+    // Some ten levels of them take more than a small thread has.
+    const SHALLOW: u32 = 128;
     let write = || {
         let mut modules = modules.into_iter().map(|(module, floats)| valid(module, floats));
         let Some(first) = modules.next() else {
@@ -147,7 +150,7 @@ fn emit_stages(
         let job = Job { module, info, conventions, sources, slots, types, shaders, is_single };
         targets::write(target, job).map_err(|message| vec![failed(target, &message)])
     };
-    let traced = glisten_front::stack::with_stack(if deep { NESTING } else { 0 }, move || {
+    let traced = glisten_front::stack::with_stack(if deep { NESTING } else { SHALLOW }, move || {
         catch_unwind(AssertUnwindSafe(write)).unwrap_or_else(|_| {
             Err(vec![internal_error(Span::default(), format!("the writer of {} panicked", target.name()))])
         })

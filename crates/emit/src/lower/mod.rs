@@ -137,7 +137,7 @@ fn lower_with(
     facts.loops_after_discard = discards::guarded_loops(shader, &facts.functions, &facts.order);
     let nesting = facts.functions.iter().map(|function| function.depth).max().unwrap_or(0);
     // A statement and its contents take several stack frames; an expression takes one or two.
-    glisten_front::stack::with_stack(shader.expr_depth.saturating_add(nesting.saturating_mul(4)), || {
+    glisten_front::stack::with_stack(shader.depth.saturating_add(nesting.saturating_mul(4)), || {
         Lower::new(program, shader, target, conventions, facts).run(wanted.is_some())
     })
 }

@@ -166,7 +166,7 @@ impl<'a> Analyzer<'a> {
     /// Adds an expression and its facts.
     pub(super) fn push(&mut self, kind: ExprKind, ty: TypeId, span: Span) -> ExprId {
         let facts = self.facts_of(&kind);
-        self.shader.expr_depth = self.shader.expr_depth.max(facts.depth);
+        self.shader.depth = self.shader.depth.max(facts.depth);
         self.facts.push(facts);
         self.shader.push(kind, ty, span)
     }

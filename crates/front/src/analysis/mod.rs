@@ -69,7 +69,7 @@ pub fn analyze(
     sources: &SourceMap,
     diagnostics: &mut Diagnostics,
 ) -> Shader {
-    with_stack(nesting(ast), || Analyzer::new(ast, stage, strict, types, sources, diagnostics, None).run()).0
+    with_stack(nesting(ast), || analyzed(Analyzer::new(ast, stage, strict, types, sources, diagnostics, None))).0
 }
 
 /// Analyzes like [`analyze`], and notes what each name denotes. `probe` is a name that stands where its author wants to know what
@@ -86,7 +86,15 @@ pub fn analyze_with_notes(
     let probe = probe.and_then(|probe| ast.names.get(probe));
     let taker = NoteTaker { notes: Notes::default(), probe };
     let depth = nesting(ast);
-    with_stack(depth, || Analyzer::new(ast, stage, strict, types, sources, diagnostics, Some(taker)).run())
+    with_stack(depth, || analyzed(Analyzer::new(ast, stage, strict, types, sources, diagnostics, Some(taker))))
+}
+
+/// Runs an analysis; the statements of the shader nest as deep as those of the tree.
+fn analyzed(analyzer: Analyzer<'_>) -> (Shader, Notes) {
+    let nesting = statement::nesting(analyzer.ast);
+    let (mut shader, notes) = analyzer.run();
+    shader.depth = shader.depth.saturating_add(nesting);
+    (shader, notes)
 }
 
 /// How deep the traversal may recurse. It recurses into right operands, arguments and indices; a loop handles left

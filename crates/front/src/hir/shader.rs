@@ -308,9 +308,9 @@ pub struct Shader {
     pub depth_mode: DepthMode,
     /// Whether an engine makes outputs of `gl_FragColor` and `gl_FragData`, so that declared ones may stand next to them.
     pub mixes_outputs: bool,
-    /// The depth of the deepest expression, counted along left operands too. More than a few hundred levels need a
-    /// large stack (see [`Shader::on_stack`]).
-    pub expr_depth: u32,
+    /// How deep a traversal recurses: the depth of the deepest expression, counted along left operands too, and that of the
+    /// statements. More than a few hundred levels need a large stack (see [`Shader::on_stack`]).
+    pub depth: u32,
     /// The text for an OpenGL driver, one for each source ([`whole_text`](crate::source::whole_text)); empty for a
     /// shader that was not compiled from text.
     pub texts: Vec<Arc<str>>,
@@ -337,7 +337,7 @@ impl Shader {
             precisions: self.precisions.clone(),
             depth_mode: self.depth_mode,
             mixes_outputs: self.mixes_outputs,
-            expr_depth: self.expr_depth,
+            depth: self.depth,
             texts: self.texts.clone(),
             origin: self.origin.clone(),
         }
@@ -364,12 +364,12 @@ impl Hash for Shader {
             precisions: _,
             depth_mode,
             mixes_outputs,
-            expr_depth,
+            depth,
             texts: _,
             origin: _,
         } = self;
         (stage, version, exprs, globals, functions, main, geometry, frag_coord).hash(state);
-        (per_vertex_out, precise, tex_coords, depth_mode, mixes_outputs, expr_depth).hash(state);
+        (per_vertex_out, precise, tex_coords, depth_mode, mixes_outputs, depth).hash(state);
     }
 }
 
@@ -411,7 +411,7 @@ impl Shader {
             precisions: Vec::new(),
             depth_mode: DepthMode::default(),
             mixes_outputs: false,
-            expr_depth: 0,
+            depth: 0,
             texts: Vec::new(),
             origin: Origin::default(),
         }
@@ -493,9 +493,9 @@ impl Shader {
         self.functions.iter().enumerate().map(|(index, function)| (FunctionId::new(index), function))
     }
 
-    /// Runs a recursive traversal of this shader's expressions with enough stack for the deepest of them. Valid
+    /// Runs a recursive traversal of this shader's expressions or statements with enough stack for the deepest of them. Valid
     /// chains have up to 16,384 operators.
     pub fn on_stack<R>(&self, walk: impl FnOnce() -> R) -> R {
-        crate::stack::with_stack(self.expr_depth, walk)
+        crate::stack::with_stack(self.depth, walk)
     }
 }

@@ -160,7 +160,7 @@ fn select_side(producer: &mut Shader, fragment: &mut Shader, read: &str, sides: 
         (global.interpolation, global.interpolation_written) = (Interpolation::default(), false);
         (global.sampling, global.invariant) = (Sampling::Center, false);
     }
-    fragment.expr_depth = fragment.expr_depth.max(2);
+    fragment.depth = fragment.depth.max(2);
     fragment.mark_static_use();
 }
 
@@ -199,7 +199,7 @@ fn free_name(name: &str, shaders: &[&Shader]) -> String {
 
 /// Runs statements where a vertex is complete: at the end of `main`, or before each `EmitVertex`.
 fn at_the_end(shader: &mut Shader, end: Vec<Stmt>) {
-    shader.expr_depth = shader.expr_depth.max(4);
+    shader.depth = shader.depth.max(4);
     if shader.stage == Stage::Geometry {
         let emitted = |expr: &ExprKind| matches!(expr, ExprKind::BuiltinCall(BuiltinFunction::EmitVertex, _));
         let calls: Vec<usize> =

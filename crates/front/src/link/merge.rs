@@ -120,7 +120,7 @@ impl Merge<'_> {
         self.all.texts.extend(next.texts);
         self.all.tex_coords = self.all.tex_coords.max(next.tex_coords);
         self.all.precise |= next.precise;
-        self.all.expr_depth = self.all.expr_depth.max(next.expr_depth);
+        self.all.depth = self.all.depth.max(next.depth);
         self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));
         self.unite_layouts(next.geometry, next.frag_coord);
         self.retype_variables();

@@ -65,7 +65,7 @@ pub fn check(program: &Program, sources: &SourceMap) -> Vec<Diagnostic> {
 
 /// Checks a program against those rules whose codes are wanted, which need not run all.
 pub fn check_some(program: &Program, sources: &SourceMap, wanted: impl Fn(&Code) -> bool) -> Vec<Diagnostic> {
-    let depth = program.stages.iter().map(|shader| shader.expr_depth).max().unwrap_or(0);
+    let depth = program.stages.iter().map(|shader| shader.depth).max().unwrap_or(0);
     with_stack(depth, || {
         let subject = Subject::new(program, sources);
         let mut list = Vec::new();

@@ -40,7 +40,7 @@ pub(super) fn shader_test(input: &[u8]) {
 /// A source with tests.
 pub(super) fn unit_test(input: &[u8]) {
     let text = String::from_utf8_lossy(input);
-    for test in tests("fuzzed.glsl", &text, &compiler()) {
+    for test in tests("fuzzed.glsl", &text, &compiler()).0 {
         let result = test.run(Some(&mut Small));
         assert!(result == TestResult::Pass || result.reason().is_some_and(|reason| !reason.is_empty()), "no reason");
     }

@@ -357,7 +357,9 @@ impl Loader<'_> {
 
     fn not_a_scene(&mut self, why: &str) {
         let message = format!("`{}` is not a scene: {why}", self.path);
-        self.reader.report(Diagnostic::new(&SCENE_SYNTAX, Span::default(), message));
+        // An empty text has the file's name.
+        let base = self.sources.add(self.path, "").map_or(0, |file| self.sources.file(file).base());
+        self.reader.report(Diagnostic::new(&SCENE_SYNTAX, Span::new(base, base), message));
     }
 
     fn draw_tables<'t, 'i>(&mut self, table: &'t DeTable<'i>) -> Vec<&'t Node<'i>> {

@@ -129,7 +129,7 @@ pub(super) fn load_textures(
         let table = layers::TABLES.iter().find(|(sampler, _)| conventional && *sampler == slot.name);
         *texture = Some(match table {
             Some((_, pattern)) => made_table(loader, pattern, kind),
-            None => Arc::new(unset_texture(kind, if conventional { 1 } else { 0 })),
+            None => Arc::new(Texture::unset(kind, if conventional { 1 } else { 0 })),
         });
     }
     warn_unset(loader, draw, &unset, place);
@@ -211,28 +211,6 @@ fn smallest(kind: SamplerType) -> String {
     let texel = if kind.texel == Scalar::Float { "0.0, 0.0, 0.0, 1.0" } else { "0, 0, 0, 1" };
     let texels = if kind.dim == SamplerDim::Cube { 6 } else { 1 };
     format!("{{ {size}{layers}, values = [{}] }}", vec![texel; texels].join(",  "))
-}
-
-/// A texture with one texel (or one per face) of (level, level, level, 1).
-fn unset_texture(kind: SamplerType, level: u8) -> Texture {
-    let depth = if kind.dim == SamplerDim::Cube { 6 } else { 1 };
-    let texels = match kind.texel {
-        Scalar::Int => Texels::Int(vec![[i32::from(level), i32::from(level), i32::from(level), 1]; depth as usize]),
-        Scalar::Uint => Texels::Uint(vec![[u32::from(level), u32::from(level), u32::from(level), 1]; depth as usize]),
-        Scalar::Float | Scalar::Bool => {
-            Texels::Float(vec![[f32::from(level), f32::from(level), f32::from(level), 1.0]; depth as usize])
-        }
-    };
-    // As many samples as every driver has.
-    let count = if kind.dim == SamplerDim::Multisample { 4 } else { 1 };
-    Texture {
-        kind,
-        levels: vec![TextureLevel { width: 1, height: 1, depth, texels }; count],
-        filter: Filter::Nearest,
-        wrap: Wrap::ClampToEdge,
-        compare: Compare::Lequal,
-        sampling: Sampling::default(),
-    }
 }
 
 /// A texture, which the draws of a file share: the file, and not the scene, says how often it is there.

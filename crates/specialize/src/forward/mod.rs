@@ -181,7 +181,7 @@ pub(crate) fn walk(
     textures: &[Option<KnownTexture>],
     (fast, extent): (bool, Extent),
 ) -> Walked {
-    with_stack(shader.expr_depth.saturating_mul(2).saturating_add(4096), move || {
+    with_stack(shader.depth.saturating_mul(2).saturating_add(4096), move || {
         let mut forward = Forward::new(types, shader, textures);
         forward.fast = fast;
         forward.extent = extent;

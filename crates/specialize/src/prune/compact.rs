@@ -47,7 +47,7 @@ pub(super) fn compact(
     origins: &mut Vec<FunctionId>,
 ) -> (Shader, Vec<GlobalId>) {
     let known = std::mem::take(origins);
-    let (new, globals, from) = with_stack(shader.expr_depth.saturating_add(1024), || {
+    let (new, globals, from) = with_stack(shader.depth.saturating_add(1024), || {
         let mut rebuild = Rebuild {
             old: shader,
             new: Shader { exprs: Vec::with_capacity(shader.exprs.len()), ..shader.emptied() },

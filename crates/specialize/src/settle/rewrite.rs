@@ -40,7 +40,7 @@ struct Writer<'a> {
 
 /// Settles a stage.
 pub(crate) fn settle(types: &Types, walked: &Walked, demands: &Demands, samplers: &[SamplerSlot]) -> Settled {
-    with_stack(walked.shader.expr_depth.saturating_mul(2).saturating_add(1024), move || {
+    with_stack(walked.shader.depth.saturating_mul(2).saturating_add(1024), move || {
         let mut out = walked.shader.clone();
         out.exprs.clear();
         let n_globals = out.globals.len();

@@ -42,23 +42,28 @@ pub(super) fn vertex(version: &str) -> String {
     format!("#version {version}\n{VERTEX}")
 }
 
-/// How many lines are in front of the text.
-pub(crate) const HEAD_LINES: u32 = 2;
-
 /// The text of a call.
 pub(super) struct Call {
     pub(super) text: String,
-    pub(super) inputs: usize,
+    /// The numbers of a row of inputs: whether each is an integer, which takes two floats.
+    pub(super) inputs: Vec<bool>,
     pub(super) results: usize,
+    /// Whether the results are integers, each of which takes [`FLOATS_A_WHOLE`] floats.
+    pub(super) is_whole: bool,
     pub(super) tables: usize,
 }
+
+/// A float has 24 bits, so an integer of 32 is passed as its upper and its lower half.
+pub(super) const HALF: f64 = 65_536.0;
+/// The floats of an integer that is a result: the nearest float, whose interval is that of the integer, and both halves.
+pub(super) const FLOATS_A_WHOLE: usize = 3;
 
 fn head(Text { version, text, .. }: Text<'_>) -> String {
     format!("#version {version}\n#extension GL_ARB_shading_language_include : enable\n{text}\n")
 }
 
 /// A shader with the text and an empty `main`.
-pub(crate) fn whole(text: Text<'_>) -> Source {
+fn whole(text: Text<'_>) -> Source {
     let whole = head(text) + "out vec4 glisten_result;\nvoid main() { glisten_result = vec4(0.0); }\n";
     Source { name: text.name.into(), text: whole.into(), stage: Stage::Fragment }
 }
@@ -98,13 +103,14 @@ impl Call {
         let wanted = signature.replace(' ', "");
         let found = shader.functions.iter().find(|f| f.body.is_some() && signature_of(&types, f) == wanted);
         let Some(function) = found else { return Err(unknown(&types, &shader, &wanted)) };
-        let mut writer = Writer { types: &types, inputs: 0, tables: 0 };
+        let mut writer = Writer { types: &types, inputs: Vec::new(), floats: 0, tables: 0 };
         let arguments = writer.arguments(function, wraps)?;
-        let results = results(&types, function)?;
+        let (results, is_whole) = results(&types, function)?;
         Ok(Self {
-            text: writer.text(text, function, &arguments, results),
+            text: writer.text(text, function, &arguments, results, is_whole),
             inputs: writer.inputs,
             results,
+            is_whole,
             tables: writer.tables,
         })
     }
@@ -116,17 +122,22 @@ fn unknown(types: &Types, shader: &Shader, wanted: &str) -> EvaluateError {
     EvaluateError::new(format!("there is no function `{wanted}`{}", near.unwrap_or_default()))
 }
 
-/// How many numbers a result has.
-fn results(types: &Types, function: &Function) -> Result<usize, EvaluateError> {
+/// How many numbers a result has, and whether they are integers.
+fn results(types: &Types, function: &Function) -> Result<(usize, bool), EvaluateError> {
+    let size = types.flat_len(function.ret) as usize;
     match types.get(function.ret) {
-        Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..) => Ok(types.flat_len(function.ret) as usize),
+        Type::Scalar(scalar) | Type::Vector(scalar, _) => Ok((size, scalar.is_integer())),
+        Type::Matrix(..) => Ok((size, false)),
         _ => Err(EvaluateError::new(format!("`{}` returns `{}`", function.name, types.name(function.ret)))),
     }
 }
 
 struct Writer<'a> {
     types: &'a Types,
-    inputs: usize,
+    /// [`Call::inputs`], as far as they are written.
+    inputs: Vec<bool>,
+    /// The floats that they take.
+    floats: usize,
     tables: usize,
 }
 
@@ -159,26 +170,30 @@ impl Writer<'_> {
         EvaluateError::new(format!("a parameter of type `{}` cannot be filled from numbers", self.types.name(ty)))
     }
 
-    /// The next component of the inputs.
-    fn next(&mut self) -> String {
-        let index = self.inputs;
-        self.inputs += 1;
-        format!("x{}[{}]", index / 4, index % 4)
+    /// The next component of the inputs, as a `scalar`.
+    fn next(&mut self, scalar: Scalar) -> String {
+        let mut float = || {
+            let index = self.floats;
+            self.floats += 1;
+            format!("x{}[{}]", index / 4, index % 4)
+        };
+        let number = match scalar {
+            Scalar::Float => float(),
+            Scalar::Bool => format!("({} != 0.0)", float()),
+            Scalar::Int => format!("(int({}) * 65536 + int({}))", float(), float()),
+            Scalar::Uint => format!("(uint({}) * 65536u + uint({}))", float(), float()),
+        };
+        self.inputs.push(scalar.is_integer());
+        number
     }
 
     /// A constructor of the type from the inputs that follow.
     fn value(&mut self, ty: TypeId) -> Result<String, EvaluateError> {
         match self.types.get(ty) {
-            Type::Scalar(scalar) => {
-                let number = self.next();
-                Ok(match scalar {
-                    Scalar::Float => number,
-                    Scalar::Bool => format!("({number} != 0.0)"),
-                    Scalar::Int | Scalar::Uint => format!("{}({number})", scalar.name()),
-                })
-            }
+            Type::Scalar(scalar) => Ok(self.next(scalar)),
             Type::Vector(..) | Type::Matrix(..) => {
-                let numbers: Vec<String> = (0..self.types.flat_len(ty)).map(|_| self.next()).collect();
+                let scalar = self.types.scalar_of(ty).unwrap_or(Scalar::Float);
+                let numbers: Vec<String> = (0..self.types.flat_len(ty)).map(|_| self.next(scalar)).collect();
                 Ok(format!("{}({})", self.types.name(ty), numbers.join(", ")))
             }
             Type::Struct(id) => {
@@ -195,12 +210,20 @@ impl Writer<'_> {
         Ok(format!("{}({})", self.types.name(ty), parts?.join(", ")))
     }
 
-    fn text(&self, text: Text<'_>, function: &Function, arguments: &[String], results: usize) -> String {
+    fn text(
+        &self,
+        text: Text<'_>,
+        function: &Function,
+        arguments: &[String],
+        results: usize,
+        is_whole: bool,
+    ) -> String {
         let mut out = head(text);
         out += "uniform sampler2D glisten_inputs;\n";
         (0..self.tables).for_each(|index| out += &format!("uniform sampler2D {TABLE}{index};\n"));
         out += "out vec4 glisten_result;\nvoid main()\n{\n    ivec2 at = ivec2(gl_FragCoord.xy);\n";
-        let (parts, texels) = (results.div_ceil(4), self.inputs.div_ceil(4));
+        let floats = if is_whole { results * FLOATS_A_WHOLE } else { results };
+        let (parts, texels) = (floats.div_ceil(4), self.floats.div_ceil(4));
         out += &format!("    int row = at.x / {parts};\n");
         for index in 0..texels {
             out +=
@@ -208,11 +231,18 @@ impl Writer<'_> {
         }
         let ret = self.types.name(function.ret);
         out += &format!("    {ret} y = {}({});\n", function.name, arguments.join(", "));
-        let component = |index: usize| match self.types.get(function.ret) {
-            _ if index >= results => "0.0".to_owned(),
-            Type::Scalar(_) => "float(y)".to_owned(),
+        let value = |index: usize| match self.types.get(function.ret) {
+            Type::Scalar(_) => "y".to_owned(),
             Type::Matrix(_, rows) => format!("y[{}][{}]", index / usize::from(rows), index % usize::from(rows)),
-            _ => format!("float(y[{index}])"),
+            _ => format!("y[{index}]"),
+        };
+        let lower = if self.types.scalar_of(function.ret) == Some(Scalar::Uint) { "65535u" } else { "65535" };
+        let component = |index: usize| match (is_whole, index % FLOATS_A_WHOLE) {
+            _ if index >= floats => "0.0".to_owned(),
+            (false, _) => format!("float({})", value(index)),
+            (true, 0) => format!("float({})", value(index / FLOATS_A_WHOLE)),
+            (true, 1) => format!("float({} >> 16)", value(index / FLOATS_A_WHOLE)),
+            (true, _) => format!("float({} & {lower})", value(index / FLOATS_A_WHOLE)),
         };
         for part in 0..parts {
             let numbers: Vec<String> = (0..4).map(|index| component(part * 4 + index)).collect();

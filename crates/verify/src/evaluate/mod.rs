@@ -32,8 +32,8 @@ use std::fmt;
 use std::sync::Arc;
 
 pub use generate::Text;
+pub(crate) use generate::signature_of;
 pub use generate::signatures;
-pub(crate) use generate::{HEAD_LINES, signature_of, whole};
 
 /// How many rows of inputs share a line of the picture.
 const ROWS_A_LINE: usize = 64;
@@ -74,8 +74,11 @@ pub struct Evaluator {
     program: Arc<Program>,
     /// The text of the fragment stage.
     text: String,
-    inputs: usize,
+    /// Whether each number of a row is an integer.
+    inputs: Vec<bool>,
     results: usize,
+    /// Whether the results are integers.
+    is_whole: bool,
     tables: usize,
 }
 
@@ -122,12 +125,13 @@ impl Evaluator {
             return Err(EvaluateError::told(compilation.diagnostics.iter()));
         };
         let program = Arc::new(program);
-        Ok(Self { program, text: call.text, inputs: call.inputs, results: call.results, tables: call.tables })
+        let generate::Call { text, inputs, results, is_whole, tables } = call;
+        Ok(Self { program, text, inputs, results, is_whole, tables })
     }
 
     /// How many numbers a row of inputs has: the components of all parameters except samplers, in order.
     pub fn inputs(&self) -> usize {
-        self.inputs
+        self.inputs.len()
     }
 
     /// How many numbers a result has.
@@ -145,18 +149,24 @@ impl Evaluator {
         &self.program
     }
 
-    fn parts(&self) -> usize {
-        self.results.div_ceil(4)
+    /// The floats that a result takes in the picture.
+    fn floats(&self) -> usize {
+        if self.is_whole { self.results * generate::FLOATS_A_WHOLE } else { self.results }
     }
 
-    /// The scene that calls the function for each row. `tables` are the textures for its samplers, in order.
+    fn parts(&self) -> usize {
+        self.floats().div_ceil(4)
+    }
+
+    /// The scene that calls the function for each row. `tables` are the textures for its samplers, in order. Integers keep all of
+    /// their bits if the inputs are `f64`.
     ///
     /// # Errors
     /// The inputs are empty, not a whole number of rows, or too many (524,288 rows fit), or a table is missing.
-    pub fn scene(&self, inputs: &[f32], tables: &[Arc<Texture>]) -> Result<Scene, EvaluateError> {
-        let rows = inputs.len().checked_div(self.inputs).unwrap_or(1);
-        if rows == 0 || rows * self.inputs != inputs.len() || rows > ROWS_A_LINE * MAX_LINES {
-            let message = format!("{} numbers do not form rows of {}", inputs.len(), self.inputs);
+    pub fn scene<T: Into<f64> + Copy>(&self, inputs: &[T], tables: &[Arc<Texture>]) -> Result<Scene, EvaluateError> {
+        let rows = inputs.len().checked_div(self.inputs()).unwrap_or(1);
+        if rows == 0 || rows * self.inputs() != inputs.len() || rows > ROWS_A_LINE * MAX_LINES {
+            let message = format!("{} numbers do not form rows of {}", inputs.len(), self.inputs());
             return Err(EvaluateError::new(message));
         }
         if tables.len() != self.tables {
@@ -198,12 +208,16 @@ impl Evaluator {
     }
 
     /// The inputs as texels: the numbers of a row side by side, 64 rows per line.
-    fn packed(&self, inputs: &[f32], lines: usize) -> Texture {
-        let texels_a_row = self.inputs.div_ceil(4).max(1);
+    fn packed<T: Into<f64> + Copy>(&self, inputs: &[T], lines: usize) -> Texture {
+        let floats: usize = self.inputs.iter().map(|is_whole| 1 + usize::from(*is_whole)).sum();
+        let texels_a_row = floats.div_ceil(4).max(1);
         let mut texels = vec![[0.0; 4]; lines * ROWS_A_LINE * texels_a_row];
-        for (texels, row) in texels.chunks_mut(texels_a_row).zip(inputs.chunks(self.inputs.max(1))) {
-            for (texel, numbers) in texels.iter_mut().zip(row.chunks(4)) {
-                texel.iter_mut().zip(numbers).for_each(|(to, from)| *to = *from);
+        for (texels, row) in texels.chunks_mut(texels_a_row).zip(inputs.chunks(self.inputs().max(1))) {
+            let mut to = texels.iter_mut().flatten();
+            for (number, is_whole) in row.iter().zip(&self.inputs) {
+                let number: f64 = (*number).into();
+                let (first, second) = if *is_whole { halves(number) } else { (number as f32, None) };
+                [Some(first), second].into_iter().flatten().zip(&mut to).for_each(|(from, to)| *to = from);
             }
         }
         let (width, height) = ((ROWS_A_LINE * texels_a_row) as u32, lines as u32);
@@ -219,24 +233,40 @@ impl Evaluator {
     /// The results in a picture of the scene: for each row of inputs, [`results`](Self::results) numbers.
     pub fn read(&self, picture: &Picture, rows: usize) -> Vec<Vec<f64>> {
         let pixels = picture.attachments.get(self.attachment());
-        pixels.map_or_else(Vec::new, |pixels| self.rows(pixels, [picture.width, picture.height], rows))
+        let whole = |[_, high, low]: [f64; 3]| high * generate::HALF + low;
+        pixels.map_or_else(Vec::new, |pixels| self.rows(pixels, [picture.width, picture.height], rows, whole))
     }
 
     /// The intervals of the results in a picture of the scene with envelopes.
     pub fn read_intervals(&self, picture: &Picture, rows: usize) -> Vec<Vec<Interval>> {
         let pixels = picture.intervals.as_ref().and_then(|all| all.get(self.attachment()));
-        pixels.map_or_else(Vec::new, |pixels| self.rows(pixels, [picture.width, picture.height], rows))
+        let whole = |[nearest, high, low]: [Interval; 3]| {
+            let is_point = |half: Interval| half.low == half.high;
+            let exact = high.low * generate::HALF + low.low;
+            if is_point(high) && is_point(low) { Interval { low: exact, high: exact, ..nearest } } else { nearest }
+        };
+        pixels.map_or_else(Vec::new, |pixels| self.rows(pixels, [picture.width, picture.height], rows, whole))
     }
 
-    /// The channels of the pixels of each row.
-    fn rows<T: Copy>(&self, pixels: &[[T; 4]], [width, height]: [u32; 2], rows: usize) -> Vec<Vec<T>> {
+    /// The channels of the pixels of each row; `whole` makes an integer of its floats.
+    fn rows<T: Copy>(
+        &self,
+        pixels: &[[T; 4]],
+        [width, height]: [u32; 2],
+        rows: usize,
+        whole: impl Fn([T; generate::FLOATS_A_WHOLE]) -> T,
+    ) -> Vec<Vec<T>> {
         let (parts, width, height) = (self.parts(), width as usize, height as usize);
         let row = |index: usize| {
             // Lines of the picture count from the top, `gl_FragCoord` from the bottom.
             let line = height.saturating_sub(index / ROWS_A_LINE + 1);
             let start = line * width + index % ROWS_A_LINE * parts;
-            let numbers = pixels.get(start..start + parts).unwrap_or(&[]).iter().flatten().copied();
-            numbers.take(self.results).collect()
+            let floats = pixels.get(start..start + parts).unwrap_or(&[]).iter().flatten().copied();
+            let floats: Vec<T> = floats.take(self.floats()).collect();
+            match self.is_whole {
+                true => floats.as_chunks().0.iter().map(|floats| whole(*floats)).collect(),
+                false => floats,
+            }
         };
         (0..rows).map(row).collect()
     }
@@ -254,8 +284,15 @@ impl Evaluator {
         let scene = self.scene(inputs, tables)?;
         let options = RenderOptions { precision, mark_edges: false, ..RenderOptions::default() };
         let picture = glisten_reference::render(&scene, &options).map_err(|errors| EvaluateError::told(&errors))?;
-        Ok(self.read(&picture, inputs.len().checked_div(self.inputs).unwrap_or(1)))
+        Ok(self.read(&picture, inputs.len().checked_div(self.inputs()).unwrap_or(1)))
     }
+}
+
+/// The halves of an integer of 32 bits as floats, the upper one first; together they are its value.
+fn halves(number: f64) -> (f32, Option<f32>) {
+    let number = number.trunc();
+    let high = (number / generate::HALF).floor();
+    (high as f32, Some((number - high * generate::HALF) as f32))
 }
 
 fn table_of(level: TextureLevel, filter: Filter) -> Texture {

@@ -76,7 +76,7 @@ pub(super) fn parse(
         let fixed = program.interface.attributes.iter().any(|attribute| attribute.name == FIXED_TEXCOORD);
         columns.push(rectangle(if fixed { FIXED_TEXCOORD } else { TEXCOORD }, words.numbers()?));
     }
-    let data = VertexData { columns, rows: 4 };
+    let data = VertexData { line, columns, rows: 4 };
     Ok(Geometry {
         primitive: Primitive::TriangleStrip,
         count: 4,
@@ -160,6 +160,30 @@ fn arrays(words: &mut Words<'_>, program: &Program, data: &VertexData) -> Result
 fn counts_primitives(program: &Program) -> bool {
     let counts = |(_, global): (GlobalId, &Global)| global.name == "gl_PrimitiveID";
     program.stages.iter().any(|shader| shader.stage == Stage::Geometry || shader.globals().any(counts))
+}
+
+/// The vertex data for a program: a column may name an attribute by its location. Fails if a column is of no attribute, or beyond the
+/// columns and elements of it.
+pub(super) fn for_program(program: &Program, mut data: VertexData) -> Result<VertexData, TestResult> {
+    let attributes = &program.interface.attributes;
+    let line = data.line;
+    for Column { attribute: name, element, column, .. } in &mut data.columns {
+        let location = name.parse().ok();
+        let is_meant = |attribute: &&Attribute| attribute.name == *name || Some(attribute.location) == location;
+        let Some(attribute) = attributes.iter().find(is_meant) else {
+            let known = attributes.iter().map(|attribute| attribute.name.as_str());
+            return known::mistake(line, name, "an attribute of the program", known);
+        };
+        name.clone_from(&attribute.name);
+        let (_, _, columns) = shape(&program.types, attribute.ty).unwrap_or((Scalar::Float, 1, 1));
+        if *column >= columns {
+            return fail(line, format_args!("`{name}` has no column {column}"));
+        }
+        if u64::from(*element) * u64::from(columns) + u64::from(*column) >= u64::from(attribute.columns) {
+            return fail(line, format_args!("`{name}` has no element {element}"));
+        }
+    }
+    Ok(data)
 }
 
 /// The data of every attribute of a program; `None` where the table has no column for it.

@@ -326,11 +326,16 @@ fn longer(words: &[&str]) -> Option<(String, &'static str)> {
     COMMANDS.iter().find_map(|phrase| said(phrase).filter(|said| said.starts_with(phrase)).map(|said| (said, *phrase)))
 }
 
-/// Fails or skips for a requirement that is not met: an extension, or a word that shader_runner does not have.
-pub(super) fn requirement<T>(line: &Line, word: &str) -> Result<T, TestResult> {
+/// Fails for a requirement that shader_runner does not have, and skips for one that is not met: a name of OpenGL that is none of `known`,
+/// of which one may be meant.
+pub(super) fn requirement<'a, T>(
+    line: &Line,
+    word: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Result<T, TestResult> {
     let is_name = || ["GL_", "!GL_"].iter().chain(VENDORS).any(|prefix| word.starts_with(prefix));
     match is_name() || REQUIREMENTS.contains(&word) {
-        true => skip(line.number, format_args!("requires {}", line.text)),
+        true => skip(line.number, format_args!("requires {}{}", line.text, meant(did_you_mean(word, known)))),
         false => mistake(line.number, word, "a requirement", REQUIREMENTS.iter().copied()),
     }
 }

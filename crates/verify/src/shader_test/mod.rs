@@ -42,7 +42,7 @@ mod vertex_data;
 mod words;
 
 use crate::scene::Scene;
-use glisten_front::compiler::Compiler;
+use glisten_front::compiler::{Compilation, Compiler};
 use glisten_scene::picture::Picture;
 
 /// The result of a test.
@@ -98,6 +98,13 @@ pub fn run(name: &str, text: &str, compiler: &Compiler, backend: &mut dyn TestBa
         Ok(()) => TestResult::Pass,
         Err(result) => result,
     }
+}
+
+/// The compilation of the shaders of a test; nothing if the test does not run, or if an error is what it expects.
+pub fn compilation(name: &str, text: &str, compiler: &Compiler) -> Option<Compilation> {
+    let file = parse::parse(text).ok()?;
+    let setup = require::check(&file.requirements).ok()?;
+    program::compilation(name, &file, &setup, compiler)
 }
 
 /// Fails with a line number and a reason.

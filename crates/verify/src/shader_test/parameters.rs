@@ -1,4 +1,4 @@
-//! The parameters of a test's texture: filters, wrap mode, comparison, levels and swizzle.
+//! The parameters of a test's texture: filters, wrap modes, comparison, levels and swizzle.
 //!
 //! *In:* `texparameter` commands. *Out:* what a scene's texture has. *Holds:* a base level is the first one that is kept, and a
 //! swizzle is applied to the texels, so that no runner knows of either.
@@ -16,7 +16,8 @@ pub(super) struct Parameters {
     pub(super) min: Filter,
     /// The filter for magnification.
     pub(super) mag: Filter,
-    pub(super) wrap: Wrap,
+    /// The wrap modes of `s`, `t` and `r`.
+    pub(super) wraps: [Wrap; 3],
     pub(super) compare: Compare,
     /// `GL_DEPTH_TEXTURE_MODE`
     pub(super) depth_mode: DepthMode,
@@ -61,6 +62,8 @@ const DEPTH_MODES: &[(&str, DepthMode)] = &[
     ("red", DepthMode::Red),
 ];
 
+const WRAP_NAMES: &[&str] = &["wrap_s", "wrap_t", "wrap_r"];
+
 const SWIZZLES: &[&str] = &["swizzle_r", "swizzle_g", "swizzle_b", "swizzle_a"];
 
 impl Default for Parameters {
@@ -68,7 +71,7 @@ impl Default for Parameters {
         Self {
             min: Filter::Nearest,
             mag: Filter::Nearest,
-            wrap: Wrap::Repeat,
+            wraps: [Wrap::Repeat; 3],
             compare: Compare::Lequal,
             depth_mode: DepthMode::default(),
             lod_bias: 0.0,
@@ -84,10 +87,9 @@ fn named<T: Copy>(table: &[(&str, T)], name: &str) -> Option<T> {
 }
 
 impl Parameters {
-    /// Runs a command such as `texparameter 2D min nearest`, after its first word.
+    /// Runs a command such as `texparameter 2D min nearest`, after the name of the target.
     pub(super) fn set(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         let line = words.line;
-        words.word()?;
         let name = words.word()?;
         match name {
             "lod_bias" => self.lod_bias = words.number()? as f32,
@@ -109,10 +111,13 @@ impl Parameters {
             *self.swizzle.get_mut(component)? = named(CHANNELS, value)?;
             return Some(());
         }
+        if let Some(direction) = WRAP_NAMES.iter().position(|known| *known == name) {
+            *self.wraps.get_mut(direction)? = Wrap::of_opengl(value)?;
+            return Some(());
+        }
         match name {
             "min" => self.min = named(FILTERS, value)?,
             "mag" => self.mag = named(FILTERS, value).filter(|filter| !filter.uses_levels())?,
-            "wrap_s" | "wrap_t" | "wrap_r" => self.wrap = Wrap::of_opengl(value)?,
             "depth_mode" => self.depth_mode = named(DEPTH_MODES, value)?,
             "compare_func" => self.compare = named(Compare::NAMES, value)?,
             _ => return None,
@@ -120,7 +125,13 @@ impl Parameters {
         Some(())
     }
 
-    /// The parameters of a scene's texture besides its filter.
+    /// The wrap mode of a texture with so many directions, if they have the same.
+    pub(super) fn wrap(&self, directions: usize) -> Option<Wrap> {
+        let [first, ..] = self.wraps;
+        self.wraps.iter().take(directions).all(|wrap| *wrap == first).then_some(first)
+    }
+
+    /// The parameters of a scene's texture besides its filter and its wrap mode.
     pub(super) fn sampling(&self, shadow: bool) -> Sampling {
         let magnify_linear = Some(self.mag.is_linear()).filter(|linear| *linear != self.min.is_linear());
         // The window's driver stores depth as fixed-point numbers.
@@ -153,7 +164,7 @@ impl Parameters {
 fn unsupported(line: u32, name: &str, value: &str) -> Result<(), TestResult> {
     let values: Vec<&str> = match name {
         "min" | "mag" => FILTERS.iter().map(|row| row.0).collect(),
-        "wrap_s" | "wrap_t" | "wrap_r" => WRAPS.to_vec(),
+        name if WRAP_NAMES.contains(&name) => WRAPS.to_vec(),
         "depth_mode" => DEPTH_MODES.iter().map(|row| row.0).collect(),
         "compare_func" => Compare::NAMES.iter().map(|row| row.0).collect(),
         name if SWIZZLES.contains(&name) => CHANNELS.iter().map(|row| row.0).collect(),
@@ -173,7 +184,7 @@ mod unit {
     #[test]
     fn base_levels_and_swizzles_change_the_image() {
         let mut parameters = Parameters::default();
-        for command in ["2D base_level 1", "2D swizzle_r blue", "2D swizzle_a one", "2D mag linear"] {
+        for command in ["base_level 1", "swizzle_r blue", "swizzle_a one", "mag linear", "wrap_t clamp_to_edge"] {
             assert_eq!(parameters.set(&mut Words::new(1, command)), Ok(()), "{command}");
         }
         let level =
@@ -181,15 +192,16 @@ mod unit {
         let levels = parameters.levels(&[level(2), level(1)]);
         assert_eq!(levels, [TextureLevel { texels: Texels::Float(vec![[0.3, 0.2, 0.3, 1.0]]), ..level(1) }]);
         assert_eq!(parameters.sampling(false).magnify_linear, Some(true));
+        assert_eq!((parameters.wrap(1), parameters.wrap(2)), (Some(Wrap::Repeat), None));
     }
 
     #[test]
     fn what_is_not_supported_is_skipped_and_what_is_unknown_fails() {
         let set = |command| Parameters::default().set(&mut Words::new(3, command));
-        for command in ["2D border_color 0 0 0 0", "2D wrap_s clamp_to_border"] {
+        for command in ["border_color 0 0 0 0", "wrap_s clamp_to_border"] {
             assert!(matches!(set(command), Err(TestResult::Skip(_))), "{command}");
         }
-        for command in ["2D anisotropy much", "2D compare_func nearly", "2D mag linaer", "2D wrap_s repaet"] {
+        for command in ["anisotropy much", "compare_func nearly", "mag linaer", "wrap_s repaet"] {
             assert!(matches!(set(command), Err(TestResult::Fail(_))), "{command}");
         }
     }

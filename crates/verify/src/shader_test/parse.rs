@@ -9,8 +9,10 @@ use glisten_front::hir::Stage;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ShaderText {
     pub(super) stage: Stage,
-    /// The text, after so many empty lines that its line numbers are those of the test.
+    /// The text.
     pub(super) text: String,
+    /// The line of the section's header.
+    pub(super) header: u32,
     /// Whether it is the predefined pass-through shader, whose text follows from the version.
     pub(super) passthrough: bool,
 }
@@ -122,17 +124,17 @@ fn check_header(raw: &str, name: &str, number: u32) -> Result<(), TestResult> {
 
 /// Begins a section, or returns `None` for one that is not supported.
 fn open(file: &mut TestFile, name: &str, number: u32) -> Option<Section> {
-    let shader = |stage, text, passthrough| ShaderText { stage, text, passthrough };
+    let shader = |stage, passthrough| ShaderText { stage, text: String::new(), header: number, passthrough };
     Some(match name {
         "require" => Section::Requirements,
         "vertex shader passthrough" => {
-            file.shaders.push(shader(Stage::Vertex, String::new(), true));
+            file.shaders.push(shader(Stage::Vertex, true));
             Section::Ignored
         }
         "vertex shader" | "geometry shader" | "fragment shader" => {
             let word = name.split(' ').next();
             let stage = Stage::ALL.into_iter().find(|stage| Some(stage.name()) == word).unwrap_or(Stage::Fragment);
-            file.shaders.push(shader(stage, "\n".repeat(number as usize), false));
+            file.shaders.push(shader(stage, false));
             Section::Shader
         }
         "vertex data" => Section::VertexData,
@@ -153,7 +155,7 @@ mod unit {
         )
         .expect("a test");
         assert_eq!(file.requirements, [Line { number: 3, text: "GLSL >= 1.50".into() }]);
-        assert_eq!(file.shaders[0].text, "\n\n\n\n\n#version 150\nint a[2];\n");
+        assert_eq!((file.shaders[0].text.as_str(), file.shaders[0].header), ("#version 150\nint a[2];\n", 5));
         assert_eq!(file.commands, [Line { number: 9, text: "clear".into() }]);
     }
 

@@ -18,6 +18,8 @@ struct Probe {
     area: Area,
     /// The expected channels: 3 or 4.
     color: Vec<f64>,
+    /// Whether a difference is only a warning, which no test fails by.
+    warns: bool,
 }
 
 /// Whether a line is a probe at all.
@@ -40,7 +42,7 @@ pub(super) fn check(mut words: Words<'_>, picture: &Picture, tolerance: [f64; 4]
             let Some(color) = pixels.get(index) else { continue };
             // A NaN is not near anything.
             let near = |((seen, wanted), tolerance): ((&f64, &f64), &f64)| (seen - wanted).abs() <= *tolerance;
-            if !color.iter().zip(&probe.color).zip(&tolerance).all(near) {
+            if !probe.warns && !color.iter().zip(&probe.color).zip(&tolerance).all(near) {
                 return fail(
                     line,
                     format_args!(
@@ -65,7 +67,7 @@ fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, TestResult> {
     let line = words.line;
     let relative = words.eat("relative");
     words.eat("probe");
-    words.eat("warn");
+    let warns = words.eat("warn");
     let everything = words.eat("all");
     let rectangle = !everything && words.eat("rect");
     let channels = match words.word()? {
@@ -82,11 +84,12 @@ fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, TestResult> {
     } else {
         let [x, y] = words.numbers()?;
         let [width, height] = if rectangle { words.numbers()? } else { [1.0, 1.0] };
-        if relative {
-            relative_area([x, y], rectangle.then_some([width, height]), size)
+        let sides = if relative {
+            relative_sides([x, y], rectangle.then_some([width, height]), size)
         } else {
-            area([x, y, width, height])
-        }
+            [x, y, width, height]
+        };
+        area(line, sides)?
     };
     let mut color = Vec::new();
     for _ in 0..channels {
@@ -96,20 +99,32 @@ fn parse(words: &mut Words<'_>, size: [u32; 2]) -> Result<Probe, TestResult> {
     if channels == 3 && !words.rest().is_empty() {
         words.number()?;
     }
-    Ok(Probe { area, color })
+    Ok(Probe { area, color, warns })
 }
 
-fn area([x, y, width, height]: [f64; 4]) -> Area {
-    Area { x: x as u32, y: y as u32, width: width as u32, height: height as u32 }
+/// The pixels of a rectangle; as in C, fractions are dropped.
+fn area(line: u32, sides: [f64; 4]) -> Result<Area, TestResult> {
+    let [x, y, width, height] = sides.map(f64::trunc);
+    let last = f64::from(u32::MAX);
+    if !((0.0..last).contains(&x) && (0.0..last).contains(&y)) {
+        return fail(line, format_args!("the probe looks at ({x}, {y}), outside of the window"));
+    }
+    if !(width >= 1.0 && height >= 1.0) {
+        return fail(line, format_args!("the probe looks at no pixel: it is {width} by {height} pixels large"));
+    }
+    Ok(Area { x: x as u32, y: y as u32, width: width as u32, height: height as u32 })
 }
 
-/// An area in fractions of the window. A point on the far edge is in the last pixel.
-fn relative_area(corner: [f64; 2], extent: Option<[f64; 2]>, size: [u32; 2]) -> Area {
+/// A rectangle in fractions of the window. A point on the far edge is in the last pixel.
+fn relative_sides(corner: [f64; 2], extent: Option<[f64; 2]>, size: [u32; 2]) -> [f64; 4] {
     let scaled = |fraction: [f64; 2]| [fraction[0] * f64::from(size[0]), fraction[1] * f64::from(size[1])];
     let [x, y] = scaled(corner);
     match extent.map(scaled) {
-        Some([width, height]) => area([x, y, width, height]),
-        None => area([x.min(f64::from(size[0] - 1)), y.min(f64::from(size[1] - 1)), 1.0, 1.0]),
+        Some([width, height]) => [x, y, width, height],
+        None => {
+            let inside = |at: f64, size: u32| if at >= f64::from(size) { f64::from(size - 1) } else { at };
+            [inside(x, size[0]), inside(y, size[1]), 1.0, 1.0]
+        }
     }
 }
 
@@ -137,6 +152,9 @@ mod unit {
             "relative probe rgb (0.5, 0.0) (0, 0.505, 0)",
             "probe rect rgba (0, 0, 1, 1) (1, 0, 0, 1)",
             "relative probe rect rgb (0.5, 0.0, 0.5, 0.5) (0, 0.5, 0)",
+            "probe rgba -0.5 0 1 0 0 1",
+            "relative probe rgb (1.0, 0.0) (0, 0.5, 0)",
+            "probe warn all rgba 0 0 0 0",
         ] {
             assert_eq!(check(good), Ok(()), "{good}");
         }
@@ -148,6 +166,13 @@ mod unit {
             "probe rgb 0 0 1 0 0 1 1",
             "probe rgba 0 0 1 0 0 1 1",
             "relative probe rect rgb (0, 0, 1, 0.5) (1, 0, 0)",
+            "probe rgba -1 0 1 0 0 1",
+            "probe rgba nan 0 1 0 0 1",
+            "probe rgba 1e20 0 1 0 0 1",
+            "probe rect rgba (-1, 0, 2, 1) (1, 0, 0, 1)",
+            "probe rect rgba (0, 0, -1, 1) (1, 0, 0, 1)",
+            "relative probe rgba (-0.5, 0.5) (1, 0, 0, 1)",
+            "relative probe rect rgba (0, 0, 0.05, 0.05) (1, 0, 0, 1)",
         ] {
             assert!(matches!(check(bad), Err(TestResult::Fail(_))), "{bad}");
         }

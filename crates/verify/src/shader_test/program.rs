@@ -1,12 +1,13 @@
 //! The program of a test: compiles and links its shaders, and checks whether the link should succeed.
 
 use super::fixed::other_stage;
-use super::parse::TestFile;
+use super::parse::{ShaderText, TestFile};
 use super::require::Setup;
 use super::{TestResult, fail};
 use glisten_front::compiler::{Compilation, Compiler, Options, Source};
-use glisten_front::diagnostic::Diagnostics;
 use glisten_front::diagnostic::codes::general::NOT_SUPPORTED_YET;
+use glisten_front::diagnostic::codes::{Code, qualifiers, statements};
+use glisten_front::diagnostic::{Diagnostic, Diagnostics};
 use glisten_front::hir::Stage;
 use glisten_front::link::{FixedState, Program};
 use glisten_front::source::SourceMap;
@@ -37,6 +38,22 @@ impl Built {
     }
 }
 
+/// The shaders of a test called `name`.
+fn sources(name: &str, file: &TestFile, setup: &Setup) -> Vec<Source> {
+    let source = |shader: &ShaderText| {
+        let text = if shader.passthrough { passthrough(setup) } else { versioned(shader, setup) };
+        Source { name: name.into(), text: text.into(), stage: shader.stage }
+    };
+    file.shaders.iter().map(source).collect()
+}
+
+/// The compilation of the shaders of a test, unless it has an error that the test wants, or that is told as a skip.
+pub(super) fn compilation(name: &str, file: &TestFile, setup: &Setup, compiler: &Compiler) -> Option<Compilation> {
+    let compilation = compiler.compile(&sources(name, file, setup));
+    let is_wanted = file.commands.iter().any(|line| line.text.starts_with("link error"));
+    (compilation.program.is_some() || !is_wanted && !is_unsupported(&compilation)).then_some(compilation)
+}
+
 /// The program, or `None` if it does not link and the test expects `link error`.
 pub(super) fn build(
     name: &str,
@@ -44,14 +61,7 @@ pub(super) fn build(
     setup: &Setup,
     compiler: &Compiler,
 ) -> Result<Option<Built>, TestResult> {
-    let mut sources: Vec<Source> = file
-        .shaders
-        .iter()
-        .map(|shader| {
-            let text = if shader.passthrough { passthrough(setup) } else { versioned(&shader.text, setup) };
-            Source { name: name.into(), text: text.into(), stage: shader.stage }
-        })
-        .collect();
+    let mut sources = sources(name, file, setup);
     let mut compilation = compiler.compile(&sources);
     let expects = |phrase: &str| file.commands.iter().any(|line| line.text.starts_with(phrase));
     match &compilation.program {
@@ -72,7 +82,7 @@ pub(super) fn build(
                 compilation = compiler.compile(&sources);
             }
         }
-        None if expects("link error") => return Ok(None),
+        None if expects("link error") => return no_link(&compilation).map(|()| None),
         _ => {}
     }
     let program = linked(compilation)?;
@@ -83,16 +93,42 @@ fn linked(compilation: Compilation) -> Result<Arc<Program>, TestResult> {
     if let Some(program) = compilation.program {
         return Ok(Arc::new(program));
     }
-    let reason = first_error(&compilation.diagnostics, &compilation.sources);
-    let unsupported = compilation.diagnostics.iter().any(|diagnostic| *diagnostic.code == NOT_SUPPORTED_YET);
-    match unsupported {
+    let reason = first_error(&compilation.diagnostics, &compilation.sources, Diagnostic::is_error);
+    match is_unsupported(&compilation) {
         true => Err(TestResult::Skip(reason)),
         false => Err(TestResult::Fail(reason)),
     }
 }
 
-fn first_error(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
-    let Some(error) = diagnostics.iter().find(|diagnostic| diagnostic.is_error()) else {
+fn is_unsupported(compilation: &Compilation) -> bool {
+    compilation.diagnostics.iter().any(|diagnostic| *diagnostic.code == NOT_SUPPORTED_YET)
+}
+
+/// Whether shaders that become no program do so as a test that expects a link error wants it: each of them compiles.
+fn no_link(compilation: &Compilation) -> Result<(), TestResult> {
+    let is_of_shader = |found: &Diagnostic| found.is_error() && !is_of_link(found.code);
+    if !compilation.diagnostics.iter().any(is_of_shader) {
+        return Ok(());
+    }
+    let reason = first_error(&compilation.diagnostics, &compilation.sources, is_of_shader);
+    match is_unsupported(compilation) {
+        true => Err(TestResult::Skip(reason)),
+        false => {
+            Err(TestResult::Fail(format!("{reason}; the test expects a link error, and this shader does not compile")))
+        }
+    }
+}
+
+/// How the codes of the errors of a link begin.
+const LINK: &str = "E07";
+
+/// Whether an error is one of the program: of its stages together, or of its call graph (GLSL 1.50 §6.1).
+fn is_of_link(code: &Code) -> bool {
+    code.id.starts_with(LINK) || [&statements::RECURSION, &qualifiers::OUTPUTS_EXCLUDE].contains(&code)
+}
+
+fn first_error(diagnostics: &Diagnostics, sources: &SourceMap, is_meant: impl Fn(&Diagnostic) -> bool) -> String {
+    let Some(error) = diagnostics.iter().find(|diagnostic| is_meant(diagnostic)) else {
         return "it does not compile".into();
     };
     let line = sources.location(error.primary.span).map_or(0, |location| location.line);
@@ -114,12 +150,13 @@ fn version_line(setup: &Setup) -> String {
     format!("#version {}{profile}", setup.version)
 }
 
-/// The text with a `#version` line. If it has none of its own, one of the empty lines before it becomes one, and others become
-/// lines for the extensions that a context enables for every shader: those of a compatibility context of 1.40, and
-/// ARB_texture_rectangle on a desktop.
-fn versioned(text: &str, setup: &Setup) -> String {
-    let line = text.lines().find(|line| line.trim_start().starts_with("#version"));
-    let version = line.map_or_else(|| version_line(setup), |line| line.trim().to_owned());
+/// The text with a `#version` line, after so many empty lines that its line numbers are those of the test. If it has none of its own, one
+/// of the empty lines becomes one, and others become lines for the extensions that a context enables for every shader: those of a
+/// compatibility context of 1.40, and ARB_texture_rectangle on a desktop.
+fn versioned(shader: &ShaderText, setup: &Setup) -> String {
+    let ShaderText { text, header, .. } = shader;
+    let own = text.lines().find(|line| line.trim_start().starts_with("#version"));
+    let version = own.map_or_else(|| version_line(setup), |line| line.trim().to_owned());
     let mut added = Vec::new();
     if setup.compatibility && version == "#version 140" {
         added.push("#extension GL_ARB_compatibility : enable");
@@ -127,15 +164,15 @@ fn versioned(text: &str, setup: &Setup) -> String {
     if !setup.es && text.contains("2DRect") && !text.contains("GL_ARB_texture_rectangle") {
         added.push("#extension GL_ARB_texture_rectangle : enable");
     }
-    let Some(rest) = text.strip_prefix(&"\n".repeat(added.len() + 1)) else {
-        return if line.is_some() { text.to_owned() } else { format!("{version}\n{}", text.trim_start_matches('\n')) };
-    };
-    if line.is_some() && added.is_empty() {
-        return text.to_owned();
+    let empty = *header as usize;
+    // GLSL ES wants the version in the first line of the shader, which the section's first line is.
+    let is_first = version.ends_with(" es") && own == text.lines().next();
+    if own.is_some() && added.is_empty() && !is_first {
+        return "\n".repeat(empty) + text;
     }
-    let rest = line.map_or_else(|| rest.to_owned(), |line| rest.replacen(line, "", 1));
+    let rest = own.map_or_else(|| text.clone(), |line| text.replacen(line, "", 1));
     let lines: String = added.iter().map(|line| format!("{line}\n")).collect();
-    format!("{version}\n{lines}{rest}")
+    format!("{version}\n{lines}{}{rest}", "\n".repeat(empty.saturating_sub(added.len() + 1)))
 }
 
 #[cfg(test)]
@@ -145,13 +182,19 @@ mod unit {
     #[test]
     fn a_text_without_a_version_gets_that_of_the_test() {
         let setup = Setup { size: [1, 1], compatibility: false, version: 130, es: false };
-        assert_eq!(versioned("\n\nvoid main() {}\n", &setup), "#version 130\n\nvoid main() {}\n");
+        let versioned = |text: &str, header, setup: &Setup| {
+            versioned(&ShaderText { stage: Stage::Fragment, text: text.into(), header, passthrough: false }, setup)
+        };
+        assert_eq!(versioned("void main() {}\n", 2, &setup), "#version 130\n\nvoid main() {}\n");
+        assert_eq!(versioned("#version 150\n", 2, &setup), "\n\n#version 150\n");
         let es = Setup { version: 300, es: true, ..setup };
-        assert_eq!(versioned("void main() {}\n", &es), "#version 300 es\nvoid main() {}\n");
+        assert_eq!(versioned("void main() {}\n", 1, &es), "#version 300 es\nvoid main() {}\n");
+        assert_eq!(versioned("#version 310 es\nint a;\n", 2, &es), "#version 310 es\n\n\nint a;\n");
+        assert_eq!(versioned("//\n#version 310 es\n", 1, &es), "\n//\n#version 310 es\n");
         let compatibility = Setup { version: 140, compatibility: true, ..setup };
-        let text = versioned("\n\n\n#version 140\nvoid main() {}\n", &compatibility);
+        let text = versioned("#version 140\nvoid main() {}\n", 3, &compatibility);
         assert_eq!(text, "#version 140\n#extension GL_ARB_compatibility : enable\n\n\nvoid main() {}\n");
-        let rectangle = versioned("\n\nuniform sampler2DRect t;\n", &setup);
+        let rectangle = versioned("uniform sampler2DRect t;\n", 2, &setup);
         assert_eq!(rectangle, "#version 130\n#extension GL_ARB_texture_rectangle : enable\nuniform sampler2DRect t;\n");
     }
 }

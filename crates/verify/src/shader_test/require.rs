@@ -76,7 +76,9 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
         let mut words = Words::new(line.number, line.text.strip_prefix("require ").unwrap_or(&line.text));
         match words.word()? {
             // A limit for the operating system; the compiler has limits of its own.
-            "rlimit" => {}
+            "rlimit" => {
+                words.count()?;
+            }
             "GLSL" => {
                 setup.es = words.eat("ES");
                 let (ours, name) = if setup.es { (ES, "GLSL ES") } else { (4.60, "GLSL") };
@@ -96,11 +98,14 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
             }
             "depthbuffer" => {}
             // Separate programs are linked as one: what each stage computes is the same.
-            "SSO" | "SEPARATE" if line.text.ends_with("ENABLED") => {}
-            "INT" => limit(line, &mut words)?,
-            name if LIMITS.iter().any(|(limit, _)| *limit == name) => {
-                let mut words = Words::new(line.number, &line.text);
-                limit(line, &mut words)?;
+            "SSO" if words.eat("ENABLED") => {}
+            "SSO" => return known::mistake(line.number, &line.text, "a requirement", ["SSO ENABLED"]),
+            "INT" => {
+                let name = words.word()?;
+                limit(line, name, &mut words)?;
+            }
+            name if words.rest().first().is_some_and(|word| OPERATORS.contains(word)) => {
+                limit(line, name, &mut words)?;
             }
             name if name.starts_with("!GL_") => {
                 if is_extension(&name[1..]) {
@@ -108,8 +113,9 @@ pub(super) fn check(lines: &[Line]) -> Result<Setup, TestResult> {
                 }
             }
             name if is_extension(name) => {}
-            other => return known::requirement(line, other),
+            other => return known::requirement(line, other, []),
         }
+        words.end()?;
     }
     Ok(setup)
 }
@@ -121,10 +127,9 @@ fn versions(line: &Line, words: &mut Words<'_>, ours: f64, what: &str) -> Result
     if holds { Ok(asked) } else { skip(line.number, format_args!("requires {}, this is {what} {ours:.2}", line.text)) }
 }
 
-fn limit(line: &Line, words: &mut Words<'_>) -> Result<(), TestResult> {
-    let name = words.word()?;
+fn limit(line: &Line, name: &str, words: &mut Words<'_>) -> Result<(), TestResult> {
     let Some((_, ours)) = LIMITS.iter().find(|(limit, _)| *limit == name) else {
-        return skip(line.number, format_args!("requires {}", line.text));
+        return known::requirement(line, name, LIMITS.iter().map(|row| row.0));
     };
     if comparison(words, *ours)? {
         Ok(())
@@ -182,9 +187,21 @@ mod unit {
         ] {
             assert!(matches!(checked(unmet), Err(TestResult::Skip(_))), "{unmet}");
         }
-        for mistaken in ["GLLS >= 1.50", "GLSL => 1.50", "SZIE 10 10", "GLSL 1.50"] {
+        for mistaken in [
+            "GLLS >= 1.50",
+            "GLSL => 1.50",
+            "SZIE 10 10",
+            "GLSL 1.50",
+            "GLSL >= 1.50 core",
+            "SIZE 5 5 5",
+            "GL_ARB_texture_rg enabled",
+            "SSO ENABLD",
+        ] {
             assert!(matches!(checked(mistaken), Err(TestResult::Fail(_))), "{mistaken}");
         }
+        let near = |name: &str| checked(name).err().and_then(|result| result.reason().map(str::to_owned));
+        let told = "line 1: requires GL_MAX_CLIP_DISTANCS >= 8; did you mean `GL_MAX_CLIP_DISTANCES`?";
+        assert_eq!(near("GL_MAX_CLIP_DISTANCS >= 8").as_deref(), Some(told));
         assert_eq!(checked("SIZE 10 20").map(|setup| setup.size), Ok([10, 20]));
     }
 }

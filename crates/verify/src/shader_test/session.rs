@@ -32,6 +32,7 @@ pub(super) fn run(
     known::check_commands(&file.commands)?;
     let data = vertex_data::parse(&file.vertex_data)?;
     let Some(built) = program::build(name, &file, &setup, compiler)? else { return Ok(()) };
+    let data = draw::for_program(&built.program, data)?;
     let mut session = TestSession::new(built, data, setup.size);
     commands(&file, &mut session, backend)
 }
@@ -264,7 +265,7 @@ impl TestSession {
         let mut textures = Vec::new();
         for (slot, &unit) in interface.samplers.iter().zip(&self.uniforms.units) {
             let Type::Sampler(kind) = program.types.get(slot.ty) else { continue };
-            textures.push(self.units.texture(line, unit, kind)?);
+            textures.push(Some(self.units.texture(line, unit, kind)?));
         }
         let state = State {
             primitive: geometry.primitive,

@@ -1,5 +1,6 @@
 //! The textures of the units, with the patterns that tests name.
 
+use super::known;
 use super::parameters::Parameters;
 use super::words::Words;
 use super::{TestResult, fail, skip};
@@ -31,6 +32,27 @@ const BLUE: [f32; 4] = [0.0, 0.0, 1.0, 1.0];
 const WHITE: [f32; 4] = [1.0; 4];
 /// The texels of the second layer of a texture of three dimensions.
 const BEHIND: [[f32; 4]; 4] = [[1.0, 1.0, 0.0, 1.0], [1.0, 0.0, 1.0, 1.0], [0.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0, 1.0]];
+/// The targets of textures, and which textures of tests they are for.
+const TARGETS: &[(&str, Option<(SamplerDim, bool)>)] = &[
+    ("1D", Some((SamplerDim::D1, false))),
+    ("2D", Some((SamplerDim::D2, false))),
+    ("3D", Some((SamplerDim::D3, false))),
+    ("Rect", Some((SamplerDim::Rect, false))),
+    ("Cube", None),
+    ("1DArray", Some((SamplerDim::D1, true))),
+    ("2DArray", Some((SamplerDim::D2, true))),
+    ("CubeArray", None),
+];
+
+/// The directions in which coordinates of a texture wrap.
+fn directions(dim: SamplerDim) -> usize {
+    match dim {
+        SamplerDim::D1 | SamplerDim::Buffer => 1,
+        SamplerDim::D3 => 3,
+        SamplerDim::D2 | SamplerDim::Cube | SamplerDim::Rect | SamplerDim::Multisample => 2,
+    }
+}
+
 /// The largest side of a texture that a test may request.
 const LARGEST: u32 = 4096;
 
@@ -40,7 +62,7 @@ impl TextureUnit {
     }
 
     fn with(self, level: TextureLevel) -> Self {
-        let parameters = Parameters { wrap: Wrap::ClampToEdge, ..self.parameters };
+        let parameters = Parameters { wraps: [Wrap::ClampToEdge; 3], ..self.parameters };
         Self { levels: vec![level], parameters, ..self }
     }
 }
@@ -105,7 +127,7 @@ impl Units {
             ("miptree", None) => {
                 let levels = [(8, RED), (4, GREEN), (2, BLUE), (1, WHITE)];
                 let levels = levels.map(|(side, color)| image(side, side, |_, _| color)).to_vec();
-                let parameters = Parameters { wrap: Wrap::ClampToEdge, ..Parameters::default() };
+                let parameters = Parameters { wraps: [Wrap::ClampToEdge; 3], ..Parameters::default() };
                 TextureUnit { levels, parameters, ..plane() }
             }
             ("rgbw" | "junk", Some("1DArray")) => {
@@ -130,7 +152,15 @@ impl Units {
 
     /// Runs a `texparameter` command such as `texparameter 2D min nearest`.
     pub(super) fn parameter(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
-        let Some(unit) = self.units.get_mut(&self.active) else { return fail(words.line, "there is no texture yet") };
+        let line = words.line;
+        let target = words.word()?;
+        let Some((_, of_target)) = TARGETS.iter().find(|row| row.0 == target) else {
+            return known::mistake(line, target, "a target of textures", TARGETS.iter().map(|row| row.0));
+        };
+        let Some(unit) = self.units.get_mut(&self.active) else { return fail(line, "there is no texture yet") };
+        if *of_target != Some((unit.dim, unit.arrayed)) {
+            return skip(line, format_args!("the last texture is not a `{target}`"));
+        }
         unit.parameters.set(words)
     }
 
@@ -144,26 +174,24 @@ impl Units {
         }
     }
 
-    /// The texture for a sampler of this type at a unit; an unbound unit is black.
-    pub(super) fn texture(
-        &self,
-        line: u32,
-        number: u32,
-        kind: SamplerType,
-    ) -> Result<Option<Arc<Texture>>, TestResult> {
-        let Some(unit) = self.units.get(&number) else { return Ok(None) };
+    /// The texture for a sampler of this type at a unit; an unbound unit is black (OpenGL 3.2 §3.8.15).
+    pub(super) fn texture(&self, line: u32, number: u32, kind: SamplerType) -> Result<Arc<Texture>, TestResult> {
+        let Some(unit) = self.units.get(&number) else { return Ok(Arc::new(Texture::unset(kind, 0))) };
         if unit.dim != kind.dim || unit.arrayed != kind.arrayed || kind.texel != Scalar::Float {
             return skip(line, format_args!("a texture of another kind at a `{}`", kind.name()));
         }
         let parameters = &unit.parameters;
-        Ok(Some(Arc::new(Texture {
+        let Some(wrap) = parameters.wrap(directions(kind.dim)) else {
+            return skip(line, "a texture with a wrap mode for each direction");
+        };
+        Ok(Arc::new(Texture {
             kind,
             levels: parameters.levels(&unit.levels),
             filter: parameters.min,
-            wrap: parameters.wrap,
+            wrap,
             compare: parameters.compare,
             sampling: parameters.sampling(kind.shadow),
-        })))
+        }))
     }
 }
 

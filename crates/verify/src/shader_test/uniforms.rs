@@ -3,41 +3,10 @@
 use super::known;
 use super::words::Words;
 use super::{TestResult, fail, skip};
-use glisten_front::hir::{Scalar, ScalarValue};
+use crate::numeric::{Shape, TYPES};
+use glisten_front::hir::{ArraySize, Scalar, ScalarValue, Storage, Type, TypeId, Types};
 use glisten_front::link::{Program, UniformLeaf};
 use glisten_scene::values::{LeafShape, UniformValues};
-
-/// The types of uniforms that a test may name, with their scalars, columns and rows.
-pub(super) const TYPES: &[(&str, Scalar, u32, u32)] = &[
-    ("float", Scalar::Float, 1, 1),
-    ("vec2", Scalar::Float, 1, 2),
-    ("vec3", Scalar::Float, 1, 3),
-    ("vec4", Scalar::Float, 1, 4),
-    ("int", Scalar::Int, 1, 1),
-    ("ivec2", Scalar::Int, 1, 2),
-    ("ivec3", Scalar::Int, 1, 3),
-    ("ivec4", Scalar::Int, 1, 4),
-    ("uint", Scalar::Uint, 1, 1),
-    ("uvec2", Scalar::Uint, 1, 2),
-    ("uvec3", Scalar::Uint, 1, 3),
-    ("uvec4", Scalar::Uint, 1, 4),
-    ("bool", Scalar::Bool, 1, 1),
-    ("bvec2", Scalar::Bool, 1, 2),
-    ("bvec3", Scalar::Bool, 1, 3),
-    ("bvec4", Scalar::Bool, 1, 4),
-    ("mat2", Scalar::Float, 2, 2),
-    ("mat3", Scalar::Float, 3, 3),
-    ("mat4", Scalar::Float, 4, 4),
-    ("mat2x2", Scalar::Float, 2, 2),
-    ("mat2x3", Scalar::Float, 2, 3),
-    ("mat2x4", Scalar::Float, 2, 4),
-    ("mat3x2", Scalar::Float, 3, 2),
-    ("mat3x3", Scalar::Float, 3, 3),
-    ("mat3x4", Scalar::Float, 3, 4),
-    ("mat4x2", Scalar::Float, 4, 2),
-    ("mat4x3", Scalar::Float, 4, 3),
-    ("mat4x4", Scalar::Float, 4, 4),
-];
 
 /// How a type begins that this runner does not support.
 const UNSUPPORTED: &[&str] = &["double", "dvec", "dmat", "int64", "uint64", "i64vec", "u64vec", "handle"];
@@ -68,10 +37,10 @@ impl Uniforms {
         if UNSUPPORTED.iter().any(|prefix| ty.starts_with(prefix)) {
             return skip(line, format_args!("uniforms of type `{ty}`"));
         }
-        let Some(&(_, scalar, columns, rows)) = TYPES.iter().find(|row| row.0 == ty) else {
+        let Some(Shape { scalar, columns, rows }) = Shape::named(ty) else {
             return known::mistake(line, ty, "a type of a uniform", TYPES.iter().map(|row| row.0));
         };
-        if self.set_unit(program, name, words)? {
+        if self.set_unit(program, ty, name, words)? {
             return Ok(());
         }
         let Some((leaf, first)) = find(program, name, element) else {
@@ -92,7 +61,7 @@ impl Uniforms {
         }
         let mut numbers = Vec::new();
         while !words.rest().is_empty() {
-            let value = if shape.scalar.is_integer() { words.integer()? } else { words.number()? };
+            let value = if shape.scalar.is_integer() { words.whole()? } else { words.number()? };
             numbers.push(number(shape.scalar, value));
         }
         let (given, each) = (numbers.len(), shape.n_each());
@@ -107,20 +76,26 @@ impl Uniforms {
     }
 
     /// Runs `uniform int name 1` for a sampler; an array takes one unit per element.
-    fn set_unit(&mut self, program: &Program, name: &str, words: &mut Words<'_>) -> Result<bool, TestResult> {
+    fn set_unit(&mut self, program: &Program, ty: &str, name: &str, words: &mut Words<'_>) -> Result<bool, TestResult> {
         let slots = &program.interface.samplers;
-        let element = |index: usize| format!("{name}[{index}]");
-        let Some(first) = slots.iter().position(|slot| slot.name == name || slot.name == element(0)) else {
+        let start = format!("{name}[0]");
+        let Some(first) = slots.iter().position(|slot| slot.name == name || slot.name == start) else {
             return Ok(false);
         };
-        let mut index = 0;
-        while !words.rest().is_empty() {
-            let unit = words.count()?;
-            if let Some(slot) = self.units.get_mut(first + index) {
-                *slot = unit;
-            }
-            index += 1;
+        if let Some(slot) = slots.get(first).filter(|_| ty != "int") {
+            let kind = program.types.name(slot.ty);
+            return fail(words.line, format_args!("`{name}` is a `{kind}`, whose unit is an `int`, not a `{ty}`"));
         }
+        let array = slots.get(first).and_then(|slot| Some((slot.name.rsplit_once('[')?, slot.array_size?)));
+        let elements = array.map_or(1, |((_, index), size)| {
+            let index: u32 = index.trim_end_matches(']').parse().unwrap_or(0);
+            size.saturating_sub(index) as usize
+        });
+        let mut units = vec![words.count()?];
+        while units.len() < elements && !words.rest().is_empty() {
+            units.push(words.count()?);
+        }
+        self.units.iter_mut().skip(first).zip(units).for_each(|(slot, unit)| *slot = unit);
         Ok(true)
     }
 }
@@ -174,8 +149,36 @@ fn without_block_index(leaf: &UniformLeaf) -> String {
     }
 }
 
-/// Whether a name begins with something that the program declares.
+/// Whether a name is that of a uniform that the program declares, or of a part of it that has a location.
 fn is_declared(program: &Program, name: &str) -> bool {
-    let head = name.split(['.', '[']).next().unwrap_or_default();
-    program.stages.iter().flat_map(|shader| shader.globals()).any(|(_, global)| global.name == head)
+    let globals = program.stages.iter().flat_map(|shader| shader.globals());
+    let mut uniforms = globals.map(|(_, global)| global).filter(|global| global.storage == Storage::Uniform);
+    uniforms.any(|global| {
+        let part = |rest| names_part(&program.types, global.ty, rest);
+        match &global.block {
+            // The members of a block without an instance name have their own names.
+            Some(block) => part(name.strip_prefix(block.name.as_str()).unwrap_or(name)) || part(&format!(".{name}")),
+            None => name.strip_prefix(global.name.as_str()).is_some_and(part),
+        }
+    })
+}
+
+/// Whether what follows the name of a variable of a type is the path to numbers or a sampler in it.
+fn names_part(types: &Types, ty: TypeId, path: &str) -> bool {
+    match types.get(ty) {
+        Type::Struct(id) => {
+            let Some(path) = path.strip_prefix('.') else { return false };
+            let (name, rest) = path.split_at(path.find(['.', '[']).unwrap_or(path.len()));
+            let member = types.structure(id).members.iter().find(|member| member.name == name);
+            member.is_some_and(|member| names_part(types, member.ty, rest))
+        }
+        Type::Array(element, size) => match path.strip_prefix('[').and_then(|path| path.split_once(']')) {
+            Some((index, rest)) => {
+                let size = if let ArraySize::Sized(size) = size { size } else { u32::MAX };
+                index.parse().is_ok_and(|index: u32| index < size) && names_part(types, element, rest)
+            }
+            None => path.is_empty() && !matches!(types.get(element), Type::Struct(_)) && names_part(types, element, ""),
+        },
+        _ => path.is_empty(),
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::known::{self, DATA};
 use super::words::{Line, parse_integer, parse_number};
-use super::{TestResult, fail, skip, uniforms};
+use super::{TestResult, fail, skip};
+use crate::numeric::TYPES;
 
 /// A column of the table: components of an attribute, or of one of its matrix columns or array elements.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub(super) struct Column {
 /// The whole table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct VertexData {
+    /// The line of the header.
+    pub(super) line: u32,
     pub(super) columns: Vec<Column>,
     pub(super) rows: u32,
 }
@@ -48,7 +51,7 @@ pub(super) fn parse(lines: &[Line]) -> Result<VertexData, TestResult> {
             return fail(line.number, "the row is longer than its header");
         }
     }
-    Ok(VertexData { columns, rows: rows.len() as u32 })
+    Ok(VertexData { line: head.number, columns, rows: rows.len() as u32 })
 }
 
 /// `name[1]/float/vec3`, or `name/float/mat3/2`.
@@ -60,9 +63,16 @@ fn header(line: u32, word: &str) -> Result<Column, TestResult> {
     if !matches!(data, "float" | "int" | "uint") {
         return known::unsupported(line, data, "a type of vertex data", DATA);
     }
-    let column = parts.next().and_then(|column| column.parse().ok()).unwrap_or(0);
+    let index = |text: &str, what: &str| match text.parse::<u32>() {
+        Ok(index) => Ok(index),
+        Err(_) => fail(line, format_args!("`{text}` of `{word}` is not the number of {what}")),
+    };
+    let column = parts.next().map_or(Ok(0), |text| index(text, "a column"))?;
+    if parts.next().is_some() {
+        return fail(line, format_args!("`{word}` is not name/type/type/column"));
+    }
     let (attribute, element) = match name.strip_suffix(']').and_then(|name| name.rsplit_once('[')) {
-        Some((attribute, index)) => (attribute, index.parse().unwrap_or(0)),
+        Some((attribute, text)) => (attribute, index(text, "an element")?),
         None => (name, 0),
     };
     let Some(size) = components(shape) else { return other_shape(line, shape) };
@@ -73,7 +83,7 @@ fn header(line: u32, word: &str) -> Result<Column, TestResult> {
 fn other_shape<T>(line: u32, shape: &str) -> Result<T, TestResult> {
     match shape.starts_with('d') {
         true => skip(line, format_args!("attributes of type `{shape}`")),
-        false => known::mistake(line, shape, "a type of an attribute", uniforms::TYPES.iter().map(|row| row.0)),
+        false => known::mistake(line, shape, "a type of an attribute", TYPES.iter().map(|row| row.0)),
     }
 }
 
@@ -115,6 +125,13 @@ mod unit {
         let data = parse(&lines(&["i/int/2 f/float/1", "-0x10 7 0x3f800000"])).expect("a table");
         assert_eq!(data.columns[0].values, [-16.0, 7.0]);
         assert_eq!(data.columns[1].values, [1.0]);
+    }
+
+    #[test]
+    fn numbers_of_a_header_are_numbers() {
+        for header in ["m/float/mat2/x", "m/float/mat2/0/1", "a[b]/float/float"] {
+            assert!(matches!(parse(&lines(&[header])), Err(TestResult::Fail(_))), "{header}");
+        }
     }
 
     #[test]

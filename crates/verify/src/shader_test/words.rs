@@ -64,9 +64,10 @@ impl<'a> Words<'a> {
         self.number_by(parse_number)
     }
 
-    /// The next word as an integer. A hexadecimal integer is its own value, not the bits of a float.
-    pub(super) fn integer(&mut self) -> Result<f64, TestResult> {
-        self.number_by(parse_integer)
+    /// The next word as an integer. A hexadecimal integer is its own value, not the bits of a float. As in shader_runner, a fraction is
+    /// dropped.
+    pub(super) fn whole(&mut self) -> Result<f64, TestResult> {
+        self.number_by(|word| parse_integer(word).filter(|number| number.is_finite()).map(f64::trunc))
     }
 
     fn number_by(&mut self, parse: fn(&str) -> Option<f64>) -> Result<f64, TestResult> {

@@ -3,6 +3,8 @@
 //! *In:* a text. *Out:* a [`Block`] for each comment that begins with `//! test` or `//! test: title`, with its lines. *Holds:* lines are those of the text, from
 //! 1. *Not done here:* what the lines mean ([`super::table`]).
 
+use super::source::comments;
+
 /// A comment that makes a test of the function below it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Block {
@@ -44,9 +46,15 @@ pub fn has_tests(text: &str) -> bool {
 pub(super) fn blocks(text: &str) -> Vec<Block> {
     let mut blocks: Vec<Block> = Vec::new();
     let mut open = false;
-    for (index, line) in text.lines().enumerate() {
+    let comments = comments(text);
+    let mut start = 0;
+    for (index, line) in text.split_inclusive('\n').enumerate() {
         let number = u32::try_from(index + 1).unwrap_or(u32::MAX);
-        let Some(comment) = line.trim_start().strip_prefix("//!") else {
+        let at = start + line.len() - line.trim_start().len();
+        start += line.len();
+        // In a block comment, the signs are those of its text.
+        let begins = || comments.binary_search_by_key(&at, |comment| comment.start).is_ok();
+        let Some(comment) = line.trim_start().strip_prefix("//!").filter(|_| begins()) else {
             open = false;
             continue;
         };
@@ -90,6 +98,7 @@ mod tests {
         assert_eq!((found[0].line, found[0].last), (2, 4));
         assert_eq!(found[0].lines, [(2, "x = 0..1".to_owned()), (3, "tolerance 1e-3".to_owned())]);
         assert_eq!((found[1].line, found[1].lines.len()), (10, 0));
+        assert!(!has_tests("/* as in\n//! test\nfloat f();\n*/") && has_tests("/* */\n//! test"));
         assert!(has_tests(text) && !has_tests("//! tests are below\nvoid f() {}"));
     }
 }

@@ -19,14 +19,17 @@ mod cases;
 mod compare;
 mod source;
 mod table;
+mod value;
 
-use crate::evaluate::{EvaluateError, Evaluator, HEAD_LINES, Text, signature_of, whole};
+use crate::evaluate::{EvaluateError, Evaluator, Text, signature_of};
+use crate::numeric::Shape;
 use crate::shader_test::{TestBackend, TestResult};
 use block::{Block, blocks};
 use cases::{Parameter, rows};
 use compare::{Expected, Row, call, fault};
-use glisten_front::hir::{Function, ParamMode, Scalar, Shader, Type, Types};
-use glisten_front::source::SourceMap;
+use glisten_front::hir::{Function, ParamMode, Scalar, Shader, TypeId, Types};
+use glisten_front::index::Inspection;
+use glisten_front::source::{SourceMap, Span};
 use glisten_front::{Compilation, Compiler};
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::Scene;
@@ -35,6 +38,7 @@ use glisten_scene::picture::{Interval, Picture};
 use source::Bare;
 use std::fmt::Write;
 use table::Table;
+use value::in_order;
 
 pub use block::has_tests;
 
@@ -50,7 +54,7 @@ pub struct UnitTest {
     pub name: String,
     /// The line of the comment.
     pub line: u32,
-    prepared: Result<Prepared, String>,
+    prepared: Result<Prepared, TestResult>,
 }
 
 /// A test that can run.
@@ -60,7 +64,9 @@ struct Prepared {
     evaluator: Evaluator,
     other: Option<Evaluator>,
     parameters: Vec<Parameter>,
-    rows: Vec<Vec<f32>>,
+    rows: Vec<Vec<f64>>,
+    /// The scalars of the results.
+    scalar: Scalar,
     /// The line of each row; that of the comment for rows that are made.
     lines: Vec<u32>,
     expected: Expected,
@@ -77,23 +83,51 @@ struct Reference {
     others: Vec<Vec<Interval>>,
 }
 
-/// The tests of a source called `name`.
-pub fn tests(name: &str, written: &str, compiler: &Compiler) -> Vec<UnitTest> {
+/// The tests of a source called `name`, and its compilation as a shader.
+pub fn tests(name: &str, written: &str, compiler: &Compiler) -> (Vec<UnitTest>, Compilation) {
     let bare = Bare::new(written);
     let text = Text { name, version: &bare.version, text: &bare.text };
-    let compilation = compiler.compile(&[whole(text)]);
-    blocks(written)
-        .into_iter()
-        .map(|block| match Subject::of(&compilation, name, (&block, block.group(written)), HEAD_LINES) {
+    let (compilation, inspection) = bare.compile(name, compiler);
+    let left_out = LeftOut::of(&compilation, &inspection, name);
+    let test = |block: Block| {
+        let unnamed = format!("test in line {}", block.line);
+        let line = block.line;
+        if left_out.has(line) {
+            let reason = format!("line {line}: the condition (`#if`) that the comment is under does not hold");
+            return UnitTest { name: unnamed, line, prepared: Err(TestResult::Skip(reason)) };
+        }
+        match Subject::of(&compilation, name, &block, block.group(written)) {
             Ok(subject) => {
-                let prepared = subject.prepare(compiler, text, &block);
-                UnitTest { name: subject.function.name.clone(), line: block.line, prepared }
+                let prepared = subject.prepare(compiler, text, &block).map_err(TestResult::Fail);
+                UnitTest { name: subject.function.name.clone(), line, prepared }
             }
-            Err(message) => {
-                UnitTest { name: format!("test in line {}", block.line), line: block.line, prepared: Err(message) }
-            }
-        })
-        .collect()
+            Err(message) => UnitTest { name: unnamed, line, prepared: Err(TestResult::Fail(message)) },
+        }
+    };
+    (blocks(written).into_iter().map(test).collect(), compilation)
+}
+
+/// The lines of a text that conditions of the preprocessor leave out.
+struct LeftOut {
+    /// The first and the last line of each group.
+    lines: Vec<[u32; 2]>,
+}
+
+impl LeftOut {
+    /// Those of the file called `name`.
+    fn of(compilation: &Compilation, inspection: &Inspection, name: &str) -> Self {
+        let sources = &compilation.sources;
+        let line = |at: u32| {
+            let location = sources.location(Span::new(at, at))?;
+            (sources.file(location.file).name() == name).then_some(location.line)
+        };
+        let spans = inspection.views().flat_map(|(_, view)| &view.ast.directives.inactive);
+        Self { lines: spans.filter_map(|span| Some([line(span.start)?, line(span.end)?])).collect() }
+    }
+
+    fn has(&self, line: u32) -> bool {
+        self.lines.iter().any(|[first, last]| (*first..*last).contains(&line))
+    }
 }
 
 /// The function of a test.
@@ -104,24 +138,19 @@ struct Subject<'a> {
 
 impl<'a> Subject<'a> {
     /// The first function behind a comment, up to the last line of the conditional group that the comment is in.
-    fn of(
-        compilation: &'a Compilation,
-        name: &str,
-        (block, end): (&Block, Option<u32>),
-        offset: u32,
-    ) -> Result<Self, String> {
+    fn of(compilation: &'a Compilation, name: &str, block: &Block, end: Option<u32>) -> Result<Self, String> {
         let sources = &compilation.sources;
-        let Some(program) = &compilation.program else { return Err(told(compilation, name, offset)) };
+        let Some(program) = &compilation.program else { return Err(told(compilation, name)) };
         let shader: Option<&Shader> = program.stages.first();
         let line = |function: &Function| line_in(sources, name, function);
         let functions = shader.into_iter().flat_map(|shader| &shader.functions);
         let behind = functions.filter(|function| function.body.is_some() && function.name != "main");
         let next = behind
             .filter_map(|function| Some((line(function)?, function)))
-            .filter(|(line, _)| *line > block.last + offset)
+            .filter(|(line, _)| *line > block.last)
             .min_by_key(|(line, _)| *line);
         let (line, function) = next.ok_or("no function follows")?;
-        if end.is_some_and(|end| line > end + offset) {
+        if end.is_some_and(|end| line > end) {
             return Err("no function follows under the condition (`#if`) that the comment is under".to_owned());
         }
         Ok(Self { types: &program.types, function })
@@ -151,16 +180,24 @@ impl<'a> Subject<'a> {
             let signature = signature_of(self.types, self.function);
             (Evaluator::of_text(compiler, text, &signature, &[]).map_err(|error| at((0, error.to_string())))?, None)
         };
-        let is_bool = matches!(self.types.get(self.function.ret), Type::Scalar(Scalar::Bool));
+        let compared = if is_pair { self.pair_type() } else { Some(self.function.ret) };
+        let shape = compared.and_then(|ty| Shape::of(self.types, ty));
+        let scalar = shape.map_or(Scalar::Float, |shape| shape.scalar);
+        let is_bool = shape.is_some_and(|shape| shape.scalar == Scalar::Bool && shape.size() == 1);
         let expected = match () {
             () if is_pair => Expected::Same,
             () if !table.rows.is_empty() => {
                 let results = evaluator.results();
-                if let Some(row) = table.rows.iter().find(|row| row.expected.len() != results) {
-                    let message = format!("{} numbers are expected of {results}", row.expected.len());
-                    return Err(at((row.line, message)));
+                let mut all = Vec::new();
+                for row in &table.rows {
+                    let given: usize = row.expected.iter().map(value::Value::size).sum();
+                    if given != results {
+                        return Err(at((row.line, format!("{given} numbers are expected of {results}"))));
+                    }
+                    let numbers = in_order(&row.expected, shape.as_slice());
+                    all.push(numbers.map_err(|message| at((row.line, message)))?);
                 }
-                Expected::Numbers(table.rows.iter().map(|row| row.expected.clone()).collect())
+                Expected::Numbers(all)
             }
             () if is_bool => Expected::True,
             () => Expected::Finite,
@@ -168,7 +205,8 @@ impl<'a> Subject<'a> {
         let lines = rows.iter().enumerate();
         let lines = lines.map(|(index, _)| table.rows.get(index).map_or(block.line, |row| row.line)).collect();
         let reference = Reference::of(&evaluator, other.as_ref(), &rows).map_err(|error| at((0, error.to_string())))?;
-        Ok(Prepared { evaluator, other, parameters, rows, lines, expected, tolerance: table.tolerance, reference })
+        let tolerance = table.tolerance;
+        Ok(Prepared { evaluator, other, parameters, rows, scalar, lines, expected, tolerance, reference })
     }
 
     /// The parameters that a call passes.
@@ -191,35 +229,26 @@ impl<'a> Subject<'a> {
                     return Err(format!("{message}; a test may have `out` parameters `{got}` and `{expected}`"));
                 }
             }
-            let scalar = match self.types.get(param.ty) {
-                Type::Scalar(scalar) | Type::Vector(scalar, _) => scalar,
-                Type::Matrix(..) => Scalar::Float,
-                _ => return Err(format!("`{name}` is of type `{}`, which no number fills", self.types.name(param.ty))),
+            let Some(shape) = Shape::of(self.types, param.ty) else {
+                return Err(format!("`{name}` is of type `{}`, which no number fills", self.types.name(param.ty)));
             };
-            parameters.push(Parameter {
-                name,
-                size: self.types.flat_len(param.ty) as usize,
-                is_whole: matches!(scalar, Scalar::Int | Scalar::Uint),
-                is_bool: scalar == Scalar::Bool,
-                is_vector: matches!(self.types.get(param.ty), Type::Vector(Scalar::Float, _)),
-            });
+            parameters.push(Parameter { name, shape });
         }
         Ok(parameters)
     }
 
     /// Whether the function has the parameters `out got` and `out expected` of one type.
     fn is_pair(&self) -> bool {
-        let outs: Vec<_> = self
-            .function
-            .params()
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| self.function.param_mode(*index) == ParamMode::Out)
-            .map(|(_, param)| param)
-            .collect();
+        self.pair_type().is_some()
+    }
+
+    /// The type of both.
+    fn pair_type(&self) -> Option<TypeId> {
+        let params = self.function.params().iter().enumerate();
+        let outs: Vec<_> = params.filter(|(index, _)| self.function.param_mode(*index) == ParamMode::Out).collect();
         match outs.as_slice() {
-            [a, b] => [a.name.as_str(), b.name.as_str()] == PAIR && a.ty == b.ty,
-            _ => false,
+            [(_, a), (_, b)] if [a.name.as_str(), b.name.as_str()] == PAIR && a.ty == b.ty => Some(a.ty),
+            _ => None,
         }
     }
 
@@ -254,22 +283,20 @@ fn line_in(sources: &SourceMap, name: &str, function: &Function) -> Option<u32> 
 }
 
 /// The first error of a compilation, with its line in the source.
-fn told(compilation: &Compilation, name: &str, offset: u32) -> String {
+fn told(compilation: &Compilation, name: &str) -> String {
     let sources = &compilation.sources;
     let Some(error) = compilation.diagnostics.iter().find(|found| found.is_error()) else {
         return "the source does not compile".to_owned();
     };
     let place = sources.location(sources.call_site(error.primary.span)).map(|at| {
         let file = sources.file(at.file).name();
-        let own = file == name;
-        let line = if own { at.line.saturating_sub(offset) } else { at.line };
-        if own { format!("line {line}: ") } else { format!("{file}:{line}: ") }
+        if file == name { format!("line {}: ", at.line) } else { format!("{file}:{}: ", at.line) }
     });
     format!("{}{} ({})", place.unwrap_or_default(), error.message, error.code)
 }
 
 impl Reference {
-    fn of(evaluator: &Evaluator, other: Option<&Evaluator>, rows: &[Vec<f32>]) -> Result<Self, EvaluateError> {
+    fn of(evaluator: &Evaluator, other: Option<&Evaluator>, rows: &[Vec<f64>]) -> Result<Self, EvaluateError> {
         let inputs = rows.concat();
         let picture = |evaluator: &Evaluator, precision| -> Result<Picture, EvaluateError> {
             let scene = evaluator.scene(&inputs, &[])?;
@@ -303,7 +330,7 @@ impl UnitTest {
     pub fn run(&self, backend: Option<&mut dyn TestBackend>) -> TestResult {
         let prepared = match &self.prepared {
             Ok(prepared) => prepared,
-            Err(message) => return TestResult::Fail(message.clone()),
+            Err(result) => return result.clone(),
         };
         let drawn = match backend {
             None => None,
@@ -330,7 +357,7 @@ impl Prepared {
         for (number, (inputs, got)) in self.rows.iter().zip(results).enumerate() {
             let of = |all: &'_ [Vec<Interval>]| all.get(number).cloned().unwrap_or_default();
             let (envelope, others) = (of(&self.reference.envelope), of(&self.reference.others));
-            let row = Row { inputs, got, envelope: &envelope, others: &others };
+            let row = Row { inputs, scalar: self.scalar, got, envelope: &envelope, others: &others };
             let Some(fault) = fault(&self.expected, &row, number, self.tolerance) else { continue };
             failed += 1;
             if first.is_none() {

@@ -4,6 +4,9 @@
 //! *In:* a text. *Out:* the same text with blanks. *Holds:* every line stays where it is. Comments and what is behind conditions of the
 //! preprocessor count as they are written.
 
+use glisten_front::compiler::{Compilation, Compiler, Source};
+use glisten_front::hir::Stage;
+use glisten_front::index::Inspection;
 use glisten_front::source::{blanked, version_line};
 use std::ops::Range;
 
@@ -11,7 +14,12 @@ use std::ops::Range;
 pub(super) struct Bare {
     pub(super) version: String,
     pub(super) text: String,
+    /// The text of the `#version` line that it had.
+    line: Option<Range<usize>>,
 }
+
+/// The end that makes a shader of a text: an output and `main`.
+const END: &str = "\nout vec4 glisten_result;\nvoid main() { glisten_result = vec4(0.0); }\n";
 
 /// The oldest version of which functions can be called as they are; older ones are read as this one.
 const OLDEST: u32 = 130;
@@ -30,11 +38,34 @@ impl Bare {
             Some(_) => version.to_owned(),
         };
         let code = without_comments(text);
-        let mut ranges: Vec<Range<usize>> = line.into_iter().collect();
+        let mut ranges: Vec<Range<usize>> = line.clone().into_iter().collect();
         ranges.extend(mains(&code));
         ranges.extend(interfaces(&code));
         ranges.sort_by_key(|range| range.start);
-        Self { version, text: blanked(text, &ranges).to_string() }
+        Self { version, text: blanked(text, &ranges).to_string(), line }
+    }
+
+    /// Compiles the text as a shader of its version called `name`. Lines are those of the source.
+    pub(super) fn compile(&self, name: &str, compiler: &Compiler) -> (Compilation, Inspection) {
+        let mut text = self.text.clone() + END;
+        if let Some(line) = self.line.clone() {
+            text.replace_range(line, &format!("#version {}", self.version));
+        }
+        let assumed = self.line.is_none().then(|| self.version.clone());
+        let compiler = compiler.clone().with_change(move |_, mut prepared| {
+            let completion = &mut prepared.completion;
+            completion.resolves_includes = true;
+            if let Some(version) = &assumed {
+                completion.assumed_version = Some(version.clone());
+                for prelude in &mut completion.preludes {
+                    let line = version_line(&prelude.text);
+                    prelude.text = blanked(&prelude.text, line.as_slice());
+                }
+            }
+            prepared
+        });
+        let source = Source { name: name.into(), text: text.into(), stage: Stage::Fragment };
+        compiler.inspect(&[source], None)
     }
 }
 
@@ -125,8 +156,8 @@ fn mains(code: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// The text with blanks in place of comments: each byte of them is a space, line ends stay.
-fn without_comments(text: &str) -> String {
+/// The places of the comments of a text.
+pub(super) fn comments(text: &str) -> Vec<Range<usize>> {
     let mut ranges = Vec::new();
     let mut at = 0;
     while let Some(place) = text.get(at..).and_then(|rest| rest.find('/')) {
@@ -143,8 +174,13 @@ fn without_comments(text: &str) -> String {
         ranges.push(start..end);
         at = end;
     }
+    ranges
+}
+
+/// The text with blanks in place of comments: each byte of them is a space, line ends stay.
+fn without_comments(text: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();
-    for byte in ranges.into_iter().flatten() {
+    for byte in comments(text).into_iter().flatten() {
         if let Some(byte) = bytes.get_mut(byte).filter(|byte| !matches!(byte, b'\n' | b'\r')) {
             *byte = b' ';
         }

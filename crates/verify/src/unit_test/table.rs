@@ -10,13 +10,15 @@
 //!
 //! *In:* lines. *Out:* a [`Table`]. *Holds:* a line that means nothing is an error with its number.
 
+use super::value::{Value, number, values};
+
 /// The values that a parameter takes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Values {
     /// Each component is a number between these.
     Range([f64; 2]),
-    /// These, each with all of its components; a single number stands for all components.
-    List(Vec<Vec<f64>>),
+    /// These; a single number stands for all components.
+    List(Vec<Value>),
     /// Directions of length 1.
     Unit,
 }
@@ -25,8 +27,8 @@ pub(super) enum Values {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
     pub(super) line: u32,
-    pub(super) inputs: Vec<f64>,
-    pub(super) expected: Vec<f64>,
+    pub(super) inputs: Vec<Value>,
+    pub(super) expected: Vec<Value>,
 }
 
 /// Inputs and results as a test states them.
@@ -60,8 +62,12 @@ impl Table {
 
     fn line(&mut self, line: u32, text: &str) -> Result<(), String> {
         if let Some((inputs, expected)) = text.split_once("=>") {
-            let inputs = if inputs.trim().is_empty() { Vec::new() } else { numbers(inputs)? };
-            self.rows.push(Row { line, inputs, expected: numbers(expected)? });
+            let inputs = values(inputs)?;
+            let expected = values(expected)?;
+            if expected.is_empty() {
+                return Err("a number is missing".to_owned());
+            }
+            self.rows.push(Row { line, inputs, expected });
             return Ok(());
         }
         let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
@@ -109,78 +115,33 @@ fn assignments(text: &str) -> Vec<&str> {
 fn assignment(text: &str) -> Result<(String, Values), String> {
     let text = text.trim();
     let split = text.split_once('=').or_else(|| text.split_once(" in "));
-    let Some((name, values)) = split else {
+    let Some((name, listed)) = split else {
         return Err(format!("`{text}` is no `name = values`, no `arguments => result`, no `cases` and no `tolerance`"));
     };
-    let (name, values) = (name.trim(), values.trim());
+    let (name, listed) = (name.trim(), listed.trim());
     if name.is_empty() || !name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
         return Err(format!("`{name}` is not the name of a parameter"));
     }
-    if values == "unit" {
+    if listed == "unit" {
         return Ok((name.to_owned(), Values::Unit));
     }
-    if let Some((low, high)) = values.split_once("..") {
-        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-        return match (number(low), number(high)) {
+    if let Some((low, high)) = listed.split_once("..") {
+        return match (number(low.trim()), number(high.trim())) {
             (Some(low), Some(high)) if low <= high => Ok((name.to_owned(), Values::Range([low, high]))),
-            _ => Err(format!("`{values}` is no range: write `low..high`")),
+            _ => Err(format!("`{listed}` is no range: write `low..high`")),
         };
     }
-    let mut list = Vec::new();
-    let inner = values.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(values);
-    for word in words(inner) {
-        list.push(value(word)?);
-    }
+    let inner = listed.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(listed);
+    let list = values(inner)?;
     if list.is_empty() {
         return Err(format!("`{name}` has no values"));
     }
     Ok((name.to_owned(), Values::List(list)))
 }
 
-/// All numbers of a list of values.
-fn numbers(text: &str) -> Result<Vec<f64>, String> {
-    let mut all = Vec::new();
-    for word in words(text) {
-        all.extend(value(word)?);
-    }
-    if all.is_empty() { Err("a number is missing".to_owned()) } else { Ok(all) }
-}
-
-/// The values of a text: between commas and spaces that are not inside of brackets.
-fn words(text: &str) -> Vec<&str> {
-    let (mut words, mut start, mut depth) = (Vec::new(), 0, 0_u32);
-    for (at, letter) in text.char_indices().chain([(text.len(), ',')]) {
-        match letter {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ if depth == 0 && (letter == ',' || letter.is_whitespace()) => {
-                words.extend(text.get(start..at).map(str::trim).filter(|word| !word.is_empty()));
-                start = at + letter.len_utf8();
-            }
-            _ => {}
-        }
-    }
-    words
-}
-
-/// A number, `true`, `false`, or a constructor of numbers: `vec3(1, 0, 0)`.
-fn value(word: &str) -> Result<Vec<f64>, String> {
-    if let Some((_, inner)) = word.strip_suffix(')').and_then(|rest| rest.split_once('(')) {
-        return numbers(inner);
-    }
-    match word {
-        "true" => return Ok(vec![1.0]),
-        "false" => return Ok(vec![0.0]),
-        _ => {}
-    }
-    let plain = word.trim_end_matches(['f', 'F', 'u', 'U']);
-    let number = plain.parse::<f64>().ok().filter(|number| number.is_finite());
-    number.map(|number| vec![number]).ok_or_else(|| format!("`{word}` is not a number"))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Row, Table, Values};
+    use super::{Row, Table, Values, values};
 
     fn read(lines: &[&str]) -> Result<Table, String> {
         let lines: Vec<(u32, String)> = (1..).zip(lines.iter().map(|line| (*line).to_owned())).collect();
@@ -191,13 +152,14 @@ mod tests {
     fn ranges_lists_and_rows_are_read() {
         let table =
             read(&["x = -1..1, t in 0.0, 0.5 1.0; n = unit", "cases 10", "tolerance 1e-6"]).expect("it is right");
-        let list = Values::List(vec![vec![0.0], vec![0.5], vec![1.0]]);
-        let values: Vec<_> = table.values.iter().map(|(_, name, values)| (name.as_str(), values.clone())).collect();
-        assert_eq!(values, [("x", Values::Range([-1.0, 1.0])), ("t", list), ("n", Values::Unit)]);
+        let list = Values::List(values("0.0 0.5 1.0").expect("they are numbers"));
+        let found: Vec<_> = table.values.iter().map(|(_, name, values)| (name.as_str(), values.clone())).collect();
+        assert_eq!(found, [("x", Values::Range([-1.0, 1.0])), ("t", list), ("n", Values::Unit)]);
         assert_eq!((table.cases, table.tolerance), (Some(10), Some(1e-6)));
         let table = read(&["vec3(1, 0, 0), 2.0 => vec3(2.0, 0, 0)", "=> true"]).expect("it is right");
-        let row = Row { line: 1, inputs: vec![1.0, 0.0, 0.0, 2.0], expected: vec![2.0, 0.0, 0.0] };
-        assert_eq!(table.rows, [row, Row { line: 2, inputs: Vec::new(), expected: vec![1.0] }]);
+        let read = |text| values(text).expect("they are values");
+        let row = Row { line: 1, inputs: read("vec3(1, 0, 0) 2.0"), expected: read("vec3(2.0, 0, 0)") };
+        assert_eq!(table.rows, [row, Row { line: 2, inputs: Vec::new(), expected: read("true") }]);
     }
 
     #[test]

@@ -12,10 +12,11 @@ Sources are paths, or a mapping of names to texts. The name tells the stage; of 
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, TypeVar, Union
 
 from . import _glisten
 
@@ -31,6 +32,7 @@ __all__ = [
 
 Sources = Union[Mapping[str, str], str, "os.PathLike[str]", Iterable[Union[str, "os.PathLike[str]"]]]
 Include = Union[Callable[[str, bool, str], Union[str, None]], Mapping[str, str]]
+_Result = TypeVar("_Result")
 
 
 class Options(TypedDict, total=False):
@@ -125,6 +127,10 @@ class CompileError(ValueError):
         self.diagnostics: list[Diagnostic] = diagnostics
         """All diagnostics, in the order of their places."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Pickles and copies call the class with what it takes, and not with the message alone.
+        return type(self), (str(self), self.diagnostics), vars(self)
+
 
 class Program:
     """A compiled program. It never changes, and any number of threads may use it."""
@@ -149,9 +155,10 @@ class Program:
     def emit(self, stage: str, target: str) -> bytes:
         """The code of a stage: ``wgsl``, ``spirv``, ``msl``, ``hlsl`` or ``glsl``.
 
-        :raises ValueError: the program has no such stage, or the target cannot represent something of it.
+        :raises CompileError: the target cannot represent something of the program.
+        :raises ValueError: the program has no such stage.
         """
-        return self._inner.emit(stage, target)
+        return _told(lambda: self._inner.emit(stage, target))
 
     def wgsl(self, stage: str) -> str:
         """The code of a stage in WGSL."""
@@ -224,18 +231,18 @@ class Scene:
     def render(self, precision: Literal["f64", "f32"] = "f64") -> Picture:
         """Draws the scene with the CPU reference, in ``f64`` or ``f32`` arithmetic.
 
-        :raises ValueError: the scene has something that the reference does not support.
+        :raises CompileError: the scene has something that the reference does not support, or a loop that does not end.
         """
         import numpy as np
 
-        width, height, attachments, covered = self._inner.render(precision)
+        width, height, attachments, covered = _told(lambda: self._inner.render(precision))
         shape = (height, width, 4)
         arrays = (np.frombuffer(attachment, dtype=np.float64).reshape(shape) for attachment in attachments)
         return Picture(tuple(arrays), np.frombuffer(covered, dtype=np.bool_).reshape(shape[:2]))
 
     def stability(self) -> dict[str, Any]:
         """How f32 arithmetic harms the picture: ``verdict``, ``picture``, ``causes``, as ``glisten stability`` tells it."""
-        findings: dict[str, Any] = json.loads(self._inner.stability())
+        findings: dict[str, Any] = json.loads(_told(self._inner.stability))
         return findings
 
 
@@ -333,14 +340,14 @@ def load(
 ) -> Scene:
     """Loads a scene file with its programs.
 
-    :param files: the contents of all files by their paths; without it, they are on disk.
+    :param files: the contents of all files by their paths, included files among them; without it, they are on disk.
     :raises CompileError: the scene or one of its shaders has errors.
     :raises OSError: a file cannot be read; ``errno`` and ``filename`` say why and which.
     """
     settings = _settings(None, include, include_folders, None, None, options)
     contents = None
     if files is not None:
-        contents = {name: file.encode() if isinstance(file, str) else bytes(file) for name, file in files.items()}
+        contents = {os.fspath(name): _bytes(name, file) for name, file in _mapping("files", files).items()}
     inner = _glisten.load(settings, os.fspath(path), contents)
     if not inner.is_sound:
         raise CompileError(inner.diagnostics("human").rstrip(), Diagnostic._all(inner.diagnostics("json")))
@@ -373,12 +380,48 @@ def _settings(
 
     return _glisten.Settings(
         [(name.replace("_", "-"), word) for name, value in options.items() for word in _words(value)],
-        [(name, _word(value, "1", "0")) for name, value in (defines or {}).items()],
+        [(name, _word(value, "1", "0")) for name, value in _mapping("defines", defines).items()],
         [os.fspath(folder) for folder in include_folders],
         ask,
-        list((attributes or {}).items()),
-        list((outputs or {}).items()),
+        _numbers("attributes", attributes),
+        _numbers("outputs", outputs),
     )
+
+
+def _told(call: Callable[[], _Result]) -> _Result:
+    """The result of a call, whose diagnostics are those of a :class:`CompileError`."""
+    try:
+        return call()
+    except ValueError as error:
+        if len(error.args) != 2:
+            raise
+        message, diagnostics = error.args
+    raise CompileError(message, Diagnostic._all(diagnostics))
+
+
+def _mapping(name: str, value: Mapping[str, _Result] | None) -> Mapping[str, _Result]:
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise TypeError(f"`{name}` is a mapping of names, not a `{type(value).__name__}`")
+    return value
+
+
+def _numbers(name: str, given: Mapping[str, int] | None) -> list[tuple[str, int]]:
+    """Locations by names. The rest of their range is checked where it is known."""
+    numbers = [(key, operator.index(number)) for key, number in _mapping(name, given).items()]
+    for key, number in numbers:
+        if not 0 <= number < 1 << 32:
+            raise ValueError(f"{number} is not a location that `{key}` could have")
+    return numbers
+
+
+def _bytes(name: object, content: object) -> bytes:
+    if isinstance(content, str):
+        return content.encode()
+    if isinstance(content, (bytes, bytearray, memoryview)):
+        return bytes(content)
+    raise TypeError(f"the content of `{name}` is a text or bytes, not a `{type(content).__name__}`")
 
 
 def _words(value: object) -> list[str]:

@@ -1,6 +1,6 @@
 //! [`Asked`]: included files by their names, and those that the host is to be asked for.
 
-use glisten_binding::Answer;
+use glisten_binding::{Answer, joined};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -86,17 +86,4 @@ impl Asked {
             |(path, angled, from): &(String, bool, String)| json!({ "path": path, "angled": angled, "from": from });
         (!wanted.is_empty()).then(|| wanted.iter().map(one).collect())
     }
-}
-
-/// A path from a folder, without `.` and `..`.
-pub(crate) fn joined(folder: &str, path: &str) -> String {
-    let mut parts: Vec<&str> = Vec::new();
-    for part in folder.split('/').chain(path.split('/')) {
-        match part {
-            "" | "." => {}
-            ".." if parts.last().is_some_and(|last| *last != "..") => drop(parts.pop()),
-            _ => parts.push(part),
-        }
-    }
-    parts.join("/")
 }

@@ -2,11 +2,11 @@
 //!
 //! *Holds:* the last pictures stay in the instance, for questions about single pixels, and so do the programs. What the browser draws by WebGPU comes as planes of bytes.
 
-use crate::includes::{Asked, joined};
+use crate::includes::Asked;
 use crate::reply::Reply;
 use crate::request::Request;
 use glisten::scene::{FileError, FileSource};
-use glisten_binding::Error;
+use glisten_binding::{Error, joined};
 use glisten_play as play;
 use glisten_play::{Job, Kept, OwnLevels, Pictures, Wish, answer};
 use std::cell::RefCell;

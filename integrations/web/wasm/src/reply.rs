@@ -20,7 +20,7 @@ impl Reply {
             Kind::Internal => "internal",
         };
         let mut reply = Self::default();
-        reply.set("error", json!({ "kind": kind, "message": error.message }));
+        reply.set("error", json!({ "kind": kind, "message": error.message, "diagnostics": error.diagnostics }));
         reply
     }
 

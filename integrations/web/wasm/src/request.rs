@@ -1,8 +1,8 @@
 //! [`Request`]: what the host asks for.
 
-#[cfg(feature = "reference")]
-use crate::includes::joined;
 use crate::includes::{Asked, Found};
+#[cfg(feature = "reference")]
+use glisten_binding::joined;
 use glisten_binding::{Error, Settings, Source, Stage, sources_of, stage_of_word};
 use serde::Deserialize;
 use std::collections::BTreeMap;

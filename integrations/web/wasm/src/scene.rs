@@ -1,9 +1,8 @@
 //! `render`: the picture that the reference draws of a scene.
 
-use crate::includes::joined;
 use crate::reply::Reply;
 use crate::request::Request;
-use glisten_binding::{Error, FileError, Files, Format, Precision, Scenery};
+use glisten_binding::{Error, Files, Format, Precision, Scenery};
 use std::sync::Arc;
 
 /// Answers `render`: the pixels of each attachment as bytes, or as doubles.
@@ -14,9 +13,8 @@ pub(crate) fn render(request: &Request, blob: &[u8]) -> Result<Reply, Error> {
         "f32" => Precision::F32,
         other => return Err(Error::argument(format!("`{other}` is no precision: f64, f32"))),
     };
-    let files = request.files(blob)?;
-    let read = move |path: &str| files.get(&joined("", path)).cloned().ok_or(FileError::Missing);
-    let scene = Scenery::load(&settings, &request.path, &Files::Host(Arc::new(read)))?;
+    let files = Files::of(Arc::new(request.files(blob)?));
+    let scene = Scenery::load(&settings, &request.path, &files)?;
     let mut reply = Reply::default();
     if let Some(wanted) = asked.wanted() {
         reply.set("wanted", wanted);

@@ -13,7 +13,7 @@ codes! {
         bad None, good None;
     TOO_DEEP = "E0003" "nesting-too-deep" Error ""
         "Expressions, blocks and types may nest 256 levels deep. Long chains (`a + b + c`, `else if`) do not count \
-         as nesting and may be far longer."
+         as nesting and may be far longer; as WebAssembly, in a browser or in Node, the stack of the engine ends them at a few thousand."
         bad Text("c = vec4(((...(1.0)...)));   // 300 parentheses"), good Fragment("out vec4 c; void main() { c = vec4(((1.0))); }");
     TOO_LARGE = "E0004" "source-too-large" Error ""
         "A source may have 8 MiB after its includes."

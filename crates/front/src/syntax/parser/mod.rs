@@ -40,7 +40,7 @@ use std::collections::VecDeque;
 /// The deepest nesting of expressions, blocks, lists and types.
 pub(super) const MAX_NESTING: u32 = 256;
 
-/// How deep the caller's stack is used; deeper nesting gets a stack of its own.
+/// How deep the stack of [`Parser::translation_unit`] is used; deeper nesting gets a stack of its own.
 const SHALLOW: u32 = 96;
 
 /// The error type of an error that has been reported.
@@ -152,9 +152,11 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
 
     /// translation_unit: parses everything.
     pub(super) fn translation_unit(mut self) -> Ast {
-        while self.current.kind != TokenKind::Eof && !self.session.diagnostics.is_full() {
-            self.external_declaration();
-        }
+        with_stack(SHALLOW, || {
+            while self.current.kind != TokenKind::Eof && !self.session.diagnostics.is_full() {
+                self.external_declaration();
+            }
+        });
         self.ast
     }
 
