@@ -212,6 +212,15 @@ fn fact(
         let node = numbers.node(unit, Space::GeometryInput, name, size, None);
         return Ok(Fact::Numbered(numbered(Space::GeometryInput, node)));
     }
+    if is_of_lone_geometry(program, shader, global) {
+        let element = match program.types.get(global.ty) {
+            Type::Array(element, _) => element,
+            _ => global.ty,
+        };
+        let size = program.types.locations(element);
+        let node = numbers.node(unit, Space::GeometryInput, global.match_name(), size, global.location);
+        return Ok(Fact::Numbered(numbered(Space::GeometryInput, node)));
+    }
     if is_before_geometry(program, shader, global) {
         return Ok(Fact::Inside);
     }
@@ -228,6 +237,11 @@ fn fact(
 fn is_before_geometry(program: &Program, shader: &Shader, global: &Global) -> bool {
     program.stage(Stage::Geometry).is_some()
         && matches!((shader.stage, global.storage), (Stage::Vertex, Storage::Out) | (Stage::Geometry, Storage::In))
+}
+
+/// Whether a geometry stage reads it whose vertex stage is elsewhere.
+fn is_of_lone_geometry(program: &Program, shader: &Shader, global: &Global) -> bool {
+    shader.stage == Stage::Geometry && global.storage == Storage::In && program.stage(Stage::Vertex).is_none()
 }
 
 /// The output of the vertex stage that feeds the geometry stage, by itself or by the input that it feeds.
