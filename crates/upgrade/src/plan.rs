@@ -84,6 +84,15 @@ impl Target {
         keywords::is_taken(word, self.language()) || self.is_for_vulkan() && keywords::is_of_vulkan(word)
     }
 
+    /// Whether lines that texts get have a word, so that no macro can have that name.
+    fn is_written(self, word: &str) -> bool {
+        match word {
+            "layout" | "flat" => true,
+            "highp" | "mediump" | "precision" => self == Self::Es300,
+            _ => false,
+        }
+    }
+
     /// Whether Vulkan's rules hold.
     fn is_for_vulkan(self) -> bool {
         matches!(self, Self::Vulkan | Self::Both330)
@@ -313,9 +322,13 @@ impl<'t> Planner<'t> {
                 && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
         };
         let as_keywords = keyword_uses(texts);
+        let as_macros = macros_alone(texts);
+        let is_kept = |name: &&str| {
+            as_keywords.contains(*name) || as_macros.contains(*name) && !target.is_written(name) && !is_function(name)
+        };
         let as_layouts = if target.is_for_vulkan() { layout_macros(texts) } else { BTreeSet::new() };
         let names: Vec<&str> = self.own.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
-        let names: Vec<&str> = names.into_iter().filter(|name| !as_keywords.contains(name)).collect();
+        let names: Vec<&str> = names.into_iter().filter(|name| !is_kept(name)).collect();
         for name in names.into_iter().chain(as_layouts) {
             let new = self.free(name);
             Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
@@ -552,6 +565,24 @@ fn keyword_uses<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
     found
 }
 
+/// The names of macros that the texts give to nothing else. A macro may have the name of a keyword.
+fn macros_alone<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    /// Words that are before the name of a macro, and not before that of a variable.
+    static BEFORE: &[&str] = &["define", "undef", "ifdef", "ifndef", "defined", "if", "elif", "return", "else"];
+    let (mut macros, mut others) = (BTreeSet::new(), BTreeSet::new());
+    for text in texts {
+        let all = tokens(text.text);
+        for (before, token) in all.iter().zip(all.iter().skip(1)).filter(|(before, _)| before.is_word()) {
+            if before.text == "define" {
+                macros.insert(token.text);
+            } else if !BEFORE.contains(&before.text) {
+                others.insert(token.text);
+            }
+        }
+    }
+    &macros - &others
+}
+
 /// Whether a word is between the parentheses of a layout.
 fn is_in_layout(all: &[Token<'_>], index: usize) -> bool {
     let before = all.get(..index).unwrap_or_default();
@@ -638,6 +669,16 @@ mod tests {
         let plan = Plan::new(&[text("float centroid, row_major, sample, x;", Stage::Vertex)], Target::Core150);
         assert_eq!(plan.word(Stage::Vertex, "centroid"), Some("centroid_"));
         assert_eq!(plan.word(Stage::Vertex, "x"), None);
+    }
+
+    #[test]
+    fn macros_with_names_of_keywords_stay() {
+        let macros = "#define lowp\n#ifdef A\n#define sample 2.0\n#endif\n#define patch\n#define flat\n";
+        let code = "float patch; void main() { gl_FragColor = vec4(sample); }";
+        let plan = |target| Plan::new(&[text(&format!("{macros}{code}"), Stage::Fragment)], target);
+        let words =
+            ["lowp", "sample", "patch", "flat"].map(|word| plan(Target::Vulkan).word(Stage::Fragment, word).is_some());
+        assert_eq!(words, [false, false, true, true]);
     }
 
     #[test]
