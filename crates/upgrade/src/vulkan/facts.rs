@@ -105,6 +105,9 @@ fn merge(known: &mut Fact, fact: Fact, numbers: &mut Numbers) -> Result<(), &'st
             if known.extent != other.extent || known.name != other.name {
                 return Err("has different sizes in the programs that read its declaration");
             }
+            if known.plain != other.plain {
+                known.plain = None;
+            }
             known.structs.extend(other.structs);
         }
         (Fact::Numbered(known), Fact::Numbered(other)) => {
@@ -307,4 +310,10 @@ pub(super) fn plain_type(types: &Types, ty: TypeId) -> Option<String> {
         inner = element;
     }
     (!matches!(types.get(inner), Type::Struct(_) | Type::Sampler(_))).then(|| types.name(ty))
+}
+
+/// A declaration with a type as the compiler names it: `vec4[2]` has its sizes after the name.
+pub(super) fn spelled(ty: &str, name: &str) -> String {
+    let (element, sizes) = ty.split_at(ty.find('[').unwrap_or(ty.len()));
+    format!("{element} {name}{sizes}")
 }
