@@ -673,7 +673,7 @@ mod tests {
 
     #[test]
     fn macros_with_names_of_keywords_stay() {
-        let macros = "#define lowp\n#ifdef A\n#define sample 2.0\n#endif\n#define patch\n#define flat\n";
+        let macros = "#define lowp\n#define flat\n#define patch\n#ifdef A\n#define sample 2.0\n#endif\n";
         let code = "float patch; void main() { gl_FragColor = vec4(sample); }";
         let plan = |target| Plan::new(&[text(&format!("{macros}{code}"), Stage::Fragment)], target);
         let words =
