@@ -4,7 +4,8 @@
 //! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
 
 use super::names::{FUNCTIONS, lookup};
-use super::tokens::{Token, closing, tokens};
+use super::tokens::{closing, tokens};
+use super::uses::{keyword_uses, layout_macros, macros_alone};
 use glisten_front::Stage;
 use glisten_front::builtin::constants::{CONSTANTS, Constant};
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
@@ -321,12 +322,13 @@ impl<'t> Planner<'t> {
                 && functions::named(name).is_empty()
                 && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
         };
-        let as_keywords = keyword_uses(texts);
-        let as_macros = macros_alone(texts);
+        let all = || texts.iter().map(|text| text.text);
+        let as_keywords = keyword_uses(all());
+        let as_macros = macros_alone(all());
         let is_kept = |name: &&str| {
             as_keywords.contains(*name) || as_macros.contains(*name) && !target.is_written(name) && !is_function(name)
         };
-        let as_layouts = if target.is_for_vulkan() { layout_macros(texts) } else { BTreeSet::new() };
+        let as_layouts = if target.is_for_vulkan() { layout_macros(all()) } else { BTreeSet::new() };
         let names: Vec<&str> = self.own.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
         let names: Vec<&str> = names.into_iter().filter(|name| !is_kept(name)).collect();
         for name in names.into_iter().chain(as_layouts) {
@@ -522,75 +524,6 @@ fn declared_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
         found.extend(declared.map(|((_, token), _)| token.text));
     }
     found
-}
-
-/// Macros that would replace the words of the layouts that Vulkan wants.
-fn layout_macros<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
-    static WORDS: &[&str] = &["set", "binding", "location", "component", "index", "offset", "std140"];
-    let mut found = BTreeSet::new();
-    for text in texts {
-        let all = tokens(text.text);
-        let words = all
-            .windows(3)
-            .filter(|words| matches!(words, [sign, word, _] if sign.text == "#" && word.text == "define"));
-        found.extend(words.filter_map(|words| words.last()).map(|name| name.text).filter(|name| WORDS.contains(name)));
-    }
-    found
-}
-
-/// The words that a text uses as no name is used: before another word or a number (`precision mediump float`, `flat in`, `case 1`).
-/// They then mean what later versions mean by them, behind a condition on the version.
-fn keyword_uses<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
-    let mut found = BTreeSet::new();
-    for text in texts {
-        let all = tokens(text.text);
-        for (index, token) in all.iter().enumerate().filter(|(_, token)| token.is_word()) {
-            let Some(next) = all.get(index + 1) else { continue };
-            let is_operand = next.text.starts_with(|first: char| first.is_ascii_alphanumeric() || first == '_');
-            let follows = match token.text {
-                "layout" => next.text == "(",
-                "default" => next.text == ":",
-                // A keyword since 4.30, and still the word of a layout (GLSL 4.60 §4.4.5).
-                "shared" => is_in_layout(&all, index),
-                "switch" => {
-                    closing(&all, index + 1).and_then(|end| all.get(end + 1)).is_some_and(|one| one.text == "{")
-                }
-                _ => false,
-            };
-            if is_operand || follows {
-                found.insert(token.text);
-            }
-        }
-    }
-    found
-}
-
-/// The names of macros that the texts give to nothing else. A macro may have the name of a keyword.
-fn macros_alone<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
-    /// Words that are before the name of a macro, and not before that of a variable.
-    static BEFORE: &[&str] = &["define", "undef", "ifdef", "ifndef", "defined", "if", "elif", "return", "else"];
-    let (mut macros, mut others) = (BTreeSet::new(), BTreeSet::new());
-    for text in texts {
-        let all = tokens(text.text);
-        for (before, token) in all.iter().zip(all.iter().skip(1)).filter(|(before, _)| before.is_word()) {
-            if before.text == "define" {
-                macros.insert(token.text);
-            } else if !BEFORE.contains(&before.text) {
-                others.insert(token.text);
-            }
-        }
-    }
-    &macros - &others
-}
-
-/// Whether a word is between the parentheses of a layout.
-fn is_in_layout(all: &[Token<'_>], index: usize) -> bool {
-    let before = all.get(..index).unwrap_or_default();
-    before.iter().rposition(|one| matches!(one.text, "(" | ")" | ";" | "{")).is_some_and(|open| {
-        let opens = before.get(open).is_some_and(|one| one.text == "(");
-        let word = open.checked_sub(1).and_then(|word| before.get(word));
-        opens && word.is_some_and(|word| word.text == "layout")
-    })
 }
 
 /// The name of a variable for all stages: what a fragment shader reads as `gl_Color` is written as `gl_FrontColor`.
