@@ -196,6 +196,7 @@ mod upgrade;
 mod versions;
 #[cfg(feature = "cli")]
 mod vulkan;
+mod vulkan_blocks;
 mod vulkan_trees;
 #[cfg(feature = "cli")]
 mod watch;

@@ -169,3 +169,39 @@ fn names_that_are_not_utf8_are_checked() {
         .expect("it runs");
     assert!(code(&named) == 1 && out(&named).contains("E0301"), "{named:?}");
 }
+
+/// A `.glsl` file with a `main` needs its stage, and each command says how to give it; a file with other words that contain "main" is a part.
+#[test]
+fn a_shader_whose_name_does_not_tell_its_stage_gets_a_way_out() {
+    let part = b"float domain(float x) { return x; } // main() is elsewhere\n";
+    let folder = Folder::new(&[
+        ("p/which.glsl", b"void main() { gl_FragColor = vec4(1.0); }\n"),
+        ("p/domain.glsl", part),
+        ("p/toy.glsl", b"void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n"),
+    ]);
+    let (_, scope, _) = lint(&folder, &["p"]);
+    let files: Vec<&str> = not_checked(&scope).iter().map(|(file, _)| *file).collect();
+    assert_eq!(files, ["p/toy.glsl", "p/which.glsl"], "{scope}");
+    let remedy = "`stage = \"fragment\"` in a `[[source]]` table of glisten.toml";
+    let shown = folder.run(&["lint", "p"]);
+    assert!(format!("{}{}", out(&shown), err(&shown)).contains(remedy), "{shown:?}");
+    for arguments in [
+        &["compile", "p", "-o", "new"][..],
+        &["upgrade", "p", "-o", "new"],
+        &["port", "p", "--for", "vulkan", "-o", "new"],
+    ] {
+        let told = err(&folder.run(arguments));
+        let is_told = told.contains("2 files were not taken: they have a `main`") && told.contains(remedy);
+        assert!(is_told, "{arguments:?}: {told}");
+    }
+    let table = b"[[source]]\nglob = \"*.glsl\"\nstage = \"fragment\"\n";
+    let folder = Folder::new(&[
+        ("p/which.glsl", b"void main() { gl_FragColor = vec4(1.0); }\n"),
+        ("p/domain.glsl", part),
+        ("p/glisten.toml", table),
+    ]);
+    let ported = folder.run(&["port", "p", "--for", "vulkan", "-o", "new"]);
+    assert!(code(&ported) == 0 && !err(&ported).contains("not taken"), "{}", err(&ported));
+    let text = std::fs::read_to_string(folder.path("new/which.glsl")).expect("written");
+    assert!(text.starts_with("#version 450"), "{text}");
+}

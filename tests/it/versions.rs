@@ -184,3 +184,24 @@ fn what_is_not_supported_is_one_error() {
         assert!(errors.iter().all(|error| error.code.id == "E0001"), "{errors:#?}");
     }
 }
+
+/// The help names what has the type, and no other type is written in its place.
+#[test]
+fn a_constructor_of_a_later_type_names_the_version() {
+    let finding = |version: &str, constructor: &str| {
+        let text = format!("{version}uniform float x;\nvoid main() {{ gl_FragColor = vec4({constructor}(x)[0]); }}\n");
+        let found = compile_text("a.frag", &text, Stage::Fragment).diagnostics;
+        let errors: Vec<&Diagnostic> = found.iter().filter(|found| found.is_error()).collect();
+        assert_eq!(errors.len(), 1, "{text}: {errors:?}");
+        let help = errors[0].help.clone().unwrap_or_default();
+        (errors[0].code.id, help, errors[0].fixes.len())
+    };
+    let (code, help, n_fixes) = finding("#version 110\n", "mat4x3");
+    assert_eq!((code, help.as_str(), n_fixes), ("E0304", "`#version 120` has it", 0));
+    let (code, help, n_fixes) = finding("#version 120\n", "uvec4");
+    assert!(code == "E0304" && help.starts_with("`#version 130` has it") && n_fixes == 0, "{help}");
+    assert_eq!(finding("", "mat4x3").0, "E0120");
+    // A word that is near to a type of another version alone is near to none.
+    assert_eq!(finding("#version 110\n", "mat4x2x").1, "");
+    assert_eq!(finding("#version 120\n", "mat4x2x").1, "did you mean `mat4x2`?");
+}

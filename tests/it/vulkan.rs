@@ -251,11 +251,18 @@ fn sources_are_rewritten_and_glslang_takes_them() {
 
 /// The new text of a fragment shader, which glslang takes.
 fn rewritten(source: &str) -> String {
-    let folder = Folder::new(&[("a.frag", source.as_bytes())]);
-    let output = folder.run(&["upgrade", "-q", "--to", "vulkan", "-o", "new", "a.frag"]);
+    rewritten_stage(source, Stage::Fragment)
+}
+
+/// The new text of a shader, which glslang takes.
+#[track_caller]
+pub(crate) fn rewritten_stage(source: &str, stage: Stage) -> String {
+    let name = format!("a.{}", short(stage));
+    let folder = Folder::new(&[(&name, source.as_bytes())]);
+    let output = folder.run(&["upgrade", "-q", "--to", "vulkan", "-o", "new", &name]);
     assert_eq!(code(&output), 0, "{}", err(&output));
-    let text = fs::read_to_string(folder.path("new/a.frag")).expect("written");
-    let said = complaint(&folder.path("new"), &[(Stage::Fragment, text.clone())]);
+    let text = fs::read_to_string(folder.path(&format!("new/{name}"))).expect("written");
+    let said = complaint(&folder.path("new"), &[(stage, text.clone())]);
     assert!(said.is_none(), "{said:?}\n{text}");
     text
 }

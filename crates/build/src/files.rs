@@ -1,7 +1,7 @@
 //! Files of a build: [`Reads`] remembers which were read; [`write()`] leaves a file alone that is up to date.
 
 use super::error::BuildError;
-use glisten_sources::{Disk, read_bounded};
+use glisten_sources::{Disk, read_bounded, with_line_feeds};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ impl Reads {
     pub(super) fn text(&self, path: &Path) -> Result<Arc<str>, BuildError> {
         self.add(path);
         let bytes = read_bounded(path).map_err(|error| BuildError::File { path: path.to_owned(), error })?;
-        Ok(String::from_utf8_lossy(&bytes).into())
+        Ok(with_line_feeds(String::from_utf8_lossy(&bytes).into_owned()).into())
     }
 }
 

@@ -12,6 +12,7 @@ use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::source::{Prelude, SourceMap, Span};
 use glisten_front::syntax::is_no_text;
 use glisten_scene::{confined_to, is_allowed, may_end};
+use glisten_sources::with_line_feeds;
 use glisten_verify::scene::{DiskFiles, FileError, FileSource};
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -184,10 +185,11 @@ pub(crate) fn text_of(name: &str, bytes: Vec<u8>) -> Result<Arc<str>, ReadError>
     refuse_binary(name, &bytes)?;
     let mut bytes = bytes;
     bytes.pop_if(|last| *last == END_OF_FILE);
-    Ok(match String::from_utf8(bytes) {
-        Ok(text) => text.into(),
-        Err(error) => String::from_utf8_lossy(error.as_bytes()).into(),
-    })
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => String::from_utf8_lossy(error.as_bytes()).into_owned(),
+    };
+    Ok(with_line_feeds(text).into())
 }
 
 /// Reports a source without any text.

@@ -10,7 +10,7 @@ use crate::arguments::engine::{Engines, STDIN as SHOWN_STDIN};
 use crate::console::Console;
 use crate::exit::Failure;
 use crate::files;
-use crate::search::{self, Left};
+use crate::search::{self, Left, Why};
 use glisten_front::hir::Stage;
 use glisten_sources::embedded::{self, Filling, Host};
 use glisten_sources::engines::combined;
@@ -115,6 +115,10 @@ impl Input {
     }
 }
 
+/// How to say the stage of files whose names do not tell it.
+pub(crate) const SAY_STAGE: &str =
+    "say it by `stage = \"fragment\"` in a `[[source]]` table of glisten.toml, or name a file, with `--stage fragment`";
+
 /// Files that form one program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Group {
@@ -159,6 +163,17 @@ impl Inputs {
         for folder in &self.empty_folders {
             console.remark(&format!("no shader was found in `{folder}`"));
         }
+    }
+
+    /// Tells how many files with a `main` a search left because nothing tells their stages.
+    pub(crate) fn tell_without_stage(&self, console: &Console) {
+        let count = self.left.iter().filter(|left| left.why == Why::NoStage).count();
+        let files = match count {
+            0 => return,
+            1 => "1 file was not taken: it has a `main`, and its name does not tell its stage".to_owned(),
+            _ => format!("{count} files were not taken: they have a `main`, and their names do not tell their stages"),
+        };
+        console.remark(&format!("{files}; {SAY_STAGE}"));
     }
 
     /// Tells which `--program`s link nothing.

@@ -6,7 +6,7 @@
 //! stays, as does every file that the command line names.
 
 use crate::console::painted;
-use crate::inputs::{Inputs, identity};
+use crate::inputs::{Inputs, SAY_STAGE, identity};
 use crate::search::Why;
 use crate::session::{Session, Unit};
 use glisten_front::diagnostic::codes::general::NOT_CHECKED;
@@ -17,6 +17,9 @@ use glisten_front::diagnostic::{Diagnostic, Level};
 use glisten_front::source::FileId;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+
+/// The reason for a file whose name does not tell its stage.
+const WITHOUT_STAGE: &str = "its name does not tell its stage";
 
 /// How many files are shown to people.
 const SHOWN: usize = 20;
@@ -207,7 +210,7 @@ fn because(why: Why) -> String {
     match why {
         Why::NoMain => "it has no `main`, and no file that is checked includes it".to_owned(),
         Why::Assembly => "it is in the assembly language of ARB_vertex_program".to_owned(),
-        Why::NoStage => "its name does not tell its stage".to_owned(),
+        Why::NoStage => WITHOUT_STAGE.to_owned(),
         Why::Stage(stage) => format!("{UNREAD} {stage} shaders"),
     }
 }
@@ -227,6 +230,9 @@ pub(crate) fn told(scope: &Scope, color: bool) -> String {
     }
     if files.iter().any(|one| one.because.contains("#version")) {
         text.push_str("  = help: say their version: `--assume-version 150`, or `version` in a `[[source]]` table of glisten.toml\n");
+    }
+    if files.iter().any(|one| one.because == WITHOUT_STAGE) {
+        text.push_str(&format!("  = help: {SAY_STAGE}\n"));
     }
     let may_be_read = files.iter().any(|one| !one.because.starts_with(UNREAD));
     let how = if may_be_read { "name a file to see its errors; " } else { "" };

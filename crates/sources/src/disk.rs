@@ -35,6 +35,22 @@ pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The text of a file, with a line feed for each carriage return that ends a line alone (GLSL 1.50 §3.1), so that whatever reads lines
+/// sees them. Offsets stay.
+pub fn with_line_feeds(text: String) -> String {
+    let mut bytes = text.into_bytes();
+    let is_lone = |bytes: &[u8], at: usize| bytes.get(at) == Some(&b'\r') && bytes.get(at + 1) != Some(&b'\n');
+    for at in 0..bytes.len() {
+        if is_lone(&bytes, at)
+            && let Some(byte) = bytes.get_mut(at)
+        {
+            *byte = b'\n';
+        }
+    }
+    // One sign of ASCII for another leaves the text valid.
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
 /// Reads files and remembers nothing.
 pub(super) struct Plain;
 
@@ -44,10 +60,20 @@ impl Disk for Plain {
             return Err(format!("`{}` cannot be read: it is a folder", path.display()));
         }
         let bytes = read_bounded(path).map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
-        Ok(String::from_utf8_lossy(&bytes).into())
+        Ok(with_line_feeds(String::from_utf8_lossy(&bytes).into_owned()).into())
     }
 
     fn looked_for(&self, _: &Path) {}
 
     fn searched(&self) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_line_feeds;
+
+    #[test]
+    fn lines_end_with_line_feeds() {
+        assert_eq!(with_line_feeds("a\rb\r\nc\r\r\né\r".to_owned()), "a\nb\r\nc\n\r\né\n");
+    }
 }

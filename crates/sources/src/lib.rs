@@ -14,7 +14,7 @@ mod programs;
 mod settings;
 pub mod stages;
 
-pub use disk::{Disk, read_bounded};
+pub use disk::{Disk, read_bounded, with_line_feeds};
 pub use host::{Search, completing};
 pub use includes::DiskIncludes;
 pub use programs::ProgramFiles;

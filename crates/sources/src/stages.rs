@@ -1,5 +1,6 @@
 //! The stage of a shader, by the name of its file.
 
+use super::engines::code::{names_function, without_comments};
 use glisten_front::hir::Stage;
 use std::fs;
 use std::io::Read;
@@ -112,10 +113,16 @@ pub fn may_be_included(path: &Path) -> bool {
     path.file_name().is_some_and(|name| without(&name.to_string_lossy(), "glsl").is_some())
 }
 
+/// The functions that a shader begins with: that of GLSL, and that of Shadertoy.
+const ENTRIES: [&str; 2] = ["main", "mainImage"];
+
 /// Whether a file is there to be included: its name ends in `.glsl`, and it has no `main`.
 pub fn is_part(path: &Path) -> bool {
-    const MAIN: &[u8] = b"main";
-    may_be_included(path) && fs::read(path).is_ok_and(|bytes| !bytes.windows(MAIN.len()).any(|word| word == MAIN))
+    let lacks_main = |bytes: Vec<u8>| {
+        let code = without_comments(&String::from_utf8_lossy(&bytes));
+        !ENTRIES.iter().any(|name| names_function(&code, name))
+    };
+    may_be_included(path) && fs::read(path).is_ok_and(lacks_main)
 }
 
 /// The name without this extension.

@@ -11,6 +11,7 @@ mod program;
 mod rewrite;
 mod selected;
 mod tokens;
+mod uses;
 mod vulkan;
 
 pub use plan::{Plan, Target, Text};

@@ -4,7 +4,8 @@
 //! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
 
 use super::names::{FUNCTIONS, lookup};
-use super::tokens::{Token, closing, tokens};
+use super::tokens::{closing, tokens};
+use super::uses::{keyword_uses, layout_macros, macros_alone};
 use glisten_front::Stage;
 use glisten_front::builtin::constants::{CONSTANTS, Constant};
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
@@ -87,6 +88,15 @@ impl Target {
     /// Whether a word is one of the language, so that no name of a program can be that word.
     fn takes(self, word: &str) -> bool {
         keywords::is_taken(word, self.language()) || self.is_for_vulkan() && keywords::is_of_vulkan(word)
+    }
+
+    /// Whether lines that texts get have a word, so that no macro can have that name.
+    fn is_written(self, word: &str) -> bool {
+        match word {
+            "layout" | "flat" => true,
+            "highp" | "mediump" | "precision" => self == Self::Es300,
+            _ => false,
+        }
     }
 
     /// Whether Vulkan's rules hold.
@@ -317,10 +327,15 @@ impl<'t> Planner<'t> {
                 && functions::named(name).is_empty()
                 && texts.iter().all(|text| !keywords::is_taken(name, version(text.version)))
         };
-        let as_keywords = keyword_uses(texts);
-        let as_layouts = if target.is_for_vulkan() { layout_macros(texts) } else { BTreeSet::new() };
+        let all = || texts.iter().map(|text| text.text);
+        let as_keywords = keyword_uses(all());
+        let as_macros = macros_alone(all());
+        let is_kept = |name: &&str| {
+            as_keywords.contains(*name) || as_macros.contains(*name) && !target.is_written(name) && !is_function(name)
+        };
+        let as_layouts = if target.is_for_vulkan() { layout_macros(all()) } else { BTreeSet::new() };
         let names: Vec<&str> = self.own.iter().copied().filter(|name| is_function(name) || is_new_word(name)).collect();
-        let names: Vec<&str> = names.into_iter().filter(|name| !as_keywords.contains(name)).collect();
+        let names: Vec<&str> = names.into_iter().filter(|name| !is_kept(name)).collect();
         for name in names.into_iter().chain(as_layouts) {
             let new = self.free(name);
             Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
@@ -516,57 +531,6 @@ fn declared_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
     found
 }
 
-/// Macros that would replace the words of the layouts that Vulkan wants.
-fn layout_macros<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
-    static WORDS: &[&str] = &["set", "binding", "location", "component", "index", "offset", "std140"];
-    let mut found = BTreeSet::new();
-    for text in texts {
-        let all = tokens(text.text);
-        let words = all
-            .windows(3)
-            .filter(|words| matches!(words, [sign, word, _] if sign.text == "#" && word.text == "define"));
-        found.extend(words.filter_map(|words| words.last()).map(|name| name.text).filter(|name| WORDS.contains(name)));
-    }
-    found
-}
-
-/// The words that a text uses as no name is used: before another word or a number (`precision mediump float`, `flat in`, `case 1`).
-/// They then mean what later versions mean by them, behind a condition on the version.
-fn keyword_uses<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
-    let mut found = BTreeSet::new();
-    for text in texts {
-        let all = tokens(text.text);
-        for (index, token) in all.iter().enumerate().filter(|(_, token)| token.is_word()) {
-            let Some(next) = all.get(index + 1) else { continue };
-            let is_operand = next.text.starts_with(|first: char| first.is_ascii_alphanumeric() || first == '_');
-            let follows = match token.text {
-                "layout" => next.text == "(",
-                "default" => next.text == ":",
-                // A keyword since 4.30, and still the word of a layout (GLSL 4.60 §4.4.5).
-                "shared" => is_in_layout(&all, index),
-                "switch" => {
-                    closing(&all, index + 1).and_then(|end| all.get(end + 1)).is_some_and(|one| one.text == "{")
-                }
-                _ => false,
-            };
-            if is_operand || follows {
-                found.insert(token.text);
-            }
-        }
-    }
-    found
-}
-
-/// Whether a word is between the parentheses of a layout.
-fn is_in_layout(all: &[Token<'_>], index: usize) -> bool {
-    let before = all.get(..index).unwrap_or_default();
-    before.iter().rposition(|one| matches!(one.text, "(" | ")" | ";" | "{")).is_some_and(|open| {
-        let opens = before.get(open).is_some_and(|one| one.text == "(");
-        let word = open.checked_sub(1).and_then(|word| before.get(word));
-        opens && word.is_some_and(|word| word.text == "layout")
-    })
-}
-
 /// The name of a variable for all stages: what a fragment shader reads as `gl_Color` is written as `gl_FrontColor`.
 fn varying_name(row: &FixedRow, stage: Stage) -> &'static str {
     match (row.name, stage) {
@@ -643,6 +607,16 @@ mod tests {
         let plan = Plan::new(&[text("float centroid, row_major, sample, x;", Stage::Vertex)], Target::Core150);
         assert_eq!(plan.word(Stage::Vertex, "centroid"), Some("centroid_"));
         assert_eq!(plan.word(Stage::Vertex, "x"), None);
+    }
+
+    #[test]
+    fn macros_with_names_of_keywords_stay() {
+        let macros = "#define lowp\n#define flat\n#define patch\n#ifdef A\n#define sample 2.0\n#endif\n";
+        let code = "float patch; void main() { gl_FragColor = vec4(sample); }";
+        let plan = |target| Plan::new(&[text(&format!("{macros}{code}"), Stage::Fragment)], target);
+        let words =
+            ["lowp", "sample", "patch", "flat"].map(|word| plan(Target::Vulkan).word(Stage::Fragment, word).is_some());
+        assert_eq!(words, [false, false, true, true]);
     }
 
     #[test]

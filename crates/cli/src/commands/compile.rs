@@ -93,6 +93,7 @@ pub(crate) fn run(args: &CompileArgs, console: &Console) -> Outcome {
         return permute(args, file, console);
     }
     let mut inputs = inputs::collect(&args.files, &args.programs, &args.sources, true)?;
+    inputs.tell_without_stage(console);
     if let (Some(folder), true) = (inputs.empty_folders.first(), inputs.groups.is_empty()) {
         return Err(Failure::usage(format!("no shader was found in `{folder}`")));
     }

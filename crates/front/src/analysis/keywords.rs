@@ -1,6 +1,8 @@
 //! The type keywords (§3.6, §4.1), one row each. The table of keywords (`syntax`) has their versions.
 
 use crate::hir::{SamplerDim, SamplerType, Scalar, Type};
+use crate::language::{Extensions, Version};
+use crate::syntax::keywords::is_keyword;
 
 /// A keyword that names a type.
 pub(super) struct Keyword {
@@ -76,13 +78,17 @@ pub(super) fn type_of(name: &str) -> Option<Type> {
     KEYWORDS.iter().find(|keyword| keyword.name == name).map(|keyword| keyword.ty)
 }
 
-/// The type keywords that are constructors, for "did you mean".
-pub(super) fn constructors() -> impl Iterator<Item = &'static str> {
+/// The type keywords of a language that are constructors, for "did you mean".
+pub(super) fn constructors(version: Version, extensions: Extensions) -> impl Iterator<Item = &'static str> {
     let constructs = |ty: &Type| matches!(ty, Type::Scalar(_) | Type::Vector(..) | Type::Matrix(..));
-    KEYWORDS.iter().filter(move |keyword| constructs(&keyword.ty)).map(|keyword| keyword.name)
+    of_language(version, extensions).filter(move |keyword| constructs(&keyword.ty)).map(|keyword| keyword.name)
 }
 
-/// All type keywords, for "did you mean".
-pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    KEYWORDS.iter().map(|keyword| keyword.name)
+/// All type keywords of a language, for "did you mean".
+pub(super) fn names(version: Version, extensions: Extensions) -> impl Iterator<Item = &'static str> {
+    of_language(version, extensions).map(|keyword| keyword.name)
+}
+
+fn of_language(version: Version, extensions: Extensions) -> impl Iterator<Item = &'static Keyword> {
+    KEYWORDS.iter().filter(move |keyword| is_keyword(keyword.name, version, extensions))
 }

@@ -323,7 +323,7 @@ impl Analyzer<'_> {
         self.may_suggest()?;
         let structs = self.scopes.names().filter(|(_, binding)| matches!(binding.entry, Entry::Struct(_)));
         let mut known: Vec<&str> = structs.map(|(symbol, _)| self.ast.names.spelling(symbol)).collect();
-        for name in keywords::names() {
+        for name in keywords::names(self.ast.version, self.extensions) {
             known.push(name);
         }
         known.push("return");

@@ -104,6 +104,12 @@ pub fn is_taken(word: &str, version: Version) -> bool {
     row.is_some_and(|row| row.kind_in(version, Extensions::empty()) != Ident)
 }
 
+/// Whether a word is a keyword of a language with some extensions.
+pub(crate) fn is_keyword(word: &str, version: Version, extensions: Extensions) -> bool {
+    let row = TABLE.iter().find(|row| row.spelling == word);
+    row.is_some_and(|row| !matches!(row.kind_in(version, extensions), Ident | Reserved))
+}
+
 /// Whether a word is a type of GLSL for Vulkan alone (GL_KHR_vulkan_glsl).
 pub fn is_of_vulkan(word: &str) -> bool {
     VULKAN.binary_search(&word).is_ok()

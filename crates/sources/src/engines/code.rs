@@ -69,9 +69,15 @@ pub fn count_definitions(code: &str, name: &str) -> usize {
     words(code).filter(|(_, word)| *word == name).filter(is_definition).count()
 }
 
+/// Whether a text without comments names a function: it has the word, with a parenthesis after it.
+pub fn names_function(code: &str, name: &str) -> bool {
+    let is_followed = |at: usize| code.get(at..).is_some_and(|rest| rest.trim_start().starts_with('('));
+    words(code).any(|(at, word)| word == name && is_followed(at + word.len()))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{count_definitions, without_comments, words};
+    use super::{count_definitions, names_function, without_comments, words};
 
     #[test]
     fn comments_are_blank() {
@@ -87,5 +93,13 @@ mod tests {
     #[test]
     fn definitions_have_bodies() {
         assert_eq!(count_definitions("void main();\nvoid main( void )\n{ domain(); } void main(){}", "main"), 2);
+    }
+
+    #[test]
+    fn functions_are_words_before_parentheses() {
+        let code =
+            without_comments("void mainImage(); // main()\nfloat domain(float x) { return remainder(x); } int main;");
+        assert!(!names_function(&code, "main") && names_function(&code, "mainImage"));
+        assert!(names_function(&without_comments("void main /* here */ ()"), "main"));
     }
 }

@@ -92,6 +92,11 @@ impl<'t> Chunks<'t> {
         let last = chunk.tokens.end.saturating_sub(1);
         self.place(chunk.tokens.start).start..self.place(last).end
     }
+
+    /// The start of the line that has a place.
+    pub(super) fn line_start(&self, offset: usize) -> usize {
+        self.text.get(..offset).and_then(|before| before.rfind('\n')).map_or(0, |at| at + 1)
+    }
 }
 
 /// The lines of directives, with those that they continue on.

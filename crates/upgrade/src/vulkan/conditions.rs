@@ -1,9 +1,10 @@
 //! [`Conditions`]: the directives of a text, and the conditions that are open at a place.
 //!
 //! *In:* a text. *Out:* for a place, the lines `#if`, `#elif`, `#else` that are open there; lines that open the same conditions
-//! elsewhere. *Holds:* nothing is evaluated.
+//! elsewhere. *Holds:* nothing is evaluated. The guard of a file, `#ifndef A` and `#define A`, is not a condition.
 
 use glisten_sources::engines::code::{is_name, without_comments};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A condition that is open: where it begins, and its lines so far: `#if A`, then `#elif B` and `#else`, if the place is behind them.
@@ -38,11 +39,31 @@ impl Directive {
         let code = self.code.trim_start().trim_start_matches('#').trim_start();
         code.get(self.word().len()..).unwrap_or("").trim()
     }
+
+    /// The name that it defines, or asks for.
+    pub(super) fn name(&self) -> &str {
+        self.rest().split(|letter: char| !is_name(letter)).next().unwrap_or("")
+    }
+
+    /// The name that has to be undefined: `#ifndef A`, `#if !defined(A)`.
+    fn undefined_name(&self) -> Option<&str> {
+        match self.word() {
+            "ifndef" => Some(self.name()),
+            "if" => {
+                let rest = self.rest().strip_prefix('!')?.trim_start().strip_prefix("defined")?.trim();
+                let inner = rest.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')).unwrap_or(rest).trim();
+                inner.chars().all(is_name).then_some(inner)
+            }
+            _ => None,
+        }
+    }
 }
 
 /// The directives of a text.
 pub(crate) struct Conditions {
     pub(crate) list: Vec<Directive>,
+    /// The starts of the directives that begin a guard.
+    guards: BTreeSet<usize>,
 }
 
 impl Conditions {
@@ -65,7 +86,8 @@ impl Conditions {
             }
             goes_on = line.trim_end().ends_with('\\');
         }
-        Self { list }
+        let guards = guards(&list);
+        Self { list, guards }
     }
 
     /// The conditions that are open at a place, the outermost first.
@@ -80,6 +102,8 @@ impl Conditions {
                 _ => {}
             }
         }
+        // Another branch of a guard is a condition.
+        open.retain(|one| one.heads.len() > 1 || !self.guards.contains(&one.start));
         open
     }
 
@@ -91,9 +115,27 @@ impl Conditions {
             let heads = conditions.iter().flat_map(|open| &open.heads);
             heads.into_iter().any(|head| head.split(|letter: char| !is_name(letter)).any(|word| word == *name))
         };
-        let name = |one: &'_ Directive| one.rest().split(|letter: char| !is_name(letter)).next().map(str::to_owned);
-        names.filter_map(name).find(|name| is_named(&name.as_str()))
+        names.map(Directive::name).find(is_named).map(str::to_owned)
     }
+}
+
+/// The starts of the directives that ask whether a macro is there, which no line above defines, and that the next directive defines.
+fn guards(list: &[Directive]) -> BTreeSet<usize> {
+    let mut defined: BTreeSet<&str> = BTreeSet::new();
+    let mut found = BTreeSet::new();
+    for (one, next) in list.iter().zip(list.iter().skip(1)) {
+        match one.word() {
+            "define" => drop(defined.insert(one.name())),
+            "undef" => drop(defined.remove(one.name())),
+            _ => {
+                let name = one.undefined_name().filter(|name| !defined.contains(name));
+                found.extend(
+                    name.filter(|name| next.word() == "define" && next.name() == *name).map(|_| one.range.start),
+                );
+            }
+        }
+    }
+    found
 }
 
 /// The lines that lead from some open conditions to others: `#endif`, then `#if`.
@@ -212,6 +254,15 @@ mod tests {
         let conditions = Conditions::new(text);
         let y = conditions.at(text.find('y').expect("there"));
         assert_eq!(between(&[], &y), ["#ifndef A"]);
+    }
+
+    #[test]
+    fn guards_are_no_conditions() {
+        let text = "#ifndef G\n#define G\nx\n#if !defined(H)\n# define H 1\ny\n#else\nz\n#endif\n#endif\n\
+                    #ifndef G\n#define G\nw\n#endif\n";
+        let conditions = Conditions::new(text);
+        let at = |word: &str| conditions.at(text.find(word).expect("there"));
+        assert_eq!((at("x\n").len(), at("y\n").len(), at("z\n").len(), at("w\n").len()), (0, 0, 1, 1));
     }
 
     #[test]

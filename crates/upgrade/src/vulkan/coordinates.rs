@@ -86,9 +86,9 @@ pub(super) fn words(chunks: &Chunks<'_>, is_fragment: bool, frag_coord: Option<&
     edits
 }
 
-/// The new `main` of a vertex shader, which calls the old one, and the edit that renames that.
+/// The new `main` of a vertex shader, which calls the old one, and the edits that rename that: one in each branch of a condition.
 pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<Vec<Edit>> {
-    let place = chunks.place(main_of(chunks)?);
+    main_of(chunks)?;
     let has_size = shader.globals.iter().any(|one| one.builtin == Some(BuiltinVariable::PointSize) && one.written);
     let indent = indent_of(chunks.text);
     let size = if has_size { String::new() } else { format!("{indent}gl_PointSize = 1.0;\n") };
@@ -101,7 +101,8 @@ pub(super) fn main(chunks: &Chunks<'_>, shader: &Shader, name: &str) -> Option<V
         "{gap}\n{MARK}: [0, w] in clip space{what}.\nvoid main(){open}\n{indent}{name}();\n{indent}\
          gl_Position.z = (gl_Position.z + gl_Position.w) * 0.5;\n{size}}}{tail}"
     );
-    let mut edits = vec![(place, name.to_owned()), (end..end, text)];
+    let mut edits: Vec<Edit> = mains(chunks).map(|index| (chunks.place(index), name.to_owned())).collect();
+    edits.push((end..end, text));
     if !has_size {
         edits.extend(point_size(chunks));
     }
@@ -147,12 +148,17 @@ fn point_size(chunks: &Chunks<'_>) -> Option<Edit> {
     (!has_it).then(|| (place..place, "    float gl_PointSize;\n".to_owned()))
 }
 
-/// The name in the definition of `main`.
+/// The name in the first definition of `main`.
 pub(super) fn main_of(chunks: &Chunks<'_>) -> Option<usize> {
-    let functions = chunks.list.iter().filter(|chunk| chunk.is_function);
-    let mut names = functions.filter_map(|chunk| {
-        let mut tokens = chunk.tokens.clone();
-        tokens.find(|index| chunks.word(*index) == "main" && chunks.word(*index + 1) == "(")
-    });
-    names.next()
+    mains(chunks).next()
+}
+
+/// The names in the definitions of `main`.
+fn mains(chunks: &Chunks<'_>) -> impl Iterator<Item = usize> {
+    let heads = chunks
+        .list
+        .iter()
+        .filter(|chunk| chunk.is_function)
+        .flat_map(|chunk| chunk.tokens.clone().take_while(|index| chunks.word(*index) != "{"));
+    heads.filter(|index| chunks.word(*index) == "main" && chunks.word(*index + 1) == "(")
 }

@@ -7,10 +7,12 @@ use super::super::rewrite::{Edit, comment_above};
 use super::super::tokens::closing;
 use super::chunks::{Chunk, Chunks};
 use super::conditions::{Conditions, Open};
+use super::definitions::Definitions;
 use super::dialect::{Dialect, Numbering};
-use super::facts::{Fact, Loose, Numbered};
+use super::facts::{Fact, Loose, Numbered, spelled};
 use super::numbers::{Numbers, Space};
-use glisten_sources::engines::code::without_comments;
+use super::place::{Ground, Leaving};
+use glisten_sources::engines::code::{is_name, without_comments, words};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -25,6 +27,7 @@ pub(super) struct Text<'a> {
     pub(super) name: &'a str,
     pub(super) chunks: &'a Chunks<'a>,
     pub(super) conditions: &'a Conditions,
+    pub(super) definitions: &'a Definitions<'a>,
     pub(super) facts: &'a BTreeMap<usize, Fact>,
     /// Macros that stand for qualifiers.
     pub(super) qualifiers: &'a BTreeSet<String>,
@@ -32,13 +35,16 @@ pub(super) struct Text<'a> {
     pub(super) names: &'a BTreeSet<String>,
     pub(super) dialect: &'a Dialect,
     pub(super) numbers: &'a Numbers,
+    /// Whether a variable after the block stands for `gl_FragCoord`.
+    pub(super) is_turned: bool,
 }
 
 /// A name with its declaration.
 struct Declared<'a> {
     place: usize,
     fact: &'a Fact,
-    chunk: &'a Chunk,
+    /// The declaration, without uses of macros before it.
+    chunk: Chunk,
     /// The token of the name.
     token: usize,
     /// The tokens of the macro use that it is an argument of.
@@ -110,6 +116,12 @@ impl<'a> Text<'a> {
                 return Err(format!("`{word}` is declared inside of a macro of `{}`; declare it outside", self.name));
             };
             let call = self.call(chunk, token);
+            let mut chunk = chunk.clone();
+            // A use of a macro that declares something ends without a semicolon.
+            let used = found.last().and_then(|before: &Declared<'_>| before.call.clone());
+            if let Some(used) = used.filter(|used| chunk.tokens.contains(&used.start) && used.end <= token) {
+                chunk.tokens.start = used.end;
+            }
             if chunk.is_cut && call.is_none() {
                 let word = self.chunks.word(token);
                 return Err(format!("the declaration of `{word}` in `{}` has a directive inside", self.name));
@@ -155,7 +167,7 @@ impl<'a> Text<'a> {
                         let start = self.chunks.place(call.start).start;
                         edits.push((start..start, format!("layout({}) ", words.join(", "))));
                     } else if is_first {
-                        edits.extend(self.with_layout(one.chunk, &words));
+                        edits.extend(self.with_layout(&one.chunk, &words));
                     } else {
                         edits.extend(self.split(one, &words));
                     }
@@ -233,7 +245,7 @@ impl<'a> Text<'a> {
             return None;
         }
         let comma = one.token.checked_sub(1).filter(|at| self.chunks.word(*at) == ",")?;
-        let head = self.head(one.chunk)?;
+        let head = self.head(&one.chunk)?;
         Some((self.chunks.place(comma), format!("; layout({}) {head}", words.join(", "))))
     }
 
@@ -267,12 +279,12 @@ impl<'a> Text<'a> {
     /// A variable between stages that the other stage does not have is a variable of its own stage: without its qualifiers, and in a
     /// declaration of its own.
     fn kept_inside(&self, one: &Declared<'_>, is_first: bool) -> Vec<Edit> {
-        if self.chunks.of(one.chunk).iter().any(|token| token.text == "{") {
+        if self.chunks.of(&one.chunk).iter().any(|token| token.text == "{") {
             return Vec::new();
         }
         if !is_first {
             let comma = one.token.checked_sub(1).filter(|at| self.chunks.word(*at) == ",");
-            let words = self.head(one.chunk).unwrap_or_default();
+            let words = self.head(&one.chunk).unwrap_or_default();
             let plain: Vec<&str> = words.split(' ').filter(|word| !self.is_of_varyings(word)).collect();
             return comma
                 .map(|comma| (self.chunks.place(comma), format!("; {}", plain.join(" "))))
@@ -302,11 +314,14 @@ impl<'a> Text<'a> {
     pub(super) fn moved(&self) -> Result<Moved, String> {
         let mut moved = Moved::default();
         let code = without_comments(self.chunks.text);
-        let mut moves: Vec<&Declared<'_>> = Vec::new();
         let mut removed: BTreeSet<usize> = BTreeSet::new();
-        let (mut later_struct, mut after) = (false, None);
         let declared = self.declared()?;
-        for one in &declared {
+        let goes = |one: &&Declared<'_>| matches!(one.fact, Fact::Loose(_) | Fact::Known(_));
+        let all: Vec<Leaving<'_>> = declared.iter().filter(goes).map(|one| self.leaving(one)).collect();
+        let Self { name, chunks, conditions, definitions, is_turned, .. } = *self;
+        let block = Ground { name, chunks, conditions, definitions, is_turned }.block_place(&all)?;
+        let mut after = None;
+        for one in declared.iter().filter(goes) {
             let loose = match one.fact {
                 Fact::Loose(loose) => Some(loose),
                 Fact::Known(index) => {
@@ -315,21 +330,11 @@ impl<'a> Text<'a> {
                 }
                 _ => continue,
             };
-            let (range, is_call) = match &one.call {
-                Some(call) => {
-                    (self.chunks.place(call.start).start..self.chunks.place(call.end.saturating_sub(1)).end, true)
-                }
-                None => (self.chunks.range(one.chunk), false),
-            };
+            let (range, is_call) = (self.range(one), one.call.is_some());
             let is_new = removed.insert(range.start);
-            let first = moves.first().map(|first| self.chunks.range(first.chunk));
-            if let (Some(loose), Some(first)) = (loose, &first) {
-                let is_later = |at: Option<usize>| at.is_some_and(|at| at > first.end);
-                later_struct |= loose.structs.iter().any(|name| is_later(self.struct_place(name)))
-                    || self.sizes(one.chunk).any(|word| is_later(self.constant_place(word)));
-            }
             let above = if is_new && !is_call { self.above(&code, range.start) } else { Vec::new() };
-            let (code, rest) = self.member(one, loose)?;
+            let is_spelled = block.as_ref().is_some_and(|block| block.spelled.contains(&one.place));
+            let (code, rest) = self.member(one, loose, is_spelled)?;
             let n_above = above.len();
             if loose.is_some() {
                 let conditions = self.conditions.at(range.start);
@@ -337,18 +342,16 @@ impl<'a> Text<'a> {
                 let initializer = if is_call { None } else { self.initializer(one.token) };
                 moved.lines.push(Line { place: one.place, above, code, behind, initializer, conditions });
             }
-            moves.push(one);
             if is_new {
                 let range = self.whole_lines(range, n_above);
                 if !rest.is_empty() {
                     // The block follows the struct that stays.
                     after = Some(range.end);
-                    later_struct |= moves.len() > 1;
                 }
                 moved.edits.push((range, rest));
             }
         }
-        moved.place = self.block_place(&moves, later_struct)?;
+        moved.place = block.map(|block| (block.place, block.conditions));
         if let (Some((place, _)), Some(after)) = (&mut moved.place, after) {
             *place = after.max(*place);
         }
@@ -361,6 +364,43 @@ impl<'a> Text<'a> {
         let place = moved.place.as_ref().map(|(place, _)| *place);
         self.close_gaps(&mut moved.edits, place);
         Ok(moved)
+    }
+
+    /// The place of a declaration, or of the use of the macro that declares.
+    fn range(&self, one: &Declared<'_>) -> Range<usize> {
+        match &one.call {
+            Some(call) => self.chunks.place(call.start).start..self.chunks.place(call.end.saturating_sub(1)).end,
+            None => self.chunks.range(&one.chunk),
+        }
+    }
+
+    /// A declaration, as far as it matters for the place of the block.
+    fn leaving(&self, one: &Declared<'a>) -> Leaving<'_> {
+        let loose = match one.fact {
+            Fact::Loose(loose) => Some(loose),
+            _ => None,
+        };
+        let range = self.range(one);
+        let written = loose.filter(|_| one.call.is_none());
+        let defines_struct = written.is_some() && self.struct_word(&one.chunk).is_some();
+        let head = written.filter(|_| !defines_struct).and_then(|_| self.head(&one.chunk)).unwrap_or_default();
+        let sizes = written.map(|_| self.sizes(one.token)).into_iter().flatten();
+        let structs = loose.iter().flat_map(|loose| &loose.structs).map(String::as_str);
+        let words = words(&head).map(|(_, word)| word).chain(sizes).chain(structs.filter(|_| !defines_struct));
+        Leaving {
+            place: one.place,
+            name: self.chunks.word(one.token),
+            conditions: self.conditions.at(range.start),
+            range,
+            tokens: one.call.clone().unwrap_or(one.chunk.tokens.clone()),
+            needs: self.definitions.with_bodies(words.filter(|word| !self.is_qualifier(word))),
+            can_be_spelled: loose.is_none_or(|loose| loose.plain.is_some()),
+            defines_struct,
+        }
+    }
+
+    fn is_qualifier(&self, word: &str) -> bool {
+        QUALIFIERS.contains(&word) || self.qualifiers.contains(word)
     }
 
     /// Takes away a blank line after lines that are taken away below another blank line, except at the block's place.
@@ -394,7 +434,7 @@ impl<'a> Text<'a> {
     /// The lines of the comment that explains a declaration, without the declaration's indentation.
     fn above(&self, code: &str, start: usize) -> Vec<String> {
         let text = self.chunks.text;
-        let line = self.line_start(start);
+        let line = self.chunks.line_start(start);
         let indent = text.get(line..start).unwrap_or("");
         if !indent.trim().is_empty() {
             return Vec::new();
@@ -406,7 +446,7 @@ impl<'a> Text<'a> {
 
     /// The comment behind a declarator, to the end of its line. Several declarators on one line have one comment, which is the first's.
     fn behind(&self, one: &Declared<'_>, is_first: bool) -> Option<String> {
-        let whole = self.chunks.range(one.chunk);
+        let whole = self.chunks.range(&one.chunk);
         let is_on_one_line = self.chunks.text.get(whole.clone()).is_some_and(|text| !text.contains('\n'));
         let end = if is_on_one_line { whole.end } else { self.declarator_end(one.token) };
         if is_on_one_line && !is_first {
@@ -446,90 +486,28 @@ impl<'a> Text<'a> {
         Some(value.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
-    /// The place of the definition of a constant in this text: `const int MAX = 4`, with or without a precision.
-    fn constant_place(&self, name: &str) -> Option<usize> {
-        let is_const = |at: usize, back: usize| at.checked_sub(back).is_some_and(|at| self.chunks.word(at) == "const");
-        let is_it = |at: &usize| {
-            self.chunks.word(*at) == name && self.chunks.word(at + 1) == "=" && (is_const(*at, 2) || is_const(*at, 3))
-        };
-        (0..self.chunks.all.len()).find(is_it).map(|at| self.chunks.place(at).start)
-    }
-
-    /// The words between the brackets of a declaration.
-    fn sizes(&self, chunk: &Chunk) -> impl Iterator<Item = &'a str> {
-        let mut depth = 0_usize;
-        let inside = self.chunks.of(chunk).iter().filter(move |token| {
-            match token.text {
-                "[" => depth += 1,
-                "]" => depth = depth.saturating_sub(1),
-                _ => {}
-            }
-            depth > 0 && token.is_word()
-        });
-        inside.map(|token| token.text)
-    }
-
-    /// The place of the definition of a struct in this text.
-    fn struct_place(&self, name: &str) -> Option<usize> {
-        let at =
-            (1..self.chunks.all.len()).find(|at| self.chunks.word(at - 1) == "struct" && self.chunks.word(*at) == name);
-        at.map(|at| self.chunks.place(at).start)
-    }
-
-    /// Where the block is: at the first of the declarations, or the last one, if a struct comes between them.
-    fn block_place(&self, moves: &[&Declared<'_>], later_struct: bool) -> Result<Option<(usize, Vec<Open>)>, String> {
-        let (Some(first), Some(last)) = (moves.first(), moves.last()) else { return Ok(None) };
-        let names: BTreeSet<&str> = moves.iter().map(|one| self.chunks.word(one.token)).collect();
-        let uses_one = self.chunks.list.iter().any(|chunk| {
-            chunk.is_function
-                && first.chunk.tokens.end <= chunk.tokens.start
-                && chunk.tokens.end <= last.chunk.tokens.start
-                && self.chunks.of(chunk).iter().any(|token| names.contains(token.text))
-        });
-        if later_struct && uses_one {
-            let what = "a struct of a uniform comes after a function that uses other uniforms";
-            return Err(format!("{what}; move the struct to the beginning of `{}`", self.name));
-        }
-        let at = self.chunks.range(if later_struct { last.chunk } else { first.chunk }).start;
-        let all: Vec<Vec<Open>> =
-            moves.iter().map(|one| self.conditions.at(self.chunks.range(one.chunk).start)).collect();
-        let own = self.conditions.at(at);
-        let n_same = |other: &Vec<Open>| own.iter().zip(other).take_while(|(a, b)| a == b).count();
-        let common = all.iter().map(n_same).min().unwrap_or(0);
-        let line = self.line_start(at);
-        let code = without_comments(self.chunks.text);
-        // Behind what is before it on its line, which may be the struct of the uniform.
-        let start = if code.get(line..at).is_none_or(|before| before.trim().is_empty()) { line } else { at };
-        let place = own.get(common).map_or(start, |open| open.start);
-        let kept: Vec<Open> = own.iter().take(common).cloned().collect();
-        for conditions in &all {
-            let inner = conditions.get(common..).unwrap_or_default();
-            let until = conditions.get(common).map_or(place, |open| open.start);
-            if let Some(name) = self.conditions.changed(inner, place..until.max(place)) {
-                let what = "decides whether a uniform is there, and changes between the uniforms";
-                return Err(format!("the macro `{name}` of `{}` {what}", self.name));
-            }
-        }
-        Ok(Some((place, kept)))
+    /// The words in the sizes after the name of a declarator.
+    fn sizes(&self, name: usize) -> impl Iterator<Item = &str> {
+        let before_value =
+            self.after_name(name).take_while(|(index, is_outside)| !(*is_outside && self.chunks.word(*index) == "="));
+        before_value.map(|(index, _)| self.chunks.word(index)).filter(|word| word.starts_with(is_name))
     }
 
     /// The code of a member, and what has to stay of the declaration: the struct that it defines.
-    fn member(&self, one: &Declared<'_>, loose: Option<&Loose>) -> Result<(String, String), String> {
-        if one.call.is_some() {
+    fn member(&self, one: &Declared<'_>, loose: Option<&Loose>, is_spelled: bool) -> Result<(String, String), String> {
+        if one.call.is_some() || is_spelled {
             let name = self.chunks.word(one.token);
             let Some(ty) = loose.map(|loose| loose.plain.as_deref()) else { return Ok(Default::default()) };
             let ty = ty.ok_or_else(|| format!("a macro declares `{name}`, whose type is a struct"))?;
-            return Ok((format!("{ty} {name}"), String::new()));
+            return Ok((spelled(ty, name), String::new()));
         }
-        let (ty, rest) = self.ty(one.chunk)?;
+        let (ty, rest) = self.ty(&one.chunk)?;
         Ok((format!("{ty} {}", self.declarator(one.token)), rest))
     }
 
     /// The type of a declaration as it is written, and what has to stay of the declaration: the struct that it defines.
     fn ty(&self, chunk: &Chunk) -> Result<(String, String), String> {
-        let tokens = self.chunks.of(chunk);
-        if let Some(at) = tokens.iter().position(|token| token.text == "struct") {
-            let index = chunk.tokens.start + at;
+        if let Some(index) = self.struct_word(chunk) {
             let end = self.braces_end(index).unwrap_or(index);
             let (word, end) = (self.chunks.place(index), self.chunks.place(end).end);
             let text = |from: usize| self.chunks.text.get(from..end).unwrap_or("");
@@ -541,8 +519,13 @@ impl<'a> Text<'a> {
             return Ok((name.to_owned(), format!("{};\n", text(word.start))));
         }
         let head = self.head(chunk).unwrap_or_default();
-        let words = head.split(' ').filter(|word| !QUALIFIERS.contains(word) && !self.qualifiers.contains(*word));
+        let words = head.split(' ').filter(|word| !self.is_qualifier(word));
         Ok((words.collect::<Vec<_>>().join(" "), String::new()))
+    }
+
+    /// The word `struct` of a declaration that defines one.
+    fn struct_word(&self, chunk: &Chunk) -> Option<usize> {
+        chunk.tokens.clone().find(|index| self.chunks.word(*index) == "struct")
     }
 
     /// A name for the struct of a declaration that has none: that of its variable, as structs are written.
@@ -587,19 +570,15 @@ impl<'a> Text<'a> {
     /// The lines of a declaration and of the comment above it, if nothing else is on them; otherwise the declaration alone.
     fn whole_lines(&self, range: Range<usize>, n_above: usize) -> Range<usize> {
         let text = self.chunks.text;
-        let start = self.line_start(range.start);
+        let start = self.chunks.line_start(range.start);
         let end = text.get(range.end..).and_then(|rest| rest.find('\n')).map_or(text.len(), |at| range.end + at + 1);
         let before = text.get(start..range.start).unwrap_or("").trim();
         let after = text.get(range.end..end).unwrap_or("").trim();
         if !before.is_empty() || !(after.is_empty() || is_line_comment(after)) {
             return range;
         }
-        let above = (0..n_above).fold(start, |at, _| self.line_start(at.saturating_sub(1)));
+        let above = (0..n_above).fold(start, |at, _| self.chunks.line_start(at.saturating_sub(1)));
         above..end
-    }
-
-    fn line_start(&self, offset: usize) -> usize {
-        self.chunks.text.get(..offset).and_then(|before| before.rfind('\n')).map_or(0, |at| at + 1)
     }
 }
 

@@ -105,6 +105,9 @@ fn merge(known: &mut Fact, fact: Fact, numbers: &mut Numbers) -> Result<(), &'st
             if known.extent != other.extent || known.name != other.name {
                 return Err("has different sizes in the programs that read its declaration");
             }
+            if known.plain != other.plain {
+                known.plain = None;
+            }
             known.structs.extend(other.structs);
         }
         (Fact::Numbered(known), Fact::Numbered(other)) => {
@@ -212,6 +215,15 @@ fn fact(
         let node = numbers.node(unit, Space::GeometryInput, name, size, None);
         return Ok(Fact::Numbered(numbered(Space::GeometryInput, node)));
     }
+    if is_of_lone_geometry(program, shader, global) {
+        let element = match program.types.get(global.ty) {
+            Type::Array(element, _) => element,
+            _ => global.ty,
+        };
+        let size = program.types.locations(element);
+        let node = numbers.node(unit, Space::GeometryInput, global.match_name(), size, global.location);
+        return Ok(Fact::Numbered(numbered(Space::GeometryInput, node)));
+    }
     if is_before_geometry(program, shader, global) {
         return Ok(Fact::Inside);
     }
@@ -228,6 +240,11 @@ fn fact(
 fn is_before_geometry(program: &Program, shader: &Shader, global: &Global) -> bool {
     program.stage(Stage::Geometry).is_some()
         && matches!((shader.stage, global.storage), (Stage::Vertex, Storage::Out) | (Stage::Geometry, Storage::In))
+}
+
+/// Whether a geometry stage reads it whose vertex stage is elsewhere.
+fn is_of_lone_geometry(program: &Program, shader: &Shader, global: &Global) -> bool {
+    shader.stage == Stage::Geometry && global.storage == Storage::In && program.stage(Stage::Vertex).is_none()
 }
 
 /// The output of the vertex stage that feeds the geometry stage, by itself or by the input that it feeds.
@@ -293,4 +310,10 @@ pub(super) fn plain_type(types: &Types, ty: TypeId) -> Option<String> {
         inner = element;
     }
     (!matches!(types.get(inner), Type::Struct(_) | Type::Sampler(_))).then(|| types.name(ty))
+}
+
+/// A declaration with a type as the compiler names it: `vec4[2]` has its sizes after the name.
+pub(super) fn spelled(ty: &str, name: &str) -> String {
+    let (element, sizes) = ty.split_at(ty.find('[').unwrap_or(ty.len()));
+    format!("{element} {name}{sizes}")
 }

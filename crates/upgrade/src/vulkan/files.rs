@@ -3,6 +3,7 @@
 //! *In:* compiled programs. *Out:* each file with its text and the stages that read it. *Holds:* a file that stages read as different
 //! texts, because an older version has other words for them, or because it includes such a file, has a variant for each stage.
 
+use super::conditions::Directive;
 use super::{Compiled, Key};
 use glisten_front::hir::Stage;
 use glisten_front::source::SourceMap;
@@ -118,6 +119,30 @@ impl Files {
             }
         }
         Ok(files)
+    }
+
+    /// A text of a file, whatever stage it is for.
+    pub(super) fn any(&self, name: &str) -> Option<&str> {
+        let mut texts = self.all.range((name.to_owned(), None)..);
+        texts.next().filter(|((file, _), _)| file == name).map(|(_, file)| &*file.text)
+    }
+
+    /// The names of the files that a file includes.
+    pub(super) fn included_by(&self, name: &str) -> impl Iterator<Item = &str> {
+        self.paths_of(name).map(|(_, to)| to)
+    }
+
+    /// The name of the file that a directive includes.
+    pub(super) fn included(&self, name: &str, directive: &Directive) -> Option<&str> {
+        let rest = directive.rest().get(1..)?;
+        let named = self.paths_of(name).filter(|(path, _)| rest.starts_with(path));
+        named.max_by_key(|(path, _)| path.len()).map(|(_, to)| to)
+    }
+
+    /// The paths in the includes of a file, and the names of the files that they name.
+    fn paths_of(&self, name: &str) -> impl Iterator<Item = (&str, &str)> {
+        let all = self.includes.range((name.to_owned(), String::new())..);
+        all.take_while(move |((from, _), _)| from == name).map(|((_, path), to)| (path.as_str(), to.as_str()))
     }
 
     /// The key of a file as a stage reads it.

@@ -12,6 +12,7 @@
 //! | `facts`, `unseen` | what each declaration is; those that no program sees |
 //! | `samplers` | uniforms for samplers in structs |
 //! | `numbers`, `layouts` | locations and bindings; the blocks of the loose uniforms |
+//! | `definitions`, `place` | where names begin to mean something; where the block goes |
 //! | `declarations`, `coordinates` | the edits of declarations; of `gl_Position`, `gl_FragCoord`, `dFdy`, indices |
 //! | `style` | indentation, braces, columns of comments |
 //! | `text` | the new text of one file |
@@ -23,6 +24,7 @@ mod chunks;
 mod conditions;
 mod coordinates;
 mod declarations;
+mod definitions;
 mod dialect;
 mod facts;
 mod files;
@@ -30,6 +32,7 @@ mod includes;
 mod layouts;
 mod numbers;
 mod output;
+mod place;
 mod qualifiers;
 mod samplers;
 mod style;

@@ -4,7 +4,7 @@
 //! it. *Holds:* structs that an included file declares, arrays of structs, and members in one declaration with others stay as they are.
 //!
 //! `uniform Material material;` with a `sampler2D diffuse` is `uniform sampler2D material_diffuse;` after it, and the struct has what is
-//! left. A struct of samplers alone goes.
+//! left. A struct of samplers alone goes. A uniform that defines its struct becomes two declarations first.
 
 use super::super::rewrite::{Edit, applied, comment_above};
 use super::super::tokens::{Token, tokens};
@@ -31,9 +31,12 @@ pub(super) fn split(unit: &TreeProgram, program: &Program) -> Option<(TreeProgra
     let mut notes = Vec::new();
     let mut sources = unit.sources.clone();
     for source in &mut sources {
-        let (text, names) = split_text(&source.text, &holders)?;
+        let (apart, added) = apart(&source.text, &holders);
+        let (text, names) = split_text(&apart, &holders)?;
         notes.extend(names.into_iter().map(|(place, old, new)| {
-            let line = source.text.get(..place).map_or(0, |before| before.matches('\n').count()) as u32 + 1;
+            let is_before = |line: &&usize| **line <= place;
+            let lines = apart.get(..place).map_or(0, |before| before.matches('\n').count());
+            let line = (lines - added.iter().filter(is_before).count()) as u32 + 1;
             let text = format!("`{old}` is `{new}`, since Vulkan has no samplers in structs; the host names it, too");
             Note { file: source.name.clone(), line, text }
         }));
@@ -76,6 +79,34 @@ fn is_array_of_samplers(program: &Program, mut ty: glisten_front::hir::TypeId) -
         ty = element;
     }
     matches!(program.types.get(ty), Type::Sampler(_))
+}
+
+/// A text whose uniforms are of structs that are defined before them: `uniform struct S { .. } s;` is `struct S { .. };` and
+/// `uniform S s;` in the next line. With it, the places after the ends of lines that it has in addition.
+fn apart(text: &str, holders: &[Holder]) -> (String, Vec<usize>) {
+    let all = tokens(text);
+    let word = |index: usize| all.get(index).map_or("", |token: &Token<'_>| token.text);
+    let place = |index: usize| all.get(index).map_or(0..0, |token| token.range.clone());
+    let (mut edits, mut added): (Vec<Edit>, Vec<usize>) = (Vec::new(), Vec::new());
+    // The difference between the lengths of the new text and of the old one, so far.
+    let mut longer = 0;
+    for at in (0..all.len()).filter(|at| word(*at) == "uniform" && word(at + 1) == "struct") {
+        let is_own = |holder: &&Holder| {
+            let close = (at..all.len()).find(|index| word(*index) == "}");
+            holder.structure == word(at + 2) && close.is_some_and(|close| word(close + 1) == holder.name)
+        };
+        let Some(holder) = holders.iter().find(is_own) else { continue };
+        let Some(close) = (at..all.len()).find(|index| word(*index) == "}") else { continue };
+        let word_end = place(at).end;
+        let has_gap = text.get(word_end..).is_some_and(|rest| rest.starts_with(char::is_whitespace));
+        let head = place(at).start..word_end + usize::from(has_gap);
+        let end = place(close).end;
+        let new = format!(";\nuniform {}", holder.structure);
+        added.push(end + longer + 2 - head.len());
+        longer = longer + new.len() - head.len();
+        edits.extend([(head, String::new()), (end..end, new)]);
+    }
+    (applied(text, edits), added)
 }
 
 /// The new names of members: the place of the declaration, the old name and the new one.
@@ -208,7 +239,27 @@ fn whole(text: &str, range: Range<usize>) -> Range<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Holder, split_text};
+    use super::{Holder, apart, split_text};
+
+    #[test]
+    fn structs_that_a_uniform_defines_come_before_it() {
+        let holder = |name: &str, structure: &str| Holder {
+            name: name.to_owned(),
+            structure: structure.to_owned(),
+            samplers: ["t".to_owned()].into(),
+            has_others: true,
+        };
+        let text = "uniform struct L { vec4 a; sampler2D t; } s;\nuniform struct M { vec4 a; sampler2D t; } m[2];\n\
+                    uniform struct N { float f; sampler2D t; } n;\n";
+        let (new, added) = apart(text, &[holder("s", "L"), holder("n", "N")]);
+        assert_eq!(
+            new,
+            "struct L { vec4 a; sampler2D t; };\nuniform L s;\nuniform struct M { vec4 a; sampler2D t; } m[2];\n\
+             struct N { float f; sampler2D t; };\nuniform N n;\n"
+        );
+        let after: Vec<&str> = added.iter().filter_map(|place| new.get(*place..)?.get(..9)).collect();
+        assert_eq!(after, ["uniform L", "uniform N"]);
+    }
 
     #[test]
     fn samplers_get_names_of_their_own() {

@@ -8,8 +8,9 @@ use super::chunks::Chunks;
 use super::conditions::{Conditions, Directive, Open, between, without_empty};
 use super::coordinates;
 use super::declarations::{Line, Moved, Text};
+use super::definitions::AllDefinitions;
 use super::dialect::{Dialect, HostBlock, Numbering};
-use super::facts::Fact;
+use super::facts::{Fact, spelled};
 use super::files::{File, Files};
 use super::layouts::{Layout, Layouts, block_name};
 use super::numbers::Numbers;
@@ -19,7 +20,7 @@ use super::style::{self, indent_of};
 use super::{Compiled, Key};
 use glisten_front::builtin::functions;
 use glisten_front::hir::{Global, Shader, Stage, Storage};
-use glisten_sources::engines::code::{is_name, without_comments};
+use glisten_sources::engines::code::without_comments;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// OpenGL's extension for includes.
@@ -41,6 +42,7 @@ pub(super) struct Plan<'a> {
     /// The included files that name `gl_FragCoord` and are read by those.
     pub(super) turned_parts: &'a BTreeSet<Key>,
     pub(super) qualifiers: &'a Qualifiers,
+    pub(super) definitions: &'a AllDefinitions,
     /// All words of all texts.
     pub(super) names: &'a BTreeSet<String>,
     /// The uniforms that the host has in blocks of its own, by their old names.
@@ -66,9 +68,7 @@ pub(super) fn foreign(
     let line = |(name, (offset, plain)): (&String, &(u32, Option<String>))| {
         let is_free = !names.contains(name.as_str()) && functions::named(name).is_empty();
         let ty = plain.as_ref().filter(|_| is_free)?;
-        // `vec4[2]` with the name before its sizes.
-        let (element, sizes) = ty.split_at(ty.find('[').unwrap_or(ty.len()));
-        Some((*offset, format!("{element} {name}{sizes}")))
+        Some((*offset, spelled(ty, name)))
     };
     others.map(line).collect()
 }
@@ -78,15 +78,18 @@ impl Plan<'_> {
     pub(super) fn rewritten(&self, key: &Key, file: &File) -> Result<(String, Vec<Note>), String> {
         let none = BTreeMap::new();
         let (chunks, conditions) = (Chunks::new(&file.text), Conditions::new(&file.text));
+        let definitions = self.definitions.of(&key.0, (&chunks, &conditions), self.files);
         let text = Text {
             name: &key.0,
             chunks: &chunks,
             conditions: &conditions,
+            definitions: &definitions,
             facts: self.facts.get(key).unwrap_or(&none),
             qualifiers: self.qualifiers.of(key),
             names: self.names,
             dialect: self.dialect,
             numbers: self.numbers,
+            is_turned: self.turned.contains(key),
         };
         let moved = text.moved()?;
         let mut edits: Vec<Edit> = Vec::new();
@@ -269,10 +272,7 @@ impl Plan<'_> {
         };
         let is_macro = |file: &File| {
             let conditions = Conditions::new(&file.text);
-            let names = |one: &Directive| {
-                one.word() == "define" && one.rest().split(|c: char| !is_name(c)).next() == Some(name)
-            };
-            conditions.list.iter().any(names)
+            conditions.list.iter().any(|one| one.word() == "define" && one.name() == name)
         };
         !self.programs.iter().flat_map(|one| &one.program.stages).any(in_stage)
             && !self.files.all.values().any(is_macro)
@@ -394,13 +394,11 @@ impl Plan<'_> {
             if !seen.insert(name) {
                 continue;
             }
-            let name = name.to_owned();
-            let mut texts = self.files.all.range((name.clone(), None)..).take_while(|((file, _), _)| *file == name);
+            let mut texts = self.files.all.range((name.to_owned(), None)..).take_while(|((file, _), _)| file == name);
             if texts.any(|(_, file)| goes_on(&without_comments(&file.text))) {
                 return true;
             }
-            let includes = self.files.includes.range((name.clone(), String::new())..);
-            open.extend(includes.take_while(|((from, _), _)| *from == name).map(|(_, to)| to.as_str()));
+            open.extend(self.files.included_by(name));
         }
         false
     }

@@ -7,6 +7,7 @@ use super::check::check;
 use super::chunks::Chunks;
 use super::conditions::Conditions;
 use super::coordinates;
+use super::definitions::AllDefinitions;
 use super::dialect::Dialect;
 use super::facts::{Fact, Facts, Refusal};
 use super::files::{File, Files};
@@ -203,6 +204,7 @@ fn rewritten(
     let names: BTreeSet<String> =
         files.all.values().flat_map(|file| tokens(&file.text)).map(|token| token.text.to_owned()).collect();
     let whole = whole(programs, &files, &facts, &layouts, dialect);
+    let definitions = AllDefinitions::new(&files);
     let plan = Plan {
         dialect,
         programs,
@@ -213,6 +215,7 @@ fn rewritten(
         turned: &turned,
         turned_parts: &turned_parts,
         qualifiers: &qualifiers,
+        definitions: &definitions,
         names: &names,
         known: &known,
         whole: &whole,

@@ -99,6 +99,7 @@ pub(crate) fn run(args: &PortArgs, console: &Console) -> Outcome {
     let pack = std::path::absolute(&args.pack).unwrap_or_else(|_| args.pack.clone());
     let inputs = inputs::collect(std::slice::from_ref(&pack), &args.programs, &sources, true)?;
     inputs.tell_empty_folders(console);
+    inputs.tell_without_stage(console);
     let mut session = Session::new(console, &sources, &BindingArgs::default(), &args.levels, 0)?;
     let mut ported = programs::ported(&mut session, inputs.groups, host, &sources, &pack)?;
     let host = &ported.host.clone();

@@ -112,6 +112,7 @@ pub(crate) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
     let scans = args.output.is_some() || args.in_place;
     let inputs = inputs::collect(&args.files, &args.programs, &args.sources, scans)?;
     inputs.tell_empty_folders(console);
+    inputs.tell_without_stage(console);
     let n_files: usize = inputs.groups.iter().map(|group| group.inputs.len()).sum();
     if n_files > 1 && args.output.is_none() && !args.in_place {
         let failure = Failure::usage("cannot write several files to standard output");

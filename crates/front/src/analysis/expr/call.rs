@@ -18,6 +18,7 @@ use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
 use crate::syntax::keywords::is_taken;
+use crate::syntax::of_later_word;
 use smallvec::SmallVec;
 use std::cmp::Reverse;
 
@@ -123,11 +124,12 @@ impl Analyzer<'_> {
         }
         let near = |this: &mut Self| Some(Advice::meant(this.nearest_function(spelling)?));
         let help = foreign.or_else(|| near(self));
-        self.report(
+        let finding =
             Diagnostic::new(&names::UNKNOWN_FUNCTION, name.span, format!("there is no function `{spelling}`"))
                 .here("not declared before this")
-                .maybe_help(help),
-        );
+                .maybe_help(help);
+        // The constructor of a type of later versions.
+        self.report(of_later_word(finding, spelling, self.ast.version));
         false
     }
 
@@ -142,7 +144,7 @@ impl Analyzer<'_> {
         for name in functions::names() {
             known.push(name);
         }
-        for name in keywords::constructors() {
+        for name in keywords::constructors(self.ast.version, self.extensions) {
             known.push(name);
         }
         if let Some(meant) = did_you_mean(spelling, known) {

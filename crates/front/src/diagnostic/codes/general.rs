@@ -65,7 +65,8 @@ codes! {
     NOT_CHECKED = "W0002" "not-checked" Note ""
         "`lint` found this file in a folder and did not check it on its own: it has no `#version` line and is not \
          GLSL 1.10, so its version is not known (`--assume-version`, or `assume_version` and `[[source]]` in \
-         `glisten.toml`, say it); or another file includes it, and it is checked there; or it is in another language. \
+         `glisten.toml`, say it); or it has a `main`, and its name does not tell its stage (`--stage`, or `stage` in a \
+         `[[source]]` table, says it); or another file includes it, and it is checked there; or it is in another language. \
          Name the file on the command line to see its errors. `--deny not-checked` makes such a file an error."
         bad Text("glisten lint shaders/"), good Text("glisten lint shaders/ --assume-version 330");
 }

@@ -1,6 +1,7 @@
 //! `unnormalized-direction`: the difference of two places as a direction in a cosine, with a vector of length 1.
 //!
-//! If the function takes the length of the difference anywhere, it may divide by it, and the rule is silent.
+//! If the function takes the length of the difference anywhere, it may divide by it, and the rule is silent. It is silent, too, if one side
+//! is a constant or a number: `2.0 * t.xyz - 1.0` decodes a direction.
 
 use super::super::range::is_unit;
 use super::super::{Findings, Place, Subject};
@@ -28,7 +29,10 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             _ => continue,
         };
         let meaning = place.meaning(long);
-        let is_difference = matches!(place.kind(meaning), ExprKind::Binary(BinaryOp::Sub, ..));
+        let is_difference = match place.kind(meaning) {
+            ExprKind::Binary(BinaryOp::Sub, a, b) => [*a, *b].into_iter().all(|side| is_place(place, side)),
+            _ => false,
+        };
         if !is_difference || !place.is_vector(long) || is_measured(place, meaning) {
             continue;
         }
@@ -41,6 +45,11 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
         let fix = text.and_then(|text| subject.texts.replace(Applicability::Unsafe, span, text));
         findings.push(finding.help("normalize it").maybe_fix(fix));
     }
+}
+
+/// Whether one side of a difference can be a place: a vector that the program computes.
+fn is_place(place: &Place<'_>, side: ExprId) -> bool {
+    place.is_vector(side) && place.value(place.meaning(side)).is_none()
 }
 
 /// Whether the function takes the length of a vector, or its product with itself, anywhere.

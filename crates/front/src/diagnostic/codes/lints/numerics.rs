@@ -119,7 +119,8 @@ lints! {
         "A cosine is computed with the difference of two places, which is as long as their distance. The light \
          becomes brighter with the distance."
         why
-        "If the length is taken anywhere in the function, the product may be divided by it, and the rule is silent."
+        "If the length is taken anywhere in the function, the product may be divided by it, and the rule is silent. A \
+         constant is not a place: `2.0 * t.xyz - 1.0` decodes a direction."
         bad Fragment(
             "in vec3 n; in vec3 p; uniform vec3 light; out vec4 c; void main() { c = vec4(max(dot(normalize(n), \
              light - p), 0.0)); }"),
