@@ -49,6 +49,20 @@ fn compiled(folder: &Folder) {
     assert_eq!(code(&folder.run(&["compile", "a.vert", "a.frag", "-o", "out", "-q"])), 0);
 }
 
+/// "If bits is zero, the result will be zero" (GLSL 4.00 §8.8), and with 32 bits the result is the value.
+#[test]
+fn fields_without_bits_and_whole_ones_are_defined() {
+    for bits in ["n", "n + 32"] {
+        let fragment = format!(
+            "#version 400\nin vec2 q;\nuniform int n;\nout vec4 c;\nvoid main() {{\n    int f = bitfieldExtract(-5, 0, {bits});\n    \
+             c = vec4(f == -5 ? 1.0 : f == 0 ? 0.5 : 0.0, bitfieldInsert(3, 1, 0, {bits}) == 3 ? 1.0 : 0.25, q.x, 1.0);\n}}\n"
+        );
+        let (code, json) = verify(&quad(1, &fragment), &[]);
+        assert_eq!((code, count(&json, "undefined")), (0, 0), "{bits}: {json:#}");
+        assert!(count(&json, "judged") > 0, "{json:#}");
+    }
+}
+
 #[test]
 fn a_pixel_on_an_inner_edge_is_judged_by_its_owners() {
     let folder = quad(64, GRADIENT);

@@ -348,6 +348,40 @@ fn words_of_a_later_version_get_an_underscore_in_both_stages() {
 }
 
 #[test]
+fn a_label_at_the_end_of_a_switch_has_a_statement() {
+    let program = pair(
+        "in vec4 p; void main() { gl_Position = p; }",
+        "uniform int k; out vec4 c; void main() { float r = 1.0; switch (k) { case 0: r = 2.0; case 1: ; } c = vec4(r); }",
+    );
+    for version in VERSIONS {
+        let text = glsl(&program, Stage::Fragment, version);
+        assert!(text.contains("    case 1:\n        break;\n    }\n"), "{text}");
+        validate(&[("label".to_owned(), Stage::Fragment, text)], "glsl", &[], 1);
+    }
+}
+
+#[test]
+fn a_comparison_in_another_level_is_told_with_its_own_remedy() {
+    for (call, remedy) in [
+        ("texture(s, p, 1.0)", Some("leave the bias out")),
+        ("textureLod(s, p, 1.0)", Some("use level 0.0, or `texture` for the implicit level")),
+        ("textureGrad(s, p, p.xy, p.xy)", Some("leave the derivatives out")),
+        ("texture(s, p)", None),
+        ("textureLod(s, p, 0.0)", None),
+    ] {
+        let text = format!(
+            "#version 150\nuniform sampler2DShadow s; in vec3 p; out vec4 c; void main() {{ c = vec4({call}); }}"
+        );
+        let source = Source { name: "a.frag".into(), text: text.into(), stage: Stage::Fragment };
+        let program = compiler().compile(&[source]).program.expect("it compiles");
+        let notes = glisten_emit::notes(&program, &Conventions::default());
+        let found: Vec<(&str, Option<&str>)> = notes.iter().map(|note| (note.code.id, note.help.as_deref())).collect();
+        let expected: Vec<_> = remedy.into_iter().map(|remedy| ("W0802", Some(remedy))).collect();
+        assert_eq!(found, expected, "{call}");
+    }
+}
+
+#[test]
 fn webgl_2_refuses_what_it_lacks_with_a_way_out() {
     let conventions = Conventions { glsl_version: GlslVersion::Es300, ..Conventions::default() };
     let rows = [
@@ -360,6 +394,31 @@ fn webgl_2_refuses_what_it_lacks_with_a_way_out() {
             "samplerBuffer",
         ),
         (Stage::Fragment, "out vec4 c; void main() { c = vec4(gl_PrimitiveID); }", "gl_PrimitiveID"),
+        (
+            Stage::Vertex,
+            "out B { vec4 c; } b[2]; void main() { b[1].c = gl_Position = vec4(1.0); }",
+            "arrays of blocks",
+        ),
+        (
+            Stage::Vertex,
+            "struct S { float b[2]; }; out S s; void main() { s.b[0] = 1.0; gl_Position = vec4(1.0); }",
+            "structs with arrays",
+        ),
+        (
+            Stage::Vertex,
+            "struct S { float b; }; out S s[2]; void main() { s[0].b = 1.0; gl_Position = vec4(1.0); }",
+            "arrays of structs",
+        ),
+        (
+            Stage::Fragment,
+            "uniform int n; out vec4 c[2]; void main() { c[n] = vec4(1.0); }",
+            "index of a fragment output",
+        ),
+        (
+            Stage::Fragment,
+            "void f(out int a) { a = 7; } out vec4 c; void main() { float x; f(x); c = vec4(x); }",
+            "implicit conversion",
+        ),
     ];
     for (stage, body, what) in rows {
         let source = Source { name: "a".into(), text: format!("#version 150\n{body}").into(), stage };

@@ -33,6 +33,25 @@ fn lines_for_people_follow_the_text() {
     insta::assert_snapshot!("trace_vertex", told(&["--vertex", "3", "--all"]));
 }
 
+/// A value that the next line happens to have, too, keeps its own.
+#[test]
+fn equal_values_on_different_lines_are_all_told() {
+    let scene = "[framebuffer]\nwidth = 2\nheight = 2\n\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nvertex_count = 3\n\n\
+                 [draw.uniforms]\nn = 1\n";
+    let vertex =
+        "#version 330\nvoid main() { gl_Position = vec4(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 * 4 - 1, 0, 1); }\n";
+    let fragment = "#version 330\nuniform int n;\nout vec4 o;\nint g = 0;\nvoid main() {\n    int w = 9;\n    w = n % 3;\n    g++;\n    \
+                    w = n + 0;\n    int y = 1;\n    bool b = n > 5 || g > 0;\n    o = vec4(w, g, y, b);\n}\n";
+    let files = [("a.toml", scene.as_bytes()), ("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes())];
+    let folder = Folder::new(&files);
+    let run = folder.run(&["trace", "a.toml", "--pixel", "1,1"]);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    let said = out(&run);
+    for part in [" 7:5  w = n % 3 ", " 9:5  w = n + 0 ", "g > 0 "] {
+        assert!(said.contains(part), "no `{part}` in:\n{said}");
+    }
+}
+
 #[test]
 fn json_has_places_values_and_intervals() {
     let found = json(&["--pixel", "30,24"]);

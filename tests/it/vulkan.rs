@@ -149,6 +149,36 @@ fn names_that_mean_something_else_in_the_other_stage() {
     );
 }
 
+/// The interface packs parts of variables next to each other; a whole variable has one location.
+#[test]
+fn varyings_that_are_packed_have_locations_as_wholes() {
+    let shared = |way: &str| format!("{way} S s; {way} vec3 q[2]; {way} mat3 m; {way} float f[3]; {way} vec4 pad[7];");
+    let [vertex, fragment] = taken(
+        &format!(
+            "struct S {{ float a; float b; float c; float d; }}; in vec4 p; {}\n\
+             void main() {{ gl_Position = p; s = S(1.0, 2.0, 3.0, 4.0); q[0] = q[1] = p.xyz; m = mat3(1.0); f[0] = f[1] = f[2] = 1.0;\n\
+             for (int i = 0; i < 7; i++) pad[i] = p; }}",
+            shared("out")
+        ),
+        &format!(
+            "struct S {{ float a; float b; float c; float d; }}; {} out vec4 o;\n\
+             void main() {{ o = vec4(s.a, s.b, s.c, s.d) + q[0].x + q[1].y + m[2].z + f[1] + pad[6]; }}",
+            shared("in")
+        ),
+    );
+    // Both stages have the same.
+    let places = |text: &str, way: &str| {
+        let lines =
+            text.lines().filter(|line| line.starts_with("layout(location") && line.contains(&format!(") {way} ")));
+        let mut places: Vec<String> = lines.map(|line| line.replace(&format!(") {way} "), ") ")).collect();
+        places.retain(|line| !line.contains("vec4 p;") && !line.contains("vec4 o;"));
+        places.sort();
+        places
+    };
+    assert_eq!(places(&vertex, "out"), places(&fragment, "in"), "{vertex}\n{fragment}");
+    assert_eq!(places(&vertex, "out").len(), 5, "{vertex}");
+}
+
 #[test]
 fn functions_that_glslang_knows_get_other_names() {
     let [vertex, fragment] = taken(

@@ -267,10 +267,7 @@ impl Account<'_> {
                 stmt.kind.exprs().into_iter().for_each(|expr| self.operands(shader, expr));
                 self.statements(shader, body, kept);
             }
-            StmtKind::Break | StmtKind::Continue | StmtKind::Return(None) => {}
-            StmtKind::Local(local, None) => {
-                let _ = local;
-            }
+            StmtKind::Break | StmtKind::Continue | StmtKind::Return(None) | StmtKind::Local(_, None) => {}
             _ if kept.contains(&stmt.span) => {
                 stmt.kind.exprs().into_iter().for_each(|expr| self.operands(shader, expr))
             }

@@ -5,7 +5,7 @@
 
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::builtin::functions::Row;
-use glisten_front::hir::{ExprId, ExprKind, Notes, Shader, Stage, Stmt, StmtKind, TypeId, Types, print_with};
+use glisten_front::hir::{ExprId, ExprKind, Notes, Shader, Stage, TypeId, Types, print_with};
 use glisten_front::language::{Profile, Version};
 use glisten_front::source::comments::{self, AroundBody};
 use glisten_front::source::{SourceMap, Span};
@@ -18,7 +18,6 @@ const MARK: &str = "//\u{1}";
 pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>) -> (String, Vec<Span>) {
     let mut shader = shader.clone();
     shader.version = language(&shader);
-    shader.functions.iter_mut().filter_map(|function| function.body.as_mut()).for_each(|body| close_switches(body));
     let comments = Comments { sources, marks: RefCell::default() };
     let marked = print_with(types, &shader, Some(&comments));
     let marks = comments.marks.into_inner();
@@ -39,26 +38,6 @@ pub(crate) fn write(types: &Types, shader: &Shader, sources: Option<&SourceMap>)
         lines.push(Span::default());
     }
     (text, lines)
-}
-
-/// Writes a `break` where a `switch` would end with a label alone, which needs a statement after it (GLSL 1.50 §6.2).
-fn close_switches(body: &mut [Stmt]) {
-    for Stmt { kind, span } in body {
-        match kind {
-            StmtKind::Block(body) | StmtKind::Loop { body, .. } => close_switches(body),
-            StmtKind::If { arms, otherwise } => {
-                arms.iter_mut().for_each(|(_, body)| close_switches(body));
-                close_switches(otherwise);
-            }
-            StmtKind::Switch { cases, .. } => {
-                cases.iter_mut().for_each(|case| close_switches(&mut case.body));
-                if let Some(last) = cases.last_mut().filter(|last| last.body.is_empty()) {
-                    last.body.push(Stmt { kind: StmtKind::Break, span: *span });
-                }
-            }
-            _ => {}
-        }
-    }
 }
 
 /// The comments at the end of the file that `main` is in.

@@ -173,9 +173,7 @@ fn is_one_paragraph(text: &str, from: usize, to: usize) -> bool {
     let between = text.get(from..to).unwrap_or("");
     // The last line goes on at `to`.
     let whole = between.rfind('\n').map_or("", |end| between.get(..end).unwrap_or(""));
-    between.is_empty()
-        || whole.is_empty() && !between.starts_with('\n')
-        || whole.lines().all(|line| !line.trim().is_empty())
+    whole.lines().all(|line| !line.trim().is_empty())
 }
 
 fn above(body: &mut Body<'_>, target: Candidate, lines: &[String]) {
