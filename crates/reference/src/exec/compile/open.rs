@@ -1,13 +1,15 @@
-//! Constants whose value the language leaves undefined: `const int a = 7 / 0` (GLSL 1.50 §5.9).
+//! Constants whose value the language leaves open: `const int a = 7 / 0` is undefined (GLSL 1.50 §5.9), and implementations choose
+//! the direction of `round(0.5)` (§8.3).
 //!
 //! *In:* the initializer of a constant. *Out:* whether to compile it, as any other expression, in place of its folded value.
-//! *Holds:* folding gives an undefined operation one value; only the operation itself tells a domain that any would do.
+//! *Holds:* folding gives such an operation one value; only the operation itself tells a domain which others would do.
 
 use super::Compiler;
+use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, Scalar, ScalarValue};
 
 impl Compiler<'_> {
-    /// Whether an initializer contains an operation on integers that may be undefined, or a constant of such a value.
+    /// Whether an initializer contains an operation on integers that may be undefined, a `round`, or a constant of such a value.
     pub(super) fn is_open(&self, init: ExprId) -> bool {
         let mut left = vec![init];
         while let Some(id) = left.pop() {
@@ -15,6 +17,7 @@ impl Compiler<'_> {
             let opens = match kind {
                 ExprKind::Var(place) => self.var_of(*place).is_some_and(|var| self.open.contains(&var)),
                 ExprKind::Binary(operator, a, b) => self.is_on_integers(*a) && self.may_be_undefined(*operator, *b),
+                ExprKind::BuiltinCall(function, _) => *function == BuiltinFunction::Round,
                 _ => false,
             };
             if opens {

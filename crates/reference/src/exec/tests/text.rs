@@ -208,6 +208,15 @@ fn a_constant_of_an_undefined_operation_is_open() {
 }
 
 #[test]
+fn a_constant_half_is_rounded_either_way() {
+    let of =
+        |value: &str| reds(&format!("const float a = {value} + 1.0; void main() {{ o = vec4(a); }}"), |_, _| 0.0)[0];
+    assert_eq!(of("round(0.5)"), (1.0, 2.0));
+    assert_eq!(of("round(0.25)"), (1.0, 1.0));
+    assert_eq!(of("roundEven(0.25)"), (1.0, 1.0));
+}
+
+#[test]
 fn both_ways_of_an_open_branch_are_run() {
     let body =
         "in float a; void main() { float third = a / 3.0; if (third * 3.0 < 1.0) o = vec4(2); else o = vec4(3); }";
