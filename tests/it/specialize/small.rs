@@ -142,6 +142,26 @@ fn a_part_is_chosen_before_its_value_is_computed() {
     }
 }
 
+/// What was stored before is what a `return` gives.
+#[test]
+fn a_round_or_a_case_may_leave_the_function() {
+    all_draw_the_same(&[
+        small(
+            "void main() { color = vec4(0.25); for (int i = 0; i < 3; i++) { if (v.x > float(i) * 0.5) return; } color = vec4(v, 1.0, 1.0); }",
+        ),
+        small(
+            "void main() { color = vec4(0.25); int i = 0; do { if (i > index()) return; color.x = 0.5; color = vec4(0.75 * v.x); i++; } while (i < 4); color = vec4(1.0); }",
+        ),
+        small(
+            "void main() { color = vec4(0.25); switch (index()) { case 1: return; case 2: color = vec4(0.5); return; } color = vec4(v, 1.0, 1.0); }",
+        ),
+        small(
+            "void f(out vec4 a) { a = vec4(0.25); while (v.y > 0.0) { if (v.x > 0.0) return; a = vec4(0.5); break; } a = vec4(v, 1.0, 1.0); }\n\
+             void main() { f(color); }",
+        ),
+    ]);
+}
+
 #[test]
 fn a_switch_whose_last_case_does_nothing_is_still_one() {
     all_draw_the_same(&[small(

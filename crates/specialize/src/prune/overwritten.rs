@@ -251,6 +251,10 @@ impl Walk<'_> {
         if let StmtKind::Loop { condition: Some(condition), .. } = kind {
             condition.local.into_iter().for_each(|local| live.insert(local.index()));
         }
+        // Any round, or any case, may leave the function.
+        if returns(kind) {
+            live.extend(&self.end);
+        }
     }
 
     /// Whether evaluating it does nothing else.
@@ -261,4 +265,16 @@ impl Walk<'_> {
         });
         plain
     }
+}
+
+/// Whether a statement may leave the function.
+fn returns(kind: &StmtKind) -> bool {
+    let mut pending = vec![kind];
+    while let Some(kind) = pending.pop() {
+        if matches!(kind, StmtKind::Return(_)) {
+            return true;
+        }
+        pending.extend(kind.bodies().into_iter().flatten().map(|stmt| &stmt.kind));
+    }
+    false
 }
