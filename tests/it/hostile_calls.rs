@@ -12,13 +12,14 @@ const FRAGMENT: &str =
 const SCENE: &str = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nINSTANCES\
     [draw.attributes]\np = { size = 3, values = [-1, -1, 0, 3, -1, 0, -1, 3, 0] }\n[draw.uniforms]\nu = 0.5\n";
 
-/// A folder with a scene of one draw, and one whose draw has four million instances.
+/// A folder with a scene of one draw, one whose picture is large, and one whose draw has four million instances.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let files = [
         ("a.vert", VERTEX.to_owned()),
         ("a.frag", FRAGMENT.to_owned()),
         ("a.toml", SCENE.replace("INSTANCES", "")),
+        ("large.toml", SCENE.replace("INSTANCES", "").replace("= 8\n", "= 256\n")),
         ("long.toml", SCENE.replace("INSTANCES", "instances = 4194304\n")),
     ];
     for (name, text) in files {
@@ -53,7 +54,7 @@ fn timeout_ends_each_command() {
         assert!(start.elapsed() < Duration::from_secs(30), "{command}: {:?}", start.elapsed());
     }
     let start = Instant::now();
-    let (_, _, said) = run(folder.path(), "stability a.toml --sweep u=0..1e6:4000 --timeout 1");
+    let (_, _, said) = run(folder.path(), "stability large.toml --sweep u=0..1e6:4000 --timeout 1");
     assert!(start.elapsed() < Duration::from_secs(30), "{:?}: {said}", start.elapsed());
     assert!(said.contains("`--timeout` gives more time"), "{said}");
 }
