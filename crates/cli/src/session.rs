@@ -26,6 +26,7 @@ use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding, Scope};
 use glisten_front::diagnostic::{Applicability, Code, Diagnostic, Level, Severity};
 use glisten_front::hir::Stage;
+use glisten_front::link::COLOR_NUMBER;
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap, Span};
 use glisten_sources::engines;
@@ -356,11 +357,12 @@ fn keep_bindings_that_fit_nowhere(units: &mut [(Unit, usize)]) {
     let with_stage = |stage: Stage| {
         units.iter().filter(|(unit, _)| unit.group.inputs.iter().any(|input| input.stage == stage)).count()
     };
+    let of_output = format!("a {COLOR_NUMBER} ");
     let (vertex, fragment) = (with_stage(Stage::Vertex), with_stage(Stage::Fragment));
     for (unit, _) in units {
         unit.batch.diagnostics.retain(|found| {
             // The first one stays, if it is one of as many as there are programs with the stage.
-            let whole = if found.message.starts_with("a color number") { fragment } else { vertex };
+            let whole = if found.message.starts_with(&of_output) { fragment } else { vertex };
             let count = counts.get_mut(&found.message).filter(|_| is_one(found));
             count.is_none_or(|count| std::mem::replace(count, 0) == whole)
         });

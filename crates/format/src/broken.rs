@@ -3,10 +3,8 @@
 use super::{Formatted, MOST_PASSES, Options, format};
 use glisten_front::Stage;
 use glisten_front::compiler::{self, Compiler, Source};
+use glisten_front::diagnostic::Area;
 use std::ops::Range;
-
-/// The codes of the grammar.
-const SYNTAX: &str = "E02";
 
 /// A text in the style of the options. Formatting the result changes nothing: which places of a wrong text do not parse depends on its
 /// lines, so it is formatted until it stays the same, and kept if it never does.
@@ -46,6 +44,6 @@ fn broken(text: &str, stage: Stage) -> Vec<Range<usize>> {
     let in_text = |range: Range<usize>| {
         (range.start >= base && range.end <= base + text.len()).then(|| range.start - base..range.end - base)
     };
-    let errors = compilation.diagnostics.iter().filter(|one| one.is_error() && one.code.id.starts_with(SYNTAX));
+    let errors = compilation.diagnostics.iter().filter(|one| one.is_error() && one.code.area() == Area::Syntax);
     errors.filter_map(|one| in_text(one.primary.span.start as usize..one.primary.span.end as usize)).collect()
 }

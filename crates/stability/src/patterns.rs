@@ -4,7 +4,7 @@
 //! it harms is measured elsewhere.
 
 use glisten_front::builtin::BuiltinFunction;
-use glisten_front::hir::{BinaryOp, ExprId, ExprKind, ScalarValue, Shader, Type, Types, UnaryOp};
+use glisten_front::hir::{BinaryOp, ExprId, ExprKind, ScalarValue, Shader, Type, Types, UnaryOp, same_value};
 use glisten_front::source::Span;
 
 /// A form of expression that is known to be unstable.
@@ -139,9 +139,9 @@ fn is_matrix(types: &Types, shader: &Shader, id: ExprId) -> bool {
 /// The operand of `x * x`, `pow(x, 2)` or `dot(x, x)`.
 fn square(shader: &Shader, id: ExprId) -> Option<ExprId> {
     match &shader.expr(id).kind {
-        ExprKind::Binary(BinaryOp::Mul, a, b) if same(shader, *a, *b) => Some(*a),
+        ExprKind::Binary(BinaryOp::Mul, a, b) if same_value(shader, *a, *b) => Some(*a),
         ExprKind::BuiltinCall(BuiltinFunction::Dot, list) => match list.as_slice() {
-            [a, b] if same(shader, *a, *b) => Some(*a),
+            [a, b] if same_value(shader, *a, *b) => Some(*a),
             _ => None,
         },
         ExprKind::BuiltinCall(BuiltinFunction::Pow, list) => {
@@ -156,29 +156,4 @@ fn square(shader: &Shader, id: ExprId) -> Option<ExprId> {
 fn has_difference(shader: &Shader, id: ExprId) -> bool {
     let children = shader.expr(id).kind.children();
     children.iter().any(|child| matches!(shader.expr(*child).kind, ExprKind::Binary(BinaryOp::Sub, ..)))
-}
-
-/// Whether two expressions have the same form, so that they have the same value if they have no effects.
-fn same(shader: &Shader, a: ExprId, b: ExprId) -> bool {
-    let (mut left, mut right) = (vec![a], vec![b]);
-    while let (Some(a), Some(b)) = (left.pop(), right.pop()) {
-        let (a, b) = (&shader.expr(a).kind, &shader.expr(b).kind);
-        let alike = match (a, b) {
-            (ExprKind::Var(a), ExprKind::Var(b)) => a == b,
-            (ExprKind::Literal(a), ExprKind::Literal(b)) => a == b,
-            (ExprKind::Member(_, a), ExprKind::Member(_, b)) => a == b,
-            (ExprKind::Swizzle(_, a), ExprKind::Swizzle(_, b)) => a == b,
-            (ExprKind::Unary(a, _), ExprKind::Unary(b, _)) => a == b,
-            (ExprKind::Binary(a, ..), ExprKind::Binary(b, ..)) => a == b,
-            (ExprKind::BuiltinCall(a, _), ExprKind::BuiltinCall(b, _)) => a == b,
-            (ExprKind::Convert(_), ExprKind::Convert(_)) | (ExprKind::Index(..), ExprKind::Index(..)) => true,
-            _ => false,
-        };
-        if !alike {
-            return false;
-        }
-        left.extend(a.children());
-        right.extend(b.children());
-    }
-    left.len() == right.len()
 }

@@ -6,6 +6,7 @@
 
 use super::judge::{compile, files, line_of, stage_of, text_of};
 use super::{Finding, Outcome};
+use glisten_front::diagnostic::Area;
 use glisten_front::{Diagnostic, Stage};
 use std::collections::BTreeSet;
 use std::io;
@@ -92,7 +93,7 @@ impl Judged {
                 }
                 emptied |= empty(&mut lines, line);
             }
-            counts &= errors.iter().all(|error| error.code.id.starts_with("E01") || error.code.id.starts_with("E02"));
+            counts &= errors.iter().all(|error| matches!(error.code.area(), Area::Preprocess | Area::Syntax));
             if !emptied {
                 break;
             }

@@ -7,24 +7,23 @@ use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::preprocess::{LATE_VERSION, MISSING_VERSION, UNSUPPORTED_EXTENSION};
 use crate::diagnostic::codes::qualifiers::{MISSING_PRECISION, UNKNOWN_LAYOUT};
 use crate::diagnostic::codes::types::UNSIZED_ARRAY;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::syntax::NOT_FIRST;
+use crate::diagnostic::{Area, Code, Diagnostic, Diagnostics};
+use crate::source::Span;
 
 /// How many bytes the qualifiers before a keyword take at most.
 const QUALIFIERS: u32 = 64;
 
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
 /// other errors but those of tokens before the place that shows it, after an unsupported feature or
-/// extension those of the syntax and the meaning of the text.
-pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
-    let is_late = |found: &&Diagnostic| *found.code == LATE_VERSION;
-    if let Some(line) = diagnostics.iter().skip(first).find(is_late) {
+/// extension those of the syntax and the meaning of the text. `late` is a `#version` line that tokens come before.
+pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<Span>) {
+    if diagnostics.iter().skip(first).any(|found| *found.code == LATE_VERSION) {
         // There is a `#version` line, and what comes before it was read without.
-        let before = if line.message == NOT_FIRST { line.primary.span.start } else { 0 };
+        let before = late.map_or(0, |line| line.start);
         let mut index = 0;
         diagnostics.retain_mut(|found| {
             index += 1;
-            let is_syntax = found.code.id.starts_with("E02") && found.primary.span.start < before;
+            let is_syntax = found.is_error() && found.code.area() == Area::Syntax && found.primary.span.start < before;
             let is_precision = *found.code == MISSING_PRECISION && before > 0;
             index <= first || !(is_syntax || is_precision || *found.code == MISSING_VERSION)
         });
@@ -51,19 +50,20 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize) {
         }
         if version.is_some() {
             // What is wrong with the tokens before is so in every version.
-            let is_of_tokens =
-                matches!(diagnostic.code.id.get(..3), Some("E01" | "E02")) && *diagnostic.code != MISSING_VERSION;
+            let is_of_tokens = matches!(diagnostic.code.area(), Area::Preprocess | Area::Syntax)
+                && *diagnostic.code != MISSING_VERSION;
             return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
         }
         if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
             // What is of a feature has no type here, so that an error of types does not follow from it. Arrays without a size are
             // of storage blocks, and of extensions.
-            let follows = matches!(diagnostic.code.id.get(..3), Some("E02" | "E03" | "E06"))
+            let follows = matches!(diagnostic.code.area(), Area::Syntax | Area::Names | Area::Qualifiers)
                 || *diagnostic.code == UNSIZED_ARRAY
-                || is_extension && matches!(diagnostic.code.id.get(..3), Some("E04" | "E05"));
+                || is_extension && matches!(diagnostic.code.area(), Area::Types | Area::Statements);
             // A layout that is not known may be of the feature's declaration, and what is just before it is its qualifiers.
             let own = diagnostic.primary.span;
-            let is_qualifier = diagnostic.code.id.starts_with("E06") && start.saturating_sub(own.start) < QUALIFIERS;
+            let is_qualifier =
+                diagnostic.code.area() == Area::Qualifiers && start.saturating_sub(own.start) < QUALIFIERS;
             let is_layout = *diagnostic.code == UNKNOWN_LAYOUT || is_qualifier;
             return !follows || (own.start < start && !is_layout);
         }

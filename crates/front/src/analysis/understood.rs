@@ -11,7 +11,7 @@
 //! skipped them, so their absence means nothing.
 
 use crate::diagnostic::codes::preprocess::ILLEGAL_CHARACTER;
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Area, Diagnostic, Diagnostics};
 use crate::hir::{ArraySize, Global, Shader, Storage, Type, TypeId, Types};
 use crate::source::{SourceMap, Span};
 
@@ -73,9 +73,8 @@ impl<'a> Text<'a> {
         let mut doubted = vec![false; self.declarations.len()];
         for error in errors {
             let at = self.sources.call_site(error.primary.span);
-            let phase = error.code.id.get(1..3);
-            let is_character = *error.code == ILLEGAL_CHARACTER;
-            if !at.is_known() || phase == Some("00") || (phase == Some("01") && !is_character) {
+            let is_of_line = error.code.area() == Area::Preprocess && *error.code != ILLEGAL_CHARACTER;
+            if !at.is_known() || error.code.area() == Area::General || is_of_line {
                 return Suspicion::Everything;
             }
             if self.is_in_body(at) {

@@ -13,7 +13,7 @@ pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 use crate::analysis::{analyze, analyze_with_notes, keep_decisive, keep_language, keep_understood, point_to_engine};
 use crate::diagnostic::codes::general::TOO_LARGE;
 use crate::diagnostic::codes::{names, preprocess};
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Levels};
+use crate::diagnostic::{Area, Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Origin, Stage, Types};
 use crate::index::{Inspection, View};
 use crate::link::{Bindings, FixedState, Program, Understood, check_understood, link};
@@ -292,7 +292,7 @@ impl Compiler {
         let is_complete = !keep_understood(&ast, &mut shader, types, map, diagnostics, first_error);
         forget_names_of_missing_includes(map, diagnostics, first_error);
         keep_language(diagnostics, map, first_error);
-        keep_decisive(diagnostics, first_error);
+        keep_decisive(diagnostics, first_error, ast.late_version);
         point_to_engine(&shader, diagnostics, first_error);
         if let (Some((shader, notes)), Some(observer)) = (noted, &mut facts.observer)
             && let Some(slot) = observer.views.last_mut()
@@ -337,7 +337,7 @@ impl Facts<'_> {
 fn note_that_nothing_is_compared(diagnostics: &mut Diagnostics) {
     let mut is_told = false;
     diagnostics.retain_mut(|found| {
-        if found.is_error() && found.code.id.starts_with("E02") && !is_told {
+        if found.is_error() && found.code.area() == Area::Syntax && !is_told {
             is_told = true;
             found.notes.push("what is declared there is not compared with the other stage yet".to_owned());
         }

@@ -19,7 +19,7 @@ mod sink;
 pub mod write;
 
 pub use advice::{Advice, Place};
-pub use codes::{Code, Example, Key};
+pub use codes::{Area, Code, Example, Key};
 pub use fix::{Applicability, Edit, Fix};
 pub use group::{Fixable, Group, LintInfo};
 pub use levels::{Level, Levels, allows};

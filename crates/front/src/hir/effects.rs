@@ -44,13 +44,20 @@ pub fn written_by(shader: &Shader, expr: ExprId, f: &mut dyn FnMut(ExprId)) {
     }
 }
 
-/// Whether an expression itself does more than give a value: it writes, emits, or calls a function of the shader, which may.
+/// Whether evaluating an expression, with all its operands, does nothing but give a value.
+pub fn is_pure(shader: &Shader, root: ExprId) -> bool {
+    let mut pure = true;
+    shader.visit_expr(root, &mut |expr| pure &= !may_act(&shader.expr(expr).kind));
+    pure
+}
+
+/// Whether an expression itself does more than give a value: it writes, emits, or calls a function of the shader, which may. One that has an
+/// error may do anything.
 pub fn may_act(kind: &ExprKind) -> bool {
     match kind {
-        ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) => true,
+        ExprKind::Error | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) => true,
         ExprKind::BuiltinCall(function, _) => function.has_effects(),
-        ExprKind::Error
-        | ExprKind::Literal(_)
+        ExprKind::Literal(_)
         | ExprKind::Var(_)
         | ExprKind::Member(..)
         | ExprKind::Index(..)

@@ -15,6 +15,7 @@ mod handles;
 mod members;
 mod print;
 mod reach;
+mod same;
 mod shader;
 mod stmt;
 mod value;
@@ -25,11 +26,12 @@ pub use crate::language::{
     ArraySize, Interpolation, MatrixLayout, Member, MemberPlace, ParamMode, SamplerDim, SamplerType, Sampling, Scalar,
     Stage, Storage, StructId, StructType, Type, TypeId, Types,
 };
-pub use effects::{may_act, written_by};
+pub use effects::{is_pure, may_act, written_by};
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
 pub use handles::{FunctionId, GlobalId, LocalId};
 pub use members::MembersRead;
 pub use print::{Notes, print, print_with};
+pub use same::{same_form, same_value};
 pub use shader::{
     BlockInfo, BlockLayout, DepthMode, FragCoordLayout, Function, GeometryLayout, Global, Local, LocalKind, Origin,
     PerVertexOut, PrimitiveIn, PrimitiveOut, Shader,

@@ -30,6 +30,14 @@ impl Hash for ScalarValue {
 }
 
 impl ScalarValue {
+    /// Whether two scalars have the same type and bits: zeros of both signs differ, and a NaN is the same as itself.
+    pub fn is_same(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Float(a), Self::Float(b)) => a.to_bits() == b.to_bits(),
+            _ => self == other,
+        }
+    }
+
     /// The type.
     pub fn scalar(self) -> Scalar {
         match self {

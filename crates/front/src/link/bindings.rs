@@ -10,6 +10,9 @@ use crate::diagnostic::codes::link::{BINDING_REFUSED, BINDING_WITHOUT_VARIABLE};
 use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::hir::{Global, Shader, Stage, Storage};
 
+/// The word for the numbers of fragment outputs, with which a message about such a binding begins.
+pub const COLOR_NUMBER: &str = "color number";
+
 /// A kind of variable whose locations a host binds.
 struct Bindable {
     call: &'static str,
@@ -36,7 +39,7 @@ const OUTPUTS: Bindable = Bindable {
     stage: Stage::Fragment,
     storage: Storage::Out,
     noun: "fragment output",
-    number: "color number",
+    number: COLOR_NUMBER,
     limit: MAX_DRAW_BUFFERS,
 };
 

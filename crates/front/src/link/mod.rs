@@ -60,6 +60,7 @@ mod uniforms;
 pub mod usage;
 mod varyings;
 
+pub use bindings::COLOR_NUMBER;
 pub use fixed::FixedState;
 pub use layout::{MAX_BLOCK_BYTES, std140};
 pub use matching::partners;

@@ -4,10 +4,8 @@
 //! *Holds:* what is not certain changes.
 
 use super::subject::Place;
-use super::uses::{has_no_effect, is_plain};
 use crate::builtin::BuiltinFunction as B;
-use crate::hir::written_by;
-use crate::hir::{Condition, ExprId, ExprKind, Stmt, StmtKind, Storage, VarRef};
+use crate::hir::{Condition, ExprId, ExprKind, Stmt, StmtKind, Storage, VarRef, may_act, written_by};
 use rustc_hash::FxHashSet;
 
 /// How often a value changes.
@@ -47,7 +45,7 @@ pub(super) fn rate(place: &Place<'_>, root: ExprId) -> Rate {
                 None => Rate::Invocation,
             },
             ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Error => Rate::Invocation,
-            ExprKind::BuiltinCall(function, _) if !is_plain(*function) => Rate::Invocation,
+            ExprKind::BuiltinCall(function, _) if !function.follows_from_arguments() => Rate::Invocation,
             _ => Rate::Constant,
         };
         rate = rate.max(own);
@@ -100,9 +98,7 @@ impl Changing {
                     fixed || !self.calls && !self.variables.contains(variable)
                 }
                 ExprKind::Var(variable) => !self.variables.contains(variable),
-                ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Error => false,
-                ExprKind::BuiltinCall(function, _) => has_no_effect(*function),
-                _ => true,
+                kind => !may_act(kind),
             };
         });
         same

@@ -7,7 +7,9 @@ use super::interval::Range;
 use super::texts::Texts;
 use super::uses::{self, LocalUse};
 use crate::fold;
-use crate::hir::{Expr, ExprId, ExprKind, Function, GlobalId, LocalId, Shader, Stmt, Type, Types, Value, VarRef};
+use crate::hir::{
+    Expr, ExprId, ExprKind, Function, GlobalId, LocalId, Shader, Stmt, Type, Types, Value, VarRef, same_value,
+};
 use crate::link::Program;
 use crate::source::{SourceMap, Span};
 use crate::syntax::Lexemes;
@@ -176,6 +178,6 @@ impl<'a> Place<'a> {
 
     /// Whether two expressions compute the same, by their form.
     pub(super) fn same(&self, a: ExprId, b: ExprId) -> bool {
-        uses::same(self.shader, a, b)
+        same_value(self.shader, a, b)
     }
 }

@@ -2,10 +2,9 @@
 //!
 //! *In:* the statements of a function. *Out:* a [`LocalUse`] for each local.
 
-use crate::builtin::BuiltinFunction;
-use crate::builtin::operations::Class;
-use crate::hir::written_by;
-use crate::hir::{BinaryOp, ExprId, ExprKind, Function, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef};
+use crate::hir::{
+    BinaryOp, ExprId, ExprKind, Function, GlobalId, ParamMode, Shader, Stmt, StmtKind, VarRef, same_value, written_by,
+};
 use rustc_hash::FxHashSet;
 
 /// The uses of a local.
@@ -154,65 +153,6 @@ fn mark(
     }
 }
 
-/// Whether evaluating an expression does nothing but give a value.
-pub(super) fn is_pure(shader: &Shader, root: ExprId) -> bool {
-    let mut pure = true;
-    shader.visit_expr(root, &mut |expr| {
-        pure &= match &shader.expr(expr).kind {
-            ExprKind::Error | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) => false,
-            ExprKind::BuiltinCall(function, _) => has_no_effect(*function),
-            _ => true,
-        };
-    });
-    pure
-}
-
-/// Whether a built-in function does nothing but give a value.
-pub(super) fn has_no_effect(function: BuiltinFunction) -> bool {
-    is_plain(function) || matches!(function.class(), Class::Texture(_) | Class::Derivative(_))
-}
-
-/// Whether the value of a built-in function follows from its arguments alone.
-pub(super) fn is_plain(function: BuiltinFunction) -> bool {
-    !matches!(
-        function.class(),
-        Class::Texture(_) | Class::Derivative(_) | Class::Emission(_) | Class::Modf | Class::Composed
-    )
-}
-
-/// Whether two expressions have the same form and name the same variables, and evaluating them has no effect.
-pub(super) fn same(shader: &Shader, a: ExprId, b: ExprId) -> bool {
-    const MOST: usize = 256;
-    let mut pending = vec![(a, b)];
-    let mut count = 0;
-    while let Some((a, b)) = pending.pop() {
-        count += 1;
-        let (one, other) = (shader.expr(a), shader.expr(b));
-        let alike = one.ty == other.ty
-            && match (&one.kind, &other.kind) {
-                (ExprKind::Literal(a), ExprKind::Literal(b)) => a == b,
-                (ExprKind::Var(a), ExprKind::Var(b)) => a == b,
-                (ExprKind::Member(_, a), ExprKind::Member(_, b)) => a == b,
-                (ExprKind::Swizzle(_, a), ExprKind::Swizzle(_, b)) => a == b,
-                (ExprKind::Index(..), ExprKind::Index(..))
-                | (ExprKind::Convert(_), ExprKind::Convert(_))
-                | (ExprKind::Ternary(..), ExprKind::Ternary(..)) => true,
-                (ExprKind::Construct(a, _), ExprKind::Construct(b, _)) => a == b,
-                (ExprKind::Unary(a, _), ExprKind::Unary(b, _)) => a == b,
-                (ExprKind::Binary(a, ..), ExprKind::Binary(b, ..)) => a == b,
-                (ExprKind::Logical(a, ..), ExprKind::Logical(b, ..)) => a == b,
-                (ExprKind::BuiltinCall(a, _), ExprKind::BuiltinCall(b, _)) => a == b && has_no_effect(*a),
-                _ => false,
-            };
-        let (first, second) = (one.kind.children(), other.kind.children());
-        if !alike || count > MOST || first.len() != second.len() {
-            return false;
-        }
-        pending.extend(first.into_iter().zip(second));
-    }
-    true
-}
-
 /// Whether two bodies do the same, statement by statement. Bodies that declare variables are never the same.
 pub(super) fn same_statements(shader: &Shader, a: &[Stmt], b: &[Stmt]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_statement(shader, a, b))
@@ -222,7 +162,7 @@ fn same_statement(shader: &Shader, a: &Stmt, b: &Stmt) -> bool {
     match (&a.kind, &b.kind) {
         (StmtKind::Expr(a), StmtKind::Expr(b)) => same_effect(shader, *a, *b),
         (StmtKind::Block(a), StmtKind::Block(b)) => same_statements(shader, a, b),
-        (StmtKind::Return(Some(a)), StmtKind::Return(Some(b))) => same(shader, *a, *b),
+        (StmtKind::Return(Some(a)), StmtKind::Return(Some(b))) => same_value(shader, *a, *b),
         (StmtKind::Return(None), StmtKind::Return(None))
         | (StmtKind::Break, StmtKind::Break)
         | (StmtKind::Continue, StmtKind::Continue)
@@ -235,13 +175,13 @@ fn same_statement(shader: &Shader, a: &Stmt, b: &Stmt) -> bool {
 fn same_effect(shader: &Shader, a: ExprId, b: ExprId) -> bool {
     match (&shader.expr(a).kind, &shader.expr(b).kind) {
         (ExprKind::Assign(one, target, value), ExprKind::Assign(other, other_target, other_value)) => {
-            one == other && same(shader, *target, *other_target) && same(shader, *value, *other_value)
+            one == other && same_value(shader, *target, *other_target) && same_value(shader, *value, *other_value)
         }
-        (ExprKind::IncDec(one, a), ExprKind::IncDec(other, b)) => one == other && same(shader, *a, *b),
+        (ExprKind::IncDec(one, a), ExprKind::IncDec(other, b)) => one == other && same_value(shader, *a, *b),
         (ExprKind::Call(one, a), ExprKind::Call(other, b)) => {
-            one == other && a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(shader, *a, *b))
+            one == other && a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_value(shader, *a, *b))
         }
-        _ => same(shader, a, b),
+        _ => same_value(shader, a, b),
     }
 }
 

@@ -47,6 +47,8 @@ pub struct Ast {
     pub exprs: Vec<Expr>,
     /// All names.
     pub names: Names,
+    /// A `#version` line that tokens come before, which is an error (§3.3).
+    pub late_version: Option<Span>,
     /// The position of `#pragma STDGL invariant(all)`, if there is one (§4.6.1).
     pub invariant_all: Option<Span>,
     /// The comments of the form `// glisten: allow(CODE, ...)`.

@@ -32,7 +32,6 @@ use directives::Directives;
 pub use lexemes::Lexemes;
 use names::Names;
 use parser::Parser;
-pub(crate) use preprocessor::NOT_FIRST;
 use preprocessor::Preprocessor;
 pub(crate) use preprocessor::extension::warning_of_use;
 pub use preprocessor::is_no_text;
@@ -71,6 +70,7 @@ pub fn parse(
         ast.declarations.clear();
     }
     ast.version = outcome.version;
+    ast.late_version = outcome.late_version;
     ast.invariant_all = outcome.invariant_all;
     ast.allows = outcome.allows;
     ast.extension_lines = outcome.extension_lines;
@@ -91,6 +91,7 @@ fn empty_tree() -> Ast {
         declarations: Vec::new(),
         exprs: Vec::new(),
         names: Names::default(),
+        late_version: None,
         invariant_all: None,
         allows: Vec::new(),
         extension_lines: Vec::new(),

@@ -5,7 +5,7 @@
 //! no texture and takes no derivative; the scalar is an expression inside of it.
 
 use super::fixed::{Fixed, Place};
-use super::names::{Names, is_arithmetic, pure_functions};
+use super::names::{Names, pure_functions};
 use super::same::form;
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, Shader, TypeId, Types, VarRef};
@@ -158,7 +158,7 @@ impl Search<'_> {
         let expr = shader.expr(id);
         let depends = match &expr.kind {
             ExprKind::Call(callee, list) if self.pure.contains(callee) => self.all(function, list),
-            ExprKind::BuiltinCall(builtin, _) if !is_arithmetic(*builtin) => Depends::Many,
+            ExprKind::BuiltinCall(builtin, _) if !builtin.follows_from_arguments() => Depends::Many,
             // Limits are cheap, and a table of a limited number has finer steps.
             ExprKind::BuiltinCall(F::Min | F::Max | F::Clamp | F::Abs, _) if expr.ty == TypeId::FLOAT => Depends::Many,
             kind @ (ExprKind::Swizzle(..)

@@ -5,7 +5,6 @@
 //! wherever it can be read, as long as the variables in its expression are not assigned to in between: [`Names::is_steady`]
 //! tells that they never are.
 
-use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::written_by;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef,
@@ -128,30 +127,9 @@ fn is_pure(shader: &Shader, id: FunctionId, pure: &BTreeSet<FunctionId>) -> bool
                 matches!(global.storage, Storage::Const | Storage::Uniform) && global.builtin.is_none()
             }
             ExprKind::Call(callee, _) => pure.contains(callee),
-            ExprKind::BuiltinCall(function, _) => is_arithmetic(*function),
+            ExprKind::BuiltinCall(function, _) => function.follows_from_arguments(),
             _ => true,
         };
     });
     plain
-}
-
-/// Whether a built-in function computes its result from its arguments alone.
-pub(super) fn is_arithmetic(function: BuiltinFunction) -> bool {
-    use glisten_front::builtin::operations::Class;
-    match function.class() {
-        Class::Unary(_)
-        | Class::Binary(_)
-        | Class::Ternary(_)
-        | Class::Numbers(_)
-        | Class::Composite(_)
-        | Class::Matrix(_)
-        | Class::Relation(_)
-        | Class::Boolean(_)
-        | Class::Test(_)
-        | Class::BitCast(_)
-        | Class::Bits(_)
-        | Class::Packing(_)
-        | Class::Composed => true,
-        Class::Modf | Class::Derivative(_) | Class::Noise(_) | Class::Texture(_) | Class::Emission(_) => false,
-    }
 }

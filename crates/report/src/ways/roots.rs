@@ -5,9 +5,8 @@
 //! before.
 
 use super::edit::{Edited, Open, call, with_draw};
-use super::same::same;
 use glisten_front::builtin::BuiltinFunction;
-use glisten_front::hir::{BinaryOp, ExprId, ExprKind, Scalar, Shader, Stage, TypeId, Types};
+use glisten_front::hir::{BinaryOp, ExprId, ExprKind, Scalar, Shader, Stage, TypeId, Types, same_form};
 use glisten_scene::Scene;
 
 /// An expression, and its operands in the call that takes its place.
@@ -56,7 +55,7 @@ fn quotient(types: &Types, shader: &Shader, a: ExprId, b: ExprId) -> Option<Root
     let x = *list.first()?;
     let is_vector = types.flat_len(shader.expr(x).ty) > 1;
     match function {
-        BuiltinFunction::Length if is_vector && same(shader, a, x) => Some(Root::Unit(a)),
+        BuiltinFunction::Length if is_vector && same_form(shader, a, x) => Some(Root::Unit(a)),
         BuiltinFunction::Sqrt if !is_vector => Some(Root::Over(a, x)),
         _ => None,
     }

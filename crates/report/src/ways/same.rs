@@ -2,11 +2,6 @@
 
 use glisten_front::hir::{ExprId, ExprKind, FunctionId, Shader};
 
-/// Whether two expressions of one function have the same form, and so the same value if they have no effects.
-pub(super) fn same(shader: &Shader, a: ExprId, b: ExprId) -> bool {
-    form(shader, a, None) == form(shader, b, None)
-}
-
 /// All that an expression is, as a text. The expressions in `instead` are written as `x`: what is left is a function of it.
 pub(super) fn form(shader: &Shader, id: ExprId, instead: Option<&dyn Fn(ExprId) -> bool>) -> String {
     use std::fmt::Write;

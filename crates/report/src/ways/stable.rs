@@ -6,10 +6,10 @@
 
 use super::edit::{Edited, Open, call, with_draw};
 use super::names::Names;
-use super::same::{Located, same};
+use super::same::Located;
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{
-    BinaryOp, ExprId, ExprKind, FunctionId, ScalarValue, Shader, Stage, TypeId, Types, UnaryOp, VarRef,
+    BinaryOp, ExprId, ExprKind, FunctionId, ScalarValue, Shader, Stage, TypeId, Types, UnaryOp, VarRef, same_form,
 };
 use glisten_scene::Scene;
 
@@ -117,7 +117,7 @@ fn square(shader: &Shader, id: ExprId) -> Option<ExprId> {
         plain &=
             !matches!(kind, ExprKind::Call(..) | ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Comma(..));
     });
-    (plain && same(shader, a, b)).then_some(a)
+    (plain && same_form(shader, a, b)).then_some(a)
 }
 
 /// The unit vectors of `max(dot(a, b), 0.0)` or `clamp(dot(a, b), 0.0, 1.0)`.

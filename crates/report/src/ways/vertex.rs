@@ -5,7 +5,6 @@
 //! fragments look up textures, take derivatives, are discarded, or depend on anything of the rasterizer is left alone.
 
 use super::edit::{Edited, rebuilt, with_draw};
-use super::names::is_arithmetic;
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{
     ExprKind, FunctionId, Global, GlobalId, Interpolation, Sampling, Scalar, Shader, StmtKind, Storage, Types, VarRef,
@@ -89,7 +88,9 @@ fn depends_on_varyings_alone(types: &Types, shader: &Shader, program: &Program) 
         shader.visit_body(body, &mut |expr| {
             plain &= match &shader.expr(expr).kind {
                 ExprKind::Var(VarRef::Global(global)) => is_movable(types, shader.global(*global)),
-                ExprKind::BuiltinCall(function, _) => is_arithmetic(*function) || function.written_argument().is_some(),
+                ExprKind::BuiltinCall(function, _) => {
+                    function.follows_from_arguments() || function.written_argument().is_some()
+                }
                 _ => true,
             };
         });

@@ -10,13 +10,10 @@ use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, LONE_WITHO
 use glisten_front::diagnostic::codes::names::{UNDECLARED, UNKNOWN_FUNCTION, UNKNOWN_TYPE};
 use glisten_front::diagnostic::codes::preprocess::INCLUDE_NOT_FOUND;
 use glisten_front::diagnostic::codes::qualifiers::MISSING_PRECISION;
-use glisten_front::diagnostic::{Code, Diagnostic};
+use glisten_front::diagnostic::{Area, Code, Diagnostic};
 use glisten_front::source::{SourceMap, Span};
 use std::collections::BTreeSet;
 use std::ops::Range;
-
-/// The codes of the grammar.
-const GRAMMAR: &str = "E02";
 
 /// A finding, whatever the filling: its code, and its place in the file.
 pub(crate) type Known = (&'static str, String, usize);
@@ -34,7 +31,8 @@ pub fn known(sources: &SourceMap, findings: &[Diagnostic]) -> BTreeSet<Known> {
 
 /// Whether a filling has more errors of the grammar than the first one.
 pub fn breaks(findings: &[Diagnostic], first: &[Diagnostic]) -> bool {
-    let count = |findings: &[Diagnostic]| findings.iter().filter(|one| one.code.id.starts_with(GRAMMAR)).count();
+    let is_of_grammar = |one: &&Diagnostic| one.is_error() && one.code.area() == Area::Syntax;
+    let count = |findings: &[Diagnostic]| findings.iter().filter(is_of_grammar).count();
     count(findings) > count(first)
 }
 

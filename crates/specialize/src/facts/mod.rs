@@ -53,21 +53,13 @@ impl PartialEq for What {
     /// By bits: 0 and -0 differ, and a NaN is itself.
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::Value(a), Self::Value(b)) => same(*a, *b),
+            (Self::Value(a), Self::Value(b)) => a.is_same(*b),
             (Self::Float(a), Self::Float(b)) => a == b,
             (Self::Int(a, b), Self::Int(c, d)) => (a, b) == (c, d),
             (Self::Uint(a, b), Self::Uint(c, d)) => (a, b) == (c, d),
             (Self::Any, Self::Any) => true,
             _ => false,
         }
-    }
-}
-
-/// Whether two scalars have the same type and bits.
-pub(crate) fn same(a: ScalarValue, b: ScalarValue) -> bool {
-    match (a, b) {
-        (ScalarValue::Float(a), ScalarValue::Float(b)) => a.to_bits() == b.to_bits(),
-        _ => a == b,
     }
 }
 

@@ -26,7 +26,7 @@ use super::known::KnownTexture;
 use super::options::Extent;
 use calls::Variants;
 use glisten_front::hir::{
-    ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef,
+    ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef, may_act,
 };
 use glisten_front::source::Span;
 use glisten_front::stack::with_stack;
@@ -287,7 +287,6 @@ impl<'a> Forward<'a> {
 
     fn is_pure_kind(&self, kind: &ExprKind) -> bool {
         match kind {
-            ExprKind::Assign(..) | ExprKind::IncDec(..) => false,
             ExprKind::Call(clone, arguments) => {
                 let Some(origin) = self.origins.get(clone.index()) else { return false };
                 let effect = self.effects.function(*origin);
@@ -295,8 +294,7 @@ impl<'a> Forward<'a> {
                 let mut given = 0..arguments.len();
                 !effect.ends && effect.writes.is_empty() && given.all(|index| is_in(function.param_mode(index)))
             }
-            ExprKind::BuiltinCall(function, _) => !function.has_effects(),
-            _ => true,
+            kind => !may_act(kind),
         }
     }
 

@@ -4,7 +4,7 @@
 //! the first has made what it makes of one.
 
 use glisten_front::builtin::BuiltinFunction as F;
-use glisten_front::hir::{Expr, ExprId, ExprKind, Shader, UnaryOp};
+use glisten_front::hir::{Expr, ExprId, ExprKind, Shader, same_value};
 
 /// Leaves one of two equal clamps.
 pub(super) fn join(shader: &mut Shader) -> bool {
@@ -25,23 +25,11 @@ fn repeated(shader: &Shader, outer: &Expr) -> Option<ExprKind> {
     let [value, low, high] = limits(&outer.kind)?;
     let inner = shader.expr(value);
     let [_, inner_low, inner_high] = limits(&inner.kind)?;
-    let same = inner.ty == outer.ty && is_same(shader, low, inner_low) && is_same(shader, high, inner_high);
+    let same = inner.ty == outer.ty && same_value(shader, low, inner_low) && same_value(shader, high, inner_high);
     same.then(|| inner.kind.clone())
 }
 
 fn limits(kind: &ExprKind) -> Option<[ExprId; 3]> {
     let ExprKind::BuiltinCall(F::Clamp, list) = kind else { return None };
     list.as_slice().try_into().ok()
-}
-
-/// Whether two expressions are the same numbers.
-fn is_same(shader: &Shader, a: ExprId, b: ExprId) -> bool {
-    match (&shader.expr(a).kind, &shader.expr(b).kind) {
-        (ExprKind::Literal(a), ExprKind::Literal(b)) => crate::facts::same(*a, *b),
-        (ExprKind::Unary(UnaryOp::Negate, a), ExprKind::Unary(UnaryOp::Negate, b)) => is_same(shader, *a, *b),
-        (ExprKind::Construct(kind_a, a), ExprKind::Construct(kind_b, b)) => {
-            kind_a == kind_b && a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_same(shader, *a, *b))
-        }
-        _ => false,
-    }
 }

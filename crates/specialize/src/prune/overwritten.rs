@@ -4,7 +4,7 @@
 //! names; what a loop reads anywhere is taken to be read at its end and wherever it is left.
 
 use glisten_front::hir::{
-    ExprId, ExprKind, FunctionId, ParamMode, Shader, Stage, Stmt, StmtKind, Storage, VarRef, may_act,
+    ExprId, ExprKind, FunctionId, ParamMode, Shader, Stage, Stmt, StmtKind, Storage, VarRef, is_pure,
 };
 
 /// Variables that are read later, a bit each: a set is copied for each branch. The locals come first, then the globals.
@@ -139,7 +139,7 @@ impl Walk<'_> {
                     && let ExprKind::Var(variable) = self.shader.expr(target).kind
                     && let Some(slot) = self.slot(variable)
                 {
-                    if !live.contains(slot) && self.is_plain(value) {
+                    if !live.contains(slot) && is_pure(self.shader, value) {
                         self.changed = true;
                         return None;
                     }
@@ -153,7 +153,7 @@ impl Walk<'_> {
             StmtKind::Local(local, initializer) => {
                 let dead = !live.remove(local.index());
                 let initializer = match initializer {
-                    Some(expr) if dead && self.is_plain(expr) => {
+                    Some(expr) if dead && is_pure(self.shader, expr) => {
                         self.changed = true;
                         None
                     }
@@ -255,15 +255,6 @@ impl Walk<'_> {
         if returns(kind) {
             live.extend(&self.end);
         }
-    }
-
-    /// Whether evaluating it does nothing else.
-    fn is_plain(&self, root: ExprId) -> bool {
-        let mut plain = true;
-        self.shader.visit_expr(root, &mut |expr| {
-            plain &= !may_act(&self.shader.expr(expr).kind);
-        });
-        plain
     }
 }
 

@@ -8,6 +8,7 @@ use super::uses::{Stored, Uses, stored};
 use crate::forward::Effects;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
+    may_act, same_value,
 };
 
 /// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended, `uses` counts what is in it.
@@ -172,7 +173,7 @@ impl Sweeper<'_> {
                     self.effect(value, span, out);
                 }
             }
-            ExprKind::Assign(None, target, value) if self.is_same_place(target, value) => {
+            ExprKind::Assign(None, target, value) if same_value(self.shader, target, value) => {
                 self.forget_effect(expr);
                 self.changed = true;
             }
@@ -249,10 +250,8 @@ impl Sweeper<'_> {
         let mut pure = true;
         self.shader.visit_expr(root, &mut |expr| {
             pure &= match &self.shader.expr(expr).kind {
-                ExprKind::Assign(..) | ExprKind::IncDec(..) => false,
                 ExprKind::Call(callee, arguments) => self.is_idle_call(*callee, arguments),
-                ExprKind::BuiltinCall(function, _) => !function.has_effects(),
-                _ => true,
+                kind => !may_act(kind),
             };
         });
         pure
@@ -312,20 +311,6 @@ impl Sweeper<'_> {
                 ExprKind::Member(base, _) | ExprKind::Swizzle(base, _) => at = *base,
                 _ => return true,
             }
-        }
-    }
-
-    /// Whether two expressions name the same place, by indices without effects.
-    fn is_same_place(&self, a: ExprId, b: ExprId) -> bool {
-        match (&self.shader.expr(a).kind, &self.shader.expr(b).kind) {
-            (ExprKind::Var(a), ExprKind::Var(b)) => a == b,
-            (ExprKind::Literal(a), ExprKind::Literal(b)) => crate::facts::same(*a, *b),
-            (ExprKind::Member(a, of_a), ExprKind::Member(b, of_b)) => of_a == of_b && self.is_same_place(*a, *b),
-            (ExprKind::Swizzle(a, of_a), ExprKind::Swizzle(b, of_b)) => of_a == of_b && self.is_same_place(*a, *b),
-            (ExprKind::Index(a, of_a), ExprKind::Index(b, of_b)) => {
-                self.is_same_place(*of_a, *of_b) && self.is_same_place(*a, *b)
-            }
-            _ => false,
         }
     }
 

@@ -6,7 +6,7 @@
 
 use glisten_front::hir::{
     ArraySize, BinaryOp, ConstructKind, ExprKind, GlobalId, ScalarValue, Shader, Storage, StructId, Type, TypeId,
-    Types, Value, VarRef, may_act,
+    Types, Value, VarRef, is_pure,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -42,7 +42,7 @@ fn trim_members(types: &mut Types, stages: &mut [Shader]) -> bool {
                 }
                 // What an argument does must be done.
                 ExprKind::Construct(ConstructKind::Struct, arguments)
-                    if arguments.iter().any(|argument| has_effects(shader, *argument)) =>
+                    if arguments.iter().any(|argument| !is_pure(shader, *argument)) =>
                 {
                     types.for_each_struct(expr.ty, &mut |id| fixed.insert(id));
                 }
@@ -143,14 +143,6 @@ fn trimmed(
         }
         _ => scalars.take(types.flat_len(ty) as usize).collect(),
     }
-}
-
-fn has_effects(shader: &Shader, root: glisten_front::hir::ExprId) -> bool {
-    let mut effects = false;
-    shader.visit_expr(root, &mut |expr| {
-        effects |= may_act(&shader.expr(expr).kind);
-    });
-    effects
 }
 
 /// Arrays of loose uniforms end after the last element that is reached.

@@ -7,7 +7,7 @@
 
 use super::uses::Uses;
 use super::{compact, merge, overwritten_in, sweep};
-use glisten_front::hir::{ExprId, FunctionId, GlobalId, LocalId, Shader, Storage, Types, may_act};
+use glisten_front::hir::{FunctionId, GlobalId, LocalId, Shader, Storage, Types, is_pure};
 
 /// Leaves out what reaches no output. `live` says for each global whether somebody reads it when the stage has ended.
 pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -> Shader {
@@ -56,7 +56,7 @@ fn forget_initializers(shader: &mut Shader, uses: &Uses) -> bool {
     for index in 0..shader.globals.len() {
         let Some(global) = shader.globals.get(index) else { continue };
         let Some(initializer) = global.initializer.filter(|_| global.storage == Storage::Private) else { continue };
-        if uses.global(GlobalId::new(index)).named > 0 || !is_plain(shader, initializer) {
+        if uses.global(GlobalId::new(index)).named > 0 || !is_pure(shader, initializer) {
             continue;
         }
         if let Some(global) = shader.globals.get_mut(index) {
@@ -65,12 +65,4 @@ fn forget_initializers(shader: &mut Shader, uses: &Uses) -> bool {
         }
     }
     changed
-}
-
-fn is_plain(shader: &Shader, root: ExprId) -> bool {
-    let mut plain = true;
-    shader.visit_expr(root, &mut |expr| {
-        plain &= !may_act(&shader.expr(expr).kind);
-    });
-    plain
 }

@@ -124,7 +124,7 @@ impl Writer<'_> {
         let scalar_ty = TypeId::vector(first.scalar(), 1);
         let one = |this: &mut Self, value| this.push(ExprKind::Literal(value), scalar_ty, span);
         match self.types.get(ty) {
-            Type::Vector(..) if values.iter().all(|value| super::facts::same(*value, first)) => {
+            Type::Vector(..) if values.iter().all(|value| value.is_same(first)) => {
                 let value = one(self, first);
                 self.push(ExprKind::Construct(ConstructKind::Splat, vec![value]), ty, span)
             }
@@ -447,7 +447,7 @@ fn is_diagonal(values: &[ScalarValue], columns: u8, rows: u8) -> bool {
     (0..columns).all(|column| {
         (0..rows).all(|row| {
             let value = values.get(usize::from(column) * usize::from(rows) + usize::from(row)).copied().unwrap_or(zero);
-            super::facts::same(value, if column == row { first } else { zero })
+            value.is_same(if column == row { first } else { zero })
         })
     })
 }

@@ -88,6 +88,28 @@ impl Operation {
         }
     }
 
+    /// Whether the value of a call follows from its arguments alone, and it does nothing else: no texture, no other fragment has a part in it.
+    /// Noise is such a function of its argument (§8.9).
+    pub fn follows_from_arguments(&self) -> bool {
+        match self.class {
+            Class::Unary(_)
+            | Class::Binary(_)
+            | Class::Ternary(_)
+            | Class::Composite(_)
+            | Class::Numbers(_)
+            | Class::Matrix(_)
+            | Class::Relation(_)
+            | Class::Boolean(_)
+            | Class::Test(_)
+            | Class::BitCast(_)
+            | Class::Bits(_)
+            | Class::Packing(_)
+            | Class::Noise(_)
+            | Class::Composed => true,
+            Class::Modf | Class::Derivative(_) | Class::Texture(_) | Class::Emission(_) => false,
+        }
+    }
+
     /// Whether a call emits vertices or ends primitives (§8.10).
     pub fn emits(&self) -> bool {
         match self.class {
@@ -160,6 +182,11 @@ impl BuiltinFunction {
     /// Whether a call does more than to give a value: it writes an argument, or emits.
     pub fn has_effects(self) -> bool {
         self.operation().written_argument().is_some() || self.operation().emits()
+    }
+
+    /// Whether the value of a call follows from its arguments alone: see [`Operation::follows_from_arguments`].
+    pub fn follows_from_arguments(self) -> bool {
+        self.operation().follows_from_arguments()
     }
 
     /// Whether a call may read from neighboring fragments: see [`Operation::implicit_derivatives`].

@@ -54,6 +54,52 @@ impl Code {
     }
 }
 
+/// A phase that reports, or the lint: the files of this folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Area {
+    /// Limits, unsupported features, internal errors.
+    General,
+    /// Reading, the preprocessor, versions and extensions.
+    Preprocess,
+    /// The grammar.
+    Syntax,
+    /// Names, scopes, declarations.
+    Names,
+    /// Types, expressions, constants.
+    Types,
+    /// Statements and functions.
+    Statements,
+    /// Qualifiers, layouts, blocks, built-in variables.
+    Qualifiers,
+    /// The link.
+    Link,
+    /// Lowering, emission, targets.
+    Targets,
+    /// Scenes and running.
+    Scenes,
+    /// Lint rules.
+    Lint,
+}
+
+impl Code {
+    /// The area that it belongs to: the hundreds of its number, by the table at the head of this file.
+    pub fn area(&self) -> Area {
+        match self.id.as_bytes() {
+            [b'L', ..] => Area::Lint,
+            [_, b'0', b'1', ..] => Area::Preprocess,
+            [_, b'0', b'2', ..] => Area::Syntax,
+            [_, b'0', b'3', ..] => Area::Names,
+            [_, b'0', b'4', ..] => Area::Types,
+            [_, b'0', b'5', ..] => Area::Statements,
+            [_, b'0', b'6', ..] => Area::Qualifiers,
+            [_, b'0', b'7', ..] => Area::Link,
+            [_, b'0', b'8', ..] => Area::Targets,
+            [_, b'0', b'9', ..] => Area::Scenes,
+            _ => Area::General,
+        }
+    }
+}
+
 impl PartialEq for Code {
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id
@@ -217,4 +263,23 @@ impl Key {
 /// The code with this identifier or name (`E0301`, `e0301` or `undeclared-identifier`).
 pub fn find(key: &str) -> Option<&'static Code> {
     all().find(|code| code.id.eq_ignore_ascii_case(key) || code.name.eq_ignore_ascii_case(key))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Area, PHASES, names, preprocess};
+
+    #[test]
+    fn the_codes_of_a_file_have_one_area_of_their_own() {
+        let areas = PHASES.iter().map(|codes| {
+            let area = codes[0].area();
+            assert!(codes.iter().all(|code| code.area() == area), "{area:?}");
+            area
+        });
+        let areas: Vec<Area> = areas.collect();
+        assert_eq!(areas.iter().filter(|area| **area == Area::Lint).count(), 6);
+        let phases: Vec<&Area> = areas.iter().filter(|area| **area != Area::Lint).collect();
+        assert!(phases.iter().enumerate().all(|(index, area)| !phases[..index].contains(area)), "{phases:?}");
+        assert_eq!((names::UNDECLARED.area(), preprocess::LATE_VERSION.area()), (Area::Names, Area::Preprocess));
+    }
 }

@@ -1,9 +1,9 @@
 //! `identical-branches`: a condition whose branches do the same.
 
-use super::super::uses::{same, same_statements};
+use super::super::uses::same_statements;
 use super::super::{Findings, Subject};
 use crate::diagnostic::Applicability;
-use crate::hir::{ExprKind, StmtKind};
+use crate::hir::{ExprKind, StmtKind, same_value};
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for (place, statement) in subject.statements() {
@@ -17,7 +17,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for (place, expr) in subject.exprs() {
         let ExprKind::Ternary(_, yes, no) = place.kind(expr) else { continue };
         let span = place.expr(expr).span;
-        if subject.texts.is_plain(place.shader, expr) && same(place.shader, *yes, *no) {
+        if subject.texts.is_plain(place.shader, expr) && same_value(place.shader, *yes, *no) {
             let text = subject.texts.operand(place.expr(*yes).span);
             let fix = text.and_then(|text| subject.texts.replace(Applicability::Unsafe, span, text));
             findings.push(findings.at(span, "both values of this selection are the same").maybe_fix(fix));

@@ -1,10 +1,9 @@
 //! `unused-variable`: a local that is never read.
 
 use super::super::unused::is_all_of;
-use super::super::uses::is_pure;
 use super::super::{Findings, Subject};
 use crate::diagnostic::Applicability;
-use crate::hir::{LocalId, LocalKind};
+use crate::hir::{LocalId, LocalKind, is_pure};
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for place in &subject.places {

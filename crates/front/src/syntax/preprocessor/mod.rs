@@ -26,8 +26,6 @@ mod tests;
 mod unroll;
 mod version;
 
-pub(crate) use version::NOT_FIRST;
-
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
 use super::directives::{Directives, MacroMention};
 use super::keywords;
@@ -60,6 +58,7 @@ pub(super) struct PreprocessorOutcome {
     pub(super) version: Version,
     /// Whether the parser understands the language, and the text does not reject itself by `#error`.
     pub(super) supported: bool,
+    pub(super) late_version: Option<Span>,
     pub(super) invariant_all: Option<Span>,
     pub(super) allows: Vec<Allow>,
     pub(super) extension_lines: Vec<(String, Behavior, Span)>,
@@ -186,6 +185,7 @@ impl<'a> Preprocessor<'a> {
             outcome: PreprocessorOutcome {
                 version: version::UNWRITTEN,
                 supported: true,
+                late_version: None,
                 invariant_all: None,
                 allows: Vec::new(),
                 extension_lines: Vec::new(),

@@ -20,8 +20,6 @@ pub(super) const UNWRITTEN: Version = Version {
     span: Span { start: 0, end: 0, expansion: crate::source::ExpansionId::NONE },
 };
 
-/// The message about a `#version` after other text.
-pub(crate) const NOT_FIRST: &str = "`#version` does not come first";
 /// The words for profiles.
 const PROFILES: [&str; 3] = ["core", "compatibility", "es"];
 
@@ -148,7 +146,8 @@ impl Preprocessor<'_> {
             return false;
         }
         if let Some(first) = self.first_token {
-            session.report(late(NOT_FIRST, first, "this comes before it"));
+            self.outcome.late_version = Some(span);
+            session.report(late("`#version` does not come first", first, "this comes before it"));
         } else if let Some(first) = self.text_before(session, stated) {
             let message = format!("`#version` is not in the first line, as {} wants it", stated.name());
             let fix = to_first_line(session, first, span);
