@@ -210,7 +210,7 @@ fn assemble(
     let mut shaders: Vec<Shader> = pruned.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
     shaders.extend(program.stage(Stage::Geometry).cloned());
     shaders.sort_by_key(|shader| shader.stage);
-    let renamed = unlocated::by_name(&mut shaders);
+    let renamed = unlocated::by_name(&types, &mut shaders);
     let stages = written(&types, &shaders, options.sources);
     match read_back(program, &stages) {
         Ok((left, sources)) => {
@@ -268,7 +268,7 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
 fn unevaluated(program: &Program, options: &Options<'_>) -> Residual {
     let optimized = crate::optimize(program);
     let mut shaders = optimized.stages.clone();
-    unlocated::by_name(&mut shaders);
+    unlocated::by_name(&optimized.types, &mut shaders);
     let stages = written(&optimized.types, &shaders, options.sources);
     match read_back(program, &stages) {
         Ok((program_left, sources)) => {
@@ -282,7 +282,7 @@ fn unevaluated(program: &Program, options: &Options<'_>) -> Residual {
 /// The program as it was.
 fn whole(program: &Program, options: &Options<'_>) -> Residual {
     let mut shaders = program.stages.clone();
-    unlocated::by_name(&mut shaders);
+    unlocated::by_name(&program.types, &mut shaders);
     let stages = written(&program.types, &shaders, options.sources);
     let sources = options.sources.cloned().unwrap_or_default();
     Residual {

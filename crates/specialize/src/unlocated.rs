@@ -4,7 +4,7 @@
 //! no location. *Holds:* the name is the input's, as in the interface of the original; where the stage before uses it for something
 //! else, both get a new one.
 
-use glisten_front::hir::{Global, GlobalId, Shader, Storage};
+use glisten_front::hir::{Global, GlobalId, Shader, Storage, Types, fresh_name, global_names};
 use glisten_front::link::partners;
 use std::collections::BTreeSet;
 
@@ -17,19 +17,19 @@ pub(crate) struct Renamed {
 }
 
 /// Matches the varyings of neighboring stages by their names alone.
-pub(crate) fn by_name(stages: &mut [Shader]) -> Vec<Renamed> {
+pub(crate) fn by_name(types: &Types, stages: &mut [Shader]) -> Vec<Renamed> {
     let mut renamed = Vec::new();
     for at in 1..stages.len() {
         let (before, after) = stages.split_at_mut(at);
         if let (Some(producer), Some(consumer)) = (before.last_mut(), after.first_mut()) {
-            pair(producer, consumer, &mut renamed);
+            pair(types, producer, consumer, &mut renamed);
         }
     }
     renamed
 }
 
 /// Matches the varyings from one stage to the next.
-fn pair(producer: &mut Shader, consumer: &mut Shader, renamed: &mut Vec<Renamed>) {
+fn pair(types: &Types, producer: &mut Shader, consumer: &mut Shader, renamed: &mut Vec<Renamed>) {
     let crosses =
         |global: &Global, storage| global.storage == storage && global.builtin.is_none() && !global.is_fixed();
     let is_located = |shader: &Shader, storage| {
@@ -39,21 +39,12 @@ fn pair(producer: &mut Shader, consumer: &mut Shader, renamed: &mut Vec<Renamed>
         return;
     }
     let pairs = partners(producer, consumer);
-    let others = |shader: &Shader, known: &BTreeSet<GlobalId>| {
-        let globals = shader.globals().filter(|(id, _)| !known.contains(id));
-        globals.map(|(_, global)| own_name(global).to_owned()).collect::<BTreeSet<String>>()
-    };
-    let mut taken = others(producer, &pairs.iter().map(|(from, _)| *from).collect());
-    let of_consumer = others(consumer, &BTreeSet::new());
+    let known: BTreeSet<GlobalId> = pairs.iter().map(|(from, _)| *from).collect();
+    let mut taken = global_names(types, producer, |id| known.contains(&id));
+    let of_consumer = global_names(types, consumer, |_| false);
     for (from, to) in pairs {
         let old = own_name(consumer.global(to)).to_owned();
-        let mut new = old.clone();
-        for number in 2.. {
-            if !taken.contains(&new) && (new == old || !of_consumer.contains(&new)) {
-                break;
-            }
-            new = format!("{}_{number}", old.trim_end_matches('_'));
-        }
+        let new = fresh_name(&old, |name| taken.contains(name) || name != old && of_consumer.contains(name));
         taken.insert(new.clone());
         for (shader, id) in [(&mut *producer, from), (&mut *consumer, to)] {
             if let Some(global) = shader.globals.get_mut(id.index()) {

@@ -9,7 +9,8 @@
 
 use glisten_emit::{Conventions, Target, emit};
 use glisten_front::hir::{
-    Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalKind, ParamMode, Shader, Stage, TypeId, Types, print,
+    Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalKind, ParamMode, Shader, Stage, TypeId, Types, all_names,
+    fresh_name, print,
 };
 use glisten_front::source::Span;
 use glisten_front::{Compiler, Options, Program, Source};
@@ -73,10 +74,8 @@ impl Open {
 
     /// A name that nothing in the stage has.
     pub(super) fn fresh(&self, types: &Types, wanted: &str) -> String {
-        let taken = names_in(types, &self.shader);
-        let is_free = |name: &String| !taken.contains(name) && !self.appended.contains(name.as_str());
-        let numbered = (2..).map(|number| format!("{wanted}_{number}"));
-        std::iter::once(wanted.to_owned()).chain(numbered).find(is_free).unwrap_or_default()
+        let taken = all_names(types, &self.shader);
+        fresh_name(wanted, |name| taken.contains(name) || self.appended.contains(name))
     }
 
     /// Declares a function whose text is appended by the caller.
@@ -116,22 +115,6 @@ impl Open {
         self.shader.functions.get_mut(main.index())?.name.clone_from(&name);
         Some(name)
     }
-}
-
-/// The names of a stage's globals, members of blocks, functions and structs.
-fn names_in(types: &Types, shader: &Shader) -> Vec<String> {
-    let mut names: Vec<String> = shader.functions.iter().map(|function| function.name.clone()).collect();
-    names.extend(shader.globals.iter().map(|global| global.name.clone()));
-    names.extend(shader.functions.iter().flat_map(|function| function.locals.iter().map(|local| local.name.clone())));
-    for global in &shader.globals {
-        types.for_each_struct(global.ty, &mut |id| {
-            let structure = types.structure(id);
-            names.push(structure.name.clone());
-            names.extend(structure.members.iter().map(|member| member.name.clone()));
-            true
-        });
-    }
-    names
 }
 
 /// A stage as GLSL 1.50.

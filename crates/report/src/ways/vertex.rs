@@ -8,6 +8,7 @@ use super::edit::{Edited, rebuilt, with_draw};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{
     ExprKind, FunctionId, Global, GlobalId, Interpolation, Sampling, Scalar, Shader, StmtKind, Storage, Types, VarRef,
+    all_names, fresh_name,
 };
 use glisten_front::link::{Program, Remap};
 use glisten_scene::Scene;
@@ -227,14 +228,9 @@ impl Move<'_> {
 
     /// A name that neither stage has.
     fn fresh(&self, wanted: &str) -> String {
-        let is_free = |name: &String| {
-            [&*self.vertex, self.fragment].iter().all(|shader| {
-                shader.functions.iter().all(|function| function.name != *name)
-                    && shader.globals.iter().all(|global| global.match_name() != name)
-            })
-        };
-        let numbered = (2..).map(|number| format!("{wanted}_{number}"));
-        std::iter::once(wanted.to_owned()).chain(numbered).find(is_free).unwrap_or_default()
+        let types = &self.program.types;
+        let taken = [&*self.vertex, self.fragment].map(|shader| all_names(types, shader));
+        fresh_name(wanted, |name| taken.iter().any(|names| names.contains(name)))
     }
 }
 

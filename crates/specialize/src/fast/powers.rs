@@ -6,7 +6,7 @@
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{
     BinaryOp, Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, ScalarValue, Shader,
-    Stmt, StmtKind, TypeId, Types, Value, VarRef,
+    Stmt, StmtKind, TypeId, Types, Value, VarRef, all_names, fresh_name,
 };
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -51,7 +51,7 @@ impl Powers {
         let positive = if n == 1 {
             x
         } else {
-            let function = self.function(shader, expr.ty, n);
+            let function = self.function(types, shader, expr.ty, n);
             let call = ExprKind::Call(function, vec![x]);
             if first > 0.0 {
                 return Some(call);
@@ -62,11 +62,11 @@ impl Powers {
         Some(ExprKind::Binary(BinaryOp::Div, one, positive))
     }
 
-    fn function(&mut self, shader: &mut Shader, ty: TypeId, n: u32) -> FunctionId {
+    fn function(&mut self, types: &Types, shader: &mut Shader, ty: TypeId, n: u32) -> FunctionId {
         if let Some(function) = self.known.get(&(ty, n)) {
             return *function;
         }
-        let function = written(shader, ty, n);
+        let function = written(types, shader, ty, n);
         let id = FunctionId::new(shader.functions.len());
         shader.functions.push(function);
         self.known.insert((ty, n), id);
@@ -79,29 +79,11 @@ fn products(n: u32) -> u32 {
     n.ilog2() + n.count_ones() - 1
 }
 
-/// A name that nothing in the stage has.
-fn name(shader: &Shader, n: u32) -> String {
-    let taken = |name: &str| {
-        shader.globals.iter().any(|global| global.name == name)
-            || shader
-                .functions
-                .iter()
-                .any(|function| function.name == name || function.locals.iter().any(|local| local.name == name))
-    };
-    let plain = format!("pow{n}");
-    let mut candidate = plain.clone();
-    let mut number = 2;
-    while taken(&candidate) {
-        candidate = format!("{plain}_{number}");
-        number += 1;
-    }
-    candidate
-}
-
 /// `float pow5(float x) { float x2 = x * x; float x4 = x2 * x2; return x * x4; }`
-fn written(shader: &mut Shader, ty: TypeId, n: u32) -> Function {
+fn written(types: &Types, shader: &mut Shader, ty: TypeId, n: u32) -> Function {
     let span = Span::default();
-    let name = name(shader, n);
+    let taken = all_names(types, shader);
+    let name = fresh_name(&format!("pow{n}"), |name| taken.contains(name));
     let local = |name: String, kind: LocalKind| Local { name, ty, kind, value: None, span };
     let mut locals = vec![local("x".into(), LocalKind::Param(ParamMode::In))];
     let mut body = Vec::new();

@@ -11,6 +11,7 @@ use crate::settle::Settled;
 use glisten_front::Program;
 use glisten_front::hir::{
     Expr, ExprId, ExprKind, FunctionId, Global, GlobalId, LocalId, Shader, Stmt, StmtKind, Storage, Types, VarRef,
+    fresh_name, global_names,
 };
 use glisten_front::source::Span;
 use rustc_hash::FxHashMap;
@@ -177,25 +178,12 @@ fn name(types: &Types, candidate: &Candidate, fragment: &Shader, vertex: &Shader
         .find_map(|(_, _, local)| local.map(|(function, local)| fragment.function(function).local(local).name.clone()));
     let varying = candidate.base.map(|id| fragment.global(id).name.clone());
     let wanted = local.or_else(|| varying.map(|name| format!("{name}_affine"))).unwrap_or_else(|| "affine".into());
-    let globals = || fragment.globals.iter().chain(&vertex.globals);
-    let functions = || fragment.functions.iter().chain(&vertex.functions);
-    let members = |global: &Global| match types.get(global.ty) {
-        glisten_front::hir::Type::Struct(id) if global.block.is_some() => types.structure(id).members.clone(),
-        _ => Vec::new(),
-    };
-    let taken = |name: &str| {
-        globals().any(|global| global.name == name || members(global).iter().any(|member| member.name == name))
-            || functions().any(|function| function.name == name)
+    let taken: Vec<_> = [fragment, vertex].into_iter().map(|shader| global_names(types, shader, |_| false)).collect();
+    fresh_name(&wanted, |name| {
+        taken.iter().any(|names| names.contains(name))
             || moved.iter().any(|one| one.name == name)
             || types.ids().any(|ty| types.name(ty) == name)
-    };
-    let mut candidate = wanted.clone();
-    let mut number = 2;
-    while taken(&candidate) {
-        candidate = format!("{wanted}_{number}");
-        number += 1;
-    }
-    candidate
+    })
 }
 
 /// Copies an expression into the vertex stage.

@@ -2,7 +2,9 @@
 //!
 //! *In:* a rebuilt stage. *Out:* the stage.
 
-use glisten_front::hir::{ExprId, ExprKind, Function, FunctionId, Shader, Stmt, StmtKind, TypeId};
+use glisten_front::hir::{
+    ExprId, ExprKind, Function, FunctionId, Shader, Stmt, StmtKind, TypeId, Types, fresh_name, global_names,
+};
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 use std::fmt::Write;
@@ -114,7 +116,7 @@ fn expr(shader: &Shader, root: ExprId, same: &FxHashMap<FunctionId, FunctionId>,
 }
 
 /// Functions of one name and the same parameters are told apart by a number.
-pub(super) fn name(shader: &mut Shader) {
+pub(super) fn name(types: &Types, shader: &mut Shader) {
     let types_of =
         |function: &Function| -> SmallVec<[TypeId; 8]> { function.param_types().map(|(ty, _)| ty).collect() };
     let mut taken: FxHashSet<(&str, SmallVec<[TypeId; 8]>)> = FxHashSet::default();
@@ -126,14 +128,10 @@ pub(super) fn name(shader: &mut Shader) {
     if again.is_empty() {
         return;
     }
-    let mut names: FxHashSet<String> = shader.functions.iter().map(|function| function.name.clone()).collect();
-    names.extend(shader.globals.iter().map(|global| global.name.clone()));
+    let mut names = global_names(types, shader, |_| false);
     for id in again {
         let Some(function) = shader.functions.get_mut(id.index()) else { continue };
-        let mut numbered = (2..).map(|number| format!("{}_{number}", function.name));
-        if let Some(name) = numbered.find(|name| !names.contains(name)) {
-            names.insert(name.clone());
-            function.name = name;
-        }
+        function.name = fresh_name(&function.name, |name| names.contains(name));
+        names.insert(function.name.clone());
     }
 }

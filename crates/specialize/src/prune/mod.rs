@@ -163,7 +163,7 @@ pub(super) fn finish(types: &mut Types, stages: &mut [(Pruned, Vec<bool>)], trim
         }
     }
     for (pruned, _) in stages.iter_mut() {
-        merge::name(&mut pruned.shader);
+        merge::name(types, &mut pruned.shader);
         give_results(types, &mut pruned.shader);
     }
 }

@@ -34,7 +34,7 @@ pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -
         }
     }
     // Overloads whose parameters are gone would differ in their results alone (GLSL 1.50 §6.1).
-    merge::name(&mut shader);
+    merge::name(types, &mut shader);
     shader.mark_static_use();
     shader
 }

@@ -4,7 +4,8 @@
 //! names depend on the program alone, so the stages agree.
 
 use glisten_front::hir::{
-    ExprKind, Global, GlobalId, Interpolation, Member, Shader, Stage, Storage, Type, Types, VarRef,
+    ExprKind, Global, GlobalId, Interpolation, Member, Shader, Stage, Storage, Type, Types, VarRef, fresh_name,
+    global_names,
 };
 use glisten_front::link::{Program, Varying, VaryingEnd};
 
@@ -53,16 +54,10 @@ fn row_of(program: &Program, stage: Stage, global: GlobalId, flat_offset: u32) -
 }
 
 fn varying(program: &Program, block: &Global, member: &Member, row: Option<&Varying>) -> Global {
-    let mut name = format!("{}_{}", block.match_name(), member.name);
-    let is_taken = |name: &str| {
-        program.stages.iter().any(|shader| {
-            shader.globals.iter().any(|global| global.name == name)
-                || shader.functions.iter().any(|function| function.name == name)
-        })
-    };
-    while is_taken(&name) {
-        name.push('0');
-    }
+    let stages = || program.stages.iter();
+    let taken: Vec<_> = stages().map(|shader| global_names(&program.types, shader, |_| false)).collect();
+    let wanted = format!("{}_{}", block.match_name(), member.name);
+    let name = fresh_name(&wanted, |name| taken.iter().any(|names| names.contains(name)));
     let interpolation = row.map(|row| row.interpolation).or(member.interpolation).unwrap_or_default();
     Global {
         name,

@@ -11,7 +11,7 @@ use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::builtin::{BuiltinFunction, BuiltinVariable};
 use glisten_front::hir::{
     ArraySize, ConstructKind, DepthMode, ExprId, ExprKind, Global, GlobalId, Interpolation, LocalKind, Scalar,
-    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, Type, TypeId, Types, VarRef,
+    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, Type, TypeId, Types, VarRef, all_names, fresh_name,
 };
 use glisten_front::link::Program;
 use glisten_front::source::Span;
@@ -118,7 +118,8 @@ fn built_in_colors(types: &mut Types, shader: &mut Shader) {
             }
             _ => continue,
         };
-        let name = unused(shader, name);
+        let taken = all_names(types, shader);
+        let name = fresh_name(name, |name| taken.contains(name));
         if let Some(global) = shader.globals.get_mut(index) {
             let plain = Global { builtin: None, name, ty, location: Some(0), ..global.clone() };
             *global = plain;
@@ -149,22 +150,6 @@ fn used_elements(types: &Types, shader: &Shader, index: usize) -> u32 {
         }
     }
     if uses == indexed { last.saturating_add(1).min(all) } else { all }
-}
-
-/// A name that nothing in the shader has.
-fn unused(shader: &Shader, wanted: &str) -> String {
-    let functions = shader.functions.iter();
-    let is_taken = |name: &str| {
-        shader.globals.iter().any(|global| global.name == name)
-            || functions
-                .clone()
-                .any(|function| function.name == name || function.locals.iter().any(|local| local.name == name))
-    };
-    let mut name = wanted.to_owned();
-    while is_taken(&name) {
-        name.push('0');
-    }
-    name
 }
 
 /// `shadow2D(s, p)` is `vec4(vec3(texture(s, p)), 1.0)`.

@@ -5,7 +5,7 @@
 //! *In:* a copy of a stage, and its program. *Out:* the same stage with other names. *Holds:* the names depend on the program alone, so that
 //! its stages agree. Both ends have the name of the output, unless something else in either stage has that name.
 
-use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Type, TypeId, Types};
+use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, fresh_name, global_names};
 use glisten_front::link::Program;
 use std::collections::BTreeSet;
 
@@ -43,7 +43,7 @@ fn common_names(program: &Program) -> Vec<([End; 2], String)> {
     let mut taken: Vec<(Stage, BTreeSet<String>)> = program
         .stages
         .iter()
-        .map(|shader| (shader.stage, other_names(&program.types, shader, |id| ends.contains(&(shader.stage, id)))))
+        .map(|shader| (shader.stage, global_names(&program.types, shader, |id| ends.contains(&(shader.stage, id)))))
         .collect();
     let mut names = Vec::new();
     for pair in renamed {
@@ -52,12 +52,7 @@ fn common_names(program: &Program) -> Vec<([End; 2], String)> {
             let of_pair = taken.iter().filter(|(stage, _)| pair.iter().any(|end| end.0 == *stage));
             of_pair.into_iter().any(|(_, names)| names.contains(name))
         };
-        let mut name = wanted.clone();
-        let mut number = 1;
-        while is_taken(&name) {
-            number += 1;
-            name = format!("{}_{number}", wanted.trim_end_matches('_'));
-        }
+        let name = fresh_name(&wanted, is_taken);
         for (_, names) in taken.iter_mut().filter(|(stage, _)| pair.iter().any(|end| end.0 == *stage)) {
             names.insert(name.clone());
         }
@@ -91,31 +86,4 @@ fn renamed(program: &Program) -> Vec<[End; 2]> {
 
 fn global(program: &Program, (stage, id): End) -> Option<&Global> {
     program.stage(stage)?.globals.get(id.index())
-}
-
-/// The global names of a stage, without those of some variables.
-fn other_names(types: &Types, shader: &Shader, is_left_out: impl Fn(GlobalId) -> bool) -> BTreeSet<String> {
-    let mut names: BTreeSet<String> = shader.functions.iter().map(|function| function.name.clone()).collect();
-    for (index, global) in shader.globals.iter().enumerate() {
-        match &global.block {
-            Some(block) => {
-                names.insert(block.name.clone());
-                match &block.instance {
-                    Some(instance) => drop(names.insert(instance.clone())),
-                    None => names.extend(members(types, global.ty)),
-                }
-            }
-            None if is_left_out(GlobalId::new(index)) => {}
-            None => drop(names.insert(global.name.clone())),
-        }
-    }
-    names.extend(types.structures().filter(|structure| !structure.is_block).map(|structure| structure.name.clone()));
-    names
-}
-
-fn members(types: &Types, ty: TypeId) -> Vec<String> {
-    match types.get(ty) {
-        Type::Struct(id) => types.structure(id).members.iter().map(|member| member.name.clone()).collect(),
-        _ => Vec::new(),
-    }
 }

@@ -24,7 +24,8 @@ use crate::target::{Conventions, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::{
-    BlockLayout, ExprId, ExprKind, Global, GlobalId, Shader, Stage, Storage, TypeId, Types, VarRef,
+    BlockLayout, ExprId, ExprKind, Global, GlobalId, Shader, Stage, Storage, TypeId, Types, VarRef, all_names,
+    fresh_name,
 };
 use glisten_front::link::{Program, SlotBinding};
 use glisten_front::source::Span;
@@ -172,15 +173,6 @@ fn variable(shader: &mut Shader, global: GlobalId) -> ExprId {
 
 /// A name that nothing in the program has.
 fn unused(program: &Program, wanted: &str) -> String {
-    let is_taken = |name: &str| {
-        program.stages.iter().any(|shader| {
-            uniforms::declares(&program.types, shader, name)
-                || shader.functions.iter().any(|function| function.locals.iter().any(|local| local.name == name))
-        })
-    };
-    let mut name = wanted.to_owned();
-    while is_taken(&name) {
-        name.push('0');
-    }
-    name
+    let taken: Vec<_> = program.stages.iter().map(|shader| all_names(&program.types, shader)).collect();
+    fresh_name(wanted, |name| taken.iter().any(|names| names.contains(name)))
 }
