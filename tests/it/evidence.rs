@@ -238,6 +238,23 @@ fn a_result_that_no_return_gives_is_undefined() {
     }
 }
 
+/// The first simulated GPUs agree on one side of a comparison of equal numbers, and further ones are on the other: that is no evidence.
+#[test]
+fn a_fault_at_a_jump_never_holds() {
+    let text = "#version 150\nin vec2 q;\nout vec4 c;\nvoid main() {\n    c = vec4(length(floor(q * 5.0)) <= 5.0 ? 1.0 : 0.0);\n}\n";
+    let folder = quad(1, text);
+    let (exit, json) = verify(&folder, &["--via", "wgsl"]);
+    assert_ne!(json["verdict"], "fails", "{json}");
+    assert!(exit == 0 || count(&json, "likely") == 0, "{json}");
+    assert!(folder.run(&["compile", "a.frag", "--target", "wgsl", "-o", "out"]).status.success());
+    let wgsl = fs::read_to_string(folder.path("out/a.frag.wgsl")).expect("written");
+    assert!(wgsl.contains("<= 5.0"), "{wgsl}");
+    fs::write(folder.path("fault.wgsl"), wgsl.replace("<= 5.0", "< 5.0")).expect("written");
+    let (exit, json) = verify(&folder, &["--via", "wgsl", "--with", "fragment=fault.wgsl"]);
+    assert_eq!(exit, 1, "{json}");
+    assert_ne!(json["verdict"], "holds", "{json}");
+}
+
 /// Envelopes of derivatives are wide; simulated GPUs agree on what they draw.
 #[test]
 fn what_simulated_gpus_agree_on_is_likely() {

@@ -68,7 +68,7 @@ fn derivatives_are_judged_by_what_is_likely() {
     let conclusions: Vec<Conclusion> = found.iter().map(|(conclusion, _)| *conclusion).collect();
     use Conclusion::{Fails, Holds};
     assert_eq!(conclusions, [Holds, Holds, Holds, Fails], "{found:?}");
-    assert!(found.iter().all(|(_, verdict)| verdict.evidence.likely > 3900), "{found:?}");
+    assert!(found.iter().take(3).all(|(_, verdict)| verdict.evidence.likely > 3900), "{found:?}");
 }
 
 #[test]

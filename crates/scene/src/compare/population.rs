@@ -16,8 +16,9 @@
 //! *What is likely:* a pixel whose envelope is too wide to be judged is judged by the members, if they agree: the hull of
 //! their numbers, widened by [`MARGIN`] times its width and by what the format rounds to, is at most as wide as the goal in
 //! each channel that the programs write. It takes [`MIN_MEMBERS`] members that cover the pixel, none with NaN; they are as
-//! drivers are. Further members err as far as the rules allow. They make no pixel less likely, but what they draw is no
-//! fault: a number up to [`BEYOND_RULES`] widths outside of the range of all members is right as well. At a jump, and near
+//! drivers are. Further members err as far as the rules allow. What they draw is no
+//! fault: a number up to [`BEYOND_RULES`] widths outside of the range of all members is right as well. But where it is
+//! further than [`MAX_RULES`] from the hull, the members do not agree, and the pixel is not likely. At a jump, and near
 //! an edge, where another primitive may own the pixel, the eight pixels around count as above.
 //!
 //! *Restricted:* members may draw a part of the picture. Elsewhere only the others count. Fewer members make more pixels
@@ -39,6 +40,10 @@ pub const MIN_MEMBERS: u32 = 16;
 
 /// How many widths of the range of all members a number may be outside of it, if there are more than [`MIN_MEMBERS`].
 pub const BEYOND_RULES: f64 = 0.5;
+
+/// How far from what the first members drew a number may be that further members make right, as a share of the range of the picture's values.
+/// What is further away is the other side of a jump: the members do not agree, and the pixel is no evidence.
+pub const MAX_RULES: f64 = 0.0625;
 
 /// How many widths of the range of the pixels around a number may be outside of it across a jump: a color goes on beyond the
 /// pixels that have it.
@@ -212,6 +217,9 @@ impl Population {
             }
             let (around, unit) = (self.range_around(attachment, pixel, channel), ruler.rounding(value));
             if self.typical.is_some() && distance(all, value, unit) <= BEYOND_RULES {
+                if (low - value).max(value - high) > MAX_RULES * ruler.range {
+                    return None;
+                }
                 continue;
             }
             let is_across = distance(around, value, unit) <= BEYOND_JUMP && value.is_finite();
