@@ -143,17 +143,16 @@ impl<D: Domain> Vertices<D> {
             self.floats.push(match self.interpolations[i] {
                 Interpolation::Smooth => mix(x, y, t),
                 Interpolation::Noperspective => {
-                    let value = if is_at_eye || starts_at_eye != [false; 2] {
-                        let product = mix(self.product(a, i), self.product(b, i), t);
+                    let is_excused = self.faults.excuses(Fault::ClippedNoperspective);
+                    let share = if is_excused { self.lost_in_window(a, b) } else { 0.0 };
+                    if is_at_eye || starts_at_eye != [false; 2] {
+                        let (from, to) = (self.product(a, i), self.product(b, i));
+                        // What is cut from here goes on with what the driver may have made of it.
+                        let product = excused(mix(from, to, t), share, (to.value() - from.value()).abs());
                         products.push(product);
                         product.div(clip[3])
                     } else {
-                        mix(x, y, in_window)
-                    };
-                    if self.faults.excuses(Fault::ClippedNoperspective) {
-                        self.excused(value, self.lost_in_window(a, b), (y.value() - x.value()).abs())
-                    } else {
-                        value
+                        excused(mix(x, y, in_window), share, (y.value() - x.value()).abs())
                     }
                 }
                 // It is taken from the provoking vertex, never from here.
@@ -191,17 +190,6 @@ impl<D: Domain> Vertices<D> {
         }
         let (a, b) = (a.map(f64::from), b.map(f64::from));
         std::array::from_fn(|i| (a[i] + cut.double * (b[i] - a[i])) as f32)
-    }
-
-    /// A varying that a driver may get wrong by a share of its difference along the edge. If that is not small, the
-    /// difference of x may be 0, and the driver's result NaN.
-    fn excused(&self, value: D::Float, share: f64, difference: f64) -> D::Float {
-        const SMALL: f64 = 1.0 / 64.0;
-        if share <= SMALL {
-            value.widened(share * difference)
-        } else {
-            D::Float::with_interval(value.value(), Interval::ALL)
-        }
     }
 
     /// How far off a driver may be that, like Mesa 22.3, derives the position along an edge in window space only from
@@ -287,5 +275,18 @@ impl<D: Domain> Vertices<D> {
         let first = if a == 0 { from } else { self.add_between(from, to, start) };
         let last = if b == 0 { to } else { self.add_between(to, from, end) };
         Some([first, last])
+    }
+}
+
+/// A varying that a driver may get wrong by a share of its difference along the edge. If that is not small, the
+/// difference of x may be 0, and the driver's result NaN.
+fn excused<F: Number>(value: F, share: f64, difference: f64) -> F {
+    const SMALL: f64 = 1.0 / 64.0;
+    if share == 0.0 {
+        value
+    } else if share <= SMALL {
+        value.widened(share * difference)
+    } else {
+        F::with_interval(value.value(), Interval::ALL)
     }
 }

@@ -8,6 +8,7 @@ use super::assembly::Corners;
 use crate::domain::{Number, rules};
 use crate::exec::LANES;
 use crate::interpolate::{linear, weights};
+use glisten_scene::picture::Interval;
 
 /// An ULP of f32 at 1.
 pub(super) const ULP: f64 = 1.0 / (1 << 23) as f64;
@@ -94,7 +95,12 @@ impl Plane {
         }
         // Two loops, because the compiler vectorizes only the first.
         for ((to, value), error) in to.iter_mut().zip(values).zip(errors) {
-            *to = F::with_error(value, error);
+            // A vertex whose value may be anything may be NaN, too.
+            *to = if error < f64::INFINITY {
+                F::with_error(value, error)
+            } else {
+                F::with_interval(value, Interval::ALL)
+            };
         }
     }
 

@@ -93,7 +93,10 @@ pub(crate) fn gather(texture: &Texture, request: &Request, component: usize) -> 
     let has_faces = footprint.faces.iter().flatten().count() > 1;
     if integers {
         let bits = GATHERED.map(|[right, up]| {
-            let place = footprint.place(base, [x.first + right, y.first + up, 0]).unwrap_or([0; 3]);
+            let place = |right: i64, up: i64| footprint.place(base, [x.first + right, y.first + up, 0]);
+            // Where three faces of a cube meet there is no fourth texel, and OpenGL leaves open what it is: one of the three, which no mean of
+            // integers would be (OpenGL 4.5 §8.14.3).
+            let place = place(right, up).or_else(|| place(1 - right, up)).unwrap_or([0; 3]);
             BoundedInt::exact(texel::bits(base, place).get(component).copied().unwrap_or(0))
         });
         return if (positions > 1 || has_faces) && request.bounded {
