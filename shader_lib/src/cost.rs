@@ -76,8 +76,28 @@ impl std::fmt::Display for Cost {
 
 /// The cost of a call of the function, without its arguments.
 pub fn cost(types: &Types, shader: &Shader, function: FunctionId) -> Cost {
+    counted(types, shader, [function]).get(function.index()).copied().flatten().unwrap_or_default()
+}
+
+/// The [costs](cost) of all functions of a shader, in their order.
+pub fn costs(types: &Types, shader: &Shader) -> Vec<Cost> {
+    let roots = shader.functions().map(|(id, _)| id);
+    counted(types, shader, roots).into_iter().map(Option::unwrap_or_default).collect()
+}
+
+/// The costs of functions and of all that they reach. Callees come first, so that a chain of calls takes no stack. A function that calls itself, which
+/// is an error, costs nothing more there.
+fn counted(types: &Types, shader: &Shader, roots: impl IntoIterator<Item = FunctionId>) -> Vec<Option<Cost>> {
     let mut counter = Counter { types, shader, known: vec![None; shader.functions.len()] };
-    shader.on_stack(|| counter.function(function))
+    shader.on_stack(|| {
+        for id in shader.callees_first_of(roots) {
+            let cost = counter.stmts(shader.function(id).body.as_deref().unwrap_or(&[]), Cost::default());
+            if let Some(known) = counter.known.get_mut(id.index()) {
+                *known = Some(cost);
+            }
+        }
+        counter.known
+    })
 }
 
 struct Counter<'a> {
@@ -87,24 +107,8 @@ struct Counter<'a> {
 }
 
 impl Counter<'_> {
-    fn function(&mut self, id: FunctionId) -> Cost {
-        if let Some(Some(cost)) = self.known.get(id.index()) {
-            return *cost;
-        }
-        if let Some(known) = self.known.get_mut(id.index()) {
-            // A function that calls itself, which is an error, costs nothing more there.
-            *known = Some(Cost::default());
-        }
-        let shader = self.shader;
-        let cost = self.stmts(shader.function(id).body.as_deref().unwrap_or(&[]), Cost::default());
-        if let Some(known) = self.known.get_mut(id.index()) {
-            *known = Some(cost);
-        }
-        cost
-    }
-
     /// The most expensive path through statements that are reached at the cost `so_far`.
-    fn stmts(&mut self, stmts: &[Stmt], so_far: Cost) -> Cost {
+    fn stmts(&self, stmts: &[Stmt], so_far: Cost) -> Cost {
         let (mut cost, mut dearest) = (so_far, so_far);
         for stmt in stmts {
             match &stmt.kind {
@@ -137,30 +141,29 @@ impl Counter<'_> {
         dearest.dearest(cost)
     }
 
-    fn expr(&mut self, id: ExprId) -> Cost {
-        if self.constant(id) {
-            return Cost::default();
-        }
-        let shader = self.shader;
-        let expr = shader.expr(id);
-        let own = own(self.types, shader, id);
-        match &expr.kind {
-            ExprKind::Ternary(condition, yes, no) => {
-                let (yes, no) = (self.expr(*yes), self.expr(*no));
-                self.expr(*condition).and(yes.dearest(no)).and(own)
-            }
-            ExprKind::Call(function, _) => {
-                let called = self.function(*function);
-                expr.kind.children().into_iter().fold(called, |cost, child| cost.and(self.expr(child)))
-            }
-            _ => expr.kind.children().into_iter().fold(own, |cost, child| cost.and(self.expr(child))),
-        }
+    fn expr(&self, id: ExprId) -> Cost {
+        self.evaluated(id).unwrap_or_default()
     }
 
-    /// Whether the expression consists of literals and of calls without arguments.
-    fn constant(&self, id: ExprId) -> bool {
+    /// The cost of an expression; `None` if it consists of literals and of calls without arguments, which a compiler evaluates.
+    fn evaluated(&self, id: ExprId) -> Option<Cost> {
         let kind = &self.shader.expr(id).kind;
-        !matches!(kind, ExprKind::Var(_)) && kind.children().into_iter().all(|child| self.constant(child))
+        let parts: Vec<Option<Cost>> = kind.children().into_iter().map(|child| self.evaluated(child)).collect();
+        if !matches!(kind, ExprKind::Var(_)) && parts.iter().all(Option::is_none) {
+            return None;
+        }
+        let called = match kind {
+            ExprKind::Call(function, _) => self.known.get(function.index()).copied().flatten().unwrap_or_default(),
+            _ => own(self.types, self.shader, id),
+        };
+        let mut parts = parts.into_iter().map(Option::unwrap_or_default);
+        Some(match kind {
+            ExprKind::Ternary(..) => {
+                let condition = parts.next().unwrap_or_default();
+                condition.and(parts.reduce(Cost::dearest).unwrap_or_default()).and(called)
+            }
+            _ => parts.fold(called, Cost::and),
+        })
     }
 }
 

@@ -18,7 +18,7 @@ pub mod wgsl;
 
 pub use catalogue::{Entry, FunctionEntry, entries, entry};
 pub use cost::own as own_cost;
-pub use cost::{Cost, cost};
+pub use cost::{Cost, cost, costs};
 pub use flat::flat;
 pub use header::Header;
 pub use programs::{LibraryProgram, programs, shader, shader_files};

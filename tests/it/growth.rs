@@ -49,6 +49,7 @@ fn lint_is_linear() {
             in_main(&format!("float a0 = x; {} x = a{MANY};", each(link)))
         }),
         ("blocks with variables", in_main(&"{ float a = x; x += a; }\n".repeat(MANY / 4))),
+        ("allowed findings", in_main(&each(|i| format!("// glisten: allow(L0001)\nfloat a{i};\n")))),
         ("structs", with_globals(&format!("{version}{}", each(|i| format!("struct S{i} {{ float a; }};\n"))))),
         ("functions", with_globals(&format!("{version}{}", each(|i| format!("float f{i}() {{ return 1.0; }}\n"))))),
         ("layouts", with_globals(&format!("{version}{}out float a;\n", "layout(location = 0) ".repeat(MANY)))),
@@ -108,6 +109,12 @@ fn emission_is_linear() {
         });
         soon(&format!("{what}, cost"), || {
             glisten_cost::cost(&program, &compilation.sources, &glisten_cost::Assumptions::default());
+        });
+        soon(&format!("{what}, costs of functions"), || {
+            glisten_library::costs(&program.types, &program.stages[0]);
+        });
+        soon(&format!("{what}, left out"), || {
+            glisten_specialize::optimize(&program);
         });
     }
 }

@@ -7,7 +7,7 @@
 //! its group, that over `deny warnings`, and a comment over all. A rule that is off reports where a level asks for it.
 
 use super::{Code, Diagnostic, Group, Key, Severity};
-use crate::source::{SourceMap, Span};
+use crate::source::{SourceFile, SourceMap};
 use std::collections::BTreeMap;
 
 /// The treatment of a warning.
@@ -120,16 +120,10 @@ fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
     (1..at.line).rev().map_while(|number| file.line(number).filter(|line| is_comment(line))).any(allows)
 }
 
-/// Whether a comment at a span, `// glisten: allow(KEY)`, allows a diagnostic by this key.
-pub fn allows(sources: &SourceMap, comment: Span, key: &str, diagnostic: &Diagnostic) -> bool {
-    let site = |span| sources.location(sources.call_site(span));
-    let (Some(comment), Some(at)) = (site(comment), site(diagnostic.primary.span)) else { return false };
-    if comment.file != at.file || !Key::find(key).is_some_and(|key| key.names(diagnostic.code)) {
-        return false;
-    }
-    let file = sources.file(at.file);
-    let between = || (comment.line..at.line).all(|number| file.line(number).is_some_and(is_comment));
-    comment.line == at.line || comment.line < at.line && between()
+/// The last line whose findings a comment on this line of a file allows: the first one that has more than comments.
+pub(crate) fn last_allowed_line(file: &SourceFile, comment: u32) -> u32 {
+    let comments = (comment..).take_while(|number| file.line(*number).is_some_and(is_comment)).count();
+    comment.saturating_add(u32::try_from(comments).unwrap_or(u32::MAX))
 }
 
 /// The codes in a line's `// glisten: allow(CODE, CODE)`, in any case and with any white space, in either kind of comment.

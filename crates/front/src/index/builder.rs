@@ -231,7 +231,7 @@ impl Builder {
                 None => occurrences.push(found),
             }
         }
-        Index { symbols, occurrences }
+        Index::new(symbols, occurrences)
     }
 }
 

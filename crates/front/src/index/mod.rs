@@ -119,9 +119,21 @@ pub struct Index {
     symbols: Vec<Symbol>,
     /// Sorted by their places.
     occurrences: Vec<Occurrence>,
+    /// For each symbol, where its occurrences are in that list.
+    by_symbol: Vec<Vec<u32>>,
 }
 
 impl Index {
+    fn new(symbols: Vec<Symbol>, occurrences: Vec<Occurrence>) -> Self {
+        let mut by_symbol = vec![Vec::new(); symbols.len()];
+        for (index, found) in occurrences.iter().enumerate() {
+            if let Some(own) = by_symbol.get_mut(found.symbol.index()) {
+                own.push(index as u32);
+            }
+        }
+        Self { symbols, occurrences, by_symbol }
+    }
+
     /// The symbol of a handle of this index.
     pub fn symbol(&self, id: SymbolId) -> &Symbol {
         &self.symbols[id.index()]
@@ -153,6 +165,7 @@ impl Index {
 
     /// The occurrences of a symbol, in the order of the texts.
     pub fn of(&self, symbol: SymbolId) -> impl Iterator<Item = &Occurrence> {
-        self.occurrences.iter().filter(move |found| found.symbol == symbol)
+        let own = self.by_symbol.get(symbol.index()).into_iter().flatten();
+        own.filter_map(|index| self.occurrences.get(*index as usize))
     }
 }

@@ -14,7 +14,7 @@ use lsp_types::{
     FullDocumentDiagnosticReport, Location, NumberOrString, RelatedFullDocumentDiagnosticReport,
     RelatedUnchangedDocumentDiagnosticReport, UnchangedDocumentDiagnosticReport, Uri,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -208,6 +208,7 @@ fn inactive_in(first: &Analysis, path: &Path) -> Vec<std::ops::Range<usize>> {
     });
     let Some(mut ranges) = lists.next() else { return Vec::new() };
     for other in lists {
+        let other: HashSet<std::ops::Range<usize>> = other.into_iter().collect();
         ranges.retain(|range| other.contains(range));
     }
     ranges

@@ -7,7 +7,6 @@ use crate::state::State;
 use crate::text::{Encoding, Text};
 use crate::uri;
 use lsp_types::{DocumentRangeFormattingParams, TextEdit, Uri};
-use similar::{DiffOp, TextDiff};
 use std::ops::Range;
 
 /// Formats a document.
@@ -42,17 +41,15 @@ fn edits(state: &mut State<'_>, uri: &Uri, is_fine: bool) -> Option<Vec<(Range<u
 
 /// The edits that make one text of another, by lines.
 fn line_edits(old: &Text, new: &str, (encoding, is_fine): (Encoding, bool)) -> Vec<(Range<usize>, TextEdit)> {
-    let diff = TextDiff::from_lines(&*old.text, new);
     // The lines of the comparison end with `\n` alone.
     let line_ends: Vec<usize> = old.text.match_indices('\n').map(|(at, _)| at + 1).collect();
     let start_of = |line: usize| if line == 0 { 0 } else { line_ends.get(line - 1).copied().unwrap_or(old.text.len()) };
     let (old_lines, new_lines): (Vec<&str>, Vec<&str>) =
         (old.text.split_inclusive('\n').collect(), new.split_inclusive('\n').collect());
-    let different = diff.ops().iter().filter(|op| !matches!(op, DiffOp::Equal { .. }));
-    let blocks = different.flat_map(|op| {
-        let block = (op.old_range(), op.new_range());
-        if is_fine { apart(&old_lines, &new_lines, block) } else { vec![block] }
-    });
+    let mut blocks = apart(&old_lines, &new_lines);
+    if !is_fine {
+        blocks = joined(blocks);
+    }
     let mut edits = Vec::new();
     for (lines, texts) in blocks {
         let (start, end) = (start_of(lines.start), start_of(lines.end));
@@ -66,10 +63,11 @@ fn line_edits(old: &Text, new: &str, (encoding, is_fine): (Encoding, bool)) -> V
 /// Lines of the old text, and those of the new one in their place.
 type Block = (Range<usize>, Range<usize>);
 
-/// A block in the smallest parts: each ends where both texts have the same characters so far, white space aside. Formatting changes no others.
-fn apart(old: &[&str], new: &[&str], (lines, texts): Block) -> Vec<Block> {
-    let (ours, theirs) = (ends(old, &lines), ends(new, &texts));
-    let (mut parts, mut from) = (Vec::new(), (lines.start, texts.start));
+/// What differs, in the smallest parts: each ends where both texts have the same characters so far, white space aside. Formatting changes no
+/// others. It takes time that grows with the texts, where looking for the fewest lines that differ would take their product.
+fn apart(old: &[&str], new: &[&str]) -> Vec<Block> {
+    let (ours, theirs) = (ends(old), ends(new));
+    let (mut parts, mut from) = (Vec::new(), (0, 0));
     let mut other = theirs.iter().peekable();
     for (line, end) in &ours {
         while other.next_if(|(_, their)| their < end).is_some() {}
@@ -78,33 +76,56 @@ fn apart(old: &[&str], new: &[&str], (lines, texts): Block) -> Vec<Block> {
             from = (*line, *text);
         }
     }
-    parts.push((from.0..lines.end, from.1..texts.end));
-    let text = |all: &[&str], lines: &Range<usize>| all.get(lines.clone()).unwrap_or(&[]).concat();
-    parts.retain(|(lines, texts)| text(old, lines) != text(new, texts));
-    parts
+    parts.push((from.0..old.len(), from.1..new.len()));
+    let changed = parts.into_iter().map(|part| trimmed(old, new, part));
+    changed.filter(|(lines, texts)| !lines.is_empty() || !texts.is_empty()).collect()
 }
 
-/// The ends of some lines, each with the number of characters so far that are not white space.
-fn ends(all: &[&str], lines: &Range<usize>) -> Vec<(usize, usize)> {
-    let mut count = 0;
-    let mut ends = Vec::new();
-    for line in lines.clone() {
-        count += all.get(line).map_or(0, |text| text.chars().filter(|letter| !letter.is_whitespace()).count());
-        ends.push((line + 1, count));
+/// A block without the lines at its begin and at its end that are the same.
+fn trimmed(old: &[&str], new: &[&str], (mut lines, mut texts): Block) -> Block {
+    while !lines.is_empty() && !texts.is_empty() && old.get(lines.start) == new.get(texts.start) {
+        (lines.start, texts.start) = (lines.start + 1, texts.start + 1);
     }
-    ends
+    while !lines.is_empty() && !texts.is_empty() && old.get(lines.end - 1) == new.get(texts.end - 1) {
+        (lines.end, texts.end) = (lines.end - 1, texts.end - 1);
+    }
+    (lines, texts)
+}
+
+/// The blocks, those that follow each other as one.
+fn joined(blocks: Vec<Block>) -> Vec<Block> {
+    let mut all: Vec<Block> = Vec::new();
+    for (lines, texts) in blocks {
+        match all.last_mut().filter(|last| last.0.end == lines.start && last.1.end == texts.start) {
+            Some(last) => (last.0.end, last.1.end) = (lines.end, texts.end),
+            None => all.push((lines, texts)),
+        }
+    }
+    all
+}
+
+/// The ends of the lines, each with the number of characters so far that are not white space.
+fn ends(lines: &[&str]) -> Vec<(usize, usize)> {
+    let mut count = 0;
+    let end = |(line, text): (usize, &&str)| {
+        count += text.chars().filter(|letter| !letter.is_whitespace()).count();
+        (line + 1, count)
+    };
+    lines.iter().enumerate().map(end).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::apart;
+    use super::{apart, joined};
 
     #[test]
     fn lines_that_differ_are_taken_apart() {
         let old = ["a ;\n", "  b=c ;\n", "\n", "d(\n", "e ) ;\n", "f ;\n"];
         let new = ["a;\n", "b = c;\n", "d(e);\n", "f ;\n"];
-        let parts = apart(&old, &new, (0..6, 0..4));
+        let parts = apart(&old, &new);
         assert_eq!(parts, [(0..1, 0..1), (1..2, 1..2), (2..5, 2..3)]);
-        assert_eq!(apart(&old, &["a;b\n"], (0..2, 0..1)), [(0..2, 0..1)]);
+        assert_eq!(joined(parts), [(0..5, 0..3)]);
+        assert_eq!(apart(&old[..2], &["a;b=c;\n"]), [(0..2, 0..1)]);
+        assert_eq!(apart(&["a\n", "\n", "\n", "b\n"], &["a\n", "\n", "b\n"]), [(2..3, 2..2)]);
     }
 }

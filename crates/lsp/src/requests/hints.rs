@@ -146,9 +146,9 @@ impl Maker<'_> {
     /// The operations of each function.
     fn operations(&self, hints: &mut Vec<Hint>) {
         let types = &self.analysis.compiled.inspection.types;
-        for (id, function) in self.view.shader.functions() {
+        let costs = glisten_library::costs(types, &self.view.shader);
+        for (function, cost) in self.view.shader.functions.iter().zip(costs) {
             let Some(name) = self.end_of(function.span).filter(|_| function.body.is_some()) else { continue };
-            let cost = glisten_library::cost(types, &self.view.shader, id);
             let operations = cost.arithmetic.saturating_add(cost.special);
             let Some(offset) = self.end_of_head(name).filter(|_| cost.weight() > 0) else { continue };
             let mut label = format!("{operations} operation{}", if operations == 1 { "" } else { "s" });

@@ -13,6 +13,7 @@ use glisten_front::syntax::ast::{DeclarationKind, MemberDecl, StructSpec, TypeBa
 use lsp_types::{
     DocumentSymbol, DocumentSymbolResponse, Location, SymbolInformation, SymbolKind, Uri, WorkspaceSymbolResponse,
 };
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// A workspace has at most this many symbols in an answer.
@@ -67,13 +68,10 @@ fn outline(state: &mut State<'_>, path: &Path) -> Vec<DocumentSymbol> {
     let analyses = state.analyses_of(path);
     let Some(analysis) = analyses.first() else { return Vec::new() };
     let mut symbols: Vec<DocumentSymbol> = Vec::new();
+    let mut known: HashSet<lsp_types::Range> = HashSet::new();
     let maker = Maker { state, analysis, files: analysis.files(path).collect() };
     for (number, view) in analysis.compiled.inspection.views() {
-        for symbol in maker.of_view(number, view) {
-            if !symbols.iter().any(|other| other.selection_range == symbol.selection_range) {
-                symbols.push(symbol);
-            }
-        }
+        symbols.extend(maker.of_view(number, view).into_iter().filter(|symbol| known.insert(symbol.selection_range)));
     }
     symbols
 }
@@ -110,6 +108,11 @@ impl Maker<'_, '_> {
 
     fn of_view(&self, number: usize, view: &View) -> Vec<DocumentSymbol> {
         let mut symbols = Vec::new();
+        let mut names: HashMap<Span, Denoted> = HashMap::new();
+        for note in &view.notes.names {
+            names.entry(note.span).or_insert(note.denoted);
+        }
+        let detail = |name: Span| describe::declaration(self.analysis, number, *names.get(&name)?);
         for definition in &view.ast.directives.definitions {
             let whole = self.analysis.sources().join(definition.span, definition.body);
             let body = self.analysis.sources().snippet(definition.body);
@@ -120,7 +123,7 @@ impl Maker<'_, '_> {
             let span = self.analysis.sources().call_site(declaration.span);
             match &declaration.kind {
                 DeclarationKind::Function(header, _) | DeclarationKind::Prototype(header) => {
-                    let detail = self.detail(number, view, header.name.span);
+                    let detail = detail(header.name.span);
                     let name = view.ast.name(header.name);
                     symbols.extend(self.symbol(name, SymbolKind::FUNCTION, span, header.name.span, detail));
                 }
@@ -128,8 +131,8 @@ impl Maker<'_, '_> {
                     symbols.extend(self.structure(view, &variables.ty));
                     for declarator in &variables.declarators {
                         let own = declarator.name.span;
-                        let kind = self.kind(view, own);
-                        let detail = self.detail(number, view, own);
+                        let kind = kind(view, names.get(&own));
+                        let detail = detail(own);
                         let name = view.ast.name(declarator.name);
                         let whole =
                             if variables.declarators.len() == 1 && !matches!(variables.ty.base, TypeBase::Struct(_)) {
@@ -152,7 +155,7 @@ impl Maker<'_, '_> {
                     symbols.extend(fragment.variables.iter().filter_map(|broken| self.structure(view, &broken.ty)));
                     for name in &fragment.names {
                         let spelled = view.ast.name(*name);
-                        let detail = self.detail(number, view, name.span);
+                        let detail = detail(name.span);
                         symbols.extend(self.symbol(spelled, SymbolKind::VARIABLE, span, name.span, detail));
                     }
                 }
@@ -183,25 +186,18 @@ impl Maker<'_, '_> {
         }
         symbols
     }
+}
 
-    fn denoted(&self, view: &View, name: Span) -> Option<Denoted> {
-        view.notes.names.iter().find(|note| note.span == name).map(|note| note.denoted)
-    }
-
-    fn kind(&self, view: &View, name: Span) -> SymbolKind {
-        let global = match self.denoted(view, name) {
-            Some(Denoted::Global(id)) => view.shader.globals.get(id.index()),
-            _ => None,
-        };
-        match global.map(|global| global.storage) {
-            Some(Storage::Const) => SymbolKind::CONSTANT,
-            Some(Storage::Uniform) => SymbolKind::PROPERTY,
-            _ => SymbolKind::VARIABLE,
-        }
-    }
-
-    fn detail(&self, number: usize, view: &View, name: Span) -> Option<String> {
-        describe::declaration(self.analysis, number, self.denoted(view, name)?)
+/// The kind of what a name denotes.
+fn kind(view: &View, denoted: Option<&Denoted>) -> SymbolKind {
+    let global = match denoted {
+        Some(Denoted::Global(id)) => view.shader.globals.get(id.index()),
+        _ => None,
+    };
+    match global.map(|global| global.storage) {
+        Some(Storage::Const) => SymbolKind::CONSTANT,
+        Some(Storage::Uniform) => SymbolKind::PROPERTY,
+        _ => SymbolKind::VARIABLE,
     }
 }
 

@@ -145,9 +145,13 @@ fn tokens(state: &mut State<'_>, uri: &Uri) -> Option<(Text, Vec<Token>)> {
 
 fn add_tokens(analysis: &Analysis, path: &Path, text: &str, inactive: &[Range<usize>], tokens: &mut Vec<Token>) {
     let names = Names { analysis, path, found: analysis.occurrences(path) };
+    // Both lists are in the order of the text: how far what begins up to here is left out.
+    let (mut ranges, mut left_out) = (inactive.iter().peekable(), 0);
     for lexeme in scan(text) {
-        let is_left_out = inactive.iter().any(|range| range.start <= lexeme.start && lexeme.end() <= range.end);
-        if is_left_out {
+        while let Some(range) = ranges.next_if(|range| range.start <= lexeme.start) {
+            left_out = left_out.max(range.end);
+        }
+        if lexeme.end() <= left_out {
             tokens.push(Token { range: lexeme.start..lexeme.end(), color: Color::Comment, bits: 0 });
             continue;
         }

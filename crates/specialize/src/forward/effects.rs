@@ -37,15 +37,10 @@ impl Effects {
     /// Of these functions and of those that they call, callees before callers.
     pub(crate) fn of(shader: &Shader, functions: impl IntoIterator<Item = FunctionId>) -> Self {
         let mut effects = Self { functions: vec![Effect::default(); shader.functions.len()] };
-        let mut done = vec![false; shader.functions.len()];
-        for id in functions {
-            for callee in order(shader, id, &done) {
-                let effect = effects.of_function(shader, callee);
-                if let (Some(slot), Some(done)) =
-                    (effects.functions.get_mut(callee.index()), done.get_mut(callee.index()))
-                {
-                    (*slot, *done) = (effect, true);
-                }
+        for id in shader.callees_first_of(functions) {
+            let effect = effects.of_function(shader, id);
+            if let Some(slot) = effects.functions.get_mut(id.index()) {
+                *slot = effect;
             }
         }
         effects
@@ -118,13 +113,4 @@ impl Effects {
         });
         assigned
     }
-}
-
-/// The functions that one reaches and that are not done, callees first.
-fn order(shader: &Shader, root: FunctionId, done: &[bool]) -> Vec<FunctionId> {
-    let is_done = |id: FunctionId| done.get(id.index()).copied().unwrap_or(true);
-    if is_done(root) {
-        return Vec::new();
-    }
-    shader.callees_first(root).into_iter().filter(|id| !is_done(*id)).collect()
 }

@@ -4,24 +4,28 @@
 //! the findings of other phases.
 
 use super::super::{Findings, Subject};
-use crate::diagnostic::{Applicability, Key, allows};
+use crate::diagnostic::{Applicability, Code, Key, last_allowed_line};
+use crate::source::{FileId, SourceMap, Span};
+use std::collections::BTreeMap;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
-    let sources = subject.texts.sources();
+    let mut found = Found::new(subject.texts.sources(), findings);
     for shader in &subject.program.stages {
         for (span, keys) in &shader.origin.allows {
             if !subject.texts.is_own(shader, *span) {
                 continue;
             }
-            let idle = keys.iter().filter(|key| match Key::find(key) {
-                Some(Key::Code(code)) => code.lint.is_some() && code.id != findings.code.id,
-                Some(Key::Group(_)) => true,
-                None => false,
-            });
-            let idle: Vec<&str> = idle
-                .filter(|key| !findings.list.iter().any(|found| allows(sources, *span, key, found)))
-                .map(String::as_str)
-                .collect();
+            let allowed = found.allowed_by(*span);
+            let is_idle = |key: &&String| {
+                let key = Key::find(key);
+                let is_rule = match key {
+                    Some(Key::Code(code)) => code.lint.is_some() && code.id != findings.code.id,
+                    Some(Key::Group(_)) => true,
+                    None => false,
+                };
+                is_rule && !allowed.iter().any(|code| key.is_some_and(|key| key.names(code)))
+            };
+            let idle: Vec<&str> = keys.iter().filter(is_idle).map(String::as_str).collect();
             if idle.is_empty() {
                 continue;
             }
@@ -33,5 +37,37 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                 finding.help(if all { "remove the comment" } else { "remove what is not needed" }).maybe_fix(fix),
             );
         }
+    }
+}
+
+/// The codes of what the other rules found, line by line.
+struct Found<'a> {
+    sources: &'a SourceMap,
+    by_line: BTreeMap<(FileId, u32), Vec<&'static Code>>,
+    /// The last run of lines that are comments alone: from where it was looked at, and the line after it.
+    run: Option<(FileId, u32, u32)>,
+}
+
+impl<'a> Found<'a> {
+    fn new(sources: &'a SourceMap, findings: &Findings<'_>) -> Self {
+        let mut by_line: BTreeMap<(FileId, u32), Vec<&'static Code>> = BTreeMap::new();
+        for finding in findings.list.iter() {
+            if let Some(at) = sources.location(sources.call_site(finding.primary.span)) {
+                by_line.entry((at.file, at.line)).or_default().push(finding.code);
+            }
+        }
+        Self { sources, by_line, run: None }
+    }
+
+    /// The codes of the findings that a comment may silence.
+    fn allowed_by(&mut self, comment: Span) -> Vec<&'static Code> {
+        let Some(at) = self.sources.location(self.sources.call_site(comment)) else { return Vec::new() };
+        let is_in = |(file, first, last): &(FileId, u32, u32)| *file == at.file && (*first..=*last).contains(&at.line);
+        let last = match self.run.filter(is_in) {
+            Some((_, _, last)) => last,
+            None => last_allowed_line(self.sources.file(at.file), at.line),
+        };
+        self.run = Some((at.file, at.line, last));
+        self.by_line.range((at.file, at.line)..=(at.file, last)).flat_map(|(_, codes)| codes).copied().collect()
     }
 }

@@ -35,7 +35,8 @@ impl Effects {
             exprs.push(has);
         }
         let mut effects = Self { exprs, functions: vec![None; shader.functions.len()] };
-        for (id, _) in shader.functions() {
+        // Callees first: a chain of calls takes no stack.
+        for id in shader.callees_first_of(shader.functions().map(|(id, _)| id)) {
             effects.function(shader, id);
         }
         effects

@@ -12,6 +12,7 @@ use glisten_front::hir::{
     TypeId,
 };
 use glisten_front::source::Span;
+use glisten_front::stack::with_stack;
 
 /// The destination of a jump out of nested constructs.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -274,7 +275,8 @@ impl Compiler<'_> {
             values.push(value);
             places.push((index, path));
         }
-        let (result, finals) = self.inline(function, values, span);
+        // The callee's body is compiled in the midst of the caller's, however long the chain of calls is.
+        let (result, finals) = with_stack(self.shader.depth, || self.inline(function, values, span));
         for ((index, path), value) in places.into_iter().zip(finals) {
             let from = callee.params().get(index).map_or(TypeId::ERROR, |param| param.ty);
             let to = arguments.get(index).map_or(TypeId::ERROR, |argument| self.ty(*argument));
