@@ -42,13 +42,16 @@ float fogFactorSquared(float r, float density)
 // Fog that lies on the ground: its density is that at height 0 there, and e times less 1 / falloff above it.
 //   height  of the eye    direction  unit vector of the ray    r  distance, limited to >= 0
 //   density  at height 0, limited to [0, 2^20]    falloff  limited to [0, 2^20]
-// bound: 2e-6 abs, an exponent of an exponent
+// The density is taken at the lower end of the ray, from which it falls: the other end's may be nothing, and the mean along the ray too large for
+// a float. The ray ends at height + direction.y * r, which rounds where these are large.
+// bound: 8e-6 abs, an exponent of an exponent
 float fogFactor(float height, vec3 direction, float r, float density, float falloff)
 {
     float b = clamp(falloff, 0.0, exp2(20.0));
-    float at = clamp(density, 0.0, exp2(20.0)) * exp(clamp(-b * clamp(height, -exp2(60.0), exp2(60.0)), -80.0, 80.0));
-    float x = clamp(safeFinite(b * clamp(direction.y, -1.0, 1.0) * safePositive(r)), -80.0, exp2(100.0));
-    return exp(-min(safeFinite(at * safePositive(r) * fogMean(x)), 1024.0));
+    float rise = clamp(clamp(direction.y, -1.0, 1.0) * safePositive(r), -exp2(100.0), exp2(100.0));
+    float lower = clamp(height, -exp2(100.0), exp2(100.0)) + min(rise, 0.0);
+    float at = clamp(density, 0.0, exp2(20.0)) * exp(clamp(-b * lower, -80.0, 70.0));
+    return exp(-min(safeFinite(at * safePositive(r) * fogMean(abs(b * rise))), 1024.0));
 }
 
 #endif

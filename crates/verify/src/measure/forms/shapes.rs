@@ -149,9 +149,11 @@ fn mean(x: f64) -> f64 {
 fn ground_fog(a: &Args<'_>) -> Option<Answer> {
     let (height, [_, up, _], r, density, falloff) = (a.f(), a.d(), a.f(), a.f(), a.f());
     let x = falloff * r * up;
+    // Rounding moves the ends of the ray.
+    let exponents = x.abs() + (falloff * height).abs();
     let depth = density * (-falloff * height).exp() * r * mean(x);
     let value = (-depth).exp();
-    one(value, 8.0 + value * depth * (16.0 + 4.0 * x.abs()))
+    one(value, 8.0 + value * depth * (16.0 + 4.0 * exponents))
 }
 
 pub(super) static FORMS: &[Form] = forms! {
@@ -207,5 +209,5 @@ pub(super) static FORMS: &[Form] = forms! {
         let depth = (a.f() * a.f()).powi(2);
         one((-depth).exp(), 4.0 + 4.0 * depth * (-depth).exp())
     };
-    "fog" "fogFactor(float,vec3,float,float,float)" [Gain, Direction, White, Unit, Unit] ground_fog;
+    "fog" "fogFactor(float,vec3,float,float,float)" [White, Direction, White, Gain, Gain] ground_fog;
 };
