@@ -89,8 +89,8 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
              the ray, `r * r - dot(q, q)` with `q = oc - dot(oc, d) * d`"
         }
         (Pattern::QuadraticRoot, _) => {
-            "of the two roots of a quadratic, take the one that does not cancel, `q = -(b + sign(b) * sqrt(d))`, and the \
-             other as `c / q`"
+            "of the two roots of `a * x * x + b * x + c`, take the one that does not cancel, `q / a` with `s = sqrt(b * b - 4.0 * a * c)` \
+             and `q = -0.5 * (b + (b < 0.0 ? -s : s))`, and the other as `c / q`"
         }
         (Pattern::Variance, _) => {
             "a mean of squares minus a squared mean cancels: average the squares of the differences from the mean, or \
@@ -144,8 +144,17 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
             "rounding makes the argument negative or 0: use `sqrt(max(x, 0.0))`, and bound the divisor from below"
         }
         (_, Some(BuiltinFunction::Log | BuiltinFunction::Log2)) => {
-            "the argument reaches 0 or is near 1: bound it from below; `safeLogOneMinus` of <glisten/safe.glsl> is the \
-             logarithm of a number near 1 by its distance from 1"
+            "the argument reaches 0 or is near 1: bound it from below; `safeLogOneMinus` of <glisten/safe.glsl> is the logarithm of a \
+             number below 1 by its distance from 1, and that of `1.0 + x` for a small x is `2.0 * y * (1.0 + y * y / 3.0)` with \
+             `y = x / (2.0 + x)`"
+        }
+        (_, Some(BuiltinFunction::Pow)) if kind == CauseKind::Domain => {
+            "`pow` of a negative base is undefined (GLSL 1.50 §8.2): write a whole power as products, `x * x`, or say by `abs` or \
+             `max(x, 0.0)` what is meant"
+        }
+        (_, Some(BuiltinFunction::Tan)) if kind == CauseKind::Argument => {
+            "near a pole of the tangent each digit of the angle counts: take the angle from there, `1.0 / tan(d)` with the distance `d` \
+             from the pole; reduce an angle before it becomes large"
         }
         (_, Some(BuiltinFunction::Pow)) => {
             "`safePow` of <glisten/safe.glsl> keeps the digits of a base near 1 and is defined at 0, for exponents from 0 on; \

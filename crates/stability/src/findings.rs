@@ -251,7 +251,7 @@ fn diagnostic(cause: &Cause, help: &str) -> Diagnostic {
         CauseKind::Division => "this divides by 0 or by too little",
         CauseKind::Domain => "the argument is outside the domain of this function, or at its edge",
         CauseKind::Power => "the exponent multiplies the error of the base",
-        CauseKind::Argument => "the angle is too large for f32",
+        CauseKind::Argument => "f32 has too few digits for this angle",
         CauseKind::Comparison => "f32 decides this comparison differently",
         CauseKind::Conversion => "f32 rounds this to another number",
         CauseKind::Accumulation => "rounding adds up over the iterations",

@@ -6,7 +6,7 @@
 
 use super::patterns::{self, Found, Pattern};
 use glisten_front::builtin::BuiltinFunction;
-use glisten_front::hir::{BinaryOp, ExprId, ExprKind, Shader, Type, Types};
+use glisten_front::hir::{BinaryOp, ExprId, ExprKind, ScalarValue, Shader, Type, Types, may_act};
 use glisten_front::source::{SourceMap, Span};
 use glisten_reference::stability::{Cause, errors_of};
 use glisten_scene::Scene;
@@ -111,12 +111,21 @@ fn call(
         }
         (BuiltinFunction::Sqrt, _) => format!("sqrt(max({x}, 0.0))"),
         (BuiltinFunction::Pow, Type::Scalar(_)) => {
-            let exponent = text(*arguments.get(1)?)?;
-            format!("pow(max({x}, 0.0), {exponent})")
+            let exponent = *arguments.get(1)?;
+            match whole(shader, exponent) {
+                Some(count) => format!("({})", vec![x.as_str(); count].join(" * ")),
+                None => format!("pow(max({x}, 0.0), {})", text(exponent)?),
+            }
         }
         (BuiltinFunction::Exp, Type::Scalar(_)) => format!("exp(min({x}, 80.0))"),
         _ => return None,
     })
+}
+
+/// A constant exponent that products do for.
+fn whole(shader: &Shader, exponent: ExprId) -> Option<usize> {
+    let ExprKind::Literal(ScalarValue::Float(value)) = shader.expr(exponent).kind else { return None };
+    [2.0, 3.0, 4.0].contains(&value).then_some(value as usize)
 }
 
 /// The text of an operand, in parentheses unless it is a name or a call; `None` if it has side effects or is no plain text.
@@ -124,8 +133,7 @@ fn operand(shader: &Shader, sources: &SourceMap, id: ExprId) -> Option<String> {
     let mut has_effects = false;
     shader.visit_expr(id, &mut |inner| {
         let kind = &shader.expr(inner).kind;
-        has_effects |=
-            matches!(kind, ExprKind::Assign(..) | ExprKind::IncDec(..) | ExprKind::Call(..) | ExprKind::Comma(..));
+        has_effects |= may_act(kind) || matches!(kind, ExprKind::Comma(..));
     });
     let span = shader.expr(id).span;
     place(sources, span)?;
