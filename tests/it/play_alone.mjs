@@ -71,7 +71,7 @@ try {
   if (await page.locator("#judge").isVisible()) {
     const verdict = async () => {
       await page.click("#judge");
-      await page.waitForFunction(() => !document.querySelector("#judge").disabled, null, limit);
+      await page.waitForFunction(() => document.querySelector("#judge").ariaDisabled !== "true", null, limit);
       return [await page.textContent("#verdict"), await page.textContent("#says"), await page.textContent("#drawn")];
     };
     await page.locator("#by label", { hasText: "GPU" }).click();
