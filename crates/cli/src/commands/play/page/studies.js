@@ -15,7 +15,7 @@ const makeStudies = ({ ask, open, inspect, edition, isOwn, kept, changed }) => {
     return Math.abs(value) >= 1e-3 && Math.abs(value) < 1e6 ? String(Number(value.toPrecision(3))) : value.toExponential(1);
   };
   const place = (file, line, column) => html("button", { class: "link", click: () => open(file, line, column) }, `${base(file)}:${line}`);
-  const table = (heads, rows) => html("div", { class: "scroll" }, html("table", {},
+  const table = (heads, rows) => html("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Table" }, html("table", {},
     html("thead", {}, html("tr", {}, heads.map((head) => html("th", {}, head)))), html("tbody", {}, rows)));
   const row = (cells) => html("tr", {}, cells.map((cell) => html("td", {}, cell)));
 
