@@ -148,7 +148,8 @@ fn strangers_get_403() {
         ("/api/save", json!({ "name": "shaders/../secret.frag", "text": "", "was": "secret" })),
         ("/api/ask", json!({ "ask": "look", "scene": "/etc/passwd" })),
         ("/api/ask", json!({ "ask": "look", "scene": "shaders/a.toml", "texts": { "secret.frag": "" } })),
-        ("/api/new-scene", json!(["secret.frag"])),
+        ("/api/new-scene", json!({ "files": ["secret.frag"] })),
+        ("/api/new-scene", json!({ "files": ["shaders/a.frag"], "scene": "a.toml" })),
     ] {
         assert_eq!(play.post(path, &body).status, 403, "{path} {body}");
     }
@@ -261,7 +262,7 @@ fn shaders_without_a_scene_get_one() {
     let play = Play::start(folder.path(), &["shaders"]);
     let listed = play.get("/api/list").json();
     assert_eq!(listed["programs"], json!([["shaders/a.frag", "shaders/a.vert"]]));
-    let made = play.post("/api/new-scene", &listed["programs"][0]).json();
+    let made = play.post("/api/new-scene", &json!({ "files": listed["programs"][0] })).json();
     let (name, text) = (made["name"].as_str().expect("a name"), made["text"].as_str().expect("a text"));
     assert!(text.contains("[[draw]]"), "{made}");
     let job = json!({ "ask": "draw", "scene": name, "texts": { name: text } });
