@@ -267,12 +267,16 @@ fn answers_of_older_texts_are_told_in_a_browser() {
     assert_eq!(seen["focus"], json!(["step-last", "step-first"]), "{seen:#}");
     assert_eq!(seen["old"], json!({ "steps": 1, "marked": 0, "hints": 0, "matched": 0, "kept": 2 }), "{seen:#}");
     let said = "the text changed meanwhile: press the fix again";
-    assert_eq!(seen["fix"], json!({ "said": said, "line": "float k = shadee;" }), "{seen:#}");
+    assert_eq!(seen["fix"], json!({ "said": said, "line": "float k = mixx(0.1, 0.2, 0.3);" }), "{seen:#}");
     assert_eq!((&seen["caps"], &seen["verdict"]), (&json!(true), &json!(0)), "{seen:#}");
     assert_eq!(seen["late"], "drawing …; this is the last picture", "{seen:#}");
     assert!(seen["room"].as_f64().is_some_and(|room| room > 200.0), "{seen:#}");
-    assert_eq!((&seen["waits"], &seen["gone"]["links"]), (&json!(1), &json!(0)), "{seen:#}");
-    assert!(seen["gone"]["said"].as_str().is_some_and(|text| text.contains("there is no file")), "{seen:#}");
+    assert_eq!((&seen["waits"], &seen["alive"]), (&json!(1), &json!("")), "{seen:#}");
+    assert_eq!((&seen["gone"]["links"], &seen["gone"]["back"]), (&json!(0), &json!(true)), "{seen:#}");
+    let said = seen["outside"][0].as_str().unwrap_or_default();
+    assert!(said.ends_with("secret.frag` is in none of the folders of `glisten play`"), "{seen:#}");
+    assert_eq!(seen["outside"][1], json!(0), "{seen:#}");
+    assert!(seen["gone"]["said"].as_str().is_some_and(|text| text.contains("there is no such file")), "{seen:#}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 // arguments: the address of a server of a folder, that folder, the address of a server of a shader alone, the browser, the module
 // playwright-core. Prints one JSON object of what it saw.
 
-import { unlinkSync } from "node:fs";
+import { existsSync, readFileSync, unlinkSync, writeFileSync } from "node:fs";
 const [address, folder, alone, executablePath, module] = process.argv.slice(2);
 const { chromium } = await import(module);
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
@@ -63,7 +63,7 @@ try {
   await page.locator("#files button", { hasText: "a.frag" }).click();
 
   // An error: steps, hints and matching of the older text do not mark this one.
-  await typeAt(page, 1, "\nfloat k = shadee;\n");
+  await typeAt(page, 1, "\nfloat k = mixx(0.1, 0.2, 0.3);\n");
   await error(page);
   await page.waitForSelector("#stepper.is-old", limit);
   await page.click("#step-last");
@@ -83,18 +83,40 @@ try {
   await page.reload();
   await settled(page);
 
+  // One request that fails is not the end.
+  await page.evaluate(() => { const sent = window.fetch; window.fetch = (path, given) => { if (!path.startsWith("/api/changes")) return sent(path, given); window.fetch = sent; return Promise.reject(new Error("lost")); }; });
+  writeFileSync(`${folder}/a.vert`, `${readFileSync(`${folder}/a.vert`, "utf8")}// more\n`);
+  await page.waitForTimeout(1500);
+  writeFileSync(`${folder}/a.vert`, `${readFileSync(`${folder}/a.vert`, "utf8")}// and more\n`);
+  await page.locator("#files button", { hasText: "a.vert" }).click();
+  await page.waitForFunction(() => document.querySelector("#editor").textContent.includes("// and more"), null, limit);
+  seen.alive = await page.textContent("#state");
+  // A text that names a file outside: no findings of another text stay.
+  await page.locator("#files button", { hasText: "a.frag" }).click();
+  await typeAt(page, 1, "\n#include \"../secret\"\n");
+  await error(page);
+  await page.locator("#editor .cm-line", { hasText: "secret" }).click();
+  await page.keyboard.press("End");
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.insertText(".frag");
+  await page.waitForFunction(() => document.querySelector("#findings-title").textContent === "Not checked", null, limit);
+  seen.outside = [await page.textContent("#state"), await page.locator("#findings li").count()];
+  await page.keyboard.press("Control+z");
+  await page.keyboard.press("Control+z");
+  await settled(page);
+
   // Ctrl-S with Caps Lock.
   seen.caps = await page.evaluate(() => !document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "S", ctrlKey: true, bubbles: true, cancelable: true })));
   await page.click("#judge");
   await page.waitForSelector("#verdict:not([hidden])", limit);
   await page.locator("#files button", { hasText: "a.frag" }).click();
-  await typeAt(page, 1, "\nfloat k = shadee;\n");
+  await typeAt(page, 1, "\nfloat k = mixx(0.1, 0.2, 0.3);\n");
   await error(page);
   seen.verdict = await page.locator("#verdict:visible, #says:visible").count();
   await page.keyboard.press("Control+z");
   await settled(page);
   // A picture that takes long says so.
-  await typeAt(page, 2, "\nfloat slow() { float s = shade; for (int i = 0; i < 300000; ++i) s = sin(s + float(i)); return s; }\n#define shade slow()\n");
+  await typeAt(page, 2, "\nfloat slow() { float s = shade + gl_FragCoord.x; for (int i = 0; i < 300000; ++i) s = sin(s + float(i)); return s; }\n#define shade slow()\n");
   await page.waitForFunction(() => document.querySelector("#drawn").textContent.startsWith("drawing …"), null, limit);
   seen.late = await page.textContent("#drawn");
   await page.keyboard.press("Control+z");
@@ -119,6 +141,9 @@ try {
   unlinkSync(`${folder}/a.toml`);
   for (const page of pages) await error(page);
   seen.gone = { said: await pages[7].textContent("#findings li.error"), links: await pages[7].locator("#findings .link").count() };
+  await pages[7].click("#save");
+  await settled(pages[7]);
+  seen.gone.back = existsSync(`${folder}/a.toml`);
   seen.waits = pages.reduce((sum, page) => sum + page.waits, 0);
 } catch (error) {
   seen.errors.push(String(error));

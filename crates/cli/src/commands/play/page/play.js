@@ -20,6 +20,7 @@ let names = [];         // of the files, by the numbers that translations give t
 let isJudged = false;
 let isJudging = false;
 let pictured = null;    // the scene of the picture
+let isCoarse = false;   // whether the picture is a first look
 let edition = 0;        // counts the changes of texts: an answer to an older one has places that are no longer true
 let foundFor = 0;       // the edition that the findings and the programs are for
 
@@ -35,6 +36,7 @@ const unsay = (...who) => { if (who.includes(said.by)) say("", false, null); };
 const ENDED = "`glisten play` has ended; start it again and open its new address";
 const sayLast = () => { say(ENDED, true); said.isLast = true; };
 const isChanged = (doc) => doc.text !== doc.saved;
+const isUnsaved = (doc) => doc.isWritable && (isChanged(doc) || doc.isGone);
 // What a person would lose.
 const isEdited = (doc) => doc.text !== (doc.saved ?? doc.made);
 // Whether a button does anything. It keeps the focus: who pressed it is where they were.
@@ -56,7 +58,6 @@ const request = async (method, path, body) => {
     const answer = await response.json();
     return { status: response.status, ...answer };
   } catch {
-    sayLast();
     return { status: 0, error: ENDED };
   }
 };
@@ -177,7 +178,7 @@ let filesShown = null;
 const showFiles = () => {
   const base = (name) => name.split(/[\\/]/).at(-1);
   // While a number changes, the list does not.
-  const now = JSON.stringify([shown, [...docs].map(([name, doc]) => [name, doc.isWritable, isChanged(doc), ofFile(name).map((one) => one.severity)])]);
+  const now = JSON.stringify([shown, [...docs].map(([name, doc]) => [name, doc.isWritable, isChanged(doc), doc.isGone, ofFile(name).map((one) => one.severity)])]);
   if (now === filesShown) return;
   filesShown = now;
   const bases = [...docs.keys()].map(base);
@@ -186,9 +187,9 @@ const showFiles = () => {
     const worst = found.some((one) => one.severity === "error") ? "is-bad" : found.length ? "is-fair" : "";
     const label = bases.filter((other) => other === base(name)).length > 1 ? name : base(name);
     return html("button", { "data-key": name, "aria-pressed": String(name === shown), title: doc.isWritable || !isLive ? name : `${name} (cannot be changed here${doc.fixed ? `: ${doc.fixed}` : ""})`, class: `${worst}${doc.isWritable || !isLive ? "" : " is-fixed"}`, click: () => open(name) },
-      label + (isChanged(doc) ? " •" : ""), found.length ? html("span", { class: "count" }, String(found.length)) : null);
+      label + (isChanged(doc) || doc.isGone ? " •" : ""), found.length ? html("span", { class: "count" }, String(found.length)) : null);
   }));
-  const changed = [...docs.values()].filter((doc) => isChanged(doc) && doc.isWritable);
+  const changed = [...docs.values()].filter(isUnsaved);
   enable("save", changed.length > 0);
   const verb = isServed ? "Save" : "Download";
   byId("save").textContent = changed.length > 1 ? `${verb} ${changed.length} files` : verb;
@@ -224,14 +225,14 @@ const rewrite = (name, changes) => {
   textChanged();
 };
 
-const showFindings = () => {
+const showFindings = (none = "No findings") => {
   const item = (finding, index) => html("li", { class: finding.severity },
     finding.file ? html("button", { class: "link", "data-key": `at ${index}`, click: () => open(finding.file, finding.line, finding.column) }, `${finding.file.split(/[\\/]/).at(-1)}:${finding.line}:${finding.column}`) : null,
     ` ${finding.severity} ${finding.code}: ${finding.message}`,
     finding.help ? html("div", { class: "help" }, `help: ${finding.help}`) : null,
     isLive && finding.fixes.length ? html("div", {}, finding.fixes.map((fix, at) => html("button", { "data-key": `fix ${index} ${at}`, click: () => apply(fix), title: fix.applicability === "safe" ? "The picture stays the same" : "The picture may change" }, fix.title))) : null);
   swap(byId("findings"), findings.map(item));
-  byId("findings-title").textContent = findings.length ? `Findings (${findings.length})` : "No findings";
+  byId("findings-title").textContent = findings.length ? `Findings (${findings.length})` : none;
 };
 
 // ---- Looking: findings, controls, translations.
@@ -260,6 +261,8 @@ const take = (answer, asked = edition) => {
   names = answer.files.map((file) => file.name);
   const read = new Set(answer.files.map((file) => file.name));
   for (const [name, doc] of docs) if (!read.has(name) && name !== scene && !isChanged(doc)) docs.delete(name);
+  // A scene that is gone can be written again.
+  if (docs.has(scene)) docs.get(scene).isGone = !read.has(scene);
   findings = isOutdated ? answer.findings.map((finding) => ({ ...finding, fixes: [] })) : answer.findings;
   // What a draft lacks is not a person's business.
   if (draft && !isEdited(docs.get(scene))) findings = findings.filter((finding) => finding.file !== scene);
@@ -291,7 +294,11 @@ const look = isLive ? latest(async ({ again }) => {
   if (of !== scene) return;
   if (answer.ok) { take(answer.ok, asked); sayErrors(); finish(); }
   else if (answer.status === 409) again();
-  else say(answer.error, true, "look");
+  else {
+    say(answer.error, true, "look");
+    // Those that are known are of another text.
+    if (answer.status !== 0 && asked === edition) { findings = []; mark(); showFiles(); showFindings("Not checked"); }
+  }
 }, 400) : () => {};
 
 const showTranslation = () => {
@@ -447,6 +454,7 @@ const figure = (name, source, width, height, caption) => {
   return html("figure", {}, image, html("figcaption", {}, html("strong", {}, name), caption ? `: ${caption}` : ""));
 };
 const showDrawn = (drawn) => {
+  isCoarse = drawn.block > 1;
   const old = byId("pictures").querySelector("img");
   if (old && byId("pictures").children.length === 1 && Number(old.getAttribute("width")) === drawn.width && old.dataset.kind === "drawn") old.src = drawn.picture;
   else {
@@ -458,7 +466,7 @@ const showDrawn = (drawn) => {
   // An exported page is the same each time, so it tells no time.
   const time = drawn.milliseconds === undefined ? "" : ` in ${drawn.milliseconds.toFixed(0)} ms`;
   const empty = drawn.is_empty ? "; nothing is covered: no fragment reached a pixel" : "";
-  const how = drawn.block > 1 ? `, a first look${time}: one pixel of ${drawn.block ** 2}` : (time && `,${time}`) + empty;
+  const how = isCoarse ? `, a first look${time}: one pixel of ${drawn.block ** 2}` : (time && `,${time}`) + empty;
   byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}${how}`;
 };
 const hideVerdict = () => { byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true; };
@@ -487,13 +495,14 @@ const showJudged = (judged) => {
 const SLOW = 100;
 // A picture that takes longer (ms) than this is announced.
 const LATE = 400;
+const last = () => (isCoarse ? "a first look at the last picture" : "the last picture");
 let pace = { scene: null, milliseconds: 0 };
 const draw = isLive ? latest(async ({ isOld, again, yields }) => {
   const gpu = document.querySelector("input[name=by]:checked").value === "gpu";
   const asked = scene;
   if (!asked) return;
   const late = setTimeout(() => {
-    if (asked === scene && !isJudging) byId("drawn").textContent = pictured === asked ? "drawing …; this is the last picture" : "drawing …";
+    if (asked === scene && !isJudging) byId("drawn").textContent = `drawing …${pictured === asked ? `; this is ${last()}` : ""}`;
   }, LATE);
   const show = (answer) => {
     clearTimeout(late);
@@ -503,7 +512,7 @@ const draw = isLive ? latest(async ({ isOld, again, yields }) => {
       showDrawn(answer.ok);
       pictured = asked;
     } else if (answer.status === 409) { if (!isJudging) again(); }
-    else byId("drawn").textContent = `Not drawn${pictured === asked ? ", so this is the last picture" : ""}: ${answer.error}`;
+    else byId("drawn").textContent = `Not drawn${pictured === asked ? `, so this is ${last()}` : ""}: ${answer.error}`;
     return Boolean(answer.ok);
   };
   if (!gpu && (pace.scene !== scene || pace.milliseconds > SLOW)) {
@@ -828,7 +837,7 @@ const conflicts = makeConflicts({
   write: async (name, was) => {
     const doc = docs.get(name), text = doc.text, raw = restored(text, was ?? "");
     const answer = await request("POST", "/api/save", { name, text: raw, was });
-    if (answer.ok) Object.assign(doc, { saved: text, raw });
+    if (answer.ok) Object.assign(doc, { saved: text, raw, isGone: false });
     return answer;
   },
   take: (name, disk) => { follow(name, docs.get(name), disk); textChanged(); },
@@ -836,7 +845,7 @@ const conflicts = makeConflicts({
   fail: (text) => { showFiles(); say(text, true); },
   focus: () => editor.focus(),
 });
-const unsaved = () => [...docs].filter(([, doc]) => isChanged(doc) && doc.isWritable).map(([name, doc]) => [name, doc.saved === null ? null : doc.raw]);
+const unsaved = () => [...docs].filter(([, doc]) => isUnsaved(doc)).map(([name, doc]) => [name, doc.saved === null || doc.isGone ? null : doc.raw]);
 const save = () => conflicts.save(unsaved);
 // Without a server, the files go to the folder of downloads.
 const offer = (name, text) => {
@@ -845,7 +854,7 @@ const offer = (name, text) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 };
 const download = () => {
-  for (const [name, doc] of docs) if (isChanged(doc) && doc.isWritable) offer(name.split(/[\\/]/).at(-1), restored(doc.text, doc.raw));
+  for (const [name, doc] of docs) if (isUnsaved(doc)) offer(name.split(/[\\/]/).at(-1), restored(doc.text, doc.raw));
 };
 const share = async () => {
   try {
@@ -885,12 +894,14 @@ const watch = () => {
   others.onmessage = ({ data }) => hear(data);
   setInterval(() => { if (!said.isLast) request("POST", `/api/here?page=${page}`); }, 30000);
   navigator.locks.request("changes", async () => {
-    for (;;) {
+    // One request may fail: after sleep, or when a network changes.
+    for (let failed = 0; failed < 4;) {
       const answer = await request("GET", `/api/changes?since=${number}&page=${page}`);
-      if (answer.status === 0) return;
-      if (answer.number === undefined) await new Promise((resolve) => setTimeout(resolve, 1000));
+      failed = answer.status === 0 ? failed + 1 : 0;
+      if (answer.number === undefined) await new Promise((resolve) => setTimeout(resolve, 500));
       else if (answer.number !== number) { others.postMessage(answer.number); hear(answer.number); }
     }
+    sayLast();
   });
 };
 
