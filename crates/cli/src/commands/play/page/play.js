@@ -367,6 +367,7 @@ const takeControls = (fresh, raw) => {
     control.places = control.places.map((range) => range.map(place));
     control.texts = control.places.map((range) => text.slice(...range));
   }
+  byId("controls-panel").hidden = !isLive || fresh.length === 0 || !docs.get(scene)?.isWritable;
   const key = (list) => list.map((control) => `${control.path.join(".")} ${control.kind} ${control.values.length}`).join("\n");
   if (key(fresh) === key(controls)) {
     fresh.forEach((control, index) => {
@@ -377,7 +378,6 @@ const takeControls = (fresh, raw) => {
     return;
   }
   controls = fresh;
-  byId("controls-panel").hidden = !isLive || controls.length === 0 || !docs.get(scene)?.isWritable;
   swap(byId("controls"), controls.map(controlElement));
 };
 // The name of a control, without what all of them share in a scene of one draw.
