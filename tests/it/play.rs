@@ -561,7 +561,9 @@ fn the_page_computes_by_itself_in_a_browser() {
     } else {
         assert!(seen["byGpu"].as_str().is_some_and(|text| text.contains("by WebGPU")), "{seen:#}");
         assert_eq!((&seen["verdict"][0], &seen["faulty"][0]), (&json!("holds"), &json!("fails")), "{seen:#}");
+        assert_eq!(seen["both"], json!(true), "{seen:#}");
     }
+    assert_eq!((&seen["asked_first"], &seen["kept"]), (&json!(2), &json!(true)), "{seen:#}");
     assert_eq!(seen["linked"], json!({ "same": true, "text": true, "scene": "shaders/a.toml" }), "{seen:#}");
     assert!(seen["inspected"].as_str().is_some_and(|text| text.contains("fragment")), "{seen:#}");
     assert!(seen["milliseconds"].as_f64().is_some_and(|time| time < 5000.0), "{seen:#}");
