@@ -16,7 +16,7 @@ _EXTENSIONS = {
 }
 
 # The extensions that tell a stage.
-_STAGES = ["vert", "vs", "vsh", "geom", "gs", "gsh", "frag", "fs", "fsh"]
+_STAGES = ["vert", "vs", "vsh", "glslv", "vp", "geom", "gs", "gsh", "frag", "fs", "fsh", "glslf", "fp"]
 
 GlistenInfo = provider(
     doc = "Files to include.",

@@ -6,5 +6,5 @@ vim.lsp.config("glisten", {
 })
 vim.lsp.enable("glisten")
 vim.filetype.add({
-  extension = { vert = "glsl", frag = "glsl", geom = "glsl", vs = "glsl", fs = "glsl", gs = "glsl", vsh = "glsl", fsh = "glsl", glsl = "glsl" },
+  extension = { vert = "glsl", frag = "glsl", geom = "glsl", vs = "glsl", fs = "glsl", gs = "glsl", vsh = "glsl", fsh = "glsl", gsh = "glsl", glslv = "glsl", glslf = "glsl", glsl = "glsl" },
 })

@@ -1,6 +1,6 @@
 -- Neovim 0.7 to 0.10: put this into init.lua.
 vim.api.nvim_create_autocmd({ "BufRead", "BufNewFile" }, {
-  pattern = { "*.vert", "*.frag", "*.geom", "*.vs", "*.fs", "*.gs", "*.vsh", "*.fsh", "*.glsl" },
+  pattern = { "*.vert", "*.frag", "*.geom", "*.vs", "*.fs", "*.gs", "*.vsh", "*.fsh", "*.gsh", "*.glslv", "*.glslf", "*.glsl" },
   callback = function()
     vim.bo.filetype = "glsl"
   end,

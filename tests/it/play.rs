@@ -148,7 +148,8 @@ fn strangers_get_403() {
         ("/api/save", json!({ "name": "shaders/../secret.frag", "text": "", "was": "secret" })),
         ("/api/ask", json!({ "ask": "look", "scene": "/etc/passwd" })),
         ("/api/ask", json!({ "ask": "look", "scene": "shaders/a.toml", "texts": { "secret.frag": "" } })),
-        ("/api/new-scene", json!(["secret.frag"])),
+        ("/api/new-scene", json!({ "files": ["secret.frag"] })),
+        ("/api/new-scene", json!({ "files": ["shaders/a.frag"], "scene": "a.toml" })),
     ] {
         assert_eq!(play.post(path, &body).status, 403, "{path} {body}");
     }
@@ -261,7 +262,7 @@ fn shaders_without_a_scene_get_one() {
     let play = Play::start(folder.path(), &["shaders"]);
     let listed = play.get("/api/list").json();
     assert_eq!(listed["programs"], json!([["shaders/a.frag", "shaders/a.vert"]]));
-    let made = play.post("/api/new-scene", &listed["programs"][0]).json();
+    let made = play.post("/api/new-scene", &json!({ "files": listed["programs"][0] })).json();
     let (name, text) = (made["name"].as_str().expect("a name"), made["text"].as_str().expect("a text"));
     assert!(text.contains("[[draw]]"), "{made}");
     let job = json!({ "ask": "draw", "scene": name, "texts": { name: text } });
@@ -560,7 +561,9 @@ fn the_page_computes_by_itself_in_a_browser() {
     } else {
         assert!(seen["byGpu"].as_str().is_some_and(|text| text.contains("by WebGPU")), "{seen:#}");
         assert_eq!((&seen["verdict"][0], &seen["faulty"][0]), (&json!("holds"), &json!("fails")), "{seen:#}");
+        assert_eq!(seen["both"], json!(true), "{seen:#}");
     }
+    assert_eq!((&seen["asked_first"], &seen["kept"]), (&json!(2), &json!(true)), "{seen:#}");
     assert_eq!(seen["linked"], json!({ "same": true, "text": true, "scene": "shaders/a.toml" }), "{seen:#}");
     assert!(seen["inspected"].as_str().is_some_and(|text| text.contains("fragment")), "{seen:#}");
     assert!(seen["milliseconds"].as_f64().is_some_and(|time| time < 5000.0), "{seen:#}");

@@ -71,13 +71,19 @@ try {
   if (await page.locator("#judge").isVisible()) {
     const verdict = async () => {
       await page.click("#judge");
-      await page.waitForFunction(() => !document.querySelector("#judge").disabled, null, limit);
+      await page.waitForFunction(() => document.querySelector("#judge").ariaDisabled !== "true", null, limit);
       return [await page.textContent("#verdict"), await page.textContent("#says"), await page.textContent("#drawn")];
     };
     await page.locator("#by label", { hasText: "GPU" }).click();
     await page.waitForFunction(() => /by WebGPU|Not drawn/.test(document.querySelector("#drawn").textContent), null, limit);
     seen.byGpu = await page.textContent("#drawn");
     seen.verdict = await verdict();
+    // A study that is asked for meanwhile ends no verdict.
+    await page.click("#judge");
+    await page.click("#study-needs");
+    await page.waitForSelector("#study table", limit);
+    await page.waitForFunction(() => document.querySelector("#judge").ariaDisabled !== "true", null, limit);
+    seen.both = await page.locator("#verdict").isVisible();
     if (shots) await page.screenshot({ path: `${shots}/judged.png` });
     await page.evaluate(() => {
       const create = GPUDevice.prototype.createShaderModule;
@@ -97,6 +103,15 @@ try {
   const other = await opened(page.url());
   await other.waitForSelector("#pictures img", limit);
   seen.linked = { same: await picture(other) === before, text: (await other.locator("#files button", { hasText: "a.frag" }).textContent()).includes("•"), scene: await other.inputValue("#scenes") };
+  // Neither another link nor another scene takes the texts away unasked, and who keeps them keeps the address.
+  const hash = await other.evaluate(() => location.hash);
+  seen.asked_first = 0;
+  other.on("dialog", (dialog) => { seen.asked_first += 1; dialog.dismiss(); });
+  await other.evaluate(() => { location.hash = "#AAAA"; });
+  await other.waitForFunction((hash) => location.hash === hash, hash, limit);
+  await other.selectOption("#scenes", "shaders/b.toml");
+  await other.waitForFunction(() => document.querySelector("#scenes").value === "shaders/a.toml", null, limit);
+  seen.kept = (await other.evaluate(() => location.hash)) === hash && (await other.locator("#files button", { hasText: "a.frag" }).textContent()).includes("•");
   const bad = await opened(`file://${exported}#AAAA`);
   await bad.waitForFunction(() => document.querySelector("#state").textContent.includes("the link cannot be opened"), null, limit);
   seen.badLink = await bad.textContent("#state");

@@ -138,7 +138,7 @@ try {
     const said = await page.textContent("#conflict");
     await page.locator("#conflict button").first().focus();
     await page.getByRole("button", { name: button, exact: true }).click();
-    await until(() => document.querySelector("#conflict").hidden && document.querySelector("#save").disabled);
+    await until(() => document.querySelector("#conflict").hidden && document.querySelector("#save").ariaDisabled === "true");
     seen.refocused = await page.evaluate(() => document.activeElement.classList.contains("cm-content"));
     return said;
   };

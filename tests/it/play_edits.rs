@@ -137,7 +137,7 @@ fn texts_of_a_page_name_nothing_outside() {
     assert!(part_of(&asked("shaders/a.toml", json!({})).json()));
     let text = including.replace("0.5", "SHADE");
     assert!(part_of(&asked("shaders/a.toml", json!({ "shaders/a.frag": text })).json()));
-    let made = play.post("/api/new-scene", &json!(["shaders/a.frag", "shaders/a.vert"])).json();
+    let made = play.post("/api/new-scene", &json!({ "files": ["shaders/a.frag", "shaders/a.vert"] })).json();
     assert_eq!(made["name"], json!("shaders/a-scene.toml"), "`a.toml` is there");
     assert!(part_of(&asked("shaders/a-scene.toml", json!({ "shaders/a-scene.toml": made["text"] })).json()));
     // What only the page's texts name is not.
@@ -188,6 +188,98 @@ fn a_scene_that_is_mended_opens_its_folders() {
 }
 
 #[test]
+fn a_shader_alone_gets_a_vertex_shader_or_a_draft() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let alone = "#version 150\nin vec2 place;\nout vec4 color;\nvoid main() { color = vec4(place, mix(0.1, 0.2, 0.5), 1.0); }\n";
+    write(folder.path(), "a.frag", alone);
+    write(folder.path(), "-x.frag", alone);
+    write(folder.path(), "b.frag", alone.replace("mix", "mixx"));
+    let play = Play::start(folder.path(), &["a.frag"]);
+    let made = |file: &str, more: Value| {
+        let mut wanted = json!({ "files": [file] });
+        more.as_object().into_iter().flatten().for_each(|(key, value)| wanted[key] = value.clone());
+        play.post("/api/new-scene", &wanted).json()
+    };
+    for (file, scene, vertex) in
+        [("a.frag", "a.toml", "a_fullscreen.vert"), ("-x.frag", "-x.toml", "-x_fullscreen.vert")]
+    {
+        let made = made(file, json!({}));
+        assert_eq!((&made["name"], &made["is_draft"]), (&json!(scene), &json!(false)), "{made:#}");
+        let texts = json!({ scene: made["text"], vertex: made["others"][vertex] });
+        let drawn = play.ask(&json!({ "ask": "draw", "scene": scene, "texts": texts }));
+        assert_eq!((&drawn["ok"]["width"], &drawn["ok"]["is_empty"]), (&json!(256), &json!(false)), "{drawn}");
+    }
+    let draft = made("b.frag", json!({}));
+    assert_eq!((&draft["is_draft"], &draft["others"]), (&json!(true), &json!({})), "{draft:#}");
+    let looked = play.ask(&look("b.toml", json!({ "b.toml": draft["text"] })));
+    let found = looked["ok"]["findings"].as_array().expect("a list");
+    assert!(found.iter().any(|one| one["file"] == "b.frag" && one["fixes"][0].is_object()), "{looked:#}");
+    // The texts of the page count.
+    let mended = made("b.frag", json!({ "scene": "b.toml", "texts": { "b.frag": alone } }));
+    assert_eq!(mended["is_draft"], json!(false), "{mended:#}");
+    // Nothing is written, and a shader that is there is taken as it is.
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3);
+    let vertex =
+        mended["others"]["b_fullscreen.vert"].as_str().expect("a text").replace("void main", "// own\nvoid main");
+    write(folder.path(), "b_fullscreen.vert", vertex);
+    assert_eq!(made("b.frag", json!({ "texts": { "b.frag": alone } }))["others"], json!({}));
+    let outside = json!({ "files": ["a.frag"], "texts": { "a.frag": "#include \"/etc/passwd\"\n" } });
+    assert_eq!(play.post("/api/new-scene", &outside).status, 403);
+}
+
+#[test]
+fn answers_of_older_texts_are_told_in_a_browser() {
+    let Some((browser, module)) = browser() else {
+        untried();
+        return;
+    };
+    let folder = folder();
+    let alone = tempfile::tempdir().expect("a folder");
+    write(
+        alone.path(),
+        "a.frag",
+        "#version 150\nout vec4 color;\nvoid main()\n{\n    color = vec4(mixx(0.1, 0.2, 0.3));\n}\n",
+    );
+    let play = Play::start(folder.path(), &["shaders"]);
+    let shader = Play::start(alone.path(), &["a.frag"]);
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/play_old.mjs");
+    let mut drive = Command::new("node");
+    drive
+        .arg(script)
+        .arg(play.address())
+        .arg(folder.path().join("shaders"))
+        .arg(shader.address())
+        .args([browser, module]);
+    let ran = drive.output().expect("node runs");
+    let errors = String::from_utf8_lossy(&ran.stderr);
+    let seen: Value = serde_json::from_slice(&ran.stdout).unwrap_or_else(|error| panic!("{error}: {errors}"));
+    assert_eq!(seen["errors"], json!([]), "{seen:#}");
+    let draft = &seen["draft"];
+    let found = draft["findings"].as_array().expect("a list");
+    assert!(found.len() == 1 && found[0].as_str().is_some_and(|text| text.contains("`mixx`")), "{seen:#}");
+    assert_eq!((&draft["files"], &draft["focus"]), (&json!(["a.toml •", "a.frag1"]), &json!("save")), "{seen:#}");
+    let made = json!(["a.toml •", "a_fullscreen.vert •", "a.frag •"]);
+    assert_eq!(draft["made"].as_array().map(Vec::len), made.as_array().map(Vec::len), "{seen:#}");
+    for name in ["a.toml", "a_fullscreen.vert"] {
+        assert!(alone.path().join(name).is_file(), "{name} is saved");
+    }
+    assert!(read(alone.path(), "a.frag").contains("vec4(mix("));
+    assert_eq!(seen["focus"], json!(["step-last", "step-first"]), "{seen:#}");
+    assert_eq!(seen["old"], json!({ "steps": 1, "marked": 0, "hints": 0, "matched": 0, "kept": 2 }), "{seen:#}");
+    let said = "the text changed meanwhile: press the fix again";
+    assert_eq!(seen["fix"], json!({ "said": said, "line": "float k = mixx(0.1, 0.2, 0.3);" }), "{seen:#}");
+    assert_eq!((&seen["caps"], &seen["verdict"]), (&json!(true), &json!(0)), "{seen:#}");
+    assert_eq!(seen["late"], "drawing …; this is the last picture", "{seen:#}");
+    assert!(seen["room"].as_f64().is_some_and(|room| room > 200.0), "{seen:#}");
+    assert_eq!((&seen["waits"], &seen["alive"]), (&json!(1), &json!("")), "{seen:#}");
+    assert_eq!((&seen["gone"]["links"], &seen["gone"]["back"]), (&json!(0), &json!(true)), "{seen:#}");
+    let said = seen["outside"][0].as_str().unwrap_or_default();
+    assert!(said.ends_with("secret.frag` is in none of the folders of `glisten play`"), "{seen:#}");
+    assert_eq!(seen["outside"][1], json!(0), "{seen:#}");
+    assert!(seen["gone"]["said"].as_str().is_some_and(|text| text.contains("there is no such file")), "{seen:#}");
+}
+
+#[test]
 fn a_shader_starts_with_a_new_scene() {
     let folder = folder();
     fs::remove_file(folder.path().join("shaders/a.toml")).expect("it is there");
@@ -196,7 +288,10 @@ fn a_shader_starts_with_a_new_scene() {
     let data = page.split_once("id=\"start\">").and_then(|(_, rest)| rest.split_once("</script>"));
     let start: Value = serde_json::from_str(data.expect("the data").0).expect("JSON");
     assert_eq!((&start["scene"], &start["program"]), (&json!(null), &json!(["shaders/a.frag", "shaders/a.vert"])));
-    assert_eq!(play.post("/api/new-scene", &start["program"]).json()["name"], json!("shaders/a.toml"));
+    assert_eq!(
+        play.post("/api/new-scene", &json!({ "files": start["program"] })).json()["name"],
+        json!("shaders/a.toml")
+    );
     let mut export = Command::new(env!("CARGO_BIN_EXE_glisten"));
     let ran = export.current_dir(folder.path()).args(["play", "shaders/a.frag", "--export", "a.html"]).output();
     let ran = ran.expect("the program runs");

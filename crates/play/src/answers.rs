@@ -51,6 +51,7 @@ pub fn answer<C: Criteria>(
         Wish::Draw { gpu: false, coarse: true } => pictures.first_look(&drawable(load(criteria))?.0),
         Wish::Draw { gpu: false, coarse: false } => pictures.reference(&drawable(load(criteria))?.0),
         Wish::Draw { gpu: true, .. } | Wish::Judge | Wish::Variants => Err("there is no driver here".to_owned()),
+        Wish::NewScene { .. } => Err("only the program makes scenes".to_owned()),
         Wish::Needs => {
             let (scene, sources) = drawable(load(criteria))?;
             needs(&job.scene, &scene, &sources)

@@ -29,6 +29,11 @@ pub enum Wish {
         #[serde(default)]
         leaves_out: bool,
     },
+    /// The text of a new scene that draws some shaders.
+    NewScene {
+        /// The shaders.
+        files: Vec<String>,
+    },
     /// The picture.
     Draw {
         /// Whether a driver draws it; otherwise the reference does.

@@ -18,6 +18,7 @@ mod varyings;
 
 use crate::arguments::args::{BindingArgs, LevelArgs, SourceArgs};
 use crate::arguments::stages::StageArg;
+use crate::buffers;
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
@@ -47,6 +48,9 @@ use values::alternatives;
 pub(crate) const EXAMPLES: Examples =
     &[("glisten new-scene a.vert a.frag -o scene.toml", "a scene with everything that the program reads")];
 
+/// The usual width and height of the window.
+const SIDE: u32 = 256;
+
 /// Write a scene for a program, which draws at once
 #[derive(Args, Debug)]
 pub(crate) struct NewSceneArgs {
@@ -64,11 +68,14 @@ pub(crate) struct NewSceneArgs {
     #[arg(long, value_enum)]
     stage: Option<StageArg>,
     /// The width and height of the window
-    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "PIXELS", default_value_t = SIDE, value_parser = clap::value_parser!(u32).range(1..=4096))]
     size: u32,
     /// Whether findings are not told: another command has told them.
     #[arg(skip)]
     is_silent: bool,
+    /// Whether a shader that is there already is taken in the place of the one that would be written.
+    #[arg(skip)]
+    keeps_shaders: bool,
     #[command(flatten)]
     sources: SourceArgs,
     #[command(flatten)]
@@ -79,8 +86,33 @@ impl NewSceneArgs {
     /// The arguments for the files of a program, without a mesh.
     pub(crate) fn of(files: Vec<String>, output: PathBuf, size: u32, sources: &SourceArgs, levels: &LevelArgs) -> Self {
         let (sources, levels) = (sources.clone(), levels.clone());
-        Self { files, output: Some(output), mesh: None, stage: None, size, is_silent: true, sources, levels }
+        let output = Some(output);
+        Self { files, output, mesh: None, stage: None, size, is_silent: true, keeps_shaders: false, sources, levels }
     }
+
+    /// The arguments for a page that holds texts, with a window of the usual size.
+    #[cfg(feature = "play")]
+    pub(crate) fn of_page(files: Vec<String>, output: PathBuf, sources: &SourceArgs, levels: &LevelArgs) -> Self {
+        Self { keeps_shaders: true, ..Self::of(files, output, SIDE, sources, levels) }
+    }
+}
+
+/// A scene that was made, and is not written yet.
+pub(crate) struct Made {
+    /// Its text.
+    pub(crate) scene: String,
+    /// The shader that was written for it, if one was missing.
+    pub(crate) shader: Option<Missing>,
+    exit: Exit,
+}
+
+/// A shader that a program lacked. Its text is that of the file in this process ([`buffers`]).
+#[derive(Clone, Debug)]
+pub(crate) struct Missing {
+    /// The file.
+    pub(crate) path: PathBuf,
+    /// Its text.
+    pub(crate) text: String,
 }
 
 /// Runs the command.
@@ -95,12 +127,38 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
         return model::run(model, &relative(model, folder), args.output.as_deref(), console);
     }
+    let Made { scene, shader, exit } = match make(args, console)? {
+        Ok(made) => made,
+        Err(exit) => return Ok(exit),
+    };
+    if let Some(Missing { path, text }) = shader {
+        files::write(&path, text.as_bytes())?;
+        console.remark(&format!("wrote {}", path.display()));
+    }
+    match &args.output {
+        Some(output) => {
+            files::write(output, scene.as_bytes())?;
+            let path = output.display();
+            // A PNG holds no numbers of an integer framebuffer.
+            let picture = output.with_extension(if scene.contains("\nformat = ") { "npy" } else { "png" });
+            console.remark(&format!("wrote {path}; draw it: glisten render {path} -o {}", picture.display()));
+        }
+        None => console.output(&scene)?,
+    }
+    Ok(exit)
+}
+
+/// Makes a scene for a program, and writes nothing. The inner `Err` is the exit code of sources with errors.
+///
+/// # Errors
+/// The program is not complete, or a file cannot be read.
+pub(crate) fn make(args: &NewSceneArgs, console: &Console) -> Result<Result<Made, Exit>, Failure> {
     args.mesh.as_deref().map_or(Ok(()), check_mesh)?;
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let files = named_files(args)?;
-    let inputs = match stages_of(args, &files, &mut session, console)? {
-        Ok(inputs) => inputs,
-        Err(exit) => return Ok(exit),
+    let (inputs, shader) = match stages_of(args, &files, &mut session)? {
+        Ok(found) => found,
+        Err(exit) => return Ok(Err(exit)),
     };
     let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
     let stages = inputs.iter().map(|input| (input.stage, relative(&input.name, folder))).collect();
@@ -108,21 +166,23 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
     let units = session.compile(vec![Group { name, inputs }]);
     let exit = if args.is_silent { Exit::Ok } else { session.tell_units(&units, false)? };
     let Some((unit, program)) = units.first().and_then(|unit| Some((unit, unit.sound_program()?))) else {
-        return Ok(exit.max(Exit::Content));
+        return Ok(Err(exit.max(Exit::Content)));
     };
     let head = Head { stages, sources: source_lines(&args.sources, folder) };
-    let text = written(args, &session, (unit, program), &head, folder, console);
-    match &args.output {
-        Some(output) => {
-            files::write(output, text.as_bytes())?;
-            let path = output.display();
-            // A PNG holds no numbers of an integer framebuffer.
-            let picture = output.with_extension(if text.contains("\nformat = ") { "npy" } else { "png" });
-            console.remark(&format!("wrote {path}; draw it: glisten render {path} -o {}", picture.display()));
-        }
-        None => console.output(&text)?,
+    let scene = written(args, &session, (unit, program), &head, folder, console);
+    Ok(Ok(Made { scene, shader, exit }))
+}
+
+/// A scene that names the shaders of a program and nothing else: what a page shows until their errors are mended.
+#[cfg(feature = "play")]
+pub(crate) fn draft(args: &NewSceneArgs) -> String {
+    let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
+    let mut text = "# A draft: the shaders have errors.\n[[draw]]\n".to_owned();
+    for file in &args.files {
+        let stage = stages::by_name(Path::new(file)).unwrap_or(Stage::Fragment);
+        let _ = writeln!(text, "{} = {}", stage.name(), quoted(&relative(file, folder)));
     }
-    Ok(exit)
+    text + &source_lines(&args.sources, folder) + "vertex_count = 3\n"
 }
 
 /// The shaders by their names. A scene names files, so standard input becomes one.
@@ -224,22 +284,23 @@ fn written(
     text(&choice)
 }
 
-/// The stages of the program; a vertex shader is written for a fragment shader that needs one. The inner `Err` is the exit code of sources
-/// with errors.
+/// The stages of a program, and the shader that it lacked.
+type Stages = (Vec<Input>, Option<Missing>);
+
+/// The stages of the program; a fragment shader that needs a vertex shader gets one. The inner `Err` is the exit code of sources with errors.
 fn stages_of(
     args: &NewSceneArgs,
     files: &[String],
     session: &mut Session<'_>,
-    console: &Console,
-) -> Result<Result<Vec<Input>, Exit>, Failure> {
+) -> Result<Result<Stages, Exit>, Failure> {
     let input = |name: &str, stage| Input { name: name.to_owned(), path: Some(PathBuf::from(name)), stage, part: None };
     if let [both] = files {
         if args.stage.is_none() && contains_both(both) {
-            return Ok(Ok(vec![input(both, Stage::Vertex), input(both, Stage::Fragment)]));
+            return Ok(Ok((vec![input(both, Stage::Vertex), input(both, Stage::Fragment)], None)));
         }
         let told = args.stage.map(Stage::from).or_else(|| stages::by_name(Path::new(both)));
         let stage = told.unwrap_or(Stage::Fragment);
-        return alone(args, input(both, stage), session, console);
+        return alone(args, input(both, stage), session);
     }
     let order = match files.len() {
         2 => &[Stage::Vertex, Stage::Fragment][..],
@@ -255,7 +316,7 @@ fn stages_of(
         let failure = Failure::usage("two of the files are of one stage");
         return Err(failure.help("name a vertex and a fragment shader, and a geometry shader if there is one"));
     }
-    Ok(Ok(inputs))
+    Ok(Ok((inputs, None)))
 }
 
 /// Whether a file contains the vertex and the fragment shader.
@@ -267,20 +328,16 @@ fn contains_both(file: &str) -> bool {
     members.first().is_some_and(|member| has(member, Stage::Vertex) && has(member, Stage::Fragment))
 }
 
-/// The stages for a shader that comes alone: with the fixed-function pipeline's other one, or with a vertex shader that is written.
-fn alone(
-    args: &NewSceneArgs,
-    input: Input,
-    session: &mut Session<'_>,
-    console: &Console,
-) -> Result<Result<Vec<Input>, Exit>, Failure> {
+/// The stages for a shader that comes alone: with the fixed-function pipeline's other one, or with one that is made.
+fn alone(args: &NewSceneArgs, input: Input, session: &mut Session<'_>) -> Result<Result<Stages, Exit>, Failure> {
     let units = session.compile(vec![Group { name: input.stem(), inputs: vec![input.clone()] }]);
     let Some(program) = units.first().and_then(Unit::sound_program) else {
-        return Ok(Err(session.tell_units(&units, false)?.max(Exit::Content)));
+        let exit = if args.is_silent { Exit::Ok } else { session.tell_units(&units, false)? };
+        return Ok(Err(exit.max(Exit::Content)));
     };
     let Some(shader) = program.stages.first() else { return Ok(Err(Exit::Content)) };
     if suits_pipeline(shader) {
-        return Ok(Ok(vec![input]));
+        return Ok(Ok((vec![input], None)));
     }
     let (stage, ending) = match input.stage {
         Stage::Fragment => (Stage::Vertex, "fullscreen.vert"),
@@ -296,7 +353,8 @@ fn alone(
         return Err(Failure::usage(message).help(format!("add `-o SCENE.toml`, or name the {other} shader, too")));
     };
     let path = output.with_file_name(format!("{}_{ending}", input.stem()));
-    if path.exists() {
+    let exists = path.exists();
+    if exists && !args.keeps_shaders {
         let failure = Failure::usage(format!("`{}` exists already", path.display()));
         return Err(failure.help(format!("name it with the {own} shader")));
     }
@@ -304,11 +362,13 @@ fn alone(
         Stage::Vertex => fullscreen::vertex_shader(&program.types, shader)?,
         _ => varyings::fragment_shader(&program.types, shader),
     };
-    files::write(&path, text.as_bytes())?;
-    console.remark(&format!("wrote {}", path.display()));
+    let missing = (!exists).then(|| Missing { path: path.clone(), text });
+    if let Some(Missing { path, text }) = &missing {
+        buffers::put(path, text.clone().into_bytes());
+    }
     let name = path.to_string_lossy().into_owned();
-    let written = Input { name, path: Some(path), stage, part: None };
-    Ok(Ok(if stage == Stage::Vertex { vec![written, input] } else { vec![input, written] }))
+    let made = Input { name, path: Some(path), stage, part: None };
+    Ok(Ok((if stage == Stage::Vertex { vec![made, input] } else { vec![input, made] }, missing)))
 }
 
 /// Whether the fixed-function pipeline completes a shader: a vertex shader of its time, or a fragment shader that reads nothing but the

@@ -6,13 +6,14 @@
 
 use super::choice::{Changed, Choice, Taste};
 use super::forms::Form;
+use crate::files::SceneFiles;
 use crate::process::guard;
 use crate::threads::STACK_BYTES;
 use glisten_front::Compiler;
 use glisten_reference::{Precision, RenderOptions, render};
 use glisten_scene::picture::Picture;
 use glisten_scene::{FileError, FileSource};
-use glisten_verify::scene::{self, DiskFiles};
+use glisten_verify::scene;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
@@ -205,7 +206,7 @@ struct Overlay {
 
 impl FileSource for Overlay {
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
-        if path == self.path { Ok(self.text.clone().into_bytes()) } else { DiskFiles.read(path) }
+        if path == self.path { Ok(self.text.clone().into_bytes()) } else { SceneFiles.read(path) }
     }
 }
 

@@ -9,7 +9,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long the killing of an older job is tried again.
 const POLL: Duration = Duration::from_millis(10);
@@ -100,8 +100,9 @@ impl Lane {
         };
         let sent = writeln!(worker.input, "{job}").and_then(|()| worker.input.flush());
         sent.map_err(|error| NoAnswer::Crashed(error.to_string()))?;
-        let mut left = self.limit;
+        let end = Instant::now() + self.limit;
         loop {
+            let left = end.saturating_duration_since(Instant::now());
             match worker.answers.recv_timeout(POLL.min(left)) {
                 Ok(answer) => return Ok(answer),
                 Err(RecvTimeoutError::Disconnected) => {
@@ -109,12 +110,8 @@ impl Lane {
                     return Err(NoAnswer::Crashed(status.unwrap_or_else(|error| error.to_string())));
                 }
                 Err(RecvTimeoutError::Timeout) if !self.is_newest(number) => return Err(NoAnswer::Superseded),
-                Err(RecvTimeoutError::Timeout) => {
-                    left = left.saturating_sub(POLL);
-                    if left.is_zero() {
-                        return Err(NoAnswer::TimeOver);
-                    }
-                }
+                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(NoAnswer::TimeOver),
+                Err(RecvTimeoutError::Timeout) => {}
             }
         }
     }

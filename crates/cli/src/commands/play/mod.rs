@@ -2,11 +2,11 @@
 //! again while they change.
 //!
 //! ```text
-//!  browser ──► server ──► access   the token, the origin, the folders
-//!                │
-//!                ├──► files        scenes, shaders; saving; what changed on disk
-//!                ├──► pages ──► lanes ──► worker, a process of its own: glisten_play, driver, variants
-//!                └──► page         HTML, with the editor
+//!  browser ──► http ──► server ──► access   the token, the origin, the folders
+//!                         │
+//!                         ├──► files        scenes, shaders; saving; what changed on disk
+//!                         ├──► pages ──► lanes ──► worker, a process of its own: glisten_play, driver, variants
+//!                         └──► page         HTML, with the editor
 //! ```
 //!
 //! *In:* a folder or a scene. *Out:* the page's address on the first line of standard output, then answers; or one file
@@ -20,6 +20,7 @@ mod criteria;
 mod driver;
 mod export;
 mod files;
+mod http;
 mod lanes;
 mod page;
 mod pages;

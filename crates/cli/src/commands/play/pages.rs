@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// The most pages that have workers.
 const MAX_PAGES: usize = 8;
-/// A page that is open asks for changes more often than this.
+/// A page that is open tells so more often than this.
 const GONE: Duration = Duration::from_secs(90);
 
 /// The workers of a page by kind of job.

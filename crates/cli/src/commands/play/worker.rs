@@ -8,6 +8,7 @@ use super::PlayArgs;
 use super::driver::{Driver, timed};
 use super::variants::variants;
 use crate::buffers;
+use crate::commands::new_scene::{self, Missing, NewSceneArgs};
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files::SceneFiles;
@@ -19,6 +20,7 @@ use glisten_play::{Job, Pictures, Wish, drawable};
 use glisten_verify::scene;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
@@ -107,8 +109,7 @@ fn answer(args: &PlayArgs, console: &Console, line: &str, kept: &mut Kept) -> Re
     };
     match bounds.filter(|_| !job.texts.is_empty()) {
         Some(bounds) => {
-            let of = SceneArgs::of(&job.scene, &args.machine, &args.sources, &args.levels);
-            within(&bounds, kept, &mut work, || read_from_disk(&of, console, &job, bounds.made.as_deref()))
+            within(&bounds, kept, &mut work, || read_from_disk(args, console, &job, bounds.made.as_deref()))
         }
         None => work(kept).map_err(NoAnswer::Error),
     }
@@ -142,24 +143,53 @@ fn put_texts(job: &Job) {
 }
 
 /// Reads a scene as it is on disk, or as the server made it.
-fn read_from_disk(of: &SceneArgs, console: &Console, job: &Job, made: Option<&str>) {
+fn read_from_disk(args: &PlayArgs, console: &Console, job: &Job, made: Option<&str>) {
+    let of = SceneArgs::of(&job.scene, &args.machine, &args.sources, &args.levels);
     buffers::clear();
     if let Some(text) = made.filter(|_| !Path::new(&job.scene).exists()) {
         buffers::put(Path::new(&job.scene), text.as_bytes().to_vec());
     }
-    if let Ok(session) = of.session(console) {
-        scene::load(&job.scene, &SceneFiles, session.compiler());
+    match &job.wish {
+        // What the shaders read counts, not whether a scene can be made.
+        Wish::NewScene { files } => drop(new_scene::make(&scene_args(args, job, files), console)),
+        _ => {
+            if let Ok(session) = of.session(console) {
+                scene::load(&job.scene, &SceneFiles, session.compiler());
+            }
+        }
+    }
+}
+
+fn scene_args(args: &PlayArgs, job: &Job, files: &[String]) -> NewSceneArgs {
+    NewSceneArgs::of_page(files.to_vec(), PathBuf::from(&job.scene), &args.sources, &args.levels)
+}
+
+/// A scene for some shaders, with the texts of the files that it takes, or a draft of one while they have errors.
+fn new_scene(args: &PlayArgs, console: &Console, job: &Job, files: &[String]) -> Result<Value, String> {
+    let of = scene_args(args, job, files);
+    let (text, shader, is_draft) = match new_scene::make(&of, console).map_err(told)? {
+        Ok(made) => (made.scene, made.shader, false),
+        Err(_) => (new_scene::draft(&of), None, true),
+    };
+    let others: BTreeMap<_, _> = shader.into_iter().map(|Missing { path, text }| (path, text)).collect();
+    Ok(json!({ "name": job.scene, "text": text, "others": others, "is_draft": is_draft }))
+}
+
+fn told(failure: Failure) -> String {
+    match failure {
+        Failure::Told { message, help: Some(help), .. } => format!("{message}; {help}"),
+        Failure::Told { message, .. } => message,
+        Failure::OutputClosed => String::new(),
     }
 }
 
 fn answer_of(args: &PlayArgs, console: &Console, job: &Job, kept: &mut Kept) -> Result<Value, String> {
+    if let Wish::NewScene { files } = &job.wish {
+        return new_scene(args, console, job, files);
+    }
     let Kept { driver, pictures, programs, .. } = kept;
     let of = SceneArgs::of(&job.scene, &args.machine, &args.sources, &args.levels);
-    let failed = |failure| match failure {
-        Failure::Told { message, .. } => message,
-        Failure::OutputClosed => String::new(),
-    };
-    let mut session = of.session(console).map_err(failed)?;
+    let mut session = of.session(console).map_err(told)?;
     let mut load = |session: &mut Session<'_>| programs.load(&job.scene, &SceneFiles, session.compiler());
     match job.wish {
         Wish::Draw { gpu: true, .. } => {

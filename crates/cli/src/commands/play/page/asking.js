@@ -61,6 +61,8 @@ const makeModule = ({ module, worker, files, request, seconds }) => {
   const [looks, draws] = [makeLane(begun, seconds * 1000), makeLane(begun, seconds * 1000)];
   // A verdict takes longer: the scene is drawn as many simulated GPUs would.
   const judgements = makeLane(begun, seconds * 10000);
+  // A study takes long, too, and ends neither a picture nor a verdict.
+  const studies = makeLane(begun, seconds * 10000);
   let gpu = null;
   const opened = async () => {
     if (!gpu || (await gpu)?.isLost) gpu = openGpu().catch(() => null);
@@ -95,8 +97,7 @@ const makeModule = ({ module, worker, files, request, seconds }) => {
       if (job.ask === "judge") return byGpu(job, judgements, "judge-shown");
       if (job.gpu) return byGpu(job, draws, "show");
     }
-    // A study takes long, and ends no picture.
-    if (job.ask === "needs" || job.ask === "stability") return judgements(job, true);
+    if (job.ask === "needs" || job.ask === "stability") return studies(job, true);
     const answer = await (job.ask === "look" ? looks(job, true) : job.ask === "pixel" ? last(job, false) : draws(job, job.ask !== "trace"));
     for (const file of answer.ok?.files ?? []) file.is_writable = own.has(plainName(file.name));
     return answer;

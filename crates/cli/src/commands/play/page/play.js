@@ -13,13 +13,16 @@ let shown = null;       // the name of the text in the editor
 let findings = [];
 let controls = [];
 let programs = [];
+let programsFor = 0;    // the edition that they are for: with errors, the last ones stay
 let stage = null;
 let translated = null;  // the stage in the translation
 let names = [];         // of the files, by the numbers that translations give them
 let isJudged = false;
 let isJudging = false;
 let pictured = null;    // the scene of the picture
+let isCoarse = false;   // whether the picture is a first look
 let edition = 0;        // counts the changes of texts: an answer to an older one has places that are no longer true
+let foundFor = 0;       // the edition that the findings and the programs are for
 
 // Says something. Who said it, `by`, takes it back; the last words of a page without a server stay.
 const said = { by: null, isLast: false };
@@ -33,8 +36,12 @@ const unsay = (...who) => { if (who.includes(said.by)) say("", false, null); };
 const ENDED = "`glisten play` has ended; start it again and open its new address";
 const sayLast = () => { say(ENDED, true); said.isLast = true; };
 const isChanged = (doc) => doc.text !== doc.saved;
+const isUnsaved = (doc) => doc.isWritable && (isChanged(doc) || doc.isGone);
 // What a person would lose.
 const isEdited = (doc) => doc.text !== (doc.saved ?? doc.made);
+// Whether a button does anything. It keeps the focus: who pressed it is where they were.
+const enable = (id, isOn) => byId(id).setAttribute("aria-disabled", String(!isOn));
+addEventListener("click", (event) => { if (event.target.closest?.("button[aria-disabled=true]")) event.stopImmediatePropagation(); }, { capture: true });
 // Puts children into an element. If the focus was in it, it is in their place again.
 const swap = (parent, ...children) => {
   const key = parent.contains(document.activeElement) ? document.activeElement.dataset.key : undefined;
@@ -51,7 +58,6 @@ const request = async (method, path, body) => {
     const answer = await response.json();
     return { status: response.status, ...answer };
   } catch {
-    sayLast();
     return { status: 0, error: ENDED };
   }
 };
@@ -130,6 +136,7 @@ const setText = (name, doc, text) => {
 let isMoving = false, rests = null;
 const textChanged = () => {
   edition += 1;
+  if (isJudged) hideVerdict();
   isJudged = isJudging = false;
   unsay("saved", "new", "person");
   clearTimeout(rests);
@@ -147,7 +154,7 @@ const translation = Editor.create({
   moved: (line, isPerson) => matching.movedInTranslation(line, isPerson),
   pointed: (line) => matching.pointedInTranslation(line),
 });
-const matching = makeMatching({ editor, translation, shown: () => shown, stage: () => translated, files: () => names, open: (name) => open(name) });
+const matching = makeMatching({ editor, translation, shown: () => shown, stage: () => (programsFor === edition ? translated : null), files: () => names, open: (name) => open(name) });
 
 // The editor keeps a state for each name, and with it whether its text can be changed: that is a part of the name.
 const FIXED = "\0";
@@ -171,7 +178,7 @@ let filesShown = null;
 const showFiles = () => {
   const base = (name) => name.split(/[\\/]/).at(-1);
   // While a number changes, the list does not.
-  const now = JSON.stringify([shown, [...docs].map(([name, doc]) => [name, doc.isWritable, isChanged(doc), ofFile(name).map((one) => one.severity)])]);
+  const now = JSON.stringify([shown, [...docs].map(([name, doc]) => [name, doc.isWritable, isChanged(doc), doc.isGone, ofFile(name).map((one) => one.severity)])]);
   if (now === filesShown) return;
   filesShown = now;
   const bases = [...docs.keys()].map(base);
@@ -180,16 +187,17 @@ const showFiles = () => {
     const worst = found.some((one) => one.severity === "error") ? "is-bad" : found.length ? "is-fair" : "";
     const label = bases.filter((other) => other === base(name)).length > 1 ? name : base(name);
     return html("button", { "data-key": name, "aria-pressed": String(name === shown), title: doc.isWritable || !isLive ? name : `${name} (cannot be changed here${doc.fixed ? `: ${doc.fixed}` : ""})`, class: `${worst}${doc.isWritable || !isLive ? "" : " is-fixed"}`, click: () => open(name) },
-      label + (isChanged(doc) ? " •" : ""), found.length ? html("span", { class: "count" }, String(found.length)) : null);
+      label + (isChanged(doc) || doc.isGone ? " •" : ""), found.length ? html("span", { class: "count" }, String(found.length)) : null);
   }));
-  const changed = [...docs.values()].filter((doc) => isChanged(doc) && doc.isWritable);
-  byId("save").disabled = changed.length === 0;
+  const changed = [...docs.values()].filter(isUnsaved);
+  enable("save", changed.length > 0);
   const verb = isServed ? "Save" : "Download";
   byId("save").textContent = changed.length > 1 ? `${verb} ${changed.length} files` : verb;
 };
 
-// Applies the edits of a fix, which are in characters from 1, to all its files.
+// Applies the edits of a fix, which are in characters from 1, to all its files. Another text has other places.
 const apply = (fix) => {
+  if (foundFor !== edition) { say("the text changed meanwhile: press the fix again"); return; }
   const offset = (text, { line, column }) => {
     const lines = text.split("\n");
     const before = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);
@@ -217,14 +225,14 @@ const rewrite = (name, changes) => {
   textChanged();
 };
 
-const showFindings = () => {
+const showFindings = (none = "No findings") => {
   const item = (finding, index) => html("li", { class: finding.severity },
-    html("button", { class: "link", "data-key": `at ${index}`, click: () => open(finding.file, finding.line, finding.column) }, `${finding.file.split(/[\\/]/).at(-1)}:${finding.line}:${finding.column}`),
+    finding.file ? html("button", { class: "link", "data-key": `at ${index}`, click: () => open(finding.file, finding.line, finding.column) }, `${finding.file.split(/[\\/]/).at(-1)}:${finding.line}:${finding.column}`) : null,
     ` ${finding.severity} ${finding.code}: ${finding.message}`,
     finding.help ? html("div", { class: "help" }, `help: ${finding.help}`) : null,
     isLive && finding.fixes.length ? html("div", {}, finding.fixes.map((fix, at) => html("button", { "data-key": `fix ${index} ${at}`, click: () => apply(fix), title: fix.applicability === "safe" ? "The picture stays the same" : "The picture may change" }, fix.title))) : null);
   swap(byId("findings"), findings.map(item));
-  byId("findings-title").textContent = findings.length ? `Findings (${findings.length})` : "No findings";
+  byId("findings-title").textContent = findings.length ? `Findings (${findings.length})` : none;
 };
 
 // ---- Looking: findings, controls, translations.
@@ -236,8 +244,9 @@ const follow = (name, doc, raw) => {
   Object.assign(doc, asRead(raw));
   if (name === shown) editor.set(doc.text);
 };
-const take = (answer, isOutdated = false) => {
-  const last = shown;
+const take = (answer, asked = edition) => {
+  const last = shown, isOutdated = asked !== edition;
+  foundFor = asked;
   for (const file of answer.files) {
     const doc = docs.get(file.name);
     const kind = { isWritable: file.is_writable ?? false, fixed: file.fixed };
@@ -252,10 +261,16 @@ const take = (answer, isOutdated = false) => {
   names = answer.files.map((file) => file.name);
   const read = new Set(answer.files.map((file) => file.name));
   for (const [name, doc] of docs) if (!read.has(name) && name !== scene && !isChanged(doc)) docs.delete(name);
+  // A scene that is gone can be written again.
+  if (docs.has(scene)) docs.get(scene).isGone = !read.has(scene);
   findings = isOutdated ? answer.findings.map((finding) => ({ ...finding, fixes: [] })) : answer.findings;
+  // What a draft lacks is not a person's business.
+  if (draft && !isEdited(docs.get(scene))) findings = findings.filter((finding) => finding.file !== scene);
   if (!shown && docs.has(last)) open(last);
   if (!shown || !docs.has(shown)) open(answer.files.find((file) => kindOf(file.name) === "glsl" && file.name.includes("frag"))?.name ?? answer.files.at(-1)?.name ?? scene);
-  if (answer.programs.length || !findings.some((finding) => finding.severity === "error")) programs = answer.programs;
+  const isKept = !answer.programs.length && findings.some((finding) => finding.severity === "error");
+  if (!isKept) { programs = answer.programs; programsFor = asked; }
+  all(".is-kept").forEach((one) => { one.hidden = !isKept || !programs.length; });
   showFiles(); mark(); showFindings();
   const taken = edition;
   afterLook(() => {
@@ -274,11 +289,16 @@ const sayErrors = () => {
 };
 const look = isLive ? latest(async ({ again }) => {
   const asked = edition, of = scene;
+  if (!of) return;
   const answer = await ask({ ask: "look", target: target(), leaves_out: byId("leaves-out").checked });
   if (of !== scene) return;
-  if (answer.ok) { take(answer.ok, asked !== edition); sayErrors(); }
+  if (answer.ok) { take(answer.ok, asked); sayErrors(); finish(); }
   else if (answer.status === 409) again();
-  else say(answer.error, true, "look");
+  else {
+    say(answer.error, true, "look");
+    // Those that are known are of another text.
+    if (answer.status !== 0 && asked === edition) { findings = []; mark(); showFiles(); showFindings("Not checked"); }
+  }
 }, 400) : () => {};
 
 const showTranslation = () => {
@@ -347,6 +367,7 @@ const takeControls = (fresh, raw) => {
     control.places = control.places.map((range) => range.map(place));
     control.texts = control.places.map((range) => text.slice(...range));
   }
+  byId("controls-panel").hidden = !isLive || fresh.length === 0 || !docs.get(scene)?.isWritable;
   const key = (list) => list.map((control) => `${control.path.join(".")} ${control.kind} ${control.values.length}`).join("\n");
   if (key(fresh) === key(controls)) {
     fresh.forEach((control, index) => {
@@ -357,7 +378,6 @@ const takeControls = (fresh, raw) => {
     return;
   }
   controls = fresh;
-  byId("controls-panel").hidden = !isLive || controls.length === 0 || !docs.get(scene)?.isWritable;
   swap(byId("controls"), controls.map(controlElement));
 };
 // The name of a control, without what all of them share in a scene of one draw.
@@ -434,6 +454,7 @@ const figure = (name, source, width, height, caption) => {
   return html("figure", {}, image, html("figcaption", {}, html("strong", {}, name), caption ? `: ${caption}` : ""));
 };
 const showDrawn = (drawn) => {
+  isCoarse = drawn.block > 1;
   const old = byId("pictures").querySelector("img");
   if (old && byId("pictures").children.length === 1 && Number(old.getAttribute("width")) === drawn.width && old.dataset.kind === "drawn") old.src = drawn.picture;
   else {
@@ -445,9 +466,10 @@ const showDrawn = (drawn) => {
   // An exported page is the same each time, so it tells no time.
   const time = drawn.milliseconds === undefined ? "" : ` in ${drawn.milliseconds.toFixed(0)} ms`;
   const empty = drawn.is_empty ? "; nothing is covered: no fragment reached a pixel" : "";
-  const how = drawn.block > 1 ? `, a first look${time}: one pixel of ${drawn.block ** 2}` : (time && `,${time}`) + empty;
+  const how = isCoarse ? `, a first look${time}: one pixel of ${drawn.block ** 2}` : (time && `,${time}`) + empty;
   byId("drawn").textContent = `${drawn.width} × ${drawn.height}, by ${drawn.by}${how}`;
 };
+const hideVerdict = () => { byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true; };
 const showJudged = (judged) => {
   const { width, height } = judged;
   byId("pictures").replaceChildren(
@@ -471,18 +493,26 @@ const showJudged = (judged) => {
 };
 // A picture of the reference that takes longer (ms) is drawn coarsely first, and so is the first one of a scene.
 const SLOW = 100;
+// A picture that takes longer (ms) than this is announced.
+const LATE = 400;
+const last = () => (isCoarse ? "a first look at the last picture" : "the last picture");
 let pace = { scene: null, milliseconds: 0 };
 const draw = isLive ? latest(async ({ isOld, again, yields }) => {
   const gpu = document.querySelector("input[name=by]:checked").value === "gpu";
   const asked = scene;
+  if (!asked) return;
+  const late = setTimeout(() => {
+    if (asked === scene && !isJudging) byId("drawn").textContent = `drawing …${pictured === asked ? `; this is ${last()}` : ""}`;
+  }, LATE);
   const show = (answer) => {
+    clearTimeout(late);
     if (asked !== scene) return false;
     if (answer.ok) {
-      byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
+      hideVerdict();
       showDrawn(answer.ok);
       pictured = asked;
     } else if (answer.status === 409) { if (!isJudging) again(); }
-    else byId("drawn").textContent = `Not drawn${pictured === asked ? ", so this is the last picture" : ""}: ${answer.error}`;
+    else byId("drawn").textContent = `Not drawn${pictured === asked ? `, so this is ${last()}` : ""}: ${answer.error}`;
     return Boolean(answer.ok);
   };
   if (!gpu && (pace.scene !== scene || pace.milliseconds > SLOW)) {
@@ -498,11 +528,11 @@ const draw = isLive ? latest(async ({ isOld, again, yields }) => {
 const judge = async () => {
   draw.forget();
   isJudging = true;
-  byId("judge").disabled = true;
+  enable("judge", false);
   byId("drawn").textContent = "judging …";
   const asked = edition;
   const answer = await ask({ ask: "judge" });
-  byId("judge").disabled = false;
+  enable("judge", true);
   isJudging = false;
   if (asked !== edition) return;
   if (answer.ok) { isJudged = true; pictured = scene; showJudged(answer.ok); byId("verdict").scrollIntoView({ block: "nearest" }); }
@@ -515,7 +545,7 @@ const forgetPicture = () => {
   byId("pictures").replaceChildren();
   byId("drawn").textContent = "";
   byId("pixel").textContent = HINT;
-  byId("verdict").hidden = byId("says").hidden = byId("report").hidden = true;
+  hideVerdict();
 };
 
 // The numbers of the pixel under the pointer.
@@ -547,6 +577,8 @@ const askPixel = async () => {
 const inspector = (() => {
   const WINDOW = 150;  // the steps in the list before and after the current one
   let pixel = null, invocations = [], steps = [], now = 0;
+  let tracedFor = 0;   // the edition that the steps are for
+  const isOld = () => tracedFor !== edition;
   const number = (value) => {
     if (typeof value !== "number") return String(value);
     const single = Math.fround(value), size = Math.abs(single);
@@ -569,9 +601,8 @@ const inspector = (() => {
     now = Math.max(0, Math.min(steps.length - 1, index));
     const step = steps[now];
     byId("step").value = now;
-    byId("stepper").classList.remove("is-old");
-    byId("step-first").disabled = byId("step-back").disabled = now === 0;
-    byId("step-on").disabled = byId("step-last").disabled = now >= steps.length - 1;
+    ["step-first", "step-back"].forEach((id) => enable(id, now > 0));
+    ["step-on", "step-last"].forEach((id) => enable(id, now < steps.length - 1));
     if (!step) return;
     const table = step.value?.length ? html("table", {}, html("tbody", {},
       row(step.exact ? "f32" : step.type, step.value.slice(0, 16).map(number)),
@@ -587,7 +618,8 @@ const inspector = (() => {
     swap(byId("step-list"), items);
     const current = byId("step-list").querySelector("[aria-current]");
     if (current) byId("step-list").scrollTop = current.offsetTop - byId("step-list").offsetTop - 100;
-    if (!isAsked || !step.file) return;
+    // A step of an older text has no place in this one.
+    if (!isAsked || !step.file || isOld()) return;
     if (docs.has(step.file)) {
       if (shown !== step.file) open(step.file);
       editor.emphasize(step);
@@ -602,6 +634,8 @@ const inspector = (() => {
     show(isAsked ? Math.max(0, steps.findIndex((step) => step.kind !== "input")) : now, isAsked);
   };
   const take = (answer, isAsked) => {
+    tracedFor = edition;
+    byId("stepper").classList.remove("is-old");
     const before = Number(byId("fragments").value) || 0;
     invocations = answer.invocations;
     const drawn = invocations.findLastIndex((one) => one.fate === "drawn");
@@ -633,6 +667,8 @@ const inspector = (() => {
     else if (answer.status === 409) again();
     else refuse(answer.error);
   }, 1500);
+  // The texts changed.
+  const age = () => { if (steps.length && isOld()) byId("stepper").classList.add("is-old"); };
   byId("fragments").addEventListener("change", () => choose(Number(byId("fragments").value), true));
   byId("step").addEventListener("input", () => show(Number(byId("step").value)));
   for (const [id, to] of [["step-first", () => 0], ["step-back", () => now - 1], ["step-on", () => now + 1], ["step-last", () => steps.length - 1]]) byId(id).addEventListener("click", () => show(to()));
@@ -657,11 +693,12 @@ const inspector = (() => {
   return {
     inspect,
     // The texts changed: the same pixel again.
-    refresh: () => { if (pixel) { editor.emphasize(null); run(); } },
+    refresh: () => { if (pixel) { age(); editor.emphasize(null); run(); } },
     // Another scene.
     forget: () => { pixel = null; invocations = []; steps = []; byId("stepper").hidden = byId("choose-fragment").hidden = true; byId("inspected").textContent = "Click a pixel of the picture."; },
     // The value of the smallest expression at a place: the last one up to the current step, or else the next one.
     valueAt: (name, line, column) => {
+      if (isOld()) return null;
       const after = (a, b) => a.line > b.line || (a.line === b.line && a.column > b.column);
       const at = { line, column };
       const size = (step) => (step.end.line - step.start.line) * 1e6 + step.end.column - step.start.column;
@@ -714,20 +751,48 @@ const turn = (image, event) => {
 };
 
 // ---- Scenes, saving, changes on disk.
-const choose = (name, text) => {
-  const changed = [...docs.values()].some(isEdited);
-  if (!isServed && location.hash) history.replaceState(null, "", location.pathname + location.search);
-  if (changed && !confirm("Changes that are not saved will be gone. Go on?")) return false;
-  docs.clear(); findings = []; controls = []; programs = []; stage = null;
+const mayLeave = () => ![...docs.values()].some(isEdited) || confirm("Changes that are not saved will be gone. Go on?");
+// Shows another scene. `texts` has those of its files that differ from the disk.
+const enter = (name, texts = []) => {
+  docs.clear(); findings = []; controls = []; programs = []; stage = null; draft = null;
+  for (const [file, doc] of texts) docs.set(file, { isWritable: true, ...doc });
   edition += 1;
   isJudged = isJudging = false;
   scene = name;
   shown = null;
   inspector.forget(); studies.forget(); forgetPicture(); conflicts.forget();
   unsay("look", "saved", "new", "person");
-  if (text !== undefined) docs.set(name, { ...asRead(text), saved: null, made: plain(text), isWritable: true });
   look(); draw();
+};
+const choose = (name, texts) => {
+  if (!mayLeave()) return false;
+  if (!isServed && location.hash) history.replaceState(null, "", location.pathname + location.search);
+  enter(name, texts);
   return true;
+};
+// A text that is in no file yet.
+const fresh = (text) => ({ ...asRead(text), saved: null, made: plain(text), isWritable: true });
+// The files of a new scene: itself, and a shader that was missing.
+const newTexts = ({ name, text, others }) => [[name, fresh(text)], ...Object.entries(others).map(([other, text]) => [other, fresh(text)])];
+const NEW = "this scene is new: Save writes it";
+// The shaders of the scene, while it is a draft: they have errors, and only without them is it known what it has to provide.
+let draft = null;
+// Makes a scene of a draft as soon as the shaders allow it, unless a person writes it.
+const finish = async () => {
+  if (!draft) return;
+  const asked = edition, of = scene, { [of]: _, ...texts } = changedTexts();
+  const made = await request("POST", "/api/new-scene", { page, files: draft, scene: of, texts });
+  if (asked !== edition || of !== scene || !draft || made.is_draft || !made.text) return;
+  const isOwn = isEdited(docs.get(scene));
+  draft = null;
+  if (isOwn) return;
+  for (const [name, doc] of newTexts(made)) {
+    if (docs.has(name)) setText(name, docs.get(name), doc.text);
+    docs.set(name, { ...docs.get(name), ...doc });
+    if (name === shown) editor.set(doc.text);
+  }
+  textChanged();
+  say(NEW, false, "new");
 };
 let listed = null;
 const showScenes = ({ scenes, drawable = [] }) => {
@@ -745,21 +810,34 @@ const refreshScenes = async () => {
   const { scenes, drawable } = await request("GET", "/api/list");
   // An open list is not disturbed without need.
   if (scenes && JSON.stringify({ scenes, drawable }) !== JSON.stringify(listed)) showScenes({ scenes, drawable });
+  if (scenes && !scene) first();
 };
 // Who keeps unsaved changes keeps the scene, too: the list says so.
-const showScene = () => { byId("scenes").value = scene; };
+const showScene = () => { if (scene) byId("scenes").value = scene; };
 const chosen = async (value) => {
   if (!value.startsWith("[")) { if (choose(value) && listed) showScenes(listed); showScene(); return; }
   say("writing a scene …");
-  const made = await request("POST", "/api/new-scene", JSON.parse(value));
-  if (made.text && choose(made.name, made.text)) { showScenes(listed); say("this scene is new: Save writes it", false, "new"); }
-  else { showScene(); say(made.error ?? "", Boolean(made.error)); }
+  const files = JSON.parse(value);
+  const made = await request("POST", "/api/new-scene", { page, files });
+  if (made.text && choose(made.name, newTexts(made))) {
+    showScenes(listed);
+    if (made.is_draft) draft = files;
+    else say(NEW, false, "new");
+  } else { showScene(); say(made.error ?? "", Boolean(made.error)); }
+};
+// Shows what the page begins with, once there is something.
+const first = () => {
+  if (start.program) chosen(JSON.stringify(start.program));
+  else if (scene ?? start.scene) choose(scene ?? start.scene);
+  else if (byId("scenes").options.length) chosen(byId("scenes").value);
+  else say("this folder has neither a scene nor a shader", true);
+  showScene();
 };
 const conflicts = makeConflicts({
   write: async (name, was) => {
     const doc = docs.get(name), text = doc.text, raw = restored(text, was ?? "");
     const answer = await request("POST", "/api/save", { name, text: raw, was });
-    if (answer.ok) Object.assign(doc, { saved: text, raw });
+    if (answer.ok) Object.assign(doc, { saved: text, raw, isGone: false });
     return answer;
   },
   take: (name, disk) => { follow(name, docs.get(name), disk); textChanged(); },
@@ -767,7 +845,7 @@ const conflicts = makeConflicts({
   fail: (text) => { showFiles(); say(text, true); },
   focus: () => editor.focus(),
 });
-const unsaved = () => [...docs].filter(([, doc]) => isChanged(doc) && doc.isWritable).map(([name, doc]) => [name, doc.saved === null ? null : doc.raw]);
+const unsaved = () => [...docs].filter(([, doc]) => isUnsaved(doc)).map(([name, doc]) => [name, doc.saved === null || doc.isGone ? null : doc.raw]);
 const save = () => conflicts.save(unsaved);
 // Without a server, the files go to the folder of downloads.
 const offer = (name, text) => {
@@ -776,7 +854,7 @@ const offer = (name, text) => {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 };
 const download = () => {
-  for (const [name, doc] of docs) if (isChanged(doc) && doc.isWritable) offer(name.split(/[\\/]/).at(-1), restored(doc.text, doc.raw));
+  for (const [name, doc] of docs) if (isUnsaved(doc)) offer(name.split(/[\\/]/).at(-1), restored(doc.text, doc.raw));
 };
 const share = async () => {
   try {
@@ -789,17 +867,10 @@ const share = async () => {
 const openLink = async (text) => {
   const state = await unpacked(text);
   if (!start.list.scenes.includes(state.scene)) throw new Error(`this page has no scene ${state.scene}`);
-  docs.clear();
-  scene = state.scene;
   const held = new Map(Object.keys(start.files).map((name) => [plainName(name), start.files[name].text]));
-  for (const [name, own] of Object.entries(state.texts)) {
-    const raw = held.get(plainName(name));
-    if (raw !== undefined) docs.set(name, { ...asRead(raw), text: plain(own), isWritable: true });
-  }
-  shown = null;
-  edition += 1;
-  inspector.forget(); studies.forget(); forgetPicture();
-  look(); draw();
+  const raw = (name) => held.get(plainName(name));
+  const texts = Object.entries(state.texts).filter(([name]) => raw(name) !== undefined);
+  enter(state.scene, texts.map(([name, own]) => [name, { ...asRead(raw(name)), text: plain(own) }]));
 };
 const showGallery = () => {
   const base = (name) => name.split(/[\\/]/).at(-1).replace(/\.toml$/, "");
@@ -810,18 +881,28 @@ const showGallery = () => {
     byId("gallery").open = false;
   } }, html("img", { src: picture, alt: "", loading: "lazy" }), html("span", {}, base(name).replaceAll("_", " ")))));
 };
-const watch = async () => {
+// One page of a browser waits for changes and tells the others: a browser has few connections to a server.
+const watch = () => {
+  const others = new BroadcastChannel("changes");
   let number = 0;
-  for (;;) {
-    const answer = await request("GET", `/api/changes?since=${number}&page=${page}`);
-    if (answer.status === 0) return;
-    if (answer.number === undefined) await new Promise((resolve) => setTimeout(resolve, 1000));
-    else if (answer.number !== number) {
-      number = answer.number;
-      look(); refreshScenes();
-      if (!isJudged && !isJudging) draw();
+  const hear = (now) => {
+    if (now === number) return;
+    number = now;
+    look(); refreshScenes();
+    if (!isJudged && !isJudging) draw();
+  };
+  others.onmessage = ({ data }) => hear(data);
+  setInterval(() => { if (!said.isLast) request("POST", `/api/here?page=${page}`); }, 30000);
+  navigator.locks.request("changes", async () => {
+    // One request may fail: after sleep, or when a network changes.
+    for (let failed = 0; failed < 4;) {
+      const answer = await request("GET", `/api/changes?since=${number}&page=${page}`);
+      failed = answer.status === 0 ? failed + 1 : 0;
+      if (answer.number === undefined) await new Promise((resolve) => setTimeout(resolve, 500));
+      else if (answer.number !== number) { others.postMessage(answer.number); hear(answer.number); }
     }
-  }
+    sayLast();
+  });
 };
 
 byId("target").replaceChildren(...start.targets.map(({ word, name }) => html("option", { value: word }, name)));
@@ -834,16 +915,13 @@ if (isLive) {
   byId("leaves-out").addEventListener("change", look);
   byId("judge").addEventListener("click", judge);
   all("input[name=by]").forEach((radio) => radio.addEventListener("change", draw));
-  addEventListener("keydown", (event) => { if ((event.ctrlKey || event.metaKey) && event.key === "s") { event.preventDefault(); (isServed ? save : download)(); } });
+  addEventListener("keydown", (event) => { if ((event.ctrlKey || event.metaKey) && !event.shiftKey && !event.altKey && event.key.toLowerCase() === "s") { event.preventDefault(); (isServed ? save : download)(); } });
   addEventListener("beforeunload", (event) => { if ([...docs.values()].some(isEdited)) event.preventDefault(); });
   scene = start.scene;
   showScenes(start.list);
-  if (!scene) scene = start.list.scenes[0] ?? null;
+  if (!scene && !start.program) scene = start.list.scenes[0] ?? null;
   if (isServed) {
-    if (start.program) chosen(JSON.stringify(start.program));
-    else if (scene) { byId("scenes").value = scene; choose(scene); }
-    else if (byId("scenes").options.length) chosen(byId("scenes").value);
-    else say("this folder has neither a scene nor a shader", true);
+    first();
     watch();
     // Nobody waits for what its workers do.
     addEventListener("pagehide", () => navigator.sendBeacon(`/api/gone?token=${start.token}&page=${page}`));
@@ -854,11 +932,12 @@ if (isLive) {
     byId("share").hidden = false;
     byId("share").addEventListener("click", share);
     showGallery();
-    const begin = async () => {
+    const begin = async (event) => {
+      if (event && !mayLeave()) { history.replaceState(null, "", event.oldURL); return; }
       const link = location.hash.slice(1);
       byId("gallery").open = !link && start.gallery.length > 1;
-      try { if (link) await openLink(link); else choose(scene); }
-      catch (error) { choose(start.scene); say(`the link cannot be opened: ${error.message}`, true); }
+      try { if (link) await openLink(link); else enter(scene); }
+      catch (error) { enter(start.scene); say(`the link cannot be opened: ${error.message}`, true); }
       byId("scenes").value = scene;
     };
     addEventListener("hashchange", begin);

@@ -15,7 +15,7 @@ const makeStudies = ({ ask, open, inspect, edition, isOwn, kept, changed }) => {
     return Math.abs(value) >= 1e-3 && Math.abs(value) < 1e6 ? String(Number(value.toPrecision(3))) : value.toExponential(1);
   };
   const place = (file, line, column) => html("button", { class: "link", click: () => open(file, line, column) }, `${base(file)}:${line}`);
-  const table = (heads, rows) => html("div", { class: "scroll" }, html("table", {},
+  const table = (heads, rows) => html("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Table" }, html("table", {},
     html("thead", {}, html("tr", {}, heads.map((head) => html("th", {}, head)))), html("tbody", {}, rows)));
   const row = (cells) => html("tr", {}, cells.map((cell) => html("td", {}, cell)));
 
@@ -40,7 +40,7 @@ const makeStudies = ({ ask, open, inspect, edition, isOwn, kept, changed }) => {
       const list = ([file, list]) => html("details", { open: isOwn(file) ? "" : null }, html("summary", {}, `${base(file)}: ${list.length}`), html("ul", { class: "found" }, [...list].sort((a, b) => a.line - b.line).map(item)));
       const lists = [...files].sort(([a], [b]) => isOwn(b) - isOwn(a)).map(list);
       const title = account.draws.length > 1 ? [html("h3", {}, `Draw ${index + 1}`)] : [];
-      return [...title, table(["", "as written", "needed", "of it"], rows), ...lists];
+      return [...title, table(["figure", "as written", "needed", "of it"], rows), ...lists];
     });
     const n = account.draws.reduce((sum, draw) => sum + new Set(draw.left_out.map((one) => JSON.stringify(one))).size, 0);
     note(n ? `This picture does without ${n} ${n === 1 ? "part" : "parts"} of the program, with these uniforms, textures and attributes. Their lines are crossed out. “Only what this picture needs” below shows what is left.` : "This picture needs the whole program.");
@@ -135,7 +135,7 @@ const makeStudies = ({ ask, open, inspect, edition, isOwn, kept, changed }) => {
     note(`${ways.length} ways to draw this scene on ${report.adapter.name}, each against the reference in f64 of its model. A copy of the first differs by ${short(100 * noise)} % in time. What the measured times do not decide is open; the work, which the reference counts, is exact. \`glisten report --ways auto\` times longer and writes the programs.`);
     const skipped = report.skipped.length ? [html("p", { class: "note" }, `Not drawn: ${report.skipped.map((one) => `${one.name} (${one.because})`).join("; ")}`)] : [];
     return [html("fieldset", {}, html("legend", {}, "Cost"), Object.entries(COSTS).map(choice)), html("div", { class: "front-and-picture" }, chart, html("figure", {}, image, name)),
-      table(["", "variant", "RMSE", "largest", "time", "95 %", "front", "work", "front"], rows), ...skipped];
+      table(["number", "variant", "RMSE", "largest", "time", "95 %", "front", "work", "front"], rows), ...skipped];
   };
 
   const SHOW = { needs: showNeeds, stability: showStability, variants: showVariants };
