@@ -91,7 +91,7 @@ codes! {
         good Vertex("in mat4 m[3]; in vec4 v; void main() { gl_Position = m[0] * m[1] * m[2] * v; }");
     ATTRIBUTE_ALIASING = "E0711" "attribute-aliasing" Error "OpenGL 3.2 §2.11.3"
         "Two attributes have the same location, and one execution of the shader may read both. Only one of them can \
-         have its own data."
+         have its own data. In ES from 3.00 on, no two may have the same location, read or not."
         bad Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
                     layout(location = 1) in vec4 b; void main() { gl_Position = a + b; }"),
         good Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
