@@ -60,7 +60,7 @@ codes! {
             "in B { vec4 a; vec4 b; } i; out vec4 c; void main() { c = i.a; }");
     UNIFORM_TYPE_MISMATCH = "E0707" "uniform-type-mismatch" Error "GLSL 1.50 §4.3.5"
         "All shaders of a program share one name space of uniforms: a name must have the same type wherever it is \
-         declared."
+         declared, and no two explicit locations or bindings."
         bad Program(
             "uniform vec3 u; void main() { gl_Position = vec4(u, 1.0); }",
             "uniform vec4 u; out vec4 c; void main() { c = u; }"),
@@ -317,6 +317,13 @@ codes! {
         good Fragment("#version 430\nlayout(location = 0) uniform vec4 a[2]; layout(location = 2) uniform vec4 b;\n\
             out vec4 c; void main() { c = a[0] + b; }");
     VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
+    UNIFORM_NAMES = "E0734" "uniform-name-clash" Error "GLSL 4.40 §4.3.9"
+        "A host finds a uniform by its name, and a member of a block without an instance name by its own. From 4.40 and ES 3.10 on, no \
+         stage has a uniform, or such a member, that has the name of a member of another such block in another stage."
+        bad Program("#version 440\nuniform B { vec4 a; }; void main() { gl_Position = a; }",
+            "#version 440\nuniform vec4 a; out vec4 c; void main() { c = a; }"),
+        good Program("#version 440\nuniform B { vec4 a; } b; void main() { gl_Position = b.a; }",
+            "#version 440\nuniform vec4 a; out vec4 c; void main() { c = a; }");
         "The varyings have more components than the smallest value that gl_MaxVaryingComponents may have, 60. Many \
          implementations support more; some do not."
         bad Program(
