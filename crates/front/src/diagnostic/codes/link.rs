@@ -303,8 +303,9 @@ codes! {
             "#version 330\nout vec4 c; void main() { c = vec4(1.0); }");
     UNIFORM_PRECISION_MISMATCH = "E0732" "uniform-precision-mismatch" Error "GLSL ES 3.00 §4.3.5"
         "The stages of a program share their uniforms: a uniform, or a member of its struct or of a uniform block, has the same \
-         precision wherever it is declared. Without a qualifier it has the default of its stage, and those differ: vertex shaders have \
-         `highp` for floats and integers, fragment shaders `mediump` for integers and none for floats."
+         precision wherever it is declared. From ES 3.10 on, members of blocks may differ. Without a qualifier it has the default of its \
+         stage, and those differ: vertex shaders have `highp` for floats and integers, fragment shaders `mediump` for integers and none \
+         for floats."
         bad Program("#version 300 es\nuniform vec4 u; void main() { gl_Position = u; }",
             "#version 300 es\nprecision mediump float; uniform vec4 u; out vec4 c; void main() { c = u; }"),
         good Program("#version 300 es\nuniform mediump vec4 u; void main() { gl_Position = u; }",
@@ -316,7 +317,6 @@ codes! {
             out vec4 c; void main() { c = a[0] + b; }"),
         good Fragment("#version 430\nlayout(location = 0) uniform vec4 a[2]; layout(location = 2) uniform vec4 b;\n\
             out vec4 c; void main() { c = a[0] + b; }");
-    VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
     UNIFORM_NAMES = "E0734" "uniform-name-clash" Error "GLSL 4.40 §4.3.9"
         "A host finds a uniform by its name, and a member of a block without an instance name by its own. From 4.40 and ES 3.10 on, no \
          stage has a uniform, or such a member, that has the name of a member of another such block in another stage."
@@ -324,6 +324,7 @@ codes! {
             "#version 440\nuniform vec4 a; out vec4 c; void main() { c = a; }"),
         good Program("#version 440\nuniform B { vec4 a; } b; void main() { gl_Position = b.a; }",
             "#version 440\nuniform vec4 a; out vec4 c; void main() { c = a; }");
+    VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
         "The varyings have more components than the smallest value that gl_MaxVaryingComponents may have, 60. Many \
          implementations support more; some do not."
         bad Program(
