@@ -304,7 +304,7 @@ impl Analyzer<'_> {
                 TypeId::ERROR
             }
             None => {
-                if let Some(ty) = self.fixed_struct(spelling) {
+                if let Some(ty) = self.builtin_struct(spelling) {
                     return ty;
                 }
                 let near = |this: &mut Self| Some(Advice::meant(this.nearest_type(spelling)?));

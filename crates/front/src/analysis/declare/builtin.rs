@@ -5,7 +5,7 @@ use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{Qualifiers, StorageWord};
 use super::super::state::ArrayKey;
 use super::super::state::{Denoted, NoteRole};
-use crate::builtin::variables::{self, Redeclaration, Row};
+use crate::builtin::variables::{self, Redeclaration, Row, VARIABLES};
 use crate::builtin::{BuiltinVariable, constants};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers, types};
@@ -44,6 +44,20 @@ impl Analyzer<'_> {
         let id = self.add_global(global);
         self.declared.add_builtin(row.variable, id);
         id
+    }
+
+    /// A struct that the language declares: `gl_DepthRangeParameters`, the type of `gl_DepthRange` (§7.5), or one of the fixed-function
+    /// pipeline.
+    pub(in crate::analysis) fn builtin_struct(&mut self, name: &str) -> Option<TypeId> {
+        if !name.starts_with("gl_") {
+            return None;
+        }
+        if name != variables::DEPTH_RANGE_STRUCT {
+            return self.fixed_struct(name);
+        }
+        let row = VARIABLES.iter().find(|row| row.variable == BuiltinVariable::DepthRange)?;
+        let id = self.builtin_global(row);
+        Some(self.shader.global(id).ty)
     }
 
     /// Handles `in vec4 gl_FragCoord;`. Returns whether the name is built in, so that the declaration is complete.
