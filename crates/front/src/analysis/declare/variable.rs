@@ -364,7 +364,9 @@ impl Analyzer<'_> {
         let from = self.ty(expr);
         if ty.is_error() || from.is_error() || !self.is_whole_value(expr) {
             let span = self.span(expr);
-            return (ty, self.poison(span));
+            // The size that a broken initializer would have told is not known.
+            let is_sized = !matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized));
+            return (if is_sized { ty } else { TypeId::ERROR }, self.poison(span));
         }
         if self.leaves_sizes_to(ty, from) {
             return (from, expr);
