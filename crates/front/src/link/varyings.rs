@@ -15,7 +15,8 @@ use super::matching::Outputs;
 use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes, plural};
 use crate::hir::{
-    ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Sampling, Scalar, Shader, Stage, Storage, Type, TypeId, Types,
+    ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Sampling, Scalar, Shader, Stage, Storage, Type, TypeId,
+    Types,
 };
 use crate::source::Span;
 
@@ -71,7 +72,8 @@ pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader]) -> (Vec<Varying>, 
 fn check_places(ctx: &mut Linker<'_>, shader: &Shader) {
     for storage in [Storage::In, Storage::Out] {
         // Attributes and colors have rules of their own.
-        let is_outer = matches!((shader.stage, storage), (Stage::Vertex, Storage::In) | (Stage::Fragment, Storage::Out));
+        let is_outer =
+            matches!((shader.stage, storage), (Stage::Vertex, Storage::In) | (Stage::Fragment, Storage::Out));
         let ends = shader.globals().filter(|(_, global)| {
             !is_outer && global.storage == storage && global.builtin.is_none() && has_place(ctx.types, global)
         });
