@@ -12,7 +12,7 @@ use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{ArraySize, BlockInfo, BlockLayout, FragCoordLayout, GlobalId, Stage, Storage, Type, TypeId};
 use crate::language::{Extensions, Feature};
 use crate::source::Span;
-use crate::syntax::ast::Declarator;
+use crate::syntax::ast::{Declarator, Ident};
 
 impl Analyzer<'_> {
     /// The global of a built-in variable, which its first use creates.
@@ -88,6 +88,9 @@ impl Analyzer<'_> {
         if ty.is_error() || self.is_in_per_vertex(row, span) {
             return true;
         }
+        if row.redeclaration != Redeclaration::No {
+            self.check_own_qualifiers(declarator.name, record);
+        }
         match row.redeclaration {
             Redeclaration::No if self.declares_interface(row) => self.redeclare_output(row, declarator, ty, record),
             Redeclaration::No => self.report(
@@ -119,6 +122,22 @@ impl Analyzer<'_> {
             .here(format!("it is an `{word}` variable of a {} shader", self.stage.name())),
         );
         None
+    }
+
+    /// Checks that a redeclaration adds no qualifier of varyings: the language lets a built-in variable be redeclared "only for these
+    /// specific purposes" (§3.7), which are a size, a layout of its own, `invariant` and `precise`.
+    pub(super) fn check_own_qualifiers(&mut self, name: Ident, record: &Qualifiers) {
+        let place = record.layout.iter().find(|id| matches!(self.name(id.name), "location" | "component"));
+        if let Some(span) = place.map(|id| id.name.span) {
+            let message = format!("`{}` has no location", self.name(name));
+            self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("it is built in"));
+        }
+        let interpolation = record.interpolation.map(|(word, span)| (word.name(), span));
+        let sampling = record.sampling.and_then(|(sampling, span)| Some((sampling.word()?, span)));
+        if let Some((word, span)) = interpolation.or(sampling) {
+            let message = format!("`{}` cannot be `{word}`", self.name(name));
+            self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("it is built in"));
+        }
     }
 
     /// Whether a declaration of an output states the interface to a separate program (ARB_separate_shader_objects).
