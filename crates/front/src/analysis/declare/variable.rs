@@ -5,7 +5,6 @@ use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::ArrayKey;
-use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
 use crate::hir::{
@@ -142,9 +141,7 @@ impl Analyzer<'_> {
         let ty = if fits { ty } else { TypeId::ERROR };
         let ty = self.sized_by_geometry(ty, storage, name.span);
         self.require_size(ty, name.span);
-        if functions::named(self.name(name)).iter().any(|row| row.availability.in_version(self.ast.version)) {
-            self.require(Feature::BuiltinScope, name.span);
-        }
+        self.check_builtin_scope(name);
         if self.resizes(declarator, ty, storage) {
             return;
         }
