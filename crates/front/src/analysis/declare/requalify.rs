@@ -6,7 +6,7 @@ use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::BlockDefaults;
 use super::super::state::{Denoted, NoteRole};
-use crate::builtin::{fixed, variables};
+use crate::builtin::{BuiltinVariable, fixed, variables};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::{names, qualifiers};
@@ -60,11 +60,17 @@ impl Analyzer<'_> {
         let (storage, declared) = (global.storage, global.span);
         let crosses = storage == Storage::Out || (storage == Storage::In && self.stage == Stage::Fragment);
         let is_instance = global.block.as_ref().is_some_and(|block| block.instance.is_some());
-        let candidate = crosses && !is_instance;
+        // "It is an error to declare gl_FrontFacing as invariant" (GLSL ES 1.00 §4.6.4).
+        let is_facing = self.ast.version.is_es() && global.builtin == Some(BuiltinVariable::FrontFacing);
+        let candidate = crosses && !is_instance && !is_facing;
         if !candidate {
             self.report(
                 Diagnostic::new(&qualifiers::INVARIANT, name.span, format!("`{spelling}` cannot be invariant"))
-                    .here("not an output of the shader")
+                    .here(if is_facing {
+                        "its variance is that of `gl_Position`"
+                    } else {
+                        "not an output of the shader"
+                    })
                     .label(declared, "declared here"),
             );
             return;
