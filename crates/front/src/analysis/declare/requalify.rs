@@ -24,11 +24,7 @@ impl Analyzer<'_> {
             return;
         }
         if record.precise.is_some() && record.invariant.is_none() {
-            // `precise a;` changes how `a` is computed, and no value that is exact.
-            for &name in idents {
-                self.global_named(name);
-            }
-            return;
+            return self.make_precise(idents);
         }
         for &name in idents {
             self.is_probe(name);
@@ -49,6 +45,21 @@ impl Analyzer<'_> {
         }
         for &name in idents {
             self.make_invariant(name);
+        }
+    }
+
+    /// `precise a;` "may be used to qualify a built-in or previously declared user-defined variable" (GLSL 4.00 §4.7), a local one, too. It
+    /// changes how `a` is computed, and no value that is exact.
+    pub(in crate::analysis) fn make_precise(&mut self, idents: &[Ident]) {
+        for &name in idents {
+            match self.scopes.find(name.symbol) {
+                Some(binding) if matches!(binding.entry, Entry::Variable(VarRef::Local(_))) => {
+                    self.note_binding(name.span, binding);
+                }
+                _ => {
+                    self.global_named(name);
+                }
+            }
         }
     }
 

@@ -8,6 +8,7 @@ mod local;
 mod switch;
 
 use super::context::Analyzer;
+use super::qualifiers::DeclarationContext;
 use super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, statements};
@@ -106,7 +107,7 @@ impl Analyzer<'_> {
             S::Expr(expr) => StmtKind::Expr(self.expr(*expr)),
             S::Variables(declaration) => return self.local_variables(declaration, out),
             S::Precision { qualifier, ty } => return self.precision(qualifier, ty),
-            S::Requalify { qualifiers, .. } => return self.misplaced_requalify(qualifiers, span),
+            S::Requalify { qualifiers, names } => return self.requalify_local(qualifiers, names, span),
             S::Prototype(header) => return self.misplaced_prototype(header),
             S::Block(body) => StmtKind::Block(self.in_scope(|this| this.statements(body))),
             S::If { arms, otherwise } => self.selection(arms, otherwise.as_deref()),
@@ -203,7 +204,13 @@ impl Analyzer<'_> {
         body
     }
 
-    fn misplaced_requalify(&mut self, list: &[ast::Qualifier], span: Span) {
+    /// A declaration without a type in a function: only `precise a;` may be there.
+    fn requalify_local(&mut self, list: &[ast::Qualifier], names: &[ast::Ident], span: Span) {
+        let is_precise = |one: &ast::Qualifier| one.kind == ast::QualifierKind::Precise;
+        if !names.is_empty() && list.iter().all(is_precise) {
+            self.qualifiers(list, DeclarationContext::Alone);
+            return self.make_precise(names);
+        }
         let what = if list.iter().any(|qualifier| qualifier.kind == ast::QualifierKind::Invariant) {
             "`invariant`"
         } else {
