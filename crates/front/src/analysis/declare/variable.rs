@@ -32,6 +32,7 @@ impl Analyzer<'_> {
         let has_value = declaration.declarators.iter().any(|declarator| declarator.initializer.is_some());
         let storage = self.global_storage(&record, has_value);
         if declaration.declarators.is_empty() {
+            self.require_size(base, declaration.ty.span);
             if let (Some(span), Storage::In) = (record.invariant, storage) {
                 self.require(Feature::InvariantInputs, span);
             }

@@ -27,6 +27,9 @@ impl Analyzer<'_> {
         let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
         let base = self.declared_type(declaration);
         self.check_precision(record.precision, base, declaration.ty.span);
+        if declaration.declarators.is_empty() {
+            self.require_size(base, declaration.ty.span);
+        }
         for declarator in &declaration.declarators {
             let kind = match self.local_variable(declarator, base, &record, declaration) {
                 Declared::New(local, initializer) => local.map(|local| StmtKind::Local(local, initializer)),
