@@ -62,6 +62,10 @@ impl Analyzer<'_> {
             let assignment = initializer.map(|value| self.assign_local(known, ty, value, name.span));
             return Declared::Again(assignment);
         }
+        // Of an unknown type, `retrun y;` may declare nothing.
+        if base.is_error() && self.scopes.find_here(name.symbol).is_some() {
+            return Declared::New(None, initializer);
+        }
         let kind = if constant { LocalKind::Const } else { LocalKind::Variable };
         let local = Local { name: self.name(name).to_owned(), ty, kind, value, span: name.span };
         let id = self.add_local(local);
