@@ -175,6 +175,8 @@ impl Analyzer<'_> {
         match self.types.get(ty) {
             Type::Scalar(scalar) => self.precisions.set_scalar(scalar, word),
             Type::Sampler(sampler) => self.precisions.set_sampler(sampler, word),
+            // The type that is meant is not known.
+            Type::Error => self.precisions.forgive(),
             _ => {}
         }
         // GLSL ES and 4.x added samplers here; every driver accepts them, also without effect.

@@ -73,6 +73,11 @@ impl Precisions {
         stated.map(|(_, precision)| *precision).or(predeclared.then_some(Precision::Low))
     }
 
+    /// Says nothing about types that lack a precision from here on.
+    pub(in crate::analysis) fn forgive(&mut self) {
+        self.needed = false;
+    }
+
     /// Whether a scalar type lacks a precision. It is so once.
     pub(in crate::analysis) fn lacks(&mut self, scalar: Scalar) -> bool {
         let lacks = self.needed && scalar == Scalar::Float && self.defaults.float.is_none() && !self.reported_float;
