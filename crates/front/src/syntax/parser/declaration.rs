@@ -225,7 +225,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         // The grammar lets a list begin with the type alone: `float, a = 0.0;` (§9, init_declarator_list).
         if self.kind() == TokenKind::Comma
-            && matches!(ty.base, TypeBase::Keyword(_))
+            && matches!(ty.base, TypeBase::Keyword(_) | TypeBase::Struct(_))
             && self.ahead(1).kind == TokenKind::Ident
         {
             self.bump();
