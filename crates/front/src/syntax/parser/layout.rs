@@ -126,6 +126,17 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.certainly_begins(next) || self.seems_to_begin(next)
     }
 
+    /// Whether the next token begins a line with a whole statement, further right than the one that it is in: the body of a header
+    /// whose `)` is missing.
+    pub(super) fn looks_like_body(&mut self) -> bool {
+        let next = self.taken.len();
+        self.current.starts_line()
+            && !self.in_parameters
+            && self.kind() == TokenKind::Ident
+            && !self.is_outdented(self.current)
+            && self.is_named_statement(next)
+    }
+
     /// The number of the first token that begins another statement, if the current one was left unfinished before it.
     fn unfinished_before(&mut self) -> Option<usize> {
         let is_brace = |token: &Token| matches!(token.kind, TokenKind::LeftBrace | TokenKind::RightBrace);

@@ -106,6 +106,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             return !self.recovered;
         }
         let mut parens = 0_usize;
+        if self.looks_like_body() {
+            return true;
+        }
         loop {
             match self.kind() {
                 TokenKind::LeftParen => parens += 1,
