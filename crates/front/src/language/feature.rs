@@ -189,7 +189,7 @@ features! {
     /// One interface has no member of a block without an instance name and another declaration of one name.
     InterfaceNames "the rule for names in an interface" since(440, 310), STAYS, NONE, "§4.3.9";
     /// The precision of a member of a uniform block may differ between stages.
-    BlockPrecisions "another precision of a member in each stage" since(NEVER, 310), STAYS, NONE, "§9.2.1";
+    BlockPrecisions "another precision of a member in each stage" since(NEVER, 310), STAYS, NONE, "§4.3.9";
     /// Without an interpolation qualifier, "smooth interpolation is used", so that `smooth` matches its absence.
     SmoothByDefault "`smooth` in one stage alone" since(NEVER, 310), STAYS, NONE, "§4.5";
     /// `#version` "must be present in the first line of a shader" (GLSL ES 3.00 §3.4).

@@ -140,7 +140,7 @@ impl Analyzer<'_> {
         self.report(
             Diagnostic::new(&types::OFFSET_RANGE, self.span(offset), message)
                 .here(format!("{MIN_PROGRAM_TEXEL_OFFSET} to {MAX_PROGRAM_TEXEL_OFFSET} are supported"))
-                .help("add the offset, divided by the `textureSize`, to the coordinate"),
+                .help("add the offset, divided by the size of the texture, to the coordinate"),
         );
         false
     }
