@@ -255,7 +255,8 @@ impl Analyzer<'_> {
             (Storage::In, _) => LayoutSubject::Varying,
             (Storage::Out, Stage::Fragment) => LayoutSubject::FragmentOutput,
             (Storage::Out, _) => LayoutSubject::Varying,
-            (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutSubject::Sampler,
+            // An unknown type may be one of samplers.
+            (Storage::Uniform, _) if ty.is_error() || self.types.contains_sampler(ty) => LayoutSubject::Sampler,
             (Storage::Uniform, _) => LayoutSubject::Uniform,
             (Storage::Const, _) => LayoutSubject::Other("a constant"),
             (Storage::Private, _) => LayoutSubject::Other("a variable without a storage qualifier"),
