@@ -60,7 +60,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// Whether `S a`, `a.b[i] =`, `a++;` or `f(..);` is there.
-    fn is_named_statement(&mut self, number: usize) -> bool {
+    pub(super) fn is_named_statement(&mut self, number: usize) -> bool {
         use TokenKind::*;
         let mut at = number + 1;
         if self.token(at).kind == Ident {
