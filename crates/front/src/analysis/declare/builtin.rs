@@ -258,12 +258,16 @@ impl Analyzer<'_> {
     /// `layout(origin_upper_left) in vec4 gl_FragCoord;` (§4.3.8.1)
     fn redeclare_frag_coord(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
         let span = declarator.name.span;
-        if self.ast.version.is_es() {
-            let finding =
-                Diagnostic::new(&names::BUILTIN_REDECLARED, span, "`gl_FragCoord` cannot be declared again in ES");
-            return self.report(finding.here("it is built in").help("remove the declaration"));
-        }
         let layout = self.layout(record, LayoutSubject::FragCoord);
+        if self.ast.version.is_es() {
+            // ES has no layout for it, which is reported.
+            if record.layout.is_empty() {
+                let message = "`gl_FragCoord` cannot be declared again in ES";
+                let finding = Diagnostic::new(&names::BUILTIN_REDECLARED, span, message);
+                self.report(finding.here("it is built in").help("remove the declaration"));
+            }
+            return;
+        }
         if self.same_storage(row, span, record).is_none() {
             return;
         }
