@@ -2,7 +2,7 @@
 //!
 //! *In:* the checked units of a round. *Out:* texts in place of the files ([`crate::buffers`]), and in the end the files themselves,
 //! or what would change in them. *Holds:* each fix is applied whole or not at all, and only where the text on the disk is the one
-//! that was checked; a round after which there are more errors than before is taken back, and its fixes are tried in smaller
+//! that was checked; a round after which a program has more errors than before is taken back, and its fixes are tried in smaller
 //! groups; a file is replaced at once or not at all, and one that somebody else changed meanwhile is left.
 
 use crate::buffers;
@@ -80,7 +80,8 @@ pub(crate) struct Fixer {
     refused: BTreeSet<String>,
     /// How many fixes a round applies at most.
     at_once: usize,
-    errors: usize,
+    /// The number of errors of each unit.
+    errors: Vec<usize>,
     round: usize,
     /// The number of fixes that count, by round.
     applied: BTreeMap<usize, usize>,
@@ -91,13 +92,13 @@ impl Fixer {
     pub(crate) fn new(args: FixArgs) -> Self {
         let (files, applied) = (BTreeMap::new(), BTreeMap::new());
         let (last, refused) = (Vec::new(), BTreeSet::new());
-        Self { args, files, last, refused, at_once: usize::MAX, errors: usize::MAX, round: 0, applied }
+        Self { args, files, last, refused, at_once: usize::MAX, errors: Vec::new(), round: 0, applied }
     }
 
     /// Applies the fixes of findings to the texts; returns whether the sources are to be checked again.
     pub(crate) fn advance(&mut self, units: &[Unit]) -> bool {
         let errors = n_errors(units);
-        if errors > self.errors {
+        if is_worse(&errors, &self.errors) {
             self.take_back();
             return true;
         }
@@ -105,7 +106,8 @@ impl Fixer {
         if self.round >= MAX_ROUNDS {
             return false;
         }
-        if self.last.len() < self.at_once {
+        // After a round that counts, more may be tried at once.
+        if !self.last.is_empty() {
             self.at_once = self.at_once.saturating_mul(2);
         }
         self.round += 1;
@@ -239,9 +241,21 @@ impl Fixer {
     }
 }
 
-fn n_errors(units: &[Unit]) -> usize {
-    let batches = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch]));
-    batches.flat_map(|batch| &batch.diagnostics).filter(|one| one.is_error()).count()
+/// The number of errors of each unit.
+fn n_errors(units: &[Unit]) -> Vec<usize> {
+    let of = |unit: &Unit| {
+        let batches = unit.unread.iter().chain([&unit.batch]);
+        batches.flat_map(|batch| &batch.diagnostics).filter(|one| one.is_error()).count()
+    };
+    units.iter().map(of).collect()
+}
+
+/// Whether a unit has more errors than before: what a fix mends in one does not make up for what it breaks in another.
+fn is_worse(now: &[usize], before: &[usize]) -> bool {
+    if now.len() == before.len() {
+        return now.iter().zip(before).any(|(now, before)| now > before);
+    }
+    !before.is_empty() && now.iter().sum::<usize>() > before.iter().sum()
 }
 
 /// The name of a fix, which stays the same when lines above it come or go.
@@ -255,4 +269,19 @@ fn key(finding: &Finding, fix: &FindingFix) -> String {
 /// Whether a file still has the bytes that were read.
 fn is_unchanged(path: &Path, original: &[u8]) -> bool {
     std::fs::read(path).is_ok_and(|bytes| bytes == original)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_worse;
+
+    #[test]
+    fn errors_of_one_program_do_not_make_up_for_those_of_another() {
+        assert!(!is_worse(&[2, 3], &[]));
+        assert!(!is_worse(&[2, 0], &[2, 3]));
+        assert!(is_worse(&[3, 0], &[2, 3]));
+        // The units are others than before.
+        assert!(!is_worse(&[3], &[2, 3]));
+        assert!(is_worse(&[6], &[2, 3]));
+    }
 }

@@ -5,7 +5,10 @@ use super::function::Ctx;
 use super::operators::Typed;
 use glisten_front::builtin::operations::{BitCast, BitFunction, Format, Packing};
 use glisten_front::hir::{Scalar, TypeId};
-use naga::{Expression, Handle, MathFunction, ScalarKind};
+use naga::{Expression, Handle, Literal, MathFunction, ScalarKind};
+
+/// The bits of an integer.
+const BITS: u32 = 32;
 
 impl Ctx<'_, '_> {
     /// The same bits as another type.
@@ -33,8 +36,21 @@ impl Ctx<'_, '_> {
         };
         let n_numbers = if op == BitFunction::Insert { 2 } else { 1 };
         let mut arguments = Vec::with_capacity(3);
+        // Bits beyond the last are undefined (4.00 §8.8), and WGSL rejects constants that ask for them.
+        let mut free = Some(BITS);
         for (index, &(value, _)) in values.iter().enumerate().skip(1) {
-            arguments.push(if index < n_numbers { value } else { self.as_kind(value, ScalarKind::Uint) });
+            arguments.push(match (index < n_numbers, self.literal_count(value), free) {
+                (true, ..) => value,
+                (false, Some(count), most) => {
+                    let count = count.min(most.unwrap_or(BITS));
+                    free = most.map(|most| most - count);
+                    self.uint(count)
+                }
+                (false, None, _) => {
+                    free = None;
+                    self.as_kind(value, ScalarKind::Uint)
+                }
+            });
         }
         let mut rest = arguments.into_iter();
         let (arg1, arg2, arg3) = (rest.next(), rest.next(), rest.next());
@@ -45,6 +61,15 @@ impl Ctx<'_, '_> {
         } else {
             result
         })
+    }
+
+    /// The value of a literal, a negative one as a large number.
+    pub(super) fn literal_count(&self, expr: Handle<Expression>) -> Option<u32> {
+        match self.expressions()[expr] {
+            Expression::Literal(Literal::I32(count)) => Some(count as u32),
+            Expression::Literal(Literal::U32(count)) => Some(count),
+            _ => None,
+        }
     }
 
     fn as_kind(&mut self, expr: Handle<Expression>, kind: ScalarKind) -> Handle<Expression> {

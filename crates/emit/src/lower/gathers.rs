@@ -1,5 +1,5 @@
 //! Lowers gathers that no target has as they are (GLSL 4.00 §8.9.3): those of integers, those with four offsets, and those whose
-//! offset is not constant.
+//! offset is not constant, or beyond what targets take.
 //!
 //! *Holds:* four offsets are four gathers, each of which gives its last component, the texel i0 j0. Four texels of integers are
 //! four loads. An offset that is not constant moves the coordinate; the result is in the middle of the four texels, so that no
@@ -9,7 +9,7 @@ use super::Try;
 use super::function::Ctx;
 use super::lacking;
 use super::slots::SamplerValue;
-use super::textures::Lookup;
+use super::textures::{Lookup, OFFSETS};
 use glisten_front::builtin::operations::TextureForm;
 use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, ScalarKind};
@@ -32,7 +32,11 @@ impl Ctx<'_, '_> {
         let offsets = lookup.offset.take().unwrap_or_default();
         let mut components = Vec::new();
         for offset in offsets.chunks(2) {
-            lookup.offset = Some(offset.to_vec());
+            let is_small = offset.iter().all(|texels| OFFSETS.contains(texels));
+            (lookup.offset, lookup.shift) = match is_small {
+                true => (Some(offset.to_vec()), None),
+                false => (None, Some(self.int_vector(offset))),
+            };
             components.push(if ty.texel == Scalar::Float {
                 let base = self.sample(&lookup)?;
                 self.add(Expression::AccessIndex { base, index: FIRST_TEXEL })

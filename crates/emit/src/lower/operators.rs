@@ -7,7 +7,7 @@
 use super::Try;
 use super::function::Ctx;
 use glisten_front::hir::{BinaryOp, ExprId, Type, TypeId};
-use naga::{BinaryOperator, Expression, Handle, Literal, RelationalFunction};
+use naga::{BinaryOperator, Expression, Handle, RelationalFunction};
 
 /// A value and its GLSL type.
 pub(super) type Typed = (Handle<Expression>, TypeId);
@@ -31,12 +31,7 @@ impl Ctx<'_, '_> {
             BinaryOp::Rem => self.arithmetic(BinaryOperator::Modulo, left, right),
             BinaryOp::MatMul => Ok(self.op(BinaryOperator::Multiply, left.0, right.0)),
             BinaryOp::Shl | BinaryOp::Shr => {
-                let literal = match self.expressions()[right.0] {
-                    Expression::Literal(Literal::I32(count)) => Some(count as u32),
-                    Expression::Literal(Literal::U32(count)) => Some(count),
-                    _ => None,
-                };
-                if let Some(bits) = literal {
+                if let Some(bits) = self.literal_count(right.0) {
                     let count = self.uint(bits & 31);
                     return self.shift(op, left, count, 1);
                 }

@@ -8,9 +8,14 @@ use super::function::Ctx;
 use super::slots::SamplerValue;
 use super::{Try, internal, lacking};
 use crate::target::BUFFER_WIDTH;
+use glisten_front::builtin::constants::{MAX_PROGRAM_TEXEL_OFFSET, MIN_PROGRAM_TEXEL_OFFSET};
 use glisten_front::builtin::operations::{Lookup as How, TextureArgument as Role, TextureForm};
 use glisten_front::hir::{ExprId, SamplerDim, SamplerType, Scalar, ScalarValue, Swizzle, TypeId};
 use naga::{BinaryOperator, Expression, Handle, MathFunction, SampleLevel};
+use std::ops::RangeInclusive;
+
+/// The constant offsets that every target takes.
+pub(super) const OFFSETS: RangeInclusive<i32> = MIN_PROGRAM_TEXEL_OFFSET..=MAX_PROGRAM_TEXEL_OFFSET;
 
 /// A decomposed lookup.
 pub(super) struct Lookup {
@@ -24,7 +29,7 @@ pub(super) struct Lookup {
     pub(super) level: SampleLevel,
     /// The offset, with as many components as the coordinate.
     pub(super) offset: Option<Vec<i32>>,
-    /// The offset of a gather that is not constant.
+    /// The offset of a gather that is not constant, or beyond what targets take.
     pub(super) shift: Option<Handle<Expression>>,
     /// The component of a gather.
     pub(super) gather: Option<naga::SwizzleComponent>,
@@ -83,7 +88,7 @@ impl Ctx<'_, '_> {
         }
         for (role, &argument) in form.arguments(ty).into_iter().zip(arguments) {
             match role {
-                Role::Offset if form.lookup == How::Gather && self.low.evaluated(self.id, argument).is_none() => {
+                Role::Offset if form.lookup == How::Gather && !self.is_small_offset(argument) => {
                     shift = Some(self.value(argument)?);
                 }
                 Role::Offset | Role::Offsets => offset = Some(self.constant_offset(argument)?),
@@ -158,6 +163,12 @@ impl Ctx<'_, '_> {
             ScalarValue::Bool(_) | ScalarValue::Float(_) => 0,
         };
         Ok(value.scalars.iter().map(whole).collect())
+    }
+
+    /// Whether an offset is constant, and in the range that every target takes as one.
+    fn is_small_offset(&self, id: ExprId) -> bool {
+        let small = |scalar: &ScalarValue| matches!(scalar, ScalarValue::Int(texels) if OFFSETS.contains(texels));
+        self.low.evaluated(self.id, id).is_some_and(|value| value.scalars.iter().all(small))
     }
 
     /// The component of a gather, which must be a constant expression (GLSL 4.00 §8.9.3).

@@ -175,6 +175,8 @@ impl Analyzer<'_> {
         match self.types.get(ty) {
             Type::Scalar(scalar) => self.precisions.set_scalar(scalar, word),
             Type::Sampler(sampler) => self.precisions.set_sampler(sampler, word),
+            // The type that is meant is not known.
+            Type::Error => self.precisions.forgive(),
             _ => {}
         }
         // GLSL ES and 4.x added samplers here; every driver accepts them, also without effect.
@@ -304,7 +306,7 @@ impl Analyzer<'_> {
                 TypeId::ERROR
             }
             None => {
-                if let Some(ty) = self.fixed_struct(spelling) {
+                if let Some(ty) = self.builtin_struct(spelling) {
                     return ty;
                 }
                 let near = |this: &mut Self| Some(Advice::meant(this.nearest_type(spelling)?));

@@ -83,6 +83,10 @@ pub const MAX_COMBINED_TEXTURE_IMAGE_UNITS: u32 = 48;
 pub const MAX_DRAW_BUFFERS: u32 = 8;
 /// Elements of `gl_ClipDistance`.
 pub const MAX_CLIP_DISTANCES: u32 = 8;
+/// `gl_MinProgramTexelOffset`
+pub const MIN_PROGRAM_TEXEL_OFFSET: i32 = -8;
+/// `gl_MaxProgramTexelOffset`
+pub const MAX_PROGRAM_TEXEL_OFFSET: i32 = 7;
 /// `invocations` of a geometry shader (OpenGL 4.0 table 6.46).
 pub const MAX_GEOMETRY_SHADER_INVOCATIONS: u32 = 32;
 /// `max_vertices` of a geometry shader.
@@ -165,8 +169,8 @@ pub static CONSTANTS: &[Constant] = &[
     later("gl_MaxAtomicCounterBufferSize", 32, 420, 310),
     later("gl_MaxTransformFeedbackBuffers", 4, 440, NEVER),
     later("gl_MaxTransformFeedbackInterleavedComponents", 64, 440, NEVER),
-    pack420("gl_MinProgramTexelOffset", -8),
-    pack420("gl_MaxProgramTexelOffset", 7),
+    pack420("gl_MinProgramTexelOffset", MIN_PROGRAM_TEXEL_OFFSET),
+    pack420("gl_MaxProgramTexelOffset", MAX_PROGRAM_TEXEL_OFFSET),
 ];
 
 /// The constant with a name in a language.

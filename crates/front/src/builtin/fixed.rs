@@ -67,6 +67,9 @@ const fn state(name: &'static str, ty: FixedType) -> FixedRow {
     row(name, Storage::Uniform, ty, Stages::all())
 }
 
+/// The array of texture coordinates, whose size a shader may state or leave to its uses (GLSL 1.20 §7.6).
+pub const TEX_COORD: &str = "gl_TexCoord";
+
 /// All variables.
 pub static FIXED: &[FixedRow] = &[
     attribute("gl_Color", VEC4),
@@ -87,11 +90,11 @@ pub static FIXED: &[FixedRow] = &[
     written("gl_BackColor", VEC4),
     written("gl_FrontSecondaryColor", VEC4),
     written("gl_BackSecondaryColor", VEC4),
-    written("gl_TexCoord", VEC4S),
+    written(TEX_COORD, VEC4S),
     written("gl_FogFragCoord", FLOAT),
     read("gl_Color", VEC4),
     read("gl_SecondaryColor", VEC4),
-    read("gl_TexCoord", VEC4S),
+    read(TEX_COORD, VEC4S),
     read("gl_FogFragCoord", FLOAT),
     state("gl_ModelViewMatrix", MAT4),
     state("gl_ProjectionMatrix", MAT4),
@@ -223,7 +226,7 @@ static REDECLARABLE: &[&str] = &[
     "gl_FrontColor",
     "gl_FrontSecondaryColor",
     "gl_SecondaryColor",
-    "gl_TexCoord",
+    TEX_COORD,
 ];
 
 impl FixedRow {
@@ -270,7 +273,7 @@ pub(super) static PER_VERTEX: &[&str] = &[
     "gl_BackColor",
     "gl_FrontSecondaryColor",
     "gl_BackSecondaryColor",
-    "gl_TexCoord",
+    TEX_COORD,
     "gl_FogFragCoord",
 ];
 

@@ -130,11 +130,14 @@ impl Row {
             }
             VariableType::DepthRange => {
                 let members = ["near", "far", "diff"].map(|name| (name, TypeId::FLOAT));
-                structure(types, "gl_DepthRangeParameters", &members, false)
+                structure(types, DEPTH_RANGE_STRUCT, &members, false)
             }
         }
     }
 }
+
+/// The name of the type of `gl_DepthRange` (§7.5).
+pub const DEPTH_RANGE_STRUCT: &str = "gl_DepthRangeParameters";
 
 fn structure(types: &mut Types, name: &str, members: &[(&str, TypeId)], is_block: bool) -> TypeId {
     let members = members.iter().map(|&(name, ty)| Member::plain(name, ty, Span::default())).collect();

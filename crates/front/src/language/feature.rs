@@ -184,6 +184,14 @@ features! {
     InvariantOutputAlone "an `invariant` output alone" since(420, 300), STAYS, NONE, "§4.8.1";
     /// Integer outputs of vertex shaders that are not `flat`: only the inputs of fragment shaders must be.
     IntegerOutputs "an integer output that is not `flat`" since(150, 320), STAYS, NONE, "§4.3.4";
+    /// Attributes of one location, of which no run of the shader reads two; ES 3.00 has "the linker must report an error" (§12.46).
+    AttributeAliasing "attributes that share a location" since(110, 100), since(NEVER, 300), NONE, "§4.3.4";
+    /// One interface has no member of a block without an instance name and another declaration of one name.
+    InterfaceNames "the rule for names in an interface" since(440, 310), STAYS, NONE, "§4.3.9";
+    /// The precision of a member of a uniform block may differ between stages.
+    BlockPrecisions "another precision of a member in each stage" since(NEVER, 310), STAYS, NONE, "§4.3.9";
+    /// Without an interpolation qualifier, "smooth interpolation is used", so that `smooth` matches its absence.
+    SmoothByDefault "`smooth` in one stage alone" since(NEVER, 310), STAYS, NONE, "§4.5";
     /// `#version` "must be present in the first line of a shader" (GLSL ES 3.00 §3.4).
     VersionOnFirstLine "the rule for the line of `#version`" since(NEVER, 300), STAYS, NONE, "§3.4";
     /// The interpolation of an output may differ from that of the input that it feeds, which decides.

@@ -1,13 +1,15 @@
 //! Assigns locations to vertex attributes (OpenGL 3.2 §2.11.3).
 //!
 //! *In:* the vertex stage. *Out:* its inputs with locations, assigned as [`declared`](super::declared) describes. A
-//! matrix takes one location per column, an array one per element. Inputs may share locations if no path reads both.
+//! matrix takes one location per column, an array one per element. Inputs may share locations if no path reads both,
+//! but in ES from 3.00 on.
 
 use super::declared::{Clash, Rules, Variable};
 use super::{Attribute, Linker};
 use crate::builtin::constants::MAX_VERTEX_ATTRIBS;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{ArraySize, Shader, Storage, Type, TypeId, Types};
+use crate::language::Feature;
 
 /// The number of locations that an input of this type takes.
 fn columns(types: &Types, ty: TypeId) -> u32 {
@@ -76,8 +78,13 @@ fn aliased(ctx: &mut Linker<'_>, vertex: &Shader, clash: &Clash) {
     let Clash { variables: (first, second), shared: location } = *clash;
     let (other, global) = (vertex.global(first), vertex.global(second));
     let both = super::aliasing::path_reads_both(vertex, first, second);
-    let code = if both { &codes::link::ATTRIBUTE_ALIASING } else { &codes::link::ATTRIBUTE_ALIASING_UNUSED };
+    let is_error = both || !vertex.version.has(Feature::AttributeAliasing);
+    let code = if is_error { &codes::link::ATTRIBUTE_ALIASING } else { &codes::link::ATTRIBUTE_ALIASING_UNUSED };
     let message = format!("`{}` and `{}` share location {location}", other.name, global.name);
-    let why = if both { "one run of the shader may read both" } else { "no run of the shader reads both" };
+    let why = match (both, is_error) {
+        (true, _) => "one run of the shader may read both",
+        (false, false) => "no run of the shader reads both",
+        (false, true) => "ES has no attributes that share one",
+    };
     ctx.report(Diagnostic::new(code, global.span, message).here(why).label(other.span, "the other one"));
 }

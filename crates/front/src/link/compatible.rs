@@ -5,7 +5,7 @@
 //! same order.
 
 use crate::diagnostic::Diagnostic;
-use crate::hir::{Member, ScalarValue, Stage, StructId, Type, TypeId, Types, Value};
+use crate::hir::{Interpolation, Member, ScalarValue, Stage, StructId, Type, TypeId, Types, Value};
 
 /// Whether two types match across shaders.
 pub(super) fn same_type(types: &Types, a: TypeId, b: TypeId) -> bool {
@@ -105,6 +105,15 @@ pub(super) struct Free {
     pub(super) interpolation: bool,
     /// "Auxiliary qualification (e.g. centroid) may differ" (GLSL 4.30 §4.3.4; ES 3.10 §4.3.4).
     pub(super) sampling: bool,
+    /// `smooth` may be left out (GLSL ES 3.10 §4.5).
+    pub(super) smooth: bool,
+}
+
+impl Free {
+    /// The interpolation qualifier that has to match the other stage's.
+    pub(super) fn interpolation_of(self, written: Option<Interpolation>) -> Option<Interpolation> {
+        written.or(self.smooth.then_some(Interpolation::Smooth))
+    }
 }
 
 /// Compares the members of two declarations of one block (§4.3.7), the output's first.
@@ -116,7 +125,7 @@ pub(super) fn compare_members(types: &Types, a: StructId, b: StructId, free: Fre
         }
         let has_matrix = contains_matrix(types, a.ty);
         if (has_matrix && a.matrix_layout != b.matrix_layout)
-            || a.interpolation != b.interpolation && !free.interpolation
+            || free.interpolation_of(a.interpolation) != free.interpolation_of(b.interpolation) && !free.interpolation
             || a.sampling != b.sampling && !free.sampling
             || a.invariant != b.invariant && !(free.invariant && a.invariant)
             || a.place != b.place

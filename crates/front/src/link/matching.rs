@@ -211,6 +211,7 @@ fn check_pair(ctx: &mut Linker<'_>, producer: &Shader, output: &Global, consumer
         invariant: has(Feature::InvariantOutputAlone),
         interpolation: has(Feature::InterpolationOfInput),
         sampling: has(Feature::SamplingOfInput),
+        smooth: has(Feature::SmoothByDefault),
     };
     let pair = Pair { producer: producer.stage, output, consumer: consumer.stage, input, free };
     if input.block.is_some() {
@@ -354,7 +355,10 @@ fn member_qualifiers(member: &crate::hir::Member) -> String {
 /// too: "what matters is what is declared in the fragment shaders" (4.30 §4.3.4, which 4.40 takes an older sentence of §4.5 back for), for which [`Varying`](super::Varying) has them.
 fn check_qualifiers(ctx: &mut Linker<'_>, pair: &Pair<'_>) {
     let Pair { output, input, .. } = pair;
-    let interpolation = |global: &Global| global.interpolation_written.then_some(global.interpolation);
+    let interpolation = |global: &Global| {
+        let written = global.interpolation_written.then_some(global.interpolation);
+        pair.free.interpolation_of(written)
+    };
     if input.block.is_none() && !pair.free.interpolation && interpolation(output) != interpolation(input) {
         let word = |global: &Global| {
             interpolation(global)

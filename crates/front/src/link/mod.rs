@@ -142,8 +142,7 @@ fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     if let (Some(vertex), Some(geometry)) = (of(Stage::Vertex), of(Stage::Geometry)) {
         interface.geometry_inputs = geometry_inputs::connect(ctx.types, vertex, geometry);
     }
-    let producer = of(Stage::Geometry).or(of(Stage::Vertex));
-    (interface.varyings, interface.clip_distances) = varyings::assign(ctx, producer, of(Stage::Fragment));
+    (interface.varyings, interface.clip_distances) = varyings::assign(ctx, stages);
     if let Some(fragment) = of(Stage::Fragment) {
         interface.outputs = outputs::assign(ctx, fragment);
     }

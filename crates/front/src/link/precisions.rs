@@ -1,8 +1,8 @@
 //! The precisions of uniforms, which are the same in all stages (GLSL ES 1.00 §4.3.4; 3.00 §4.3.5, §4.5.3).
 //!
 //! *In:* the shaders of a program. *Out:* an error for each uniform, and each member of a struct or a uniform block, that has another
-//! precision in another stage, by a qualifier or by the default of the stage. *Holds:* the desktop's language has no precisions; what
-//! is declared with another type is reported elsewhere.
+//! precision in another stage, by a qualifier or by the default of the stage. From ES 3.10 on, those of blocks may differ (§9.2.1).
+//! *Holds:* the desktop's language has no precisions; what is declared with another type is reported elsewhere.
 
 use super::Linker;
 use crate::diagnostic::{Diagnostic, codes};

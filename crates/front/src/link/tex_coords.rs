@@ -5,9 +5,8 @@
 //! names: one varying for `gl_TexCoord[0]` alone. *Holds:* all stages have the same size, the largest that one of them needs.
 //! With an index that is not constant and no declaration, all eight stay.
 
+use crate::builtin::fixed::TEX_COORD;
 use crate::hir::{ArraySize, ExprKind, GlobalId, ScalarValue, Shader, Stage, Type, TypeId, Types, VarRef};
-
-const NAME: &str = "gl_TexCoord";
 
 /// Sizes the array in all stages.
 pub(super) fn size(types: &mut Types, stages: &mut [Shader]) {
@@ -32,7 +31,7 @@ pub(super) fn size(types: &mut Types, stages: &mut [Shader]) {
 }
 
 fn coordinates(shader: &Shader) -> Vec<GlobalId> {
-    shader.globals().filter(|(_, global)| global.is_fixed() && global.name == NAME).map(|(id, _)| id).collect()
+    shader.globals().filter(|(_, global)| global.is_fixed() && global.name == TEX_COORD).map(|(id, _)| id).collect()
 }
 
 /// How many elements a shader declares or names.

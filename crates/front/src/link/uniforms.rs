@@ -12,9 +12,11 @@ use super::{Block, BlockIndex, Interface, Linker, RootIndex, SlotBinding, Unifor
 use crate::builtin::{BuiltinFunction, BuiltinVariable};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::hir::{
-    ArraySize, BlockLayout, ExprKind, Global, GlobalId, MatrixLayout, SamplerDim, ScalarValue, Shader, Stage, Storage,
-    Type, TypeId, Types, Value,
+    ArraySize, BlockLayout, ExprKind, Global, GlobalId, MatrixLayout, Member, SamplerDim, ScalarValue, Shader, Stage,
+    Storage, Type, TypeId, Types, Value,
 };
+use crate::language::Feature;
+use crate::source::Span;
 use rustc_hash::FxHashMap;
 
 const GROUP: u32 = 0;
@@ -25,6 +27,8 @@ struct Shared<'a> {
     stage: Stage,
     globals: Vec<(Stage, GlobalId)>,
     default: Option<(&'a Value, &'a Global)>,
+    /// The first declaration with an explicit location, which the others need not repeat.
+    placed: Option<&'a Global>,
     active: bool,
     unit: Option<u32>,
 }
@@ -40,6 +44,7 @@ pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader], interface: &mut In
     super::precisions::check(ctx, stages);
     let mut all = unite(ctx, stages);
     check_host_locations(ctx, &all);
+    check_names(ctx, &all, stages);
     all.sort_by_key(|shared| !shared.active);
     let types = ctx.types;
     let (blocks, loose): (Vec<_>, Vec<_>) = all.iter().partition(|shared| shared.is_block());
@@ -53,6 +58,7 @@ pub(super) fn check(ctx: &mut Linker<'_>, shaders: &[Shader]) {
     super::precisions::check(ctx, shaders);
     let all = unite(ctx, shaders);
     check_host_locations(ctx, &all);
+    check_names(ctx, &all, shaders);
 }
 
 fn only_samplers(types: &Types, ty: TypeId) -> bool {
@@ -95,6 +101,7 @@ fn unite<'a>(ctx: &mut Linker<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
     for shader in stages {
         for (id, global) in shader.globals().filter(|(_, global)| is_shared(global)) {
             let name = global.match_name();
+            let placed = global.host_location.map(|_| global);
             let index = *indices.entry((global.block.is_some(), name)).or_insert(all.len());
             match all.get_mut(index) {
                 Some(known) => {
@@ -103,12 +110,14 @@ fn unite<'a>(ctx: &mut Linker<'_>, stages: &'a [Shader]) -> Vec<Shared<'a>> {
                     known.active |= global.used;
                     known.unit = known.unit.or(global.unit());
                     known.default = known.default.or(global.value.as_ref().map(|value| (value, global)));
+                    known.placed = known.placed.or(placed);
                 }
                 None => all.push(Shared {
                     global,
                     stage: shader.stage,
                     globals: vec![(shader.stage, id)],
                     default: global.value.as_ref().map(|value| (value, global)),
+                    placed,
                     active: global.used,
                     unit: global.unit(),
                 }),
@@ -124,8 +133,9 @@ fn check_host_locations(ctx: &mut Linker<'_>, all: &[Shared<'_>]) {
     let mut placed: Vec<(u64, u64, &Global)> = all
         .iter()
         .filter_map(|shared| {
-            let first = u64::from(shared.global.host_location?);
-            Some((first, first.saturating_add(leaf_count(ctx.types, shared.global.ty)), shared.global))
+            let global = shared.placed?;
+            let first = u64::from(global.host_location?);
+            Some((first, first.saturating_add(leaf_count(ctx.types, global.ty)), global))
         })
         .collect();
     placed.sort_by_key(|(first, end, _)| (*first, *end));
@@ -140,6 +150,46 @@ fn check_host_locations(ctx: &mut Linker<'_>, all: &[Shared<'_>]) {
             ctx.report(diagnostic);
         }
     }
+}
+
+/// Reports a member of a block without an instance name that has the name of a uniform outside of it, from GLSL 4.40 and ES 3.10 on: "It
+/// is a link-time error if any particular shader interface contains" both (4.40 §4.3.9).
+fn check_names(ctx: &mut Linker<'_>, all: &[Shared<'_>], shaders: &[Shader]) {
+    if !shaders.iter().all(|shader| shader.version.has(Feature::InterfaceNames)) {
+        return;
+    }
+    let mut known: FxHashMap<&str, (Option<&str>, Span, Stage)> = FxHashMap::default();
+    for shared in all {
+        let members = exposed_members(ctx.types, shared.global);
+        let is_loose = !shared.is_block();
+        let own = is_loose.then_some((shared.global.name.as_str(), shared.global.span));
+        let block = shared.global.block.as_ref().map(|block| block.name.as_str());
+        for (name, span) in own.into_iter().chain(members.iter().map(|member| (member.name.as_str(), member.span))) {
+            let (other, there, stage) = *known.entry(name).or_insert((block, span, shared.stage));
+            // In one stage, the two are one name in one scope, which is reported there.
+            if there == span || stage == shared.stage {
+                continue;
+            }
+            let where_is = |block: Option<&str>, stage: Stage| match block {
+                Some(block) => format!("a member of the block `{block}` in the {} stage", stage.name()),
+                None => format!("a uniform outside of blocks in the {} stage", stage.name()),
+            };
+            let message = format!("`{name}` names two uniforms of the program");
+            ctx.report(
+                Diagnostic::new(&codes::link::UNIFORM_NAMES, span, message)
+                    .here(where_is(block, shared.stage))
+                    .label(there, where_is(other, stage))
+                    .help("give one of them another name, or the block an instance name"),
+            );
+        }
+    }
+}
+
+/// The members of a block whose names are those of its interface: of one without an instance name.
+fn exposed_members<'a>(types: &'a Types, global: &Global) -> &'a [Member] {
+    let is_exposed = global.block.as_ref().is_some_and(|block| block.instance.is_none());
+    let parts = block_parts(types, global.ty).filter(|_| is_exposed);
+    parts.map_or(&[], |(id, _)| types.structure(id).members.as_slice())
 }
 
 /// The number of scalars, vectors, matrices and samplers in a type.
@@ -183,6 +233,17 @@ fn check_same(ctx: &mut Linker<'_>, known: &Shared<'_>, stage: Stage, global: &G
         let message = format!("the uniform `{}` has another initializer in each stage", global.name);
         let diagnostic = Diagnostic::new(&codes::link::UNIFORM_INITIALIZER_MISMATCH, global.span, message)
             .label(declared.span, "initialized here, too");
+        ctx.report(diagnostic);
+    }
+    if let Some(other) = known.placed
+        && let (Some(ours), Some(theirs)) = (global.host_location, other.host_location)
+        && ours != theirs
+    {
+        // "any location specifiers of all declared uniform variables with the same name must match" (ES 3.10 §4.3.5; 4.60 §4.3.5).
+        let message = format!("the uniform `{}` has another location in each stage", global.name);
+        let diagnostic = Diagnostic::new(&codes::link::UNIFORM_TYPE_MISMATCH, global.span, message)
+            .here(format!("location {ours} in the {} stage", stage.name()))
+            .label(other.span, format!("location {theirs} in another"));
         ctx.report(diagnostic);
     }
     if let Some((ours, theirs)) = different_bindings(global, known.global) {

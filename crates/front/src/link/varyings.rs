@@ -8,14 +8,15 @@
 //! last, but before varyings that nothing reads if space is short.
 
 use super::clip_distances::ClipDistances;
-use super::compatible::same_type;
+use super::compatible::{block_parts, same_type};
 use super::flatten::{join, parts};
 use super::locations::Locations;
 use super::matching::Outputs;
 use super::{Linker, Varying, VaryingEnd};
 use crate::diagnostic::{Diagnostic, codes, plural};
 use crate::hir::{
-    ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Sampling, Scalar, Shader, Storage, Type, TypeId, Types,
+    ArraySize, Global, GlobalId, Interpolation, MatrixLayout, Sampling, Scalar, Shader, Stage, Storage, Type, TypeId,
+    Types,
 };
 use crate::source::Span;
 
@@ -46,11 +47,12 @@ impl<'a> Whole<'a> {
 }
 
 /// All varyings of a program in order of location, and the interpolated clip distances.
-pub(super) fn assign(
-    ctx: &mut Linker<'_>,
-    producer: Option<&Shader>,
-    fragment: Option<&Shader>,
-) -> (Vec<Varying>, Vec<Varying>) {
+pub(super) fn assign(ctx: &mut Linker<'_>, stages: &[Shader]) -> (Vec<Varying>, Vec<Varying>) {
+    let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
+    let (producer, fragment) = (of(Stage::Geometry).or(of(Stage::Vertex)), of(Stage::Fragment));
+    if stages.len() > 1 {
+        stages.iter().for_each(|shader| check_places(ctx, shader));
+    }
     let mut wholes = wholes(ctx.types, producer, fragment);
     wholes.sort_by_key(|whole| !whole.active());
     let mut pieces = Vec::new();
@@ -63,6 +65,42 @@ pub(super) fn assign(
     let clip = ClipDistances::find(ctx.types, producer, fragment);
     warn_above_minimum(ctx, &wholes, &pieces, clip.as_ref());
     place(ctx, pieces, clip.as_ref())
+}
+
+/// Reports explicit places that overlap in one stage, those of variables that the other stage does not declare included. A stage that
+/// is alone is checked where its varyings are placed.
+fn check_places(ctx: &mut Linker<'_>, shader: &Shader) {
+    for storage in [Storage::In, Storage::Out] {
+        // Attributes and colors have rules of their own.
+        let is_outer =
+            matches!((shader.stage, storage), (Stage::Vertex, Storage::In) | (Stage::Fragment, Storage::Out));
+        let ends = shader.globals().filter(|(_, global)| {
+            !is_outer && global.storage == storage && global.builtin.is_none() && has_place(ctx.types, global)
+        });
+        let mut pieces = Vec::new();
+        for (id, global) in ends {
+            let of_vertex = Global { ty: one_vertex(ctx.types, shader.stage, storage, global.ty), ..global.clone() };
+            if ctx.types.flat_len(of_vertex.ty) <= MAX_LOCATIONS * 4 {
+                cut(ctx.types, &Whole { from: Some((id, &of_vertex)), to: None }, &mut pieces);
+            }
+        }
+        put_fixed(ctx, &mut Room::new(false), pieces.into_iter().filter(|piece| piece.fixed.is_some()));
+    }
+}
+
+/// Whether a variable, or a member of a block, has an explicit location.
+fn has_place(types: &Types, global: &Global) -> bool {
+    let of_member = || {
+        let parts = global.block.as_ref().and_then(|_| block_parts(types, global.ty));
+        parts.is_some_and(|(id, _)| types.structure(id).members.iter().any(|member| member.place.location.is_some()))
+    };
+    global.location.is_some() || of_member()
+}
+
+/// The type for one vertex: a geometry stage declares an array of it.
+fn one_vertex(types: &Types, stage: Stage, storage: Storage, ty: TypeId) -> TypeId {
+    let is_array = stage == Stage::Geometry && storage == Storage::In;
+    types.element(ty).filter(|_| is_array).unwrap_or(ty)
 }
 
 fn wholes<'a>(types: &Types, producer: Option<&'a Shader>, fragment: Option<&'a Shader>) -> Vec<Whole<'a>> {
@@ -240,15 +278,7 @@ fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'
     let n_clip = clip.map_or(0, ClipDistances::locations);
     let mut room = Room::new(pieces.len() as u32 + n_clip > PORTABLE_LOCATIONS);
     let (fixed, mut free): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.fixed.is_some());
-    let mut placed = Vec::new();
-    for piece in fixed {
-        let (location, component) = piece.fixed.unwrap_or_default();
-        match room.put_at(&piece, location, component) {
-            Ok(()) => placed.push(at(piece, location, component)),
-            Err(Taken::Beyond) => no_room(ctx, &piece),
-            Err(Taken::Shared) => overlap(ctx, &piece, &placed),
-        }
-    }
+    let mut placed = put_fixed(ctx, &mut room, fixed.into_iter());
     if room.shared {
         // Large ones first, so that small ones fill the gaps.
         free.sort_by_key(|piece| (!piece.varying.active, 4 - piece.size));
@@ -274,6 +304,20 @@ fn place(ctx: &mut Linker<'_>, pieces: Vec<Piece>, clip: Option<&ClipDistances<'
         Some(clip.at(first?))
     });
     (placed, clip_distances.unwrap_or_default())
+}
+
+/// Puts pieces at their explicit places, and reports those that have none there.
+fn put_fixed(ctx: &mut Linker<'_>, room: &mut Room, pieces: impl Iterator<Item = Piece>) -> Vec<Varying> {
+    let mut placed = Vec::new();
+    for piece in pieces {
+        let (location, component) = piece.fixed.unwrap_or_default();
+        match room.put_at(&piece, location, component) {
+            Ok(()) => placed.push(at(piece, location, component)),
+            Err(Taken::Beyond) => no_room(ctx, &piece),
+            Err(Taken::Shared) => overlap(ctx, &piece, &placed),
+        }
+    }
+    placed
 }
 
 /// Reports an explicit location that another varying has, at least in part, or whose other varyings differ in kind: "the

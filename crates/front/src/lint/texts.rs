@@ -144,6 +144,9 @@ impl<'a> Texts<'a> {
             tokens.iter().skip(from + 1).take(MOST).position(|token| token.flags.contains(TokenFlags::LINE_START))
         };
         let first = hash.and_then(|hash| Some(hash + 1 + next_line(hash)?)).unwrap_or(first);
+        if ends_struct(&lexemes, tokens.get(near..first)?) {
+            return None;
+        }
         let length = tokens.get(index..)?.iter().take(MOST).position(ends)?;
         let last = tokens.get(index + length).filter(|token| token.kind == TokenKind::Semicolon)?;
         let inside = tokens.get(first..index + length)?;
@@ -234,4 +237,22 @@ impl<'a> Texts<'a> {
         let edits = edits.into_iter().map(|(span, text)| is_written(span).then_some(Edit { span, text }));
         Some(Fix { title, applicability, edits: edits.collect::<Option<_>>()? })
     }
+}
+
+/// Whether tokens end with the members of a struct, which are of the statement that goes on behind them: `struct { float a; } s;`.
+fn ends_struct(lexemes: &Lexemes, tokens: &[Token]) -> bool {
+    let mut depth = 0_i32;
+    let opens = |token: &Token| {
+        match token.kind {
+            TokenKind::RightBrace => depth += 1,
+            TokenKind::LeftBrace => depth -= 1,
+            _ => {}
+        }
+        depth == 0
+    };
+    if tokens.last().is_none_or(|token| token.kind != TokenKind::RightBrace) {
+        return false;
+    }
+    let before = tokens.iter().rposition(opens).and_then(|opening| tokens.get(..opening)).unwrap_or_default();
+    before.iter().rev().take(2).any(|token| lexemes.spelling(token) == "struct")
 }

@@ -148,7 +148,8 @@ impl Analyzer<'_> {
                 let ty = self.with_array(base, &declarator.array);
                 let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
                 self.require_size(ty, declarator.name.span);
-                if context.storage == Storage::Uniform && self.ast.version.is_es() {
+                let must_match = self.ast.version.is_es() && !self.ast.version.has(Feature::BlockPrecisions);
+                if context.storage == Storage::Uniform && must_match {
                     let name = format!("{}.{}", self.name(block.name), self.name(declarator.name));
                     self.note_precision(name, record.precision, ty, declarator.name.span);
                 }

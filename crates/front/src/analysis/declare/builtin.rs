@@ -5,14 +5,14 @@ use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{Qualifiers, StorageWord};
 use super::super::state::ArrayKey;
 use super::super::state::{Denoted, NoteRole};
-use crate::builtin::variables::{self, Redeclaration, Row};
+use crate::builtin::variables::{self, Redeclaration, Row, VARIABLES};
 use crate::builtin::{BuiltinVariable, constants};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, qualifiers, types};
 use crate::hir::{ArraySize, BlockInfo, BlockLayout, FragCoordLayout, GlobalId, Stage, Storage, Type, TypeId};
 use crate::language::{Extensions, Feature};
 use crate::source::Span;
-use crate::syntax::ast::Declarator;
+use crate::syntax::ast::{Declarator, Ident};
 
 impl Analyzer<'_> {
     /// The global of a built-in variable, which its first use creates.
@@ -46,6 +46,20 @@ impl Analyzer<'_> {
         id
     }
 
+    /// A struct that the language declares: `gl_DepthRangeParameters`, the type of `gl_DepthRange` (§7.5), or one of the fixed-function
+    /// pipeline.
+    pub(in crate::analysis) fn builtin_struct(&mut self, name: &str) -> Option<TypeId> {
+        if !name.starts_with("gl_") {
+            return None;
+        }
+        if name != variables::DEPTH_RANGE_STRUCT {
+            return self.fixed_struct(name);
+        }
+        let row = VARIABLES.iter().find(|row| row.variable == BuiltinVariable::DepthRange)?;
+        let id = self.builtin_global(row);
+        Some(self.shader.global(id).ty)
+    }
+
     /// Handles `in vec4 gl_FragCoord;`. Returns whether the name is built in, so that the declaration is complete.
     pub(super) fn redeclare_builtin(&mut self, declarator: &Declarator, ty: TypeId, record: &Qualifiers) -> bool {
         let name = self.name(declarator.name);
@@ -73,6 +87,9 @@ impl Analyzer<'_> {
         self.note(span, Denoted::Builtin, NoteRole::Uses);
         if ty.is_error() || self.is_in_per_vertex(row, span) {
             return true;
+        }
+        if row.redeclaration != Redeclaration::No {
+            self.check_own_qualifiers(declarator.name, record);
         }
         match row.redeclaration {
             Redeclaration::No if self.declares_interface(row) => self.redeclare_output(row, declarator, ty, record),
@@ -105,6 +122,22 @@ impl Analyzer<'_> {
             .here(format!("it is an `{word}` variable of a {} shader", self.stage.name())),
         );
         None
+    }
+
+    /// Checks that a redeclaration adds no qualifier of varyings: the language lets a built-in variable be redeclared "only for these
+    /// specific purposes" (§3.7), which are a size, a layout of its own, `invariant` and `precise`.
+    pub(super) fn check_own_qualifiers(&mut self, name: Ident, record: &Qualifiers) {
+        let place = record.layout.iter().find(|id| matches!(self.name(id.name), "location" | "component"));
+        if let Some(span) = place.map(|id| id.name.span) {
+            let message = format!("`{}` has no location", self.name(name));
+            self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("it is built in"));
+        }
+        let interpolation = record.interpolation.map(|(word, span)| (word.name(), span));
+        let sampling = record.sampling.and_then(|(sampling, span)| Some((sampling.word()?, span)));
+        if let Some((word, span)) = interpolation.or(sampling) {
+            let message = format!("`{}` cannot be `{word}`", self.name(name));
+            self.report(Diagnostic::new(&names::BUILTIN_REDECLARED, span, message).here("it is built in"));
+        }
     }
 
     /// Whether a declaration of an output states the interface to a separate program (ARB_separate_shader_objects).
@@ -226,6 +259,15 @@ impl Analyzer<'_> {
     fn redeclare_frag_coord(&mut self, row: &Row, declarator: &Declarator, ty: TypeId, record: &Qualifiers) {
         let span = declarator.name.span;
         let layout = self.layout(record, LayoutSubject::FragCoord);
+        if self.ast.version.is_es() {
+            // ES has no layout for it, which is reported.
+            if record.layout.is_empty() {
+                let message = "`gl_FragCoord` cannot be declared again in ES";
+                let finding = Diagnostic::new(&names::BUILTIN_REDECLARED, span, message);
+                self.report(finding.here("it is built in").help("remove the declaration"));
+            }
+            return;
+        }
         if self.same_storage(row, span, record).is_none() {
             return;
         }

@@ -70,7 +70,6 @@ impl Analyzer<'_> {
 
     fn function_body(&mut self, id: FunctionId, header: &FunctionHeader, body: &[Stmt]) {
         let first = self.shader.exprs.len();
-        let precisions = self.precisions.clone();
         self.budget.begin_function();
         self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false, parts: Vec::new() });
         self.scopes.open();
@@ -84,7 +83,7 @@ impl Analyzer<'_> {
         if is_nested {
             self.scopes.open();
         }
-        let mut body = self.statements(body);
+        let mut body = self.with_precisions(|this| this.statements(body));
         let parts = self.body.as_mut().map_or_else(Vec::new, |body| std::mem::take(&mut body.parts));
         let declared = |part| crate::hir::Stmt { kind: StmtKind::Local(part, None), span: header.name.span };
         body.splice(0..0, parts.into_iter().map(declared));
@@ -93,7 +92,6 @@ impl Analyzer<'_> {
             self.scopes.close();
         }
         self.size_locals(first);
-        self.precisions = self.precisions.ended(&precisions);
         self.check_returns(id);
         self.body = None;
         if self.name(header.name) == "main" && (header.params.is_empty() || !header.is_whole) {

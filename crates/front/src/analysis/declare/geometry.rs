@@ -56,7 +56,8 @@ impl Analyzer<'_> {
 
     /// `layout(triangle_strip, max_vertices = 3) out;`
     pub(super) fn geometry_output_layout(&mut self, layout: &Layout) {
-        if let Some(&(primitive, span)) = layout.outputs.last() {
+        // "One declaration can declare either a primitive type (points, line_strip, or triangle_strip), or max_vertices" (§4.3.8.2).
+        for &(primitive, span) in &layout.outputs {
             self.set_output(primitive, span);
         }
         if let Some((count, span)) = layout.max_vertices {

@@ -2,12 +2,21 @@
 
 use super::super::context::Analyzer;
 use super::super::expr::foreign;
+use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::names;
+use crate::language::Feature;
 use crate::syntax::ast::Ident;
 
 impl Analyzer<'_> {
+    /// Checks that a global may have its name, which no built-in function has from ES 3.00 on (ES 3.00 §4.2).
+    pub(in crate::analysis) fn check_builtin_scope(&mut self, name: Ident) {
+        if functions::named(self.name(name)).iter().any(|row| row.availability.in_version(self.ast.version)) {
+            self.require(Feature::BuiltinScope, name.span);
+        }
+    }
+
     /// Checks that a name may be declared: it must not start with `gl_`. (The preprocessor warns about two
     /// consecutive underscores.)
     pub(in crate::analysis) fn check_name(&mut self, name: Ident) -> bool {

@@ -26,6 +26,9 @@ impl Analyzer<'_> {
         }
         self.allows(Feature::PerVertex, span);
         let members = self.per_vertex_members(block, word);
+        if block.members.is_empty() {
+            self.report(Diagnostic::new(&names::PER_VERTEX, span, "`gl_PerVertex` must have a member").here("empty"));
+        }
         let names: Vec<String> = members.iter().map(|member| member.name.clone()).collect();
         if storage == Storage::In {
             self.redeclare_gl_in(block, members);
@@ -133,8 +136,15 @@ impl Analyzer<'_> {
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
-                if let Some(member) = self.per_vertex_member(declarator, ty, record.invariant.is_some()) {
-                    members.push(member);
+                self.check_own_qualifiers(declarator.name, &record);
+                let Some(member) = self.per_vertex_member(declarator, ty, record.invariant.is_some()) else { continue };
+                match members.iter().find(|other| other.name == member.name) {
+                    Some(other) => {
+                        let message = format!("`{}` is declared twice", member.name);
+                        let finding = Diagnostic::new(&names::REDEFINED, member.span, message).here("again here");
+                        self.report(finding.label(other.span, "first here"));
+                    }
+                    None => members.push(member),
                 }
             }
         }

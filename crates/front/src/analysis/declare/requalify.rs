@@ -6,7 +6,7 @@ use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::BlockDefaults;
 use super::super::state::{Denoted, NoteRole};
-use crate::builtin::{fixed, variables};
+use crate::builtin::{BuiltinVariable, fixed, variables};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::{names, qualifiers};
@@ -24,11 +24,7 @@ impl Analyzer<'_> {
             return;
         }
         if record.precise.is_some() && record.invariant.is_none() {
-            // `precise a;` changes how `a` is computed, and no value that is exact.
-            for &name in idents {
-                self.global_named(name);
-            }
-            return;
+            return self.make_precise(idents);
         }
         for &name in idents {
             self.is_probe(name);
@@ -52,6 +48,21 @@ impl Analyzer<'_> {
         }
     }
 
+    /// `precise a;` "may be used to qualify a built-in or previously declared user-defined variable" (GLSL 4.00 §4.7), a local one, too. It
+    /// changes how `a` is computed, and no value that is exact.
+    pub(in crate::analysis) fn make_precise(&mut self, idents: &[Ident]) {
+        for &name in idents {
+            match self.scopes.find(name.symbol) {
+                Some(binding) if matches!(binding.entry, Entry::Variable(VarRef::Local(_))) => {
+                    self.note_binding(name.span, binding);
+                }
+                _ => {
+                    self.global_named(name);
+                }
+            }
+        }
+    }
+
     /// `invariant a;`: `a` must be an output, or an input of a fragment shader, and must not be used before.
     fn make_invariant(&mut self, name: Ident) {
         let spelling = self.name(name);
@@ -60,11 +71,17 @@ impl Analyzer<'_> {
         let (storage, declared) = (global.storage, global.span);
         let crosses = storage == Storage::Out || (storage == Storage::In && self.stage == Stage::Fragment);
         let is_instance = global.block.as_ref().is_some_and(|block| block.instance.is_some());
-        let candidate = crosses && !is_instance;
+        // "It is an error to declare gl_FrontFacing as invariant" (GLSL ES 1.00 §4.6.4).
+        let is_facing = self.ast.version.is_es() && global.builtin == Some(BuiltinVariable::FrontFacing);
+        let candidate = crosses && !is_instance && !is_facing;
         if !candidate {
             self.report(
                 Diagnostic::new(&qualifiers::INVARIANT, name.span, format!("`{spelling}` cannot be invariant"))
-                    .here("not an output of the shader")
+                    .here(if is_facing {
+                        "its variance is that of `gl_Position`"
+                    } else {
+                        "not an output of the shader"
+                    })
                     .label(declared, "declared here"),
             );
             return;

@@ -68,6 +68,9 @@ impl Analyzer<'_> {
             self.declared.add_precisions(id, precisions);
         }
         if let Some(name) = spec.name {
+            if self.scopes.is_global() {
+                self.check_builtin_scope(name);
+            }
             let good_name = good_name && self.check_block_name(name);
             self.enter(name, if good_name { Entry::Struct(ty) } else { Entry::Poison });
         }

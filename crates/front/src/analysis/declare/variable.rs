@@ -5,7 +5,6 @@ use super::super::layout::{Layout, LayoutSubject};
 use super::super::qualifiers::{DeclarationContext, Qualifiers, StorageWord};
 use super::super::scope::Entry;
 use super::super::state::ArrayKey;
-use crate::builtin::functions;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, syntax, types};
 use crate::hir::{
@@ -33,6 +32,7 @@ impl Analyzer<'_> {
         let has_value = declaration.declarators.iter().any(|declarator| declarator.initializer.is_some());
         let storage = self.global_storage(&record, has_value);
         if declaration.declarators.is_empty() {
+            self.require_size(base, declaration.ty.span);
             if let (Some(span), Storage::In) = (record.invariant, storage) {
                 self.require(Feature::InvariantInputs, span);
             }
@@ -142,9 +142,7 @@ impl Analyzer<'_> {
         let ty = if fits { ty } else { TypeId::ERROR };
         let ty = self.sized_by_geometry(ty, storage, name.span);
         self.require_size(ty, name.span);
-        if functions::named(self.name(name)).iter().any(|row| row.availability.in_version(self.ast.version)) {
-            self.require(Feature::BuiltinScope, name.span);
-        }
+        self.check_builtin_scope(name);
         if self.resizes(declarator, ty, storage) {
             return;
         }
@@ -257,7 +255,8 @@ impl Analyzer<'_> {
             (Storage::In, _) => LayoutSubject::Varying,
             (Storage::Out, Stage::Fragment) => LayoutSubject::FragmentOutput,
             (Storage::Out, _) => LayoutSubject::Varying,
-            (Storage::Uniform, _) if self.types.contains_sampler(ty) => LayoutSubject::Sampler,
+            // An unknown type may be one of samplers.
+            (Storage::Uniform, _) if ty.is_error() || self.types.contains_sampler(ty) => LayoutSubject::Sampler,
             (Storage::Uniform, _) => LayoutSubject::Uniform,
             (Storage::Const, _) => LayoutSubject::Other("a constant"),
             (Storage::Private, _) => LayoutSubject::Other("a variable without a storage qualifier"),
@@ -364,7 +363,9 @@ impl Analyzer<'_> {
         let from = self.ty(expr);
         if ty.is_error() || from.is_error() || !self.is_whole_value(expr) {
             let span = self.span(expr);
-            return (ty, self.poison(span));
+            // The size that a broken initializer would have told is not known.
+            let is_sized = !matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized));
+            return (if is_sized { ty } else { TypeId::ERROR }, self.poison(span));
         }
         if self.leaves_sizes_to(ty, from) {
             return (from, expr);

@@ -4,6 +4,7 @@ use super::super::context::Analyzer;
 use super::super::state::ArrayKey;
 use super::super::state::{Denoted, NoteRole};
 use super::swizzle::{self, Fault};
+use crate::builtin::fixed::TEX_COORD;
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
 use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, StructId, Type, TypeId, VarRef};
@@ -124,7 +125,7 @@ impl Analyzer<'_> {
         let (element, size) = match self.types.get(ty) {
             Type::Vector(scalar, size) => (TypeId::vector(scalar, 1), Some(u32::from(size))),
             Type::Matrix(columns, rows) => (TypeId::vector(Scalar::Float, rows), Some(u32::from(columns))),
-            Type::Array(element, ArraySize::Sized(size)) => (element, Some(size)),
+            Type::Array(element, ArraySize::Sized(size)) => (element, Some(self.stated_size(base).unwrap_or(size))),
             Type::Array(element, ArraySize::Unsized) => (element, None),
             _ => {
                 let (name, at) = (self.type_name(ty), self.span(base));
@@ -149,6 +150,13 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         self.push(ExprKind::Index(base, index), element, span)
+    }
+
+    /// The size that the shader declares `gl_TexCoord` with; its type has all elements, until the stages are linked.
+    fn stated_size(&self, base: ExprId) -> Option<u32> {
+        let ExprKind::Var(VarRef::Global(id)) = self.expr_at(base).kind else { return None };
+        let global = self.shader.global(id);
+        self.shader.tex_coords.filter(|_| global.is_fixed() && global.name == TEX_COORD)
     }
 
     /// Checks an index by the rules of §4.1.7, §4.1.9 and §4.3.7.
@@ -205,7 +213,13 @@ impl Analyzer<'_> {
         let at = self.span(index);
         let too_large = size.is_some_and(|size| value >= i64::from(size));
         if value < 0 || too_large {
-            let name = self.type_name(self.ty(base));
+            let ty = match (self.types.get(self.ty(base)), size) {
+                (Type::Array(element, ArraySize::Sized(_)), Some(size)) => {
+                    self.types.array(element, ArraySize::Sized(size))
+                }
+                _ => self.ty(base),
+            };
+            let name = self.type_name(ty);
             let last = size.map_or(String::new(), |size| format!(": the last is {}", size.saturating_sub(1)));
             self.report(
                 Diagnostic::new(&types::INDEX_RANGE, at, format!("a `{name}` has no element {value}"))

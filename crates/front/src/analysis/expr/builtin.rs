@@ -2,12 +2,13 @@
 
 use super::super::context::Analyzer;
 use super::overload::{Resolution, leading, resolve};
+use crate::builtin::constants::{MAX_PROGRAM_TEXEL_OFFSET, MIN_PROGRAM_TEXEL_OFFSET};
 use crate::builtin::functions::{self, Row, Signature};
 use crate::builtin::operations::{Class, Lookup};
 use crate::builtin::{Availability, BuiltinFunction};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{names, types};
-use crate::hir::{ExprId, ExprKind, Function, Stage, TypeId};
+use crate::hir::{ExprId, ExprKind, Function, ScalarValue, Stage, TypeId};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::Ident;
@@ -115,13 +116,32 @@ impl Analyzer<'_> {
 
         let Some(&offset) = position.and_then(|index| arguments.get(index)) else { return true };
         if self.is_constant(offset) {
-            return true;
+            return form.lookup == Lookup::Gather || self.check_offset_range(offset);
         }
         let gathers = form.lookup == Lookup::Gather && !form.offsets;
         if gathers && self.allows(Feature::DynamicOffsets, self.span(offset)) {
             return true;
         }
         self.report(self.not_constant(offset, "the offset of a texture lookup"));
+        false
+    }
+
+    /// "A limited range of offset values are supported" (§8.7): from gl_MinProgramTexelOffset to gl_MaxProgramTexelOffset. Gathers have
+    /// another range, which implementations widen.
+    fn check_offset_range(&mut self, offset: ExprId) -> bool {
+        const RANGE: std::ops::RangeInclusive<i32> = MIN_PROGRAM_TEXEL_OFFSET..=MAX_PROGRAM_TEXEL_OFFSET;
+        let Some(value) = self.evaluate(offset) else { return true };
+        let outside = value.scalars.iter().find_map(|scalar| match scalar {
+            ScalarValue::Int(number) if !RANGE.contains(number) => Some(*number),
+            _ => None,
+        });
+        let Some(number) = outside else { return true };
+        let message = format!("a texture lookup has no offset of {number} texels");
+        self.report(
+            Diagnostic::new(&types::OFFSET_RANGE, self.span(offset), message)
+                .here(format!("{MIN_PROGRAM_TEXEL_OFFSET} to {MAX_PROGRAM_TEXEL_OFFSET} are supported"))
+                .help("add the offset, divided by the size of the texture, to the coordinate"),
+        );
         false
     }
 

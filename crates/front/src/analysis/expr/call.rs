@@ -38,6 +38,11 @@ impl Analyzer<'_> {
         } else if !functions::named(self.name(name)).is_empty() {
             self.note(name.span, Denoted::Builtin, NoteRole::Uses);
         }
+        if binding.is_none()
+            && let Some(ty) = self.builtin_struct(self.name(name))
+        {
+            return self.construct(ty, arguments, name.span, span);
+        }
         match binding.map(|binding| binding.entry) {
             Some(Entry::Struct(ty)) => self.construct(ty, arguments, name.span, span),
             Some(Entry::Functions(set)) => {

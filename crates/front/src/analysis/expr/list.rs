@@ -44,6 +44,12 @@ impl Analyzer<'_> {
     }
 
     fn list(&mut self, elements: &[ast::ExprId], ty: TypeId, span: Span) -> ExprId {
+        if elements.is_empty() {
+            // The grammar has "{ initializer_list }", which has at least one initializer (4.20 §9).
+            let finding = Diagnostic::new(&types::LIST, span, "an initializer list is empty").here("no value");
+            self.report(finding.help("write a value for each part, or leave the initializer out"));
+            return self.poison(span);
+        }
         match self.types.get(ty) {
             Type::Struct(id) => {
                 let members: Vec<TypeId> = self.types.structure(id).members.iter().map(|member| member.ty).collect();

@@ -5,14 +5,20 @@
 use crate::hir::{SamplerDim, SamplerType, Scalar, Stage};
 use crate::language::{Precision, Version};
 
+/// The default precisions of the types.
+#[derive(Clone, Debug)]
+pub(in crate::analysis) struct Defaults {
+    float: Option<Precision>,
+    int: Precision,
+    samplers: Vec<(SamplerType, Precision)>,
+}
+
 /// The defaults in force.
 #[derive(Clone, Debug)]
 pub(in crate::analysis) struct Precisions {
     /// Whether types need a precision: in ES.
     needed: bool,
-    float: Option<Precision>,
-    int: Precision,
-    samplers: Vec<(SamplerType, Precision)>,
+    defaults: Defaults,
     /// The types that have been reported, each once.
     reported_float: bool,
     reported_samplers: Vec<SamplerType>,
@@ -25,9 +31,11 @@ impl Precisions {
         let is_fragment = stage == Stage::Fragment;
         Self {
             needed: version.is_es(),
-            float: (!is_fragment).then_some(Precision::High),
-            int: if is_fragment { Precision::Medium } else { Precision::High },
-            samplers: Vec::new(),
+            defaults: Defaults {
+                float: (!is_fragment).then_some(Precision::High),
+                int: if is_fragment { Precision::Medium } else { Precision::High },
+                samplers: Vec::new(),
+            },
             reported_float: false,
             reported_samplers: Vec::new(),
         }
@@ -36,22 +44,22 @@ impl Precisions {
     /// `precision highp float;`
     pub(in crate::analysis) fn set_scalar(&mut self, scalar: Scalar, precision: Precision) {
         match scalar {
-            Scalar::Float => self.float = Some(precision),
-            Scalar::Int => self.int = precision,
+            Scalar::Float => self.defaults.float = Some(precision),
+            Scalar::Int => self.defaults.int = precision,
             _ => {}
         }
     }
 
     /// `precision highp sampler3D;`
     pub(in crate::analysis) fn set_sampler(&mut self, sampler: SamplerType, precision: Precision) {
-        self.samplers.push((sampler, precision));
+        self.defaults.samplers.push((sampler, precision));
     }
 
     /// The default of a scalar type: that of `int` is the one of unsigned integers, too.
     pub(in crate::analysis) fn of_scalar(&self, scalar: Scalar) -> Option<Precision> {
         match scalar {
-            Scalar::Float => self.float,
-            Scalar::Int | Scalar::Uint => Some(self.int),
+            Scalar::Float => self.defaults.float,
+            Scalar::Int | Scalar::Uint => Some(self.defaults.int),
             Scalar::Bool => None,
         }
     }
@@ -61,13 +69,18 @@ impl Precisions {
         let SamplerType { texel, dim, arrayed, shadow } = sampler;
         let predeclared =
             texel == Scalar::Float && !arrayed && !shadow && matches!(dim, SamplerDim::D2 | SamplerDim::Cube);
-        let stated = self.samplers.iter().rev().find(|(other, _)| *other == sampler);
+        let stated = self.defaults.samplers.iter().rev().find(|(other, _)| *other == sampler);
         stated.map(|(_, precision)| *precision).or(predeclared.then_some(Precision::Low))
+    }
+
+    /// Says nothing about types that lack a precision from here on.
+    pub(in crate::analysis) fn forgive(&mut self) {
+        self.needed = false;
     }
 
     /// Whether a scalar type lacks a precision. It is so once.
     pub(in crate::analysis) fn lacks(&mut self, scalar: Scalar) -> bool {
-        let lacks = self.needed && scalar == Scalar::Float && self.float.is_none() && !self.reported_float;
+        let lacks = self.needed && scalar == Scalar::Float && self.defaults.float.is_none() && !self.reported_float;
         self.reported_float |= lacks;
         lacks
     }
@@ -82,9 +95,13 @@ impl Precisions {
         lacks
     }
 
-    /// The defaults when a function's body ends: those from before it, with what has been reported.
-    pub(in crate::analysis) fn ended(&self, before: &Self) -> Self {
-        let (float, int, samplers) = (before.float, before.int, before.samplers.clone());
-        Self { float, int, samplers, ..self.clone() }
+    /// The defaults in force, to restore them.
+    pub(in crate::analysis) fn defaults(&self) -> Defaults {
+        self.defaults.clone()
+    }
+
+    /// Takes the defaults back that were in force; what has been reported stays so.
+    pub(in crate::analysis) fn restore(&mut self, defaults: Defaults) {
+        self.defaults = defaults;
     }
 }

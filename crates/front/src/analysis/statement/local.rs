@@ -27,6 +27,9 @@ impl Analyzer<'_> {
         let record = self.qualifiers(&declaration.qualifiers, DeclarationContext::Local);
         let base = self.declared_type(declaration);
         self.check_precision(record.precision, base, declaration.ty.span);
+        if declaration.declarators.is_empty() {
+            self.require_size(base, declaration.ty.span);
+        }
         for declarator in &declaration.declarators {
             let kind = match self.local_variable(declarator, base, &record, declaration) {
                 Declared::New(local, initializer) => local.map(|local| StmtKind::Local(local, initializer)),
@@ -58,6 +61,10 @@ impl Analyzer<'_> {
         if !constant && let Some(known) = self.resizes_local(declarator, ty) {
             let assignment = initializer.map(|value| self.assign_local(known, ty, value, name.span));
             return Declared::Again(assignment);
+        }
+        // Of an unknown type, `retrun y;` may declare nothing.
+        if base.is_error() && self.scopes.find_here(name.symbol).is_some() {
+            return Declared::New(None, initializer);
         }
         let kind = if constant { LocalKind::Const } else { LocalKind::Variable };
         let local = Local { name: self.name(name).to_owned(), ty, kind, value, span: name.span };

@@ -8,6 +8,7 @@ mod local;
 mod switch;
 
 use super::context::Analyzer;
+use super::qualifiers::DeclarationContext;
 use super::scope::Entry;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::codes::{qualifiers, statements};
@@ -57,9 +58,25 @@ impl Analyzer<'_> {
 
     /// A statement as a body with its own scope.
     fn scoped(&mut self, stmt: &ast::Stmt) -> Vec<Stmt> {
-        self.scopes.open();
-        let out = self.unscoped(stmt);
-        self.scopes.close();
+        self.in_scope(|this| this.unscoped(stmt))
+    }
+
+    /// Runs `body` in a scope of its own, of names and of default precisions: a precision statement in a "compound statement, ..
+    /// its effect stops at the end of the innermost statement it was declared in" (GLSL ES 3.00 §4.5.4).
+    pub(super) fn in_scope<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> T {
+        self.with_precisions(|this| {
+            this.scopes.open();
+            let out = body(this);
+            this.scopes.close();
+            out
+        })
+    }
+
+    /// Runs `body`, whose precision statements end with it.
+    pub(super) fn with_precisions<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.precisions.defaults();
+        let out = body(self);
+        self.precisions.restore(before);
         out
     }
 
@@ -90,14 +107,9 @@ impl Analyzer<'_> {
             S::Expr(expr) => StmtKind::Expr(self.expr(*expr)),
             S::Variables(declaration) => return self.local_variables(declaration, out),
             S::Precision { qualifier, ty } => return self.precision(qualifier, ty),
-            S::Requalify { qualifiers, .. } => return self.misplaced_requalify(qualifiers, span),
+            S::Requalify { qualifiers, names } => return self.requalify_local(qualifiers, names, span),
             S::Prototype(header) => return self.misplaced_prototype(header),
-            S::Block(body) => {
-                self.scopes.open();
-                let body = self.statements(body);
-                self.scopes.close();
-                StmtKind::Block(body)
-            }
+            S::Block(body) => StmtKind::Block(self.in_scope(|this| this.statements(body))),
             S::If { arms, otherwise } => self.selection(arms, otherwise.as_deref()),
             S::Switch { selector, body } => self.switch(*selector, body),
             S::For { init, condition, step, body } => self.for_loop(init, condition.as_ref(), *step, body, span),
@@ -143,23 +155,23 @@ impl Analyzer<'_> {
         body: &ast::Stmt,
         span: Span,
     ) -> StmtKind {
-        self.scopes.open();
-        let mut outer = Vec::new();
-        self.statement(init, &mut outer);
-        let condition = condition.map(|condition| self.loop_condition(condition));
-        let step = step.map(|step| self.expr(step));
-        let body = self.loop_body(body, false);
-        self.scopes.close();
-        outer.push(Stmt { kind: StmtKind::Loop { kind: LoopKind::For, condition, step, body }, span });
-        StmtKind::Block(outer)
+        StmtKind::Block(self.in_scope(|this| {
+            let mut outer = Vec::new();
+            this.statement(init, &mut outer);
+            let condition = condition.map(|condition| this.loop_condition(condition));
+            let step = step.map(|step| this.expr(step));
+            let body = this.loop_body(body, false);
+            outer.push(Stmt { kind: StmtKind::Loop { kind: LoopKind::For, condition, step, body }, span });
+            outer
+        }))
     }
 
     fn while_loop(&mut self, condition: &ast::Condition, body: &ast::Stmt) -> StmtKind {
-        self.scopes.open();
-        let condition = Some(self.loop_condition(condition));
-        let body = self.loop_body(body, false);
-        self.scopes.close();
-        StmtKind::Loop { kind: LoopKind::While, condition, step: None, body }
+        self.in_scope(|this| {
+            let condition = Some(this.loop_condition(condition));
+            let body = this.loop_body(body, false);
+            StmtKind::Loop { kind: LoopKind::While, condition, step: None, body }
+        })
     }
 
     fn do_loop(&mut self, body: &ast::Stmt, condition: ast::ExprId) -> StmtKind {
@@ -192,7 +204,13 @@ impl Analyzer<'_> {
         body
     }
 
-    fn misplaced_requalify(&mut self, list: &[ast::Qualifier], span: Span) {
+    /// A declaration without a type in a function: only `precise a;` may be there.
+    fn requalify_local(&mut self, list: &[ast::Qualifier], names: &[ast::Ident], span: Span) {
+        let is_precise = |one: &ast::Qualifier| one.kind == ast::QualifierKind::Precise;
+        if !names.is_empty() && list.iter().all(is_precise) {
+            self.qualifiers(list, DeclarationContext::Alone);
+            return self.make_precise(names);
+        }
         let what = if list.iter().any(|qualifier| qualifier.kind == ast::QualifierKind::Invariant) {
             "`invariant`"
         } else {

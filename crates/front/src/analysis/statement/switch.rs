@@ -16,9 +16,7 @@ impl Analyzer<'_> {
         if let Some(state) = self.body.as_mut() {
             state.switches += 1;
         }
-        self.scopes.open();
-        let cases = self.cases(self.ty(selector), body);
-        self.scopes.close();
+        let cases = self.in_scope(|this| this.cases(this.ty(selector), body));
         if let Some(state) = self.body.as_mut() {
             state.switches -= 1;
         }

@@ -60,7 +60,7 @@ codes! {
             "in B { vec4 a; vec4 b; } i; out vec4 c; void main() { c = i.a; }");
     UNIFORM_TYPE_MISMATCH = "E0707" "uniform-type-mismatch" Error "GLSL 1.50 §4.3.5"
         "All shaders of a program share one name space of uniforms: a name must have the same type wherever it is \
-         declared."
+         declared, and no two explicit locations or bindings."
         bad Program(
             "uniform vec3 u; void main() { gl_Position = vec4(u, 1.0); }",
             "uniform vec4 u; out vec4 c; void main() { c = u; }"),
@@ -91,7 +91,7 @@ codes! {
         good Vertex("in mat4 m[3]; in vec4 v; void main() { gl_Position = m[0] * m[1] * m[2] * v; }");
     ATTRIBUTE_ALIASING = "E0711" "attribute-aliasing" Error "OpenGL 3.2 §2.11.3"
         "Two attributes have the same location, and one execution of the shader may read both. Only one of them can \
-         have its own data."
+         have its own data. In ES from 3.00 on, no two may have the same location, read or not."
         bad Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
                     layout(location = 1) in vec4 b; void main() { gl_Position = a + b; }"),
         good Vertex("#extension GL_ARB_explicit_attrib_location : enable\nlayout(location = 1) in vec4 a;\n\
@@ -303,8 +303,9 @@ codes! {
             "#version 330\nout vec4 c; void main() { c = vec4(1.0); }");
     UNIFORM_PRECISION_MISMATCH = "E0732" "uniform-precision-mismatch" Error "GLSL ES 3.00 §4.3.5"
         "The stages of a program share their uniforms: a uniform, or a member of its struct or of a uniform block, has the same \
-         precision wherever it is declared. Without a qualifier it has the default of its stage, and those differ: vertex shaders have \
-         `highp` for floats and integers, fragment shaders `mediump` for integers and none for floats."
+         precision wherever it is declared. From ES 3.10 on, members of blocks may differ. Without a qualifier it has the default of its \
+         stage, and those differ: vertex shaders have `highp` for floats and integers, fragment shaders `mediump` for integers and none \
+         for floats."
         bad Program("#version 300 es\nuniform vec4 u; void main() { gl_Position = u; }",
             "#version 300 es\nprecision mediump float; uniform vec4 u; out vec4 c; void main() { c = u; }"),
         good Program("#version 300 es\nuniform mediump vec4 u; void main() { gl_Position = u; }",
@@ -316,6 +317,13 @@ codes! {
             out vec4 c; void main() { c = a[0] + b; }"),
         good Fragment("#version 430\nlayout(location = 0) uniform vec4 a[2]; layout(location = 2) uniform vec4 b;\n\
             out vec4 c; void main() { c = a[0] + b; }");
+    UNIFORM_NAMES = "E0734" "uniform-name-clash" Error "GLSL 4.40 §4.3.9"
+        "A host finds a uniform by its name, and a member of a block without an instance name by its own. From 4.40 and ES 3.10 on, no \
+         stage has a uniform, or such a member, that has the name of a member of another such block in another stage."
+        bad Program("#version 440\nuniform B { vec4 a; }; void main() { gl_Position = a; }",
+            "#version 440\nuniform vec4 a; out vec4 c; void main() { c = a; }"),
+        good Program("#version 440\nuniform B { vec4 a; } b; void main() { gl_Position = b.a; }",
+            "#version 440\nuniform vec4 a; out vec4 c; void main() { c = a; }");
     VARYINGS_ABOVE_MINIMUM = "W0705" "varyings-above-minimum" Warning "GLSL 1.50 §7.4"
         "The varyings have more components than the smallest value that gl_MaxVaryingComponents may have, 60. Many \
          implementations support more; some do not."

@@ -117,6 +117,11 @@ codes! {
          blocks and samplers. No target can bind more."
         bad Vertex("struct A { mat4 m[4096]; }; struct B { A a[16]; }; uniform B b[2]; void main() { gl_Position = b[0].a[0].m[0][0]; }"),
         good Vertex("struct A { mat4 m[16]; }; struct B { A a[16]; }; uniform B b[2]; void main() { gl_Position = b[0].a[0].m[0][0]; }");
+    OFFSET_RANGE = "E0423" "texel-offset-out-of-range" Error "GLSL 1.50 §8.7"
+        "The offset of a texture lookup is from -8 to 7 texels in each direction: the range that every implementation has \
+         (gl_MinProgramTexelOffset, gl_MaxProgramTexelOffset)."
+        bad Fragment("uniform sampler2D t; out vec4 c; void main() { c = textureOffset(t, vec2(0.5), ivec2(8, 0)); }"),
+        good Fragment("uniform sampler2D t; out vec4 c; void main() { c = textureOffset(t, vec2(0.5), ivec2(7, 0)); }");
     PRECISION_TYPE = "E0421" "bad-precision-type" Error "GLSL 1.50 §4.5.2, §4.5.3"
         "Integers and floats, and their vectors and matrices, may be declared with a precision; booleans and \
          structs cannot. Only `int` and `float` have a default precision."

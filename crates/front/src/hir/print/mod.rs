@@ -127,7 +127,11 @@ impl Printer<'_> {
     /// The type as written before a name: `float[3]`.
     fn type_name(&self, ty: TypeId) -> String {
         match self.types.get(ty) {
-            Type::Struct(id) => self.names.structure(id).to_owned(),
+            Type::Struct(id) => match self.names.structure(id) {
+                // The language declares it.
+                "" => self.types.structure(id).name.clone(),
+                name => name.to_owned(),
+            },
             Type::Array(..) => {
                 // The outermost size comes first.
                 let (mut base, mut dims) = (ty, String::new());

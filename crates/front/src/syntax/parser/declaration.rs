@@ -67,7 +67,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
             return self.function_definition(header);
         }
-        if matches!(kind, DeclarationKind::Prototype(_)) && self.kind() != TokenKind::Semicolon && self.lost_brace() {
+        if matches!(kind, DeclarationKind::Prototype(_)) && self.kind() != TokenKind::Semicolon && self.lost_brace(0) {
             let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
             return Ok(self.function_without_brace(header));
         }
@@ -154,14 +154,14 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(DeclarationKind::Function(header, body))
     }
 
-    /// Whether the `{` of a body was forgotten: a `}` follows that closes nothing. It is sought only once, so that text
+    /// Whether a `{` was forgotten: from the token `first` on, a `}` follows that closes nothing. It is sought only once, so that text
     /// with many errors is not read again and again.
-    fn lost_brace(&mut self) -> bool {
+    pub(super) fn lost_brace(&mut self, first: usize) -> bool {
         if std::mem::replace(&mut self.sought_brace, true) {
             return false;
         }
         let mut depth = 0_usize;
-        for at in 0..MAX_BODY {
+        for at in first..MAX_BODY {
             match self.ahead(at).kind {
                 TokenKind::LeftBrace => depth += 1,
                 TokenKind::RightBrace if depth == 0 => return true,
@@ -225,7 +225,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         // The grammar lets a list begin with the type alone: `float, a = 0.0;` (§9, init_declarator_list).
         if self.kind() == TokenKind::Comma
-            && matches!(ty.base, TypeBase::Keyword(_))
+            && matches!(ty.base, TypeBase::Keyword(_) | TypeBase::Struct(_))
             && self.ahead(1).kind == TokenKind::Ident
         {
             self.bump();

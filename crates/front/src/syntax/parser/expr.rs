@@ -388,37 +388,57 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.push(ExprKind::Construct(Box::new(ty), arguments), whole)
     }
 
-    /// `(float3)value`: a name in parentheses before a value is a cast of C or HLSL.
-    fn reject_cast(&mut self, opening: Token, inner: ExprId) -> Parse<()> {
+    /// The finding for `(float3)value`: a name in parentheses before a value is a cast of C or HLSL.
+    fn named_cast(&mut self, opening: Token, inner: ExprId) -> Option<Diagnostic> {
         let is_name = matches!(self.ast.exprs.get(inner.index()).map(|expr| &expr.kind), Some(ExprKind::Name(_)));
         let before_value =
             matches!(self.kind(), TokenKind::Ident | TokenKind::Int | TokenKind::Uint | TokenKind::Float);
         if !is_name || !before_value {
-            return Ok(());
+            return None;
         }
         let span = self.since(opening.span);
         let name = self.session.sources.snippet(span).trim_matches(['(', ')', ' ']).to_owned();
         // Any other name may be a variable, with an operator missing behind it.
-        let Some(ty) = crate::language::foreign::type_name(&name) else { return Ok(()) };
-        let message = format!("`({name})` is not a cast: GLSL has none");
-        let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, message);
-        Err(self.report_found(diagnostic.help(format!("write `{ty}(..)` around the value"))))
+        let ty = crate::language::foreign::type_name(&name)?;
+        Some(cast(span, &name, ty))
+    }
+
+    /// `(float)value`: a type in parentheses. It is reported, and read as the constructor that is meant.
+    fn cast(&mut self, opening: Token) -> Parse<ExprId> {
+        let name = self.session.spelling(self.current).to_owned();
+        let reported = self.report_found(cast(self.current.span, &name, &name));
+        let ty = self.bump();
+        self.bump();
+        if !self.begins_value() {
+            return Err(reported);
+        }
+        let value = self.nested(Self::unary_expression)?;
+        let spec = TypeSpec { base: TypeBase::Keyword(ty.symbol()), array: Vec::new(), span: ty.span };
+        let whole = self.since(opening.span);
+        self.push(ExprKind::Construct(Box::new(spec), vec![value]), whole)
+    }
+
+    /// Whether an operand is next.
+    fn begins_value(&self) -> bool {
+        use TokenKind::*;
+        let kind = self.kind();
+        matches!(kind, Ident | Type | Int | Uint | Float | True | False | LeftParen) || prefix_op(kind).is_some()
     }
 
     /// `(a)`: in the tree, parentheses only widen the span.
     fn parenthesized(&mut self) -> Parse<ExprId> {
         let opening = self.bump();
         if self.kind() == TokenKind::Type && self.ahead(1).kind == TokenKind::RightParen {
-            let name = self.session.spelling(self.current).to_owned();
-            let span = self.current.span;
-            let diagnostic =
-                Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, format!("`({name})` is not a cast: GLSL has none"))
-                    .help(format!("write `{name}(..)` around the value"));
-            return Err(self.report_found(diagnostic));
+            return self.cast(opening);
         }
         let inner = self.expression()?;
         self.close(opening, TokenKind::RightParen, "`)` or an operator")?;
-        self.reject_cast(opening, inner)?;
+        if let Some(finding) = self.named_cast(opening, inner) {
+            let _: Reported = self.report_found(finding);
+            let value = self.nested(Self::unary_expression)?;
+            let whole = self.since(opening.span);
+            return Ok(self.error_expr(whole, vec![value]));
+        }
         let span = self.since(opening.span);
         if let Some(expr) = self.ast.exprs.get_mut(inner.index()) {
             expr.span = span;
@@ -432,4 +452,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         Ok(inner)
     }
+}
+
+/// The finding for a cast to what GLSL calls `ty`.
+fn cast(span: Span, name: &str, ty: &str) -> Diagnostic {
+    Diagnostic::new(&codes::UNEXPECTED_TOKEN, span, format!("`({name})` is not a cast: GLSL has none"))
+        .help(format!("write `{ty}(..)` around the value"))
 }

@@ -60,7 +60,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// Whether `S a`, `a.b[i] =`, `a++;` or `f(..);` is there.
-    fn is_named_statement(&mut self, number: usize) -> bool {
+    pub(super) fn is_named_statement(&mut self, number: usize) -> bool {
         use TokenKind::*;
         let mut at = number + 1;
         if self.token(at).kind == Ident {
@@ -124,6 +124,17 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn begins_anew(&mut self) -> bool {
         let next = self.taken.len();
         self.certainly_begins(next) || self.seems_to_begin(next)
+    }
+
+    /// Whether the next token begins a line with a whole statement, further right than the one that it is in: the body of a header
+    /// whose `)` is missing.
+    pub(super) fn looks_like_body(&mut self) -> bool {
+        let next = self.taken.len();
+        self.current.starts_line()
+            && !self.in_parameters
+            && self.kind() == TokenKind::Ident
+            && !self.is_outdented(self.current)
+            && self.is_named_statement(next)
     }
 
     /// The number of the first token that begins another statement, if the current one was left unfinished before it.

@@ -96,13 +96,27 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         is_header || begins_loop && next == TokenKind::Semicolon
     }
 
-    /// Reports a name that is similar to a keyword, and makes it that keyword.
+    /// Makes a name the keyword that begins `unifrom Light {` or `strcut Light {`, which nothing else does at global scope.
+    pub(super) fn correct_block(&mut self) {
+        use TokenKind::{Ident, In, LeftBrace, Out, Struct, Uniform};
+        let is_outside = self.braces == 0 && !self.in_parameters;
+        if is_outside && self.kind() == Ident && self.ahead(1).kind == Ident && self.ahead(2).kind == LeftBrace {
+            self.correct_to("expected a qualifier or `struct`", |kind| matches!(kind, Uniform | In | Out | Struct));
+        }
+    }
+
+    /// Reports a name that is similar to a keyword of a statement, and makes it that keyword.
     fn correct(&mut self, is_wanted: impl Fn(TokenKind) -> bool) {
+        self.correct_to("expected a statement", is_wanted);
+    }
+
+    /// Reports a name that is similar to a keyword, and makes it that keyword.
+    fn correct_to(&mut self, expected: &str, is_wanted: impl Fn(TokenKind) -> bool) {
         let Some(meant) = self.similar(is_wanted) else { return };
         let name = self.session.spelling(self.current).to_owned();
         let message = format!("`{name}` is not a keyword of GLSL");
         let finding = Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.current.span, message)
-            .here("expected a statement")
+            .here(expected)
             .help(Advice::meant(meant.spelling));
         self.session.report(finding);
         self.current = Token { kind: meant.kind, ..self.current };

@@ -14,6 +14,31 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.report_found(diagnostic)
     }
 
+    /// Whether the next `}` would end a function though its statements go on, up to another `}` that closes nothing: one `{` is missing, or
+    /// this `}` is too much.
+    pub(super) fn ends_too_early(&mut self) -> bool {
+        use TokenKind::*;
+        let next = self.ahead(1).kind;
+        let goes_on = match next {
+            If | For | While | Do | Switch | Return | Break | Continue | Discard => true,
+            Ident => self.ahead(2).kind != Ident && self.is_named_statement(self.taken.len() + 1),
+            _ => false,
+        };
+        self.braces == 1 && goes_on && self.lost_brace(1)
+    }
+
+    /// Reports the `}`, and goes on in the function.
+    pub(super) fn early_brace(&mut self) {
+        let token = self.bump();
+        self.braces += 1;
+        let diagnostic =
+            Diagnostic::new(&codes::STRAY_DELIMITER, token.span, "`}` ends the function, and statements follow")
+                .here("the function ends here")
+                .label(self.function_brace, "it begins here")
+                .help("a `{` is missing above, or this `}` is too much");
+        self.session.report(diagnostic);
+    }
+
     /// Skips the rest of a broken statement or member that began at `start`: up to its `;` or past its `{..}`, but
     /// never a brace that closes the block around it. Otherwise it skips at least one token.
     pub(super) fn recover_statement(&mut self, start: Mark) {
@@ -106,6 +131,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             return !self.recovered;
         }
         let mut parens = 0_usize;
+        if self.looks_like_body() {
+            return true;
+        }
         loop {
             match self.kind() {
                 TokenKind::LeftParen => parens += 1,

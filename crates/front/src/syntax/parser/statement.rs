@@ -22,6 +22,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let mut statements = Vec::new();
         loop {
             match self.kind() {
+                TokenKind::RightBrace if self.ends_too_early() => self.early_brace(),
                 TokenKind::RightBrace => {
                     self.labelled = self.labelled.filter(|braces| *braces < self.braces);
                     self.bump();

@@ -51,6 +51,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let mut list = Vec::new();
         loop {
             let start = self.current.span;
+            self.correct_block();
             if let Some(kind) = qualifier(self.kind()) {
                 self.bump();
                 list.push(Qualifier { kind, span: start });

@@ -191,11 +191,17 @@ impl Preprocessor<'_> {
     ) -> Option<(Vec<Vec<Token>>, Span)> {
         let mut arguments = vec![Vec::new()];
         let mut depth = 0_usize;
+        // What has been read from the `;` on, which ends a statement if the call has no end.
+        let mut rest: Vec<Token> = Vec::new();
         loop {
             let token = self.next_unexpanded(session, true);
+            if token.kind == TokenKind::Semicolon || !rest.is_empty() {
+                rest.push(token);
+            }
             match token.kind {
                 TokenKind::Eof => {
-                    self.unterminated_call(session, name, opening, index);
+                    rest.pop();
+                    self.unterminated_call(session, (name, opening), index, rest);
                     return None;
                 }
                 TokenKind::RightParen if depth == 0 => return Some((arguments, token.span)),
@@ -215,9 +221,15 @@ impl Preprocessor<'_> {
         }
     }
 
-    /// Reports a macro use whose `)` is missing. In a directive the rest of the line is lost; in the text, the rest
-    /// of the file.
-    fn unterminated_call(&mut self, session: &mut ParseSession<'_>, name: Token, opening: Token, index: usize) {
+    /// Reports a macro use whose `)` is missing. In a directive the rest of the line is lost. In the text, the first one ends at its
+    /// `;`, and what follows is read again; after another one, the rest of the file is lost, so that none is read again and again.
+    fn unterminated_call(
+        &mut self,
+        session: &mut ParseSession<'_>,
+        (name, opening): (Token, Token),
+        index: usize,
+        rest: Vec<Token>,
+    ) {
         if self.stopped {
             return;
         }
@@ -228,8 +240,13 @@ impl Preprocessor<'_> {
         session.report(diagnostic);
         if self.contexts.iter().any(TokenRun::is_barrier) {
             self.broken_line = true;
-        } else {
+        } else if rest.is_empty() || std::mem::replace(&mut self.read_again, true) {
             self.stop();
+        } else {
+            let mut hole = Token { kind: TokenKind::Invalid, ..name };
+            hole.flags.insert(TokenFlags::REPORTED);
+            self.contexts.push(TokenRun::list(rest, None));
+            self.contexts.push(TokenRun::list(vec![hole], None));
         }
     }
 

@@ -23,7 +23,7 @@ impl Preprocessor<'_> {
                 }
             }
             TokenKind::Number => number(session, &mut token),
-            TokenKind::Invalid => invalid_token(session, token),
+            TokenKind::Invalid if !token.flags.contains(TokenFlags::REPORTED) => invalid_token(session, token),
             TokenKind::Unknown => {
                 // A character that looks like one of the language replaces it, so that this is one error and not
                 // many.

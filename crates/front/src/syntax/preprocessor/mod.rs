@@ -132,6 +132,8 @@ pub(super) struct Preprocessor<'a> {
     last_kind: TokenKind,
     /// Whether the arguments of a macro use are being read.
     in_arguments: bool,
+    /// Whether the text behind a macro use without an end has been read again.
+    read_again: bool,
     /// Whether a macro use on the line of a directive has no end. That was reported, and the line has no meaning.
     broken_line: bool,
     once: FxHashSet<FileId>,
@@ -177,6 +179,7 @@ impl<'a> Preprocessor<'a> {
             in_function: false,
             last_kind: TokenKind::Eof,
             in_arguments: false,
+            read_again: false,
             broken_line: false,
             once: FxHashSet::default(),
             continued: FxHashSet::default(),

@@ -279,9 +279,15 @@ fn meant_by(number: u16, profile: &str) -> String {
         (_, "es") => "300 es",
         (200, _) => return "OpenGL 2.0 has the language 1.10: write `#version 110`".to_owned(),
         (210, _) => return "OpenGL 2.1 has the language 1.20: write `#version 120`".to_owned(),
-        _ => return format!("write `#version {}`", nearest(number)),
+        _ => return format!("write `#version {}`", completed(number).unwrap_or_else(|| nearest(number))),
     };
     format!("write `#version {line}`")
+}
+
+/// The version of OpenGL's language whose last digits are missing: 330 of 33.
+fn completed(number: u16) -> Option<u16> {
+    let mut known = EDITIONS.iter().filter(|edition| !edition.es).map(|edition| edition.number);
+    known.find(|known| number > 9 && known / 10 == number)
 }
 
 /// The version of OpenGL's language whose number is the nearest.
