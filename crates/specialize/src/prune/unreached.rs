@@ -27,7 +27,7 @@ pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -
         if !changed && uses.functions.len() == shader.functions.len() && !has_idle_parameter(&shader, &uses) {
             break;
         }
-        shader = compact::compact(&shader, &uses, &|_| true, &mut origins).0;
+        shader = compact::compact((types, &shader), (&uses, live), &|_| true, &mut origins).0;
         // Functions that nothing reached had no part in the counts; arguments had.
         if !changed && parameters == self::parameters(&shader, shader.functions().map(|(id, _)| id)) {
             break;
