@@ -58,7 +58,9 @@ pub(crate) fn make_rule(
 
 /// A file name as a word of a Make rule.
 fn make_word(name: &str) -> String {
-    name.replace('$', "$$").replace('#', "\\#").replace(' ', "\\ ")
+    let word = name.replace('$', "$$").replace('#', "\\#").replace(' ', "\\ ");
+    // On Windows it is the colon of a drive.
+    if cfg!(windows) { word } else { word.replace(':', "\\:") }
 }
 
 #[derive(Serialize)]
