@@ -143,5 +143,8 @@ mod tests {
     fn make_words_are_escaped() {
         let rule = make_rule(["a b$c#d".to_owned()], ["x".to_owned(), "y".to_owned(), "x".to_owned()]);
         assert_eq!(rule, "a\\ b$$c\\#d: x y\n");
+        if !cfg!(windows) {
+            assert_eq!(make_rule(["a:b".to_owned()], ["c:d/e".to_owned()]), "a\\:b: c\\:d/e\n");
+        }
     }
 }
