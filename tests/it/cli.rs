@@ -364,7 +364,7 @@ fn render_writes_float_pictures_by_the_reference() {
     }
 }
 
-/// What would change nothing is refused, before anything is read.
+/// An option that would change nothing is refused, before anything is read.
 #[test]
 fn options_without_an_effect_are_refused() {
     let folder = Folder::triangle();

@@ -12,7 +12,7 @@ use crate::process::journal::{self, Note};
 #[cfg(feature = "gl")]
 use glisten_gl::{Error, Gl};
 
-/// What builds the backend in.
+/// The remedy.
 const BUILT_IN: &str = "`cargo install --path . --features gl` builds it in";
 
 /// Reports an error if the backend is not built in.
@@ -21,7 +21,7 @@ pub(crate) fn require() -> Result<(), Failure> {
     if cfg!(feature = "gl") { Ok(()) } else { Err(not_built().help(&remedy)) }
 }
 
-/// The same for a command that compares with OpenGL's picture.
+/// Reports an error if a command cannot compare with OpenGL's picture.
 pub(crate) fn require_to_compare() -> Result<(), Failure> {
     if cfg!(feature = "gl") { Ok(()) } else { Err(not_built().help(BUILT_IN)) }
 }

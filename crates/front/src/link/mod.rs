@@ -128,7 +128,7 @@ pub fn link(
     (complete && !failed).then_some(Program { name, types, stages, interface })
 }
 
-/// Links the stages of a program again after something was left out of them: their interface is made anew. `None` if that fails.
+/// Links the stages of a program again after something was left out of them: their interface is made again. `None` if that fails.
 pub fn relink(name: String, types: Types, stages: Vec<Shader>, bindings: Bindings<'_>) -> Option<Program> {
     let mut diagnostics = Diagnostics::default();
     let mut ctx = Linker { types: &types, bindings, diagnostics: &mut diagnostics, failed: false };

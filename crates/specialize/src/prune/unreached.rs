@@ -3,7 +3,7 @@
 //! *In:* a stage as it was written, and the outputs that somebody reads. *Out:* the stage without the rest.
 //! *Holds:* globals keep their handles, so that an interface still describes the stage; functions are numbered anew. Nothing
 //! is evaluated: names, types and the order of what stays are those of the source, but for the names of overloads that have the same
-//! parameters now.
+//! parameters now, results that nobody wants, and parts of values that nobody reads, which are 0.
 
 use super::uses::Uses;
 use super::{compact, merge, overwritten_in, sweep};

@@ -397,8 +397,9 @@ impl Writer<'_> {
             }
         }
         let to = self.place(target);
-        let value = self.expr(value, demand);
-        self.push(ExprKind::Assign(op, to, value), ty, span)
+        let written = self.expr(value, demand);
+        let written = op.map_or(written, |op| self.narrowed(op, value, written, target));
+        self.push(ExprKind::Assign(op, to, written), ty, span)
     }
 
     /// Whether evaluating a place does something.
