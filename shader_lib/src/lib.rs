@@ -174,10 +174,12 @@ impl glisten_scene::Library for Embedded {
         reads::values_read(program)
     }
 
-    fn attributes_that_reach(&self, program: &glisten_front::Program) -> Vec<bool> {
-        let optimized = glisten_specialize::optimize(program);
+    fn attributes_that_reach(&self, program: &glisten_front::Program, sizes_points: bool) -> Vec<bool> {
+        use glisten_specialize::{Known, KnownState, optimize, specialize};
+        let optimized = optimize(program);
         // What is under a condition that is never true is left out only by evaluation.
-        let evaluated = glisten_specialize::specialize(program, &glisten_specialize::Known::default());
+        let state = KnownState { point_size: Some(sizes_points), ..KnownState::default() };
+        let evaluated = specialize(program, &Known { state, ..Known::default() });
         let is_left = |name: &str| {
             let attributes = &evaluated.program.interface.attributes;
             evaluated.fault.is_some() || attributes.iter().any(|attribute| attribute.active && attribute.name == name)

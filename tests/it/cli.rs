@@ -364,6 +364,88 @@ fn render_writes_float_pictures_by_the_reference() {
     }
 }
 
+/// An option that would change nothing is refused, before anything is read.
+#[test]
+fn options_without_an_effect_are_refused() {
+    let folder = Folder::triangle();
+    fs::write(folder.path("s.toml"), SCENE).expect("written");
+    for (arguments, part) in [
+        (&["render", "s.toml", "-o", "s.npy", "--precision", "f32"][..], "of the CPU reference"),
+        (&["render", "s.toml", "-o", "s.npy", "--backend", "cpu", "--via", "wgsl"], "--via is of what the GPU runs"),
+        (&["stability", "s.toml", "--cases", "64"], "cannot be used with"),
+        (&["verify", "s.toml", "--tolerance", "0.1", "--profile", "wgsl"], "cannot be used with"),
+        (&["verify", "s.toml", "--no-likely", "--likely-margin", "9"], "cannot be used with"),
+    ] {
+        let output = folder.run(arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", err(&output));
+        assert!(err(&output).contains(part), "{arguments:?}: {}", err(&output));
+    }
+}
+
+/// A file that is not there does not hide what is found in the others.
+#[test]
+fn a_missing_file_does_not_hide_the_others() {
+    let folder = Folder::triangle();
+    fs::write(folder.path("wide.frag"), "#version 150\nout vec4 c;void main(){c=vec4(1);}\n").expect("written");
+    let output = folder.run(&["fmt", "--check", "wide.frag", "none.frag"]);
+    assert_eq!(code(&output), 2);
+    assert!(out(&output).contains("wide.frag") && err(&output).contains("none.frag"), "{}", err(&output));
+    fs::write(
+        folder.path("a.shader_test"),
+        "[vertex shader passthrough]\n[fragment shader]\n#version 150\nout vec4 c;\n\
+        void main() { c = vec4(1); }\n[test]\ndraw rect -1 -1 2 2\nprobe all rgba 0 1 1 1\n",
+    )
+    .expect("written");
+    let output = folder.run(&["test", "none.shader_test", "a.shader_test", "--backend", "cpu"]);
+    assert_eq!(code(&output), 2, "{}", err(&output));
+    assert!(out(&output).contains("fail") && err(&output).contains("none.shader_test"), "{}", out(&output));
+}
+
+/// Slips that the names of hosts invite.
+#[test]
+fn unknown_uniforms_have_the_nearest_name() {
+    let folder = Folder::triangle();
+    let fragment = "#version 150\nstruct S { float a; };\nuniform S s[2];\nuniform D { float dd; } dinst;\nuniform C { float cc; };\n\
+        uniform ivec3 iv;\nuniform sampler2D t;\nin vec4 vc;\nout vec4 c;\n\
+        void main() { c = vec4(s[0].a + s[1].a, dinst.dd, cc, iv.x) + texture(t, vec2(0.5)); }\n";
+    fs::write(folder.path("n.frag"), fragment).expect("written");
+    let scene = SCENE.replace("tri.frag", "n.frag");
+    for (line, part) in [
+        ("\"dinst.dd\" = 1.0", "did you mean `D.dd`?"),
+        ("\"C.cc\" = 1.0", "did you mean `cc`?"),
+        ("dd = 1.0", "did you mean `D.dd`?"),
+        ("\"s.a\" = 1.0", "did you mean `s[0].a`?"),
+        ("s = 1.0", "did you mean `s[0].a`?"),
+        ("iv = [1.0, 2.0, 3.0]", "`iv`, an ivec3, takes integers of 32 bits"),
+        ("iv = [2147483648, 2, 3]", "`iv`, an ivec3, takes integers of 32 bits"),
+        ("[draw.textures]\nt = { width = 0, height = 1, values = [] }", "`width` must be 1 to 8192"),
+        (
+            "[draw.textures]\nt = { width = 1, height = 1, values = [1, 1, 1, 1], compare = \"less\" }",
+            "no shadow sampler",
+        ),
+    ] {
+        fs::write(folder.path("s.toml"), format!("{scene}{line}\n")).expect("written");
+        let output = folder.run(&["render", "s.toml", "--backend", "cpu", "-o", "s.npy"]);
+        assert_eq!(code(&output), 1, "{line}: {}", err(&output));
+        assert!(err(&output).contains(part) && !err(&output).contains("has no `width`"), "{line}: {}", err(&output));
+    }
+    for (rows, part) in [
+        ("indices = [0, -1, 2]\n[draw.attributes]", "index -1 is negative"),
+        ("[draw.attributes]", "`divisor` must be 0 to 4294967295"),
+    ] {
+        let text = SCENE.replace("[draw.attributes]", rows);
+        let text = if rows.starts_with('[') {
+            text.replace("cv = { size = 4,", "cv = { size = 4, divisor = -1,")
+        } else {
+            text
+        };
+        fs::write(folder.path("s.toml"), text).expect("written");
+        let output = folder.run(&["render", "s.toml", "--backend", "cpu", "-o", "s.npy"]);
+        assert!(code(&output) == 1 && err(&output).contains(part), "{}", err(&output));
+        assert_eq!(err(&output).matches("error[").count(), 1, "{}", err(&output));
+    }
+}
+
 #[test]
 fn mistakes_of_a_scene_are_told_at_their_places() {
     let folder = Folder::triangle();

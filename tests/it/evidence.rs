@@ -423,7 +423,18 @@ fn modules_of_others_are_judged_or_refused() {
             assert!(err(&output).contains(part), "{module}: {}", err(&output));
         }
     }
-    assert_eq!(code(&folder.run(&["render", "a.toml", "-o", "a.npy", "--with", "fragment=out/a.frag.wgsl"])), 0);
+    let render = ["render", "a.toml", "-o", "a.npy", "--with", "fragment=out/a.frag.wgsl"];
+    assert_eq!(code(&folder.run(&render)), 0);
+    // Of two modules for one stage only one would be drawn.
+    for (other, exit) in [
+        ("fragment=out/a.frag.wgsl", 2),
+        ("fragment=out/a.frag.spv", 2),
+        ("0:fragment=out/a.frag.wgsl", 0),
+        ("vertex=out/a.vert.wgsl", 0),
+    ] {
+        let output = folder.run(&[&render[..], &["--with", other]].concat());
+        assert_eq!(code(&output), exit, "{other}: {}", err(&output));
+    }
 }
 
 /// Scenes of which too little can be judged, each with the reason.

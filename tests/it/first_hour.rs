@@ -331,6 +331,17 @@ fn absolute_includes_start_at_the_folders_of_the_search_path() {
     assert!(exit == 2 && codes(&list).contains(&"E0127"), "{list:#?}");
 }
 
+/// A file that is found and is no text was not looked for in vain.
+#[test]
+fn a_binary_include_is_told_as_that() {
+    let text =
+        b"#version 150\n#extension GL_ARB_shading_language_include : require\n#include \"b.glsl\"\nout vec4 c;\n\
+        void main() { c = vec4(x()); }\n";
+    let folder = Folder::new(&[("a.frag", text), ("b.glsl", b"\xff\xfe\0")]);
+    let (list, exit) = folder.lint(&["a.frag"]);
+    assert_eq!((codes(&list), exit), (vec!["E0014"], 1), "{list:#?}");
+}
+
 #[test]
 fn stages_are_known_by_more_names() {
     let (vertex, fragment) = (FLAT.0.as_bytes(), FLAT.1.as_bytes());

@@ -39,7 +39,7 @@ const COMMANDS: &[&[&str]] = &[
     &["render", "a.toml", "--backend", "cpu", "-o", "out.png"],
     &["render", "a.toml", "-o", "out.exr"],
     &["verify", "a.toml", "--difference", "out.png", "--evidence", "out2.png"],
-    &["stability", "a.toml", "-o", "out", "--cases", "16"],
+    &["stability", "a.toml", "-o", "out"],
     &["play", "--export", "out.html", "a.toml"],
     &["man", "-o", "out"],
 ];

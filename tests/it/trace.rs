@@ -128,6 +128,8 @@ fn wrong_places_are_refused() {
         (&["--vertex", "0", "--draw", "2"], 1, "the scene has 2"),
         (&["--pixel", "1;2"], 2, "is not a column and a row"),
         (&["--pixel", "1,2", "--vertex", "0"], 2, "cannot be used with"),
+        (&["--pixel", "1,2", "--draw", "0"], 2, "cannot be used with"),
+        (&["--pixel", "1,2", "--instance", "0"], 2, "cannot be used with"),
         (&[], 2, "--pixel <X,Y>|--vertex <N>"),
     ] {
         let run = folder.run(&[&["trace", &scene], arguments].concat());

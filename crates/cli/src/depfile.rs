@@ -58,7 +58,9 @@ pub(crate) fn make_rule(
 
 /// A file name as a word of a Make rule.
 fn make_word(name: &str) -> String {
-    name.replace('$', "$$").replace('#', "\\#").replace(' ', "\\ ")
+    let word = name.replace('$', "$$").replace('#', "\\#").replace(' ', "\\ ");
+    // On Windows it is the colon of a drive.
+    if cfg!(windows) { word } else { word.replace(':', "\\:") }
 }
 
 #[derive(Serialize)]
@@ -141,5 +143,8 @@ mod tests {
     fn make_words_are_escaped() {
         let rule = make_rule(["a b$c#d".to_owned()], ["x".to_owned(), "y".to_owned(), "x".to_owned()]);
         assert_eq!(rule, "a\\ b$$c\\#d: x y\n");
+        if !cfg!(windows) {
+            assert_eq!(make_rule(["a:b".to_owned()], ["c:d/e".to_owned()]), "a\\:b: c\\:d/e\n");
+        }
     }
 }

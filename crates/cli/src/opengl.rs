@@ -12,20 +12,28 @@ use crate::process::journal::{self, Note};
 #[cfg(feature = "gl")]
 use glisten_gl::{Error, Gl};
 
+/// The remedy.
+const BUILT_IN: &str = "`cargo install --path . --features gl` builds it in";
+
 /// Reports an error if the backend is not built in.
 pub(crate) fn require() -> Result<(), Failure> {
-    if cfg!(feature = "gl") { Ok(()) } else { Err(not_built()) }
+    let remedy = format!("{BUILT_IN}; `--backend cpu` draws what OpenGL should");
+    if cfg!(feature = "gl") { Ok(()) } else { Err(not_built().help(&remedy)) }
+}
+
+/// Reports an error if a command cannot compare with OpenGL's picture.
+pub(crate) fn require_to_compare() -> Result<(), Failure> {
+    if cfg!(feature = "gl") { Ok(()) } else { Err(not_built().help(BUILT_IN)) }
 }
 
 fn not_built() -> Failure {
-    let failure = Failure::usage("this glisten was built without OpenGL");
-    failure.help("`cargo install --path . --features gl` builds it in; `--backend cpu` draws what OpenGL should")
+    Failure::usage("this glisten was built without OpenGL")
 }
 
 /// Draws a scene.
 #[cfg(not(feature = "gl"))]
 pub(crate) fn draw(_: &MachineArgs, _: &str, _: Scene) -> Result<Picture, DrawError> {
-    Err(not_built().into())
+    Err(not_built().help(BUILT_IN).into())
 }
 
 /// Draws a scene.

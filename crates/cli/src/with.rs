@@ -74,8 +74,31 @@ impl WithArgs {
         Ok(if vias.is_empty() { vec![first.via] } else { vias })
     }
 
-    /// The modules, for a scene that has the draws.
-    pub(crate) fn read(&self, scene: &Scene) -> Result<Vec<Foreign>, Failure> {
+    /// Refuses modules of which only one of two can be drawn, by one of these forms.
+    fn refuse_idle(&self, vias: &[Via]) -> Result<(), Failure> {
+        for (index, module) in self.modules.iter().enumerate() {
+            let file = &module.file;
+            if !vias.contains(&module.via) {
+                let (via, runs) = (module.via.name(), vias.first().map_or("", |via| via.name()));
+                return Err(Failure::usage(format!("`{file}` runs by {via} alone, and what is drawn runs by {runs}")));
+            }
+            let is_replaced = |later: &&With| {
+                later.via == module.via
+                    && later.stage == module.stage
+                    && later.draw.is_none_or(|draw| Some(draw) == module.draw)
+            };
+            if let Some(later) = self.modules.iter().skip(index + 1).find(is_replaced) {
+                let message =
+                    format!("--with: `{file}` and `{}` are for the same {} stage", later.file, later.stage.name());
+                return Err(Failure::usage(message).help("write the one for all draws first, or leave one out"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The modules, for a scene that has the draws and is drawn by these forms.
+    pub(crate) fn read(&self, scene: &Scene, vias: &[Via]) -> Result<Vec<Foreign>, Failure> {
+        self.refuse_idle(vias)?;
         self.modules.iter().map(|module| module.read(scene)).collect()
     }
 }

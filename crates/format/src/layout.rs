@@ -34,6 +34,8 @@ struct Piece<'t> {
     cut: Option<u8>,
     /// Whether it opens statements on one line.
     is_one_line: bool,
+    /// Whether it begins the body of a control, without braces and on the line of the control.
+    is_body: bool,
 }
 
 /// The text of the lexemes.
@@ -44,7 +46,8 @@ pub(super) fn layout(lexemes: &[Lexeme<'_>], options: &Options) -> String {
         let before = expanded.len();
         for line in lines(&mut pieces) {
             if is_too_wide(line, options) {
-                expanded.extend(line.iter().filter(|piece| piece.is_one_line).map(|piece| piece.lexeme.start));
+                let opens = |piece: &&Piece<'_>| piece.is_one_line || piece.is_body;
+                expanded.extend(line.iter().filter(opens).map(|piece| piece.lexeme.start));
             }
         }
         if expanded.len() == before {
@@ -85,8 +88,13 @@ fn places<'t>(lexemes: &[Lexeme<'t>], options: &Options, expanded: &BTreeSet<usi
             frame = Frame::OneLine;
         }
         let is_prefix = is_prefix(lexeme, code.as_ref(), &state);
-        let gap = gap(before, lexeme, following, &state, (opens.then_some(frame), prefix, is_prefix), options);
+        let mut gap = gap(before, lexeme, following, &state, (opens.then_some(frame), prefix, is_prefix), options);
         let is_code = !lexeme.is_comment() && lexeme.kind != Kind::Directive;
+        let goes_on = lexeme.is("if") && before.is_some_and(|before| before.is("else"));
+        let is_body = is_code && state.body_next && !opens && !goes_on && gap == Gap::Space;
+        if is_body && expanded.contains(&lexeme.start) {
+            gap = Gap::Line { blank: false };
+        }
         if is_code && state.body_next && !opens && matches!(gap, Gap::Line { .. }) {
             state.body_below();
         }
@@ -99,6 +107,7 @@ fn places<'t>(lexemes: &[Lexeme<'t>], options: &Options, expanded: &BTreeSet<usi
             depth: state.frames.len(),
             cut,
             is_one_line: frame == Frame::OneLine && opens,
+            is_body,
         });
         if lexeme.kind == Kind::Directive {
             branches.pass(lexeme.text, &mut state, true);

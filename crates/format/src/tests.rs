@@ -114,6 +114,13 @@ fn long_lines_are_broken_where_they_may() {
     let once = format(&text, &[], &options).text;
     assert!(once.lines().all(|line| line.len() <= 64), "{once}");
     assert_eq!(format(&once, &[], &options).text, once);
+    let options = Options { width: 40, ..Options::default() };
+    let text =
+        "void f() {\nif (alpha.x > 0.0) color = alpha + beta * gamma + delta; else return;\nif (alpha) return;\n}\n";
+    let once = format(text, &[], &options).text;
+    let lines = "    if (alpha.x > 0.0)\n        color = alpha + beta * gamma\n            + delta;\n    else return;\n    if (alpha) return;\n";
+    assert_eq!(once, format!("void f() {{\n{lines}}}\n"));
+    assert_eq!(format(&once, &[], &options).text, once);
     let below = Options { indent: None, braces_below: true, ..Options::default() };
     let text = format("void f() { if (a) { b; c; } else { d; e; } }", &[], &below).text;
     assert_eq!(text, "void f()\n{\n\tif (a)\n\t{\n\t\tb;\n\t\tc;\n\t}\n\telse\n\t{\n\t\td;\n\t\te;\n\t}\n}\n");

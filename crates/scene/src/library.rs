@@ -55,8 +55,9 @@ pub trait Library {
         compiler.with_settings(settings).unwrap_or(compiler)
     }
 
-    /// For each attribute of a program whether it can reach a position or an output. By default each that is read can.
-    fn attributes_that_reach(&self, program: &Program) -> Vec<bool> {
+    /// For each attribute of a program whether it can reach a position or an output, or where `sizes_points` the size of a point. By default
+    /// each that is read can.
+    fn attributes_that_reach(&self, program: &Program, _sizes_points: bool) -> Vec<bool> {
         program.interface.attributes.iter().map(|attribute| attribute.active).collect()
     }
 }

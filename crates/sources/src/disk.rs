@@ -12,6 +12,10 @@ pub trait Disk: Send + Sync {
     /// # Errors
     /// A sentence that names the file.
     fn text(&self, path: &Path) -> Result<Arc<str>, String>;
+    /// Whether a file is there, but is no text. [`Self::text`] says so in words.
+    fn is_binary(&self, _path: &Path) -> bool {
+        false
+    }
     /// It matters whether there is a file.
     fn looked_for(&self, path: &Path);
     /// A whole tree of folders was searched.

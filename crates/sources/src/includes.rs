@@ -282,6 +282,12 @@ impl IncludeResolver for DiskIncludes {
         Some(format!("found in `{0}`: add `-I {0}`", folder.display()))
     }
 
+    fn finds_no_text(&self, path: &str, form: IncludeForm, from: &str) -> bool {
+        let candidates = self.candidates(path, form, from);
+        let found = self.first_there(&candidates).or_else(|| self.deep(path));
+        found.is_some_and(|found| self.disk.is_binary(found))
+    }
+
     fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
         if path.is_empty() {
             return Err("an include names no file".to_owned());

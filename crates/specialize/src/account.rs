@@ -4,7 +4,7 @@
 //! *Holds:* a statement is left out if no copy of it is anywhere in the residual; what is in something that was left out
 //! is not listed again.
 
-use crate::forward::{Reason, Walked};
+use crate::forward::{Reason, Reasons};
 use crate::known::Known;
 use crate::left::Left;
 use glisten_front::Program;
@@ -89,7 +89,7 @@ pub(crate) struct How<'a> {
     /// What was known; nothing where nothing was evaluated.
     pub(crate) known: &'a Known,
     /// What the forward walk decided, by stage.
-    pub(crate) walked: &'a [(Stage, Walked)],
+    pub(crate) reasons: &'a [(Stage, Reasons)],
     /// What moved to the vertex stage.
     pub(crate) moved: &'a [Moved],
 }
@@ -129,13 +129,13 @@ impl Account<'_> {
     }
 
     /// What the forward walk decided at a place.
-    fn decided(&self, stage: Stage, span: Span) -> Option<&Reason> {
-        self.how.walked.iter().find(|(of, _)| *of == stage)?.1.reasons.get(&span)
+    fn decided(&self, stage: Stage, span: Span) -> Option<Reason> {
+        self.how.reasons.iter().find(|(of, _)| *of == stage)?.1.get(span)
     }
 
     /// Whether a value may have been known.
     fn evaluates(&self) -> bool {
-        !self.how.walked.is_empty()
+        !self.how.reasons.is_empty()
     }
 
     /// From a place to the end of a body.
@@ -146,13 +146,35 @@ impl Account<'_> {
         }
     }
 
-    /// The line of the text that a statement begins on.
+    /// The line of the text that a statement begins on, unless there are others on it.
     fn line(&self, span: Span) -> String {
+        let line = self.whole_line(span);
+        let code = line.split("//").next().unwrap_or("");
+        if code.starts_with("for") || code.matches(';').count() <= 1 {
+            return line;
+        }
+        let rest = self.sources.and_then(|sources| {
+            let place = sources.location(span)?;
+            let file = sources.file(place.file);
+            file.text().get((span.start.checked_sub(file.base())?) as usize..)
+        });
+        let own = rest.unwrap_or("").split([';', '\n']).next().unwrap_or("").trim();
+        if own.is_empty() { self.text(span) } else { format!("{own};") }
+    }
+
+    /// The line of the text that something is on.
+    fn whole_line(&self, span: Span) -> String {
         let line = self.sources.and_then(|sources| {
             let place = sources.location(span)?;
             sources.file(place.file).line(place.line).map(str::trim).map(str::to_owned)
         });
         line.unwrap_or_else(|| self.text(span))
+    }
+
+    /// Whether two places begin on one line.
+    fn share_a_line(&self, a: Span, b: Span) -> bool {
+        let line = |span: Span| self.sources?.location(span).map(|place| (place.file, place.line));
+        line(a).is_some_and(|of_a| line(b) == Some(of_a))
     }
 
     /// The first line of the text of a span.
@@ -190,8 +212,15 @@ impl Account<'_> {
     }
 
     fn statements(&mut self, shader: &Shader, body: &[Stmt], kept: &FxHashSet<Span>) {
-        for stmt in body {
-            self.statement(shader, stmt, kept);
+        for (index, stmt) in body.iter().enumerate() {
+            // The beginning of a `for` goes with it.
+            let is_of_loop = body.get(index + 1).is_some_and(|next| {
+                let is_gone = matches!(next.kind, StmtKind::Loop { .. }) && !kept.contains(&next.span);
+                is_gone && next.span.start <= stmt.span.start && stmt.span.end <= next.span.end
+            });
+            if !is_of_loop {
+                self.statement(shader, stmt, kept);
+            }
         }
     }
 
@@ -213,7 +242,7 @@ impl Account<'_> {
                     if kept.contains(&stmt.span) {
                         self.operands(shader, *condition);
                     } else {
-                        self.always(shader, *condition);
+                        self.always(shader, *condition, body);
                     }
                     self.statements(shader, body, kept);
                 }
@@ -294,17 +323,19 @@ impl Account<'_> {
     }
 
     /// A selection of which the body is left, since its condition always holds.
-    fn always(&mut self, shader: &Shader, condition: ExprId) {
+    fn always(&mut self, shader: &Shader, condition: ExprId, body: &[Stmt]) {
         if self.holds(shader, condition) == Some(true) {
             let span = shader.expr(condition).span;
-            self.tell(Kind::Statement, self.line(span), span, self.because(shader, condition));
+            let with_body = body.first().is_some_and(|first| self.share_a_line(span, first.span));
+            let name = if with_body { format!("if ({})", self.text(span)) } else { self.whole_line(span) };
+            self.tell(Kind::Statement, name, span, self.because(shader, condition));
         }
     }
 
     /// Whether a condition is known to hold, or not to, in every call and round.
     fn holds(&self, shader: &Shader, condition: ExprId) -> Option<bool> {
         match self.decided(shader.stage, shader.expr(condition).span) {
-            Some(Reason::Condition(_, truth)) => Some(*truth),
+            Some(Reason::Condition(truth)) => Some(truth),
             _ => None,
         }
     }
@@ -372,9 +403,9 @@ impl Account<'_> {
     fn because(&self, shader: &Shader, condition: ExprId) -> String {
         let text = || self.text(shader.expr(condition).span);
         let decided = match self.decided(shader.stage, shader.expr(condition).span) {
-            Some(Reason::Condition(_, truth)) => format!("`{}` is {truth}", text()),
+            Some(Reason::Condition(truth)) => format!("`{}` is {truth}", text()),
             Some(Reason::Both) => format!("`{}` is known: true in some calls or rounds, false in others", text()),
-            Some(Reason::Selector(_)) => format!("`{}` is known", text()),
+            Some(Reason::Selector) => format!("`{}` is known", text()),
             _ => return "nobody reads what it computes".to_owned(),
         };
         let mut values = self.values(shader, condition);

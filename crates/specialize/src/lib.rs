@@ -5,6 +5,8 @@
 //!                     decides,    literals   what        GLSL 150
 //!                     unrolls,    in place   reaches
 //!                     clones      of values  no output
+//!                        ▲                      │
+//!                        └─ until nothing goes ─┘
 //! ```
 //!
 //! *In:* a linked [`Program`] and what is [`Known`] of its inputs, by the names of its reflection. *Out:* a [`Residual`]: a

@@ -106,7 +106,7 @@ fn mark_active(program: &mut Program) {
 
 /// What [`optimize`] left out, in the order of the source, told as it is of a residual.
 pub fn left_out(program: &Program, optimized: &Program, sources: Option<&SourceMap>) -> Vec<LeftOut> {
-    let how = How { known: &Known::default(), walked: &[], moved: &[] };
+    let how = How { known: &Known::default(), reasons: &[], moved: &[] };
     let left = Left::active(&optimized.stages, &optimized.interface);
     let mut list = account::left_out(program, sources, &how, &left);
     list.sort_by_key(|one| (one.span.start, one.what));

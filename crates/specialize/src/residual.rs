@@ -1,7 +1,7 @@
-//! [`specialize`]: the phases in their order, over all stages.
+//! [`specialize`]: the phases in their order, over all stages, until they find nothing more.
 
 use crate::account::{self, How, LeftOut, Moved};
-use crate::forward::{self, Walked};
+use crate::forward::{self, Reasons, Walked};
 use crate::known::Known;
 use crate::left::Left;
 use crate::options::{Extent, Options};
@@ -9,9 +9,13 @@ use crate::prune::{self, Pruned};
 use crate::settle::{self, Demand, Demands, Settled};
 use crate::{fast, inputs, motion, text, unlocated};
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{GlobalId, Shader, Stage, Storage, Types};
+use glisten_front::hir::{GlobalId, Shader, Stage, Storage, Types, print};
+use glisten_front::link::{Bindings, relink};
 use glisten_front::source::{SourceMap, Span};
 use glisten_front::{Compiler, Program, Source};
+
+/// A program is evaluated at most so often.
+const ROUNDS: usize = 4;
 
 /// A program of which nothing is left but what is needed.
 #[derive(Clone, Debug)]
@@ -72,6 +76,45 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
     if options.extent == Extent::Nothing {
         return unevaluated(program, options);
     }
+    let mut evaluated = evaluate(program, known, options);
+    for _ in 1..ROUNDS {
+        let Some(left) = linked_again(program, &evaluated) else { break };
+        let next = evaluate(&left, known, options);
+        let found_more = !same_text(&evaluated, &next);
+        evaluated = next.after(evaluated);
+        if !found_more {
+            break;
+        }
+    }
+    assemble(program, known, options, evaluated)
+}
+
+/// What evaluating a program leaves.
+struct Evaluated {
+    types: Types,
+    /// In the order of the pipeline.
+    shaders: Vec<Shader>,
+    /// What was decided, by stage.
+    reasons: Vec<(Stage, Reasons)>,
+    moved: Vec<Moved>,
+}
+
+impl Evaluated {
+    /// With what was decided and moved before.
+    fn after(mut self, before: Self) -> Self {
+        for (stage, first) in before.reasons {
+            if let Some((_, reasons)) = self.reasons.iter_mut().find(|(of, _)| *of == stage) {
+                let later = std::mem::replace(reasons, first);
+                reasons.then(later);
+            }
+        }
+        self.moved.splice(0..0, before.moved);
+        self
+    }
+}
+
+/// Evaluates a program once. What was decided late or went late may decide more in the next round.
+fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluated {
     let textures = inputs::textures(program, known);
     let (vertex, fragment) = (program.stage(Stage::Vertex), program.stage(Stage::Fragment));
     let whole = program.stage(Stage::Geometry).is_none();
@@ -87,7 +130,7 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
     };
     let vertex = vertex.map(|shader| (shader, walk(shader, None)));
     let fragment = fragment.map(|shader| (shader, walk(shader, vertex.as_ref().map(|(_, walked)| walked))));
-    let mut walked: Vec<(Stage, Walked)> = Vec::new();
+    let mut reasons: Vec<(Stage, Reasons)> = Vec::new();
     let mut pruned: Vec<(Pruned, Vec<bool>)> = Vec::new();
     let mut moved = Vec::new();
     // The fragment stage first: what it reads is what the vertex stage must write.
@@ -97,7 +140,7 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
         let (settled, demands) = settled(program, &stage, vec![Demand::NONE; shader.globals.len()]);
         wanted = Some(demands).filter(|_| whole);
         pruned.push((prune::prune(&program.types, settled, &live), live));
-        walked.push((Stage::Fragment, stage));
+        reasons.push((Stage::Fragment, stage.reasons));
     }
     if let Some((shader, stage)) = vertex {
         let mut demands = vec![Demand::NONE; shader.globals.len()];
@@ -116,10 +159,40 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
             None => live_varyings(shader, program, known, None),
         };
         pruned.push((prune::prune(&program.types, settled, &live), live));
-        walked.push((Stage::Vertex, stage));
+        reasons.push((Stage::Vertex, stage.reasons));
     }
     let moved: Vec<Moved> = moved.into_iter().map(|one| described(one, options.sources)).collect();
-    assemble(program, known, options, walked, pruned, moved)
+    let mut types = program.types.clone();
+    // A geometry stage stays as it is, and has structs and arrays of the others.
+    prune::finish(&mut types, &mut pruned, whole);
+    let mut shaders: Vec<Shader> = pruned.into_iter().map(|(pruned, _)| pruned.shader).collect();
+    shaders.extend(program.stage(Stage::Geometry).cloned());
+    shaders.sort_by_key(|shader| shader.stage);
+    Evaluated { types, shaders, reasons, moved }
+}
+
+/// What is left, as a program.
+fn linked_again(program: &Program, evaluated: &Evaluated) -> Option<Program> {
+    let (attributes, outputs) = locations(program);
+    let bindings = Bindings { attribute_locations: &attributes, frag_data_locations: &outputs, ..Bindings::default() };
+    let mut stages = evaluated.shaders.clone();
+    stages.iter_mut().for_each(Shader::mark_static_use);
+    relink(program.name.clone(), evaluated.types.clone(), stages, bindings)
+}
+
+/// Whether both are written alike.
+fn same_text(a: &Evaluated, b: &Evaluated) -> bool {
+    let same = |(one, other): (&Shader, &Shader)| print(&a.types, one) == print(&b.types, other);
+    a.shaders.len() == b.shaders.len() && a.shaders.iter().zip(&b.shaders).all(same)
+}
+
+/// The locations of attributes and outputs, to bind them by their names.
+fn locations(program: &Program) -> (Vec<(String, u32)>, Vec<(String, u32)>) {
+    // What is built in has its location, and cannot be bound.
+    let is_own = |name: &str| !name.starts_with("gl_");
+    let attributes = program.interface.attributes.iter().map(|one| (one.name.clone(), one.location));
+    let outputs = program.interface.outputs.iter().map(|one| (one.name.clone(), one.location));
+    (attributes.filter(|(name, _)| is_own(name)).collect(), outputs.filter(|(name, _)| is_own(name)).collect())
 }
 
 /// A move with its text and place.
@@ -196,26 +269,16 @@ fn live_varyings(shader: &Shader, program: &Program, known: &Known, wanted: Opti
 }
 
 /// The stages as text, read back.
-fn assemble(
-    program: &Program,
-    known: &Known,
-    options: &Options<'_>,
-    walked: Vec<(Stage, Walked)>,
-    mut pruned: Vec<(Pruned, Vec<bool>)>,
-    moved: Vec<Moved>,
-) -> Residual {
-    let mut types = program.types.clone();
-    // A geometry stage stays as it is, and has structs and arrays of the others.
-    prune::finish(&mut types, &mut pruned, program.stage(Stage::Geometry).is_none());
-    let mut shaders: Vec<Shader> = pruned.iter().map(|(pruned, _)| pruned.shader.clone()).collect();
-    shaders.extend(program.stage(Stage::Geometry).cloned());
-    shaders.sort_by_key(|shader| shader.stage);
+fn assemble(program: &Program, known: &Known, options: &Options<'_>, evaluated: Evaluated) -> Residual {
+    let Evaluated { types, mut shaders, reasons, mut moved } = evaluated;
     let renamed = unlocated::by_name(&types, &mut shaders);
     let stages = written(&types, &shaders, options.sources);
     match read_back(program, &stages) {
         Ok((left, sources)) => {
-            let how = How { known, walked: &walked, moved: &moved };
             let mut names = Left::all(&shaders, &left.interface);
+            // What moved twice is in the later varying.
+            moved.retain(|one| names.varyings.contains(one.name.as_str()));
+            let how = How { known, reasons: &reasons, moved: &moved };
             let kept = renamed.iter().filter(|row| names.varyings.contains(row.new.as_str()));
             let kept: Vec<&str> = kept.map(|row| row.old.as_str()).collect();
             names.varyings.extend(kept);
@@ -241,15 +304,9 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
             stage: stage.stage,
         })
         .collect();
-    // What is built in has its location, and cannot be bound.
-    let is_own = |name: &str| !name.starts_with("gl_");
-    let attributes = program.interface.attributes.iter().filter(|one| is_own(&one.name));
-    let outputs = program.interface.outputs.iter().filter(|one| is_own(&one.name));
-    let options = glisten_front::Options {
-        attribute_locations: attributes.map(|one| (one.name.clone(), one.location)).collect(),
-        frag_data_locations: outputs.map(|one| (one.name.clone(), one.location)).collect(),
-        ..glisten_front::Options::default()
-    };
+    let (attribute_locations, frag_data_locations) = locations(program);
+    let options =
+        glisten_front::Options { attribute_locations, frag_data_locations, ..glisten_front::Options::default() };
     let compiled = Compiler::new(options).compile(&sources);
     let problem = || {
         let error = compiled.diagnostics.iter().find(|found| found.is_error());

@@ -84,8 +84,16 @@ struct Comments<'a> {
 
 impl Notes for Comments<'_> {
     fn above(&self, span: Span) -> Vec<String> {
-        let mut lines = self.sources.map_or_else(Vec::new, |sources| comments::above(sources, span));
         let mut marks = self.marks.borrow_mut();
+        let line = |span: Span| {
+            let place = self.sources?.location(span)?;
+            Some((place.file, place.line))
+        };
+        // What is above a line is above the first of its declarations or statements.
+        let is_told =
+            marks.last().is_some_and(|last| *last != span && line(*last).is_some_and(|of| line(span) == Some(of)));
+        let sources = self.sources.filter(|_| !is_told);
+        let mut lines = sources.map_or_else(Vec::new, |sources| comments::above(sources, span));
         lines.push(format!("{MARK}{}", marks.len()));
         marks.push(span);
         lines

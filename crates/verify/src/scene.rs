@@ -66,8 +66,8 @@ impl Library for WithEngines {
         Embedded.values_read(program)
     }
 
-    fn attributes_that_reach(&self, program: &Program) -> Vec<bool> {
-        Embedded.attributes_that_reach(program)
+    fn attributes_that_reach(&self, program: &Program, sizes_points: bool) -> Vec<bool> {
+        Embedded.attributes_that_reach(program, sizes_points)
     }
 
     fn engines(&self) -> Vec<&'static str> {

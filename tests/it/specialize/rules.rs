@@ -94,6 +94,111 @@ fn what_leaves_a_variable_as_it_is_goes() {
 }
 
 #[test]
+fn a_factor_of_one_goes_next_to_a_scalar() {
+    for (statements, wanted) in [
+        ("c = vec3(w) * v.w;", "vec3 c = vec3(v.w);"),
+        ("c = v.w / vec3(w);", "vec3 c = vec3(v.w);"),
+        ("c *= vec3(w) * v.w;", "c *= v.w;"),
+        ("c = (vec3(w) * v.x) * (vec3(w) * v.y);", "vec3 c = v.x * vec3(v.y);"),
+        ("vec3 d = vec3(w); d *= v.w; c = d;", "vec3 d = vec3(v.w);"),
+    ] {
+        let left = left_of(statements);
+        assert!(left.contains(wanted), "{statements}: {left}");
+    }
+    // 0 + -0 is 0.
+    let kept = left_of("c = vec3(u) + v.w;");
+    assert!(!kept.contains("vec3(v.w)"), "{kept}");
+}
+
+#[test]
+fn a_decided_operand_goes_from_either_side() {
+    for (condition, wanted) in [
+        ("b && w > 0.5", "(b ? "),
+        ("w > 0.5 && b", "(b ? "),
+        ("b || w < 0.5", "(b ? "),
+        ("b == (w > 0.5)", "(b ? "),
+        ("(w < 0.5) != b", "(b ? "),
+        ("b ^^ (w > 0.5)", "(!b ? "),
+        ("b == (w < 0.5)", "(!b ? "),
+    ] {
+        let left = left_of(&format!("bool b = v.x > 0.1; c *= {condition} ? v.y : v.z; if (b) c += v.xyz;"));
+        assert!(left.replace("c *= ", "(").contains(wanted), "{condition}: {left}");
+    }
+}
+
+/// Parts of variables, parameters and results that nobody reads are not computed.
+#[test]
+fn what_nobody_reads_goes() {
+    for statements in [
+        "vec4 s; s.xyz = c; s.w = sin(v.x); c = s.xyz;",
+        "vec4 s; s.xyz = c; s.w = 1.0; s.w *= sin(v.x); c = s.xyz;",
+        "vec4 s = vec4(c, sin(v.x)); c = s.xyz;",
+        "vec4 s; s = vec4(c, sin(v.x)); c = s.xyz * v.w; c += s.xyz;",
+        "mat3 m = mat3(sin(c), c, c.zxy); c = m[1] * m[2];",
+        "mat2 m = mat2(sin(c.x), sin(c.y), c.xy); c.x = m[1].x;",
+        "float k[4]; k[0] = c.y; k[3] = sin(c.y); c.x = k[0];",
+        "float k[3] = float[3](c.x, sin(c.y), c.z); c.x = k[0] + k[2];",
+        "float a; float b; both(c.x, a, b); c.x = a;",
+        "float a = c.y; more(a); c.x = v.y;",
+        "result(c.x); c.y = kept;",
+    ] {
+        let left = of_functions(statements);
+        assert!(!left.contains("sin"), "{statements}: {left}");
+    }
+    for statements in [
+        "vec4 s; s.xyz = c; s.w = sin(v.x); c = s.xyz * s.w;",
+        "vec4 s = vec4(c, sin(v.x)); s.x = s.w; c = s.xyz;",
+        "vec4 s = vec4(c, sin(v.x)); s = s.wxyz; c = s.xyz;",
+        "float k[4]; k[0] = c.y; k[3] = sin(c.y); c.x = k[int(v.x)];",
+        "float a; float b; both(c.x, a, b); c.x = b;",
+        "float a; float b; both(c.x, a, b); c.x = a; both(c.y, b, a); c.y = a;",
+        "float a = c.y; more(a); c.x = a;",
+        "c.x = result(c.x);",
+    ] {
+        let left = of_functions(statements);
+        assert!(left.contains("sin"), "{statements}: {left}");
+    }
+}
+
+/// What is left of statements that may call functions with several results.
+fn of_functions(statements: &str) -> String {
+    let fragment = format!(
+        "#version 150\nin vec4 v;\nout vec4 color;\nfloat kept;\n\
+         void both(float x, out float a, out float b) {{ a = x * v.z; if (v.z > 0.5) a += v.x; b = sin(x); }}\n\
+         void more(inout float a) {{ a += sin(v.x); }}\n\
+         float result(float x) {{ kept = x * v.z; if (v.z > 0.5) kept += v.x; return sin(x); }}\n\
+         void main() {{ vec3 c = v.xyz; {statements} color = vec4(c, 1.0); }}\n"
+    );
+    residual(&fragment, &[]).text(Stage::Fragment).expect("a stage").to_owned()
+}
+
+/// What goes late decides more, until nothing is left to find.
+#[test]
+fn a_second_run_finds_nothing() {
+    let fragment = "#version 150\nin vec4 v;\nuniform int leaf;\nout vec4 color;\nvoid main() {\n\
+        float t = 1000.0; int n = 0; bool hit = false;\n\
+        while (n < int(v.x)) { if (leaf > 0) { hit = true; } else if (leaf < 0) { t = sin(v.x); }\n\
+        if (hit) t = min(t, cos(v.y)); n++; }\n\
+        color = t == 1000.0 ? vec4(1.0) : vec4(sin(t)); }\n";
+    let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", VERTEX, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let program = Compiler::new(Options::default()).compile(&sources).program.expect("it compiles");
+    let mut known = Known::default();
+    known.uniforms.insert("leaf".into(), vec![ScalarValue::Int(0)]);
+    let first = specialize(&program, &known);
+    let text = first.text(Stage::Fragment).expect("a stage");
+    assert!(text.contains("color = vec4(1.0);") && !text.contains("while"), "{text}");
+    assert!(!specialize(&first.program, &known).is_smaller());
+}
+
+/// With calls one operand is executed; without them both would be.
+#[test]
+fn no_call_goes_into_an_operand_that_may_not_be_evaluated() {
+    let left = of_functions("c.x = v.x > 0.5 ? result(c.x) : v.y;");
+    assert!(left.contains("result("), "{left}");
+}
+
+#[test]
 fn a_literal_must_not_free_the_driver() {
     // Expression, values of u and w, and the uniforms that stay.
     let cases: &[(&str, f32, f32, &[&str])] = &[

@@ -231,6 +231,11 @@ impl Disk for Traced {
         files::text_of(&name, bytes).map_err(|error| error.message)
     }
 
+    fn is_binary(&self, path: &Path) -> bool {
+        let name = path.to_string_lossy();
+        files::read(&name, path).is_ok_and(|bytes| files::refuse_binary(&name, &bytes).is_err())
+    }
+
     fn looked_for(&self, path: &Path) {
         trace::looked_for(path);
     }

@@ -87,7 +87,10 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
     }
     let one = |path: &PathBuf| {
         let name = path.to_string_lossy().into_owned();
-        let bytes = files::read(&name, path).map_err(|error| Failure::usage(error.message))?;
+        let bytes = match files::read(&name, path) {
+            Ok(bytes) => bytes,
+            Err(error) => return Ok(Err(as_batch(error, &name))),
+        };
         if let Err(error) = refuse_no_text(&name, path, &bytes) {
             return Ok(Err(as_batch(error, &name)));
         }

@@ -34,9 +34,9 @@ pub(crate) struct RenderArgs {
     /// The backend
     #[arg(long, value_enum, default_value_t)]
     backend: Backend,
-    /// The precision of the CPU reference
-    #[arg(long, value_enum, default_value_t)]
-    precision: PrecisionArg,
+    /// The precision of the CPU reference (default: f64)
+    #[arg(long, value_enum)]
+    precision: Option<PrecisionArg>,
     /// The form of the code that the GPU runs (default: spirv; with --with, that of the module)
     #[arg(long, value_enum)]
     via: Option<ViaArg>,
@@ -68,6 +68,19 @@ impl RenderArgs {
     pub(crate) fn draws_by_a_driver(&self) -> bool {
         self.backend.is_a_driver()
     }
+
+    /// Refuses an option that the backend does not have.
+    fn check(&self) -> Result<(), Failure> {
+        if self.precision.is_some() && self.backend != Backend::Cpu {
+            return Err(
+                Failure::usage("--precision is of the CPU reference").help("add `--backend cpu`, or leave it out")
+            );
+        }
+        if self.via.is_some() && self.backend != Backend::Gpu {
+            return Err(Failure::usage("--via is of what the GPU runs, and --backend asks for another one"));
+        }
+        Ok(())
+    }
 }
 
 impl Backend {
@@ -97,6 +110,7 @@ enum PrecisionArg {
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     args.backend.require()?;
+    args.check()?;
     let target = Target::parse(&args.output)?;
     let read = match args.scene.read(console)? {
         Ok(read) => read,
@@ -146,7 +160,7 @@ impl From<Picture> for Drawing {
 fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
     let via = args.with.vias(&[args.via.unwrap_or_default().into()], args.via.is_some())?;
     let via = via.first().copied().unwrap_or(Via::Spirv);
-    let foreign = args.with.read(&scene)?;
+    let foreign = args.with.read(&scene, &[via])?;
     if !foreign.is_empty() && args.backend != Backend::Gpu {
         return Err(Failure::usage("--with replaces what the GPU runs, and --backend asks for another one").into());
     }
@@ -164,7 +178,7 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
             Ok(Drawing { picture, drawn_by })
         }
         Backend::Cpu => {
-            let precision = match args.precision {
+            let precision = match args.precision.unwrap_or_default() {
                 PrecisionArg::F64 => Precision::F64,
                 PrecisionArg::F32 => Precision::F32,
             };

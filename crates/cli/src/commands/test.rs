@@ -105,9 +105,19 @@ const MOST_FOLDERS: u32 = 64;
 
 /// Runs the command.
 pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
-    let mut files = Vec::new();
+    let (mut files, mut exit) = (Vec::new(), Exit::Ok);
     for path in &args.paths {
-        collect(path, &mut files, 0)?;
+        match std::fs::metadata(path) {
+            // The others are run all the same.
+            Err(error) if path.as_os_str() != STDIN && args.paths.len() > 1 => {
+                console.failure(&format!("cannot read `{}`: {error}", path.display()), None);
+                exit = Exit::Usage;
+            }
+            _ => collect(path, &mut files, 0)?,
+        }
+    }
+    if files.is_empty() && exit > Exit::Ok {
+        return Ok(exit);
     }
     if files.is_empty() {
         return Err(Failure::usage(format!("there is no .{EXTENSION} file, and no shader with `//! test`")));
@@ -157,10 +167,10 @@ pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
         ResultFormat::Json => serde_json::to_string_pretty(&results).expect("results are always JSON") + "\n",
         ResultFormat::Human => human(&results, !console.is_quiet()),
     };
-    let exit = session.tell(&batches.iter().collect::<Vec<_>>(), false)?;
+    let exit = exit.max(session.tell(&batches.iter().collect::<Vec<_>>(), false)?);
     console.output(&text)?;
     let failed = results.iter().any(|result| result.result == "fail");
-    Ok(if failed { Exit::Content } else { exit })
+    Ok(if failed { exit.max(Exit::Content) } else { exit })
 }
 
 /// The text of a file.

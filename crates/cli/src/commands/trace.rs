@@ -27,10 +27,10 @@ pub(crate) struct TraceArgs {
     #[arg(long, value_name = "N")]
     vertex: Option<u32>,
     /// The draw of the vertex
-    #[arg(long, value_name = "N", default_value_t = 0, requires = "vertex")]
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "vertex", conflicts_with = "pixel")]
     draw: usize,
     /// The instance of the vertex
-    #[arg(long, value_name = "N", default_value_t = 0, requires = "vertex")]
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "vertex", conflicts_with = "pixel")]
     instance: u32,
     /// Show variables that are only read, the insides of the library's functions, and what a conforming GPU may have of each
     /// value

@@ -5,7 +5,7 @@ use glisten_front::builtin::BuiltinVariable;
 use glisten_front::builtin::operations::{Class, Lookup, TextureArgument};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{COMPARISON_LEVEL_DROPPED, POINT_SIZE_DROPPED};
-use glisten_front::hir::{ExprKind, ScalarValue, Shader, Stage, Type, Types};
+use glisten_front::hir::{ExprKind, GlobalId, ScalarValue, Shader, Stage, Type, Types, VarRef, written_by};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 
@@ -25,18 +25,30 @@ pub fn notes(program: &Program, conventions: &Conventions) -> Vec<Diagnostic> {
 fn point_size(program: &Program, conventions: &Conventions) -> Option<Diagnostic> {
     let vertex = program.stage(Stage::Vertex)?;
     let is_size =
-        |global: &&glisten_front::hir::Global| global.builtin == Some(BuiltinVariable::PointSize) && global.written;
-    let global = vertex.globals.iter().find(is_size).filter(|_| !conventions.program_point_size)?;
-    let span = if global.span.is_known() {
-        global.span
-    } else {
-        vertex.main.map_or(global.span, |main| vertex.function(main).span)
-    };
+        |global: &glisten_front::hir::Global| global.builtin == Some(BuiltinVariable::PointSize) && global.written;
+    let of_host = || !conventions.program_point_size;
+    let id = vertex.globals().find(|(_, global)| of_host() && is_size(global)).map(|(id, _)| id)?;
+    let span = first_write(vertex, id).or(vertex.main.map(|main| vertex.function(main).span)).unwrap_or_default();
     let message = "`gl_PointSize` is written and has no effect: points are one pixel wide";
     Some(
         Diagnostic::new(&POINT_SIZE_DROPPED, span, message)
             .help("where the host enables PROGRAM_POINT_SIZE, say `--program-point-size`"),
     )
+}
+
+/// The place of the first write of a global in the functions that are called.
+fn first_write(shader: &Shader, id: GlobalId) -> Option<Span> {
+    let mut places: Vec<Span> = Vec::new();
+    for function in shader.functions.iter().filter(|function| function.reachable) {
+        shader.visit_body(function.body.as_deref().unwrap_or(&[]), &mut |expr| {
+            written_by(shader, expr, &mut |target| {
+                if shader.root_variable(target) == Some(VarRef::Global(id)) {
+                    places.push(shader.expr(target).span);
+                }
+            });
+        });
+    }
+    places.into_iter().filter(|span| span.is_known()).min_by_key(|span| span.start)
 }
 
 /// Lookups in depth textures with an explicit or biased level of detail, each with a remedy: targets have only the implicit level and

@@ -75,6 +75,10 @@ impl IncludeResolver for Noting {
     fn remedy(&self, path: &str, from: &str) -> Option<String> {
         self.inner.remedy(path, from)
     }
+
+    fn finds_no_text(&self, path: &str, form: IncludeForm, from: &str) -> bool {
+        self.inner.finds_no_text(path, form, from)
+    }
 }
 
 impl Entry {

@@ -11,7 +11,7 @@ use preparation::Changed;
 pub use preparation::{Preparation, Prepared, Problem, SourceSettings};
 
 use crate::analysis::{analyze, analyze_with_notes, keep_decisive, keep_language, keep_understood, point_to_engine};
-use crate::diagnostic::codes::general::TOO_LARGE;
+use crate::diagnostic::codes::general::{BINARY_SOURCE, TOO_LARGE};
 use crate::diagnostic::codes::{names, preprocess};
 use crate::diagnostic::{Area, Code, Diagnostic, Diagnostics, Levels};
 use crate::hir::{Origin, Stage, Types};
@@ -365,7 +365,9 @@ fn forget_names_of_missing_includes(map: &SourceMap, diagnostics: &mut Diagnosti
         &preprocess::UNDEFINED_IN_CONDITION,
         &preprocess::MALFORMED_CONDITION,
     ];
-    let is_missing = |diagnostic: &&Diagnostic| *diagnostic.code == preprocess::INCLUDE_NOT_FOUND;
+    let is_missing = |diagnostic: &&Diagnostic| {
+        *diagnostic.code == preprocess::INCLUDE_NOT_FOUND || *diagnostic.code == BINARY_SOURCE
+    };
     let place = |diagnostic: &Diagnostic| {
         let span = map.call_site(diagnostic.primary.span);
         (map.file_of(span), span.start)

@@ -128,6 +128,15 @@ pub fn link(
     (complete && !failed).then_some(Program { name, types, stages, interface })
 }
 
+/// Links the stages of a program again after something was left out of them: their interface is made again. `None` if that fails.
+pub fn relink(name: String, types: Types, stages: Vec<Shader>, bindings: Bindings<'_>) -> Option<Program> {
+    let mut diagnostics = Diagnostics::default();
+    let mut ctx = Linker { types: &types, bindings, diagnostics: &mut diagnostics, failed: false };
+    let interface = interface(&mut ctx, &stages);
+    let failed = ctx.failed;
+    (!failed).then_some(Program { name, types, stages, interface })
+}
+
 fn interface(ctx: &mut Linker<'_>, stages: &[Shader]) -> Interface {
     let of = |stage: Stage| stages.iter().find(|shader| shader.stage == stage);
     let mut interface = Interface::default();

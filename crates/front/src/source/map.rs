@@ -492,6 +492,11 @@ pub trait IncludeResolver {
     fn remedy(&self, _path: &str, _from: &str) -> Option<String> {
         None
     }
+
+    /// Whether the file is there, and cannot be taken since it is no text. [`Self::resolve`] says so in words.
+    fn finds_no_text(&self, _path: &str, _form: IncludeForm, _from: &str) -> bool {
+        false
+    }
 }
 
 /// A resolver that finds nothing, for sources without includes.

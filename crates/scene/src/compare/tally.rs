@@ -183,6 +183,7 @@ impl<'a> Tally<'a> {
             [true, true] => {
                 self.verdict.covered += 1;
                 if self.is_undefined(pixel) {
+                    self.count_not_finite(pixel);
                     return self.classify(ruler, pixel, Class::Undefined);
                 }
                 self.colors(pixel, undecided, Some(ruler));
@@ -200,6 +201,16 @@ impl<'a> Tally<'a> {
             _ if self.excused(pixel) => {}
             _ => self.verdict.coverage_mismatch += 1,
         }
+    }
+
+    /// Counts a pixel whose value is undefined, of which nothing else is compared.
+    fn count_not_finite(&mut self, pixel: usize) {
+        let is_finite = |picture: &Picture| {
+            (0..picture.attachments.len())
+                .all(|attachment| Self::color(picture, attachment, pixel).iter().all(|channel| channel.is_finite()))
+        };
+        self.verdict.non_finite_gpu += u64::from(!is_finite(self.gpu));
+        self.verdict.non_finite_cpu += u64::from(!is_finite(self.cpu));
     }
 
     /// Compares the colors of a pixel that the GPU covers. Without a ruler, the reference does not cover it.

@@ -170,7 +170,10 @@ fn load_attribute(reader: &mut Reader, types: &Types, attribute: &Attribute, nod
         Some(node) => reader.integer(node, "size", 1..=MAX_SIZE)? as u32,
         None => declared.max(1),
     };
-    let divisor = reader.count(table, "divisor", 0, 0..=u32::MAX);
+    let divisor = match table.get("divisor") {
+        Some(node) => reader.integer(node, "divisor", 0..=i64::from(u32::MAX))? as u32,
+        None => 0,
+    };
     let Some(values_node) = table.get("values") else {
         if !reader.is_misspelled(table, "values") {
             let span = reader.span_of(node);

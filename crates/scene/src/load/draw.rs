@@ -91,7 +91,10 @@ pub(super) fn load_draw(loader: &mut Loader<'_>, node: &Node<'_>, around: &Surro
     let view = View::load(&mut loader.reader, table, around.camera, framebuffer);
     let material = load_material(&mut loader.reader, table, around.material, &program);
     let library = loader.library;
-    let reaching = || library.attributes_that_reach(&program);
+    // What a geometry stage emits is its own affair.
+    let may_be_points = state.primitive == Primitive::Points || program.stage(Stage::Geometry).is_some();
+    let sizes_points = state.program_point_size && may_be_points;
+    let reaching = || library.attributes_that_reach(&program, sizes_points);
     let instances = loader.reader.count(table, "instances", 1, 0..=MAX_COUNT);
     let given_mesh = mesh.as_ref().map(Option::as_ref);
     let attributes = load_attributes(&mut loader.reader, table, &program, given_mesh, (place, &reaching, instances));
@@ -563,7 +566,10 @@ fn load_indices(reader: &mut Reader, node: &Node<'_>, rows: Option<u32>) -> Opti
         match u32::try_from(value) {
             Ok(index) if index < limit => indices.push(index),
             _ => {
-                let message = format!("index {value} is past the last vertex, {}", i64::from(limit) - 1);
+                let message = match value {
+                    ..0 => format!("index {value} is negative: the first vertex is 0"),
+                    _ => format!("index {value} is past the last vertex, {}", i64::from(limit) - 1),
+                };
                 reader.error(&SCENE_WRONG_SIZE, number.span, message, "no such vertex");
                 return None;
             }

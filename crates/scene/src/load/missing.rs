@@ -42,9 +42,10 @@ impl Missing<'_> {
             self.finish(reader, draw, &needed, diagnostic);
         }
         if !idle.is_empty() {
-            let (names, have, _) = told(&idle);
+            let (names, have, them) = told(&idle);
             let are = if idle.len() == 1 { "is" } else { "are" };
-            let message = format!("{names} {have} no data and {are} (0, 0, 0, 1): nothing that is drawn depends on it");
+            let message =
+                format!("{names} {have} no data and {are} (0, 0, 0, 1): nothing that is drawn depends on {them}");
             let diagnostic = Diagnostic::new(&SCENE_UNSET_ATTRIBUTE, self.span, message);
             self.finish(reader, draw, &idle, diagnostic);
         }

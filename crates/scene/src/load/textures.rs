@@ -296,6 +296,8 @@ fn load_sampling(
     };
     let key = if sampling.fixed_point_depth && !kind.shadow {
         ("fixed_point", "is no shadow sampler, and only depth is stored as fixed-point numbers")
+    } else if table.contains_key("compare") && !kind.shadow {
+        ("compare", "is no shadow sampler, and compares nothing")
     } else if sampling.lod_bias != 0.0 && !kind.has_levels() {
         ("lod_bias", "has no levels of detail")
     } else if sampling.has_two_filters(filter) && !kind.is_filtered() {
@@ -459,7 +461,8 @@ fn load_size(
     let height = side("height", !flat, if is_cube { width } else { 0 }, MAX_SIDE);
     if width == 0 || height == 0 {
         let key = if width == 0 { "width" } else { "height" };
-        if loader.reader.is_misspelled(table, key) {
+        // A number that is none was reported.
+        if table.contains_key(key) || loader.reader.is_misspelled(table, key) {
             return None;
         }
         loader.missing_key(span, &format!("texture `{name}` has no `{key}`"), &format!("add `{key} = ...`"));

@@ -562,7 +562,8 @@ fn convert(
         let declared = types.name(leaf.ty);
         let message = match leaf.array_size {
             None => {
-                format!("`{}`, a {declared}, takes {whole} number{}, not {}", leaf.name, plural(whole), numbers.len())
+                let declared = with_article(&declared);
+                format!("`{}`, {declared}, takes {whole} number{}, not {}", leaf.name, plural(whole), numbers.len())
             }
             Some(size) => format!(
                 "`{}`, {size} elements of {declared}, takes {whole} numbers (one element {each}), not {}",
@@ -577,19 +578,25 @@ fn convert(
     let mut scalars = Vec::with_capacity(numbers.len());
     for number in numbers {
         let Some(value) = scalar_value(scalar, number.value) else {
-            let message = format!("`{}` is declared {}", leaf.name, types.name(leaf.ty));
             let wanted = match scalar {
-                Scalar::Float => "expected a number",
-                Scalar::Bool => "expected `true` or `false`",
-                Scalar::Int => "expected an integer of 32 bits",
-                Scalar::Uint => "expected an unsigned integer of 32 bits",
+                Scalar::Float => "numbers",
+                Scalar::Bool => "`true` and `false`",
+                Scalar::Int => "integers of 32 bits",
+                Scalar::Uint => "unsigned integers of 32 bits",
             };
-            reader.error(&SCENE_WRONG_KIND, number.span, message, wanted);
+            let message = format!("`{}`, {}, takes {wanted}", leaf.name, with_article(&types.name(leaf.ty)));
+            reader.error(&SCENE_WRONG_KIND, number.span, message, "expected another kind of number");
             return None;
         };
         scalars.push(value);
     }
     Some(scalars)
+}
+
+/// The name of a type as of one thing: `an ivec3`, `a uint`.
+fn with_article(name: &str) -> String {
+    let article = if name.starts_with('i') { "an" } else { "a" };
+    format!("{article} {name}")
 }
 
 fn plural(count: usize) -> &'static str {

@@ -14,12 +14,14 @@ mod effects;
 mod expressions;
 mod loops;
 mod places;
+mod reasons;
 mod refine;
 mod selections;
 mod statements;
 mod store;
 
 pub(crate) use effects::Effects;
+pub(crate) use reasons::{Reason, Reasons};
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
@@ -51,35 +53,6 @@ pub(crate) struct Note {
     pub(crate) basic: bool,
 }
 
-/// Why something went: where it was, and what decided it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Reason {
-    /// The condition is known to hold, or not to.
-    Condition(ExprId, bool),
-    /// The condition is known, and holds in some calls or rounds, but not in all.
-    Both,
-    /// Somewhere it is open.
-    Open,
-    /// The loop runs so many times and is written out.
-    Unrolled(u32),
-    /// The loop runs at most so many times, as it may be left before, and is written out.
-    UnrolledUpTo(u32),
-    /// The selector of a switch is known.
-    Selector(ExprId),
-}
-
-impl Reason {
-    /// What holds of a place that is decided in two ways.
-    fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (known, other) if known == other => known,
-            (Self::Open, _) | (_, Self::Open) => Self::Open,
-            (Self::Condition(..) | Self::Both, Self::Condition(..) | Self::Both) => Self::Both,
-            (known, _) => known,
-        }
-    }
-}
-
 /// A stage that was walked.
 pub(crate) struct Walked {
     /// What is left to do. Its functions are clones: `main`, and one for each way in which a function is called.
@@ -91,7 +64,7 @@ pub(crate) struct Walked {
     /// For each function of `shader` the one that it is a clone of.
     pub(crate) origins: Vec<FunctionId>,
     /// What was decided, by the place of the condition.
-    pub(crate) reasons: FxHashMap<Span, Reason>,
+    pub(crate) reasons: Reasons,
     /// What the globals hold when the stage ends.
     pub(crate) ends: Vec<Facts>,
     /// Globals that are named as a whole: by one of the expressions, and how often.
@@ -144,7 +117,7 @@ pub(crate) struct Forward<'a> {
     notes: Vec<Note>,
     before: FxHashMap<ExprId, Facts>,
     origins: Vec<FunctionId>,
-    reasons: FxHashMap<Span, Reason>,
+    reasons: Reasons,
     named: FxHashMap<GlobalId, (ExprId, u32)>,
     store: Store,
     frames: Vec<Frame>,
@@ -207,7 +180,7 @@ impl<'a> Forward<'a> {
             notes: Vec::new(),
             before: FxHashMap::default(),
             origins: Vec::new(),
-            reasons: FxHashMap::default(),
+            reasons: Reasons::default(),
             named: FxHashMap::default(),
             store: Store::live(),
             frames: Vec::new(),
@@ -321,7 +294,7 @@ impl<'a> Forward<'a> {
 
     /// Notes what was decided at a place. It is walked once for each call and round, which may decide it otherwise.
     fn tell(&mut self, place: Span, reason: Reason) {
-        self.reasons.entry(place).and_modify(|known| *known = known.and(reason)).or_insert(reason);
+        self.reasons.tell(place, reason);
     }
 
     fn statement(kind: glisten_front::hir::StmtKind, span: Span) -> Stmt {

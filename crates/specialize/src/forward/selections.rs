@@ -94,7 +94,7 @@ impl Forward<'_> {
         };
         if let Some(bits) = bits {
             let place = self.shader.expr(selector).span;
-            self.tell(place, Reason::Selector(selector));
+            self.tell(place, Reason::Selector);
             if let Some(body) = self.flat_switch(bits, cases) {
                 if !self.is_pure(value.id) {
                     out.push(Self::statement(StmtKind::Expr(value.id), span));

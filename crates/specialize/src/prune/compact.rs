@@ -5,15 +5,18 @@
 
 use super::uses::Uses;
 use glisten_front::hir::{
-    Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, Shader, Stmt, StmtKind, VarRef,
-    may_act,
+    Condition, ExprId, ExprKind, Function, FunctionId, GlobalId, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind,
+    Types, VarRef, may_act,
 };
 use glisten_front::stack::with_stack;
 use rustc_hash::FxHashMap;
 use std::cell::OnceCell;
 
 struct Rebuild<'a> {
+    types: &'a Types,
     old: &'a Shader,
+    /// For each global whether somebody reads it when the stage has ended.
+    live: &'a [bool],
     new: Shader,
     functions: FxHashMap<FunctionId, FunctionId>,
     globals: FxHashMap<GlobalId, GlobalId>,
@@ -39,17 +42,20 @@ fn calls<'a>(shader: &'a Shader, functions: &[FunctionId]) -> FxHashMap<Function
     calls
 }
 
-/// Rebuilds a stage of which `uses` are the counts. `keeps` says which globals stay though nobody names them. `origins` follows the functions.
+/// Rebuilds a stage of which `uses` are the counts. `live` says for each global whether somebody reads it when the stage has ended,
+/// `keeps` which globals stay though nobody names them. `origins` follows the functions.
 pub(super) fn compact(
-    shader: &Shader,
-    uses: &Uses,
+    (types, shader): (&Types, &Shader),
+    (uses, live): (&Uses, &[bool]),
     keeps: &(dyn Fn(GlobalId) -> bool + Sync),
     origins: &mut Vec<FunctionId>,
 ) -> (Shader, Vec<GlobalId>) {
     let known = std::mem::take(origins);
     let (new, globals, from) = with_stack(shader.depth.saturating_add(1024), || {
         let mut rebuild = Rebuild {
+            types,
             old: shader,
+            live,
             new: Shader { exprs: Vec::with_capacity(shader.exprs.len()), ..shader.emptied() },
             functions: FxHashMap::default(),
             globals: FxHashMap::default(),
@@ -107,10 +113,14 @@ impl Rebuild<'_> {
         from
     }
 
-    /// Whether a parameter only takes a value that nobody reads, and all arguments for it do nothing.
+    /// Whether nobody reads the value that a parameter takes or gives, and all arguments for it do nothing.
     fn is_droppable(&self, function: FunctionId, index: usize, uses: &Uses) -> bool {
-        let only_in = crate::forward::is_in(self.old.function(function).param_mode(index));
-        if !only_in || uses.local(function, LocalId::new(index)).named > 0 {
+        if uses.local(function, LocalId::new(index)).named > 0 {
+            return false;
+        }
+        let gives = self.old.function(function).param_mode(index) == ParamMode::Out;
+        // What is never written is undefined where it is read, and stays to be so.
+        if gives && !uses.is_unread_by_callers(self.types, self.old, self.live, (function, index)) {
             return false;
         }
         let calls = self.calls.get_or_init(|| calls(self.old, &uses.functions)).get(&function);

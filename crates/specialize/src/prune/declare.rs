@@ -17,9 +17,8 @@ pub(super) fn join(shader: &Shader, body: &mut Vec<Stmt>) -> bool {
             && let Some((to, value)) = first_store(shader, body, place + 1, *local)
         {
             let local = *local;
-            let span = body.get(place).map(|stmt| stmt.span).unwrap_or_default();
             if let Some(slot) = body.get_mut(to) {
-                *slot = Stmt { kind: StmtKind::Local(local, Some(value)), span };
+                slot.kind = StmtKind::Local(local, Some(value));
             }
             body.remove(place);
             changed = true;

@@ -2,9 +2,11 @@
 //!
 //! *In:* a stage. *Out:* the stage; whether anything went. *Holds:* arguments are without effects, and each stands for a
 //! parameter that is used at most once, or is as short as a name or a number. One with implicit derivatives (§8.7, §8.8) does
-//! not go where fragments next to each other may not both evaluate it.
+//! not go where fragments next to each other may not both evaluate it. Nor does what computes something go into an operand of `?:` or
+//! `&&`: with a call one operand is executed, without calls both are, and one is chosen.
 
 use glisten_front::hir::{Expr, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, VarRef, may_act};
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 /// A function may be so many expressions long to be written where it is called from several places.
@@ -31,6 +33,7 @@ pub(super) fn inline(shader: &mut Shader) -> bool {
             *calls += 1;
         }
     }
+    let conditional = conditional_calls(shader);
     let mut changed = false;
     // Children precede their parents, and what is inserted follows: an expression is looked at once.
     for index in 0..shader.exprs.len() {
@@ -41,6 +44,10 @@ pub(super) fn inline(shader: &mut Shader) -> bool {
         if small.length > if once { 4 * SHORT } else { SHORT } || !fits(shader, &small, &arguments) {
             continue;
         }
+        let under = conditional.get(&index);
+        if under.is_some_and(|works| *works || !gives_a_part(shader, small.result)) {
+            continue;
+        }
         let inserted = substitute(shader, small.result, &arguments);
         let Expr { kind, .. } = shader.expr(inserted).clone();
         if let Some(expr) = shader.exprs.get_mut(index) {
@@ -49,6 +56,55 @@ pub(super) fn inline(shader: &mut Shader) -> bool {
         }
     }
     changed
+}
+
+/// The calls that are evaluated under a condition, by their numbers, and whether anything else is computed next to them.
+fn conditional_calls(shader: &Shader) -> FxHashMap<usize, bool> {
+    let mut calls: FxHashMap<usize, bool> = FxHashMap::default();
+    for expr in &shader.exprs {
+        let operands = under_condition(&expr.kind);
+        let mut own = Vec::new();
+        let mut works = false;
+        for operand in operands {
+            shader.visit_expr(operand, &mut |inner| match &shader.expr(inner).kind {
+                ExprKind::Call(..) => own.push(inner),
+                kind => works |= computes(kind),
+            });
+        }
+        for call in own {
+            *calls.entry(call.index()).or_default() |= works;
+        }
+    }
+    calls
+}
+
+/// Whether an expression only takes values apart, or puts them together.
+fn gives_a_part(shader: &Shader, root: ExprId) -> bool {
+    let mut works = false;
+    shader.visit_expr(root, &mut |expr| works |= computes(&shader.expr(expr).kind));
+    !works
+}
+
+fn computes(kind: &ExprKind) -> bool {
+    match kind {
+        ExprKind::Error
+        | ExprKind::Literal(_)
+        | ExprKind::Var(_)
+        | ExprKind::Member(..)
+        | ExprKind::Index(..)
+        | ExprKind::Swizzle(..)
+        | ExprKind::Construct(..)
+        | ExprKind::Comma(..)
+        | ExprKind::Call(..) => false,
+        ExprKind::Convert(_)
+        | ExprKind::Unary(..)
+        | ExprKind::IncDec(..)
+        | ExprKind::Binary(..)
+        | ExprKind::Logical(..)
+        | ExprKind::Ternary(..)
+        | ExprKind::Assign(..)
+        | ExprKind::BuiltinCall(..) => true,
+    }
 }
 
 fn small(shader: &Shader, callee: FunctionId) -> Option<Small> {
@@ -113,7 +169,7 @@ fn fits(shader: &Shader, small: &Small, arguments: &[ExprId]) -> bool {
 fn substitute(shader: &mut Shader, root: ExprId, arguments: &[ExprId]) -> ExprId {
     let mut order = Vec::new();
     shader.visit_expr(root, &mut |expr| order.push(expr));
-    let mut places = rustc_hash::FxHashMap::default();
+    let mut places = FxHashMap::default();
     for id in order.into_iter().rev() {
         if let ExprKind::Var(VarRef::Local(local)) = shader.expr(id).kind
             && let Some(argument) = arguments.get(local.index())

@@ -99,7 +99,7 @@ impl Pruned {
             output && global.builtin.is_none()
         };
         let uses = Uses::of(types, &self.shader);
-        let (mut shader, chosen) = compact::compact(&self.shader, &uses, &keeps, &mut self.origins);
+        let (mut shader, chosen) = compact::compact((types, &self.shader), (&uses, live), &keeps, &mut self.origins);
         for (global, old) in shader.globals.iter_mut().zip(&chosen) {
             if global.storage == Storage::Out
                 && global.builtin.is_none()

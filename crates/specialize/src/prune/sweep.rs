@@ -4,23 +4,29 @@
 //! *Holds:* bodies are walked from their ends, so that what only a removed statement read goes in the same sweep.
 
 use super::once;
-use super::uses::{Stored, Uses, stored};
+use super::uses::{Parts, Stored, Uses, stored};
 use crate::forward::Effects;
 use glisten_front::hir::{
-    ExprId, ExprKind, FunctionId, GlobalId, ParamMode, Shader, Stmt, StmtKind, Storage, TypeId, Types, UnaryOp, VarRef,
-    may_act, same_value,
+    ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, Shader, Stmt, StmtKind, Storage,
+    Type, TypeId, Types, UnaryOp, VarRef, may_act, same_value,
 };
+use rustc_hash::FxHashSet;
 
 /// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended, `uses` counts what is in it.
 pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool], uses: Uses) -> Swept {
     let functions = uses.functions.clone();
     let effects = Effects::of(shader, functions.iter().copied());
     let mut sweeper = Sweeper { types, shader, live, uses, effects, changed: false };
+    let mut unwanted = Vec::new();
     for id in functions {
         sweeper.uses.function = id;
         let body = sweeper.shader.functions.get_mut(id.index()).and_then(|function| function.body.take());
         if let Some(body) = body {
+            let gives_to_nobody = sweeper.gives_to_nobody();
             let mut body = sweeper.body(body);
+            if gives_to_nobody {
+                unwanted.push(id);
+            }
             if matches!(body.last(), Some(Stmt { kind: StmtKind::Return(None), .. })) {
                 body.pop();
                 sweeper.changed = true;
@@ -30,7 +36,37 @@ pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool], uses: Use
             }
         }
     }
-    Swept { changed: sweeper.changed, uses: sweeper.uses }
+    let swept = Swept { changed: sweeper.changed, uses: sweeper.uses };
+    give_nothing(shader, &unwanted);
+    swept
+}
+
+/// Functions whose results nobody wants no longer give any.
+fn give_nothing(shader: &mut Shader, functions: &[FunctionId]) {
+    let has_result = |id: &&FunctionId| shader.function(**id).ret != TypeId::VOID;
+    let unwanted: FxHashSet<FunctionId> = functions.iter().filter(has_result).copied().collect();
+    if unwanted.is_empty() {
+        return;
+    }
+    for id in &unwanted {
+        if let Some(function) = shader.functions.get_mut(id.index()) {
+            function.ret = TypeId::VOID;
+        }
+    }
+    for expr in &mut shader.exprs {
+        if matches!(expr.kind, ExprKind::Call(callee, _) if unwanted.contains(&callee)) {
+            expr.ty = TypeId::VOID;
+        }
+    }
+}
+
+/// Whether it is a number, or made of numbers.
+fn is_constant(shader: &Shader, root: ExprId) -> bool {
+    let mut constant = true;
+    shader.visit_expr(root, &mut |expr| {
+        constant &= matches!(shader.expr(expr).kind, ExprKind::Literal(_) | ExprKind::Construct(..));
+    });
+    constant
 }
 
 /// What a sweep did.
@@ -69,10 +105,10 @@ impl Sweeper<'_> {
                 let count = self.uses.get(VarRef::Local(local));
                 let initializer = match initializer {
                     Some(expr) if count.reads <= 0 && self.is_pure(expr) => {
-                        self.forget(expr, Some(Stored { variable: VarRef::Local(local), member: None }));
+                        self.forget(expr, Some(Stored::whole(VarRef::Local(local))));
                         None
                     }
-                    initializer => initializer,
+                    initializer => initializer.map(|expr| self.partly(VarRef::Local(local), expr)),
                 };
                 let count = self.uses.get(VarRef::Local(local));
                 match initializer {
@@ -132,8 +168,75 @@ impl Sweeper<'_> {
                     out.push(Stmt { kind: whole, span });
                 }
             }
+            StmtKind::Return(Some(value)) if self.gives_to_nobody() => {
+                self.changed = true;
+                out.push(Stmt { kind: StmtKind::Return(None), span });
+                // Its value was wanted by the result alone.
+                self.effect(value, span, out);
+            }
             kind => out.push(Stmt { kind, span }),
         }
+    }
+
+    /// Whether all calls of the present function throw its result away.
+    fn gives_to_nobody(&self) -> bool {
+        let own = self.uses.function;
+        let count = |counts: &[i32]| counts.get(own.index()).copied().unwrap_or(1);
+        Some(own) != self.shader.main && count(&self.uses.wanted) <= 0 && count(&self.uses.calls) > 0
+    }
+
+    /// A value of which nothing is computed that is stored to parts of a variable that nobody reads.
+    fn partly(&mut self, variable: VarRef, value: ExprId) -> ExprId {
+        let Expr { kind, ty, span } = self.shader.expr(value).clone();
+        let ExprKind::Construct(construct, mut list) = kind else { return value };
+        let unread = self.unread_arguments(variable, value);
+        if unread.is_empty() {
+            return value;
+        }
+        for index in unread {
+            let Some(slot) = list.get_mut(index) else { continue };
+            self.forget(*slot, Some(Stored::whole(variable)));
+            let (ty, span) = (self.shader.expr(*slot).ty, self.shader.expr(*slot).span);
+            *slot = super::zero(self.types, self.shader, ty, span);
+        }
+        self.changed = true;
+        self.shader.push(ExprKind::Construct(construct, list), ty, span)
+    }
+
+    fn has_unread_parts(&self, target: ExprId, value: ExprId) -> bool {
+        match self.shader.expr(target).kind {
+            ExprKind::Var(variable) => !self.unread_arguments(variable, value).is_empty(),
+            _ => false,
+        }
+    }
+
+    /// The arguments of a constructor that reach only parts of the variable that nobody reads.
+    fn unread_arguments(&self, variable: VarRef, value: ExprId) -> Vec<usize> {
+        let Expr { kind: ExprKind::Construct(construct, list), ty, .. } = self.shader.expr(value) else {
+            return Vec::new();
+        };
+        let (size, by_element) = match (self.types.get(*ty), construct) {
+            (Type::Vector(..), ConstructKind::Compose) => (1, false),
+            (Type::Matrix(_, rows), ConstructKind::Compose) => (u32::from(rows), false),
+            (Type::Array(..), ConstructKind::Array) => (1, true),
+            _ => return Vec::new(),
+        };
+        if !self.is_own(variable) || self.uses.get(variable).whole > 0 {
+            return Vec::new();
+        }
+        let mut first = 0;
+        let mut unread = Vec::new();
+        for (index, argument) in list.iter().enumerate() {
+            let len = if by_element { 1 } else { self.types.flat_len(self.shader.expr(*argument).ty) };
+            let parts = (first / size..(first + len).div_ceil(size))
+                .try_fold(0, |parts: Parts, part| Some(parts | 1u64.checked_shl(part)?));
+            first += len;
+            let nobody = parts.is_some_and(|parts| !self.uses.reads_any(variable, parts));
+            if nobody && self.is_pure(*argument) && !is_constant(self.shader, *argument) {
+                unread.push(index);
+            }
+        }
+        unread
     }
 
     /// A block without the declarations of what it does not name. Blocks that were one loop declare the same locals, and another of them
@@ -172,6 +275,14 @@ impl Sweeper<'_> {
                     self.uses.value(self.types, self.shader, value, 1, None);
                     self.effect(value, span, out);
                 }
+            }
+            ExprKind::Assign(None, target, value) if self.has_unread_parts(target, value) => {
+                let ExprKind::Var(variable) = self.shader.expr(target).kind else { return out.push(keep) };
+                let value = self.partly(variable, value);
+                if let Some(expr) = self.shader.exprs.get_mut(expr.index()) {
+                    expr.kind = ExprKind::Assign(None, target, value);
+                }
+                out.push(keep);
             }
             ExprKind::Assign(None, target, value) if same_value(self.shader, target, value) => {
                 self.forget_effect(expr);
@@ -271,13 +382,26 @@ impl Sweeper<'_> {
     fn is_unread(&self, variable: VarRef) -> bool {
         let live = match variable {
             VarRef::Global(id) => self.is_live(id),
-            VarRef::Local(id) => {
-                let function = self.shader.function(self.uses.function);
-                matches!(function.param_mode(id.index()), ParamMode::Out | ParamMode::Inout)
-                    && id.index() < function.param_count
-            }
+            VarRef::Local(id) => self.is_given_back(id),
         };
         !live && self.uses.get(variable).reads <= 0
+    }
+
+    /// Whether a local is a parameter whose value some caller takes and reads.
+    fn is_given_back(&self, id: LocalId) -> bool {
+        let own = self.uses.function;
+        let function = self.shader.function(own);
+        let gives = id.index() < function.param_count
+            && matches!(function.param_mode(id.index()), ParamMode::Out | ParamMode::Inout);
+        gives && !self.uses.is_unread_by_callers(self.types, self.shader, self.live, (own, id.index()))
+    }
+
+    /// Whether nobody but the present function, or the stage while it runs, sees what is stored to a variable.
+    fn is_own(&self, variable: VarRef) -> bool {
+        match variable {
+            VarRef::Local(id) => !self.is_given_back(id),
+            VarRef::Global(id) => self.shader.global(id).storage == Storage::Private,
+        }
     }
 
     fn is_live(&self, id: GlobalId) -> bool {
@@ -286,7 +410,7 @@ impl Sweeper<'_> {
 
     /// Whether nobody reads what is stored there.
     fn is_dead(&self, target: ExprId) -> bool {
-        let Some(Stored { variable, member }) = stored(self.types, self.shader, target) else { return false };
+        let Some(Stored { variable, member, parts }) = stored(self.types, self.shader, target) else { return false };
         if self.is_unread(variable) {
             return true;
         }
@@ -294,6 +418,9 @@ impl Sweeper<'_> {
             VarRef::Local(_) => true,
             VarRef::Global(id) => self.shader.global(id).storage == Storage::Private,
         };
+        if self.is_own(variable) && parts.is_some_and(|parts| !self.uses.reads_any(variable, parts)) {
+            return true;
+        }
         // A struct that a call gives or takes is one of its type: nobody reads the member of any of them.
         own && member.is_some_and(|member| self.uses.members.get(&member).copied().unwrap_or(0) <= 0)
     }
@@ -336,10 +463,7 @@ impl Sweeper<'_> {
         self.uses.body(self.types, self.shader, &body, -1);
         let unread = |variable| match variable {
             VarRef::Global(id) => !self.is_live(id) && self.uses.get(variable).reads <= 0,
-            VarRef::Local(id) => {
-                let is_parameter = id.index() < self.shader.function(self.uses.function).param_count;
-                !is_parameter && self.uses.get(variable).reads <= 0
-            }
+            VarRef::Local(id) => !self.is_given_back(id) && self.uses.get(variable).reads <= 0,
         };
         let idle = assigned.locals.iter().all(|local| unread(VarRef::Local(*local)))
             && assigned.globals.iter().all(|global| unread(VarRef::Global(*global)));

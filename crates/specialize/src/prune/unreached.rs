@@ -3,7 +3,7 @@
 //! *In:* a stage as it was written, and the outputs that somebody reads. *Out:* the stage without the rest.
 //! *Holds:* globals keep their handles, so that an interface still describes the stage; functions are numbered anew. Nothing
 //! is evaluated: names, types and the order of what stays are those of the source, but for the names of overloads that have the same
-//! parameters now.
+//! parameters now, results that nobody wants, and parts of values that nobody reads, which are 0.
 
 use super::uses::Uses;
 use super::{compact, merge, overwritten_in, sweep};
@@ -27,7 +27,7 @@ pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -
         if !changed && uses.functions.len() == shader.functions.len() && !has_idle_parameter(&shader, &uses) {
             break;
         }
-        shader = compact::compact(&shader, &uses, &|_| true, &mut origins).0;
+        shader = compact::compact((types, &shader), (&uses, live), &|_| true, &mut origins).0;
         // Functions that nothing reached had no part in the counts; arguments had.
         if !changed && parameters == self::parameters(&shader, shader.functions().map(|(id, _)| id)) {
             break;

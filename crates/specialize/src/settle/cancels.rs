@@ -9,7 +9,8 @@ use crate::forward::Walked;
 use glisten_front::builtin::operations::{Binary, Class, Numbers};
 use glisten_front::hir::written_by;
 use glisten_front::hir::{
-    BinaryOp, ExprId, ExprKind, FunctionId, LocalId, ScalarValue, Stmt, StmtKind, Storage, UnaryOp, VarRef,
+    BinaryOp, ConstructKind, ExprId, ExprKind, FunctionId, LocalId, ScalarValue, Stmt, StmtKind, Storage, UnaryOp,
+    VarRef,
 };
 use rustc_hash::{FxHashMap, FxHashSet, FxHasher};
 use smallvec::{SmallVec, smallvec};
@@ -168,13 +169,15 @@ impl Keys<'_> {
             if self.walked.literal(id, super::Demand::NONE).is_some() {
                 return None;
             }
-            let operand = identities::operand(self.walked, id);
+            let operand = identities::operand(self.walked, id).or_else(|| identities::spread_operand(self.walked, id));
             if let Some(same) = operand.and_then(|operand| expr.kind.children().get(operand).copied()) {
                 return Some(same);
             }
         }
-        match expr.kind {
-            ExprKind::Var(VarRef::Local(local)) => self.definitions.get(&local).copied(),
+        match &expr.kind {
+            ExprKind::Var(VarRef::Local(local)) => self.definitions.get(local).copied(),
+            // Next to a vector a scalar is every component.
+            ExprKind::Construct(ConstructKind::Splat, parts) => parts.first().copied(),
             _ => None,
         }
     }

@@ -7,30 +7,29 @@
 use crate::facts::{Fact, GREATEST, What, at, spread};
 use crate::forward::Walked;
 use glisten_front::builtin::BuiltinFunction as F;
-use glisten_front::hir::{BinaryOp, ExprId, ExprKind, ScalarValue};
+use glisten_front::hir::{BinaryOp, ExprId, ExprKind, LogicalOp, Scalar, ScalarValue, TypeId};
+use smallvec::SmallVec;
 
 /// The number of the operand that an operation gives back.
 pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
     let expr = walked.shader.expr(id);
-    let children = expr.kind.children();
-    let facts = |index: usize| children.get(index).map_or(&[][..], |child| walked.facts(*child));
-    let typed = |index: usize| children.get(index).is_some_and(|child| walked.shader.expr(*child).ty == expr.ty);
-    let pure = |index: usize| {
-        children.get(index).is_some_and(|child| walked.notes.get(child.index()).is_some_and(|note| note.pure))
-    };
+    let operation = Operation { walked, children: expr.kind.children() };
+    let typed = |index: usize| operation.ty(index) == Some(expr.ty);
+    let facts = |index: usize| operation.facts(index);
+    let pure = |index: usize| operation.is_pure(index);
     let gives = |kept: usize, other: usize, test: &dyn Fn(Fact, Fact) -> bool| {
         (typed(kept) && pure(other) && holds(facts(kept), facts(other), test)).then_some(kept)
     };
+    let leaves = |kept: usize, other: usize, neutral: bool| {
+        (typed(kept) && pure(other) && truth(facts(other)) == Some(neutral)).then_some(kept)
+    };
     match &expr.kind {
-        ExprKind::Binary(op, ..) => match op {
-            BinaryOp::Mul => gives(0, 1, &|_, c| is(c, 1.0)).or_else(|| gives(1, 0, &|_, c| is(c, 1.0))),
-            BinaryOp::Div => gives(0, 1, &|_, c| is(c, 1.0)),
-            BinaryOp::Add | BinaryOp::Sub if walked.fast && gives(0, 1, &is_zero).is_some() => Some(0),
-            BinaryOp::Add if walked.fast && gives(1, 0, &is_zero).is_some() => Some(1),
-            BinaryOp::Add => gives(0, 1, &adds_nothing).or_else(|| gives(1, 0, &adds_nothing)),
-            BinaryOp::Sub => gives(0, 1, &takes_nothing),
-            _ => None,
-        },
+        ExprKind::Logical(op, ..) => leaves(0, 1, *op == LogicalOp::And),
+        ExprKind::Binary(BinaryOp::Equal, ..) => leaves(0, 1, true).or_else(|| leaves(1, 0, true)),
+        ExprKind::Binary(BinaryOp::NotEqual | BinaryOp::LogicalXor, ..) => {
+            leaves(0, 1, false).or_else(|| leaves(1, 0, false))
+        }
+        ExprKind::Binary(op, ..) => of_numbers(walked.fast, *op, &gives),
         ExprKind::BuiltinCall(F::Max, _) => gives(0, 1, &is_above).or_else(|| gives(1, 0, &is_above)),
         ExprKind::BuiltinCall(F::Min, _) => gives(0, 1, &is_below).or_else(|| gives(1, 0, &is_below)),
         ExprKind::BuiltinCall(F::Clamp, _) => {
@@ -39,6 +38,86 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
         ExprKind::BuiltinCall(F::Mix, _) => mixed(walked.fast, &facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
         _ => None,
     }
+}
+
+/// The number of the scalar that an operation with a vector gives back in every component: of `vec3(1.0) * x` the second.
+pub(super) fn spread_operand(walked: &Walked, id: ExprId) -> Option<usize> {
+    let expr = walked.shader.expr(id);
+    let ExprKind::Binary(op, ..) = expr.kind else { return None };
+    let operation = Operation { walked, children: expr.kind.children() };
+    let typed = |index: usize| operation.ty(index).is_some_and(|ty| is_vector_of(expr.ty, ty));
+    let gives = |kept: usize, other: usize, test: &dyn Fn(Fact, Fact) -> bool| {
+        let facts = |index: usize| operation.facts(index);
+        let each = (0..facts(other).len()).all(|index| test(spread(facts(kept), index), at(facts(other), index)));
+        (typed(kept) && operation.is_pure(other) && !facts(other).is_empty() && each).then_some(kept)
+    };
+    of_numbers(walked.fast, op, &gives)
+}
+
+/// The number of the operand that an operation gives back as its opposite: of `a == false` the first.
+pub(super) fn negated_operand(walked: &Walked, id: ExprId) -> Option<usize> {
+    let expr = walked.shader.expr(id);
+    let ExprKind::Binary(op, ..) = expr.kind else { return None };
+    let neutral = match op {
+        BinaryOp::Equal => false,
+        BinaryOp::NotEqual | BinaryOp::LogicalXor => true,
+        _ => return None,
+    };
+    let operation = Operation { walked, children: expr.kind.children() };
+    let leaves = |kept: usize, other: usize| {
+        let is_bool = operation.ty(kept) == Some(TypeId::BOOL);
+        (is_bool && operation.is_pure(other) && truth(operation.facts(other)) == Some(neutral)).then_some(kept)
+    };
+    leaves(0, 1).or_else(|| leaves(1, 0))
+}
+
+/// The operand that an operator on numbers gives back.
+fn of_numbers(
+    fast: bool,
+    op: BinaryOp,
+    gives: &dyn Fn(usize, usize, &dyn Fn(Fact, Fact) -> bool) -> Option<usize>,
+) -> Option<usize> {
+    match op {
+        BinaryOp::Mul => gives(0, 1, &|_, c| is(c, 1.0)).or_else(|| gives(1, 0, &|_, c| is(c, 1.0))),
+        BinaryOp::Div => gives(0, 1, &|_, c| is(c, 1.0)),
+        BinaryOp::Add | BinaryOp::Sub if fast && gives(0, 1, &is_zero).is_some() => Some(0),
+        BinaryOp::Add if fast && gives(1, 0, &is_zero).is_some() => Some(1),
+        BinaryOp::Add => gives(0, 1, &adds_nothing).or_else(|| gives(1, 0, &adds_nothing)),
+        BinaryOp::Sub => gives(0, 1, &takes_nothing),
+        _ => None,
+    }
+}
+
+/// An operation and its operands.
+struct Operation<'w> {
+    walked: &'w Walked,
+    children: SmallVec<[ExprId; 4]>,
+}
+
+impl<'w> Operation<'w> {
+    fn facts(&self, index: usize) -> &'w [Fact] {
+        self.children.get(index).map_or(&[][..], |child| self.walked.facts(*child))
+    }
+
+    fn ty(&self, index: usize) -> Option<TypeId> {
+        self.children.get(index).map(|child| self.walked.shader.expr(*child).ty)
+    }
+
+    fn is_pure(&self, index: usize) -> bool {
+        let note = self.children.get(index).and_then(|child| self.walked.notes.get(child.index()));
+        note.is_some_and(|note| note.pure)
+    }
+}
+
+/// Whether a type is that of vectors of such scalars.
+pub(super) fn is_vector_of(vector: TypeId, scalar: TypeId) -> bool {
+    [Scalar::Float, Scalar::Int, Scalar::Uint]
+        .into_iter()
+        .any(|of| scalar == TypeId::vector(of, 1) && (2..=4).any(|size| vector == TypeId::vector(of, size)))
+}
+
+fn truth(facts: &[Fact]) -> Option<bool> {
+    facts.first().filter(|_| facts.len() == 1).and_then(|fact| fact.truth())
 }
 
 /// Whether `t = 0 op v` is `t = v`, from what is known of `t` before.

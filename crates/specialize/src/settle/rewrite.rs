@@ -4,11 +4,11 @@
 //! becomes a `const` of its name where that reads better than its numbers; statements that do nothing are gone.
 
 use super::{Demand, Demands, identities};
-use crate::facts::Fact;
+use crate::facts::{Fact, Facts};
 use crate::forward::Walked;
 use glisten_front::hir::{
-    Case, Condition, ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, Scalar, ScalarValue, Shader, Stmt,
-    StmtKind, Storage, Type, TypeId, Types, Value, VarRef, may_act,
+    BinaryOp, Case, Condition, ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, Scalar, ScalarValue,
+    Shader, Stmt, StmtKind, Storage, Type, TypeId, Types, UnaryOp, Value, VarRef, may_act,
 };
 use glisten_front::link::SamplerSlot;
 use glisten_front::source::Span;
@@ -146,13 +146,8 @@ impl Writer<'_> {
         if let Some(values) = self.walked.literal(id, demand) {
             return self.known(&kind, &values, ty, span);
         }
-        if let Some(operand) = identities::operand(self.walked, id).filter(|_| !demand.is_apart()) {
-            let child = kind.children().get(operand).copied();
-            if let Some(child) = child {
-                let own = self.demands.of_operands(self.types, self.walked, self.function, id, demand);
-                let own = own.get(operand).copied().unwrap_or(Demand::KEEP);
-                return self.expr(child, own.and(demand));
-            }
+        if let Some(given) = self.given_back(id, demand) {
+            return given;
         }
         let demands = self.demands.of_operands(self.types, self.walked, self.function, id, demand);
         let of = |index: usize| demands.get(index).copied().unwrap_or(Demand::KEEP);
@@ -172,7 +167,12 @@ impl Writer<'_> {
             ExprKind::Convert(a) => ExprKind::Convert(self.expr(a, of(0))),
             ExprKind::Construct(kind, list) => ExprKind::Construct(kind, self.list(&list, &of)),
             ExprKind::Unary(op, a) => ExprKind::Unary(op, self.expr(a, of(0))),
-            ExprKind::Binary(op, a, b) => ExprKind::Binary(op, self.expr(a, of(0)), self.expr(b, of(1))),
+            ExprKind::Binary(op, a, b) => {
+                let (left, right) = (self.expr(a, of(0)), self.expr(b, of(1)));
+                let scalar = self.narrowed(op, a, left, b);
+                let other = if scalar == left { self.narrowed(op, b, right, a) } else { right };
+                ExprKind::Binary(op, scalar, other)
+            }
             ExprKind::Logical(op, a, b) => ExprKind::Logical(op, self.expr(a, of(0)), self.expr(b, of(1))),
             ExprKind::Ternary(c, a, b) => {
                 ExprKind::Ternary(self.expr(c, of(0)), self.expr(a, of(1)), self.expr(b, of(2)))
@@ -189,6 +189,44 @@ impl Writer<'_> {
             }
         };
         self.push(kind, ty, span)
+    }
+
+    /// What an operation gives back of one of its operands alone.
+    fn given_back(&mut self, id: ExprId, demand: Demand) -> Option<ExprId> {
+        if demand.is_apart() {
+            return None;
+        }
+        let walked = self.walked;
+        let whole = identities::operand(walked, id);
+        let spread = whole.is_none().then(|| identities::spread_operand(walked, id)).flatten();
+        let negated = whole.is_none().then(|| identities::negated_operand(walked, id)).flatten();
+        let operand = whole.or(spread).or(negated)?;
+        let Expr { kind, ty, span } = walked.shader.expr(id);
+        let child = kind.children().get(operand).copied()?;
+        let own = self.demands.of_operands(self.types, walked, self.function, id, demand);
+        let own = own.get(operand).copied().unwrap_or(Demand::KEEP);
+        let given = self.expr(child, own.and(demand));
+        Some(if spread.is_some() {
+            self.push(ExprKind::Construct(ConstructKind::Splat, vec![given]), *ty, *span)
+        } else if negated.is_some() {
+            self.push(ExprKind::Unary(UnaryOp::Not, given), *ty, *span)
+        } else {
+            given
+        })
+    }
+
+    /// An operand that became a scalar in every component: next to a vector the scalar will do.
+    fn narrowed(&self, op: BinaryOp, from: ExprId, operand: ExprId, other: ExprId) -> ExprId {
+        let takes_scalars = matches!(op, BinaryOp::Add | BinaryOp::Sub | BinaryOp::Mul | BinaryOp::Div);
+        let same = self.walked.shader.expr(other).ty == self.walked.shader.expr(from).ty;
+        let written = matches!(self.walked.shader.expr(from).kind, ExprKind::Construct(..));
+        match &self.out.expr(operand).kind {
+            ExprKind::Construct(ConstructKind::Splat, parts) if takes_scalars && same && !written => {
+                let open = |part: &&ExprId| !matches!(self.out.expr(**part).kind, ExprKind::Literal(_));
+                parts.first().filter(open).copied().unwrap_or(operand)
+            }
+            _ => operand,
+        }
     }
 
     fn list(&mut self, list: &[ExprId], of: &dyn Fn(usize) -> Demand) -> Vec<ExprId> {
@@ -323,7 +361,7 @@ impl Writer<'_> {
     fn assign(
         &mut self,
         id: ExprId,
-        (op, target, value): (Option<glisten_front::hir::BinaryOp>, ExprId, ExprId),
+        (op, target, value): (Option<BinaryOp>, ExprId, ExprId),
         demand: Demand,
         (ty, span): (TypeId, Span),
     ) -> ExprId {
@@ -347,16 +385,21 @@ impl Writer<'_> {
                 let same = self.place(target);
                 return self.push(ExprKind::Assign(None, to, same), ty, span);
             }
-            let typed = self.walked.shader.expr(value).ty == ty;
-            if typed && before.is_some_and(|before| identities::starts(compound, before, self.walked.facts(value))) {
+            let of_value = self.walked.shader.expr(value).ty;
+            let spread = identities::is_vector_of(ty, of_value);
+            let starts = |before: &Facts| identities::starts(compound, before, self.walked.facts(value));
+            if (of_value == ty || spread) && before.is_some_and(starts) {
                 let to = self.place(target);
                 let value = self.expr(value, demand.and(stored));
+                let splat = ExprKind::Construct(ConstructKind::Splat, vec![value]);
+                let value = if spread { self.push(splat, ty, span) } else { value };
                 return self.push(ExprKind::Assign(None, to, value), ty, span);
             }
         }
         let to = self.place(target);
-        let value = self.expr(value, demand);
-        self.push(ExprKind::Assign(op, to, value), ty, span)
+        let written = self.expr(value, demand);
+        let written = op.map_or(written, |op| self.narrowed(op, value, written, target));
+        self.push(ExprKind::Assign(op, to, written), ty, span)
     }
 
     /// Whether evaluating a place does something.

@@ -86,6 +86,10 @@ impl Disk for Open {
         self.0.text(path).map_or_else(|| Traced.text(path), Ok)
     }
 
+    fn is_binary(&self, path: &Path) -> bool {
+        self.0.text(path).is_none() && Traced.is_binary(path)
+    }
+
     fn looked_for(&self, path: &Path) {
         Traced.looked_for(path);
     }

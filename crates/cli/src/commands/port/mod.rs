@@ -27,6 +27,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::inputs;
+use crate::opengl;
 use crate::overwrite::own_name;
 use crate::session::Session;
 use clap::Args;
@@ -64,7 +65,8 @@ pub(crate) struct PortArgs {
     /// host yet
     #[arg(long)]
     check: bool,
-    /// Draw each ported program in a scene that is made for it: the original by OpenGL, the new one by Vulkan
+    /// Draw each ported program in a scene that is made for it: the original by OpenGL, the new one by Vulkan; only if built with
+    /// `--features gl`
     #[arg(long)]
     prove: bool,
     /// The format of the account on standard output
@@ -90,6 +92,9 @@ pub(crate) fn run(args: &PortArgs, console: &Console) -> Outcome {
     let Some(host) = find_host(&args.host) else { return Err(Failure::usage(format!("`{}` is no host", args.host))) };
     if !args.pack.is_dir() {
         return Err(Failure::usage(format!("`{}` is no folder", args.pack.display())));
+    }
+    if args.prove {
+        opengl::require_to_compare()?;
     }
     if let Some(output) = &args.output {
         apart(&args.pack, output)?;

@@ -48,7 +48,7 @@ pub(crate) struct StabilityArgs {
     #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, conflicts_with_all = ["scenes", "sweeps", "stiff", "worst", "heat", "exact"])]
     library: Option<Option<String>>,
     /// The number of calls of each function of the library; calls with extreme values are added, at most a quarter as many
-    #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=65_536), requires = "library")]
+    #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=65_536), requires = "library", conflicts_with = "scenes")]
     cases: u32,
     /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
     #[arg(long = "sweep", value_name = "NAME=LOW..HIGH[:N]", value_parser = sweep::parse)]

@@ -59,7 +59,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     allow_inconclusive: bool,
     /// The devices whose freedom the envelope allows
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, conflicts_with = "tolerance")]
     profile: ProfileChoice,
     /// The share of the covered pixels that must be judged, at an edge, or excused; with less, the picture is inconclusive
     #[arg(long, value_name = "X", default_value_t = 0.95, value_parser = parse_share)]
@@ -74,7 +74,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     no_likely: bool,
     /// By how many of its widths the hull of what simulated GPUs drew is widened, where envelopes are too wide to judge by
-    #[arg(long, value_name = "X", default_value_t = 4.0, value_parser = parse_margin)]
+    #[arg(long, value_name = "X", default_value_t = 4.0, value_parser = parse_margin, conflicts_with = "no_likely")]
     likely_margin: f64,
     /// On llvmpipe, judge by what is known of its arithmetic where nothing else judges: noise of `fract(sin(x) * 43758.5)`
     #[arg(long)]
@@ -286,7 +286,7 @@ fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit
         ViaChoice::Both => vec![Via::Spirv, Via::Wgsl],
     };
     let vias = args.with.vias(&wanted, args.via.is_some())?;
-    let foreign: Arc<[Foreign]> = args.with.read(&read.scene)?.into();
+    let foreign: Arc<[Foreign]> = args.with.read(&read.scene, &vias)?.into();
     let [difference, evidence] =
         [&args.difference, &args.evidence].map(|file| file.as_deref().map(Target::parse).transpose());
     let (difference, evidence) = (difference?, evidence?);

@@ -139,6 +139,10 @@ impl Preprocessor<'_> {
         let included = self.includes.resolve(&path, form, session.sources.file(from).name());
         let included = match included {
             Ok(included) => included,
+            Err(reason) if self.includes.finds_no_text(&path, form, session.sources.file(from).name()) => {
+                session.report(Diagnostic::new(&general::BINARY_SOURCE, *header, reason).here("included here"));
+                return None;
+            }
             Err(reason) => {
                 let message = format!("the include `{path}` was not found");
                 let help = self.includes.remedy(&path, session.sources.file(from).name());
