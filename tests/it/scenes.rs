@@ -205,6 +205,17 @@ fn sizes_must_fit() {
 fn what_reaches_no_output_needs_no_data() {
     let scene = "[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n[draw.attributes]\n\
         p = { size = 2, values = [-1, -1, 1, -1, 0, 1] }\n";
+    let points = scene.replace("[[draw]]\n", "[[draw]]\nprimitive = \"points\"\n");
+    let sized = points.replace("[[draw]]\n", "[[draw]]\nprogram_point_size = true\n");
+    for (scene, needed) in [(scene, false), (&points, false), (&sized, true)] {
+        let vertex = "#version 150\nin vec4 p;\nin float q;\nout vec4 v;\n\
+            void main() { v = p; gl_Position = p; gl_PointSize = q; }\n";
+        let fragment = "#version 150\nin vec4 v;\nout vec4 fc;\nvoid main() { fc = v; }\n";
+        let files = MemoryFiles::new([("a.toml", scene), ("a.vert", vertex), ("a.frag", fragment)]);
+        let loaded = load("a.toml", &files, &compiler());
+        let codes: Vec<&str> = loaded.diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect();
+        assert_eq!(codes, [if needed { "E0909" } else { "W0906" }], "{scene}");
+    }
     // What happens to the attribute, what the fragment stage does with the varying, and whether it needs data.
     for (vertex, fragment, needed) in [
         ("vec4 unread = q * 2.0;", "fc = v;", false),

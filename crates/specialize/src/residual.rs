@@ -186,8 +186,11 @@ fn same_text(a: &Evaluated, b: &Evaluated) -> bool {
     a.shaders.len() == b.shaders.len() && a.shaders.iter().zip(&b.shaders).all(same)
 }
 
+/// Locations by name.
+type Named = Vec<(String, u32)>;
+
 /// The locations of attributes and outputs, to bind them by their names.
-fn locations(program: &Program) -> (Vec<(String, u32)>, Vec<(String, u32)>) {
+fn locations(program: &Program) -> (Named, Named) {
     // What is built in has its location, and cannot be bound.
     let is_own = |name: &str| !name.starts_with("gl_");
     let attributes = program.interface.attributes.iter().map(|one| (one.name.clone(), one.location));

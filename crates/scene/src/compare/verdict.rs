@@ -372,6 +372,10 @@ mod tests {
             (verdict.evidence.unlimited, verdict.conclusion(&Demands::default())),
             (2, Conclusion::Inconclusive)
         );
+        // They are counted where nothing else is compared, too.
+        let undefined = Comparison { undefined: &[true, false], ..Comparison::default() };
+        let verdict = undefined.compare(&gpu, &cpu).verdict;
+        assert_eq!((verdict.non_finite_gpu, verdict.non_finite_cpu, verdict.evidence.undefined), (2, 0, 1));
     }
 
     #[test]

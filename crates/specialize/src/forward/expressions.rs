@@ -159,7 +159,7 @@ impl Forward<'_> {
 
     /// Notes whether a condition is decided.
     pub(super) fn tell_truth(&mut self, condition: ExprId, truth: Option<bool>) {
-        let reason = truth.map_or(super::Reason::Open, |truth| super::Reason::Condition(truth));
+        let reason = truth.map_or(super::Reason::Open, super::Reason::Condition);
         self.tell(self.shader.expr(condition).span, reason);
     }
 

@@ -69,12 +69,13 @@ impl Reasons {
 
     /// Adds what evaluating the residual decided: what was open may be so no longer.
     pub(crate) fn then(&mut self, later: Self) {
-        for (place, told) in later.0 {
+        // Each place has its own entry, so their order does not matter.
+        later.0.into_iter().for_each(|(place, told)| {
             let own = self.0.entry(place).or_default();
             own.open = told.open;
             if let Some(decided) = told.decided {
                 own.tell(decided);
             }
-        }
+        });
     }
 }

@@ -43,15 +43,15 @@ pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool], uses: Use
 
 /// Functions whose results nobody wants no longer give any.
 fn give_nothing(shader: &mut Shader, functions: &[FunctionId]) {
-    let has_result = |id: &&FunctionId| shader.function(**id).ret != TypeId::VOID;
-    let unwanted: FxHashSet<FunctionId> = functions.iter().filter(has_result).copied().collect();
+    let mut unwanted: FxHashSet<FunctionId> = FxHashSet::default();
+    for id in functions {
+        if let Some(function) = shader.functions.get_mut(id.index()).filter(|function| function.ret != TypeId::VOID) {
+            function.ret = TypeId::VOID;
+            unwanted.insert(*id);
+        }
+    }
     if unwanted.is_empty() {
         return;
-    }
-    for id in &unwanted {
-        if let Some(function) = shader.functions.get_mut(id.index()) {
-            function.ret = TypeId::VOID;
-        }
     }
     for expr in &mut shader.exprs {
         if matches!(expr.kind, ExprKind::Call(callee, _) if unwanted.contains(&callee)) {

@@ -71,12 +71,11 @@ pub(super) fn negated_operand(walked: &Walked, id: ExprId) -> Option<usize> {
     leaves(0, 1).or_else(|| leaves(1, 0))
 }
 
-/// The operand that an operator on numbers gives back.
-fn of_numbers(
-    fast: bool,
-    op: BinaryOp,
-    gives: &dyn Fn(usize, usize, &dyn Fn(Fact, Fact) -> bool) -> Option<usize>,
-) -> Option<usize> {
+/// Whether an operation gives a value with the first fact back, where the other has the second.
+type Test<'a> = &'a dyn Fn(Fact, Fact) -> bool;
+
+/// The operand that an operator on numbers gives back. `gives` tries one, by the other and a test.
+fn of_numbers(fast: bool, op: BinaryOp, gives: &dyn Fn(usize, usize, Test<'_>) -> Option<usize>) -> Option<usize> {
     match op {
         BinaryOp::Mul => gives(0, 1, &|_, c| is(c, 1.0)).or_else(|| gives(1, 0, &|_, c| is(c, 1.0))),
         BinaryOp::Div => gives(0, 1, &|_, c| is(c, 1.0)),
