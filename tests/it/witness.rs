@@ -11,6 +11,7 @@ static REFUSED: &[(&str, &str)] = &[
     ("fixtures/valid/preprocess/extension_warn.frag", "`warn` asks for warnings, not for errors (§3.3)"),
     ("fixtures/valid/preprocess/kind.vert", "a pragma that is not understood is ignored (§3.3)"),
     ("fixtures/valid/preprocess/lines.vert", "behind `#line n` comes line n + 1 before 3.30 (§3.3)"),
+    ("fixtures/valid/qualifiers/depth_range_type.frag", "`gl_DepthRangeParameters` is a type (§7.5)"),
     ("fixtures/valid/qualifiers/invariant_inputs.frag", "inputs may be `invariant` before 4.20 (4.10 §4.6.1)"),
     ("fixtures/valid/qualifiers/invariant_members.vert", "a block's members may be `invariant` (§4.3.7)"),
     ("fixtures/valid/qualifiers/places.vert", "`invariant` takes a list of names (§4.6.1)"),

@@ -75,7 +75,7 @@ pub(crate) fn pass_through(
     let colors: Vec<(String, u32)> = outputs.map(|output| (output.name.clone(), output.location)).collect();
     // The stages have the statements of the fixed-function state already.
     let fixed = FixedState { unclamped_colors: true, ..FixedState::default() };
-    let bindings = Bindings { attribute_locations: &[], frag_data_locations: &colors, fixed };
+    let bindings = Bindings { attribute_locations: &[], frag_data_locations: &colors, fixed, ..Bindings::default() };
     let mut found = Diagnostics::default();
     match link(program.name.clone(), types, vec![shader, fragment], bindings, &mut found) {
         Some(program) => Ok((program, attributes)),

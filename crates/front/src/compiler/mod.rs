@@ -46,7 +46,7 @@ impl Options {
     /// The options that the linker uses.
     fn bindings(&self) -> Bindings<'_> {
         let (attribute_locations, frag_data_locations) = (&self.attribute_locations, &self.frag_data_locations);
-        Bindings { attribute_locations, frag_data_locations, fixed: self.fixed }
+        Bindings { attribute_locations, frag_data_locations, fixed: self.fixed, stages_apart: false }
     }
 }
 
@@ -90,13 +90,14 @@ pub struct Compiler {
     preparation: Option<Arc<dyn Preparation + Send + Sync>>,
     /// Applied to the diagnostics of each compilation; `None` if the caller applies its own.
     levels: Option<Levels>,
+    stages_apart: bool,
 }
 
 impl Compiler {
     /// A compiler that resolves no includes. Comments `// glisten: allow(CODE)` are applied to its diagnostics.
     pub fn new(options: Options) -> Self {
         let includes = Arc::new(NoIncludes);
-        Self { options, includes, preparation: None, levels: Some(Levels::default()) }
+        Self { options, includes, preparation: None, levels: Some(Levels::default()), stages_apart: false }
     }
 
     /// The same compiler, which applies these levels to its diagnostics.
@@ -130,6 +131,16 @@ impl Compiler {
         let inner = self.preparation.clone();
         let completion = self.options.completion.clone();
         self.with_preparation(Changed { inner, completion, change: Arc::new(change) })
+    }
+
+    /// This compiler for a host that builds each stage by itself, as those of Vulkan do: names of uniforms are those of a stage then.
+    #[must_use]
+    pub fn with_stages_apart(self) -> Self {
+        Self { stages_apart: true, ..self }
+    }
+
+    fn bindings(&self) -> Bindings<'_> {
+        Bindings { stages_apart: self.stages_apart, ..self.options.bindings() }
     }
 
     /// This compiler with other options.
@@ -217,7 +228,7 @@ impl Compiler {
             return None;
         }
         let shaders = shaders.into_iter().map(|understood| understood.shader).collect();
-        link(name, types, shaders, self.options.bindings(), diagnostics)
+        link(name, types, shaders, self.bindings(), diagnostics)
     }
 
     /// The source as its engine completes it, with the macros of the options.

@@ -99,6 +99,8 @@ pub struct Bindings<'a> {
     pub frag_data_locations: &'a [(String, u32)],
     /// The state of the fixed-function pipeline.
     pub fixed: FixedState,
+    /// Whether a host builds each stage by itself, as those of Vulkan do: names of uniforms are those of a stage then.
+    pub stages_apart: bool,
 }
 
 /// Links analyzed shaders; `None` if that fails. A single shader links, too: its interface is then that of one stage.

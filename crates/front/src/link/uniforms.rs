@@ -155,7 +155,7 @@ fn check_host_locations(ctx: &mut Linker<'_>, all: &[Shared<'_>]) {
 /// Reports a member of a block without an instance name that has the name of a uniform outside of it, from GLSL 4.40 and ES 3.10 on: "It
 /// is a link-time error if any particular shader interface contains" both (4.40 §4.3.9).
 fn check_names(ctx: &mut Linker<'_>, all: &[Shared<'_>], shaders: &[Shader]) {
-    if !shaders.iter().all(|shader| shader.version.has(Feature::InterfaceNames)) {
+    if ctx.bindings.stages_apart || !shaders.iter().all(|shader| shader.version.has(Feature::InterfaceNames)) {
         return;
     }
     let mut known: FxHashMap<&str, (Option<&str>, Span, Stage)> = FxHashMap::default();

@@ -63,7 +63,7 @@ fn line_edits(old: &Text, new: &str, (encoding, is_fine): (Encoding, bool)) -> V
 /// Lines of the old text, and those of the new one in their place.
 type Block = (Range<usize>, Range<usize>);
 
-/// What differs, in the smallest parts: each ends where both texts have the same characters so far, white space aside. Formatting changes no
+/// The differences, in the smallest parts: each ends where both texts have the same characters so far, white space aside. Formatting changes no
 /// others. It takes time that grows with the texts, where looking for the fewest lines that differ would take their product.
 fn apart(old: &[&str], new: &[&str]) -> Vec<Block> {
     let (ours, theirs) = (ends(old), ends(new));

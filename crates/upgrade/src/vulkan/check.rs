@@ -95,6 +95,8 @@ fn read_back(unit: &TreeProgram, index: usize, files: &[NewFile], dialect: &Dial
         let inner = prepared.includes.clone().unwrap_or_else(|| Arc::clone(&own_includes));
         Prepared { includes: Some(Arc::new(Replaced { inner, texts, dialect: Arc::clone(&dialect) })), ..prepared }
     });
+    // Each stage has a block of its own for its uniforms.
+    let compiler = compiler.with_stages_apart();
     let new = |source: &Source| {
         let text = texts_of(source.stage).get(&source.name).cloned();
         Source { text: text.unwrap_or_else(|| Arc::clone(&source.text)), ..source.clone() }
