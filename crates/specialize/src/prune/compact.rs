@@ -118,7 +118,12 @@ impl Rebuild<'_> {
         if uses.local(function, LocalId::new(index)).named > 0 {
             return false;
         }
-        let gives = self.old.function(function).param_mode(index) == ParamMode::Out;
+        let mode = self.old.function(function).param_mode(index);
+        // What goes in comes out again, and may overwrite what another argument gave the same variable.
+        if mode == ParamMode::Inout {
+            return false;
+        }
+        let gives = mode == ParamMode::Out;
         // What is never written is undefined where it is read, and stays to be so.
         if gives && !uses.is_unread_by_callers(self.types, self.old, self.live, (function, index)) {
             return false;

@@ -7,7 +7,7 @@ use glisten_front::hir::{
     BinaryOp, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, ScalarValue, Shader, Stmt, StmtKind,
     StructId, Type, TypeId, Types, VarRef,
 };
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 /// Counts by variable.
 #[derive(Clone, Copy, Debug, Default)]
@@ -72,8 +72,6 @@ pub(super) struct Uses {
     elements: FxHashMap<(Option<FunctionId>, usize, u32), i32>,
     /// The arguments of `out` and `inout` parameters, by function and parameter. Calls that went are still among them.
     pub(super) given: FxHashMap<(FunctionId, usize), Vec<Given>>,
-    /// The `inout` parameters that the functions themselves do not read.
-    idle: FxHashSet<(FunctionId, usize)>,
     /// The function that is being counted.
     pub(super) function: FunctionId,
     /// The functions that `main` and the initializers of globals reach.
@@ -85,16 +83,6 @@ pub(super) struct Uses {
 impl Uses {
     /// The counts of what `main` reaches.
     pub(super) fn of(types: &Types, shader: &Shader) -> Self {
-        let uses = Self::counted(types, shader, FxHashSet::default());
-        let is_idle = |(function, index): &(FunctionId, usize)| {
-            let inout = shader.function(*function).param_mode(*index) == ParamMode::Inout;
-            inout && uses.local(*function, LocalId::new(*index)).reads <= 0
-        };
-        let idle: FxHashSet<(FunctionId, usize)> = uses.given.keys().copied().filter(is_idle).collect();
-        if idle.is_empty() { uses } else { Self::counted(types, shader, idle) }
-    }
-
-    fn counted(types: &Types, shader: &Shader, idle: FxHashSet<(FunctionId, usize)>) -> Self {
         let mut uses = Self {
             locals: shader.functions.iter().map(|function| vec![Count::default(); function.locals.len()]).collect(),
             globals: vec![Count::default(); shader.globals.len()],
@@ -103,7 +91,6 @@ impl Uses {
             wanted: vec![0; shader.functions.len()],
             elements: FxHashMap::default(),
             given: FxHashMap::default(),
-            idle,
             function: FunctionId::new(0),
             functions: Vec::new(),
             reached: vec![false; shader.functions.len()],
@@ -287,8 +274,9 @@ impl Uses {
             }
             match mode {
                 ParamMode::In | ParamMode::ConstIn => wanted.push((*argument, within)),
-                ParamMode::Inout if !self.idle.contains(&(callee, index)) => wanted.push((*argument, None)),
-                ParamMode::Out | ParamMode::Inout => self.target(types, shader, *argument, by),
+                // What goes in comes out again, and may overwrite what another argument gave the same variable.
+                ParamMode::Inout => wanted.push((*argument, None)),
+                ParamMode::Out => self.target(types, shader, *argument, by),
             }
         }
         wanted
@@ -302,6 +290,10 @@ impl Uses {
                 ExprKind::Var(variable) => {
                     let own = within.is_some_and(|stored| stored.member.is_none() && stored.variable == *variable);
                     self.add(*variable, if own { 0 } else { by }, by);
+                    // `v.y = dot(v, v)` and `m = inverse(m)` want all parts, if any of the result is wanted.
+                    if own && let Some(count) = self.slot(*variable) {
+                        count.whole += by;
+                    }
                 }
                 ExprKind::Member(base, member) => {
                     let place = member_of(types, shader, *base, *member);
