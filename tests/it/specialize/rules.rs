@@ -139,7 +139,6 @@ fn what_nobody_reads_goes() {
         "float k[4]; k[0] = c.y; k[3] = sin(c.y); c.x = k[0];",
         "float k[3] = float[3](c.x, sin(c.y), c.z); c.x = k[0] + k[2];",
         "float a; float b; both(c.x, a, b); c.x = a;",
-        "float a = c.y; more(a); c.x = v.y;",
         "result(c.x); c.y = kept;",
     ] {
         let left = of_functions(statements);
@@ -153,6 +152,8 @@ fn what_nobody_reads_goes() {
         "float a; float b; both(c.x, a, b); c.x = b;",
         "float a; float b; both(c.x, a, b); c.x = a; both(c.y, b, a); c.y = a;",
         "float a = c.y; more(a); c.x = a;",
+        "mat2 m = mat2(sin(c.x), c.y, c.z, c.x); m = inverse(m); c.x = m[1].x;",
+        "float a = sin(c.x); vec2 b = vec2(a, c.y); b.y = dot(b, b); c.x = b.y;",
         "c.x = result(c.x);",
     ] {
         let left = of_functions(statements);
