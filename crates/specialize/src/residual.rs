@@ -77,9 +77,7 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
         return unevaluated(program, options);
     }
     let mut evaluated = evaluate(program, known, options);
-    // The numbers of blocks in an array are known by their places, which another round would take from blocks that are shorter.
-    let rounds = if has_block_arrays(program) { 1 } else { ROUNDS };
-    for _ in 1..rounds {
+    for _ in 1..ROUNDS {
         let Some(left) = linked_again(program, &evaluated) else { break };
         let next = evaluate(&left, known, options);
         let found_more = !same_text(&evaluated, &next);
@@ -89,13 +87,6 @@ pub fn specialize_with(program: &Program, known: &Known, options: &Options<'_>) 
         }
     }
     assemble(program, known, options, evaluated)
-}
-
-fn has_block_arrays(program: &Program) -> bool {
-    let mut globals = program.stages.iter().flat_map(|shader| &shader.globals);
-    globals.any(|global| {
-        global.storage == Storage::Uniform && global.block.is_some() && program.types.element(global.ty).is_some()
-    })
 }
 
 /// What evaluating a program leaves.

@@ -498,7 +498,20 @@ impl Types {
         &self.structs[id.0 as usize]
     }
 
-    /// The struct of a handle, to complete it.
+    /// Changes structs, each before those that contain it, so that sizes are those of the members that are left.
+    pub fn change_structures(&mut self, mut change: impl FnMut(StructId, &mut StructType)) {
+        for index in 0..self.structs.len() {
+            let Some(declaration) = self.structs.get_mut(index) else { continue };
+            change(StructId(index as u32), declaration);
+            let summary = self.structs.get(index).map(|declaration| self.summary_of_members(declaration));
+            if let Some(slot) = self.summaries.get_mut(index) {
+                *slot = summary;
+            }
+        }
+    }
+
+    /// The struct of a handle, to complete it. What contains it keeps the size that it knows: [`change_structures`](Self::change_structures) is
+    /// for other sizes.
     pub fn structure_mut(&mut self, id: StructId) -> &mut StructType {
         self.summaries[id.0 as usize] = None;
         &mut self.structs[id.0 as usize]

@@ -113,10 +113,12 @@ fn apply(types: &mut Types, stages: &mut [Shader], kept: &BTreeMap<StructId, Vec
             }
         }
     }
-    for (id, keep) in kept {
-        let mut keep = keep.iter();
-        types.structure_mut(*id).members.retain(|_| keep.next().copied().unwrap_or(true));
-    }
+    types.change_structures(|id, declaration| {
+        if let Some(keep) = kept.get(&id) {
+            let mut keep = keep.iter();
+            declaration.members.retain(|_| keep.next().copied().unwrap_or(true));
+        }
+    });
 }
 
 /// The scalars of a value without those of members that go.
