@@ -659,6 +659,7 @@ impl Types {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::Span;
 
     #[test]
     fn handles_without_a_table_are_those_of_the_table() {
@@ -668,5 +669,19 @@ mod tests {
         }
         assert_eq!(types.intern(Type::Matrix(4, 2)), TypeId::matrix(4, 2));
         assert_eq!(types.intern(Type::Vector(Scalar::Uint, 3)), TypeId::vector(Scalar::Uint, 3));
+    }
+
+    #[test]
+    fn a_struct_knows_the_size_of_one_that_it_contains() {
+        let mut types = Types::new();
+        let members = |names: &[&str], ty| names.iter().map(|name| Member::plain(*name, ty, Span::default())).collect();
+        let of =
+            |name: &str, members| StructType { name: name.to_owned(), members, is_block: false, span: Span::default() };
+        let inner = types.add_struct(of("Inner", members(&["a", "b"], TypeId::VEC4)));
+        let three = types.array(inner, ArraySize::Sized(3));
+        let outer = types.add_struct(of("Outer", members(&["c"], three)));
+        assert_eq!(types.flat_len(outer), 24);
+        types.change_structures(|_, declaration| declaration.members.truncate(1));
+        assert_eq!((types.flat_len(inner), types.flat_len(outer)), (4, 12));
     }
 }
