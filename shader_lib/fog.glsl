@@ -44,7 +44,7 @@ float fogFactorSquared(float r, float density)
 //   density  at height 0, limited to [0, 2^20]    falloff  limited to [0, 2^20]
 // The density is taken at the lower end of the ray, from which it falls: the other end's may be nothing, and the mean along the ray too large for
 // a float. The ray ends at height + direction.y * r, which rounds where these are large.
-// bound: 8e-6 abs, an exponent of an exponent
+// bound: 2e-6 abs, an exponent of an exponent
 float fogFactor(float height, vec3 direction, float r, float density, float falloff)
 {
     float b = clamp(falloff, 0.0, exp2(20.0));

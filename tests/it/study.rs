@@ -68,6 +68,7 @@ fn derivatives_are_judged_by_what_is_likely() {
     let conclusions: Vec<Conclusion> = found.iter().map(|(conclusion, _)| *conclusion).collect();
     use Conclusion::{Fails, Holds};
     assert_eq!(conclusions, [Holds, Holds, Holds, Fails], "{found:?}");
+    // A fault of another sign is across jumps here and there, where nothing is likely.
     assert!(found.iter().take(3).all(|(_, verdict)| verdict.evidence.likely > 3900), "{found:?}");
 }
 

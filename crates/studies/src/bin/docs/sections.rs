@@ -11,6 +11,10 @@ pub(crate) struct Section {
 /// Rules that depend on the version and have a code of their own, not `E0617`.
 pub(crate) static OWN_CODES: &[(&str, &str)] = &[
     ("a joined line", "W0101"),
+    ("attributes that share a location", "E0711"),
+    ("another precision of a member in each stage", "E0732"),
+    ("the rule for names in an interface", "E0734"),
+    ("`smooth` in one stage alone", "E0704"),
     ("an array of arrays", "E0412"),
     ("an initializer list", "E0214"),
     ("a `const` whose value is not a constant expression", "E0408"),

@@ -8,6 +8,7 @@ use glisten_front::hir::{
     global_names,
 };
 use glisten_front::link::{Program, Varying, VaryingEnd};
+use std::collections::BTreeSet;
 
 /// Replaces the blocks between the vertex and the fragment stage.
 pub(super) fn flatten(types: &Types, shader: &mut Shader, program: &Program) {
@@ -16,6 +17,7 @@ pub(super) fn flatten(types: &Types, shader: &mut Shader, program: &Program) {
         Stage::Geometry => return,
         Stage::Fragment => Storage::In,
     };
+    let mut taken = None;
     for index in 0..shader.globals.len() {
         let Some(block) = shader.globals.get(index) else { continue };
         let Type::Struct(id) = types.get(block.ty) else { continue };
@@ -26,7 +28,9 @@ pub(super) fn flatten(types: &Types, shader: &mut Shader, program: &Program) {
         let mut flat = 0;
         for member in &types.structure(id).members {
             let row = row_of(program, shader.stage, GlobalId::new(index), flat);
-            shader.globals.push(varying(program, &block, member, row));
+            let taken = taken.get_or_insert_with(|| names(program));
+            let name = fresh_name(&format!("{}_{}", block.match_name(), member.name), |name| taken.contains(name));
+            shader.globals.push(varying(name, &block, member, row));
             flat += types.flat_len(member.ty);
         }
         for at in 0..shader.exprs.len() {
@@ -53,11 +57,12 @@ fn row_of(program: &Program, stage: Stage, global: GlobalId, flat_offset: u32) -
     rows.find(|row| if stage == Stage::Vertex { row.from == own } else { row.to == own })
 }
 
-fn varying(program: &Program, block: &Global, member: &Member, row: Option<&Varying>) -> Global {
-    let stages = || program.stages.iter();
-    let taken: Vec<_> = stages().map(|shader| global_names(&program.types, shader, |_| false)).collect();
-    let wanted = format!("{}_{}", block.match_name(), member.name);
-    let name = fresh_name(&wanted, |name| taken.iter().any(|names| names.contains(name)));
+/// The names that are declared at the global scope of any stage.
+fn names(program: &Program) -> BTreeSet<String> {
+    program.stages.iter().flat_map(|shader| global_names(&program.types, shader, |_| false)).collect()
+}
+
+fn varying(name: String, block: &Global, member: &Member, row: Option<&Varying>) -> Global {
     let interpolation = row.map(|row| row.interpolation).or(member.interpolation).unwrap_or_default();
     Global {
         name,

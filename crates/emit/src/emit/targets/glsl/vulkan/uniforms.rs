@@ -9,7 +9,7 @@ use crate::target::{Conventions, WindowOrigin};
 use glisten_front::builtin::{BuiltinVariable, functions};
 use glisten_front::hir::{
     BlockInfo, BlockLayout, Expr, ExprId, ExprKind, Global, GlobalId, Member, MemberPlace, ScalarValue, Shader,
-    Storage, StructType, Type, TypeId, Types, VarRef,
+    Storage, StructType, Type, TypeId, Types, VarRef, global_names,
 };
 use glisten_front::link::Program;
 use glisten_front::source::Span;
@@ -20,21 +20,6 @@ use std::collections::BTreeMap;
 pub(super) struct Height {
     pub(super) block: GlobalId,
     pub(super) member: u32,
-}
-
-/// Whether a name is declared at the global scope of a stage.
-pub(super) fn declares(types: &Types, shader: &Shader, name: &str) -> bool {
-    let of_block = |global: &Global| {
-        let Some(block) = &global.block else { return false };
-        let Type::Struct(id) = types.get(types.element(global.ty).unwrap_or(global.ty)) else { return false };
-        block.name == name
-            || block.instance.as_deref() == Some(name)
-            || block.instance.is_none() && types.structure(id).members.iter().any(|member| member.name == name)
-    };
-    let named = |id| types.structure(id).name == name;
-    shader.globals.iter().any(|global| global.name == name || of_block(global))
-        || shader.functions.iter().any(|function| function.name == name)
-        || shader.exprs.iter().any(|expr| matches!(types.get(expr.ty), Type::Struct(id) if named(id)))
 }
 
 /// Moves the loose uniforms of a stage into a block. The result is the member with the framebuffer's height, if the
@@ -51,13 +36,14 @@ pub(super) fn gather(
     let mut apart = Apart::new(program);
     let mut found: Vec<(Member, Option<GlobalId>)> = Vec::new();
     let mut is_whole = true;
+    let names = global_names(&program.types, shader, |_| false);
     for root in program.interface.roots.iter().filter(|root| root.block.is_none()) {
         let declared = own(&root.globals, shader.stage).next();
         let Some(ty) = apart.stripped(types, root.ty).filter(|_| root.name != BuiltinVariable::DepthRange.name())
         else {
             continue;
         };
-        let hides = declares(&program.types, shader, &root.name) || !functions::named(&root.name).is_empty();
+        let hides = names.contains(&root.name) || !functions::named(&root.name).is_empty();
         if declared.is_none() && hides {
             is_whole = false;
             continue;
