@@ -69,17 +69,14 @@ impl RenderArgs {
         self.backend.is_a_driver()
     }
 
-    /// Refuses an option that the backend does not have.
-    fn check(&self) -> Result<(), Failure> {
+    /// Says which options have no effect. A script may give them for each backend in turn.
+    fn tell_idle(&self, console: &Console) {
         if self.precision.is_some() && self.backend != Backend::Cpu {
-            return Err(
-                Failure::usage("--precision is of the CPU reference").help("add `--backend cpu`, or leave it out")
-            );
+            console.remark("note: `--precision` has no effect here: it is for `--backend cpu`");
         }
         if self.via.is_some() && self.backend != Backend::Gpu {
-            return Err(Failure::usage("--via is of what the GPU runs, and --backend asks for another one"));
+            console.remark("note: `--via` has no effect here: it is for `--backend gpu`");
         }
-        Ok(())
     }
 }
 
@@ -110,7 +107,7 @@ enum PrecisionArg {
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     args.backend.require()?;
-    args.check()?;
+    args.tell_idle(console);
     let target = Target::parse(&args.output)?;
     let read = match args.scene.read(console)? {
         Ok(read) => read,
