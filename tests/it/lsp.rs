@@ -560,6 +560,8 @@ fn hostile_text_and_messages_end_nothing() {
     let at =
         json!({ "textDocument": { "uri": "untitled:Untitled-1.frag" }, "position": { "line": 1, "character": 9 } });
     assert!(editor.ask("textDocument/hover", at)["contents"]["value"].to_string().contains("in vec3 shade"));
+    let is_logged = |told: &Value| told["params"]["message"].to_string().contains("`textDocument/didChange` cannot be");
+    assert!(editor.told.iter().any(is_logged), "an editor's log says what could not be read");
     editor.close();
 }
 

@@ -13,6 +13,7 @@
 
 mod analysis;
 mod builtins;
+mod client;
 mod constructors;
 mod cut;
 mod describe;

@@ -4,21 +4,22 @@
 //! canceled before its turn is not carried out; changes that wait are applied before any diagnostics are computed, so that fast
 //! typing costs one computation; a panic becomes the error of its request.
 
+use super::client::{self, Client};
 use super::project::Project;
 use super::requests::{self, Failure};
-use super::state::{Client, Document, State};
-use super::text::{Encoding, Text};
+use super::state::{Document, State};
+use super::text::Text;
 use super::uri;
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response};
 use lsp_types::notification::{
     DidChangeConfiguration, DidChangeTextDocument, DidChangeWatchedFiles, DidChangeWorkspaceFolders,
-    DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, Notification as _, PublishDiagnostics,
+    DidCloseTextDocument, DidOpenTextDocument, DidSaveTextDocument, LogMessage, Notification as _, PublishDiagnostics,
 };
 use lsp_types::request::{RegisterCapability, Request as _, ShowDocument, WorkspaceDiagnosticRefresh};
 use lsp_types::{
     DidChangeTextDocumentParams, DidChangeWatchedFilesParams, DidChangeWatchedFilesRegistrationOptions,
     DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, FileSystemWatcher,
-    GlobPattern, InitializeParams, PublishDiagnosticsParams, Registration, RegistrationParams,
+    GlobPattern, LogMessageParams, MessageType, PublishDiagnosticsParams, Registration, RegistrationParams,
 };
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -57,9 +58,10 @@ enum Next {
 /// Serves a connection until its end. Returns whether a shutdown was asked for.
 pub(super) fn serve(project: &mut dyn Project, connection: &Connection) -> bool {
     let Some((id, parameters)) = initialization(connection) else { return false };
-    let parameters: InitializeParams = serde_json::from_value(parameters).unwrap_or_default();
     let mut state = State::new(project);
-    initialize(&mut state, &parameters);
+    state.encoding = client::encoding(&parameters);
+    state.client = Client::new(&parameters);
+    state.folders = client::folders(&parameters);
     let result = json!({
         "capabilities": requests::capabilities(state.encoding),
         "serverInfo": { "name": "glisten", "version": env!("CARGO_PKG_VERSION") },
@@ -102,43 +104,6 @@ fn initialization(connection: &Connection) -> Option<(RequestId, Value)> {
         }
     }
     None
-}
-
-fn initialize(state: &mut State<'_>, parameters: &InitializeParams) {
-    let general = parameters.capabilities.general.as_ref();
-    state.encoding = Encoding::negotiated(general.and_then(|general| general.position_encodings.as_deref()));
-    state.client = client(parameters);
-    let folders = parameters.workspace_folders.iter().flatten().map(|folder| uri::path(&folder.uri));
-    state.folders = folders.collect();
-    #[expect(deprecated, reason = "editors of before workspace folders have a root alone")]
-    if let (true, Some(root)) = (state.folders.is_empty(), &parameters.root_uri) {
-        state.folders.push(uri::path(root));
-    }
-}
-
-fn client(parameters: &InitializeParams) -> Client {
-    let document = parameters.capabilities.text_document.as_ref();
-    let workspace = parameters.capabilities.workspace.as_ref();
-    let published = document.and_then(|document| document.publish_diagnostics.as_ref());
-    let is = |flag: Option<bool>| flag.unwrap_or(false);
-    Client {
-        pulls: document.is_some_and(|document| document.diagnostic.is_some()),
-        refreshes: is(workspace.and_then(|workspace| workspace.diagnostic.as_ref()?.refresh_support)),
-        grays: published.is_some_and(|published| published.tag_support.is_some()),
-        relates: is(published.and_then(|published| published.related_information)),
-        watches: is(workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)),
-        versions: is(workspace.and_then(|workspace| workspace.workspace_edit.as_ref()?.document_changes)),
-        refreshes_lenses: is(workspace.and_then(|workspace| workspace.code_lens.as_ref()?.refresh_support)),
-        refreshes_hints: is(workspace.and_then(|workspace| workspace.inlay_hint.as_ref()?.refresh_support)),
-        refreshes_tokens: is(workspace.and_then(|workspace| workspace.semantic_tokens.as_ref()?.refresh_support)),
-        shows: is(parameters
-            .capabilities
-            .window
-            .as_ref()
-            .and_then(|window| Some(window.show_document.as_ref()?.support))),
-        is_code: parameters.client_info.as_ref().is_some_and(|client| client.name.starts_with("Visual Studio Code")),
-        trees: is(document.and_then(|document| document.document_symbol.as_ref()?.hierarchical_document_symbol_support)),
-    }
 }
 
 impl Server<'_> {
@@ -267,16 +232,27 @@ impl Server<'_> {
     fn notification(&mut self, told: Notification) {
         let Notification { method, params } = told;
         let server = &mut *self;
-        // What cannot be read changes nothing; the protocol has no answer to it.
-        match method.as_str() {
+        let done = match method.as_str() {
             DidOpenTextDocument::METHOD => with(params, |params| server.open(params)),
             DidChangeTextDocument::METHOD => with(params, |params| server.change(params)),
             DidCloseTextDocument::METHOD => with(params, |params| server.close(&params)),
             DidChangeWatchedFiles::METHOD => with(params, |params| server.files_changed(&params)),
             DidChangeWorkspaceFolders::METHOD => with(params, |params| server.folders_changed(&params)),
-            DidChangeConfiguration::METHOD => server.reload(),
-            DidSaveTextDocument::METHOD => server.is_stale = true,
-            _ => {}
+            DidChangeConfiguration::METHOD => {
+                server.reload();
+                Ok(())
+            }
+            DidSaveTextDocument::METHOD => {
+                server.is_stale = true;
+                Ok(())
+            }
+            _ => Ok(()),
+        };
+        // The protocol has no answer to a notification; editors show this in their log.
+        if let Err(error) = done {
+            let message = format!("`{method}` cannot be read: {error}");
+            let told = LogMessageParams { typ: MessageType::ERROR, message };
+            self.send(Notification::new(LogMessage::METHOD.to_owned(), told));
         }
     }
 
@@ -470,10 +446,8 @@ fn canceled(message: &Message) -> Option<RequestId> {
 }
 
 /// Carries out work with the parameters of a notification, if they can be read.
-fn with<P: DeserializeOwned>(params: Value, work: impl FnOnce(P)) {
-    if let Ok(params) = serde_json::from_value(params) {
-        work(params);
-    }
+fn with<P: DeserializeOwned>(params: Value, work: impl FnOnce(P)) -> serde_json::Result<()> {
+    serde_json::from_value(params).map(work)
 }
 
 fn modified(path: &Path) -> Option<SystemTime> {

@@ -4,6 +4,7 @@
 //! of their files changes. *Holds:* a header is seen in the programs that include it.
 
 use super::analysis::{Analysis, Place};
+use super::client::Client;
 use super::cut::{cut, mended};
 use super::project::{Piece, ProgramKey, Project};
 use super::text::{Encoding, Text};
@@ -31,35 +32,6 @@ pub(crate) struct Document {
     pub(crate) version: i32,
     /// Its text.
     pub(crate) text: Text,
-}
-
-/// The abilities of the editor.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Client {
-    /// It asks for diagnostics.
-    pub(crate) pulls: bool,
-    /// It can be told to ask again.
-    pub(crate) refreshes: bool,
-    /// It grays out text that is marked as unnecessary.
-    pub(crate) grays: bool,
-    /// It shows places that belong to a diagnostic.
-    pub(crate) relates: bool,
-    /// It watches files for the server.
-    pub(crate) watches: bool,
-    /// It has edits of documents with their versions.
-    pub(crate) versions: bool,
-    /// It can be told to ask for lenses again.
-    pub(crate) refreshes_lenses: bool,
-    /// It can be told to ask for hints again.
-    pub(crate) refreshes_hints: bool,
-    /// It can be told to ask for colors again.
-    pub(crate) refreshes_tokens: bool,
-    /// It shows documents for the server.
-    pub(crate) shows: bool,
-    /// It is Visual Studio Code, which shows pictures itself.
-    pub(crate) is_code: bool,
-    /// It shows trees of symbols.
-    pub(crate) trees: bool,
 }
 
 /// All that the server knows.

@@ -19,15 +19,9 @@ pub(crate) enum Encoding {
 }
 
 impl Encoding {
-    /// The first encoding of a client that the server has, too.
-    pub(crate) fn negotiated(offered: Option<&[PositionEncodingKind]>) -> Self {
-        let known = |kind: &PositionEncodingKind| match kind.as_str() {
-            "utf-8" => Some(Self::Utf8),
-            "utf-16" => Some(Self::Utf16),
-            "utf-32" => Some(Self::Utf32),
-            _ => None,
-        };
-        offered.into_iter().flatten().find_map(known).unwrap_or_default()
+    /// The encoding of a name in the protocol.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        [Self::Utf8, Self::Utf16, Self::Utf32].into_iter().find(|encoding| encoding.kind().as_str() == name)
     }
 
     /// The name in the protocol.
