@@ -98,7 +98,7 @@ impl Analyzer<'_> {
             Diagnostic::new(&qualifiers::NEEDS_EXTENSION, span, format!("{name} is not in {}", version.name()))
                 .here("not in this version of the language")
                 .maybe_help(version.remedy(row.since, row.gone, row.extensions));
-        of_version(finding, version)
+        of_version(Diagnostic { lacking: Some(feature), ..finding }, version)
     }
 
     /// Warns about the use of a built-in name that only an extension provides, if the source asks for that (§3.3).

@@ -44,13 +44,12 @@ impl Assumed {
     }
 }
 
-/// The rules that people break in ES by mistake, since OpenGL's language has the freedom.
-const MISTAKES: [Feature; 3] = [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::ArrayObjects];
+/// The freedoms of OpenGL's language that people take in ES by mistake.
+const MISTAKES: [Feature; 4] =
+    [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::ArrayObjects, Feature::IntegerOperators];
 
 fn is_mistake(found: &Diagnostic) -> bool {
-    // An operator is told by its sign.
-    found.message.contains("` on integers ")
-        || MISTAKES.iter().any(|feature| found.message.starts_with(feature.row().name))
+    found.lacking.is_some_and(|feature| MISTAKES.contains(&feature))
 }
 
 /// The errors of a source that was read in some version.

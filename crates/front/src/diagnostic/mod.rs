@@ -30,6 +30,7 @@ pub use saved::Saved;
 pub use short::{LONGEST, LONGEST_WORD, shortened};
 pub use sink::Diagnostics;
 
+use crate::language::Feature;
 use crate::source::Span;
 use std::fmt;
 
@@ -84,6 +85,8 @@ pub struct Diagnostic {
     pub fixes: Vec<Fix>,
     /// The line number that a `#line` directive gave to the primary span, if there is one.
     pub presented_line: Option<u32>,
+    /// The feature that the version lacks, if the finding is about one.
+    pub lacking: Option<Feature>,
 }
 
 impl Diagnostic {
@@ -103,6 +106,7 @@ impl Diagnostic {
             help: None,
             fixes: Vec::new(),
             presented_line: None,
+            lacking: None,
         }
     }
 

@@ -189,6 +189,8 @@ fn diagnostic(saved: &SavedDiagnostic) -> Option<Diagnostic> {
         help: saved.help.clone(),
         fixes: saved.fixes.iter().map(fix).collect(),
         presented_line: saved.presented_line,
+        // Nobody is shown it.
+        lacking: None,
     })
 }
 

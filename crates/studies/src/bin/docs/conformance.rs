@@ -8,8 +8,8 @@ use super::sections::{OWN_CODES, SECTIONS, Section};
 use glisten::{Compiler, Options, Source};
 use glisten_front::builtin::{constants, functions, variables};
 use glisten_front::diagnostic::{Code, codes};
-use glisten_front::language::{FEATURES, FeatureRow, NEVER, Stage};
-use std::collections::{BTreeMap, BTreeSet};
+use glisten_front::language::{FEATURES, Feature, FeatureRow, NEVER, Stage};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -138,7 +138,7 @@ fn features(fixtures: &[Fixture], text: &mut String) {
     text.push_str(
         "| section | rule | since | in ES since | until | fixture |\n| --- | --- | --- | --- | --- | --- |\n",
     );
-    let found = messages(fixtures);
+    let found = lacking(fixtures);
     let mut rows: Vec<&FeatureRow> = FEATURES.iter().collect();
     rows.sort_by_key(|row| (key(row.section), row.name));
     for row in rows {
@@ -146,7 +146,7 @@ fn features(fixtures: &[Fixture], text: &mut String) {
         let own = OWN_CODES.iter().find(|(rule, _)| *rule == row.name).map(|(_, code)| *code);
         let fixture = match own {
             Some(code) => fixtures.iter().find(|fixture| fixture.codes.contains(code)).map(|found| found.name.as_str()),
-            None => found.iter().find(|(message, _)| message.starts_with(row.name)).map(|(_, name)| *name),
+            None => found.get(&row.feature).copied(),
         };
         let code = own.or(fixture.map(|_| "E0617")).map_or_else(String::new, |code| format!("`{code}`"));
         let fixture = fixture.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"));
@@ -155,15 +155,14 @@ fn features(fixtures: &[Fixture], text: &mut String) {
     }
 }
 
-/// The messages about what a version does not have, with a fixture of each.
-fn messages(fixtures: &[Fixture]) -> BTreeMap<String, &str> {
+/// The features that some fixture lacks, with the first one of each.
+fn lacking(fixtures: &[Fixture]) -> HashMap<Feature, &str> {
     let compiler = Compiler::new(Options::default());
-    let mut found = BTreeMap::new();
+    let mut found = HashMap::new();
     for fixture in fixtures.iter().filter(|fixture| fixture.codes.contains("E0617")) {
         let source = Source { name: fixture.name.clone(), text: fixture.text.as_str().into(), stage: fixture.stage };
-        let compilation = compiler.compile(&[source]);
-        for diagnostic in compilation.diagnostics.iter().filter(|diagnostic| diagnostic.code.id == "E0617") {
-            found.entry(diagnostic.message.clone()).or_insert(fixture.name.as_str());
+        for feature in compiler.compile(&[source]).diagnostics.iter().filter_map(|diagnostic| diagnostic.lacking) {
+            found.entry(feature).or_insert(fixture.name.as_str());
         }
     }
     found
