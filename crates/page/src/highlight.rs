@@ -3,6 +3,7 @@
 //!
 //! *Holds:* without its tags, the HTML is the escaped text: nothing is lost, whatever the text.
 
+use crate::escape;
 use glisten_front::language::{Profile, Version};
 use glisten_front::source::{ExpansionId, Span};
 use glisten_front::syntax::keywords::WordClass;
@@ -37,10 +38,10 @@ pub fn html(text: &str, language: Language) -> String {
                 out.push_str("<span class=\"");
                 out.push_str(class);
                 out.push_str("\">");
-                escape(token, &mut out);
+                out.push_str(&escape(token));
                 out.push_str("</span>");
             }
-            None => escape(token, &mut out),
+            None => out.push_str(&escape(token)),
         }
         rest = after;
     }
@@ -58,7 +59,7 @@ impl Comments {
     pub fn html(&mut self, line: &str) -> String {
         if self.passes(line) {
             let mut out = String::from("<span class=\"com\">");
-            escape(line, &mut out);
+            out.push_str(&escape(line));
             return out + "</span>";
         }
         html(line, Language::Glsl)
@@ -131,18 +132,6 @@ fn line(rest: &str) -> usize {
 
 fn run(rest: &str, accept: impl Fn(char) -> bool) -> usize {
     rest.find(|character| !accept(character)).unwrap_or(rest.len())
-}
-
-fn escape(text: &str, out: &mut String) {
-    for character in text.chars() {
-        match character {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            _ => out.push(character),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -19,14 +19,14 @@ pub struct Made {
 impl Made {
     /// A page that `arguments`, without the program's name, made so many seconds after the beginning of 1970.
     pub fn new(arguments: &[String], seconds: u64) -> Self {
-        let words: Vec<String> = arguments.iter().map(|word| quoted(word)).collect();
+        let words: Vec<String> = arguments.iter().map(|word| shell_word(word)).collect();
         let command = format!("glisten {}", words.join(" "));
         Self { command, version: env!("CARGO_PKG_VERSION").to_owned(), date: date(seconds) }
     }
 }
 
 /// A word as a shell takes it.
-fn quoted(word: &str) -> String {
+pub fn shell_word(word: &str) -> String {
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:%+@".contains(letter);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
@@ -50,7 +50,7 @@ pub fn date(seconds: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Made, date};
+    use super::{Made, date, shell_word};
 
     #[test]
     fn days_have_their_dates() {
@@ -71,5 +71,6 @@ mod tests {
     fn commands_can_be_pasted() {
         let words = ["report", "my scene.toml", "-o", "it's"].map(str::to_owned);
         assert_eq!(Made::new(&words, 0).command, r"glisten report 'my scene.toml' -o 'it'\''s'");
+        assert_eq!(shell_word(""), "''");
     }
 }

@@ -24,6 +24,7 @@ pub mod random;
 mod reads;
 pub mod roles;
 pub mod tables;
+mod toml_string;
 pub mod values;
 
 pub use dependence::ColorDependence;
@@ -41,3 +42,4 @@ pub use model::{
 };
 pub use portrait::{Portrait, PortraitError, is_model_file, portrait};
 pub use reads::{is_leaf_read, scene_values_read};
+pub use toml_string::toml_string;

@@ -4,6 +4,8 @@
 //! commands of [`SYMBOLS`], [`FUNCTIONS`], `\frac`, `\sqrt`, `\mathbf`, `\mathrm`, `\text`, `\sum`. *Out:* a `<math>` element,
 //! escaped. *Holds:* anything outside the subset is an error and is never dropped.
 
+use glisten_page::escape;
+
 /// Commands for one operator or letter: name, element, text.
 const SYMBOLS: &[(&str, &str, &str)] = &[
     ("cdot", "mo", "\u{22c5}"),
@@ -187,10 +189,6 @@ impl<'t> Parser<'t> {
             _ => Err(format!("`\\{name}` is not of the formulas' language")),
         }
     }
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::model::{
     TextureLevel, Wrap,
 };
 use crate::picture::{Tone, Transfer};
+use crate::toml_string::toml_string;
 use glisten_front::hir::{SamplerDim, ScalarValue, Stage};
 use std::fmt::Write;
 
@@ -44,32 +45,32 @@ pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
         clear.join(", ")
     );
     if framebuffer.format != Format::Rgba32Float {
-        let _ = writeln!(text, "format = {}", quoted(name_of(FORMATS, framebuffer.format)));
+        let _ = writeln!(text, "format = {}", toml_string(name_of(FORMATS, framebuffer.format)));
     }
     let encode = framebuffer.encode;
     if encode.exposure != 0.0 {
         let _ = writeln!(text, "exposure = {:?}", encode.exposure);
     }
     if encode.tone != Tone::None {
-        let _ = writeln!(text, "tonemap = {}", quoted(name_of(Tone::NAMES, encode.tone)));
+        let _ = writeln!(text, "tonemap = {}", toml_string(name_of(Tone::NAMES, encode.tone)));
     }
     if encode.transfer != Transfer::Linear {
-        let _ = writeln!(text, "encode = {}", quoted(name_of(Transfer::NAMES, encode.transfer)));
+        let _ = writeln!(text, "encode = {}", toml_string(name_of(Transfer::NAMES, encode.transfer)));
     }
     if framebuffer.attachments != 1 {
         let _ = writeln!(text, "attachments = {}", framebuffer.attachments);
     }
     for (draw, files) in scene.draws.iter().zip(files) {
-        let _ = write!(text, "\n[[draw]]\nvertex = {}\n", quoted(&files.vertex));
+        let _ = write!(text, "\n[[draw]]\nvertex = {}\n", toml_string(&files.vertex));
         if let Some(geometry) = &files.geometry {
-            let _ = writeln!(text, "geometry = {}", quoted(geometry));
+            let _ = writeln!(text, "geometry = {}", toml_string(geometry));
         }
-        let _ = writeln!(text, "fragment = {}", quoted(&files.fragment));
+        let _ = writeln!(text, "fragment = {}", toml_string(&files.fragment));
         state(&mut text, &draw.state);
         switches(&mut text, draw);
         counts(&mut text, draw);
         if !draw.dynamic.is_empty() {
-            let names: Vec<String> = draw.dynamic.iter().map(|name| quoted(name)).collect();
+            let names: Vec<String> = draw.dynamic.iter().map(|name| toml_string(name)).collect();
             let _ = writeln!(text, "dynamic = [{}]", names.join(", "));
         }
         attributes(&mut text, draw);
@@ -82,23 +83,6 @@ pub fn write(scene: &Scene, files: &[ShaderFiles]) -> String {
 
 fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: T) -> &'static str {
     names.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| name)
-}
-
-/// A string of TOML, which takes JSON's escapes.
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for character in text.chars() {
-        match character {
-            '"' => out.push_str("\\\""),
-            '\\' => out.push_str("\\\\"),
-            control if control.is_control() => {
-                let _ = write!(out, "\\u{:04x}", u32::from(control));
-            }
-            other => out.push(other),
-        }
-    }
-    out.push('"');
-    out
 }
 
 fn double(value: f64) -> String {
@@ -132,7 +116,7 @@ fn scalar(value: ScalarValue) -> String {
 }
 
 fn state(text: &mut String, state: &State) {
-    let _ = writeln!(text, "primitive = {}", quoted(name_of(PRIMITIVES, state.primitive)));
+    let _ = writeln!(text, "primitive = {}", toml_string(name_of(PRIMITIVES, state.primitive)));
     let mut flag = |key: &str, value: bool, default: bool| {
         if value != default {
             let _ = writeln!(text, "{key} = {value}");
@@ -143,7 +127,7 @@ fn state(text: &mut String, state: &State) {
     flag("program_point_size", state.program_point_size, false);
     let mut name = |key: &str, differs: bool, value: &str| {
         if differs {
-            let _ = writeln!(text, "{key} = {}", quoted(value));
+            let _ = writeln!(text, "{key} = {}", toml_string(value));
         }
     };
     name("cull", state.cull != Cull::None, name_of(CULLS, state.cull));
@@ -153,11 +137,11 @@ fn state(text: &mut String, state: &State) {
     if let Some((source, destination)) = state.blend {
         let named = BLENDS.iter().find(|(_, factors)| *factors == state.blend);
         let value = match named {
-            Some((name, _)) => quoted(name),
+            Some((name, _)) => toml_string(name),
             None => format!(
                 "[{}, {}]",
-                quoted(name_of(BlendFactor::NAMES, source)),
-                quoted(name_of(BlendFactor::NAMES, destination))
+                toml_string(name_of(BlendFactor::NAMES, source)),
+                toml_string(name_of(BlendFactor::NAMES, destination))
             ),
         };
         let _ = writeln!(text, "blend = {value}");
@@ -240,7 +224,7 @@ fn uniforms(text: &mut String, draw: &Draw) {
         let values: Vec<String> = values.iter().map(|value| scalar(*value)).collect();
         let value =
             if len == 1 && leaf.array_size.is_none() { values.concat() } else { format!("[{}]", values.join(", ")) };
-        let _ = writeln!(text, "{} = {value}", quoted(&leaf.name));
+        let _ = writeln!(text, "{} = {value}", toml_string(&leaf.name));
     }
 }
 
@@ -257,7 +241,7 @@ fn textures(text: &mut String, draw: &Draw) {
         let _ = writeln!(
             text,
             "{} = {{ {}values = [{}] }}",
-            quoted(name),
+            toml_string(name),
             texture_keys(texture, level),
             texels(texture, level)
         );
@@ -267,7 +251,7 @@ fn textures(text: &mut String, draw: &Draw) {
 fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
     let kind = texture.kind;
     let mut keys = String::new();
-    let _ = write!(keys, "kind = {}, ", quoted(name_of(TEXTURE_KINDS, (kind.dim, kind.arrayed, kind.shadow))));
+    let _ = write!(keys, "kind = {}, ", toml_string(name_of(TEXTURE_KINDS, (kind.dim, kind.arrayed, kind.shadow))));
     let _ = write!(keys, "width = {}, ", level.width);
     if !matches!(kind.dim, SamplerDim::D1 | SamplerDim::Buffer) {
         let _ = write!(keys, "height = {}, ", level.height);
@@ -279,14 +263,14 @@ fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
         let _ = write!(keys, "layers = {}, ", if kind.dim == SamplerDim::Cube { level.depth / 6 } else { level.depth });
     }
     if texture.filter != Filter::Nearest {
-        let _ = write!(keys, "filter = {}, ", quoted(name_of(FILTERS, texture.filter)));
+        let _ = write!(keys, "filter = {}, ", toml_string(name_of(FILTERS, texture.filter)));
     }
     let default = if kind.dim == SamplerDim::Rect { Wrap::ClampToEdge } else { Wrap::Repeat };
     if texture.wrap != default {
-        let _ = write!(keys, "wrap = {}, ", quoted(name_of(Wrap::NAMES, texture.wrap)));
+        let _ = write!(keys, "wrap = {}, ", toml_string(name_of(Wrap::NAMES, texture.wrap)));
     }
     if kind.shadow {
-        let _ = write!(keys, "compare = {}, ", quoted(name_of(Compare::NAMES, texture.compare)));
+        let _ = write!(keys, "compare = {}, ", toml_string(name_of(Compare::NAMES, texture.compare)));
     }
     let sampling = texture.sampling;
     if sampling.lod_bias != 0.0 {
@@ -294,7 +278,7 @@ fn texture_keys(texture: &Texture, level: &TextureLevel) -> String {
     }
     if sampling.has_two_filters(texture.filter) {
         let name = if sampling.magnifies_linearly(texture.filter) { "linear" } else { "nearest" };
-        let _ = write!(keys, "magnify = {}, ", quoted(name));
+        let _ = write!(keys, "magnify = {}, ", toml_string(name));
     }
     if sampling.fixed_point_depth {
         keys.push_str("fixed_point = true, ");

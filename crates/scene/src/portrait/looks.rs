@@ -3,10 +3,10 @@
 //! *In:* a [`Model`]. *Out:* one [`Shown`] for each material that triangles have; one for all if they look alike. *Holds:* a picture that
 //! cannot be read is left out, with a remark.
 
-use super::quoted;
 use crate::files::{FileSource, relative_to};
 use crate::geometry::{Look, Model, TextureSource, gltf_image, parse_mtl};
 use crate::picture::ImageFormat;
+use crate::toml_string::toml_string;
 
 /// A draw of a portrait.
 pub(super) struct Shown {
@@ -33,7 +33,7 @@ pub(super) fn shown(
             let look = libraries.iter().find(|look| look.name == own.name).unwrap_or(own).clone();
             let texture = look.texture.as_ref().and_then(|source| texture(source, path, name, files, remarks));
             let is_unique = model.looks.iter().filter(|look| look.name == own.name).count() == 1;
-            let material = if is_unique { quoted(&own.name) } else { number.to_string() };
+            let material = if is_unique { toml_string(&own.name) } else { number.to_string() };
             Some(Shown { look, material: Some(material), texture })
         })
         .collect();

@@ -9,6 +9,7 @@ mod surfaces;
 
 use crate::files::{FileError, FileSource};
 use crate::geometry::{Framing, Model, Normals, is_gltf};
+use crate::toml_string::toml_string;
 use looks::Shown;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -87,7 +88,7 @@ fn draw(text: &mut String, name: &str, shown: &Shown) {
     let _ = write!(
         text,
         "\n[[draw]]\nprogram = \"standard\"\ndepth_test = true\nmesh = {{ file = {}{material} }}\n\n[draw.material]\n",
-        quoted(name)
+        toml_string(name)
     );
     let look = &shown.look;
     let _ = match look.metal {
@@ -111,7 +112,7 @@ fn draw(text: &mut String, name: &str, shown: &Shown) {
         let _ = writeln!(
             text,
             "decal = {{ file = {}{image}, decode = \"srgb\", filter = \"trilinear\", mipmaps = true }}",
-            quoted(file)
+            toml_string(file)
         );
     }
 }
@@ -125,9 +126,4 @@ fn number(value: f64, size: f64) -> String {
 
 fn triple(values: [f64; 3], size: f64) -> String {
     format!("[{}]", values.map(|value| number(value, size)).join(", "))
-}
-
-/// A string of TOML.
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
 }

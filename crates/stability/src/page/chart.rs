@@ -7,6 +7,7 @@
 use super::series::{Point, Series};
 use super::words::number;
 use glisten_page::axis::{Axis, power};
+use glisten_page::escape;
 use std::fmt::Write as _;
 
 /// The least error that the axis shows.
@@ -205,10 +206,6 @@ pub(super) fn title(point: &Point) -> String {
     };
     let inputs = if inputs.is_empty() { "as it is".to_owned() } else { inputs.join(", ") };
     format!("{inputs}: largest error {}{lost}", number(point.max_abs))
-}
-
-fn escape(text: &str) -> String {
-    glisten_page::escape(text).replace('"', "&quot;")
 }
 
 #[cfg(test)]

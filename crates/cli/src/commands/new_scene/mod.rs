@@ -31,7 +31,7 @@ use clap::Args;
 use forms::{Shape, forms, shape_of};
 use glisten_front::hir::{Global, Shader, Stage, Storage};
 use glisten_front::link::Program;
-use glisten_scene::{default_tessellation, shape_names};
+use glisten_scene::{default_tessellation, shape_names, toml_string};
 use glisten_sources::engines::{Member, STYLES};
 use glisten_sources::stages::extension;
 use glisten_sources::{members, stages};
@@ -40,7 +40,7 @@ use reads::Reads;
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
 use std::time::Instant;
-use text::{Head, quoted};
+use text::Head;
 use trial::{BUDGET, Chosen, Trials, choose};
 use values::alternatives;
 
@@ -180,7 +180,7 @@ pub(crate) fn draft(args: &NewSceneArgs) -> String {
     let mut text = "# A draft: the shaders have errors.\n[[draw]]\n".to_owned();
     for file in &args.files {
         let stage = stages::by_name(Path::new(file)).unwrap_or(Stage::Fragment);
-        let _ = writeln!(text, "{} = {}", stage.name(), quoted(&relative(file, folder)));
+        let _ = writeln!(text, "{} = {}", stage.name(), toml_string(&relative(file, folder)));
     }
     text + &source_lines(&args.sources, folder) + "vertex_count = 3\n"
 }
@@ -384,7 +384,7 @@ fn suits_pipeline(shader: &Shader) -> bool {
 fn source_lines(args: &SourceArgs, folder: Option<&Path>) -> String {
     let mut lines = String::new();
     let paths = |paths: &[PathBuf]| {
-        let names = paths.iter().map(|path| quoted(&relative(&path.to_string_lossy(), folder)));
+        let names = paths.iter().map(|path| toml_string(&relative(&path.to_string_lossy(), folder)));
         names.collect::<Vec<_>>().join(", ")
     };
     let style = args.include_style.and_then(|style| STYLES.iter().find(|row| row.style == style));
@@ -395,7 +395,7 @@ fn source_lines(args: &SourceArgs, folder: Option<&Path>) -> String {
     ];
     for (key, value) in texts {
         if let Some(value) = value {
-            let _ = writeln!(lines, "{key} = {}", quoted(value));
+            let _ = writeln!(lines, "{key} = {}", toml_string(value));
         }
     }
     for (key, list) in [("includes", &args.include_dirs), ("preludes", &args.preludes)] {
@@ -404,7 +404,7 @@ fn source_lines(args: &SourceArgs, folder: Option<&Path>) -> String {
         }
     }
     if !args.defines.is_empty() {
-        let defines = args.defines.iter().map(|(name, value)| format!("{name} = {}", quoted(value)));
+        let defines = args.defines.iter().map(|(name, value)| format!("{name} = {}", toml_string(value)));
         let _ = writeln!(lines, "defines = {{ {} }}", defines.collect::<Vec<_>>().join(", "));
     }
     lines

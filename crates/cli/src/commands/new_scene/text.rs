@@ -12,6 +12,7 @@ use super::values::{CORNERS, Range, corner, identity, text_of, uniform_text};
 use glisten_front::hir::{PrimitiveIn, Scalar, Stage, Type};
 use glisten_front::link::{SamplerSlot, UniformLeaf};
 use glisten_scene::roles::{AttributeRole, MatrixRole, is_plain_transform};
+use glisten_scene::toml_string;
 use std::fmt::Write;
 
 /// The parts of a scene that do not follow from what the program reads.
@@ -52,15 +53,10 @@ pub(super) fn scene(reads: &Reads<'_>, head: &Head, choice: &Choice) -> String {
     text
 }
 
-/// A string of TOML.
-pub(super) fn quoted(text: &str) -> String {
-    serde_json::to_string(text).unwrap_or_default()
-}
-
 /// A key of TOML: bare if it may be.
 fn key(name: &str) -> String {
     let is_bare = name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    if is_bare && !name.is_empty() { name.to_owned() } else { quoted(name) }
+    if is_bare && !name.is_empty() { name.to_owned() } else { toml_string(name) }
 }
 
 fn table(text: &mut String, header: &str, lines: &[String]) {
@@ -116,7 +112,7 @@ fn draw(text: &mut String, reads: &Reads<'_>, head: &Head, form: &Form) {
             Stage::Geometry => "geometry",
             Stage::Fragment => "fragment",
         };
-        let _ = writeln!(text, "{key} = {}", quoted(name));
+        let _ = writeln!(text, "{key} = {}", toml_string(name));
     }
     text.push_str(&head.sources);
     let _ = writeln!(text, "primitive = \"{}\"", primitive(reads, form));
@@ -167,13 +163,13 @@ fn primitive(reads: &Reads<'_>, form: &Form) -> &'static str {
 /// The keys of a mesh: its shape, and the attributes that take its data.
 fn mesh(reads: &Reads<'_>, shape: &Shape) -> String {
     let mut text = match shape {
-        Shape::Named(name, 1.0) => format!("shape = {}", quoted(name)),
-        Shape::Named(name, radius) => format!("shape = {}, radius = {radius:?}", quoted(name)),
-        Shape::File(name) => format!("file = {}", quoted(name)),
+        Shape::Named(name, 1.0) => format!("shape = {}", toml_string(name)),
+        Shape::Named(name, radius) => format!("shape = {}, radius = {radius:?}", toml_string(name)),
+        Shape::File(name) => format!("file = {}", toml_string(name)),
     };
     for input in &reads.inputs {
         if let Some(role) = input.role.filter(|role| MESH_ROLES.contains(role)) {
-            let _ = write!(text, ", {} = {}", role.name(), quoted(input.name));
+            let _ = write!(text, ", {} = {}", role.name(), toml_string(input.name));
         }
     }
     text
@@ -254,11 +250,12 @@ fn uniforms(reads: &Reads<'_>, choice: &Choice) -> (Vec<String>, Vec<String>) {
                 numbers.push(format!("{} = [{}]   # {ty}", key(&leaf.name), pixels(role, choice.side)));
             }
             Some(role) => {
-                let role = quoted(role.name());
+                let role = toml_string(role.name());
                 match leaf.array_size {
                     None => matrices.push(format!("{} = {role}", key(&leaf.name))),
                     Some(size) => {
-                        let line = |element: u32| format!("{} = {role}", quoted(&format!("{}[{element}]", leaf.name)));
+                        let line =
+                            |element: u32| format!("{} = {role}", toml_string(&format!("{}[{element}]", leaf.name)));
                         matrices.extend((0..size).map(line));
                     }
                 }

@@ -8,6 +8,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure};
 use crate::files;
 use glisten_front::diagnostic::Diagnostic;
+use glisten_page::made::shell_word;
 use glisten_stability::page::{PAGE, SceneOnPage, Series, page};
 use glisten_stability::sweep::Parameter;
 use std::path::Path;
@@ -60,11 +61,11 @@ fn series(done: &Done<'_>) -> Result<Option<Series>, Vec<Diagnostic>> {
 
 /// The command that examines one scene in the same way.
 fn command(args: &StabilityArgs, done: &Done<'_>) -> String {
-    let mut words = vec!["glisten".to_owned(), "stability".to_owned(), quoted(&done.result.scene)];
+    let mut words = vec!["glisten".to_owned(), "stability".to_owned(), shell_word(&done.result.scene)];
     for sweep in &args.sweeps {
         // All digits, and a power of ten rather than hundreds of zeros.
         let text = format!("{}={:?}..{:?}:{}", sweep.name, sweep.low, sweep.high, sweep.count);
-        words.extend(["--sweep".to_owned(), quoted(&text)]);
+        words.extend(["--sweep".to_owned(), shell_word(&text)]);
     }
     if let Some(bound) = args.bound {
         words.push(format!("--bound {bound:?}"));
@@ -78,31 +79,10 @@ fn command(args: &StabilityArgs, done: &Done<'_>) -> String {
         words.extend(set.then(|| word.to_owned()));
     }
     for (name, value) in &args.sources.defines {
-        words.extend(["-D".to_owned(), quoted(&format!("{name}={value}"))]);
+        words.extend(["-D".to_owned(), shell_word(&format!("{name}={value}"))]);
     }
     for folder in &args.sources.include_dirs {
-        words.extend(["-I".to_owned(), quoted(&folder.display().to_string())]);
+        words.extend(["-I".to_owned(), shell_word(&folder.display().to_string())]);
     }
     words.join(" ")
-}
-
-/// A word for a shell.
-fn quoted(word: &str) -> String {
-    let plain = |character: char| character.is_ascii_alphanumeric() || "_-./=:,+@%".contains(character);
-    if !word.is_empty() && word.chars().all(plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn words_survive_the_shell() {
-        assert_eq!(quoted("scenes/a.toml"), "scenes/a.toml");
-        assert_eq!(quoted("it's <b>"), "'it'\\''s <b>'");
-        assert_eq!(quoted(""), "''");
-    }
 }

@@ -7,6 +7,7 @@ use super::super::model::TextureSource;
 use super::maps::Map;
 use super::surface::{Covering, Surface};
 use crate::files::relative_to;
+use crate::toml_string::toml_string;
 use std::fmt::Write;
 
 /// Whether a surface shows what is behind it.
@@ -32,7 +33,7 @@ pub(crate) fn draw(text: &mut String, file: &str, look: usize, (surface, pass): 
         text,
         "\n[[draw]]\nprogram = \"standard\"\ndepth_test = true\ncull = \"{cull}\"\n\
          mesh = {{ file = {}, material = {look} }}",
-        quoted(file)
+        toml_string(file)
     );
     let blend = match pass {
         "through" => Some("multiply"),
@@ -108,7 +109,7 @@ fn write_map(text: &mut String, file: &str, key: &str, map: &Map) {
     };
     let filter = if map.is_nearest { "filter = \"nearest\"" } else { "filter = \"trilinear\", mipmaps = true" };
     let decode = if map.is_encoded { "srgb" } else { "linear" };
-    let (name, wrap) = (quoted(&name), map.wrap);
+    let (name, wrap) = (toml_string(&name), map.wrap);
     let transform = map.transform.map_or_else(String::new, |transform| {
         let (scale, rotate, translate) = (transform.scale, transform.rotate, transform.translate);
         let set = if transform.is_second { ", set = 1" } else { "" };
@@ -123,9 +124,4 @@ fn write_map(text: &mut String, file: &str, key: &str, map: &Map) {
 fn triple(values: [f64; 3]) -> String {
     let [x, y, z] = values.map(|value| value as f32 + 0.0);
     format!("[{x:?}, {y:?}, {z:?}]")
-}
-
-/// A string of TOML.
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
 }
