@@ -4,16 +4,16 @@ use super::{Fact, Facts, Range, What, at, exact, spread};
 use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, Type, TypeId, Types, UnaryOp};
 
 /// A conversion of each component.
-pub(crate) fn convert(facts: &[Fact], to: Scalar) -> Facts {
+pub(crate) fn convert(facts: &[Fact], from: Scalar, to: Scalar) -> Facts {
+    if from == to {
+        return facts.iter().copied().collect();
+    }
     facts.iter().map(|fact| convert_one(*fact, to)).collect()
 }
 
 fn convert_one(fact: Fact, to: Scalar) -> Fact {
     let what = match (fact.what, to) {
         (What::Value(value), _) => exact::convert(value, to).map_or(What::Any, What::Value),
-        (What::Float(range), Scalar::Float) => What::Float(range),
-        (What::Int(low, high), Scalar::Int) => What::Int(low, high),
-        (What::Uint(low, high), Scalar::Uint) => What::Uint(low, high),
         (What::Int(low, high), Scalar::Uint) if low >= 0 => What::Uint(low as u32, high as u32),
         (What::Uint(low, high), Scalar::Int) if high <= i32::MAX as u32 => What::Int(low as i32, high as i32),
         (What::Int(low, high), Scalar::Float) => What::Float(whole(f64::from(low), f64::from(high))),

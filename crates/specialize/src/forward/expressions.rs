@@ -41,9 +41,9 @@ impl Forward<'_> {
             }
             ExprKind::Convert(a) => {
                 let a = self.eval(a);
-                let to = self.types.scalar_of(ty).unwrap_or(Scalar::Float);
                 let operand = (a.facts.as_slice(), self.out.expr(a.id).ty);
-                let facts = self.improved(Operation::Convert, &[operand], ty, facts::convert(&a.facts, to));
+                let [from, to] = [operand.1, ty].map(|ty| self.types.scalar_of(ty).unwrap_or(Scalar::Float));
+                let facts = self.improved(Operation::Convert, &[operand], ty, facts::convert(&a.facts, from, to));
                 self.give(ExprKind::Convert(a.id), own, facts)
             }
             ExprKind::Construct(kind, arguments) => self.construct(kind, &arguments, own),

@@ -5,7 +5,6 @@
 
 use super::once;
 use super::uses::{Parts, Stored, Uses, stored};
-use crate::forward::Effects;
 use glisten_front::hir::{
     ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, Shader, Stmt, StmtKind, Storage,
     Type, TypeId, Types, UnaryOp, VarRef, may_act, same_value,
@@ -15,8 +14,7 @@ use rustc_hash::FxHashSet;
 /// Sweeps a stage once. `live` says for each global whether somebody reads it when the stage has ended, `uses` counts what is in it.
 pub(super) fn sweep(types: &Types, shader: &mut Shader, live: &[bool], uses: Uses) -> Swept {
     let functions = uses.functions.clone();
-    let effects = Effects::of(shader, functions.iter().copied());
-    let mut sweeper = Sweeper { types, shader, live, uses, effects, changed: false };
+    let mut sweeper = Sweeper { types, shader, live, uses, changed: false };
     let mut unwanted = Vec::new();
     for id in functions {
         sweeper.uses.function = id;
@@ -82,7 +80,6 @@ struct Sweeper<'a> {
     shader: &'a mut Shader,
     live: &'a [bool],
     uses: Uses,
-    effects: Effects,
     changed: bool,
 }
 
@@ -105,7 +102,8 @@ impl Sweeper<'_> {
                 let count = self.uses.get(VarRef::Local(local));
                 let initializer = match initializer {
                     Some(expr) if count.reads <= 0 && self.is_pure(expr) => {
-                        self.forget(expr, Some(Stored::whole(VarRef::Local(local))));
+                        let within = Some(Stored::whole(VarRef::Local(local)));
+                        self.uses.stored_value(self.types, self.shader, expr, -1, within);
                         None
                     }
                     initializer => initializer.map(|expr| self.partly(VarRef::Local(local), expr)),
@@ -193,9 +191,12 @@ impl Sweeper<'_> {
         if unread.is_empty() {
             return value;
         }
+        let acts = self.uses.acts(self.shader, value);
         for index in unread {
             let Some(slot) = list.get_mut(index) else { continue };
-            self.forget(*slot, Some(Stored::whole(variable)));
+            // Nothing in it acts, but another argument may.
+            let within = Some(Stored::whole(variable)).filter(|_| !acts);
+            self.forget(*slot, within);
             let (ty, span) = (self.shader.expr(*slot).ty, self.shader.expr(*slot).span);
             *slot = super::zero(self.types, self.shader, ty, span);
         }
@@ -370,7 +371,7 @@ impl Sweeper<'_> {
 
     /// Whether a call does nothing but give a value.
     fn is_idle_call(&self, callee: FunctionId, arguments: &[ExprId]) -> bool {
-        let effect = self.effects.function(callee);
+        let effect = self.uses.effects.function(callee);
         let writes = effect.writes.iter().any(|global| !self.is_unread(VarRef::Global(*global)));
         let function = self.shader.function(callee);
         let gives = arguments.iter().enumerate().any(|(index, argument)| {
@@ -458,7 +459,7 @@ impl Sweeper<'_> {
         if !idle {
             return false;
         }
-        let assigned = self.effects.assigned(self.shader, &body, &[]);
+        let assigned = self.uses.effects.assigned(self.shader, &body, &[]);
         // What it reads itself does not count.
         self.uses.body(self.types, self.shader, &body, -1);
         let unread = |variable| match variable {

@@ -1,11 +1,13 @@
 //! [`Uses`]: how often each variable, member and function of a stage is read and named.
 //!
 //! *In:* a stage. *Out:* counts, over what `main` reaches. *Holds:* a store does not read what it stores to, nor does
-//! `x = f(x)` read `x`: nobody else may want it. Of components, columns and elements with known numbers only `v.x = f(v.x)` is such a store.
+//! `x = f(x)` read `x`: nobody else may want it. It does if `f` acts, since what it does may depend on `x`. Of components, columns and
+//! elements with known numbers only `v.x = f(v.x)` is such a store.
 
+use crate::forward::Effects;
 use glisten_front::hir::{
-    BinaryOp, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, ScalarValue, Shader, Stmt, StmtKind,
-    StructId, Type, TypeId, Types, VarRef,
+    BinaryOp, ExprId, ExprKind, FunctionId, GlobalId, LocalId, ParamMode, ScalarValue, Shader, Stmt, StmtKind, Storage,
+    StructId, Type, TypeId, Types, VarRef, may_act,
 };
 use rustc_hash::FxHashMap;
 
@@ -60,7 +62,7 @@ pub(super) struct Given {
 }
 
 /// Counts of a stage.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Uses {
     locals: Vec<Vec<Count>>,
     globals: Vec<Count>,
@@ -78,6 +80,8 @@ pub(super) struct Uses {
     pub(super) functions: Vec<FunctionId>,
     /// Whether each function is one of them.
     reached: Vec<bool>,
+    /// What functions did when the counting began.
+    pub(super) effects: Effects,
 }
 
 impl Uses {
@@ -94,11 +98,16 @@ impl Uses {
             function: FunctionId::new(0),
             functions: Vec::new(),
             reached: vec![false; shader.functions.len()],
+            effects: Effects::of(shader, entries(shader)),
         };
         shader.main.into_iter().for_each(|main| uses.reach(main));
         for (id, global) in shader.globals() {
             if let Some(initializer) = global.initializer {
-                uses.value(types, shader, initializer, 1, Some(Stored::whole(VarRef::Global(id))));
+                uses.stored_value(types, shader, initializer, 1, Some(Stored::whole(VarRef::Global(id))));
+            }
+            if global.storage == Storage::Out {
+                // The next stage may read any member, also of a struct that is stored as a whole.
+                uses.all_members(types, global.ty, 1);
             }
         }
         // Counting a body finds the functions that it calls.
@@ -212,7 +221,7 @@ impl Uses {
     pub(super) fn statement(&mut self, types: &Types, shader: &Shader, kind: &StmtKind, by: i32) {
         if let StmtKind::Local(local, initializer) = kind {
             if let Some(initializer) = initializer {
-                self.value(types, shader, *initializer, by, Some(Stored::whole(VarRef::Local(*local))));
+                self.stored_value(types, shader, *initializer, by, Some(Stored::whole(VarRef::Local(*local))));
             }
             return;
         }
@@ -240,7 +249,7 @@ impl Uses {
         match &shader.expr(expr).kind {
             ExprKind::Assign(_, target, value) => {
                 self.target(types, shader, *target, by);
-                self.value(types, shader, *value, by, stored(types, shader, *target));
+                self.stored_value(types, shader, *value, by, stored(types, shader, *target));
             }
             ExprKind::IncDec(_, target) => self.target(types, shader, *target, by),
             ExprKind::Call(callee, arguments) => {
@@ -282,7 +291,35 @@ impl Uses {
         wanted
     }
 
-    /// Counts an expression whose value is wanted; `within` is what it is stored to.
+    /// Counts a value that is stored to `within`.
+    pub(super) fn stored_value(
+        &mut self,
+        types: &Types,
+        shader: &Shader,
+        value: ExprId,
+        by: i32,
+        within: Option<Stored>,
+    ) {
+        self.value(types, shader, value, by, within.filter(|_| !self.acts(shader, value)));
+    }
+
+    /// Whether evaluating an expression may do more than give a value.
+    pub(super) fn acts(&self, shader: &Shader, root: ExprId) -> bool {
+        let mut acts = false;
+        shader.visit_expr(root, &mut |expr| {
+            acts |= match &shader.expr(expr).kind {
+                ExprKind::Call(callee, _) => {
+                    let (effect, function) = (self.effects.function(*callee), shader.function(*callee));
+                    let gives = |index| matches!(function.param_mode(index), ParamMode::Out | ParamMode::Inout);
+                    effect.ends || !effect.writes.is_empty() || (0..function.param_count).any(gives)
+                }
+                kind => may_act(kind),
+            };
+        });
+        acts
+    }
+
+    /// Counts an expression whose value is wanted; `within` is what it is stored to, if it does nothing else.
     pub(super) fn value(&mut self, types: &Types, shader: &Shader, root: ExprId, by: i32, within: Option<Stored>) {
         let mut pending = vec![(root, within)];
         while let Some((id, within)) = pending.pop() {
@@ -408,6 +445,19 @@ impl Uses {
             _ => {}
         }
     }
+}
+
+/// The functions that the language calls: `main`, and those that initializers of globals name.
+fn entries(shader: &Shader) -> Vec<FunctionId> {
+    let mut entries: Vec<FunctionId> = shader.main.into_iter().collect();
+    for initializer in shader.globals.iter().filter_map(|global| global.initializer) {
+        shader.visit_expr(initializer, &mut |expr| {
+            if let ExprKind::Call(callee, _) = shader.expr(expr).kind {
+                entries.push(callee);
+            }
+        });
+    }
+    entries
 }
 
 /// The parts of a variable that an expression names by their numbers.
