@@ -1,7 +1,7 @@
 //! `compile -O`: what reaches no output is left out, and nothing else changes.
 
 use glisten::emit::{Conventions, Emitted, Reflection, Target, emit, left_out, optimize, reflect};
-use glisten::scene::Scene;
+use glisten::scene::{self, MemoryFiles, Scene};
 use glisten::{Compiler, Options, Program, Source, Stage};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -118,6 +118,72 @@ fn what_reaches_no_output_is_not_active() {
         for name in names(&reflect(&optimized, &Conventions::default()), false) {
             assert!(told.contains(&name), "nobody told of `{name}`: {told:?}\n{vertex}\n{fragment}");
         }
+    }
+}
+
+/// Checks that a program is the same picture, bit for bit, when it is optimized, and when nothing of it is known to a specialization.
+fn assert_drawn_alike(vertex: &str, fragment: &str) {
+    const SCENE: &str = "framebuffer = { width = 4, height = 4 }\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+        [draw.attributes]\np = { size = 3, values = [-1, -1, 0.5, 3, -1, -0.5, -1, 3, 0.25] }\n";
+    let [vertex, fragment] = [vertex, fragment].map(|text| format!("#version 150\n{text}"));
+    let files = MemoryFiles::new([("s.toml", SCENE), ("a.vert", &vertex), ("a.frag", &fragment)]);
+    let loaded = scene::load("s.toml", &files, &Compiler::new(Options::default()));
+    let messages: Vec<_> = loaded.diagnostics.iter().map(|found| found.message.clone()).collect();
+    let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{vertex}\n{fragment}"));
+    let drawn = crate::specialize::bits(&scene);
+    assert!(
+        drawn.is_ok() && drawn == crate::specialize::bits(&optimized_scene(&scene)),
+        "optimized:\n{vertex}\n{fragment}"
+    );
+    let left = glisten::specialize::specialize_scene(&scene, &loaded.sources, &[]).scene;
+    assert!(drawn == crate::specialize::bits(&left), "specialized:\n{vertex}\n{fragment}");
+}
+
+/// What a function does may depend on the variable that takes its value, and the next stage reads any member of a struct.
+#[test]
+fn what_acts_keeps_its_operands() {
+    const STEP: &str = "vec4 sum = vec4(0.0);\nfloat next(float t) { sum += vec4(t * 0.1); return t * 0.5 + 0.1; }\n";
+    let cases = [
+        (STEP, "float t = v.x; for (int i = 0; i < 3; ++i) t = next(t); color = sum;"),
+        (STEP, "vec2 t = v.xy; for (int i = 0; i < 3; ++i) t.x = next(t.x); color = sum;"),
+        (STEP, "float t[2]; t[0] = v.x; for (int i = 0; i < 3; ++i) t[0] = next(t[0]); color = sum;"),
+        (STEP, "float t = v.x; t = v.y; t = t > 0.5 ? next(1.0) : 0.0; color = sum;"),
+        (STEP, "float t = v.x; t = v.y; bool b = t > 0.5; b = b && next(t) > 0.0; color = sum;"),
+        (STEP, "float t = v.x; t *= 2.0; t += next(t); color = sum;"),
+        (STEP, "float t = v.x, s; for (int i = 0; i < 3; ++i) t = (s = t * 0.5); color = vec4(s);"),
+        (STEP, "float t = v.x, s; for (int i = 0; i < 3; ++i) t = modf(t * 3.5, s); color = vec4(s);"),
+        (STEP, "float t = v.x; int n = 0; for (int i = 0; i < 3; ++i) t = t * float(n++); color = vec4(n);"),
+        ("float f(float t) { if (t > 0.5) discard; return t; }\n", "float t = v.x; t = v.y; t = f(t); color = v;"),
+        ("void f(out float o, float t) { o = t; }\n", "float t = v.x, s; t = v.y; f(s, t); color = vec4(s);"),
+        (
+            "struct S { float a; vec2 b; };\nvec4 sum = vec4(0.0);\nS next(S s) { sum += s.b.xyxy; s.b *= s.a; return s; }\n",
+            "S s = S(0.5, v.xy); s = next(s); s = next(s); color = sum;",
+        ),
+        (
+            "float s = 0.5;\nfloat o = 0.0;\nfloat f(float t) { o = t; return t; }\n",
+            "s = v.x; s = f(s); color = vec4(o);",
+        ),
+    ];
+    for (declarations, statements) in cases {
+        let text = format!("in vec4 v;\nout vec4 color;\n{declarations}void main() {{ {statements} }}\n");
+        assert_drawn_alike(
+            "in vec3 p;\nout vec4 v;\nvoid main() { gl_Position = vec4(p, 1.0); v = vec4(p * 0.5 + 0.5, 0.7); }\n",
+            &text,
+        );
+    }
+    let passed = |statements: &str| {
+        format!(
+            "in vec3 p;\nstruct S {{ vec2 a; vec2 b; }};\nout S v;\nvoid main() {{ gl_Position = vec4(p, 1.0); {statements} }}\n"
+        )
+    };
+    for statements in [
+        "S s; s.a = p.xy; s.b = p.yx; v = s;",
+        "S s = S(p.yy, p.xx); s.b *= 0.5; v = s;",
+        "S s[2]; s[1].a = p.xy; s[1].b = p.yx; v = s[1];",
+    ] {
+        let fragment =
+            "struct S { vec2 a; vec2 b; };\nin S v;\nout vec4 color;\nvoid main() { color = vec4(v.b, v.a); }\n";
+        assert_drawn_alike(&passed(statements), fragment);
     }
 }
 

@@ -127,6 +127,20 @@ impl Writer<'_> {
         Some(Stmt::new(&format!("{text};"), arguments, Vec::new()))
     }
 
+    /// A call of a function of the program that takes a place and gives a value of its type.
+    pub(super) fn call_on(&mut self, place: &Expr) -> Option<Expr> {
+        let takes =
+            |(mode, ty): &(ParamMode, Ty)| matches!(mode, ParamMode::In | ParamMode::ConstIn) && *ty == place.ty;
+        let gives = |one: &Callable| one.result.as_ref() == Some(&place.ty) && (self.is_uniform || !one.is_uniform);
+        let fitting: Vec<Callable> =
+            self.functions.iter().filter(|one| gives(one) && one.parameters.iter().any(takes)).cloned().collect();
+        let chosen = self.chance.one(&fitting)?.clone();
+        let (text, mut arguments) = self.call_to(&chosen, 2)?;
+        let index = chosen.parameters.iter().position(takes)?;
+        *arguments.get_mut(index)? = place.clone();
+        Some(Expr::new(place.ty.clone(), &text, arguments))
+    }
+
     fn call_of(&mut self, result: Option<&Ty>, depth: usize) -> Option<(String, Vec<Expr>)> {
         let is_fitting = |one: &&Callable| one.result.as_ref() == result && (self.is_uniform || !one.is_uniform);
         let fitting: Vec<Callable> = self.functions.iter().filter(is_fitting).cloned().collect();

@@ -33,13 +33,11 @@ impl Writer<'_> {
         if self.chance.once_in(2) { (left, right) } else { (right, left) }
     }
 
-    /// A constructor of a vector or a scalar from another scalar type.
+    /// A constructor of a vector or a scalar from one of any scalar type, its own among them.
     pub(super) fn conversion(&mut self, ty: &Ty, scalar: Scalar, size: u8, depth: usize) -> Expr {
         self.note("conversion");
-        let from: Vec<Scalar> = Scalar::ALL
-            .into_iter()
-            .filter(|one| *one != scalar && self.language.basics.contains(&Ty::Vector(*one, size)))
-            .collect();
+        let from: Vec<Scalar> =
+            Scalar::ALL.into_iter().filter(|one| self.language.basics.contains(&Ty::Vector(*one, size))).collect();
         let other = self.chance.one(&from).copied().unwrap_or(Scalar::Bool);
         let inner = self.expr(&Ty::Vector(other, size), depth);
         let pattern = match (scalar, other) {

@@ -136,6 +136,19 @@ impl Writer<'_> {
         }
     }
 
+    /// Gives a varying the value of a local whose members are stored to one after the other.
+    fn by_members(&mut self, varying: &str, number: usize, body: &mut Vec<Stmt>) {
+        self.note("struct as a varying, by its members");
+        let (ty, local) = (Ty::Struct(number), self.name("v"));
+        body.push(Stmt::text_only(format!("{};", ty.declared(&local))).with(Role::Output));
+        for (member, ty) in self.structs.get(number).cloned().unwrap_or_default() {
+            self.expressions_left = 6;
+            let value = self.expr(&ty, 2);
+            body.push(Stmt::new(&format!("{local}.{member} = @;"), vec![value], Vec::new()).with(Role::Output));
+        }
+        body.push(Stmt::text_only(format!("{varying} = {local};")).with(Role::Output));
+    }
+
     fn main(&mut self, interface: &Interface) -> Stmt {
         self.scopes.push(Vec::new());
         let mut body = Vec::new();
@@ -185,6 +198,10 @@ impl Writer<'_> {
                     continue;
                 }
                 for (member, ty) in parts {
+                    if let (Ty::Struct(number), true) = (ty, self.chance.once_in(2)) {
+                        self.by_members(name, *number, &mut body);
+                        continue;
+                    }
                     let place = if member.is_empty() { name.clone() } else { format!("{name}.{member}") };
                     self.expressions_left = 6;
                     let value = self.expr(ty, 2);

@@ -124,6 +124,12 @@ impl Writer<'_> {
             return Stmt::new(&format!("@ {operator}= @;"), vec![place, value], Vec::new());
         }
         self.note("assignment");
+        if self.chance.once_in(6)
+            && let Some(value) = self.call_on(&place)
+        {
+            self.note("assignment of a call on itself");
+            return Stmt::new("@ = @;", vec![place, value], Vec::new()).with(Role::Assignment(locals));
+        }
         if is_number && self.chance.once_in(4) {
             self.note("assignment of an operation on itself");
             let other = self.expr(&ty, 2);

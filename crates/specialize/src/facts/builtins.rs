@@ -172,6 +172,9 @@ fn float_one(function: F, x: Fact) -> What {
         return What::Value(ScalarValue::Float(value));
     }
     let range = x.range();
+    if let Some(value) = decided(function, range) {
+        return What::Value(ScalarValue::Float(value));
+    }
     What::Float(match function {
         F::Abs => range.abs(),
         F::Sign => Range { nan: range.nan, ..Range::between(-1.0, 1.0) },
@@ -184,6 +187,21 @@ fn float_one(function: F, x: Fact) -> What {
         }
         _ => Range::ANY,
     })
+}
+
+/// The one value that a function has over a range, where it is not 0: a 0 may have either sign.
+fn decided(function: F, range: Range) -> Option<f32> {
+    let (low, high) = match function {
+        F::Sign => (range.low.signum(), range.high.signum()),
+        F::Floor => (range.low.floor(), range.high.floor()),
+        F::Ceil => (range.low.ceil(), range.high.ceil()),
+        F::Trunc => (range.low.trunc(), range.high.trunc()),
+        _ => return None,
+    };
+    let has_zero = range.low <= 0.0 && range.high >= 0.0;
+    let value = low as f32;
+    let is_one = low == high && low != 0.0 && f64::from(value) == low && exact::is_plain(value);
+    (is_one && !range.nan && !has_zero).then_some(value)
 }
 
 fn extremum(least: bool, scalar: Scalar, x: Fact, y: Fact) -> Fact {

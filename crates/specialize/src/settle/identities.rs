@@ -35,6 +35,13 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
         ExprKind::BuiltinCall(F::Clamp, _) => {
             gives(0, 1, &is_above).filter(|_| pure(2) && holds(facts(0), facts(2), &is_below))
         }
+        ExprKind::BuiltinCall(F::Abs, _) => {
+            (typed(0) && holds(facts(0), facts(0), &|x, _| is_not_negative(x))).then_some(0)
+        }
+        ExprKind::BuiltinCall(F::Fract, _) => {
+            (typed(0) && holds(facts(0), facts(0), &|x, _| is_not_negative(x) && x.range().high < 1.0)).then_some(0)
+        }
+        ExprKind::BuiltinCall(F::Mod, _) => gives(0, 1, &is_remainder),
         ExprKind::BuiltinCall(F::Mix, _) => mixed(walked.fast, &facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
         _ => None,
     }
@@ -159,18 +166,42 @@ fn is_zero(_: Fact, c: Fact) -> bool {
     is(c, 0.0) || is(c, -0.0)
 }
 
-/// `x + c`
-fn adds_nothing(x: Fact, c: Fact) -> bool {
-    let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
-    integers
-        || is(c, -0.0)
-        || (matches!(c.what, What::Value(ScalarValue::Float(_))) && is(c, 0.0) && !x.range().negative_zero)
+/// Whether it is 0, of a sign that may be open.
+fn is_any_zero(fact: Fact) -> bool {
+    let range = fact.range();
+    let floats = matches!(fact.what, What::Value(ScalarValue::Float(_)) | What::Float(_));
+    floats && !range.nan && (range.low, range.high) == (0.0, 0.0)
 }
 
-/// `x - c`
-fn takes_nothing(_: Fact, c: Fact) -> bool {
-    matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)))
-        || matches!(c.what, What::Value(ScalarValue::Float(value)) if value.to_bits() == 0)
+/// `x + c`: `-0 + 0` is 0.
+fn adds_nothing(x: Fact, c: Fact) -> bool {
+    let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
+    integers || is(c, -0.0) || (is_any_zero(c) && !x.range().negative_zero)
+}
+
+/// `x - c`: `-0 - -0` is 0.
+fn takes_nothing(x: Fact, c: Fact) -> bool {
+    let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
+    let is_plain = is_any_zero(c) && !c.range().negative_zero;
+    integers || is_plain || (is_any_zero(c) && !x.range().negative_zero)
+}
+
+/// Whether it is neither below 0, nor -0, nor NaN.
+fn is_not_negative(x: Fact) -> bool {
+    match x.what {
+        What::Value(ScalarValue::Float(_)) | What::Float(_) => {
+            let range = x.range();
+            !range.nan && !range.negative_zero && range.low >= 0.0
+        }
+        What::Value(ScalarValue::Int(low)) | What::Int(low, _) => low >= 0,
+        _ => false,
+    }
+}
+
+/// `mod(x, y)` of an `x` between 0 and `y`: the whole number of `x / y`, however it is rounded, is 0.
+fn is_remainder(x: Fact, y: Fact) -> bool {
+    let (range, whole) = (x.range(), y.range());
+    is_not_negative(x) && is_not_negative(y) && range.high < whole.low * (1.0 - 1e-5)
 }
 
 /// `max(x, c)`

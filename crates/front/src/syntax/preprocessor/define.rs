@@ -7,7 +7,7 @@ use super::{
 };
 use crate::diagnostic::codes::qualifiers::NEEDS_EXTENSION;
 use crate::diagnostic::{Applicability, Diagnostic, Fix};
-use crate::language::Since;
+use crate::language::{Feature, Since};
 use crate::source::SourceMap;
 use crate::syntax::directives::MacroDefinition;
 use std::sync::Arc;
@@ -276,6 +276,7 @@ impl Preprocessor<'_> {
             let message = format!("`##` is not in {}", version.name());
             let diagnostic =
                 Diagnostic::new(&NEEDS_EXTENSION, span, message).here("not in this version of the language");
+            let diagnostic = Diagnostic { lacking: Some(Feature::TokenPasting), ..diagnostic };
             session.report(diagnostic.help("write the joined tokens; GLSL ES has no operator that joins them"));
         } else if !version.reaches(Since::of(130)) {
             kind::EARLY_PASTE.report(session, self.strict, span, format!("`##` is not in {}", version.name()));
