@@ -7,7 +7,7 @@ use super::{
 };
 use crate::diagnostic::codes::qualifiers::NEEDS_EXTENSION;
 use crate::diagnostic::{Applicability, Diagnostic, Fix};
-use crate::language::{Feature, Since};
+use crate::language::Since;
 use crate::source::SourceMap;
 use crate::syntax::directives::MacroDefinition;
 use std::sync::Arc;
