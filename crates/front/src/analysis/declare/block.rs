@@ -25,6 +25,8 @@ struct BlockContext {
     word_span: Span,
     matrix: MatrixLayout,
     layout: BlockLayout,
+    /// Whether all of the block's layout is known. Otherwise another layout than this one may be meant.
+    is_known: bool,
     /// `align` before the block, which holds for each member.
     align: Option<u32>,
 }
@@ -69,6 +71,7 @@ impl Analyzer<'_> {
             word_span,
             matrix,
             layout: layout.block.unwrap_or(self.layouts.block_defaults.layout),
+            is_known: layout.is_known,
             align: None,
         };
         if let Some((value, span)) = layout.align
@@ -249,7 +252,7 @@ impl Analyzer<'_> {
     /// Whether a block may have offsets and alignments: those of the other layouts are the implementation's.
     fn is_std140(&mut self, context: &BlockContext, what: &str, span: Span) -> bool {
         let is_std140 = context.layout == BlockLayout::Std140;
-        if !is_std140 {
+        if !is_std140 && context.is_known {
             self.report(
                 Diagnostic::new(
                     &qualifiers::LAYOUT_PLACE,
