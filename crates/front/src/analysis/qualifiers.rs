@@ -249,10 +249,7 @@ impl Analyzer<'_> {
             QualifierKind::Centroid => self.sampling(record, Sampling::Centroid, span),
             QualifierKind::Sample => self.sampling(record, Sampling::Sample, span),
             QualifierKind::Invariant => self.once(&mut record.invariant, span, span, "`invariant`"),
-            QualifierKind::Precise => {
-                self.shader.precise = true;
-                self.once(&mut record.precise, span, span, "`precise`");
-            }
+            QualifierKind::Precise => self.once(&mut record.precise, span, span, "`precise`"),
             QualifierKind::Highp => self.precision_word(record, Precision::High, span),
             QualifierKind::Mediump => self.precision_word(record, Precision::Medium, span),
             QualifierKind::Lowp => self.precision_word(record, Precision::Low, span),
@@ -323,7 +320,14 @@ impl Analyzer<'_> {
         }
     }
 
-    fn repeated(&mut self, code: &'static Code, first: Span, second: Span, what: &str) {
+    /// Notes a declaration that has the word `precise` among its qualifiers.
+    pub(super) fn note_precise(&mut self, list: &[Qualifier], name: Ident) {
+        if list.iter().any(|one| one.kind == QualifierKind::Precise) {
+            self.shader.precise.add(self.ast.name(name), name.span);
+        }
+    }
+
+    pub(super) fn repeated(&mut self, code: &'static Code, first: Span, second: Span, what: &str) {
         self.report(
             Diagnostic::new(code, second, format!("{what} occurs twice in one declaration"))
                 .here("one too many")

@@ -80,6 +80,7 @@ impl Analyzer<'_> {
         {
             context.align = Some(value);
         }
+        self.note_precise(&block.qualifiers, block.instance.as_ref().map_or(block.name, |(instance, _)| *instance));
         let members = self.block_members(block, &context);
         self.check_member_locations(block, &members, layout.location.is_some());
         if members.is_empty() {
@@ -147,6 +148,7 @@ impl Analyzer<'_> {
             let base = self.block_member_base(row);
             self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
+                self.note_precise(&row.qualifiers, declarator.name);
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
                 let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);

@@ -43,6 +43,7 @@ impl Analyzer<'_> {
         }
         for declarator in &declaration.declarators {
             let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());
+            self.note_precise(&declaration.qualifiers, declarator.name);
             if self.name(declarator.name).starts_with("gl_") && self.redeclare_builtin(declarator, ty, &record) {
                 continue;
             }

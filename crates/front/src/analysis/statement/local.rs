@@ -48,6 +48,7 @@ impl Analyzer<'_> {
     ) -> Declared {
         let name = declarator.name;
         let good_name = self.check_name(name);
+        self.note_precise(&declaration.qualifiers, name);
         let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());
         let ty = self.check_local_type(ty, record, declaration, declarator);
         let ty = if self.check_local_size(ty, name.span) { ty } else { TypeId::ERROR };
