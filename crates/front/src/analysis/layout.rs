@@ -256,6 +256,11 @@ impl Analyzer<'_> {
             if let Some(row) = row {
                 let value = if row.value { self.layout_value(id) } else { Some((0, id.name.span)) };
                 if let Some((value, span)) = value {
+                    if let (Effect::Location, Some((_, first))) = (row.effect, layout.location)
+                        && self.ast.version.has(Feature::OneLocation)
+                    {
+                        self.repeated(&qualifiers::REPEATED, first, span, "`location`");
+                    }
                     layout.apply(row.effect, subject, value, span);
                 }
             }

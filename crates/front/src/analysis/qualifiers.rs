@@ -6,7 +6,7 @@ use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::hir::{Interpolation, Sampling};
 use crate::language::{Extensions, Feature, Precision};
 use crate::source::Span;
-use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
+use crate::syntax::ast::{Ident, LayoutId, Qualifier, QualifierKind};
 
 /// The storage and parameter qualifiers; a declaration has at most one of them besides `const`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -179,7 +179,21 @@ impl Analyzer<'_> {
             }
             self.record(&mut record, qualifier);
         }
+        self.check_invariant_layout(&record, context);
         record
+    }
+
+    /// In GLSL ES 3.00, a `layout` stands before a storage qualifier alone (§4.7; §9, type_qualifier).
+    fn check_invariant_layout(&mut self, record: &Qualifiers, context: DeclarationContext) {
+        let (Some(span), Some(layout), Global) = (record.invariant, record.layout_span, context) else { return };
+        if self.ast.version.has(Feature::NoInvariantLayout) {
+            self.report(
+                Diagnostic::new(&qualifiers::MISPLACED, span, "`invariant` is not allowed in a declaration with a layout")
+                    .here("not allowed here")
+                    .label(layout, "the layout")
+                    .help("make the variable invariant by a line of its own: `invariant name;`"),
+            );
+        }
     }
 
     fn check_context(&mut self, qualifier: &Qualifier, row: &ClassRow, context: DeclarationContext) -> bool {
