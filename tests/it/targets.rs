@@ -350,7 +350,13 @@ fn precise_is_kept_where_glsl_has_it() {
          void main() { precise float t = p.x * p.y + f(p.z); float u = t; v = p * u; gl_Position = v; }",
         "in vec4 v; out vec4 c; void main() { c = v; }",
     );
-    let words = ["precise out vec4 v;", "precise gl_Position;", "precise float f(float x)", "precise float t = ", "float u = t"];
+    let words = [
+        "precise out vec4 v;",
+        "precise gl_Position;",
+        "precise float f(float x)",
+        "precise float t = ",
+        "float u = t",
+    ];
     for (version, extended) in [(GlslVersion::Desktop330, true), (GlslVersion::Desktop450, false)] {
         let text = glsl(&program, Stage::Vertex, version);
         assert!(words.iter().all(|word| text.contains(word)) && !text.contains("precise float u"), "{text}");

@@ -188,10 +188,14 @@ impl Analyzer<'_> {
         let (Some(span), Some(layout), Global) = (record.invariant, record.layout_span, context) else { return };
         if self.ast.version.has(Feature::NoInvariantLayout) {
             self.report(
-                Diagnostic::new(&qualifiers::MISPLACED, span, "`invariant` is not allowed in a declaration with a layout")
-                    .here("not allowed here")
-                    .label(layout, "the layout")
-                    .help("make the variable invariant by a line of its own: `invariant name;`"),
+                Diagnostic::new(
+                    &qualifiers::MISPLACED,
+                    span,
+                    "`invariant` is not allowed in a declaration with a layout",
+                )
+                .here("not allowed here")
+                .label(layout, "the layout")
+                .help("make the variable invariant by a line of its own: `invariant name;`"),
             );
         }
     }

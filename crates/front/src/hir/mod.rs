@@ -32,8 +32,8 @@ pub use effects::{is_pure, may_act, written_by};
 pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalOp, Swizzle, UnaryOp, VarRef};
 pub use handles::{FunctionId, GlobalId, LocalId};
 pub use members::MembersRead;
-pub use precise::Precise;
 pub use names::{all_names, fresh_name, global_names};
+pub use precise::Precise;
 pub use print::{Notes, print, print_with};
 pub use same::{same_form, same_value};
 pub use shader::{

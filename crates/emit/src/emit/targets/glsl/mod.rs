@@ -72,11 +72,7 @@ pub(in crate::emit) fn write(
 }
 
 /// A stage in terms of what a version has, under the names of the source.
-fn in_terms_of(
-    program: &Program,
-    shader: &Shader,
-    version: GlslVersion,
-) -> Result<(Types, Shader), Box<Diagnostic>> {
+fn in_terms_of(program: &Program, shader: &Shader, version: GlslVersion) -> Result<(Types, Shader), Box<Diagnostic>> {
     let mut types = program.types.clone();
     let mut shader = match version {
         GlslVersion::Desktop450 | GlslVersion::Vulkan => shader.clone(),
