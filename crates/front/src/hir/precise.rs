@@ -1,10 +1,10 @@
-//! What a shader declares `precise` (GLSL 4.00 §4.7): its values are computed as written, and alike in every stage.
+//! The declarations that a shader makes `precise` (GLSL 4.00 §4.7): their values are computed as written, and alike in every stage.
 
 use crate::source::Span;
 use std::collections::BTreeSet;
 
 /// The declarations that are `precise`. Those of the shader are known by the places of their names, which stay the same where a pass
-/// numbers variables anew; built-in variables by their names.
+/// numbers variables again; built-in variables by their names.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Precise {
     places: BTreeSet<Span>,

@@ -297,7 +297,7 @@ pub struct Shader {
     pub frag_coord: FragCoordLayout,
     /// The redeclared built-in outputs of a vertex or geometry shader.
     pub per_vertex_out: Option<PerVertexOut>,
-    /// What is declared `precise`.
+    /// The declarations that are `precise`.
     pub precise: Precise,
     /// The size that the shader gives `gl_TexCoord` by declaring it again (GLSL 1.20 §7.6).
     pub tex_coords: Option<u32>,

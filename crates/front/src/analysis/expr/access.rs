@@ -339,7 +339,7 @@ impl Analyzer<'_> {
         value
     }
 
-    /// What runs of an expression before `.length()`, the last first: its calls and the changes of variables in it. "The expression in
+    /// The parts of an expression before `.length()` that run, the last first: calls and changes of variables. "The expression in
     /// brackets will be evaluated .., but the array will not be dereferenced" (GLSL ES 3.10 §4.1.9).
     fn effects_before_length(&self, base: ExprId) -> Vec<ExprId> {
         let mut effects = Vec::new();
