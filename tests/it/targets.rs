@@ -322,6 +322,57 @@ fn structs_of_both_stages_have_one_name() {
 }
 
 #[test]
+fn a_global_gives_way_to_a_function_that_a_version_needs() {
+    let program = pair_of(
+        400,
+        "in vec4 p; out vec2 uv; void main() { uv = p.xy; gl_Position = p; }",
+        "in vec2 uv; uniform sampler2D maps[2]; uniform int chosen; uniform float clamp; uniform float dot; out vec4 c;\n\
+         void main() { c = texture(maps[chosen], uv) * clamp * dot; }",
+    );
+    let renamed = |glsl_version| {
+        let conventions = Conventions { glsl_version, ..Conventions::default() };
+        reflect(&program, &conventions).targets.glsl.renamed.into_keys().collect::<Vec<_>>()
+    };
+    // 4.50 has samplers that are chosen, so nothing is clamped there.
+    assert!(renamed(GlslVersion::Desktop450).is_empty());
+    assert_eq!(renamed(GlslVersion::Desktop330), ["clamp"]);
+    let text = glsl(&program, Stage::Fragment, GlslVersion::Desktop330);
+    assert!(text.contains("uniform float clamp_;") && text.contains("clamp(index, 0, 1)"), "{text}");
+    validate(&[("clamp".to_owned(), Stage::Fragment, text)], "glsl", &[], 1);
+}
+
+#[test]
+fn precise_is_kept_where_glsl_has_it() {
+    let program = pair_of(
+        400,
+        "in vec4 p; precise out vec4 v; precise gl_Position;\n\
+         precise float f(float x) { return x * x; }\n\
+         void main() { precise float t = p.x * p.y + f(p.z); float u = t; v = p * u; gl_Position = v; }",
+        "in vec4 v; out vec4 c; void main() { c = v; }",
+    );
+    let words = [
+        "precise out vec4 v;",
+        "precise gl_Position;",
+        "precise float f(float x)",
+        "precise float t = ",
+        "float u = t",
+    ];
+    for (version, extended) in [(GlslVersion::Desktop330, true), (GlslVersion::Desktop450, false)] {
+        let text = glsl(&program, Stage::Vertex, version);
+        assert!(words.iter().all(|word| text.contains(word)) && !text.contains("precise float u"), "{text}");
+        assert_eq!(text.contains("#extension GL_ARB_gpu_shader5 : require"), extended, "{text}");
+        assert!(!glsl(&program, Stage::Fragment, version).contains("GL_ARB_gpu_shader5"));
+        // glslang has no `precise` before 4.00, with the extension either.
+        if version == GlslVersion::Desktop450 {
+            validate(&[("precise".to_owned(), Stage::Vertex, text)], "glsl", &[], 1);
+        }
+    }
+    let vulkan = glsl(&program, Stage::Vertex, GlslVersion::Vulkan);
+    assert!(vulkan.contains("precise float t = ") && vulkan.contains("precise out vec4 v;"), "{vulkan}");
+    assert!(!glsl(&program, Stage::Vertex, GlslVersion::Es300).contains("precise "));
+}
+
+#[test]
 fn words_of_a_later_version_get_an_underscore_in_both_stages() {
     let program = pair(
         "in vec4 p; out vec4 sample; uniform float patch; uniform vec2 texture;\n\

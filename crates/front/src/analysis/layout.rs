@@ -241,17 +241,26 @@ pub(super) struct Layout {
     pub(super) invocations: Option<(u32, Span)>,
     /// `early_fragment_tests`
     pub(super) early_tests: Option<Span>,
+    /// Whether every identifier is one that the declaration may have. All others have been reported.
+    pub(super) is_known: bool,
 }
 
 impl Analyzer<'_> {
     /// Evaluates the layout identifiers of a declaration. Each must be known, enabled, and allowed for this
     /// declaration; later ones override earlier ones.
     pub(super) fn layout(&mut self, qualifiers: &Qualifiers, subject: LayoutSubject) -> Layout {
-        let mut layout = Layout::default();
+        let mut layout = Layout { is_known: true, ..Layout::default() };
         for id in &qualifiers.layout {
-            if let Some(row) = self.layout_row(id, subject) {
+            let row = self.layout_row(id, subject);
+            layout.is_known &= row.is_some();
+            if let Some(row) = row {
                 let value = if row.value { self.layout_value(id) } else { Some((0, id.name.span)) };
                 if let Some((value, span)) = value {
+                    if let (Effect::Location, Some((_, first))) = (row.effect, layout.location)
+                        && self.ast.version.has(Feature::OneLocation)
+                    {
+                        self.repeated(&qualifiers::REPEATED, first, span, "`location`");
+                    }
                     layout.apply(row.effect, subject, value, span);
                 }
             }

@@ -21,7 +21,7 @@ const MAX_UNIFORM_SCALARS: u32 = 1 << 18;
 impl Analyzer<'_> {
     /// Checks that a type is small enough.
     pub(super) fn check_size(&mut self, ty: TypeId, span: Span) -> bool {
-        self.check_scalars(self.types.flat_len(ty), MAX_SCALARS, span)
+        self.check_fits(self.types.flat_len(ty) <= MAX_SCALARS, MAX_SCALARS, span)
     }
 
     /// Checks that a global still fits together with those before it.
@@ -35,24 +35,23 @@ impl Analyzer<'_> {
             );
             return false;
         }
-        let scalars = self.budget.add_global(self.types.flat_len(ty));
-        self.check_scalars(scalars, limit, span)
+        let fits = self.budget.add_global(self.types.flat_len(ty), storage == Storage::Uniform, limit);
+        self.check_fits(fits, limit, span)
     }
 
     /// Checks that a local still fits together with those before it.
     pub(super) fn check_local_size(&mut self, ty: TypeId, span: Span) -> bool {
-        let scalars = self.budget.add_local(self.types.flat_len(ty));
-        self.check_scalars(scalars, MAX_SCALARS, span)
+        let fits = self.budget.add_local(self.types.flat_len(ty), MAX_SCALARS);
+        self.check_fits(fits, MAX_SCALARS, span)
     }
 
-    fn check_scalars(&mut self, scalars: u32, limit: u32, span: Span) -> bool {
-        if scalars <= limit {
-            return true;
+    fn check_fits(&mut self, fits: bool, limit: u32, span: Span) -> bool {
+        if !fits {
+            self.report(
+                Diagnostic::new(&types::TOO_LARGE, span, "this is too large for any target")
+                    .here(format!("makes it more than {limit} numbers")),
+            );
         }
-        self.report(
-            Diagnostic::new(&types::TOO_LARGE, span, "this is too large for any target")
-                .here(format!("makes it more than {limit} numbers")),
-        );
-        false
+        fits
     }
 }

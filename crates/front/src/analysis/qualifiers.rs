@@ -6,7 +6,7 @@ use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::hir::{Interpolation, Sampling};
 use crate::language::{Extensions, Feature, Precision};
 use crate::source::Span;
-use crate::syntax::ast::{LayoutId, Qualifier, QualifierKind};
+use crate::syntax::ast::{Ident, LayoutId, Qualifier, QualifierKind};
 
 /// The storage and parameter qualifiers; a declaration has at most one of them besides `const`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -179,7 +179,25 @@ impl Analyzer<'_> {
             }
             self.record(&mut record, qualifier);
         }
+        self.check_invariant_layout(&record, context);
         record
+    }
+
+    /// In GLSL ES 3.00, a `layout` stands before a storage qualifier alone (§4.7; §9, type_qualifier).
+    fn check_invariant_layout(&mut self, record: &Qualifiers, context: DeclarationContext) {
+        let (Some(span), Some(layout), Global) = (record.invariant, record.layout_span, context) else { return };
+        if self.ast.version.has(Feature::NoInvariantLayout) {
+            self.report(
+                Diagnostic::new(
+                    &qualifiers::MISPLACED,
+                    span,
+                    "`invariant` is not allowed in a declaration with a layout",
+                )
+                .here("not allowed here")
+                .label(layout, "the layout")
+                .help("make the variable invariant by a line of its own: `invariant name;`"),
+            );
+        }
     }
 
     fn check_context(&mut self, qualifier: &Qualifier, row: &ClassRow, context: DeclarationContext) -> bool {
@@ -249,10 +267,7 @@ impl Analyzer<'_> {
             QualifierKind::Centroid => self.sampling(record, Sampling::Centroid, span),
             QualifierKind::Sample => self.sampling(record, Sampling::Sample, span),
             QualifierKind::Invariant => self.once(&mut record.invariant, span, span, "`invariant`"),
-            QualifierKind::Precise => {
-                self.shader.precise = true;
-                self.once(&mut record.precise, span, span, "`precise`");
-            }
+            QualifierKind::Precise => self.once(&mut record.precise, span, span, "`precise`"),
             QualifierKind::Highp => self.precision_word(record, Precision::High, span),
             QualifierKind::Mediump => self.precision_word(record, Precision::Medium, span),
             QualifierKind::Lowp => self.precision_word(record, Precision::Low, span),
@@ -323,7 +338,14 @@ impl Analyzer<'_> {
         }
     }
 
-    fn repeated(&mut self, code: &'static Code, first: Span, second: Span, what: &str) {
+    /// Notes a declaration that has the word `precise` among its qualifiers.
+    pub(super) fn note_precise(&mut self, list: &[Qualifier], name: Ident) {
+        if list.iter().any(|one| one.kind == QualifierKind::Precise) {
+            self.shader.precise.add(self.ast.name(name), name.span);
+        }
+    }
+
+    pub(super) fn repeated(&mut self, code: &'static Code, first: Span, second: Span, what: &str) {
         self.report(
             Diagnostic::new(code, second, format!("{what} occurs twice in one declaration"))
                 .here("one too many")

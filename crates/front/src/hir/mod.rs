@@ -5,7 +5,7 @@
 //! handles.
 //!
 //! *Holds:* there are no naga types here. Implicit conversions (§4.1.10) are explicit [`ExprKind::Convert`]s,
-//! constructors are in normal form, `.length()` is a literal. Child expressions precede their parents in the arena. A
+//! constructors are in normal form, `.length()` is a literal, behind a comma if the expression before it has effects. Child expressions precede their parents in the arena. A
 //! shader with errors still has a HIR, in which anything in error is [`ExprKind::Error`] of [`TypeId::ERROR`]. No
 //! phase after `link` ever sees one, because a program with errors is not passed on.
 
@@ -14,6 +14,7 @@ mod expr;
 mod handles;
 mod members;
 mod names;
+mod precise;
 mod print;
 mod reach;
 mod same;
@@ -32,6 +33,7 @@ pub use expr::{BinaryOp, ConstructKind, Expr, ExprId, ExprKind, IncDec, LogicalO
 pub use handles::{FunctionId, GlobalId, LocalId};
 pub use members::MembersRead;
 pub use names::{all_names, fresh_name, global_names};
+pub use precise::Precise;
 pub use print::{Notes, print, print_with};
 pub use same::{same_form, same_value};
 pub use shader::{

@@ -1,6 +1,6 @@
 //! [`Shader`]: one stage and everything at global scope.
 
-use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Stmt, Type, TypeId, Types, Value, VarRef};
+use super::{Expr, ExprId, ExprKind, FunctionId, GlobalId, LocalId, Precise, Stmt, Type, TypeId, Types, Value, VarRef};
 use crate::builtin::BuiltinVariable;
 use crate::language::{Interpolation, ParamMode, Precision, Sampling, Stage, Storage, Version};
 use crate::source::{FileId, Inclusion, Span};
@@ -297,8 +297,8 @@ pub struct Shader {
     pub frag_coord: FragCoordLayout,
     /// The redeclared built-in outputs of a vertex or geometry shader.
     pub per_vertex_out: Option<PerVertexOut>,
-    /// Whether anything is declared `precise` (GLSL 4.00 §4.7).
-    pub precise: bool,
+    /// The declarations that are `precise`.
+    pub precise: Precise,
     /// The size that the shader gives `gl_TexCoord` by declaring it again (GLSL 1.20 §7.6).
     pub tex_coords: Option<u32>,
     /// In ES, the precisions of the uniforms, of the members of their structs as `uniform.member`, and of those of uniform blocks
@@ -332,7 +332,7 @@ impl Shader {
             geometry: self.geometry,
             frag_coord: self.frag_coord,
             per_vertex_out: self.per_vertex_out.clone(),
-            precise: self.precise,
+            precise: self.precise.clone(),
             tex_coords: self.tex_coords,
             precisions: self.precisions.clone(),
             depth_mode: self.depth_mode,
@@ -406,7 +406,7 @@ impl Shader {
             geometry: GeometryLayout::default(),
             frag_coord: FragCoordLayout::default(),
             per_vertex_out: None,
-            precise: false,
+            precise: Precise::default(),
             tex_coords: None,
             precisions: Vec::new(),
             depth_mode: DepthMode::default(),

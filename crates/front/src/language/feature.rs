@@ -128,6 +128,10 @@ features! {
     QualifierOrder "qualifiers in this order" since(420, 310), STAYS, PACK, "§4.7";
     /// Several `layout(..)` in one declaration.
     RepeatedLayouts "a second `layout`" since(420, 310), STAYS, PACK, "§4.4";
+    /// "The qualifier may appear at most once within a declaration"; later versions take the last.
+    OneLocation "the rule for a second `location`" since(NEVER, 300), since(NEVER, 310), NONE, "§4.3.8.2";
+    /// A `layout` and `invariant` exclude each other: the grammar has a layout before a storage qualifier alone.
+    NoInvariantLayout "the rule for `invariant` with a layout" since(NEVER, 300), since(NEVER, 310), NONE, "§4.7";
     /// `x.xxx` of a scalar.
     ScalarSwizzles "a swizzle of a scalar" since(420, NEVER), STAYS, PACK, "§5.5";
     /// `length()` of vectors and matrices.

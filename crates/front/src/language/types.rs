@@ -610,6 +610,15 @@ impl Types {
         self.summary(id).sampler
     }
 
+    /// Whether the type is that of a block, or of an array of blocks.
+    pub fn is_block(&self, id: TypeId) -> bool {
+        match self.get(id) {
+            Type::Array(element, _) => self.is_block(element),
+            Type::Struct(id) => self.structure(id).is_block,
+            _ => false,
+        }
+    }
+
     /// Whether the type is a struct that contains an array.
     pub fn is_struct_with_array(&self, id: TypeId) -> bool {
         matches!(self.get(id), Type::Struct(_)) && self.summary(id).array

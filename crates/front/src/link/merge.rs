@@ -119,7 +119,7 @@ impl Merge<'_> {
         self.all.per_vertex_out = self.all.per_vertex_out.take().or(next.per_vertex_out);
         self.all.texts.extend(next.texts);
         self.all.tex_coords = self.all.tex_coords.max(next.tex_coords);
-        self.all.precise |= next.precise;
+        self.all.precise.join(&next.precise);
         self.all.depth = self.all.depth.max(next.depth);
         self.all.main = self.all.main.or(next.main.map(|main| remap.function_id(main)));
         self.unite_layouts(next.geometry, next.frag_coord);

@@ -2,7 +2,7 @@
 //! program.
 //!
 //! *In:* a linked [`Program`] and the texts that it was made from. *Out:* warnings and notes, each with a code of its own
-//! ([`crate::diagnostic::codes::lints`]), in the order of the rules. *Holds:* an ordinary good program raises nothing
+//! ([`crate::diagnostic::codes::lints`]), in the order of the rules, but for the one that reads what the others found. *Holds:* an ordinary good program raises nothing
 //! but notes; a rule that cannot be sure says nothing; a fix is a change of text that is written in place, never of a macro's
 //! body. *Not done here:* levels and comments that silence a rule. Whoever prints the diagnostics applies them, and drops what
 //! rules find that are off.
@@ -22,6 +22,7 @@ mod texts;
 mod unused;
 mod uses;
 
+use crate::diagnostic::codes::lints::UNUSED_ALLOW;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::hir::Shader;
 use crate::link::Program;
@@ -69,11 +70,18 @@ pub fn check_some(program: &Program, sources: &SourceMap, wanted: impl Fn(&Code)
     with_stack(depth, || {
         let subject = Subject::new(program, sources);
         let mut list = Vec::new();
-        for rule in rules().iter().filter(|rule| wanted(rule.code)) {
-            (rule.check)(&subject, &mut Findings { code: rule.code, list: &mut list });
+        for last in [false, true] {
+            for rule in rules().iter().filter(|rule| runs_last(rule) == last && wanted(rule.code)) {
+                (rule.check)(&subject, &mut Findings { code: rule.code, list: &mut list });
+            }
         }
         list
     })
+}
+
+/// Whether a rule judges what all others found, so that it runs behind them, wherever the list has it.
+fn runs_last(rule: &Rule) -> bool {
+    *rule.code == UNUSED_ALLOW
 }
 
 /// The functions of a shader that `main` reaches, with their bodies.

@@ -62,11 +62,16 @@ impl Lexemes {
         self.occurrences(word).len()
     }
 
-    /// How often a word or a number occurs within a span.
+    /// How often a word or a number occurs within a span, other than behind a `.`, where it names a member or components.
     pub fn count_within(&self, word: &str, span: Span) -> usize {
         let all = self.occurrences(word);
         let before = |offset: u32| all.partition_point(|place| (*place as usize) < self.from(offset));
-        before(span.end).saturating_sub(before(span.start))
+        let within = all.get(before(span.start)..before(span.end)).unwrap_or_default();
+        let is_selected = |place: &&u32| {
+            let previous = (**place as usize).checked_sub(1).and_then(|index| self.tokens.get(index));
+            previous.is_some_and(|token| token.kind == TokenKind::Dot)
+        };
+        within.iter().filter(|place| !is_selected(place)).count()
     }
 
     /// Where a word occurs.
@@ -145,16 +150,17 @@ mod tests {
     #[test]
     fn words_are_counted_where_they_are() {
         let mut sources = SourceMap::default();
-        let text = "a b 1 a (b) a 1";
+        let text = "a b 1 a (b) a 1 b.a";
         let id = sources.add("words", text).expect("there is room");
         let base = sources.file(id).base();
         let lexemes = Lexemes::new(sources.file(id));
-        for (word, count) in [("a", 3), ("b", 2), ("1", 2), ("c", 0)] {
+        for (word, count) in [("a", 4), ("b", 3), ("1", 2), ("c", 0)] {
             assert_eq!(lexemes.count(word), count, "{word}");
         }
         let starts = |word: &str| lexemes.places(word).map(|span| span.start - base).collect::<Vec<_>>();
-        assert_eq!((starts("a"), starts("b"), starts("1")), (vec![0, 6, 12], vec![2, 9], vec![]));
+        assert_eq!((starts("a"), starts("b"), starts("1")), (vec![0, 6, 12, 18], vec![2, 9, 16], vec![]));
         let within = |word: &str, from: u32, to: u32| lexemes.count_within(word, Span::new(base + from, base + to));
         assert_eq!((within("a", 0, 15), within("a", 1, 12), within("a", 6, 13), within("c", 0, 15)), (3, 1, 2, 0));
+        assert_eq!((within("a", 14, 19), within("b", 14, 19)), (0, 1));
     }
 }

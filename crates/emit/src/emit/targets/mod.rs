@@ -41,7 +41,7 @@ impl Job<'_> {
 
     /// Whether anything in it is declared `precise`.
     fn is_precise(&self) -> bool {
-        self.shaders.iter().any(|shader| shader.precise)
+        self.shaders.iter().any(|shader| !shader.precise.is_empty())
     }
 }
 

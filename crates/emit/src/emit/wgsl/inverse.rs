@@ -20,6 +20,11 @@ const NAMES: [[&str; 2]; 3] = [
     ["_naga_inverse_4x4_f32", "_naga_inverse_4x4_f16"],
 ];
 
+fn name((size, scalar): (VectorSize, Scalar)) -> Option<&'static str> {
+    let row = SIZES.iter().position(|other| *other == size)?;
+    NAMES.get(row)?.get(usize::from(scalar.width == 2)).copied()
+}
+
 fn square(ty: &TypeInner) -> Option<(VectorSize, Scalar)> {
     match *ty {
         TypeInner::Matrix { columns, rows, scalar } if columns == rows => Some((columns, scalar)),
@@ -46,9 +51,12 @@ impl Inverses {
 
     /// The name of the function for a matrix.
     pub(super) fn name(&self, ty: &TypeInner) -> Option<&'static str> {
-        let (size, scalar) = square(ty)?;
-        let row = SIZES.iter().position(|other| *other == size)?;
-        NAMES.get(row)?.get(usize::from(scalar.width == 2)).copied()
+        square(ty).and_then(name)
+    }
+
+    /// The names of all functions in the text, which nothing else in the module may have.
+    pub(super) fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.found.iter().copied().filter_map(name)
     }
 
     /// The functions.

@@ -19,9 +19,9 @@ use naga::{
 
 /// Writes a module, with the comments of the source. Returns which lines come from where, too.
 pub(super) fn write(module: &Module, info: &ModuleInfo, style: Style, notes: &Notes<'_>) -> Try<(String, Vec<Origin>)> {
-    let names = Names::of(module);
-    let effects = effects::of_functions(module);
     let inverses = Inverses::of(module, info);
+    let names = Names::of(module, inverses.names());
+    let effects = effects::of_functions(module);
     let context = Context { module, names: &names, effects: &effects, style };
     let mut writer = Writer { context, inverses: &inverses, notes, text: String::new(), marks: Marks::new() };
     writer.enables();

@@ -68,9 +68,9 @@ pub(super) fn plain(name: &str) -> String {
 }
 
 impl Names {
-    /// The names of a module.
-    pub(super) fn of(module: &Module) -> Self {
-        let mut taken = Taken::default();
+    /// The names of a module, without those that its text has for functions of its own.
+    pub(super) fn of(module: &Module, reserved: impl Iterator<Item = &'static str>) -> Self {
+        let mut taken = Taken { names: reserved.map(str::to_owned).collect(), ..Taken::default() };
         let mut names = Self {
             types: FxHashMap::default(),
             members: FxHashMap::default(),

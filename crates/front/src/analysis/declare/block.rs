@@ -25,6 +25,8 @@ struct BlockContext {
     word_span: Span,
     matrix: MatrixLayout,
     layout: BlockLayout,
+    /// Whether all of the block's layout is known. Otherwise another layout than this one may be meant.
+    is_known: bool,
     /// `align` before the block, which holds for each member.
     align: Option<u32>,
 }
@@ -69,6 +71,7 @@ impl Analyzer<'_> {
             word_span,
             matrix,
             layout: layout.block.unwrap_or(self.layouts.block_defaults.layout),
+            is_known: layout.is_known,
             align: None,
         };
         if let Some((value, span)) = layout.align
@@ -77,6 +80,7 @@ impl Analyzer<'_> {
         {
             context.align = Some(value);
         }
+        self.note_precise(&block.qualifiers, block.instance.as_ref().map_or(block.name, |(instance, _)| *instance));
         let members = self.block_members(block, &context);
         self.check_member_locations(block, &members, layout.location.is_some());
         if members.is_empty() {
@@ -144,6 +148,7 @@ impl Analyzer<'_> {
             let base = self.block_member_base(row);
             self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
+                self.note_precise(&row.qualifiers, declarator.name);
                 self.no_member_initializer(declarator);
                 let ty = self.with_array(base, &declarator.array);
                 let ty = self.check_member_type(ty, row, &record, context, declarator.name.span);
@@ -249,7 +254,7 @@ impl Analyzer<'_> {
     /// Whether a block may have offsets and alignments: those of the other layouts are the implementation's.
     fn is_std140(&mut self, context: &BlockContext, what: &str, span: Span) -> bool {
         let is_std140 = context.layout == BlockLayout::Std140;
-        if !is_std140 {
+        if !is_std140 && context.is_known {
             self.report(
                 Diagnostic::new(
                     &qualifiers::LAYOUT_PLACE,

@@ -194,6 +194,7 @@ impl Analyzer<'_> {
 
     fn header(&mut self, header: &FunctionHeader) -> Function {
         let record = self.qualifiers(&header.qualifiers, DeclarationContext::Return);
+        self.note_precise_header(header);
         let ret = self.return_type(header);
         self.check_precision(record.precision, ret, header.ty.span);
         let locals: Vec<Local> = header.params.iter().map(|param| self.parameter(param)).collect();
@@ -211,6 +212,7 @@ impl Analyzer<'_> {
     /// The header of a definition whose types are already known from a prototype: only the names of the parameters
     /// are new.
     fn header_again(&mut self, header: &FunctionHeader, id: FunctionId) -> Function {
+        self.note_precise_header(header);
         let known = self.shader.function(id).clone();
         let mut locals = known.locals;
         for (local, param) in locals.iter_mut().zip(&header.params) {
@@ -220,13 +222,15 @@ impl Analyzer<'_> {
         Function { locals, span: header.name.span, ..known }
     }
 
-    fn return_type(&mut self, header: &FunctionHeader) -> TypeId {
-        if let TypeBase::Struct(_) = header.ty.base {
-            self.report(
-                Diagnostic::new(&types::STRUCT, header.ty.span, "a struct cannot be declared in a return type")
-                    .here("declare it before the function"),
-            );
+    /// Notes which of a function's result and parameters are `precise`.
+    fn note_precise_header(&mut self, header: &FunctionHeader) {
+        self.note_precise(&header.qualifiers, header.name);
+        for param in &header.params {
+            param.name.into_iter().for_each(|name| self.note_precise(&param.qualifiers, name));
         }
+    }
+
+    fn return_type(&mut self, header: &FunctionHeader) -> TypeId {
         let ty = self.type_spec(&header.ty);
         if matches!(self.types.get(ty), Type::Array(..)) {
             self.require(Feature::ArrayObjects, header.ty.span);

@@ -226,11 +226,11 @@ impl Analyzer<'_> {
     }
 
     /// The type without its array dimensions.
-    pub(in crate::analysis) fn element_of(&self, ty: TypeId) -> TypeId {
-        match self.types.get(ty) {
-            Type::Array(element, _) => element,
-            _ => ty,
+    pub(in crate::analysis) fn element_of(&self, mut ty: TypeId) -> TypeId {
+        while let Type::Array(element, _) = self.types.get(ty) {
+            ty = element;
         }
+        ty
     }
 
     /// Reports `smooth`, `flat`, `noperspective`, `centroid`, `sample` and `invariant` where nothing is interpolated.

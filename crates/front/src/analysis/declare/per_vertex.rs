@@ -135,6 +135,7 @@ impl Analyzer<'_> {
             let base = self.type_spec(&row.ty);
             for declarator in &row.declarators {
                 self.no_member_initializer(declarator);
+                self.note_precise(&row.qualifiers, declarator.name);
                 let ty = self.with_array(base, &declarator.array);
                 self.check_own_qualifiers(declarator.name, &record);
                 let Some(member) = self.per_vertex_member(declarator, ty, record.invariant.is_some()) else { continue };

@@ -23,8 +23,12 @@ impl Analyzer<'_> {
             self.default_layout(&record, span);
             return;
         }
-        if record.precise.is_some() && record.invariant.is_none() {
-            return self.make_precise(idents);
+        self.check_added(&record);
+        match (record.precise, record.invariant) {
+            (Some(_), None) => return self.make_precise(idents),
+            // A name that is no variable is reported for `invariant`.
+            (Some(_), Some(_)) => self.quietly(|this| this.make_precise(idents)),
+            (None, _) => {}
         }
         for &name in idents {
             self.is_probe(name);
@@ -48,16 +52,33 @@ impl Analyzer<'_> {
         }
     }
 
+    /// Reports what cannot be added to a variable that is declared: all but `invariant` and `precise`.
+    fn check_added(&mut self, record: &Qualifiers) {
+        if record.invariant.is_none() && record.precise.is_none() {
+            return;
+        }
+        let storage = record.storage.map(|(_, span)| (span, "a storage qualifier"));
+        let layout = record.layout_span.map(|span| (span, "a layout qualifier"));
+        for (span, what) in layout.into_iter().chain(storage) {
+            self.misplaced(span, format!("{what} cannot be added to a declared variable"), "remove it");
+        }
+    }
+
     /// `precise a;` "may be used to qualify a built-in or previously declared user-defined variable" (GLSL 4.00 §4.7), a local one, too. It
-    /// changes how `a` is computed, and no value that is exact.
+    /// changes how `a` is computed, and no value that is exact. All that is computed for `a` is then precise.
     pub(in crate::analysis) fn make_precise(&mut self, idents: &[Ident]) {
         for &name in idents {
             match self.scopes.find(name.symbol) {
                 Some(binding) if matches!(binding.entry, Entry::Variable(VarRef::Local(_))) => {
                     self.note_binding(name.span, binding);
+                    self.shader.precise.add(self.ast.name(name), binding.span);
                 }
                 _ => {
-                    self.global_named(name);
+                    if let Some((id, _)) = self.global_named(name) {
+                        let declared = self.scopes.find(name.symbol).map(|binding| binding.span);
+                        let declared = declared.unwrap_or(self.shader.global(id).span);
+                        self.shader.precise.add(self.ast.name(name), declared);
+                    }
                 }
             }
         }

@@ -53,6 +53,7 @@ impl Analyzer<'_> {
             let base = self.member_base(row);
             self.check_precision(record.precision, base, row.ty.span);
             for declarator in &row.declarators {
+                self.note_precise(&row.qualifiers, declarator.name);
                 let ty = self.member_type(declarator, base, row);
                 let member = Member::plain(self.name(declarator.name), ty, declarator.name.span);
                 precisions.push(self.precision_of(record.precision, ty));

@@ -43,6 +43,7 @@ impl Analyzer<'_> {
         }
         for declarator in &declaration.declarators {
             let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());
+            self.note_precise(&declaration.qualifiers, declarator.name);
             if self.name(declarator.name).starts_with("gl_") && self.redeclare_builtin(declarator, ty, &record) {
                 continue;
             }
@@ -141,7 +142,7 @@ impl Analyzer<'_> {
         let fits = ty == declared || self.check_global_size(ty, storage, false, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
         let ty = self.sized_by_geometry(ty, storage, name.span);
-        self.require_size(ty, name.span);
+        self.require_declared_size(declarator, ty);
         self.check_builtin_scope(name);
         if self.resizes(declarator, ty, storage) {
             return;
@@ -153,6 +154,14 @@ impl Analyzer<'_> {
         let id = self.add_global(global);
         let entry = if named_well { Entry::Variable(VarRef::Global(id)) } else { Entry::Poison };
         self.enter(name, entry);
+    }
+
+    /// Reports an array without a size where the language wants one, unless an initializer was to tell it: that is in error, which has
+    /// been reported.
+    pub(in crate::analysis) fn require_declared_size(&mut self, declarator: &Declarator, ty: TypeId) {
+        if declarator.initializer.is_none() {
+            self.require_size(ty, declarator.name.span);
+        }
     }
 
     /// Reports an array without a size where the language wants one in each declaration.

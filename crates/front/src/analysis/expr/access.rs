@@ -7,7 +7,9 @@ use super::swizzle::{self, Fault};
 use crate::builtin::fixed::TEX_COORD;
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
-use crate::hir::{ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, StructId, Type, TypeId, VarRef};
+use crate::hir::{
+    ArraySize, ExprId, ExprKind, Scalar, ScalarValue, Stage, Storage, StructId, Type, TypeId, VarRef, is_pure,
+};
 use crate::language::{Extensions, Feature, NEVER, Since};
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
@@ -329,6 +331,32 @@ impl Analyzer<'_> {
                 return self.poison(span);
             }
         };
-        self.literal(ScalarValue::Int(i32::try_from(length).unwrap_or(i32::MAX)), span)
+        let effects = self.effects_before_length(base);
+        let mut value = self.literal(ScalarValue::Int(i32::try_from(length).unwrap_or(i32::MAX)), span);
+        for effect in effects {
+            value = self.push(ExprKind::Comma(effect, value), TypeId::INT, span);
+        }
+        value
+    }
+
+    /// The parts of an expression before `.length()` that run, the last first: calls and changes of variables. "The expression in
+    /// brackets will be evaluated .., but the array will not be dereferenced" (GLSL ES 3.10 §4.1.9).
+    fn effects_before_length(&self, base: ExprId) -> Vec<ExprId> {
+        let mut effects = Vec::new();
+        let mut at = base;
+        loop {
+            let (part, rest) = match self.expr_at(at).kind {
+                ExprKind::Index(inner, index) => (index, Some(inner)),
+                ExprKind::Member(inner, _) | ExprKind::Swizzle(inner, _) => (at, Some(inner)),
+                _ => (at, None),
+            };
+            if (part != at || rest.is_none()) && !is_pure(&self.shader, part) {
+                effects.push(part);
+            }
+            match rest {
+                Some(inner) => at = inner,
+                None => return effects,
+            }
+        }
     }
 }

@@ -206,6 +206,11 @@ impl Analyzer<'_> {
             );
             return self.poison(span);
         }
+        if self.types.contains_sampler(element) {
+            let ty = self.types.array(element, size);
+            self.report(without_constructor(&self.type_name(ty), head));
+            return self.poison(span);
+        }
         // The first argument tells the sizes that the element's brackets leave out.
         let first = arguments.first().map_or(element, |&first| self.ty(first));
         let element = if self.leaves_sizes_to(element, first) { first } else { element };
@@ -233,10 +238,8 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         if self.types.contains_sampler(ty) {
-            self.report(
-                Diagnostic::new(&types::CONSTRUCTOR, head, format!("`{name}` holds a sampler and has no constructor"))
-                    .label(declared, "declared here"),
-            );
+            let finding = without_constructor(&name, head).label(declared, "declared here");
+            self.report(finding);
             return self.poison(span);
         }
         let arguments: Vec<_> = arguments
@@ -265,4 +268,9 @@ impl Analyzer<'_> {
     fn past(&self, arguments: &[ExprId], index: usize, head: Span) -> Span {
         arguments.get(index).map_or(head, |&argument| self.span(argument))
     }
+}
+
+/// The finding for a constructor of something that holds a sampler (§4.1.7).
+fn without_constructor(name: &str, head: Span) -> Diagnostic {
+    Diagnostic::new(&types::CONSTRUCTOR, head, format!("`{name}` holds a sampler and has no constructor"))
 }

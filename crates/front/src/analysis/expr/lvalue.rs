@@ -52,6 +52,10 @@ impl Analyzer<'_> {
             let why = "only the application can set a sampler".to_owned();
             return Some(Refusal { at: self.span(id), why, declared: None });
         }
+        if self.types.is_block(self.ty(id)) {
+            let why = "a block is no variable: assign its members one by one".to_owned();
+            return Some(Refusal { at: self.span(id), why, declared: None });
+        }
         let mut at = id;
         loop {
             let span = self.span(at);

@@ -220,7 +220,7 @@ impl Analyzer<'_> {
         let (left, right) = self.balance(operands)?;
         let ty = self.ty(left);
         let comparable = ty != TypeId::VOID
-            && !self.types.contains_sampler(ty)
+            && !self.is_opaque(ty)
             && !matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized));
         self.require_array_value(right, self.span(right));
         if self.types.is_struct_with_array(ty) {
@@ -246,7 +246,7 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         let unsized_array = |ty| matches!(self.types.get(ty), Type::Array(_, ArraySize::Unsized));
-        let opaque = self.types.contains_sampler(a) || unsized_array(a);
+        let opaque = self.is_opaque(a) || unsized_array(a);
         match self.balance((yes, no)) {
             Some((yes, no)) if !opaque => {
                 let ty = self.ty(yes);
@@ -277,6 +277,12 @@ impl Analyzer<'_> {
         }
     }
 
+    /// Whether operators take no value of a type: samplers are only indexed, selected and passed (§4.1.7), and so are the instances of
+    /// blocks, whose members alone are variables (§4.3.7).
+    pub(super) fn is_opaque(&self, ty: TypeId) -> bool {
+        self.types.contains_sampler(ty) || self.types.is_block(ty)
+    }
+
     /// `a, b`
     pub(super) fn comma(&mut self, left: ExprId, right: ExprId, span: Span) -> ExprId {
         let ty = self.ty(right);
@@ -284,7 +290,7 @@ impl Analyzer<'_> {
             return self.poison(span);
         }
         for side in [left, right] {
-            if self.types.contains_sampler(self.ty(side)) {
+            if self.is_opaque(self.ty(side)) {
                 self.report_operands(",", span, left, right);
                 return self.poison(span);
             }

@@ -23,8 +23,10 @@ pub(in crate::analysis) struct Budget {
     /// The steps that constant evaluation may still take.
     steps: Cell<u64>,
     suggestions: usize,
-    /// The scalars of all globals so far.
+    /// The scalars of all globals so far, other than uniforms.
     globals: u32,
+    /// The scalars of all uniforms so far.
+    uniforms: u32,
     /// The scalars of all locals of the current function.
     locals: u32,
     /// The number of globals that need a location or binding.
@@ -33,7 +35,7 @@ pub(in crate::analysis) struct Budget {
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { steps: Cell::new(MAX_FOLD_STEPS), suggestions: 0, globals: 0, locals: 0, bound: 0 }
+        Self { steps: Cell::new(MAX_FOLD_STEPS), suggestions: 0, globals: 0, uniforms: 0, locals: 0, bound: 0 }
     }
 }
 
@@ -65,20 +67,28 @@ impl Budget {
         self.bound <= MAX_BOUND
     }
 
-    /// Adds a global. Returns the scalars of all of them.
-    pub(in crate::analysis) fn add_global(&mut self, scalars: u32) -> u32 {
-        self.globals = self.globals.saturating_add(scalars);
-        self.globals
+    /// Adds a global, if all of its kind then have at most `limit` scalars. Returns whether they have.
+    pub(in crate::analysis) fn add_global(&mut self, scalars: u32, is_uniform: bool, limit: u32) -> bool {
+        add(if is_uniform { &mut self.uniforms } else { &mut self.globals }, scalars, limit)
     }
 
-    /// Adds a local. Returns the scalars of all locals of the function.
-    pub(in crate::analysis) fn add_local(&mut self, scalars: u32) -> u32 {
-        self.locals = self.locals.saturating_add(scalars);
-        self.locals
+    /// Adds a local, if all locals of the function then have at most `limit` scalars. Returns whether they have.
+    pub(in crate::analysis) fn add_local(&mut self, scalars: u32, limit: u32) -> bool {
+        add(&mut self.locals, scalars, limit)
     }
 
     /// Begins a function, which has no locals yet.
     pub(in crate::analysis) fn begin_function(&mut self) {
         self.locals = 0;
     }
+}
+
+/// Adds to a sum that stays within a limit. What does not fit is left out, so that what follows is judged without it.
+fn add(sum: &mut u32, scalars: u32, limit: u32) -> bool {
+    let next = sum.saturating_add(scalars);
+    let fits = next <= limit;
+    if fits {
+        *sum = next;
+    }
+    fits
 }

@@ -48,6 +48,7 @@ impl Analyzer<'_> {
     ) -> Declared {
         let name = declarator.name;
         let good_name = self.check_name(name);
+        self.note_precise(&declaration.qualifiers, name);
         let ty = self.arrays(base, &declarator.array, declarator.initializer.is_some());
         let ty = self.check_local_type(ty, record, declaration, declarator);
         let ty = if self.check_local_size(ty, name.span) { ty } else { TypeId::ERROR };
@@ -57,7 +58,7 @@ impl Analyzer<'_> {
         // An array that its initializer sizes counts with that size.
         let fits = ty == declared || self.check_local_size(ty, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
-        self.require_size(ty, name.span);
+        self.require_declared_size(declarator, ty);
         if !constant && let Some(known) = self.resizes_local(declarator, ty) {
             let assignment = initializer.map(|value| self.assign_local(known, ty, value, name.span));
             return Declared::Again(assignment);

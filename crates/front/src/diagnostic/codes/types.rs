@@ -93,7 +93,7 @@ codes! {
         good Vertex("uniform vec3 v; void main() { gl_Position = vec4(length(v)); }");
     STRUCT = "E0417" "bad-struct" Error "GLSL 1.50 §4.1.8"
         "A struct has at least one member, each with a name and without an initializer. Structs are declared on \
-         their own: not inside a struct or block, nor in a parameter or a return type."
+         their own: not inside a struct or block, nor in a parameter."
         bad Vertex("struct S { struct T { float a; } t; }; void main() { gl_Position = vec4(0.0); }"),
         good Vertex("struct T { float a; }; struct S { T t; }; uniform S s; void main() { gl_Position = vec4(s.t.a); }");
     SAMPLER_INDEX = "E0418" "index-must-be-constant" Error "GLSL 1.50 §4.1.7, §4.3.7"

@@ -8,6 +8,7 @@ use crate::hir::{
     ScalarValue, Storage, Type, TypeId, Value, VarRef,
 };
 use crate::language::{Extensions, Profile, Sampling};
+use crate::source::Span;
 use std::collections::BTreeSet;
 
 impl Printer<'_> {
@@ -100,6 +101,9 @@ impl Printer<'_> {
         if (130..400).contains(&number) && self.shader.exprs.iter().any(|expr| self.chooses(expr)) {
             needed.extend(Extensions::GPU_SHADER5.name());
         }
+        if number < 400 && !self.shader.precise.is_empty() {
+            needed.extend(Extensions::GPU_SHADER5.name());
+        }
         let reads = |builtin| self.shader.globals.iter().any(|global| global.builtin == Some(builtin));
         if number < 400 && reads(BuiltinVariable::SampleId) {
             needed.extend(Extensions::SAMPLE_SHADING.name());
@@ -176,7 +180,7 @@ impl Printer<'_> {
             self.indent += 1;
             for member in &types.structure(id).members {
                 self.above(member.span);
-                self.line(&format!("{} {};", self.type_name(member.ty), member.name));
+                self.line(&format!("{}{} {};", self.precise(member.span), self.type_name(member.ty), member.name));
                 self.behind(member.span);
             }
             self.indent -= 1;
@@ -254,6 +258,23 @@ impl Printer<'_> {
             let (storage, ty) = (storage(global.storage), self.type_name(global.ty));
             self.line(format!("{interpolation} {sampling}{storage}{ty} {};", global.name).trim_start());
         }
+        self.precise_builtin(global);
+    }
+
+    fn precise_builtin(&mut self, global: &Global) {
+        if self.has_precise() && self.shader.precise.holds_builtin(&global.name) {
+            self.line(&format!("precise {};", global.name));
+        }
+    }
+
+    /// Whether the language has `precise`: OpenGL's from 4.00 on, and before by an extension; ES from 3.20 on.
+    fn has_precise(&self) -> bool {
+        self.shader.version.profile != Profile::Es || self.shader.version.number >= 320
+    }
+
+    /// `precise ` before what is declared so, by the place of its name.
+    pub(super) fn precise(&self, name: Span) -> &'static str {
+        if self.has_precise() && self.shader.precise.holds(name) { "precise " } else { "" }
     }
 
     /// A redeclaration of a built-in variable: its size, its layout, or `invariant`.
@@ -286,6 +307,7 @@ impl Printer<'_> {
         if global.invariant {
             self.line(&format!("invariant {};", global.name));
         }
+        self.precise_builtin(global);
     }
 
     fn variable(&mut self, id: GlobalId, global: &Global) {
@@ -305,7 +327,8 @@ impl Printer<'_> {
         let sampling = global.sampling.prefix();
         let storage = storage(global.storage);
         let (ty, name) = (self.type_name(global.ty), self.names.global(id));
-        let head = format!("{layout}{invariant}{interpolation}{gap}{sampling}{storage}{ty} {name}");
+        let precise = self.precise(global.span);
+        let head = format!("{layout}{precise}{invariant}{interpolation}{gap}{sampling}{storage}{ty} {name}");
         let initializer = match (global.initializer, &global.value) {
             (Some(expr), _) => Some(self.argument(expr)),
             (None, Some(value)) if global.storage != Storage::In => Some(self.value(value)),
@@ -337,7 +360,7 @@ impl Printer<'_> {
         layout.extend(block.binding.map(|binding| format!("binding = {binding}")));
         let layout = if layout.is_empty() { String::new() } else { format!("layout({}) ", layout.join(", ")) };
         let storage = storage(global.storage);
-        self.line(&format!("{layout}{storage}{} {{", block.name));
+        self.line(&format!("{layout}{}{storage}{} {{", self.precise(global.span), block.name));
         self.members(element, storage);
         let instance =
             if block.instance.is_some() { format!(" {}{dim}", self.names.global(id)) } else { String::new() };
@@ -351,7 +374,8 @@ impl Printer<'_> {
         self.indent += 1;
         for member in &types.structure(id).members {
             let qualifiers = member_qualifiers(member, storage, has_locations);
-            let line = format!("{qualifiers}{} {};", self.type_name(member.ty), member.name);
+            let precise = self.precise(member.span);
+            let line = format!("{precise}{qualifiers}{} {};", self.type_name(member.ty), member.name);
             self.above(member.span);
             self.line(&line);
             self.behind(member.span);

@@ -191,10 +191,11 @@ impl Printer<'_> {
                     LocalKind::Param(ParamMode::In) | LocalKind::Variable | LocalKind::Const => "",
                 };
                 let name = self.names.local(id, super::LocalId::new(index));
-                format!("{mode}{} {name}", self.type_name(param.ty)).trim_end().to_owned()
+                format!("{}{mode}{} {name}", self.precise(param.span), self.type_name(param.ty)).trim_end().to_owned()
             })
             .collect();
         let name = self.names.function(id);
-        format!("{} {name}({})", self.type_name(function.ret), params.join(", "))
+        let precise = self.precise(function.span);
+        format!("{precise}{} {name}({})", self.type_name(function.ret), params.join(", "))
     }
 }

@@ -57,7 +57,8 @@ impl Printer<'_> {
         let Some(function) = self.function else { return String::new() };
         let local = self.shader.function(function).local(id);
         let constant = if local.kind == LocalKind::Const { "const " } else { "" };
-        let head = format!("{constant}{} {}", self.type_name(local.ty), self.names.local(function, id));
+        let precise = self.precise(local.span);
+        let head = format!("{precise}{constant}{} {}", self.type_name(local.ty), self.names.local(function, id));
         match (initializer, &local.value) {
             (Some(expr), _) => format!("{head} = {}", self.argument(expr)),
             (None, Some(value)) if local.kind == LocalKind::Const => format!("{head} = {}", self.value(value)),
@@ -86,13 +87,14 @@ impl Printer<'_> {
             [Stmt { kind: StmtKind::Expr(expr), .. }] => Some(self.expr(*expr)),
             _ => {
                 let mut text = String::new();
-                let mut first_type = None;
+                let mut first = None;
                 for statement in before {
                     let StmtKind::Local(id, initializer) = statement.kind else { return None };
                     let local = self.shader.function(self.function?).local(id);
-                    match first_type {
+                    let precise = self.precise(local.span);
+                    match first {
                         None => text.push_str(&self.declaration(id, initializer)),
-                        Some((ty, kind)) if (ty, kind) == (local.ty, local.kind) => {
+                        Some(one) if one == (local.ty, local.kind, precise) => {
                             text.push_str(&format!(", {}", self.names.local(self.function?, id)));
                             if let Some(initializer) = initializer {
                                 text.push_str(&format!(" = {}", self.argument(initializer)));
@@ -100,7 +102,7 @@ impl Printer<'_> {
                         }
                         Some(_) => return None,
                     }
-                    first_type = Some((local.ty, local.kind));
+                    first = Some((local.ty, local.kind, precise));
                 }
                 Some(text)
             }

@@ -44,7 +44,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             DeclarationKind::Broken(Box::new(fragment))
         });
         let span = self.since(start.span);
-        let extensions = self.session.extensions_at(start);
+        // A line in the body of a function turns an extension on from there.
+        let extensions = self.session.extensions_at(start) | self.session.extensions_at(self.previous);
         self.ast.declarations.push(Declaration { kind, span, extensions });
     }
 

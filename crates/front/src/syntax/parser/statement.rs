@@ -105,7 +105,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
-    /// Whether an attribute of HLSL is next, such as `[unroll]`: brackets before a statement that begins with a keyword.
+    /// Whether an attribute is next, such as `[unroll]` of HLSL and `[[unroll]]` of GL_EXT_control_flow_attributes: brackets before a statement that begins with a keyword.
     fn is_attribute(&mut self) -> bool {
         let behind = self.past_bracket(0, TokenKind::LeftBracket, TokenKind::RightBracket);
         matches!(
@@ -117,7 +117,17 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// Reports the attribute, and reads the statement behind it.
     fn attribute(&mut self) -> Parse<StmtKind> {
         let opening = self.current.span;
-        while self.bump().kind != TokenKind::RightBracket {}
+        let mut depth = 0_usize;
+        loop {
+            match self.bump().kind {
+                TokenKind::LeftBracket => depth += 1,
+                TokenKind::RightBracket => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            if depth == 0 {
+                break;
+            }
+        }
         let span = self.since(opening);
         let message = format!("`{}` is an attribute, and GLSL has none", self.session.sources.snippet(span));
         let help = Advice::new(Applicability::Safe, "leave it out", Place::Over, "");

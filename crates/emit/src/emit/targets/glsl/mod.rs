@@ -59,16 +59,7 @@ pub(in crate::emit) fn write(
     if !lacks.is_empty() {
         return Err(lacks);
     }
-    let mut types = program.types.clone();
-    let mut shader = match version {
-        GlslVersion::Desktop450 | GlslVersion::Vulkan => shader.clone(),
-        // Before 4.00, samplers and blocks take constant indices (3.30 §4.1.7, §4.3.7).
-        GlslVersion::Desktop330 | GlslVersion::Es300 => {
-            select(&types, shader, Choice::Structs).map_err(|diagnostic| vec![*diagnostic])?.into_owned()
-        }
-    };
-    shader.version = language(version, shader.version.span);
-    rewrite::rewrite(&mut types, &mut shader, program, version);
+    let (mut types, mut shader) = in_terms_of(program, shader, version).map_err(|diagnostic| vec![*diagnostic])?;
     let layouts = match version {
         GlslVersion::Vulkan => vulkan::rewrite(&mut types, &mut shader, program, conventions)?,
         GlslVersion::Desktop330 | GlslVersion::Desktop450 | GlslVersion::Es300 => vulkan::Layouts::default(),
@@ -78,6 +69,19 @@ pub(in crate::emit) fn write(
     let notes = Comments { sources, keeps_all, layouts };
     let text = print_with(&types, &shader, Some(&notes));
     Ok(Emitted::Text(with_precisions(text, &types, &shader, &notes)))
+}
+
+/// A stage in terms of what a version has, under the names of the source.
+fn in_terms_of(program: &Program, shader: &Shader, version: GlslVersion) -> Result<(Types, Shader), Box<Diagnostic>> {
+    let mut types = program.types.clone();
+    let mut shader = match version {
+        GlslVersion::Desktop450 | GlslVersion::Vulkan => shader.clone(),
+        // Before 4.00, samplers and blocks take constant indices (3.30 §4.1.7, §4.3.7).
+        GlslVersion::Desktop330 | GlslVersion::Es300 => select(&types, shader, Choice::Structs)?.into_owned(),
+    };
+    shader.version = language(version, shader.version.span);
+    rewrite::rewrite(&mut types, &mut shader, program, version);
+    Ok((types, shader))
 }
 
 fn language(version: GlslVersion, span: Span) -> Version {

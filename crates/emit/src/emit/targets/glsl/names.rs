@@ -25,7 +25,8 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
     for shader in &program.stages {
         collect(&program.types, shader, &mut all, &mut global);
     }
-    let called: BTreeSet<&str> = program.stages.iter().flat_map(texture_functions).chain(overloaded(program)).collect();
+    let called: BTreeSet<&str> = program.stages.iter().flat_map(texture_functions).collect();
+    let hidden = hidden(program, &global, version);
     let mut names = BTreeMap::new();
     for &name in &all {
         let reserved = is_word(name, version);
@@ -38,7 +39,7 @@ pub(in crate::emit) fn renamed(program: &Program, version: GlslVersion) -> BTree
             };
         let underscores = version == GlslVersion::Es300 && is_kept_by_webgl(name);
         // The older names of texture functions are written as the newer ones, which nothing may hide.
-        let hides = called.contains(name);
+        let hides = called.contains(name) || hidden.contains(name);
         // What the compatibility profile declares, the core does not, and no text may declare such names.
         let fixed = name.strip_prefix("gl_");
         if !reserved && !redefines && !underscores && !hides && fixed.is_none() {
@@ -65,16 +66,20 @@ fn texture_functions(shader: &Shader) -> impl Iterator<Item = &'static str> {
     })
 }
 
-/// The names of built-in functions that a program calls, besides functions of its own with these names. Before 1.30 they are overloads of
-/// each other; later, those of the program hide the built-in ones (GLSL 1.30 §6.1).
-fn overloaded(program: &Program) -> impl Iterator<Item = &'static str> {
-    let own: BTreeSet<&str> =
-        program.stages.iter().flat_map(|shader| &shader.functions).map(|function| function.name.as_str()).collect();
-    let calls = program.stages.iter().flat_map(|shader| &shader.exprs).filter_map(|expr| match expr.kind {
+/// The names of built-in functions that the text calls and that something global of the program would hide: a function of the program,
+/// which before 1.30 was an overload (GLSL 1.30 §6.1), or anything else, where the call says what the version has no other word for.
+fn hidden(program: &Program, global: &BTreeSet<&str>, version: GlslVersion) -> BTreeSet<&'static str> {
+    let is_builtin = |name: &&str| !functions::named(name).is_empty();
+    if !global.iter().any(is_builtin) {
+        return BTreeSet::new();
+    }
+    // What a version lacks is reported where the stage is written.
+    let stages = program.stages.iter().filter_map(|shader| super::in_terms_of(program, shader, version).ok());
+    let calls = stages.flat_map(|(_, shader)| shader.exprs).filter_map(|expr| match expr.kind {
         ExprKind::BuiltinCall(function, _) => Some(function.name()),
         _ => None,
     });
-    calls.filter(move |name| own.contains(name))
+    calls.filter(|name| global.contains(name)).collect()
 }
 
 /// Names that GLSL ES 3.00 §3.8 and WebGL keep to themselves.
