@@ -32,7 +32,7 @@ enum Form {
 }
 
 impl Around {
-    /// What to write instead.
+    /// The help: the form to write instead.
     pub(super) fn advice(self) -> &'static str {
         match self.form {
             Form::Quotient(..) => {
@@ -112,7 +112,7 @@ impl<'a> Values<'a> {
         Self { shader, definitions, written }
     }
 
-    /// What an expression stands for.
+    /// The expression that another one stands for.
     fn meaning(&self, id: ExprId) -> ExprId {
         let mut at = id;
         loop {

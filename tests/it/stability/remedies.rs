@@ -26,7 +26,7 @@ fn kinds(found: &Value) -> Vec<&str> {
     found["causes"].as_array().into_iter().flatten().filter_map(|cause| cause["kind"].as_str()).collect()
 }
 
-/// The error that a help text tells of the first rewriting, and that rewriting.
+/// The rewriting in a help text, and its error.
 fn tried(help: &str) -> Option<(&str, f64)> {
     let (_, rest) = help.split_once("Tried: with `")?;
     let (text, rest) = rest.split_once('`')?;

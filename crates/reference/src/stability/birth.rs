@@ -2,8 +2,7 @@
 //!
 //! *In:* an operation with its operands and its result. *Out:* the origin of the infinity or NaN.
 
-use super::record::is_vanished;
-use crate::domain::ShadowFloat;
+use crate::domain::{ShadowFloat, rounded};
 use crate::exec::Kind;
 
 /// How a result that is not finite comes from finite operands.
@@ -40,4 +39,9 @@ impl Birth {
             _ => Self::Overflow,
         }
     }
+}
+
+/// Whether a number is 0 only because f32 has none so small.
+pub(super) fn is_vanished(number: &ShadowFloat) -> bool {
+    number.single == 0.0 && number.wide != 0.0 && rounded(number.wide) == 0.0
 }

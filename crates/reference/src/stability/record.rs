@@ -5,7 +5,7 @@
 //! are joined in order.
 
 use super::CAUSE_BITS;
-use super::birth::Birth;
+use super::birth::{Birth, is_vanished};
 use crate::domain::{Shadow, ShadowFloat, rounded};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
 use glisten_front::hir::Stage;
@@ -178,11 +178,6 @@ fn step_size(kind: Kind, operands: &[ShadowFloat]) -> f64 {
         (Kind::Whole, [_, divisor]) => divisor.wide.abs(),
         _ => 1.0,
     }
-}
-
-/// Whether a number is 0 only because f32 has none so small.
-pub(super) fn is_vanished(number: &ShadowFloat) -> bool {
-    number.single == 0.0 && number.wide != 0.0 && rounded(number.wide) == 0.0
 }
 
 /// The largest error of operands, in ULP.
