@@ -6,7 +6,7 @@
 //
 // Lights with a size: rectangles, disks, spheres and tubes that shine evenly to both sides, exactly for diffuse surfaces, and for `ggx`
 // as near as a cosine under a matrix comes to it. The matrices are tables by roughness and angle, which a scene has as the patterns
-// `ltc_matrix` and `ltc_albedo`. Round lights have sixteen corners and their true area.
+// `ltc_matrix` and `ltc_albedo`. Round lights have sixteen corners, tubes twelve or sixteen, and their true area.
 //
 // A light of radiance 1 over all of the sky gives 1: multiply by the radiance over pi times the library's pi, that is by the radiance,
 // and by the diffuse color or ltcAlbedo().
@@ -194,7 +194,8 @@ float ltcSphere(mat3 to, vec3 center, float radius)
     return ltcDisk(to, cosine * axis, x, cross(axis, x));
 }
 
-// E of a tube with flat ends, by the rectangle that it looks like from its side. 0 on its axis.
+// E of a tube with flat ends, by its outline: the lines where sight touches it, and of each rim the part that bounds it, in four or eight
+// edges of its true area. 1 inside of it.
 //   to  as for a rectangle    a, b  the ends, from the shaded point    radius  limited to >= 0
 // bound: 3e-5 abs, the axis near a tube that ends at the point
 float ltcTube(mat3 to, vec3 a, vec3 b, float radius)
@@ -202,19 +203,65 @@ float ltcTube(mat3 to, vec3 a, vec3 b, float radius)
     float scale = safeScale(max(max(safeExtent(a), safeExtent(b)), abs(radius)));
     vec3 p = scale * a;
     vec3 q = scale * b;
+    float r = scale * max(radius, 0.0);
     vec3 along = safeNormalize(q - p);
-    // From the axis to the point, and across both.
+    // Where the ends are, from the foot of the point on the axis.
+    vec2 ends = vec2(dot(along, p), dot(along, q));
+    if (!(r > 0.0 && ends.x < ends.y))
+        return 0.0;
     vec3 side = cross(along, safeExtent(p) < safeExtent(q) ? p : q);
     float d = safeLength(side);
-    if (!(d > 0.0))
-        return 0.0;
+    if (!(d > r)) {
+        if (ends.x <= 0.0 && ends.y >= 0.0)
+            return 1.0;
+        // One end hides the rest.
+        vec3 x = r * safeNormalize(abs(along.x) < 0.5 ? vec3(0.0, along.z, -along.y) : vec3(-along.z, 0.0, along.x));
+        return ltcDisk(to, ends.x > 0.0 ? p : q, x, cross(along, x));
+    }
     side = side / d;
-    float r = scale * max(radius, 0.0);
-    float sine = min(r / d, 1.0);
-    // Where the lines of sight touch it.
-    vec3 nearer = r * sine * cross(along, side);
-    vec3 across = r * sqrt((1.0 - sine) * (1.0 + sine)) * side;
-    return ltcRectangle(to, 0.5 * (p + q) + nearer, 0.5 * (q - p), across);
+    // From the axis to the point.
+    vec3 up = cross(along, side);
+    float sine = r / d;
+    float cosine = sqrt((1.0 - sine) * (1.0 + sine));
+    vec2 touch = cosine * vec2(-d * cosine, r);
+    // Half of the angle from there to where sight touches the tube.
+    vec2 turn = sqrt(vec2(0.5 + 0.5 * sine, 0.5 - 0.5 * sine));
+    vec3 corners[16];
+    for (int i = 0; i < 16; ++i)
+        corners[i] = vec3(0.0);
+    int n = 0;
+    for (int end = 0; end < 2; ++end) {
+        // The first end from one line to the other, the second back.
+        float way = end == 0 ? 1.0 : -1.0;
+        float height = end == 0 ? ends.x : ends.y;
+        // The rim around an end that is seen is the far one.
+        bool isSeen = way * height > 0.0;
+        vec2 part = turn;
+        if (isSeen) {
+            float c = sqrt(0.5 + 0.5 * turn.y);
+            part = vec2(c, 0.5 * turn.x / c);
+        }
+        int last = isSeen ? 8 : 4;
+        // How far out the corners between both lines are for the area of the rim's segment.
+        float arc = ltcArc(vec3(part, 0.0), vec3(part.x, -part.y, 0.0));
+        float wide = isSeen ? (sqrt(1.0 + 48.0 * arc) - 1.0) / 6.0 : 0.5 * (sqrt(1.0 + 8.0 * arc) - 1.0);
+        float s = isSeen ? -way * part.y : way * part.y;
+        vec2 at = vec2(sine, -way * cosine);
+        for (int i = 0; i <= last; ++i) {
+            vec2 place = wide * r * at - vec2(d, 0.0);
+            if (i == 0)
+                place = vec2(touch.x, -way * touch.y);
+            else if (i == last)
+                place = vec2(touch.x, way * touch.y);
+            corners[n] = safeFinite(to * safeNormalize(height * along + place.x * up + place.y * side));
+            at = vec2(part.x * at.x - s * at.y, s * at.x + part.x * at.y);
+            n++;
+        }
+        // Between the ends, where the line is nearest.
+        corners[n] = safeFinite(to * safeNormalize(clamp(0.0, ends.x, ends.y) * along + touch.x * up + way * touch.y * side));
+        n++;
+    }
+    return ltcPolygon(corners, n, 1.0);
 }
 
 #endif

@@ -53,35 +53,132 @@ fn paths_part_at_branches_and_end_where_they_are_left() {
 }
 
 #[test]
-fn the_rounds_of_loops_are_known_from_where_they_can_be() {
-    let rounds = |declarations: &str, body: &str, arguments: &[&str]| {
-        let stage = fragment(declarations, body, arguments);
-        let one = &stage["loops"][0];
-        (one["least"].as_u64(), one["most"].as_u64(), one["known"].as_str().map(str::to_owned))
+fn matrices_cost_their_cofactors_and_a_division_and_transposing_nothing() {
+    let weight = |declaration: &str, value: &str| {
+        let stage = fragment(declaration, &format!("c = vec4({value});"), &[]);
+        let [arithmetic, special, ..] = path(&stage, "longest");
+        [arithmetic, special]
     };
-    let told = |least, most, known: &str| (Some(least), Some(most), Some(known.to_owned()));
-    let sum = "float s = 0.0;";
-    let uses = "c = vec4(s);";
-    let x = "in float x; uniform int n; uniform vec4 light[6];";
-    for (head, expected) in [
-        ("for (int i = 0; i < 5; i++) s += x;", told(5, 5, "counted")),
-        ("for (int i = 10; i > 0; i -= 3) s += x;", told(4, 4, "counted")),
-        ("for (float f = 0.0; f < 1.0; f += 0.25) s += x;", told(4, 4, "counted")),
-        ("for (int i = 1; i <= 64; i *= 2) s += x;", told(7, 7, "counted")),
-        ("int i = 0; while (i < 3) { s += x; i++; }", told(3, 3, "counted")),
-        ("int i = 0; do { s += x; i++; } while (i < 4);", told(4, 4, "counted")),
-        ("int i = 9; do { s += x; i++; } while (i < 4);", told(1, 1, "counted")),
-        ("for (int i = 0; i < n; i++) s += light[i].x;", told(0, 6, "array")),
-        ("for (int i = 0; i < min(n, 3); i++) s += x;", told(0, 3, "range")),
-        ("for (int i = 0; i < n; i++) s += x;", told(0, 8, "assumed")),
-        ("while (s < x) s += 1.0;", told(0, 8, "assumed")),
-    ] {
-        let found = rounds(x, &format!("{sum}\n{head}\n{uses}"), &[]);
-        assert_eq!(found, expected, "{head}");
+    assert_eq!(weight("in vec4 q; uniform mat4 m;", "m * q"), [28, 0]);
+    assert_eq!(weight("in vec4 q; uniform mat4 m;", "inverse(m) * q"), [28 + 139, 1]);
+    assert_eq!(weight("in vec3 q; uniform mat3 m;", "(inverse(m) * q).x"), [15 + 62, 1]);
+    assert_eq!(weight("in vec2 q; uniform mat2 m;", "(inverse(m) * q).x"), [6 + 7, 1]);
+    assert_eq!(weight("in float q; uniform mat4 m;", "q * determinant(m)"), [1 + 51, 0]);
+    assert_eq!(weight("in float q; uniform mat2 m;", "q * determinant(m)"), [1 + 3, 0]);
+    assert_eq!(weight("in vec4 q; uniform mat4 m;", "transpose(m) * q"), [28, 0]);
+    assert_eq!(weight("in vec3 q; in vec3 n;", "refract(q, n, 1.5).x"), [21, 1]);
+    assert_eq!(weight("in vec3 q; in vec3 n;", "faceforward(q, n, n).x"), [9, 0]);
+}
+
+/// The fewest and the most rounds of the first loop, and from where they are known.
+fn rounds(declarations: &str, body: &str, arguments: &[&str]) -> (u64, u64, String) {
+    let stage = fragment(declarations, body, arguments);
+    let one = &stage["loops"][0];
+    let count = |name: &str| one[name].as_u64().expect("a count");
+    (count("least"), count("most"), one["known"].as_str().expect("a word").to_owned())
+}
+
+/// Loops over `s`, with a varying `x`, a uniform `n` and an array of six.
+const LOOPS: &str = "in float x; uniform int n; uniform uint u; uniform vec4 light[6];";
+
+fn check(cases: &[(&str, (u64, u64, &str))], arguments: &[&str]) {
+    for (head, (least, most, known)) in cases {
+        let found = rounds(LOOPS, &format!("float s = 0.0;\n{head}\nc = vec4(s);"), arguments);
+        assert_eq!(found, (*least, *most, (*known).to_owned()), "{head}");
     }
-    let head = format!("{sum}\nfor (int i = 0; i < n; i++) s += x;\n{uses}");
-    assert_eq!(rounds(x, &head, &["--range", "n=2..4"]), told(2, 4, "range"));
-    assert_eq!(rounds(x, &head, &["--iterations", "3"]), told(0, 3, "assumed"));
+}
+
+#[test]
+fn the_rounds_of_loops_are_known_from_where_they_can_be() {
+    check(
+        &[
+            ("for (int i = 0; i < 5; i++) s += x;", (5, 5, "counted")),
+            ("for (int i = 10; i > 0; i -= 3) s += x;", (4, 4, "counted")),
+            ("for (float f = 0.0; f < 1.0; f += 0.25) s += x;", (4, 4, "counted")),
+            ("for (int i = 1; i <= 64; i *= 2) s += x;", (7, 7, "counted")),
+            ("for (int i = 98; i > 0; i /= 49) s += x;", (2, 2, "counted")),
+            ("for (int i = 64; i != 0; i >>= 1) s += x;", (7, 7, "counted")),
+            ("int m = 5; for (int i = 0; i < m; i++) s += x;", (5, 5, "counted")),
+            ("int m = 5; for (int i = 0; m > i; i++) s += x;", (5, 5, "counted")),
+            ("int i = 0; while (i < 3) { s += x; i++; }", (3, 3, "counted")),
+            ("int i = 3; while (i-- > 0) s += x;", (3, 3, "counted")),
+            ("int i = 3; while (--i > 0) s += x;", (2, 2, "counted")),
+            ("int i = 0; do { s += x; i++; } while (i < 4);", (4, 4, "counted")),
+            ("int i = 9; do { s += x; i++; } while (i < 4);", (1, 1, "counted")),
+            ("int i = 3; do s += x; while (i-- > 0);", (4, 4, "counted")),
+            ("int i = 3; do s += x; while (--i > 0);", (3, 3, "counted")),
+            ("for (int i = 0; i < n; i++) s += light[i].x;", (0, 6, "array")),
+            ("for (int i = n - 1; i >= 0; i--) s += light[i].x;", (0, 6, "array")),
+            ("for (int i = 0; i < min(n, 3); i++) s += x;", (0, 3, "range")),
+            ("for (int i = 0; i < n; i++) s += x;", (0, 8, "assumed")),
+            ("for (int i = n; i > 0; i--) s += x;", (0, 8, "assumed")),
+            ("while (s < x) s += 1.0;", (0, 8, "assumed")),
+        ],
+        &[],
+    );
+    let head = "float s = 0.0;\nfor (int i = 0; i < n; i++) s += x;\nc = vec4(s);";
+    assert_eq!(rounds(LOOPS, head, &["--iterations", "3"]), (0, 3, "assumed".to_owned()));
+}
+
+#[test]
+fn a_stated_range_limits_where_a_loop_starts_and_where_it_ends() {
+    check(
+        &[
+            ("for (int i = 0; i < n; i++) s += x;", (2, 12, "range")),
+            ("for (int i = n; i > 0; i--) s += x;", (2, 12, "range")),
+            ("for (int i = n - 1; i >= 0; i--) s += x;", (2, 12, "range")),
+            ("for (int i = n; i-- > 0;) s += x;", (2, 12, "range")),
+            ("int i = n; while (i > 0) { s += x; i--; }", (2, 12, "range")),
+            ("int i = n; while (i-- > 0) s += x;", (2, 12, "range")),
+            ("int i; i = n; do { s += x; i--; } while (i > 0);", (2, 12, "range")),
+            ("for (int i = n; i < 20; i++) s += x;", (8, 18, "range")),
+            ("for (int i = n; i != 0; --i) s += x;", (2, 12, "range")),
+            ("for (int i = n * 2; i > n; i -= 2) s += x;", (0, 11, "range")),
+            ("for (int i = n; i > 0; i /= 2) s += x;", (2, 4, "range")),
+            ("for (int i = n; i > 0; i >>= 1) s += x;", (2, 4, "range")),
+            ("for (int i = 0; i < n / 2; i++) s += x;", (1, 6, "range")),
+            ("for (int i = n - 1; i >= 0; i--) s += light[i].x;", (2, 6, "range")),
+            ("for (float f = float(n); f > 0.0; f -= 1.0) s += x;", (2, 12, "range")),
+            ("int m = n; for (int i = m; i > 0; i--) s += x;", (2, 12, "range")),
+            // Steps of two pass a limit of the other parity, and the counter goes all the way around.
+            ("for (int i = 0; i != n; i += 2) s += x;", (0, 8, "assumed")),
+        ],
+        &["--range", "n=2..12"],
+    );
+    check(&[("for (int i = n; i > 0; i--) s += x;", (0, 4, "range"))], &["--range", "n=-3..4"]);
+}
+
+#[test]
+fn the_first_of_two_conditions_that_fails_ends_a_loop() {
+    check(
+        &[
+            ("for (int i = 0; i < 16 && i < n; i++) s += x;", (0, 12, "range")),
+            ("for (int i = 0; i < n && i < 16; i++) s += x;", (0, 12, "range")),
+            ("for (int i = 0; i < 5 && i < n; i++) s += x;", (0, 5, "range")),
+            ("for (int i = 0; i < 16 && i < 7; i++) s += x;", (7, 7, "counted")),
+            ("for (int i = 0; i < 16 && s < x; i++) s += x;", (0, 16, "counted")),
+            ("for (int i = 0; s < x && i < n; i++) s += x;", (0, 12, "range")),
+            ("for (int i = 0; i < 16 && n < 20; i++) s += x;", (16, 16, "range")),
+        ],
+        &["--range", "n=0..12"],
+    );
+}
+
+#[test]
+fn a_counter_without_a_sign_wraps() {
+    check(
+        &[
+            ("for (uint i = 5u; i >= 0u; i--) { s += x; if (x > 0.1) break; }", (0, 8, "assumed")),
+            ("for (uint i = 5u; i < 10u; i--) s += x;", (6, 6, "counted")),
+            ("for (uint i = 5u; i > 0u; i--) s += x;", (5, 5, "counted")),
+            ("for (uint i = u; i > 0u; i--) s += x;", (0, 7, "range")),
+            ("for (uint i = 0u; i < u; i++) s += x;", (0, 7, "range")),
+            // 0 - 1 is the largest number.
+            ("for (uint i = u - 1u; i > 0u; i--) s += x;", (0, 8, "assumed")),
+            ("for (uint i = 0u; i < u - 1u; i++) s += x;", (0, 8, "assumed")),
+        ],
+        &["--range", "u=0..7"],
+    );
 }
 
 #[test]
@@ -104,6 +201,45 @@ fn a_known_uniform_decides_a_branch() {
     assert_eq!((path(&stage, "shortest")[1], path(&stage, "longest")[1]), (1, 1));
     let stage = fragment("in float x; uniform int kind;", body, &["--range", "kind=3..9"]);
     assert_eq!(path(&stage, "longest")[1], 0);
+}
+
+#[test]
+fn a_known_uniform_decides_a_switch_and_a_selection() {
+    let longest = |declarations: &str, body: &str, range: &str| {
+        let stage = fragment(&format!("in vec4 q; {declarations}"), body, &["--range", range]);
+        ["shortest", "longest"].map(|name| stage[name]["weight"].as_u64().expect("a weight"))
+    };
+    let switch =
+        "c = vec4(0.0); switch (kind) { case 0: c = q; break; case 1: c = q + q; break; case 2: c = sqrt(q); break; }";
+    for (range, expected) in [
+        ("kind=0", [1, 1]),
+        ("kind=1", [5, 5]),
+        ("kind=2", [17, 17]),
+        ("kind=1..2", [5, 17]),
+        ("kind=0..1", [1, 5]),
+        ("kind=3..9", [1, 1]),
+        ("kind=-5..1", [1, 5]),
+    ] {
+        assert_eq!(longest("uniform int kind;", switch, range), expected, "{range}");
+    }
+    // A case goes on into the next, and the default is where no label fits.
+    let falls = "switch (kind) { case 0: c = sqrt(q); break; default: c = q + q + q; break; case 4: c = q * q; case 5: c = q + q; }";
+    for (range, expected) in
+        [("kind=4", [9, 9]), ("kind=5", [5, 5]), ("kind=4..5", [5, 9]), ("kind=4..6", [5, 9]), ("kind=7", [9, 9])]
+    {
+        assert_eq!(longest("uniform int kind;", falls, range), expected, "{range}");
+    }
+    let select = "c = kind == 1u ? q + q : sqrt(q);";
+    let [one, other] = ["kind=1", "kind=2..3"].map(|range| longest("uniform uint kind;", select, range));
+    assert_eq!((one[0], one[1]), (one[0], one[0]));
+    assert_eq!((other[0], other[1]), (one[0] + 12, one[0] + 12));
+    assert_eq!(longest("uniform uint kind;", select, "kind=0..3"), [one[0], other[0]]);
+    let both = "c = q * float(kind > 1 && q.x * q.y + q.z > 0.5);";
+    let [skipped, taken] = ["kind=0", "kind=2"].map(|range| longest("uniform int kind;", both, range));
+    assert_eq!((skipped[1], taken[1]), (skipped[0], skipped[0] + 3));
+    let bound = "float s = 0.0; int most = kind == 1 ? 3 : 9; for (int i = 0; i < most; i++) s += q.x; c = vec4(s);";
+    assert_eq!(rounds("in vec4 q; uniform int kind;", bound, &["--range", "kind=1"]).1, 3);
+    assert_eq!(rounds("in vec4 q; uniform int kind;", bound, &["--range", "kind=0..1"]).1, 9);
 }
 
 #[test]
@@ -154,6 +290,27 @@ fn budgets_fail_lint() {
     let (over, exit) = lint(&["loop.frag"]);
     assert_eq!(exit, Some(1), "nine rounds of one lookup: {over:?}");
     assert!(over[0]["notes"][0].as_str().is_some_and(|note| note.contains("counts 9 rounds")), "{}", over[0]);
+}
+
+#[test]
+fn budgets_count_loops_and_choices_by_stated_ranges() {
+    let config = "[lint.ranges]\nlights = [0, 64]\nkind = 1\n[lint.budgets]\n\"*.frag\" = { weight = 100 }\n";
+    let over = |body: &str| {
+        let shader = format!(
+            "#version 150\nuniform int lights;\nuniform int kind;\nuniform mat4 m;\nin vec4 q;\nout vec4 c;\nvoid main() {{ c = q; {body} }}\n"
+        );
+        let folder = Folder::new(&[("glisten.toml", config.as_bytes()), ("a.frag", shader.as_bytes())]);
+        let (findings, _) = folder.lint(&["a.frag"]);
+        findings.iter().any(|one| one["code"] == "E0017")
+    };
+    assert!(over("for (int i = 0; i < lights; i++) c += q;"));
+    assert!(over("for (int i = lights; i > 0; i--) c += q;"));
+    assert!(over("int i = lights; while (i-- > 0) c += q;"));
+    assert!(!over("for (int i = 0; i < 8 && i < lights; i++) c += q;"));
+    assert!(over("c = inverse(m) * q;"));
+    let dear = "c = sqrt(sqrt(sqrt(sqrt(sqrt(sqrt(sqrt(q)))))));";
+    assert!(over(&format!("switch (kind) {{ case 1: {dear} break; }}")));
+    assert!(!over(&format!("switch (kind) {{ case 2: {dear} break; }}")));
 }
 
 #[test]

@@ -7,10 +7,10 @@ use glisten_front::builtin::BuiltinFunction as B;
 use glisten_front::fold;
 use glisten_front::hir::written_by;
 use glisten_front::hir::{
-    BinaryOp, ExprId, ExprKind, Function, LogicalOp, ScalarValue, Shader, StmtKind, Storage, Type, Types, UnaryOp,
-    VarRef,
+    BinaryOp, Case, CaseLabel, ExprId, ExprKind, Function, LogicalOp, Scalar, ScalarValue, Shader, StmtKind, Storage,
+    Type, Types, UnaryOp, VarRef,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How deep expressions are followed.
 const DEPTH: u32 = 32;
@@ -99,29 +99,88 @@ impl<'a> Known<'a> {
         self.walk(id, 0)
     }
 
+    /// Whether the bounds of a scalar depend on the stated range of a uniform.
+    pub(super) fn is_stated(&self, id: ExprId) -> bool {
+        let (mut pending, mut seen, mut is_stated) = (vec![id], BTreeSet::new(), false);
+        while let Some(root) = pending.pop().filter(|_| !is_stated) {
+            self.shader.visit_expr(root, &mut |id| {
+                if let ExprKind::Var(VarRef::Local(local)) = self.shader.expr(id).kind
+                    && seen.insert(local.index())
+                {
+                    pending.extend(self.definitions.get(local.index()).copied().flatten());
+                }
+                is_stated |= self.path(id).is_some_and(|path| self.ranges.get(&path).is_some());
+            });
+        }
+        is_stated
+    }
+
+    /// The kind of a scalar.
+    pub(super) fn scalar(&self, id: ExprId) -> Option<Scalar> {
+        match self.types.get(self.shader.expr(id).ty) {
+            Type::Scalar(scalar) => Some(scalar),
+            _ => None,
+        }
+    }
+
     fn walk(&self, id: ExprId, depth: u32) -> Option<[f64; 2]> {
-        if depth > DEPTH || !matches!(self.types.get(self.shader.expr(id).ty), Type::Scalar(_)) {
+        let scalar = self.scalar(id)?;
+        let [low, high] = self.unlimited(id, depth)?;
+        match scalar {
+            // A side that is open ends where the type does. What passes it wraps.
+            Scalar::Uint if low == f64::NEG_INFINITY => Some([0.0, high]),
+            Scalar::Uint => (low >= 0.0 && (high <= f64::from(u32::MAX) || high.is_infinite())).then_some([low, high]),
+            Scalar::Int => {
+                let fits =
+                    |side: f64| side.is_infinite() || (side >= f64::from(i32::MIN) && side <= f64::from(i32::MAX));
+                (fits(low) && fits(high)).then_some([low, high])
+            }
+            Scalar::Float | Scalar::Bool => Some([low, high]),
+        }
+    }
+
+    fn unlimited(&self, id: ExprId, depth: u32) -> Option<[f64; 2]> {
+        if depth > DEPTH {
             return None;
         }
         if let Some(value) = self.constant(id) {
             return Some([value, value]);
         }
+        let is_whole = matches!(self.scalar(id), Some(Scalar::Int | Scalar::Uint));
         let of = |id: ExprId| self.walk(id, depth + 1);
         match &self.shader.expr(id).kind {
             ExprKind::Var(VarRef::Local(local)) => of((*self.definitions.get(local.index())?)?),
             ExprKind::Var(_) | ExprKind::Member(..) | ExprKind::Index(..) => self.ranges.get(&self.path(id)?),
-            ExprKind::Convert(value) => of(*value),
+            ExprKind::Convert(value) => {
+                let [low, high] = of(*value)?;
+                match self.scalar(id)? {
+                    Scalar::Bool if low > 0.0 || high < 0.0 => Some([1.0, 1.0]),
+                    Scalar::Bool => Some([0.0, f64::from(u8::from(low != high))]),
+                    Scalar::Int | Scalar::Uint => Some([low.trunc(), high.trunc()]),
+                    Scalar::Float => Some([low, high]),
+                }
+            }
+            ExprKind::Ternary(condition, yes, no) => match self.decides(*condition, depth + 1) {
+                Some(true) => of(*yes),
+                Some(false) => of(*no),
+                None => {
+                    let ([a, b], [c, d]) = (of(*yes)?, of(*no)?);
+                    Some([a.min(c), b.max(d)])
+                }
+            },
             ExprKind::Unary(UnaryOp::Negate, value) => of(*value).map(|[low, high]| [-high, -low]),
             ExprKind::Binary(operator, a, b) => {
                 let ([a, b], [c, d]) = (of(*a)?, of(*b)?);
                 match operator {
                     BinaryOp::Add => Some([a + c, b + d]),
                     BinaryOp::Sub => Some([a - d, b - c]),
-                    BinaryOp::Mul => {
-                        let corners = [a * c, a * d, b * c, b * d];
-                        let low = corners.iter().copied().fold(f64::INFINITY, f64::min);
-                        Some([low, corners.iter().copied().fold(f64::NEG_INFINITY, f64::max)])
+                    BinaryOp::Mul => spanned([a * c, a * d, b * c, b * d]),
+                    BinaryOp::Div if c > 0.0 || d < 0.0 => {
+                        let quotients = [a / c, a / d, b / c, b / d];
+                        spanned(if is_whole { quotients.map(f64::trunc) } else { quotients })
                     }
+                    BinaryOp::Shl if c == d => Some([a * c.exp2(), b * c.exp2()]),
+                    BinaryOp::Shr if c == d => Some([(a / c.exp2()).floor(), (b / c.exp2()).floor()]),
                     _ => None,
                 }
             }
@@ -197,7 +256,7 @@ impl<'a> Known<'a> {
                 let enough = *operator == LogicalOp::Or;
                 if a == Some(enough) || b == Some(enough) { Some(enough) } else { a.and(b) }
             }
-            ExprKind::Binary(operator, left, right) if self.is_scalar(*left) => {
+            ExprKind::Binary(operator, left, right) if self.scalar(*left).is_some() => {
                 let ([a, b], [c, d]) = (self.walk(*left, depth)?, self.walk(*right, depth)?);
                 let either = |yes: bool, no: bool| if yes { Some(true) } else { no.then_some(false) };
                 match operator {
@@ -217,7 +276,33 @@ impl<'a> Known<'a> {
         }
     }
 
-    fn is_scalar(&self, id: ExprId) -> bool {
-        matches!(self.types.get(self.shader.expr(id).ty), Type::Scalar(_))
+    /// Whether the value of a selector may begin each of its cases, and whether it may begin none.
+    pub(super) fn may_begin(&self, selector: ExprId, cases: &[Case]) -> (Vec<bool>, bool) {
+        let is_signed = self.scalar(selector) != Some(Scalar::Uint);
+        let value = |bits: u32| if is_signed { f64::from(bits.cast_signed()) } else { f64::from(bits) };
+        let [low, high] = self.bounds(selector).unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let is_within = |bits: u32| (low..=high).contains(&value(bits));
+        let labels = cases.iter().flat_map(|case| &case.labels);
+        let named: BTreeSet<u32> = labels
+            .filter_map(|label| match label {
+                CaseLabel::Value(bits) => Some(*bits).filter(|bits| is_within(*bits)),
+                CaseLabel::Default => None,
+            })
+            .collect();
+        // Whole numbers of the range that no label names.
+        let others = high.floor() - low.ceil() + 1.0 > named.len() as f64;
+        let may = |label: &CaseLabel| match label {
+            CaseLabel::Value(bits) => is_within(*bits),
+            CaseLabel::Default => others,
+        };
+        let has_default = cases.iter().any(|case| case.labels.contains(&CaseLabel::Default));
+        (cases.iter().map(|case| case.labels.iter().any(may)).collect(), others && !has_default)
     }
+}
+
+/// The bounds of several numbers; `None` if one is none.
+fn spanned(numbers: [f64; 4]) -> Option<[f64; 2]> {
+    let low = numbers.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    (!numbers.iter().any(|number| number.is_nan())).then_some([low, high])
 }

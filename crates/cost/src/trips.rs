@@ -1,8 +1,8 @@
 //! How often a loop runs.
 //!
 //! *In:* a loop, the statements before it, and what is known of values. *Out:* the fewest and the most rounds, and from where they are
-//! known. *Holds:* rounds are counted by running the counter; a bound that is a uniform is limited by its stated range, or by the
-//! arrays that the counter indexes. *Not done here:* loops that are left by `break`: who walks their paths knows it.
+//! known. *Holds:* rounds are counted by running the counter, as its kind of number runs; a start or a limit that is a uniform is
+//! between the ends of its stated range, or of the arrays that the counter indexes. *Not done here:* loops that are left by `break`: who walks their paths knows it.
 
 use super::known::Known;
 use glisten_front::hir::written_by;
@@ -45,17 +45,39 @@ pub(super) struct Repeat<'a> {
 }
 
 /// A counter: where it begins, and what a round does to it.
+#[derive(Clone, Copy)]
 struct Counter {
-    local: LocalId,
-    start: f64,
+    /// Its value at the first test.
+    start: Bound,
     step: Step,
-    is_float: bool,
+    scalar: Scalar,
+}
+
+/// A number of which two sides are known.
+#[derive(Clone, Copy)]
+struct Bound {
+    sides: [f64; 2],
+    /// Whether the range of a uniform says so.
+    is_stated: bool,
 }
 
 #[derive(Clone, Copy)]
 enum Step {
     Add(f64),
     Times(f64),
+    Over(f64),
+    /// By so many bits to the right.
+    Down(f64),
+}
+
+/// A test of a counter.
+#[derive(Clone, Copy)]
+struct Test {
+    local: LocalId,
+    operator: BinaryOp,
+    limit: ExprId,
+    /// The expression that steps the counter on the way, and whether the test sees the value after it.
+    steps: Option<(ExprId, bool)>,
 }
 
 /// The rounds of a loop with `assumed` rounds where nothing is known.
@@ -68,44 +90,118 @@ pub(super) fn trips(known: &Known<'_>, repeat: Repeat<'_>, before: &[Stmt], assu
         Some(false) => return Trips { least, most: least, source: Source::Counted },
         None => {}
     }
-    let (bound, is_whole) = first_comparison(known, condition.expr);
-    let Some((local, operator, limit)) = bound else { return unknown };
-    let Some(counter) = counter(known, repeat, local, before) else { return unknown };
-    let rounds = |limit: f64| counted(&counter, operator, limit).map(|rounds| rounds.max(least));
-    if let Some(limit) = known.constant(limit) {
-        let Some(most) = rounds(limit) else { return unknown };
-        return Trips { least: if is_whole { most } else { least }, most, source: Source::Counted };
+    // The loop ends with the first of its conditions that fails.
+    let mut all: Option<Trips> = None;
+    let (mut is_whole, mut is_stated) = (true, false);
+    for part in parts(known, condition.expr) {
+        if known.decided(part) == Some(true) {
+            is_stated |= known.is_stated(part);
+            continue;
+        }
+        match tests(known, part).into_iter().flatten().find_map(|test| tested(known, repeat, before, test)) {
+            Some(own) => all = Some(all.map_or(own, |all| all.first(own))),
+            None => is_whole = false,
+        }
     }
-    let array = smallest_array(known, repeat.body, counter.local);
-    let by_array = array.and_then(|size| counted(&counter, BinaryOp::Less, f64::from(size)));
-    if let Some([low, high]) = known.bounds(limit)
-        && let (Some(one), Some(other)) = (rounds(low), rounds(high))
-        && high.is_finite()
-    {
-        let most = one.max(other).min(by_array.unwrap_or(u64::MAX));
-        let fewest = if is_whole && low.is_finite() { one.min(other).min(most) } else { least };
-        return Trips { least: fewest, most: most.max(least), source: Source::Range };
-    }
-    match by_array {
-        Some(most) => Trips { least, most: most.max(least), source: Source::Array },
-        None => unknown,
+    let Some(trips) = all else { return unknown };
+    let source = if is_stated && trips.source == Source::Counted { Source::Range } else { trips.source };
+    let fewest = if is_whole { trips.least.max(least) } else { least };
+    Trips { least: fewest, most: trips.most.max(least), source }
+}
+
+impl Trips {
+    /// The rounds of a loop with two conditions that end it.
+    fn first(self, other: Self) -> Self {
+        let source = match (self.source, other.source) {
+            (Source::Range, _) | (_, Source::Range) => Source::Range,
+            (own, _) if self.most <= other.most => own,
+            (_, other) => other,
+        };
+        Self { least: self.least.min(other.least), most: self.most.min(other.most), source }
     }
 }
 
-/// The comparison of a local with a limit in a condition, and whether it is all of it.
-fn first_comparison(known: &Known<'_>, condition: ExprId) -> (Option<(LocalId, BinaryOp, ExprId)>, bool) {
-    let (mut at, mut is_whole) = (condition, true);
-    while let ExprKind::Logical(LogicalOp::And, first, _) = &known.shader.expr(at).kind {
-        (at, is_whole) = (*first, false);
+/// The conditions that hold together.
+fn parts(known: &Known<'_>, condition: ExprId) -> Vec<ExprId> {
+    let (mut parts, mut pending) = (Vec::new(), vec![condition]);
+    while let Some(id) = pending.pop() {
+        match known.shader.expr(id).kind {
+            ExprKind::Logical(LogicalOp::And, first, second) => pending.extend([second, first]),
+            _ => parts.push(id),
+        }
     }
-    let ExprKind::Binary(operator, left, right) = &known.shader.expr(at).kind else { return (None, is_whole) };
+    parts
+}
+
+/// The rounds that one condition allows.
+fn tested(known: &Known<'_>, repeat: Repeat<'_>, before: &[Stmt], test: Test) -> Option<Trips> {
+    let array = smallest_array(known, repeat.body, test.local).map(f64::from);
+    let counter = counter(known, repeat, before, test, array)?;
+    let more = u64::from(repeat.kind == LoopKind::DoWhile);
+    let limit = known.bounds(test.limit);
+    let falls = counter.step.falls();
+    let by_array = match (counter.step, array) {
+        (Step::Add(_), Some(size)) if !falls => counted(&counter, counter.start.sides[0], BinaryOp::Less, size),
+        _ => None,
+    };
+    if let Some(sides) = limit {
+        let limit = Bound { sides, is_stated: known.is_stated(test.limit) };
+        if let Some([fewest, most]) = extremes(&counter, test.operator, limit) {
+            let is_known = |bound: Bound| bound.sides[0] == bound.sides[1] && !bound.is_stated;
+            let source = match () {
+                () if is_known(counter.start) && is_known(limit) => Source::Counted,
+                () if !counter.start.is_stated && counter.start.sides[0] == f64::NEG_INFINITY => Source::Array,
+                () => Source::Range,
+            };
+            // An array says nothing against bounds that are constant.
+            let by_array = by_array.filter(|_| source != Source::Counted).unwrap_or(u64::MAX);
+            let most = most.min(by_array);
+            return Some(Trips { least: fewest.min(most) + more, most: most + more, source });
+        }
+    }
+    by_array.map(|most| Trips { least: more, most: most + more, source: Source::Array })
+}
+
+/// The fewest and the most rounds, which are at the ends of both bounds: a counter that starts nearer to its limit makes no more of them.
+fn extremes(counter: &Counter, operator: BinaryOp, limit: Bound) -> Option<[u64; 2]> {
+    let [start, end] = [counter.start.sides, limit.sides];
+    let is_constant = start[0] == start[1] && end[0] == end[1];
+    if operator == BinaryOp::NotEqual && !is_constant {
+        // Steps of 1 meet every whole number on their way; others may pass it.
+        let on_way = match counter.step {
+            Step::Add(1.0) => start[1] <= end[0],
+            Step::Add(-1.0) => start[0] >= end[1],
+            _ => false,
+        };
+        if !on_way || counter.scalar == Scalar::Float {
+            return None;
+        }
+    }
+    let mut found: Option<[u64; 2]> = None;
+    for from in start {
+        for to in end {
+            let rounds = counted(counter, from, operator, to)?;
+            found = Some(found.map_or([rounds; 2], |[least, most]| [least.min(rounds), most.max(rounds)]));
+        }
+    }
+    found
+}
+
+/// The tests of a local against a limit that a condition may be: either side may be the counter.
+fn tests(known: &Known<'_>, condition: ExprId) -> [Option<Test>; 2] {
+    let ExprKind::Binary(operator, left, right) = &known.shader.expr(condition).kind else { return [None; 2] };
     let local = |id: ExprId| {
         let mut at = id;
         while let ExprKind::Convert(inner) = known.shader.expr(at).kind {
             at = inner;
         }
-        match known.shader.expr(at).kind {
-            ExprKind::Var(VarRef::Local(local)) => Some(local),
+        let (place, steps) = match known.shader.expr(at).kind {
+            ExprKind::IncDec(IncDec::PreIncrement | IncDec::PreDecrement, place) => (place, Some((at, true))),
+            ExprKind::IncDec(_, place) => (place, Some((at, false))),
+            _ => (at, None),
+        };
+        match known.shader.expr(place).kind {
+            ExprKind::Var(VarRef::Local(local)) => Some((local, steps)),
             _ => None,
         }
     };
@@ -115,18 +211,15 @@ fn first_comparison(known: &Known<'_>, condition: ExprId) -> (Option<(LocalId, B
         BinaryOp::Greater => BinaryOp::Less,
         BinaryOp::GreaterEqual => BinaryOp::LessEqual,
         BinaryOp::NotEqual => BinaryOp::NotEqual,
-        _ => return (None, is_whole),
+        _ => return [None; 2],
     };
-    let found = match (local(*left), local(*right)) {
-        (Some(counter), _) => Some((counter, *operator, *right)),
-        (None, Some(counter)) => Some((counter, mirrored, *left)),
-        _ => None,
-    };
-    (found, is_whole)
+    let test = |(local, steps), operator, limit| Test { local, operator, limit, steps };
+    [local(*left).map(|found| test(found, *operator, *right)), local(*right).map(|found| test(found, mirrored, *left))]
 }
 
-/// The counter of a loop, if exactly one expression of it changes the local, by a constant.
-fn counter(known: &Known<'_>, repeat: Repeat<'_>, local: LocalId, before: &[Stmt]) -> Option<Counter> {
+/// The counter of a loop, if exactly one expression of it changes the local, by a constant. `size` is that of an array that it indexes.
+fn counter(known: &Known<'_>, repeat: Repeat<'_>, before: &[Stmt], test: Test, size: Option<f64>) -> Option<Counter> {
+    let local = test.local;
     let is_counter = |target: ExprId| known.shader.root_variable(target) == Some(VarRef::Local(local));
     let mut writes = Vec::new();
     let mut note = |expr: ExprId| {
@@ -141,14 +234,15 @@ fn counter(known: &Known<'_>, repeat: Repeat<'_>, local: LocalId, before: &[Stmt
         known.shader.visit_expr(root, &mut note);
     }
     let [write] = writes.as_slice() else { return None };
-    // A write in the body counts if each round makes it.
+    // A write in the body or the condition counts if each round makes it.
     let in_step = repeat.step.is_some_and(|step| {
         let mut found = false;
         known.shader.visit_expr(step, &mut |expr| found |= expr == *write);
         found
     });
-    let each_round = repeat.body.iter().any(|one| matches!(one.kind, StmtKind::Expr(expr) if expr == *write));
-    if !in_step && !each_round {
+    let in_body = repeat.body.iter().any(|one| matches!(one.kind, StmtKind::Expr(expr) if expr == *write));
+    let in_test = test.steps.filter(|(expr, _)| expr == write);
+    if !in_step && !in_body && in_test.is_none() {
         return None;
     }
     let step = match &known.shader.expr(*write).kind {
@@ -157,13 +251,38 @@ fn counter(known: &Known<'_>, repeat: Repeat<'_>, local: LocalId, before: &[Stmt
         ExprKind::Assign(Some(operator), _, value) => by(known, *operator, *value)?,
         ExprKind::Assign(None, _, value) => match &known.shader.expr(*value).kind {
             ExprKind::Binary(operator, a, b) if is_counter(*a) => by(known, *operator, *b)?,
+            ExprKind::Binary(operator @ (BinaryOp::Add | BinaryOp::Mul), a, b) if is_counter(*b) => {
+                by(known, *operator, *a)?
+            }
             _ => return None,
         },
         _ => return None,
     };
     let ty = known.function.locals.get(local.index())?.ty;
-    let is_float = matches!(known.types.get(ty), Type::Scalar(Scalar::Float));
-    Some(Counter { local, start: start(known, local, before)?, step, is_float })
+    let Type::Scalar(scalar) = known.types.get(ty) else { return None };
+    let mut start = match start(known, local, before) {
+        Some(value) => known.bounds(value).map(|sides| Bound { sides, is_stated: known.is_stated(value) }),
+        None => None,
+    };
+    // One that falls from an unknown place still begins within the array.
+    if let (true, Some(size)) = (step.falls(), size) {
+        let bound = start.unwrap_or(Bound { sides: [f64::NEG_INFINITY, f64::INFINITY], is_stated: false });
+        let [low, high] = bound.sides;
+        if low < high {
+            start = Some(Bound { sides: [low, high.min(size - 1.0)], ..bound });
+        }
+    }
+    let counter = Counter { start: start?, step, scalar };
+    // The first test sees the counter after a step where it comes behind one.
+    let is_behind = match in_test {
+        Some((_, is_behind)) => is_behind,
+        None => repeat.kind == LoopKind::DoWhile,
+    };
+    if !is_behind {
+        return Some(counter);
+    }
+    let sides = counter.start.sides.map(|side| counter.next(side));
+    Some(Counter { start: Bound { sides, ..counter.start }, ..counter })
 }
 
 fn by(known: &Known<'_>, operator: BinaryOp, value: ExprId) -> Option<Step> {
@@ -171,24 +290,24 @@ fn by(known: &Known<'_>, operator: BinaryOp, value: ExprId) -> Option<Step> {
     match operator {
         BinaryOp::Add => Some(Step::Add(value)),
         BinaryOp::Sub => Some(Step::Add(-value)),
-        BinaryOp::Mul => Some(Step::Times(value)),
-        BinaryOp::Div => Some(Step::Times(1.0 / value)),
-        BinaryOp::Shl => Some(Step::Times(2.0_f64.powf(value))),
-        BinaryOp::Shr => Some(Step::Times(2.0_f64.powf(-value))),
+        BinaryOp::Mul if value > 0.0 => Some(Step::Times(value)),
+        BinaryOp::Div if value > 0.0 => Some(Step::Over(value)),
+        BinaryOp::Shl => Some(Step::Times(value.exp2())),
+        BinaryOp::Shr => Some(Step::Down(value)),
         _ => None,
     }
 }
 
-/// The value of a local before a loop, from the nearest statement before it that gives it one.
-fn start(known: &Known<'_>, local: LocalId, before: &[Stmt]) -> Option<f64> {
+/// The value that a local is given before a loop, by the nearest statement before it that gives it one.
+fn start(known: &Known<'_>, local: LocalId, before: &[Stmt]) -> Option<ExprId> {
     for statement in before.iter().rev() {
         match &statement.kind {
-            StmtKind::Local(declared, value) if *declared == local => return known.constant((*value)?),
+            StmtKind::Local(declared, value) if *declared == local => return *value,
             StmtKind::Expr(expr) => {
                 if let ExprKind::Assign(None, target, value) = &known.shader.expr(*expr).kind
                     && matches!(known.shader.expr(*target).kind, ExprKind::Var(VarRef::Local(one)) if one == local)
                 {
-                    return known.constant(*value);
+                    return Some(*value);
                 }
             }
             _ => {}
@@ -206,9 +325,40 @@ fn start(known: &Known<'_>, local: LocalId, before: &[Stmt]) -> Option<f64> {
     None
 }
 
-/// How often a condition on a counter holds, counted in the precision of its kind.
-fn counted(counter: &Counter, operator: BinaryOp, limit: f64) -> Option<u64> {
-    let (mut value, mut rounds) = (counter.start, 0);
+impl Step {
+    /// Whether it makes a counter from 0 on less.
+    fn falls(self) -> bool {
+        match self {
+            Self::Add(by) => by < 0.0,
+            Self::Times(by) => by < 1.0,
+            Self::Over(by) => by > 1.0,
+            Self::Down(_) => true,
+        }
+    }
+}
+
+impl Counter {
+    /// The value after a step, as its kind of number has it: integers wrap (§4.1.3).
+    fn next(&self, value: f64) -> f64 {
+        let next = match self.step {
+            Step::Add(by) => value + by,
+            Step::Times(by) => value * by,
+            Step::Over(by) => value / by,
+            Step::Down(bits) => (value / bits.exp2()).floor(),
+        };
+        const ALL: f64 = 4_294_967_296.0;
+        match self.scalar {
+            _ if !next.is_finite() => next,
+            Scalar::Float => f64::from(next as f32),
+            Scalar::Uint | Scalar::Bool => next.trunc().rem_euclid(ALL),
+            Scalar::Int => (next.trunc() + ALL / 2.0).rem_euclid(ALL) - ALL / 2.0,
+        }
+    }
+}
+
+/// How often a condition on a counter holds, counted in the numbers of its kind.
+fn counted(counter: &Counter, start: f64, operator: BinaryOp, limit: f64) -> Option<u64> {
+    let (mut value, mut rounds) = (start, 0);
     loop {
         let holds = match operator {
             BinaryOp::Less => value < limit,
@@ -222,11 +372,7 @@ fn counted(counter: &Counter, operator: BinaryOp, limit: f64) -> Option<u64> {
             return Some(rounds);
         }
         rounds += 1;
-        let next = match counter.step {
-            Step::Add(by) => value + by,
-            Step::Times(by) => value * by,
-        };
-        let next = if counter.is_float { f64::from(next as f32) } else { next.trunc() };
+        let next = counter.next(value);
         if rounds > MOST || next == value {
             return None;
         }

@@ -12,7 +12,7 @@ use super::trips::{Repeat, Trips, trips};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::written_by;
 use glisten_front::hir::{
-    Case, CaseLabel, ExprId, ExprKind, FunctionId, Shader, Stmt, StmtKind, Storage, Types, VarRef,
+    Case, ExprId, ExprKind, FunctionId, LogicalOp, Shader, Stmt, StmtKind, Storage, Types, VarRef,
 };
 use glisten_front::source::Span;
 use glisten_library::own_cost;
@@ -58,10 +58,11 @@ impl<'a> Walk<'a> {
     pub(super) fn whole(&mut self) -> Way {
         let shader = self.shader;
         let Some(main) = shader.main else { return Paths::way(Paths::NOTHING) };
+        let known = Known::new(self.types, shader, shader.function(main), self.ranges);
         let mut flow = Paths::nothing();
         for global in shader.globals.iter().filter(|global| global.used && global.storage != Storage::Uniform) {
             if let Some(value) = global.initializer {
-                let value = self.expr(value);
+                let value = self.expr(&known, value);
                 flow = self.paths.then(flow, value);
             }
         }
@@ -95,14 +96,14 @@ impl<'a> Walk<'a> {
     fn statement(&mut self, known: &Known<'_>, statement: &Stmt, before: &[Stmt]) -> Flow {
         let leaving = |exit| Flow::leaving(exit, Some(Paths::way(Paths::NOTHING)));
         match &statement.kind {
-            StmtKind::Expr(expr) | StmtKind::Local(_, Some(expr)) => self.expr(*expr),
+            StmtKind::Expr(expr) | StmtKind::Local(_, Some(expr)) => self.expr(known, *expr),
             StmtKind::Local(_, None) => Paths::nothing(),
             StmtKind::Block(body) => self.list(known, body),
             StmtKind::If { arms, otherwise } => self.branches(known, arms, otherwise),
             StmtKind::Switch { selector, cases } => {
-                let selector = self.expr(*selector);
+                let inside = self.cases(known, *selector, cases);
+                let selector = self.expr(known, *selector);
                 let decision = self.decision(statement.span);
-                let inside = self.cases(known, cases);
                 let selector = self.paths.then(selector, decision);
                 self.paths.then(selector, inside)
             }
@@ -114,7 +115,7 @@ impl<'a> Walk<'a> {
             StmtKind::Continue => leaving(Exit::Continue),
             StmtKind::Return(None) => leaving(Exit::Return),
             StmtKind::Return(Some(value)) => {
-                let value = self.expr(*value);
+                let value = self.expr(known, *value);
                 self.paths.then(value, leaving(Exit::Return))
             }
             StmtKind::Discard => {
@@ -139,7 +140,7 @@ impl<'a> Walk<'a> {
                 Some(false) => flow,
                 None => self.paths.or(inside, flow),
             };
-            let head = self.expr(*condition);
+            let head = self.expr(known, *condition);
             let decision = self.decision(self.shader.expr(*condition).span);
             let head = self.paths.then(head, decision);
             flow = self.paths.then(head, choice);
@@ -147,15 +148,17 @@ impl<'a> Walk<'a> {
         flow
     }
 
-    /// The cases of a `switch`: each may be where it begins, and goes on into the next.
-    fn cases(&mut self, known: &Known<'_>, cases: &[Case]) -> Flow {
-        let has_default = cases.iter().any(|case| case.labels.contains(&CaseLabel::Default));
-        let mut all = if has_default { Flow::default() } else { Paths::nothing() };
+    /// The cases of a `switch`: each that the selector allows may be where it begins, and goes on into the next.
+    fn cases(&mut self, known: &Known<'_>, selector: ExprId, cases: &[Case]) -> Flow {
+        let (may_begin, may_pass) = known.may_begin(selector, cases);
+        let mut all = if may_pass { Paths::nothing() } else { Flow::default() };
         let mut rest = Paths::nothing();
-        for case in cases.iter().rev() {
+        for (case, may_begin) in cases.iter().zip(may_begin).rev() {
             let body = self.list(known, &case.body);
             rest = self.paths.then(body, rest);
-            all = self.paths.or(all, rest);
+            if may_begin {
+                all = self.paths.or(all, rest);
+            }
         }
         let next = self.paths.way_or(all.at(Exit::Next), all.at(Exit::Break));
         all.with(Exit::Next, next).with(Exit::Break, None)
@@ -165,10 +168,10 @@ impl<'a> Walk<'a> {
         let trips = trips(known, repeat, before, self.assumed);
         let mut head = self.decision(span);
         if let Some(condition) = repeat.condition {
-            let condition = self.expr(condition.expr);
+            let condition = self.expr(known, condition.expr);
             head = self.paths.then(condition, head);
         }
-        let step = repeat.step.map_or_else(Paths::nothing, |step| self.expr(step));
+        let step = repeat.step.map_or_else(Paths::nothing, |step| self.expr(known, step));
         let body = self.list(known, repeat.body);
         // On the shortest path the first round leaves the loop.
         let leaves = [Exit::Break, Exit::Return, Exit::End].iter().any(|exit| body.at(*exit).is_some());
@@ -204,7 +207,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn expr(&mut self, id: ExprId) -> Flow {
+    fn expr(&mut self, known: &Known<'_>, id: ExprId) -> Flow {
         let rate = self.rates.at(id);
         if rate == Rate::Constant {
             return Paths::nothing();
@@ -215,21 +218,31 @@ impl<'a> Walk<'a> {
         let own = self.work(id, expr.span, rate);
         match &expr.kind {
             ExprKind::Ternary(condition, yes, no) => {
-                let (yes, no) = (self.expr(*yes), self.expr(*no));
-                let (condition, either) = (self.expr(*condition), self.paths.or(yes, no));
-                let flow = self.paths.then(condition, either);
+                let (yes, no) = (self.expr(known, *yes), self.expr(known, *no));
+                let choice = match known.decided(*condition) {
+                    Some(true) => yes,
+                    Some(false) => no,
+                    None => self.paths.or(yes, no),
+                };
+                let condition = self.expr(known, *condition);
+                let flow = self.paths.then(condition, choice);
                 self.paths.then(flow, own)
             }
-            ExprKind::Logical(_, first, second) => {
-                let (first, second) = (self.expr(*first), self.expr(*second));
-                let second = self.paths.or(Paths::nothing(), second);
+            ExprKind::Logical(operator, first, second) => {
+                let second = self.expr(known, *second);
+                let second = match known.decided(*first) {
+                    Some(is_true) if is_true == (*operator == LogicalOp::And) => second,
+                    Some(_) => Paths::nothing(),
+                    None => self.paths.or(Paths::nothing(), second),
+                };
+                let first = self.expr(known, *first);
                 let flow = self.paths.then(first, second);
                 self.paths.then(flow, own)
             }
             kind => {
                 let mut flow = Paths::nothing();
                 for child in kind.children() {
-                    let child = self.expr(child);
+                    let child = self.expr(known, child);
                     flow = self.paths.then(flow, child);
                 }
                 let own = match kind {

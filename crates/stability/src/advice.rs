@@ -3,6 +3,7 @@
 //! *In:* a cause, and the typed expression at its place. *Out:* a help text, which names the library's function where it has
 //! one. *Holds:* an ill-posed cause says so, because no rewriting of the expression helps.
 
+use super::forms;
 use super::patterns::{self, Found, Pattern};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{ExprKind, Shader};
@@ -22,6 +23,11 @@ pub(super) fn advice(scene: &Scene, cause: &Cause) -> String {
         && let Some(text) = of_undefined(shader, found)
     {
         return text.to_owned();
+    }
+    if let Some((shader, found)) = in_draw
+        && let Some(form) = forms::around(shader, found.expr)
+    {
+        return form.advice().to_owned();
     }
     let text = match (cause.kind, in_draw) {
         (CauseKind::Comparison, _) if cause.equality => EQUALITY,
@@ -140,6 +146,19 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
             "an angle from its cosine has few digits near 0 and 180 degrees, and none beyond: use `atan(length(cross(a, b)), \
              dot(a, b))`, or at least `clamp(c, -1.0, 1.0)`"
         }
+        (
+            _,
+            Some(
+                BuiltinFunction::Sqrt
+                | BuiltinFunction::Inversesqrt
+                | BuiltinFunction::Log
+                | BuiltinFunction::Log2
+                | BuiltinFunction::Pow,
+            ),
+        ) if kind == CauseKind::Underflow => {
+            "the argument leaves the range of f32 on the way: for a length, `safeLength` of <glisten/safe.glsl> scales first; else scale \
+             the factors of the argument by a power of two, and undo it in the result"
+        }
         (_, Some(BuiltinFunction::Sqrt | BuiltinFunction::Inversesqrt)) => {
             "rounding makes the argument negative or 0: use `sqrt(max(x, 0.0))`, and bound the divisor from below"
         }
@@ -168,7 +187,8 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
              longer edges"
         }
         (_, Some(BuiltinFunction::Exp | BuiltinFunction::Exp2)) if kind == CauseKind::Overflow => {
-            "bound the argument from above: `exp(min(x, 80.0))`; for a sigmoid, use the form with `exp(-abs(x))`"
+            "compute with the exponent, or with an exponential of a negative argument, `exp(-abs(x))`; where larger results look the same, \
+             bound the argument from above: `exp(min(x, 80.0))`"
         }
         (_, Some(BuiltinFunction::Mix)) => {
             "`mix` subtracts large numbers: interpolate the differences from one of them, `a + t * (b - a)`"

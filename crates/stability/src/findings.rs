@@ -127,7 +127,7 @@ pub fn find(
 ) -> Result<(Findings, Examination), Vec<Diagnostic>> {
     let examined = examine(scene, options)?;
     let picture = figures(scene, &examined)?;
-    let causes = placed(scene, sources, &examined, reload);
+    let causes = placed(scene, sources, (&examined, options.bound), reload);
     let verdict = examined.verdict.name();
     Ok((Findings { verdict, picture, non_finite: examined.non_finite, causes, exact: None }, examined))
 }
@@ -163,17 +163,22 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 /// The causes at their places, without those that repeat a line and a kind.
-fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Option<Reload<'_>>) -> Vec<CauseFound> {
-    let errors = &examined.errors;
-    let worst = errors.worst().map_or(0.0, |(_, error)| error);
-    let before = if errors.not_finite() > 0 { f64::INFINITY } else { worst };
+fn placed(
+    scene: &Scene,
+    sources: &SourceMap,
+    (examined, bound): (&Examination, f64),
+    reload: Option<Reload<'_>>,
+) -> Vec<CauseFound> {
+    let before = Before { error: examined.all_errors.largest(), bound, is_finite: examined.is_finite_in_exact() };
     let mut list: Vec<CauseFound> = Vec::new();
     for cause in &examined.causes {
         let tried = match reload {
-            Some(reload) if list.len() < MOST_REWRITINGS && !cause.ill_posed => tried(scene, sources, cause, reload),
+            Some(reload) if list.len() < MOST_REWRITINGS && !cause.ill_posed => {
+                tried((scene, &examined.exact), sources, cause, reload)
+            }
             _ => None,
         };
-        let help = advice(scene, cause) + &tried.map_or_else(String::new, |tried| outcome(&tried, before));
+        let help = advice(scene, cause) + &tried.map_or_else(String::new, |tried| outcome(&tried, &before));
         let diagnostic = diagnostic(cause, &help);
         let Some(finding) = write::findings(sources, [&diagnostic]).pop() else { continue };
         let region = finding.region;
@@ -208,19 +213,34 @@ fn placed(scene: &Scene, sources: &SourceMap, examined: &Examination, reload: Op
     list
 }
 
+/// The picture before a rewriting.
+struct Before {
+    /// Its largest error.
+    error: f64,
+    /// The error that is accepted.
+    bound: f64,
+    /// Whether the exact picture has a number everywhere.
+    is_finite: bool,
+}
+
 /// The result of a rewriting, compared with the error before.
-fn outcome(Tried { text, error }: &Tried, before: f64) -> String {
+fn outcome(Tried { text, error, change }: &Tried, before: &Before) -> String {
     let text: Vec<&str> = text.split_whitespace().collect();
     let text = text.join(" ");
-    match *error {
-        error if error.is_infinite() => format!(". Tried: `{text}` alone leaves pixels that are not finite"),
-        error if error > 0.5 * before => {
-            format!(
-                ". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too"
-            )
-        }
-        error => format!(". Tried: with `{text}`, the error of the picture is {error:.1e}"),
+    if error.is_infinite() {
+        return format!(". Tried: `{text}` alone leaves pixels that are not finite");
     }
+    let is_little = *error > 0.5 * before.error || before.error.is_infinite() && *error > before.bound;
+    if is_little && *change > 0.5 * error {
+        return format!(". Tried: `{text}` does not help, because it draws another picture (error {error:.1e})");
+    }
+    if *error > 0.5 * before.error {
+        return format!(
+            ". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too"
+        );
+    }
+    let rest = if before.is_finite { "" } else { " where the exact picture is finite; elsewhere it draws its own" };
+    format!(". Tried: with `{text}`, the error of the picture is {error:.1e}{rest}")
 }
 
 fn tenths(value: f64) -> f64 {

@@ -10,6 +10,7 @@
 mod advice;
 mod exact;
 mod findings;
+mod forms;
 mod heat;
 pub mod library;
 #[cfg(feature = "page")]

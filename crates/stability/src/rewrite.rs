@@ -4,12 +4,14 @@
 //! as it is gets rewritten, not what a macro expands to; operands with side effects are left alone, since some
 //! rewritings repeat them.
 
+use super::forms;
 use super::patterns::{self, Found, Pattern};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, ScalarValue, Shader, Type, Types, may_act};
 use glisten_front::source::{SourceMap, Span};
-use glisten_reference::stability::{Cause, errors_of};
+use glisten_reference::stability::{Cause, CauseKind, errors_against};
 use glisten_scene::Scene;
+use glisten_scene::picture::Picture;
 
 /// Loads the scene again with another text for a file; `None` if it does not load.
 pub type Reload<'a> = &'a dyn Fn(&str, &str) -> Option<Scene>;
@@ -19,20 +21,30 @@ pub type Reload<'a> = &'a dyn Fn(&str, &str) -> Option<Scene>;
 pub(super) struct Tried {
     /// The text in place of the expression.
     pub(super) text: String,
-    /// The largest error of the picture with it; infinite if it is not finite.
+    /// The largest error of the picture with it, against the exact picture of the program as it is; infinite if it is not finite.
     pub(super) error: f64,
+    /// The largest difference that it makes to the exact picture.
+    pub(super) change: f64,
 }
 
-/// Rewrites a cause, if that is mechanical, and measures the picture with it.
-pub(super) fn tried(scene: &Scene, sources: &SourceMap, cause: &Cause, reload: Reload<'_>) -> Option<Tried> {
+/// Rewrites a cause, if that is mechanical, and measures the picture with it against the exact one.
+pub(super) fn tried(
+    (scene, exact): (&Scene, &Picture),
+    sources: &SourceMap,
+    cause: &Cause,
+    reload: Reload<'_>,
+) -> Option<Tried> {
     let (types, shader) = scene.draws.iter().find_map(|draw| {
         let shader = draw.program.stage(cause.stage)?;
         shader.expr_at(cause.span).map(|_| (&draw.program.types, shader))
     })?;
     let found = patterns::at(types, shader, cause.span)?;
-    let text = rewriting(types, shader, sources, found)?;
-    let file = sources.file(sources.file_of(cause.span)?);
-    let range = place(sources, cause.span)?;
+    let (span, text) = match forms::around(shader, found.expr) {
+        Some(form) => (shader.expr(form.whole).span, form.text(&|id| operand(shader, sources, id))?),
+        None => (cause.span, rewriting(types, shader, sources, found, cause.kind)?),
+    };
+    let file = sources.file(sources.file_of(span)?);
+    let range = place(sources, span)?;
     let whole = file.text();
     let changed = format!("{}{}{}", whole.get(..range.start)?, text, whole.get(range.end..)?);
     let reloaded = reload(file.name(), &changed)?;
@@ -41,9 +53,8 @@ pub(super) fn tried(scene: &Scene, sources: &SourceMap, cause: &Cause, reload: R
         // The interface is the same, and so are the places of all values.
         draw.program = std::sync::Arc::clone(&other.program);
     }
-    let errors = errors_of(&rewritten).ok()?;
-    let error = if errors.not_finite() > 0 { f64::INFINITY } else { errors.worst().map_or(0.0, |(_, error)| error) };
-    Some(Tried { text, error })
+    let against = errors_against(&rewritten, exact).ok()?;
+    Some(Tried { text, error: against.errors.largest(), change: against.exact.largest() })
 }
 
 /// The bytes of a span in its file; `None` for what a macro expands to.
@@ -55,7 +66,7 @@ fn place(sources: &SourceMap, span: Span) -> Option<std::ops::Range<usize>> {
 }
 
 /// The text that takes the place of an expression.
-fn rewriting(types: &Types, shader: &Shader, sources: &SourceMap, found: Found) -> Option<String> {
+fn rewriting(types: &Types, shader: &Shader, sources: &SourceMap, found: Found, cause: CauseKind) -> Option<String> {
     let text = |id: ExprId| operand(shader, sources, id);
     let kind = &shader.expr(found.expr).kind;
     match (found.pattern, kind) {
@@ -75,6 +86,12 @@ fn rewriting(types: &Types, shader: &Shader, sources: &SourceMap, found: Found) 
         (Pattern::DifferenceOfRoots, ExprKind::Binary(BinaryOp::Sub, a, b)) => {
             let (x, y) = (text(only_argument(shader, *a)?)?, text(only_argument(shader, *b)?)?);
             Some(format!("(({x} - {y}) / (sqrt({x}) + sqrt({y})))"))
+        }
+        // A limit of the argument gives no digits back that have left the range before.
+        (_, ExprKind::BuiltinCall(function, _))
+            if cause == CauseKind::Underflow && *function != BuiltinFunction::Normalize =>
+        {
+            None
         }
         (_, ExprKind::BuiltinCall(function, arguments)) => call(types, shader, *function, arguments, &text),
         _ => None,

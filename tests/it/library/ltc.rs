@@ -58,6 +58,66 @@ fn the_horizon_cuts_lights() {
     assert!((found - 0.0625 * 0.8).abs() < 1e-3, "{found}");
 }
 
+/// The light of a tube by its surface: the side and both ends, piece by piece.
+fn tube_by_pieces(a: [f64; 3], b: [f64; 3], radius: f64) -> f64 {
+    use ggx::{add, cross, dot, scale, unit};
+    let (length, along) = (dot(add(b, scale(-1.0, a)), add(b, scale(-1.0, a))).sqrt(), unit(add(b, scale(-1.0, a))));
+    let x = unit(cross(along, if along[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }));
+    let y = cross(along, x);
+    // What a piece of the size 1 gives: N is z, and the piece shines along its own normal.
+    let gives = |at: [f64; 3], normal: [f64; 3]| {
+        let far = dot(at, at);
+        (-dot(at, normal)).max(0.0) * at[2].max(0.0) / (far * far * std::f64::consts::PI)
+    };
+    const AROUND: usize = 360;
+    const STEPS: usize = 200;
+    let (part, step, turn) = (length / STEPS as f64, radius / STEPS as f64, std::f64::consts::TAU / AROUND as f64);
+    let mut sum = 0.0;
+    for around in 0..AROUND {
+        let (sin, cos) = (turn * (around as f64 + 0.5)).sin_cos();
+        let out = add(scale(cos, x), scale(sin, y));
+        for at in (0..STEPS).map(|at| at as f64 + 0.5) {
+            sum += part * radius * turn * gives(add(a, add(scale(part * at, along), scale(radius, out))), out);
+            for (end, normal) in [(a, scale(-1.0, along)), (b, along)] {
+                sum += step * (step * at) * turn * gives(add(end, scale(step * at, out)), normal);
+            }
+        }
+    }
+    sum
+}
+
+/// Thin and thick tubes, above and across the horizon, from their side, before an end, and nearly so.
+#[test]
+fn tubes_of_any_radius_are_near_the_integral() {
+    let tube = function("ltc", "ltcTube(mat3,vec3,vec3,float)", &[]);
+    let e = |a: [f64; 3], b: [f64; 3], radius: f64| {
+        let numbers = a.into_iter().chain(b).chain([radius]).map(|number| number as f32);
+        call(&tube, &UP.into_iter().chain(numbers).collect::<Vec<_>>())[0][0]
+    };
+    for (a, b, radius) in [
+        ([-1.0, 0.0, 2.0], [1.0, 0.0, 2.0], 0.0625),
+        ([-1.0, 0.0, 2.0], [1.0, 0.0, 2.0], 1.0),
+        ([-1.25, 0.375, 2.0], [0.375, -0.9375, 1.5], 0.625),
+        ([-1.125, 1.0625, 1.9375], [0.0625, -1.9375, 1.5625], 0.625),
+        ([-3.0, 0.0, 2.0], [3.0, 0.0, 2.0], 1.5),
+        ([1.0, 0.0, 1.0], [1.0, 0.0, 3.0], 0.25),
+        ([0.25, 0.0, 1.0], [0.25, 0.0, 3.0], 0.1875),
+        ([0.25, 0.0, 1.0], [0.25, 0.0, 3.0], 0.28125),
+        ([0.0, 0.0, 1.0], [0.0, 0.0, 3.0], 0.5),
+        ([0.0, 0.0, 3.0], [0.0, 0.0, 1.0], 0.5),
+        ([1.0, 0.5, -1.0], [1.5, 0.25, 2.0], 0.5),
+        ([-1.0, 1.0, 0.25], [2.0, 1.0, -0.25], 0.75),
+        ([2.0, 0.0, 0.5], [1.0, 0.0, 0.5], 0.75),
+    ] {
+        let (found, wanted) = (e(a, b, radius), tube_by_pieces(a, b, radius));
+        assert!((found - wanted).abs() < 1e-3, "{a:?} {b:?} {radius}: {found} {wanted}");
+        assert!((e(b, a, radius) - found).abs() < 1e-12, "the ends change places");
+    }
+    assert_eq!(e([0.0, 0.0, 1.0], [0.0, 0.0, 3.0], 0.0), 0.0, "a line has no area");
+    assert_eq!(e([1.0, 0.0, 1.0], [1.0, 0.0, 1.0], 0.5), 0.0, "nor has a tube without length a side");
+    assert_eq!(e([-1.0, 0.0, 0.25], [1.0, 0.0, 0.25], 0.5), 1.0, "inside");
+}
+
 /// The directional albedo by the table of Heitz, Dupuy, Hill and Neubelt (selfshadow/ltc_code, ltc.js):
 /// roughness, cosine, the light that a white mirror returns, and the part of Schlick's term. They have few samples a texel.
 #[test]

@@ -4,6 +4,7 @@
 //! expected.
 
 mod command;
+mod remedies;
 
 use crate::support::{NextTo, compiler};
 use glisten::scene::{DiskFiles, load};

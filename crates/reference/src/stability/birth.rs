@@ -2,7 +2,7 @@
 //!
 //! *In:* an operation with its operands and its result. *Out:* the origin of the infinity or NaN.
 
-use crate::domain::ShadowFloat;
+use crate::domain::{ShadowFloat, rounded};
 use crate::exec::Kind;
 
 /// How a result that is not finite comes from finite operands.
@@ -21,12 +21,11 @@ impl Birth {
     pub(super) fn of(kind: Kind, operands: &[ShadowFloat], result: ShadowFloat) -> Self {
         let is_zero = |number: &ShadowFloat| number.single == 0.0;
         match kind {
-            Kind::Quotient | Kind::InverseRoot if operands.last().is_some_and(is_zero) => match operands.last() {
-                Some(divisor) if divisor.wide != 0.0 && divisor.wide.abs() < f64::from(f32::MIN_POSITIVE) => {
-                    Self::Underflow
-                }
-                _ => Self::Division,
-            },
+            Kind::Quotient | Kind::InverseRoot if operands.last().is_some_and(is_vanished) => Self::Underflow,
+            Kind::Logarithm | Kind::Power | Kind::Partial if operands.first().is_some_and(is_vanished) => {
+                Self::Underflow
+            }
+            Kind::Quotient | Kind::InverseRoot if operands.last().is_some_and(is_zero) => Self::Division,
             Kind::Power if operands.first().is_some_and(|base| base.single <= 0.0) => Self::Domain,
             Kind::Partial | Kind::InverseRoot | Kind::Logarithm => Self::Domain,
             Kind::Whole | Kind::Blend => Self::Division,
@@ -40,4 +39,9 @@ impl Birth {
             _ => Self::Overflow,
         }
     }
+}
+
+/// Whether a number is 0 only because f32 has none so small.
+pub(super) fn is_vanished(number: &ShadowFloat) -> bool {
+    number.single == 0.0 && number.wide != 0.0 && rounded(number.wide) == 0.0
 }

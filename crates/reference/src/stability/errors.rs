@@ -85,6 +85,11 @@ impl ErrorMap {
         })
     }
 
+    /// The largest error; infinite if a pixel is not finite in f32, 0 if there is none.
+    pub fn largest(&self) -> f64 {
+        self.errors.iter().copied().fold(0.0, f64::max)
+    }
+
     /// The first pixel that is not finite in f32.
     pub fn first_not_finite(&self) -> Option<usize> {
         self.errors.iter().position(|error| error.is_infinite())

@@ -219,6 +219,17 @@ impl Stability {
     }
 }
 
+impl Examination {
+    /// Whether every pixel that counts is finite in exact arithmetic.
+    pub fn is_finite_in_exact(&self) -> bool {
+        let is_finite = |at: usize| {
+            let pixels = self.exact.attachments.iter().filter_map(|pixels| pixels.get(at));
+            pixels.flatten().all(|channel| channel.is_finite())
+        };
+        self.all_errors.counted.iter().enumerate().all(|(at, counted)| !counted || is_finite(at))
+    }
+}
+
 /// Draws a scene in f32 and exact arithmetic side by side. The precision in the options is ignored.
 ///
 /// It takes many times as long as the same picture in f64, because it examines every result in every lane.
@@ -343,6 +354,35 @@ pub fn changes_of(scene: &Scene) -> Result<Vec<f64>, Vec<Diagnostic>> {
 /// The errors of [`cpu::render`](super::render).
 pub fn errors_of(scene: &Scene) -> Result<ErrorMap, Vec<Diagnostic>> {
     pictures_of(scene).map(|pair| pair.errors)
+}
+
+/// The errors of a scene that should look like another one.
+#[derive(Clone, Debug)]
+pub struct Against {
+    /// The difference of its picture in f32 from the exact picture of the other. Where that is not finite, its own exact picture takes the
+    /// place of it.
+    pub errors: ErrorMap,
+    /// The difference of the exact pictures, where that of the other is finite.
+    pub exact: ErrorMap,
+}
+
+/// Compares a scene with the exact picture of another one that should look the same.
+///
+/// # Errors
+/// The errors of [`cpu::render`](super::render).
+pub fn errors_against(scene: &Scene, wanted: &Picture) -> Result<Against, Vec<Diagnostic>> {
+    let format = scene.framebuffer.format;
+    let own = pictures_of(scene)?;
+    let mut wanted = wanted.clone();
+    for (wanted, own) in wanted.attachments.iter_mut().zip(&own.exact.attachments) {
+        for (wanted, own) in wanted.iter_mut().flatten().zip(own.iter().flatten()) {
+            if !wanted.is_finite() {
+                *wanted = *own;
+            }
+        }
+    }
+    let [errors, exact] = [&own.single, &own.exact].map(|picture| ErrorMap::new(picture, &wanted, format));
+    Ok(Against { errors, exact })
 }
 
 /// The values of the fragment stage's varyings at a pixel, in exact arithmetic: names with their components. Empty where

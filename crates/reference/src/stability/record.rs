@@ -5,7 +5,7 @@
 //! are joined in order.
 
 use super::CAUSE_BITS;
-use super::birth::Birth;
+use super::birth::{Birth, is_vanished};
 use crate::domain::{Shadow, ShadowFloat, rounded};
 use crate::exec::{Event, Kind, Observer, Order, Values, What};
 use glisten_front::hir::Stage;
@@ -138,7 +138,11 @@ impl Tally {
         self.error_sum += result.error();
         // Within an ULP nothing is lost. The loss is a ratio, because the number of ULP of an error jumps at powers
         // of two.
-        let brought = worst_ulps(operands);
+        let brought = match kind {
+            // The integer that is converted brings what its exact conversion has lost.
+            Kind::Conversion => error_ulps(ShadowFloat { single: result.exact, ..result }).max(worst_ulps(operands)),
+            _ => worst_ulps(operands),
+        };
         let lost = log2(error_ulps(result).max(1.0) / brought.max(1.0)).clamp(0.0, SIGNIFICAND);
         if brought <= SOUND_ULPS {
             self.first_lost_bits = self.first_lost_bits.max(lost);
@@ -150,6 +154,8 @@ impl Tally {
         let is_sum = matches!(kind, Kind::Sum | Kind::Dot | Kind::Pairs);
         self.underflows +=
             u64::from(!is_sum && result.single == 0.0 && rounded(result.exact) == 0.0 && result.exact != 0.0);
+        // A root or a quotient shows digits that left the range before.
+        self.underflows += u64::from(!is_sum && lost >= CAUSE_BITS && operands.iter().any(is_vanished));
         if matches!(kind, Kind::Normalize | Kind::Vector) && lost >= CAUSE_BITS {
             let largest = operands.iter().map(|operand| operand.single.abs()).fold(0.0, f64::max);
             self.overflows += u64::from(largest > LARGEST_SQUARED);

@@ -228,11 +228,11 @@ operations! {
         Dot "dot" smooth whole(0, -1, 0, 2), DOT;
         Cross "cross" smooth whole(0, 9, 0, 0), CROSS;
         Normalize "normalize" smooth whole(1, -1, 1, 2), NORMALIZE;
-        Faceforward "faceforward" jumps each(1), FACEFORWARD;
+        Faceforward "faceforward" jumps whole(0, 0, 1, 2), FACEFORWARD;
         Reflect "reflect" smooth whole(0, 0, 2, 2), REFLECT;
-        Refract "refract" jumps each(1), REFRACT;
-        Determinant "determinant" smooth each(1), INVERSE;
-        Inverse "inverse" smooth each(1), INVERSE;
+        Refract "refract" jumps whole(1, 6, 3, 2), REFRACT;
+        Determinant "determinant" smooth whole(0, -13, 0, 4), INVERSE;
+        Inverse "inverse" smooth whole(1, -37, 0, 11), INVERSE;
     }
     other {
         RoundEven "roundEven" Class::Unary(Unary::Round), each(1), Some(&precision::ROUND);
@@ -241,7 +241,7 @@ operations! {
         Isinf "isinf" Class::Test(Test::Infinite), each(1), None;
         MatrixCompMult "matrixCompMult" Class::Matrix(MatrixFunction::ComponentProduct), each(1), Some(&precision::MUL);
         OuterProduct "outerProduct" Class::Matrix(MatrixFunction::OuterProduct), each(1), Some(&precision::MUL);
-        Transpose "transpose" Class::Matrix(MatrixFunction::Transpose), each(1), Some(&precision::EXACT);
+        Transpose "transpose" Class::Matrix(MatrixFunction::Transpose), each(0), Some(&precision::EXACT);
         LessThan "lessThan" Class::Relation(Relation::Less), each(1), None;
         LessThanEqual "lessThanEqual" Class::Relation(Relation::LessEqual), each(1), None;
         GreaterThan "greaterThan" Class::Relation(Relation::Greater), each(1), None;

@@ -23,11 +23,12 @@ vec2 disk(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y)
 { return vec2(ltcDisk(bent(m, V, r), c, x, y) * all(a, V, r), ltcDisk(mat3(1.0), c, x, y)); }
 vec2 sphere(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y)
 { return vec2(ltcSphere(bent(m, V, r), c, length(x)) * all(a, V, r), ltcSphere(mat3(1.0), c, length(x))); }
-vec2 tube(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y)
+vec2 tube(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, float radius)
 {
-    float radius = 0.1 * length(y);
     return vec2(ltcTube(bent(m, V, r), c - x, c + x, radius) * all(a, V, r), ltcTube(mat3(1.0), c - x, c + x, radius));
 }
+vec2 tube(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y) { return tube(m, a, V, r, c, x, 0.1 * length(y)); }
+vec2 thick_tube(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y) { return tube(m, a, V, r, c, x, length(y)); }
 ";
 
 /// A shape of lights.
@@ -45,7 +46,8 @@ const SHAPES: &[Shape] = &[
     },
     Shape { name: "disk", meets: |ray, c, x, y| place(ray, c, x, y).is_some_and(|[s, t]| s * s + t * t <= 1.0) },
     Shape { name: "sphere", meets: |ray, c, x, _| dot(c, ray) > 0.0 && dot(c, c) - dot(c, ray).powi(2) <= dot(x, x) },
-    Shape { name: "tube", meets: meets_tube },
+    Shape { name: "tube", meets: |ray, c, x, y| meets_tube(ray, c, x, 0.1 * dot(y, y).sqrt()) },
+    Shape { name: "thick_tube", meets: |ray, c, x, y| meets_tube(ray, c, x, dot(y, y).sqrt()) },
 ];
 
 /// Where a ray meets a plane, by its axes.
@@ -59,8 +61,8 @@ fn place(ray: V, center: V, x: V, y: V) -> Option<[f64; 2]> {
 }
 
 /// A cylinder, closed by disks.
-fn meets_tube(ray: V, center: V, x: V, y: V) -> bool {
-    let (radius, half, axis) = (0.1 * dot(y, y).sqrt(), dot(x, x).sqrt(), unit(x));
+fn meets_tube(ray: V, center: V, x: V, radius: f64) -> bool {
+    let (half, axis) = (dot(x, x).sqrt(), unit(x));
     let flat = |v: V| add(v, scale(-dot(v, axis), axis));
     let (r, c) = (flat(ray), flat(center));
     let (a, b) = (dot(r, r), dot(r, c));
@@ -88,6 +90,7 @@ pub(crate) struct Row {
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { shape, roughness, mirrored: [mean, most], diffuse: [even, worst] } = self;
+        let shape = shape.replace('_', " ");
         write!(f, "| {shape} | {roughness} | {mean:.4} | {most:.3} | {even:.4} | {worst:.3} |")
     }
 }

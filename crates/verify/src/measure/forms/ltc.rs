@@ -83,18 +83,46 @@ fn sphere(m: Matrix, center: V, radius: f64) -> f64 {
     ellipse(m, axis, scale(half.tan(), x), scale(half.tan(), cross(axis, x)))
 }
 
+/// The outline of a tube: the lines of contact, and between them of each rim the arc that bounds it, in edges of the arc's area.
 fn tube(m: Matrix, a: V, b: V, radius: f64) -> f64 {
     let along = unit(sub(b, a));
+    let ends = [dot(along, a), dot(along, b)];
     // From the point to the axis.
-    let off = sub(a, scale(dot(a, along), along));
+    let off = sub(a, scale(ends[0], along));
     let d = norm(off);
-    if d == 0.0 {
+    if radius <= 0.0 || norm(sub(b, a)) == 0.0 {
         return 0.0;
     }
-    let half = (radius / d).min(1.0).asin();
-    let towards = scale(-radius * half.sin() / d, off);
-    let across = scale(radius * half.cos() / d, cross(along, off));
-    parallelogram(m, add(scale(0.5, add(a, b)), towards), scale(0.5, sub(b, a)), across)
+    if d <= radius {
+        if ends[0] <= 0.0 && ends[1] >= 0.0 {
+            return 1.0;
+        }
+        let x = if along[0].abs() < 0.5 { [0.0, along[2], -along[1]] } else { [-along[2], 0.0, along[0]] };
+        let x = scale(radius, unit(x));
+        return ellipse(m, if ends[0] > 0.0 { a } else { b }, x, cross(along, x));
+    }
+    let up = scale(-1.0 / d, off);
+    let side = cross(up, along);
+    let touch = (radius / d).acos();
+    let at = |height: f64, out: f64, angle: f64| {
+        let rim = add(scale(angle.cos(), up), scale(angle.sin(), side));
+        times(m, add(add(off, scale(height, along)), scale(out * radius, rim)))
+    };
+    let mut corners = Vec::new();
+    for (end, way) in [(ends[0], 1.0), (ends[1], -1.0)] {
+        let is_seen = way * end > 0.0;
+        let (edges, whole) = if is_seen { (8, -(TAU - 2.0 * touch)) } else { (4, 2.0 * touch) };
+        let step = whole / f64::from(edges);
+        // Two triangles at the lines of contact, and the others between the corners that are pushed out.
+        let inner = f64::from(edges - 2);
+        let out = ((1.0 + inner * f64::from(edges) * step / step.sin()).sqrt() - 1.0) / inner;
+        for at_edge in 0..=edges {
+            let out = if at_edge == 0 || at_edge == edges { 1.0 } else { out };
+            corners.push(at(end, out, way * (f64::from(at_edge) * step - touch)));
+        }
+        corners.push(at(ends[0].max(0.0).min(ends[1]), 1.0, way * touch));
+    }
+    polygon(&corners, 1.0)
 }
 
 /// A value with a condition number by moving its arguments.
