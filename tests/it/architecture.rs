@@ -204,6 +204,7 @@ static ORDER: &[(&str, &[&str])] = &[
         "crates/scene/src",
         &[
             "random",
+            "toml_string",
             "dynamic",
             "dependence",
             "picture",

@@ -139,7 +139,7 @@ fn assert_drawn_alike(vertex: &str, fragment: &str) {
     assert!(drawn == crate::specialize::bits(&left), "specialized:\n{vertex}\n{fragment}");
 }
 
-/// What a function does may depend on the variable that takes its value, and the next stage reads any member of a struct.
+/// The effects of a function may depend on the variable that takes its value, and the next stage reads any member of a struct.
 #[test]
 fn what_acts_keeps_its_operands() {
     const STEP: &str = "vec4 sum = vec4(0.0);\nfloat next(float t) { sum += vec4(t * 0.1); return t * 0.5 + 0.1; }\n";
