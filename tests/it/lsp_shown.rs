@@ -112,6 +112,71 @@ fn a_baseline_counts_in_the_editor() {
     editor.close();
 }
 
+/// Names in a baseline are from its own folder, wherever the server runs.
+#[test]
+fn a_configured_baseline_may_be_in_another_folder() {
+    let text = "#version 150\nout vec4 color;\nvoid main() { float a = 1.0; color = vec4(1.0); }\n";
+    for name in ["known.json", "out/known.json", "../known.json"] {
+        let toml = format!("[lint]\nbaseline = \"{name}\"\n");
+        let folder = Folder::new(&[
+            ("p/glisten.toml", toml.as_bytes()),
+            ("p/sub/a.frag", text.as_bytes()),
+            ("p/out/.gitignore", b""),
+        ]);
+        let output = folder.run(&["lint", "p", "--update-baseline"]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let mut editor = Editor::new(&folder, json!({}));
+        editor.open("p/sub/a.frag", text);
+        assert_eq!(editor.diagnostics("p/sub/a.frag").len(), 0, "{name}");
+        editor.close();
+    }
+}
+
+/// An include may have any name and be outside of the folders that the editor watches, and a baseline is written by `lint`.
+#[test]
+fn what_an_editor_does_not_watch_is_seen() {
+    let shader = "#version 150\n#include \"x.inc\"\n#include \"../h.glsl\"\nout vec4 color;\n\
+                  void main() { float unused = 1.0; color = vec4(one() + two()); }\n";
+    let one = "float one() { return 1.0; }\n";
+    let two = "float two() { return 2.0; }\n";
+    let toml = "[lint]\nbaseline = \"known.json\"\n";
+    let folder = Folder::new(&[
+        ("p/glisten.toml", toml.as_bytes()),
+        ("p/a.frag", shader.as_bytes()),
+        ("p/x.inc", one.as_bytes()),
+        ("h.glsl", two.as_bytes()),
+    ]);
+    let watches = json!({ "workspace": { "didChangeWatchedFiles": { "dynamicRegistration": true } } });
+    let mut editor = Editor::new(&folder, watches);
+    // The workspace is the inner folder alone.
+    let root = editor.uri("");
+    let p = editor.uri("p");
+    editor.tell(
+        "workspace/didChangeWorkspaceFolders",
+        json!({ "event": { "removed": [{ "uri": root, "name": "" }], "added": [{ "uri": p, "name": "p" }] } }),
+    );
+    editor.open("p/a.frag", shader);
+    assert_eq!(editor.diagnostics("p/a.frag").len(), 1, "the unused variable");
+    let seen = || std::thread::sleep(std::time::Duration::from_secs(2));
+    seen();
+    fs::write(folder.path("p/x.inc"), one.replace("1.0", "missing")).expect("written");
+    assert_eq!(editor.diagnostics("p/a.frag").len(), 2);
+    seen();
+    fs::write(folder.path("p/x.inc"), one).expect("written");
+    assert_eq!(editor.diagnostics("p/a.frag").len(), 1);
+    seen();
+    fs::write(folder.path("h.glsl"), "").expect("written");
+    assert!(editor.diagnostics("p/a.frag").iter().any(|one| one["severity"] == 1));
+    seen();
+    fs::write(folder.path("h.glsl"), two).expect("written");
+    assert_eq!(editor.diagnostics("p/a.frag").len(), 1);
+    seen();
+    let output = folder.run(&["lint", "p", "--update-baseline"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(editor.diagnostics("p/a.frag").len(), 0);
+    editor.close();
+}
+
 #[test]
 fn a_name_of_a_header_is_followed_into_all_programs() {
     let header = "float half_of(float x) { return x * 0.5; }\nfloat other(float x) { return x; }\n";

@@ -54,6 +54,15 @@ pub(crate) fn real(path: &Path) -> PathBuf {
     real.unwrap_or_else(|_| path.to_owned())
 }
 
+/// The name of a file from a folder, with `..` where it is not below that. Both are absolute. `None` if nothing leads from one to the
+/// other: they are on different drives.
+pub(crate) fn from_folder(file: &Path, folder: &Path) -> Option<PathBuf> {
+    let common = file.components().zip(folder.components()).take_while(|(ours, theirs)| ours == theirs).count();
+    let up = folder.components().skip(common);
+    let is_below = common > 0 && up.clone().all(|part| matches!(part, Component::Normal(_)));
+    is_below.then(|| up.map(|_| Component::ParentDir).chain(file.components().skip(common)).collect())
+}
+
 /// Reads a source text. Bytes that are not UTF-8 become U+FFFD.
 pub(crate) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
     let bytes = match path {

@@ -420,12 +420,7 @@ fn relative(file: &str, folder: Option<&Path>) -> String {
             .map(|part| part.as_os_str().to_owned())
             .collect::<Vec<_>>()
     };
-    let folder = parts(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
-    let file = parts(Path::new(file));
-    let common = file.iter().zip(&folder).take_while(|(ours, theirs)| ours == theirs).count();
-    let is_near = common > 1 && !folder.iter().any(|part| part == "..");
-    let up = if is_near { folder.len() - common } else { 0 };
-    let down = if is_near { common } else { 0 };
-    let path: PathBuf = std::iter::repeat_n("..".into(), up).chain(file.into_iter().skip(down)).collect();
+    let is_near = top(&folder) == top(&file) && top(&file).is_some();
+    let path = files::from_folder(&file, &folder).filter(|_| is_near).unwrap_or(file);
     path.to_string_lossy().into_owned()
 }
