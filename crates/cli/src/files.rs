@@ -251,8 +251,16 @@ const END_OF_FILE: u8 = 0x1a;
 /// It cannot, or it is an input.
 pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
     overwrite::refuse(path)?;
+    check_replaceable(path)
+}
+
+/// Makes sure that a file can be written, which may be one that was read.
+///
+/// # Errors
+/// It cannot.
+pub(crate) fn check_replaceable(path: &Path) -> Result<(), Failure> {
     if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
-        return Ok(());
+        return open_to_write(path).map(drop);
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     builder().tempfile_in(folder).map(drop).map_err(|error| unwritable(path, &error))
@@ -274,8 +282,22 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     replace(path, bytes)
 }
 
+/// Opens a file that is there, and changes nothing in it. A folder lets replace a file that its own mode protects: this asks the file.
+fn open_to_write(path: &Path) -> Result<fs::File, Failure> {
+    fs::OpenOptions::new().write(true).open(path).map_err(|error| {
+        let failure = unwritable(path, &error);
+        let is_protected = error.kind() == io::ErrorKind::PermissionDenied;
+        if is_protected {
+            failure.help("the file is protected: give yourself the permission to write it")
+        } else {
+            failure
+        }
+    })
+}
+
 /// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
-/// pipe, `/dev/null`) is written to directly. It may be one that was read, to change it in place.
+/// pipe, `/dev/null`) is written to directly. It may be one that was read, to change it in place. One that the user may not write
+/// stays as it is.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: &io::Error| unwritable(path, error);
     let target = match fs::metadata(path) {
@@ -283,11 +305,13 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
             return Err(Failure::usage(format!("cannot write `{}`: it is a folder", path.display())));
         }
         Ok(metadata) if !metadata.is_file() => {
-            let mut file = fs::OpenOptions::new().write(true).open(path).map_err(|error| failed(&error))?;
-            return file.write_all(bytes).map_err(|error| failed(&error));
+            return open_to_write(path)?.write_all(bytes).map_err(|error| failed(&error));
         }
         // A link is followed, so that it remains a link.
-        Ok(_) => fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()),
+        Ok(_) => {
+            open_to_write(path)?;
+            fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+        }
         Err(_) => path.to_owned(),
     };
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

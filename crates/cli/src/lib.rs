@@ -180,14 +180,7 @@ fn usage(error: &clap::Error) -> Exit {
 }
 
 fn end(outcome: Outcome, console: &Console) -> Exit {
-    match outcome {
-        Ok(exit) => exit,
-        Err(Failure::OutputClosed) => Exit::Ok,
-        Err(Failure::Told { exit, message, help }) => {
-            console.failure(&message, help.as_deref());
-            exit
-        }
-    }
+    outcome.unwrap_or_else(|failure| console.tell(failure))
 }
 
 #[cfg(test)]
