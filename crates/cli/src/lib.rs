@@ -40,6 +40,7 @@ mod recall;
 mod scene_ranges;
 mod scenes;
 mod search;
+mod seen;
 mod session;
 mod strings;
 pub mod survey;
@@ -165,6 +166,7 @@ fn carry_out(command: &Command, console: &Console) -> Exit {
         }
     };
     console.write_document();
+    seen::tell();
     end(outcome, console)
 }
 
