@@ -133,6 +133,7 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
             inputs
         }
     };
+    inputs.mark_guesses();
     inputs.tell_empty_folders(console);
     inputs.tell_lone_programs(console);
     let mut baselines = Baselines::given(&args.baseline)?;
