@@ -543,6 +543,7 @@ impl Project for Files<'_> {
         let above = self.folders.iter().flat_map(|folder| folder.ancestors());
         let mut paths: Vec<PathBuf> = above.map(|folder| folder.join(CONFIGURATION)).collect();
         paths.extend(self.baselines.keys().cloned());
+        paths.extend(self.baseline.as_ref().map(|baseline| files::real(baseline.path())));
         paths.sort();
         paths.dedup();
         paths
@@ -558,6 +559,11 @@ impl Project for Files<'_> {
         }
         self.groups.clear();
         self.baselines.clear();
+        // As long as it cannot be read, what was known is.
+        let again = self.baseline.as_ref().map(|old| Baseline::new(&BaselineArgs::of(Some(old.path().to_owned()))));
+        if let Some(Ok(Some(read))) = again {
+            self.baseline = Some(read);
+        }
         self.judged.clear();
         self.includes = Includes::default();
     }
