@@ -14,7 +14,7 @@ use glisten_front::syntax::is_no_text;
 use glisten_scene::{confined_to, is_allowed, may_end};
 use glisten_sources::with_line_feeds;
 use glisten_verify::scene::{DiskFiles, FileError, FileSource};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read, Write};
@@ -80,9 +80,22 @@ pub(crate) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
     Ok(Prelude { name, text })
 }
 
+/// The bytes of the names that are not UTF-8, by what is shown for them.
+static NAMES: Mutex<BTreeMap<String, Vec<u8>>> = Mutex::new(BTreeMap::new());
+
+/// The bytes of a name that is shown.
+pub(crate) fn bytes_of_name(name: &str) -> Vec<u8> {
+    let names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    names.get(name).cloned().unwrap_or_else(|| name.as_bytes().to_vec())
+}
+
 /// Reads a file of any kind.
 pub(crate) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     overwrite::note(path);
+    if path.to_str().is_none() {
+        let bytes = path.as_os_str().as_encoded_bytes().to_vec();
+        NAMES.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned(), bytes);
+    }
     let bytes = read_whole(name, path);
     trace::read(path, bytes.as_deref().ok());
     bytes
