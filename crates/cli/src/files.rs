@@ -272,8 +272,11 @@ pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
 /// # Errors
 /// It cannot.
 pub(crate) fn check_replaceable(path: &Path) -> Result<(), Failure> {
-    if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
-        return open_to_write(path).map(drop);
+    match fs::metadata(path) {
+        Ok(found) if found.is_file() => return open_to_write(path).map(drop),
+        // The other end of a pipe would take that for all of the text.
+        Ok(found) if !found.is_dir() => return Ok(()),
+        _ => {}
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     builder().tempfile_in(folder).map(drop).map_err(|error| unwritable(path, &error))
