@@ -150,8 +150,10 @@ impl Group {
 /// The inputs that the command line names.
 #[derive(Debug, Default)]
 pub(crate) struct Inputs {
-    /// The programs.
+    /// The programs: those that names of files form, then each `--program`.
     pub(crate) groups: Vec<Group>,
+    /// The number of the former.
+    n_by_names: usize,
     /// Folders that contain no shader.
     pub(crate) empty_folders: Vec<String>,
     /// The files of `--program`s of one stage.
@@ -172,7 +174,7 @@ impl Inputs {
 
     /// Marks the programs of which a search found a file.
     pub(crate) fn mark_guesses(&mut self) {
-        for group in &mut self.groups {
+        for group in self.groups.iter_mut().take(self.n_by_names) {
             let mut paths = group.inputs.iter().filter_map(|input| input.path.as_ref());
             group.is_guess = group.has_files() && paths.any(|path| self.found.contains(path));
         }
@@ -314,6 +316,7 @@ pub(crate) fn collect(
         }
     }
     inputs.groups = group(listed);
+    inputs.n_by_names = inputs.groups.len();
     inputs.groups.extend(groups);
     Ok(inputs)
 }
