@@ -120,7 +120,10 @@ fn files_of_scenes_are_watched() {
     let fragment = "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
     fs::write(path("shaders/a.frag"), fragment).expect("written");
     fs::write(path("more/a.frag"), fragment).expect("written");
-    let scene = "[framebuffer]\nwidth = 4\nheight = 4\n[[draw]]\nfullscreen = true\nfragment = \"../shaders/a.frag\"\n";
+    let vertex = "#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n";
+    fs::write(path("scenes/a.vert"), vertex).expect("written");
+    let scene = "[framebuffer]\nwidth = 4\nheight = 4\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"../shaders/a.frag\"\n\
+                 [draw.attributes]\np = { size = 2, values = [-1, -1, 3, -1, -1, 3] }\n";
     fs::write(path("scenes/s.toml"), scene).expect("written");
     let arguments = ["render", "scenes/s.toml", "--backend", "cpu", "-o", "out.png"];
     let (running, lines) = start(folder.path(), &arguments);
