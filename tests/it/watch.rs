@@ -68,7 +68,7 @@ fn a_command_runs_again_after_a_change() {
     drop(running);
 }
 
-/// What a command reads need not be in the folders that it names.
+/// Files that a command reads need not be in the folders that it names.
 #[test]
 fn files_elsewhere_are_watched() {
     let folder = tempfile::tempdir().expect("a folder");

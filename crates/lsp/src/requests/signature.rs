@@ -181,7 +181,7 @@ fn overloads(state: &mut State<'_>, point: &Point, name: &str, call: &Call) -> O
     Some(rows.into_iter().map(|row| of_builtin(row, view.shader.stage, sentence.clone())).collect())
 }
 
-/// What a name is in the first shader that has it as a function or a struct.
+/// The overloads of a name in the first shader that has it as a function or a struct.
 fn in_any_shader(point: &Point, name: &str) -> Option<Vec<Overload>> {
     let mut shaders = point.analyses.iter().flat_map(|analysis| {
         analysis.compiled.inspection.views().map(move |(number, _)| of_shader(analysis, number, name))
