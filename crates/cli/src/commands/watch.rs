@@ -146,7 +146,7 @@ struct Watched {
     folders: BTreeSet<PathBuf>,
     /// As absolute paths.
     outputs: Vec<PathBuf>,
-    /// What the last run read or looked for: absolute paths, as named and after links.
+    /// The files that the last run read or looked for: absolute paths, as named and after links.
     files: BTreeSet<PathBuf>,
     /// The folders of those files that are not below the others.
     elsewhere: BTreeSet<PathBuf>,

@@ -49,7 +49,7 @@ pub(super) fn help(state: &mut State<'_>, params: &SignatureHelpParams) -> Optio
 
 /// A call that is not complete.
 struct Call {
-    /// What is called: a name, or an array's type with its brackets.
+    /// The name that is called, or an array's type with its brackets.
     name: Range<usize>,
     /// The arguments so far, the last one up to the end of the text.
     arguments: Vec<Range<usize>>,
