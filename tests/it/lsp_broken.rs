@@ -230,7 +230,7 @@ fn the_active_signature_is_the_one_that_fits() {
 fn lines_may_end_with_carriage_returns() {
     let text = "#version 150\nout vec4 c;\nvoid main() {\nfloat x=1.0; // one\nc=vec4(x);\n}\n";
     let wanted = "#version 150\nout vec4 c;\nvoid main() {\n    float x = 1.0;  // one\n    c = vec4(x);\n}\n";
-    for (from, end) in [("\n", "\r"), ("one\n", "one\r"), (";\nvoid", ";\rvoid"), ("\n}", "\r}"), ("\n", "\r\n")] {
+    for (from, end) in [("\n", "\r"), ("one\n", "\r"), (";\nvoid", "\r"), ("\n}", "\r"), ("\n", "\r\n")] {
         let text = text.replace(from, &from.replace('\n', end));
         let folder = Folder::new(&[("a.frag", text.as_bytes())]);
         let mut editor = Editor::new(&folder, json!({}));

@@ -161,7 +161,7 @@ fn what_an_editor_does_not_watch_is_seen() {
     let seen = || std::thread::sleep(std::time::Duration::from_secs(2));
     seen();
     fs::write(folder.path("p/x.inc"), one.replace("1.0", "missing")).expect("written");
-    assert_eq!(editor.diagnostics("p/a.frag").len(), all + 1);
+    assert!(editor.diagnostics("p/a.frag").iter().any(|one| one["severity"] == 1));
     seen();
     fs::write(folder.path("p/x.inc"), one).expect("written");
     assert_eq!(editor.diagnostics("p/a.frag").len(), all);

@@ -1,10 +1,9 @@
 //! [`formatted`]: a source whose errors are found and kept.
 
-use super::{Formatted, MOST_PASSES, Options, format};
+use super::{Formatted, MOST_PASSES, Options, format, with_line_feeds};
 use glisten_front::Stage;
 use glisten_front::compiler::{self, Compiler, Source};
 use glisten_front::diagnostic::Area;
-use glisten_sources::with_line_feeds;
 use std::ops::Range;
 
 /// A text in the style of the options. Formatting the result changes nothing: which places of a wrong text do not parse depends on its
@@ -32,7 +31,7 @@ pub fn formatted(text: &str, stage: Stage, options: &Options) -> Formatted {
 /// The places that do not parse, of a source that says its version. Without its includes, or without a version, a text cannot be
 /// judged.
 fn broken(text: &str, stage: Stage) -> Vec<Range<usize>> {
-    let text = &with_line_feeds(text.to_owned());
+    let text = &with_line_feeds(text);
     let includes = ["#include", "import", "include"];
     let directives = || text.lines().filter(|line| line.trim_start().starts_with('#'));
     let is_whole = directives().any(|line| line.contains("version"))

@@ -19,7 +19,6 @@ pub mod scan;
 mod state;
 
 pub use broken::formatted;
-use glisten_sources::with_line_feeds;
 use scan::{Kind, scan};
 use std::ops::Range;
 
@@ -79,7 +78,7 @@ const MOST_PASSES: usize = 6;
 /// lines what is, so the text is formatted until it stays the same, and kept if it never does. Lines end as most of the text's do.
 pub fn format(text: &str, broken: &[Range<usize>], options: &Options) -> Formatted {
     // Offsets stay, so the places of errors do.
-    let read = with_line_feeds(text.to_owned());
+    let read = with_line_feeds(text);
     let lines = read.lines().count();
     let end = line_end(text);
     let Some((once, kept)) = pass(&read, broken, options) else {
@@ -111,6 +110,13 @@ fn pass(text: &str, broken: &[Range<usize>], options: &Options) -> Option<(Strin
         formatted.insert(0, BYTE_ORDER_MARK);
     }
     has_same_lexemes(text, &formatted).then_some((formatted, kept))
+}
+
+/// The text with a line feed for each carriage return that ends a line alone. Offsets stay.
+fn with_line_feeds(text: &str) -> String {
+    let next = text.chars().skip(1).map(Some).chain([None]);
+    let end = |(letter, next)| if letter == '\r' && next != Some('\n') { '\n' } else { letter };
+    text.chars().zip(next).map(end).collect()
 }
 
 /// The kind of end that most lines of a text have (GLSL 1.50 §3.1).

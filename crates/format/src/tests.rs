@@ -107,7 +107,7 @@ fn comments_and_line_ends_stay() {
 /// A carriage return alone ends a line, too (GLSL 1.50 §3.1).
 #[test]
 fn lines_end_as_most_do() {
-    let text = "#version 150\n// a\nout vec4   c;\n\n#define A   \\\n  1.0\nvoid main() {\nc=vec4(A); /* b\n  */\n}\n";
+    let text = "#version 150\n// a\n\nout vec4   c;\n#define A   \\\n  1.0\nvoid main() {\nc=vec4(A); /* b\n  */\n}\n";
     let wanted = formatted(text);
     assert!(wanted.contains("out vec4 c;\n") && wanted.contains("    c = vec4(A);"), "{wanted}");
     for end in ["\n", "\r\n", "\r"] {

@@ -341,7 +341,7 @@ impl Server<'_> {
         self.is_stale |= is_changed;
     }
 
-    /// Whether the editor tells of changes of a file: an include may have any name, and be in any folder.
+    /// Whether the editor announces changes of a file: an include may have any name, and be in any folder.
     fn is_watched(&self, path: &Path) -> bool {
         let extension = path.extension().and_then(|extension| extension.to_str());
         self.state.client.watches

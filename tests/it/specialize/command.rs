@@ -199,8 +199,9 @@ fn dynamic_state_frees_what_follows_from_it() {
     let place = Folder::new();
     place.write(
         "a.vert",
-        "#version 120\nvarying vec3 n;\nvarying vec4 c;\nvoid main() {\n    n = gl_NormalMatrix * gl_Normal;\n    c = gl_FrontLightProduct[0].diffuse;\n\
-         \x20   gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;\n}\n",
+        "#version 120\nvarying vec3 n;\nvarying vec4 c;\nvoid main() {\n    n = gl_Normal;\n    c = vec4(1.0);\n\
+         \x20   if (gl_NormalMatrix[0][0] > 10.0) n = vec3(0.0);\n    if (gl_ModelViewProjectionMatrix[0][0] > 100.0) n += vec3(1.0);\n\
+         \x20   if (gl_FrontLightProduct[0].diffuse.x > 100.0) c = vec4(0.5);\n    gl_Position = vec4(gl_Vertex.xyz * 0.5, 1.0);\n}\n",
     );
     place.write(
         "a.frag",
