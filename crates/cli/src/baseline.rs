@@ -165,12 +165,10 @@ impl Baseline {
         let document = Document { version: VERSION, findings };
         let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
         text.push('\n');
-        // `watch` reads the file, too: it would never come to rest.
-        if std::fs::read(&self.path).is_ok_and(|old| old == text.as_bytes()) {
-            console.remark(&format!("{} has all {} already", self.path.display(), counted(count)));
-            return Ok(());
+        // `watch` sees each write: it would never come to rest if a file that has all of it already were written again.
+        if std::fs::read(&self.path).map_or(true, |old| old != text.as_bytes()) {
+            files::replace(&self.path, text.as_bytes())?;
         }
-        files::replace(&self.path, text.as_bytes())?;
         console.remark(&format!("wrote {} to {}", counted(count), self.path.display()));
         Ok(())
     }
