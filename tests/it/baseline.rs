@@ -152,7 +152,7 @@ fn configurations_name_baselines() {
     let output = folder.run(&["lint", ".", "--update-baseline"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let text = |name: &str| fs::read_to_string(folder.path(name)).expect(name);
-    assert!(text("known/lint.json").contains("../old.frag") || text("known/lint.json").contains("old.frag"));
+    assert!(text("known/lint.json").contains("\"../old.frag\""));
     assert!(!text("known/lint.json").contains("new.frag"), "each file has the baseline of its own configuration");
     assert!(text("sub/own.json").contains("deep/new.frag"));
     assert_eq!(lint(&folder, &[]), (0, Vec::new()));
@@ -164,4 +164,62 @@ fn configurations_name_baselines() {
     let output = folder.run(&["lint", ".", "--baseline", "all.json", "--update-baseline"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     assert!(text("all.json").contains("sub/old.frag"));
+}
+
+/// The folder of the baseline need not be above the shaders, and the current folder does not matter.
+#[test]
+fn names_are_from_the_folder_of_the_baseline() {
+    let folder = Folder::new(&[
+        ("out/deep/.gitignore", b""),
+        ("old.frag", OLD.as_bytes()),
+        ("sub/broken.frag", BROKEN.as_bytes()),
+    ]);
+    let known = ["--baseline", "out/deep/known.json"];
+    let write = |at: &str, arguments: &[&str]| {
+        let mut command = folder.command(&[&["lint", "--update-baseline"], arguments, &RULES[..]].concat());
+        let output = command.current_dir(folder.path(at)).output().expect("it runs");
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        fs::read_to_string(folder.path("out/deep/known.json")).expect("it is there")
+    };
+    let text = write(".", &[".", known[0], known[1]]);
+    assert!(text.contains("\"../../old.frag\"") && text.contains("\"../../sub/broken.frag\""), "{text}");
+    let path = |name: &str| folder.path(name).to_string_lossy().into_owned();
+    let all = path(".");
+    let json = path("out/deep/known.json");
+    for (at, arguments) in [
+        ("sub", ["..", "--baseline", "../out/deep/known.json"]),
+        ("out", ["../", "--baseline", "deep/known.json"]),
+        ("out/deep", ["../..", "--baseline", "known.json"]),
+        ("sub", [all.as_str(), "--baseline", json.as_str()]),
+    ] {
+        let mut command = folder.command(&[&["lint"], &arguments[..], &RULES[..]].concat());
+        let output = command.current_dir(folder.path(at)).output().expect("it runs");
+        assert_eq!((code(&output), out(&output)), (0, String::new()), "{at}: {arguments:?}");
+        assert_eq!(write(at, &arguments), text, "{at}: {arguments:?}");
+    }
+}
+
+/// Files of before named what was not below their folder as the command line had it.
+#[test]
+fn old_baselines_are_read_and_written_anew() {
+    let folder =
+        Folder::new(&[("out/.gitignore", b""), ("old.frag", OLD.as_bytes()), ("out/old.frag", OLD.as_bytes())]);
+    let lint =
+        |more: &[&str]| folder.run(&[&["lint", "old.frag", "--baseline", "out/known.json"], &RULES[..], more].concat());
+    assert_eq!(code(&lint(&["--update-baseline"])), 0);
+    let read = || fs::read_to_string(folder.path("out/known.json")).expect("it is there");
+    let text = read();
+    assert!(text.contains("\"../old.frag\""), "{text}");
+    for old in ["other.frag".to_owned(), folder.path("other.frag").to_string_lossy().into_owned()] {
+        fs::copy(folder.path("old.frag"), folder.path("other.frag")).expect("copied");
+        fs::write(folder.path("out/known.json"), text.replace("../old.frag", &old)).expect("written");
+        let arguments = ["lint", "other.frag", "--baseline", "out/known.json"];
+        let output = folder.run(&[&arguments, &RULES[..]].concat());
+        assert_eq!((code(&output), out(&output)), (0, String::new()), "{old}");
+        // What lies below the folder was always named from there.
+        let output = folder.run(&[&["lint", "out/old.frag", "--baseline", "out/known.json"], &RULES[..]].concat());
+        assert!(!out(&output).is_empty());
+        assert_eq!(code(&lint(&["--update-baseline"])), 0);
+        assert!(read().contains("\"../other.frag\"") && read().contains("\"../old.frag\""), "{}", read());
+    }
 }

@@ -101,3 +101,47 @@ fn standard_input_is_refused_with_a_way_out() {
     assert_eq!(code(&refused), 2);
     assert!(err(&refused).contains("name the file"), "{}", err(&refused));
 }
+
+/// A file that its user may not write stays, though its folder lets replace it; the others are changed.
+#[cfg(unix)]
+#[test]
+fn protected_files_are_not_replaced() {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+    use std::os::unix::process::CommandExt;
+    let old = "#version 120\nvoid main() { gl_FragColor = vec4(1.0); }\n";
+    let crooked = "#version 150\nout vec4 c;\nvoid main() {\nc=vec4( 1.0 );\n}\n";
+    for (arguments, text) in [
+        (&["lint", "--fix", "a.frag", "b.frag"][..], SHADER),
+        (&["lint", "--unsafe-fixes", "a.frag", "b.frag"], SHADER),
+        (&["fmt", "a.frag", "b.frag"], crooked),
+        (&["fmt", "link.frag", "b.frag"], crooked),
+        (&["upgrade", "--in-place", "--to", "330", "a.frag"], old),
+        (&["compile", "c.frag", "--target", "wgsl", "-o", "."], crooked),
+    ] {
+        let files = [("a.frag", text), ("b.frag", text), ("c.frag", crooked), ("c.frag.wgsl", "mine")];
+        let folder = Folder::new(&files.map(|(name, text)| (name, text.as_bytes())));
+        symlink("a.frag", folder.path("link.frag")).expect("linked");
+        let mode = |name: &str, mode: u32| {
+            fs::set_permissions(folder.path(name), fs::Permissions::from_mode(mode)).expect("it is ours");
+        };
+        mode(".", 0o777);
+        for (name, _) in files {
+            mode(name, 0o666);
+        }
+        mode("a.frag", 0o444);
+        mode("c.frag.wgsl", 0o444);
+        let mut command = folder.command(arguments);
+        if fs::metadata(folder.path(".")).expect("it is there").uid() == 0 {
+            // The administrator may write everything.
+            command.uid(65534).gid(65534);
+        }
+        let output = command.output().expect("the program runs");
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", err(&output));
+        assert!(err(&output).contains("cannot write `"), "{arguments:?}: {}", err(&output));
+        assert_eq!((read(&folder, "a.frag"), read(&folder, "c.frag.wgsl")), (text.to_owned(), "mine".to_owned()));
+        assert_eq!(read(&folder, "b.frag") != text, arguments.contains(&"b.frag"), "{arguments:?}");
+        assert!(fs::symlink_metadata(folder.path("link.frag")).expect("it is there").is_symlink());
+        let left = fs::read_dir(folder.path(".")).expect("a folder").count();
+        assert_eq!(left, files.len() + 1, "no temporary file is left");
+    }
+}

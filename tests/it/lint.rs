@@ -1,5 +1,6 @@
 //! Tests of the lint rules: their pages' examples, their fixtures, and no warnings on ordinary programs.
 
+use crate::cli::Folder;
 use crate::support::{Settings, Shader, library_compiler, root, shaders_under};
 use glisten::{Compiler, Options, Source};
 use glisten_front::diagnostic::{Code, Example, Level, Levels, Severity};
@@ -205,4 +206,41 @@ fn unwritten_varyings_are_told_by_component_and_way() {
     ] {
         assert_eq!(unwritten(vertex, fragment), wanted, "{vertex}\n{fragment}");
     }
+}
+
+/// Names of files form programs, and do not say that there are no more shaders of a stage (GLSL 1.50 §6.1).
+#[test]
+fn a_search_leaves_room_for_more_shaders_of_a_stage() {
+    let vertex = "#version 150\nvoid main() { gl_Position = vec4(0.0); }\n";
+    let fragment = "#version 150\nvec3 hue(float x);\nout vec4 c;\nvoid main() { c = vec4(hue(1.0), 1.0); }\n";
+    let color = "#version 150\nvec3 hue(float x) { return vec3(x); }\n";
+    let folder = Folder::new(&[
+        ("d/edge.vs", vertex.as_bytes()),
+        ("d/edge.fs", fragment.as_bytes()),
+        ("d/color.glsl", color.as_bytes()),
+    ]);
+    for (arguments, wanted, exit) in [
+        (&["d"][..], "W0707", 0),
+        (&["."], "W0707", 0),
+        (&["d", "d/edge.fs"], "W0707", 0),
+        (&["d", "--deny", "W0707"], "W0707", 1),
+        (&["d/edge.fs"], "W0707", 0),
+        (&["d/edge.vs", "d/edge.fs"], "E0724", 1),
+        (&["--program", "d/edge.vs,d/edge.fs"], "E0724", 1),
+        (&["d", "--program", "d/edge.vs,d/edge.fs"], "E0724", 1),
+    ] {
+        let (found, code) = folder.lint(arguments);
+        let codes: Vec<&str> = found.iter().filter_map(|one| one["code"].as_str()).collect();
+        assert!(codes.contains(&wanted), "{arguments:?}: {codes:?}");
+        let other = if wanted == "W0707" { "E0724" } else { "W0707" };
+        assert!(code == exit && !codes.contains(&other), "{arguments:?}: {codes:?}");
+    }
+    let (found, code) = folder.lint(&["d", "--allow", "W0707"]);
+    assert!(code == 0 && found.iter().all(|one| one["code"] != "W0707" && one["code"] != "E0724"), "{found:?}");
+    // With all its shaders, it is a whole program.
+    let (found, _) = folder.lint(&["--program", "d/edge.vs,d/edge.fs,d/color.glsl", "--stage", "fragment"]);
+    assert!(found.iter().all(|one| one["code"] != "E0724" && one["code"] != "W0707"), "{found:?}");
+    // Nothing can be emitted of it.
+    let output = folder.run(&["compile", "d/edge.vs", "d/edge.fs", "-o", "out"]);
+    assert!(output.status.code() == Some(1) && !folder.path("out/edge.fs.wgsl").exists());
 }

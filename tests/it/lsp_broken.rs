@@ -168,3 +168,98 @@ fn constructors_have_signatures() {
     }
     editor.close();
 }
+
+/// The overload that the arguments fit, through parentheses that only group, in constructors of arrays, and of macros.
+#[test]
+fn the_active_signature_is_the_one_that_fits() {
+    let text = "#version 150\nin vec3 passed;\nuniform sampler2D tex;\nuniform samplerCube cube;\nuniform isampler2DArray layers;\nstruct P { vec3 o; float r; };\n\
+        vec3 blend(vec3 a, vec3 b, float k) { return mix(a, b, k); }\n\
+        float helper(vec3 a, float b) { return b; }\nfloat helper(float a) { return a; }\nfloat helper(P p, int b) { return p.r; }\n\
+        #define TWO(p, q) blend(p, q, 0.5)\nout vec4 color;\nvoid main() {\n    vec3 nrm = passed;\n    P ball;\n@@\n    color = vec4(nrm, 1.0);\n}\n";
+    let folder = Folder::new(&[("a.frag", text.replace("@@", "").as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", &text.replace("@@", ""));
+    for (number, (line, label, parameter)) in [
+        ("texture(cube, |", "gvec4 texture(gsamplerCube sampler, vec3 P [, float bias])", 1),
+        ("texture(layers, |", "gvec4 texture(gsampler2DArray sampler, vec3 P [, float bias])", 1),
+        ("float f = helper(1.0|)", "float helper(float a)", 0),
+        ("float f = helper(nrm|", "float helper(vec3 a, float b)", 0),
+        ("float f = helper(ball, |", "float helper(P p, int b)", 1),
+        ("float f = helper(blend(nrm, nrm, 1.0), |", "float helper(vec3 a, float b)", 1),
+        ("blend(nrm, (nrm.x > 0.0 ? |", "vec3 blend(vec3 a, vec3 b, float k)", 1),
+        ("blend(((nrm + |", "vec3 blend(vec3 a, vec3 b, float k)", 0),
+        ("blend(nrm, nrm * (2.0), |", "vec3 blend(vec3 a, vec3 b, float k)", 2),
+        ("float a[3] = float[3](1.0, |", "float[3](float element0, float element1, float element2)", 1),
+        ("float a[2] = float[](1.0, |", "float[](float element0, float element1, ...)", 1),
+        ("P all[2] = P[2](|", "P[2](P element0, P element1)", 0),
+        ("vec2 a[2] = vec2[2](vec2(1.0), vec2(|", "vec2(float x, float y)", 0),
+        ("nrm = vec3(nrm.xy, |", "vec3(vec2 xy, float z)", 1),
+        ("nrm = vec3(nrm.x, nrm.xy|", "vec3(float x, vec2 yz)", 1),
+        ("P q = P(nrm, |", "P(vec3 o, float r)", 1),
+        ("nrm = TWO(nrm, |", "#define TWO(p, q)", 1),
+        ("float d = dot(nrm.xy, |", "float dot(genType x, genType y)", 1),
+        ("nrm = mix(nrm, nrm, 0.5|", "genType mix(genType x, genType y, float a)", 2),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let marked = text.replace("@@", line);
+        let place = editor.at(&marked, "|");
+        editor.change("a.frag", number as i64 + 2, json!([{ "text": marked.replacen('|', "", 1) }]));
+        let uri = editor.uri("a.frag");
+        let help =
+            editor.ask("textDocument/signatureHelp", json!({ "textDocument": { "uri": uri }, "position": place }));
+        let active = help["activeSignature"].as_u64().unwrap_or(99) as usize;
+        assert_eq!(help["signatures"][active]["label"], label, "{line}: {help:#}");
+        assert_eq!(help["activeParameter"], parameter, "{line}");
+    }
+    for (number, line) in ["if (|", "(|", "nrm[|", "unknown(|", "color[0](|"].into_iter().enumerate() {
+        let marked = text.replace("@@", line);
+        let place = editor.at(&marked, "|");
+        editor.change("a.frag", number as i64 + 50, json!([{ "text": marked.replacen('|', "", 1) }]));
+        let uri = editor.uri("a.frag");
+        let help =
+            editor.ask("textDocument/signatureHelp", json!({ "textDocument": { "uri": uri }, "position": place }));
+        assert!(help.is_null(), "{line}: {help}");
+    }
+    editor.close();
+}
+
+/// A carriage return alone ends a line (GLSL 1.50 §3.1), and formatting loses no statement by it.
+#[test]
+fn lines_may_end_with_carriage_returns() {
+    let text = "#version 150\nout vec4 c;\nvoid main() {\nfloat x=1.0; // one\nc=vec4(x);\n}\n";
+    let wanted = "#version 150\nout vec4 c;\nvoid main() {\n    float x = 1.0;  // one\n    c = vec4(x);\n}\n";
+    for (from, end) in [("\n", "\r"), ("one\n", "\r"), (";\nvoid", "\r"), ("\n}", "\r"), ("\n", "\r\n")] {
+        let text = text.replace(from, &from.replace('\n', end));
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let mut editor = Editor::new(&folder, json!({}));
+        editor.open("a.frag", &text);
+        let uri = editor.uri("a.frag");
+        let options = json!({ "tabSize": 4, "insertSpaces": true });
+        let edits =
+            editor.ask("textDocument/formatting", json!({ "textDocument": { "uri": uri }, "options": options }));
+        // The lines of the protocol end with each of the three.
+        let plain: Vec<&str> = text.split_inclusive(['\n', '\r']).collect();
+        let mut lines: Vec<String> = Vec::new();
+        for piece in plain {
+            match lines.last_mut().filter(|last| piece == "\n" && last.ends_with('\r')) {
+                Some(last) => last.push('\n'),
+                None => lines.push(piece.to_owned()),
+            }
+        }
+        let offset = |place: &Value| {
+            let line = place["line"].as_u64().expect("a line") as usize;
+            let before: usize = lines.iter().take(line).map(String::len).sum();
+            before + place["character"].as_u64().expect("a column") as usize
+        };
+        let mut formatted = text.clone();
+        for edit in edits.as_array().expect("edits").iter().rev() {
+            let range = offset(&edit["range"]["start"])..offset(&edit["range"]["end"]);
+            formatted.replace_range(range, edit["newText"].as_str().expect("a text"));
+        }
+        let all = if from == "\n" { wanted.replace('\n', end) } else { wanted.to_owned() };
+        assert_eq!(formatted, all, "{text:?}: {edits}");
+        editor.close();
+    }
+}

@@ -112,6 +112,71 @@ fn a_baseline_counts_in_the_editor() {
     editor.close();
 }
 
+/// Names in a baseline are from its own folder, wherever the server runs.
+#[test]
+fn a_configured_baseline_may_be_in_another_folder() {
+    let text = "#version 150\nout vec4 color;\nvoid main() { float a = 1.0; color = vec4(1.0); }\n";
+    for name in ["known.json", "out/known.json", "../known.json"] {
+        let toml = format!("[lint]\nbaseline = \"{name}\"\n");
+        let folder = Folder::new(&[
+            ("p/glisten.toml", toml.as_bytes()),
+            ("p/sub/a.frag", text.as_bytes()),
+            ("p/out/.gitignore", b""),
+        ]);
+        let output = folder.run(&["lint", "p", "--update-baseline"]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let mut editor = Editor::new(&folder, json!({}));
+        editor.open("p/sub/a.frag", text);
+        assert_eq!(editor.diagnostics("p/sub/a.frag").len(), 0, "{name}");
+        editor.close();
+    }
+}
+
+/// An include may have any name and be outside of the folders that the editor watches, and a baseline is written by `lint`.
+#[test]
+fn what_an_editor_does_not_watch_is_seen() {
+    let shader = "#version 150\n#include \"x.inc\"\n#include \"../h.glsl\"\nout vec4 color;\n\
+                  void main() { float unused = 1.0; color = vec4(one() + two()); }\n";
+    let one = "float one() { return 1.0; }\n";
+    let two = "float two() { return 2.0; }\n";
+    let toml = "[lint]\nbaseline = \"known.json\"\n";
+    let folder = Folder::new(&[
+        ("p/glisten.toml", toml.as_bytes()),
+        ("p/a.frag", shader.as_bytes()),
+        ("p/x.inc", one.as_bytes()),
+        ("h.glsl", two.as_bytes()),
+    ]);
+    let watches = json!({ "workspace": { "didChangeWatchedFiles": { "dynamicRegistration": true } } });
+    let mut editor = Editor::new(&folder, watches);
+    // The workspace is the inner folder alone.
+    let root = editor.uri("");
+    let p = editor.uri("p");
+    editor.tell(
+        "workspace/didChangeWorkspaceFolders",
+        json!({ "event": { "removed": [{ "uri": root, "name": "" }], "added": [{ "uri": p, "name": "p" }] } }),
+    );
+    editor.open("p/a.frag", shader);
+    let all = editor.diagnostics("p/a.frag").len();
+    assert!(all > 0, "at least the unused variable");
+    let changed = |editor: &mut Editor, file: &str, text: &str, is_it: &dyn Fn(&[Value]) -> bool| {
+        // It has been looked at once before.
+        std::thread::sleep(std::time::Duration::from_secs(2));
+        fs::write(folder.path(file), text).expect("written");
+        while !is_it(&editor.diagnostics("p/a.frag")) {}
+    };
+    let is_as_before = |found: &[Value]| found.len() == all;
+    let is_wrong = |found: &[Value]| found.iter().any(|one| one["severity"] == 1);
+    changed(&mut editor, "p/x.inc", "", &is_wrong);
+    changed(&mut editor, "p/x.inc", one, &is_as_before);
+    changed(&mut editor, "h.glsl", "", &is_wrong);
+    changed(&mut editor, "h.glsl", two, &is_as_before);
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let output = folder.run(&["lint", "p", "--update-baseline"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    while !editor.diagnostics("p/a.frag").is_empty() {}
+    editor.close();
+}
+
 #[test]
 fn a_name_of_a_header_is_followed_into_all_programs() {
     let header = "float half_of(float x) { return x * 0.5; }\nfloat other(float x) { return x; }\n";

@@ -90,3 +90,33 @@ fn the_action_names_files_that_are_there() {
     assert!(action.contains("\"$GITHUB_ACTION_PATH/lint\"") && root().join("integrations/github/lint").is_file());
     assert!(root().join("integrations/github/../../Cargo.toml").is_file());
 }
+
+/// The URI of a file has the bytes of its name (RFC 3986 §2.1), of UTF-8 or not.
+#[cfg(target_os = "linux")]
+#[test]
+fn uris_have_the_bytes_of_names() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let text = "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0f) }\n";
+    let folder = Folder::new(&[]);
+    let name = |bytes: &[u8]| OsStr::from_bytes(bytes).to_owned();
+    fs::create_dir(folder.path(".").join(name(b"n\xff"))).expect("a folder");
+    for file in [&b"n\xff/x\xfe.frag"[..], b"n\xff/\xc3\xa9 y.frag", b"n\xff/z.frag", "\u{fffd}.frag".as_bytes()] {
+        fs::write(folder.path(".").join(name(file)), text).expect("written");
+    }
+    let output = folder.run(&["lint", ".", "--format", "sarif"]);
+    let log: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let results = log["runs"][0]["results"].as_array().expect("results");
+    let of =
+        |value: &Value| value["artifactLocation"]["uri"].as_str().map(|uri| uri.trim_start_matches("./").to_owned());
+    let mut uris: Vec<String> =
+        results.iter().filter_map(|result| of(&result["locations"][0]["physicalLocation"])).collect();
+    uris.sort();
+    uris.dedup();
+    assert_eq!(uris, ["%EF%BF%BD.frag", "n%FF/%C3%A9%20y.frag", "n%FF/x%FE.frag", "n%FF/z.frag"]);
+    let changes = results.iter().flat_map(|result| result["fixes"].as_array().cloned().unwrap_or_default());
+    let mut fixed: Vec<String> = changes.filter_map(|fix| of(&fix["artifactChanges"][0])).collect();
+    fixed.sort();
+    fixed.dedup();
+    assert_eq!(fixed, uris);
+}

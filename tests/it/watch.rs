@@ -68,6 +68,80 @@ fn a_command_runs_again_after_a_change() {
     drop(running);
 }
 
+/// Files that a command reads need not be in the folders that it names.
+#[test]
+fn files_elsewhere_are_watched() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let write = |name: &str, text: &str| {
+        fs::create_dir_all(path(name).parent().expect("it is in the folder")).expect("a folder");
+        fs::write(path(name), text).expect("the folder can be written to");
+    };
+    let shader = "#version 150\n#include \"../common/.own/h.glsl\"\nout vec4 c;\nvoid main() { c = vec4(gray()); }\n";
+    write("p/sub/a.frag", shader);
+    let (running, lines) = start(&path("p"), &["lint", "sub"]);
+    wait_for(&lines, "Errors. Watching `sub`");
+    write("p/sub/other.txt", "");
+    wait_for(&lines, "Errors. Watching `sub`");
+    // The include comes into being, with its folder; the search of it ends at a folder that is there.
+    write("p/common/.own/h.glsl", "float gray() { return 0.5; }\n");
+    write("p/sub/a.frag", &format!("{shader}\n"));
+    wait_for(&lines, "OK. Watching `sub` and 1 file elsewhere");
+    for (name, text, seen, ended) in [
+        ("p/common/.own/h.glsl", "float gray() { return missing; }\n", "h.glsl changed", "Errors."),
+        ("p/common/.own/h.glsl", "float gray() { return 1.0; }\n", "h.glsl changed", "OK."),
+        // Above the folder of the command, and new.
+        (
+            "glisten.toml",
+            "[lint]\ndeny = [\"L0013\"]\n",
+            "glisten.toml changed",
+            "Watching `sub` and 2 files elsewhere",
+        ),
+        ("p/glisten.toml", "[lint]\nwrong = 1\n", "glisten.toml changed", "Errors."),
+    ] {
+        write(name, text);
+        wait_for(&lines, seen);
+        wait_for(&lines, ended);
+    }
+    write("p/common/.own/unread.glsl", "");
+    write("p/common/.own/h.glsl~", "");
+    assert!(lines.recv_timeout(Duration::from_millis(400)).is_err(), "nothing reads them");
+    drop(running);
+}
+
+/// The shaders of a scene, its pictures, and what a changed scene reads instead.
+#[test]
+fn files_of_scenes_are_watched() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    for name in ["scenes", "shaders", "more"] {
+        fs::create_dir(path(name)).expect("a folder");
+    }
+    let fragment = "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+    fs::write(path("shaders/a.frag"), fragment).expect("written");
+    fs::write(path("more/a.frag"), fragment).expect("written");
+    let vertex = "#version 150\nin vec4 p;\nvoid main() { gl_Position = p; }\n";
+    fs::write(path("scenes/a.vert"), vertex).expect("written");
+    let scene = "[framebuffer]\nwidth = 4\nheight = 4\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"../shaders/a.frag\"\n\
+                 [draw.attributes]\np = { size = 2, values = [-1, -1, 3, -1, -1, 3] }\n";
+    fs::write(path("scenes/s.toml"), scene).expect("written");
+    let arguments = ["render", "scenes/s.toml", "--backend", "cpu", "-o", "out.png"];
+    let (running, lines) = start(folder.path(), &arguments);
+    wait_for(&lines, "OK. Watching `scenes` and 1 file elsewhere");
+    fs::write(path("shaders/a.frag"), fragment.replace("1.0", "0.5")).expect("written");
+    wait_for(&lines, "a.frag changed");
+    wait_for(&lines, "OK. Watching");
+    fs::write(path("scenes/s.toml"), scene.replace("shaders", "more")).expect("written");
+    wait_for(&lines, "s.toml changed");
+    wait_for(&lines, "OK. Watching");
+    fs::write(path("shaders/a.frag"), fragment).expect("written");
+    assert!(lines.recv_timeout(Duration::from_millis(400)).is_err(), "it is read no more");
+    fs::write(path("more/a.frag"), "#version 150\n").expect("written");
+    wait_for(&lines, "a.frag changed");
+    wait_for(&lines, "Errors. Watching");
+    drop(running);
+}
+
 #[test]
 fn only_commands_are_watched() {
     let run = |arguments: &[&str]| {

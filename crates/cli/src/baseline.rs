@@ -2,7 +2,8 @@
 //!
 //! *In:* checked units and a file of findings. *Out:* the units without those findings; or the file, written again. *Holds:* a
 //! finding is known by its file, code, message and line of text, so it stays known when lines above it come and go. Of several
-//! equal ones in a file, as many are left out as the file counts.
+//! equal ones in a file, as many are left out as the file counts. Files are named from the folder of the baseline, so the current
+//! folder does not matter.
 
 use crate::batch::Batch;
 use crate::console::Console;
@@ -53,7 +54,7 @@ impl BaselineArgs {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
-    /// Relative to the folder of the baseline, with `/`.
+    /// Relative to the folder of the baseline, with `/`, and with `..` where it is not below that.
     file: String,
     code: String,
     message: String,
@@ -74,8 +75,12 @@ type Told = (Region, &'static str, String);
 /// The known findings.
 pub(crate) struct Baseline {
     path: PathBuf,
+    folder: Folder,
     known: Vec<Entry>,
 }
+
+/// The folder of a baseline, without links.
+struct Folder(PathBuf);
 
 impl Baseline {
     /// Reads the baseline, if there is one. One that is going to be written need not exist.
@@ -84,8 +89,9 @@ impl Baseline {
     /// The file cannot be read or is none.
     pub(crate) fn new(args: &BaselineArgs) -> Result<Option<Self>, Failure> {
         let Some(path) = args.baseline.clone() else { return Ok(None) };
+        let folder = Folder::of(&path);
         if args.update_baseline && !path.exists() {
-            return Ok(Some(Self { path, known: Vec::new() }));
+            return Ok(Some(Self { path, folder, known: Vec::new() }));
         }
         let name = path.to_string_lossy().into_owned();
         let bytes = files::read(&name, &path).map_err(|error| {
@@ -102,7 +108,9 @@ impl Baseline {
         if document.version != VERSION {
             return Err(refused(format!("its version is {}, not {VERSION}", document.version)));
         }
-        Ok(Some(Self { path, known: document.findings }))
+        let named = |entry: Entry| Entry { file: folder.read_name(entry.file), ..entry };
+        let known = document.findings.into_iter().map(named).collect();
+        Ok(Some(Self { path, folder, known }))
     }
 
     /// The file.
@@ -148,8 +156,7 @@ impl Baseline {
     /// The file cannot be written.
     pub(crate) fn update(&self, units: &[&Unit], console: &Console) -> Result<(), Failure> {
         let checked = self.checked(units);
-        let folder = self.folder();
-        let elsewhere = |entry: &&Entry| !checked.contains(&entry.file) && folder.join(&entry.file).exists();
+        let elsewhere = |entry: &&Entry| !checked.contains(&entry.file) && self.folder.0.join(&entry.file).exists();
         let mut findings: Vec<Entry> = self.known.iter().filter(elsewhere).cloned().collect();
         let batches: Vec<&Batch> = units.iter().map(|unit| &unit.batch).collect();
         findings.extend(self.entries(&batches).into_values());
@@ -158,7 +165,10 @@ impl Baseline {
         let document = Document { version: VERSION, findings };
         let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
         text.push('\n');
-        files::replace(&self.path, text.as_bytes())?;
+        // `watch` sees each write: it would never come to rest if a file that has all of it already were written again.
+        if std::fs::read(&self.path).map_or(true, |old| old != text.as_bytes()) {
+            files::replace(&self.path, text.as_bytes())?;
+        }
         console.remark(&format!("wrote {} to {}", counted(count), self.path.display()));
         Ok(())
     }
@@ -174,7 +184,7 @@ impl Baseline {
         findings.sort_by(|a, b| a.region.cmp(&b.region));
         let prints = fingerprints(&findings);
         let entry = |(finding, fingerprint): (&Finding, String)| {
-            let file = self.relative(&finding.region.file);
+            let file = self.folder.name_of(&finding.region.file);
             let (code, message) = (finding.code.id.to_owned(), finding.message.clone());
             (told(finding), Entry { file, code, message, fingerprint })
         };
@@ -184,21 +194,31 @@ impl Baseline {
     /// The files of the units.
     fn checked(&self, units: &[&Unit]) -> BTreeSet<String> {
         let names = |sources: &SourceMap| -> Vec<String> {
-            sources.files().map(|(_, file)| self.relative(file.name())).collect()
+            sources.files().map(|(_, file)| self.folder.name_of(file.name())).collect()
         };
         units.iter().flat_map(|unit| names(&unit.batch.sources)).collect()
     }
+}
 
-    fn folder(&self) -> PathBuf {
-        let folder = self.path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let folder = folder.unwrap_or(Path::new("."));
-        std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
+impl Folder {
+    fn of(baseline: &Path) -> Self {
+        let folder = baseline.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Self(std::fs::canonicalize(folder).unwrap_or_else(|_| files::real(folder)))
     }
 
-    /// A file's name relative to the folder of the baseline, so that the current folder does not matter.
-    fn relative(&self, file: &str) -> String {
-        let absolute = std::fs::canonicalize(file).unwrap_or_else(|_| PathBuf::from(file));
-        absolute.strip_prefix(self.folder()).unwrap_or(Path::new(file)).to_string_lossy().replace('\\', "/")
+    /// A file's name relative to the folder. What is no file on disk keeps its name.
+    fn name_of(&self, file: &str) -> String {
+        let relative = std::fs::canonicalize(file).ok().and_then(|file| files::from_folder(&file, &self.0));
+        relative.unwrap_or_else(|| PathBuf::from(file)).to_string_lossy().replace('\\', "/")
+    }
+
+    /// The name of a file in a baseline. Old ones name a file that is not below the folder from the folder that was the current one.
+    fn read_name(&self, file: String) -> String {
+        if !Path::new(&file).is_absolute() && self.0.join(&file).exists() {
+            return file;
+        }
+        let named = self.name_of(&file);
+        if Path::new(&named).starts_with("..") { named } else { file }
     }
 }
 

@@ -6,7 +6,7 @@
 
 use crate::arguments::args::DiagnosticFormat;
 use crate::batch::Batch;
-use crate::exit::Failure;
+use crate::exit::{Exit, Failure};
 use crate::told::Document;
 use clap::ValueEnum;
 use glisten_front::diagnostic::shortened;
@@ -159,6 +159,17 @@ impl Console {
     pub(crate) fn clear_line(&self) {
         if self.is_watched() {
             self.message("\r\x1b[2K");
+        }
+    }
+
+    /// Reports why a command, or a part of its work, cannot continue. Returns the exit code.
+    pub(crate) fn tell(&self, failure: Failure) -> Exit {
+        match failure {
+            Failure::Told { exit, message, help } => {
+                self.failure(&message, help.as_deref());
+                exit
+            }
+            Failure::OutputClosed => Exit::Ok,
         }
     }
 

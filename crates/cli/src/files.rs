@@ -14,7 +14,7 @@ use glisten_front::syntax::is_no_text;
 use glisten_scene::{confined_to, is_allowed, may_end};
 use glisten_sources::with_line_feeds;
 use glisten_verify::scene::{DiskFiles, FileError, FileSource};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read, Write};
@@ -54,6 +54,15 @@ pub(crate) fn real(path: &Path) -> PathBuf {
     real.unwrap_or_else(|_| path.to_owned())
 }
 
+/// The name of a file from a folder, with `..` where it is not below that. Both are absolute. `None` if nothing leads from one to the
+/// other: they are on different drives.
+pub(crate) fn from_folder(file: &Path, folder: &Path) -> Option<PathBuf> {
+    let common = file.components().zip(folder.components()).take_while(|(ours, theirs)| ours == theirs).count();
+    let up = folder.components().skip(common);
+    let is_below = common > 0 && up.clone().all(|part| matches!(part, Component::Normal(_)));
+    is_below.then(|| up.map(|_| Component::ParentDir).chain(file.components().skip(common)).collect())
+}
+
 /// Reads a source text. Bytes that are not UTF-8 become U+FFFD.
 pub(crate) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
     let bytes = match path {
@@ -71,9 +80,22 @@ pub(crate) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
     Ok(Prelude { name, text })
 }
 
+/// The bytes of the names that are not UTF-8, by what is shown for them.
+static NAMES: Mutex<BTreeMap<String, Vec<u8>>> = Mutex::new(BTreeMap::new());
+
+/// The bytes of a name that is shown.
+pub(crate) fn bytes_of_name(name: &str) -> Vec<u8> {
+    let names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    names.get(name).cloned().unwrap_or_else(|| name.as_bytes().to_vec())
+}
+
 /// Reads a file of any kind.
 pub(crate) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     overwrite::note(path);
+    if path.to_str().is_none() {
+        let bytes = path.as_os_str().as_encoded_bytes().to_vec();
+        NAMES.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned(), bytes);
+    }
     let bytes = read_whole(name, path);
     trace::read(path, bytes.as_deref().ok());
     bytes
@@ -242,8 +264,19 @@ const END_OF_FILE: u8 = 0x1a;
 /// It cannot, or it is an input.
 pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
     overwrite::refuse(path)?;
-    if fs::metadata(path).is_ok_and(|found| !found.is_dir()) {
-        return Ok(());
+    check_replaceable(path)
+}
+
+/// Makes sure that a file can be written, which may be one that was read.
+///
+/// # Errors
+/// It cannot.
+pub(crate) fn check_replaceable(path: &Path) -> Result<(), Failure> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_file() => return open_to_write(path).map(drop),
+        // The other end of a pipe would take that for all of the text.
+        Ok(found) if !found.is_dir() => return Ok(()),
+        _ => {}
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     builder().tempfile_in(folder).map(drop).map_err(|error| unwritable(path, &error))
@@ -265,8 +298,22 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     replace(path, bytes)
 }
 
+/// Opens a file that is there, and changes nothing in it. A folder lets replace a file that its own mode protects: this asks the file.
+fn open_to_write(path: &Path) -> Result<fs::File, Failure> {
+    fs::OpenOptions::new().write(true).open(path).map_err(|error| {
+        let failure = unwritable(path, &error);
+        let is_protected = error.kind() == io::ErrorKind::PermissionDenied;
+        if is_protected {
+            failure.help("the file is protected: give yourself the permission to write it")
+        } else {
+            failure
+        }
+    })
+}
+
 /// Writes a file completely: to a temporary name next to it, which is then renamed. Anything but a regular file (a
-/// pipe, `/dev/null`) is written to directly. It may be one that was read, to change it in place.
+/// pipe, `/dev/null`) is written to directly. It may be one that was read, to change it in place. One that the user may not write
+/// stays as it is.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: &io::Error| unwritable(path, error);
     let target = match fs::metadata(path) {
@@ -274,11 +321,13 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
             return Err(Failure::usage(format!("cannot write `{}`: it is a folder", path.display())));
         }
         Ok(metadata) if !metadata.is_file() => {
-            let mut file = fs::OpenOptions::new().write(true).open(path).map_err(|error| failed(&error))?;
-            return file.write_all(bytes).map_err(|error| failed(&error));
+            return open_to_write(path)?.write_all(bytes).map_err(|error| failed(&error));
         }
         // A link is followed, so that it remains a link.
-        Ok(_) => fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()),
+        Ok(_) => {
+            open_to_write(path)?;
+            fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+        }
         Err(_) => path.to_owned(),
     };
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

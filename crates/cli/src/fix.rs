@@ -7,7 +7,7 @@
 
 use crate::buffers;
 use crate::console::Console;
-use crate::exit::Failure;
+use crate::exit::{Exit, Outcome};
 use crate::files;
 use crate::session::Unit;
 use crate::texts::{Text, diff};
@@ -205,14 +205,14 @@ impl Fixer {
     }
 
     /// Writes the files, or prints what would change in them, to standard output if it `has_output` for that, and tells how much
-    /// that is.
+    /// that is. Each file that cannot be written is told, and the others are; the exit code says it.
     ///
     /// # Errors
-    /// A file that cannot be written.
-    pub(crate) fn finish(self, has_output: bool, console: &Console) -> Result<(), Failure> {
+    /// Standard output cannot be written.
+    pub(crate) fn finish(self, has_output: bool, console: &Console) -> Outcome {
         let changed: Vec<(&PathBuf, &Changed)> =
             self.files.iter().filter(|(_, file)| file.current() != file.text.text).collect();
-        let mut n_written = 0;
+        let (mut n_written, mut exit) = (0, Exit::Ok);
         for (path, file) in &changed {
             if self.args.diff {
                 let diff = diff(&file.name, &file.text.text, file.current());
@@ -223,8 +223,10 @@ impl Fixer {
                 }
                 n_written += 1;
             } else if is_unchanged(path, &file.original) {
-                files::replace(path, &file.text.bytes(file.current()))?;
-                n_written += 1;
+                match files::replace(path, &file.text.bytes(file.current())) {
+                    Ok(()) => n_written += 1,
+                    Err(failure) => exit = exit.max(console.tell(failure)),
+                }
             } else {
                 console.message(&format!(
                     "warning: `{}` changed while it was being fixed; it is left as it is\n",
@@ -237,7 +239,7 @@ impl Fixer {
         let verb = if self.args.diff { "would change" } else { "changed" };
         let fixes = count(n_fixes, "fix", "fixes");
         console.remark(&format!("{fixes} {verb} {}", count(n_written, "file", "files")));
-        Ok(())
+        Ok(exit)
     }
 }
 

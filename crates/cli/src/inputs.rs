@@ -126,9 +126,21 @@ pub(crate) struct Group {
     pub(crate) name: String,
     /// The inputs, at least one.
     pub(crate) inputs: Vec<Input>,
+    /// Whether the names of files alone say that they form a program: the host may give it more shaders of a stage.
+    pub(crate) is_guess: bool,
 }
 
 impl Group {
+    /// A program that somebody named as one.
+    pub(crate) fn new(name: impl Into<String>, inputs: Vec<Input>) -> Self {
+        Self { name: name.into(), inputs, is_guess: false }
+    }
+
+    /// Whether its stages are in several files.
+    pub(crate) fn has_files(&self) -> bool {
+        self.inputs.iter().any(|input| self.inputs.first().is_some_and(|first| first.path != input.path))
+    }
+
     /// Whether it has only one stage, which will need a partner.
     pub(crate) fn is_lone(&self) -> bool {
         self.inputs.iter().all(|input| Some(input.stage) == self.inputs.first().map(|first| first.stage))
@@ -138,8 +150,10 @@ impl Group {
 /// The inputs that the command line names.
 #[derive(Debug, Default)]
 pub(crate) struct Inputs {
-    /// The programs.
+    /// The programs: those that names of files form, then each `--program`.
     pub(crate) groups: Vec<Group>,
+    /// The number of the former.
+    n_by_names: usize,
     /// Folders that contain no shader.
     pub(crate) empty_folders: Vec<String>,
     /// The files of `--program`s of one stage.
@@ -156,6 +170,14 @@ impl Inputs {
     /// Whether a folder was searched.
     pub(crate) fn has_search(&self) -> bool {
         !self.found.is_empty() || !self.left.is_empty() || !self.empty_folders.is_empty()
+    }
+
+    /// Marks the programs of which a search found a file.
+    pub(crate) fn mark_guesses(&mut self) {
+        for group in self.groups.iter_mut().take(self.n_by_names) {
+            let mut paths = group.inputs.iter().filter_map(|input| input.path.as_ref());
+            group.is_guess = group.has_files() && paths.any(|path| self.found.contains(path));
+        }
     }
 
     /// Tells which of the folders have no shader.
@@ -277,7 +299,7 @@ pub(crate) fn collect(
                 stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()),
             );
         }
-        let group = Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed };
+        let group = Group::new(listed.first().map(Input::stem).unwrap_or_default(), listed);
         check_program(&group, files)?;
         if let [input] = group.inputs.as_slice() {
             inputs.lone_programs.push(input.name.clone());
@@ -294,6 +316,7 @@ pub(crate) fn collect(
         }
     }
     inputs.groups = group(listed);
+    inputs.n_by_names = inputs.groups.len();
     inputs.groups.extend(groups);
     Ok(inputs)
 }
@@ -319,7 +342,7 @@ pub(crate) fn program(names: &[String], args: &ProgramArgs, sources: &SourceArgs
     for name in names {
         listed.extend(stages_of(Path::new(name), args, &engines, false)?.into_iter().filter(|input| !input.is_later()));
     }
-    Ok(in_pipeline_order(Group { name: listed.first().map(Input::stem).unwrap_or_default(), inputs: listed }))
+    Ok(in_pipeline_order(Group::new(listed.first().map(Input::stem).unwrap_or_default(), listed)))
 }
 
 /// A key that is equal for two names of the same file.
@@ -408,13 +431,13 @@ pub(crate) fn group(inputs: Vec<Input>) -> Vec<Group> {
             Some((_, group)) => group.inputs.push(input),
             None => {
                 known.push(groups.len());
-                groups.push((key, Group { name: input.stem(), inputs: vec![input] }));
+                groups.push((key, Group::new(input.stem(), vec![input])));
             }
         }
     }
     let groups = groups.into_iter().flat_map(|((folder, stem, own), group)| {
         if own.is_empty() && group.inputs.len() > 1 && stages::is_tessellated(&folder, &stem) {
-            let alone = |input: Input| Group { name: group.name.clone(), inputs: vec![input] };
+            let alone = |input: Input| Group::new(group.name.clone(), vec![input]);
             group.inputs.iter().cloned().map(alone).collect()
         } else {
             vec![group]

@@ -40,6 +40,7 @@ mod recall;
 mod scene_ranges;
 mod scenes;
 mod search;
+mod seen;
 mod session;
 mod strings;
 pub mod survey;
@@ -165,6 +166,7 @@ fn carry_out(command: &Command, console: &Console) -> Exit {
         }
     };
     console.write_document();
+    seen::tell();
     end(outcome, console)
 }
 
@@ -180,14 +182,7 @@ fn usage(error: &clap::Error) -> Exit {
 }
 
 fn end(outcome: Outcome, console: &Console) -> Exit {
-    match outcome {
-        Ok(exit) => exit,
-        Err(Failure::OutputClosed) => Exit::Ok,
-        Err(Failure::Told { exit, message, help }) => {
-            console.failure(&message, help.as_deref());
-            exit
-        }
-    }
+    outcome.unwrap_or_else(|failure| console.tell(failure))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! files in place says so by [`files::replace`](crate::files::replace).
 
 use crate::exit::Failure;
+use crate::seen;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -27,6 +28,7 @@ static INPUTS: Mutex<Inputs> =
 
 /// Notes that a file is read, or will be.
 pub(crate) fn note(path: &Path) {
+    seen::note(path);
     let mut inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
     if !inputs.named.contains(path) {
         inputs.named.insert(path.to_owned());

@@ -20,7 +20,7 @@ use crate::threads::Threads;
 use crate::told::Told;
 use crate::trace::Trace;
 use glisten_front::compiler::{Compilation, Compiler, Source};
-use glisten_front::diagnostic::codes::link::BINDING_WITHOUT_VARIABLE;
+use glisten_front::diagnostic::codes::link::{BINDING_WITHOUT_VARIABLE, LONE_WITHOUT_DEFINITION, UNDEFINED_FUNCTION};
 use glisten_front::diagnostic::codes::preprocess::INCLUDE_WITHOUT_EXTENSION;
 use glisten_front::diagnostic::codes::scenes;
 use glisten_front::diagnostic::write::{self, Finding, Scope};
@@ -234,7 +234,10 @@ impl<'a> Session<'a> {
             for input in &unit.group.inputs {
                 self.configs.levels(&input.name);
             }
-            let found = std::mem::take(&mut unit.batch.diagnostics);
+            let mut found = std::mem::take(&mut unit.batch.diagnostics);
+            if unit.group.is_guess {
+                allow_more_shaders(&mut found);
+            }
             self.add(&mut unit.batch, found);
             self.dropped += *dropped;
         }
@@ -339,6 +342,15 @@ impl<'a> Session<'a> {
     pub(crate) fn tell_units(&self, units: &[Unit], to_output: bool) -> Result<Exit, Failure> {
         let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
         self.tell(&batches, to_output)
+    }
+}
+
+/// Turns the errors about functions that no shader of a program defines into warnings: names of files say which shaders belong
+/// together, and not that there are no more of them. OpenGL links several shaders of a stage (GLSL 1.50 §6.1).
+pub(crate) fn allow_more_shaders(found: &mut [Diagnostic]) {
+    for diagnostic in found.iter_mut().filter(|found| *found.code == UNDEFINED_FUNCTION) {
+        diagnostic.code = &LONE_WITHOUT_DEFINITION;
+        diagnostic.severity = Severity::Warning;
     }
 }
 

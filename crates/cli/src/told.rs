@@ -5,6 +5,7 @@
 
 use crate::arguments::args::DiagnosticFormat;
 use crate::batch::Batch;
+use crate::files;
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::write::{self, Finding, Region, Scope};
 use std::collections::BTreeSet;
@@ -37,7 +38,7 @@ impl Told {
         Some(match format {
             DiagnosticFormat::Human => return None,
             DiagnosticFormat::Json => write::json(findings, scope),
-            DiagnosticFormat::Sarif => write::sarif(findings, scope),
+            DiagnosticFormat::Sarif => write::sarif_with_names(findings, scope, &files::bytes_of_name),
             DiagnosticFormat::Github => write::github(findings, scope),
             DiagnosticFormat::Gitlab => write::gitlab(findings, scope),
             DiagnosticFormat::Junit => write::junit(findings, scope),

@@ -5,6 +5,7 @@
 
 use crate::arguments::stages::StageArg;
 use crate::exit::{Exit, Failure};
+use crate::overwrite;
 use crate::scenes::gpu_failure;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::did_you_mean;
@@ -120,6 +121,7 @@ impl With {
             let message = format!("`{file}`: the file has {} bytes, and at most {MAX_BYTES} are read", facts.len());
             return Err(Failure::new(Exit::Content, message));
         }
+        overwrite::note(file.as_ref());
         let bytes = std::fs::read(file).map_err(|error| cannot(&error))?;
         Foreign::read(*draw, *stage, file, &bytes, *via).map_err(gpu_failure)
     }

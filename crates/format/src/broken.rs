@@ -1,6 +1,6 @@
 //! [`formatted`]: a source whose errors are found and kept.
 
-use super::{Formatted, MOST_PASSES, Options, format};
+use super::{Formatted, MOST_PASSES, Options, format, with_line_feeds};
 use glisten_front::Stage;
 use glisten_front::compiler::{self, Compiler, Source};
 use glisten_front::diagnostic::Area;
@@ -31,6 +31,7 @@ pub fn formatted(text: &str, stage: Stage, options: &Options) -> Formatted {
 /// The places that do not parse, of a source that says its version. Without its includes, or without a version, a text cannot be
 /// judged.
 fn broken(text: &str, stage: Stage) -> Vec<Range<usize>> {
+    let text = &with_line_feeds(text);
     let includes = ["#include", "import", "include"];
     let directives = || text.lines().filter(|line| line.trim_start().starts_with('#'));
     let is_whole = directives().any(|line| line.contains("version"))
@@ -38,7 +39,7 @@ fn broken(text: &str, stage: Stage) -> Vec<Range<usize>> {
     if !is_whole {
         return Vec::new();
     }
-    let source = Source { name: "source".into(), text: text.into(), stage };
+    let source = Source { name: "source".into(), text: text.as_str().into(), stage };
     let compilation = Compiler::new(compiler::Options::default()).compile(&[source]);
     let base = compilation.sources.files().next().map_or(0, |(_, file)| file.base() as usize);
     let in_text = |range: Range<usize>| {

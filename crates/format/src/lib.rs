@@ -75,41 +75,59 @@ pub struct Formatted {
 const MOST_PASSES: usize = 6;
 
 /// Formats a text. Declarations around `broken`, the places of errors, are kept as they are. Where something is kept, it depends on the
-/// lines what is, so the text is formatted until it stays the same, and kept if it never does.
+/// lines what is, so the text is formatted until it stays the same, and kept if it never does. Lines end as most of the text's do.
 pub fn format(text: &str, broken: &[Range<usize>], options: &Options) -> Formatted {
-    let once = pass(text, broken, options);
+    // Offsets stay, so the places of errors do.
+    let read = with_line_feeds(text);
+    let lines = read.lines().count();
+    let end = line_end(text);
+    let Some((once, kept)) = pass(&read, broken, options) else {
+        return Formatted { text: text.to_owned(), lines, kept: lines };
+    };
+    let formatted = |text: &str, kept| Formatted { text: text.replace('\n', end), lines, kept };
     // The places are those of this text alone: who has them formats again with those of the new text.
-    if once.kept == 0 || !broken.is_empty() {
-        return once;
+    if kept == 0 || !broken.is_empty() {
+        return formatted(&once, kept);
     }
-    let mut done = once.text;
+    let mut done = once;
     for _ in 0..MOST_PASSES {
-        let again = pass(&done, &[], options);
-        if again.text == done {
-            return Formatted { text: done, lines: once.lines, kept: again.kept };
+        match pass(&done, &[], options) {
+            Some((again, kept)) if again == done => return formatted(&done, kept),
+            Some((again, _)) => done = again,
+            None => return formatted(&done, lines),
         }
-        done = again.text;
     }
-    Formatted { text: text.to_owned(), lines: once.lines, kept: once.lines }
+    Formatted { text: text.to_owned(), lines, kept: lines }
 }
 
-/// Formats a text once.
-fn pass(text: &str, broken: &[Range<usize>], options: &Options) -> Formatted {
+/// Formats a text once: its lines end with `\n` alone then. Also the number of lines that are kept. `None` if it would have other lexemes.
+fn pass(text: &str, broken: &[Range<usize>], options: &Options) -> Option<(String, usize)> {
     let lexemes = chunks::keep(text, scan(text), broken);
-    let lines = text.lines().count();
     let kept = lexemes.iter().filter(|lexeme| lexeme.kind == Kind::Other);
     let kept = kept.map(|lexeme| 1 + lexeme.text.matches('\n').count()).sum();
-    let mut formatted = layout::layout(&lexemes, options);
+    let mut formatted = layout::layout(&lexemes, options).replace("\r\n", "\n");
     if text.starts_with(BYTE_ORDER_MARK) {
         formatted.insert(0, BYTE_ORDER_MARK);
     }
-    if text.matches("\r\n").count() * 2 > text.matches('\n').count() {
-        formatted = formatted.replace("\r\n", "\n").replace('\n', "\r\n");
-    }
-    if has_same_lexemes(text, &formatted) {
-        Formatted { text: formatted, lines, kept }
-    } else {
-        Formatted { text: text.to_owned(), lines, kept: lines }
+    has_same_lexemes(text, &formatted).then_some((formatted, kept))
+}
+
+/// The text with a line feed for each carriage return that ends a line alone. Offsets stay.
+fn with_line_feeds(text: &str) -> String {
+    let next = text.chars().skip(1).map(Some).chain([None]);
+    let end = |(letter, next)| if letter == '\r' && next != Some('\n') { '\n' } else { letter };
+    text.chars().zip(next).map(end).collect()
+}
+
+/// The kind of end that most lines of a text have (GLSL 1.50 §3.1).
+fn line_end(text: &str) -> &'static str {
+    let both = text.matches("\r\n").count();
+    let feeds = text.matches('\n').count() - both;
+    let returns = text.matches('\r').count() - both;
+    match () {
+        () if both > feeds.max(returns) => "\r\n",
+        () if returns > feeds.max(both) => "\r",
+        () => "\n",
     }
 }
 
@@ -119,8 +137,9 @@ const BYTE_ORDER_MARK: char = '\u{feff}';
 pub fn has_same_lexemes(left: &str, right: &str) -> bool {
     let (left, right) = (scan(left), scan(right));
     // The ends of lines inside of a comment may be of another kind.
+    let plain = |text: &str| text.replace("\r\n", "\n").replace('\r', "\n");
     let is_same = |(a, b): (&scan::Lexeme<'_>, &scan::Lexeme<'_>)| {
-        a.kind == b.kind && (a.text == b.text || a.text.replace("\r\n", "\n") == b.text.replace("\r\n", "\n"))
+        a.kind == b.kind && (a.text == b.text || plain(a.text) == plain(b.text))
     };
     left.len() == right.len() && left.iter().zip(&right).all(is_same)
 }

@@ -68,7 +68,7 @@ pub fn scan(text: &str) -> Vec<Lexeme<'_>> {
         at = text.len() - rest.len();
         let blank = rest.len() - rest.trim_start_matches([' ', '\t', '\r', '\n', '\x0b', '\x0c']).len();
         if blank > 0 {
-            let ends = rest.get(..blank).unwrap_or("").matches('\n').count();
+            let ends = line_ends(rest.get(..blank).unwrap_or(""));
             lines += ends;
             starts_line |= ends > 0;
             spaced = true;
@@ -83,6 +83,16 @@ pub fn scan(text: &str) -> Vec<Lexeme<'_>> {
         (lines, spaced) = (0, false);
     }
     lexemes
+}
+
+/// The number of line ends in a text: `\n`, `\r`, or both together (§3.1).
+fn line_ends(text: &str) -> usize {
+    text.matches(['\n', '\r']).count() - text.matches("\r\n").count()
+}
+
+/// The length of the line end that a text begins with.
+fn line_end_length(text: &str) -> usize {
+    if text.starts_with("\r\n") { 2 } else { usize::from(text.starts_with(['\n', '\r'])) }
 }
 
 fn lexeme(rest: &str, starts_line: bool) -> (Kind, usize) {
@@ -129,12 +139,12 @@ fn line_length(rest: &str) -> usize {
     let mut start = 0;
     loop {
         let line = rest.get(start..).unwrap_or("");
-        let Some(end) = line.find('\n') else { return rest.len() };
-        let bare = line.get(..end).unwrap_or(line).trim_end_matches('\r');
+        let Some(end) = line.find(['\n', '\r']) else { return rest.len() };
+        let (bare, after) = line.split_at(end);
         if !bare.ends_with('\\') {
-            return start + bare.len();
+            return start + end;
         }
-        start += end + 1;
+        start += end + line_end_length(after);
     }
 }
 
@@ -147,15 +157,13 @@ fn directive_length(rest: &str) -> usize {
         }
         if here.starts_with("/*") {
             at += here.get(2..).and_then(|inner| inner.find("*/")).map_or(here.len(), |end| end + 4);
-        } else if here.starts_with("\\\r\n") {
-            at += 3;
-        } else if here.starts_with("\\\n") {
-            at += 2;
-        } else if here.starts_with('\n') || here.starts_with("\r\n") {
+        } else if let Some(end) = here.strip_prefix('\\').map(line_end_length).filter(|end| *end > 0) {
+            at += 1 + end;
+        } else if here.starts_with(['\n', '\r']) {
             break;
         } else {
             at += here.chars().next().map_or(1, char::len_utf8);
         }
     }
-    rest.get(..at).unwrap_or(rest).trim_end_matches([' ', '\t', '\r']).len()
+    rest.get(..at).unwrap_or(rest).trim_end_matches([' ', '\t']).len()
 }

@@ -104,6 +104,28 @@ fn comments_and_line_ends_stay() {
     }
 }
 
+/// A carriage return alone ends a line, too (GLSL 1.50 §3.1).
+#[test]
+fn lines_end_as_most_do() {
+    let text = "#version 150\n// a\n\nout vec4   c;\n#define A   \\\n  1.0\nvoid main() {\nc=vec4(A); /* b\n  */\n}\n";
+    let wanted = formatted(text);
+    assert!(wanted.contains("out vec4 c;\n") && wanted.contains("    c = vec4(A);"), "{wanted}");
+    for end in ["\n", "\r\n", "\r"] {
+        let once = formatted(&text.replace('\n', end));
+        assert_eq!(once, wanted.replace('\n', end), "{end:?}");
+        assert_eq!(formatted(&once), once);
+        // One line ends otherwise.
+        for other in ["\n", "\r\n", "\r"] {
+            let mixed = text.replace('\n', end).replacen(&format!(";{end}"), &format!(";{other}"), 1);
+            assert_eq!(formatted(&mixed), once, "{end:?} {other:?}");
+        }
+    }
+    // What does not parse is kept, and the ends of its lines are those of the others.
+    let text = "#version 150\rvoid main() {\r  )\r}\r";
+    let once = format(text, &[], &Options::default());
+    assert!(!once.text.contains('\n') && once.kept > 0 && once.lines == 4, "{once:?}");
+}
+
 #[test]
 fn long_lines_are_broken_where_they_may() {
     let text = format!(

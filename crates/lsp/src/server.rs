@@ -27,7 +27,10 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// How often the files of the configuration are looked at for an editor that does not watch them.
+/// The extensions of the files that an editor watches in its folders.
+const WATCHED: [&str; 13] =
+    ["toml", "vert", "frag", "geom", "vs", "fs", "gs", "vsh", "fsh", "gsh", "glsl", "glslv", "glslf"];
+/// How often the files are looked at that the editor does not watch.
 const POLL: Duration = Duration::from_millis(750);
 
 /// A server between two messages.
@@ -309,10 +312,11 @@ impl Server<'_> {
     }
 
     fn register_watchers(&mut self) {
-        let patterns = ["**/glisten.toml", "**/*.toml", "**/*.{vert,frag,geom,vs,fs,gs,vsh,fsh,gsh,glsl,glslv,glslf}"];
-        let watcher =
-            |pattern: &&str| FileSystemWatcher { glob_pattern: GlobPattern::String((*pattern).to_owned()), kind: None };
-        let options = DidChangeWatchedFilesRegistrationOptions { watchers: patterns.iter().map(watcher).collect() };
+        let watcher = |extension: &str| FileSystemWatcher {
+            glob_pattern: GlobPattern::String(format!("**/*.{extension}")),
+            kind: None,
+        };
+        let options = DidChangeWatchedFilesRegistrationOptions { watchers: WATCHED.map(watcher).to_vec() };
         let registration = Registration {
             id: "files".to_owned(),
             method: DidChangeWatchedFiles::METHOD.to_owned(),
@@ -337,17 +341,24 @@ impl Server<'_> {
         self.is_stale |= is_changed;
     }
 
-    /// Looks whether a configuration, or a file that is not open, changed on disk.
+    /// Whether the editor announces changes of a file: an include may have any name, and be in any folder.
+    fn is_watched(&self, path: &Path) -> bool {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        self.state.client.watches
+            && extension.is_some_and(|extension| WATCHED.contains(&extension))
+            && self.state.folders.iter().any(|folder| path.starts_with(folder))
+    }
+
+    /// Looks whether a configuration, a baseline, or a file that is not open changed on disk.
     fn look_at_files(&mut self) {
         if self.state.documents.is_empty() {
             return;
         }
         let mut paths = self.state.project.configurations();
-        if !self.state.client.watches {
-            let open: Vec<PathBuf> = self.state.documents.keys().cloned().collect();
-            for path in open {
-                paths.extend(self.state.known_files(&path));
-            }
+        let open: Vec<PathBuf> = self.state.documents.keys().cloned().collect();
+        for path in open {
+            let known = self.state.known_files(&path);
+            paths.extend(known.into_iter().filter(|path| !self.is_watched(path)));
         }
         paths.sort();
         paths.dedup();

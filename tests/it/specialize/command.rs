@@ -193,6 +193,61 @@ fn what_is_dynamic_stays() {
     assert!(!place.read("out/a.toml").contains("\"move\""), "{}", place.read("out/a.toml"));
 }
 
+/// State of the fixed-function pipeline frees what is derived from it, as `[draw.uniforms]` sets it.
+#[test]
+fn dynamic_state_frees_what_follows_from_it() {
+    let place = Folder::new();
+    place.write(
+        "a.vert",
+        "#version 120\nvarying vec3 n;\nvarying vec4 c;\nvoid main() {\n    n = gl_Normal;\n    c = vec4(1.0);\n\
+         \x20   if (gl_NormalMatrix[0][0] > 10.0) n = vec3(0.0);\n    if (gl_ModelViewProjectionMatrix[0][0] > 100.0) n += vec3(1.0);\n\
+         \x20   if (gl_FrontLightProduct[0].diffuse.x > 100.0) c = vec4(0.5);\n    gl_Position = vec4(gl_Vertex.xyz * 0.5, 1.0);\n}\n",
+    );
+    place.write(
+        "a.frag",
+        "#version 120\nvarying vec3 n;\nvarying vec4 c;\nvoid main() { gl_FragColor = vec4(n, 1.0) * c; }\n",
+    );
+    let scene = |dynamic: &str| {
+        format!(
+            "[framebuffer]\nwidth = 8\nheight = 8\n[camera]\neye = [0, 0, 3]\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n{dynamic}\
+             mesh = {{ shape = \"sphere\", segments = 8, rings = 4 }}\n"
+        )
+    };
+    let uniforms = ["gl_NormalMatrix", "gl_ModelViewProjectionMatrix", "gl_FrontLightProduct"];
+    place.write("a.toml", &scene(""));
+    place.expect(0, &["render", "a.toml", "-o", "a.npy", "--backend", "cpu", "--precision", "f32"]);
+    for (name, stay) in [
+        ("gl_ModelViewMatrix", &["gl_NormalMatrix", "gl_ModelViewProjectionMatrix"][..]),
+        ("gl_ProjectionMatrix", &["gl_ModelViewProjectionMatrix"]),
+        ("gl_NormalMatrix", &["gl_NormalMatrix"]),
+        ("gl_LightSource[0]", &["gl_FrontLightProduct"]),
+        ("gl_LightSource[0].diffuse", &["gl_FrontLightProduct"]),
+        ("gl_FrontMaterial", &["gl_FrontLightProduct"]),
+        // The program reads nothing of them.
+        ("gl_LightSource[1]", &[]),
+        ("gl_Fog.density", &[]),
+    ] {
+        for by_scene in [true, false] {
+            place.write("b.toml", &scene(&if by_scene { format!("dynamic = [\"{name}\"]\n") } else { String::new() }));
+            let flags: &[&str] = if by_scene { &[] } else { &["--dynamic", name] };
+            place.expect(0, &[&["specialize", "b.toml", "-o", "out"], flags].concat());
+            let text = place.read("out/a.vert");
+            for uniform in uniforms {
+                assert_eq!(text.contains(uniform), stay.contains(&uniform), "{name}: {uniform}:\n{text}");
+            }
+            assert_eq!(place.read("out/b.toml").contains("dynamic = "), !stay.is_empty(), "{name}");
+            place.expect(0, &["render", "out/b.toml", "-o", "b.npy", "--backend", "cpu", "--precision", "f32"]);
+            assert!(fs::read(place.path("a.npy")).ok() == fs::read(place.path("b.npy")).ok(), "{name}");
+        }
+    }
+    for name in ["gl_Nope", "gl_LightSource[9]", "gl_Fog.speed", "light"] {
+        place.write("b.toml", &scene(&format!("dynamic = [\"{name}\"]\n")));
+        let told = place.expect(1, &["specialize", "b.toml", "-o", "out"]);
+        assert!(told.contains("E0907") && told.matches("`gl_NormalMatrix`").count() <= 1, "{told}");
+        place.expect(2, &["specialize", "a.toml", "-o", "out", "--dynamic", name]);
+    }
+}
+
 /// Names that are parts of something: what is left of them decides, and the scene reads back.
 #[test]
 fn parts_of_blocks_structs_and_arrays_may_be_dynamic() {

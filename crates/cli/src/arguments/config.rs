@@ -44,6 +44,7 @@ use crate::arguments::rules::{KEYS as SOURCE_KEYS, Rule, RuleReader};
 use crate::arguments::settings::{Budgets, ranges};
 use crate::batch::Batch;
 use crate::files;
+use crate::seen;
 use crate::variants::stated::Stated;
 use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::{Diagnostic, Level, Levels};
@@ -230,6 +231,7 @@ impl Nearest {
             return known.clone();
         }
         let own = folder.join(NAME);
+        seen::note(&own);
         let found = match own.is_file() {
             true => Some(own).filter(|path| is_allowed(path)),
             false => folder.parent().and_then(|above| self.of_absolute(above)),

@@ -9,6 +9,7 @@ use crate::arguments::config::{self, Nearest};
 use crate::arguments::rules::Rule;
 use crate::exit::{Exit, Failure};
 use crate::files;
+use crate::seen;
 use crate::trace::{self, Trace};
 use glisten_front::compiler::{Preparation, Prepared, Source, SourceSettings};
 use glisten_front::diagnostic::codes::general;
@@ -238,6 +239,7 @@ impl Disk for Traced {
 
     fn looked_for(&self, path: &Path) {
         trace::looked_for(path);
+        seen::note(path);
     }
 
     fn searched(&self) {

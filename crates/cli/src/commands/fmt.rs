@@ -60,6 +60,14 @@ struct Done {
     formatted: Formatted,
 }
 
+/// Why a file is not formatted.
+enum Undone {
+    /// It cannot be read, or is no source.
+    Unread(Batch),
+    /// It cannot be written.
+    Unwritten(Failure),
+}
+
 impl Done {
     fn changes(&self) -> bool {
         self.text.text != self.formatted.text
@@ -89,26 +97,27 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
         let name = path.to_string_lossy().into_owned();
         let bytes = match files::read(&name, path) {
             Ok(bytes) => bytes,
-            Err(error) => return Ok(Err(as_batch(error, &name))),
+            Err(error) => return Err(Undone::Unread(as_batch(error, &name))),
         };
         if let Err(error) = refuse_no_text(&name, path, &bytes) {
-            return Ok(Err(as_batch(error, &name)));
+            return Err(Undone::Unread(as_batch(error, &name)));
         }
         let text = Text::new(bytes);
         let options = styles.get(folder_of(path)).cloned().unwrap_or_default();
         let formatted = any_formatted(&text.text, path, &options);
         let done = Done { path: path.clone(), text, formatted };
         if done.changes() && !args.check && !args.diff {
-            files::replace(path, &done.text.bytes(&done.formatted.text))?;
+            files::replace(path, &done.text.bytes(&done.formatted.text)).map_err(Undone::Unwritten)?;
         }
-        Ok(Ok(done))
+        Ok(done)
     };
     let results = Threads::new(0).map(paths.iter().collect(), one);
     let (mut all, mut exit) = (Vec::new(), Exit::Ok);
     for result in results {
-        match result? {
+        match result {
             Ok(done) => all.push(done),
-            Err(batch) => exit = exit.max(refused(&batch, console)),
+            Err(Undone::Unread(batch)) => exit = exit.max(refused(&batch, console)),
+            Err(Undone::Unwritten(failure)) => exit = exit.max(console.tell(failure)),
         }
     }
     for done in all.iter().filter(|done| done.changes()) {

@@ -133,6 +133,7 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
             inputs
         }
     };
+    inputs.mark_guesses();
     inputs.tell_empty_folders(console);
     inputs.tell_lone_programs(console);
     let mut baselines = Baselines::given(&args.baseline)?;
@@ -171,9 +172,9 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
         (units, _) = checked(&mut session, groups.clone(), &inputs, &scenes, None);
         baselines.apply(&mut units, None);
     }
-    fixer.finish(session.is_human(), console)?;
+    let exit = fixer.finish(session.is_human(), console)?;
     // Standard output has the diff, and findings for people are apart from it; a document for programs takes its place there.
-    session.tell_units(&units, !(args.fixes.prints() && session.is_human()))
+    Ok(session.tell_units(&units, !(args.fixes.prints() && session.is_human()))?.max(exit))
 }
 
 /// How many configurations were looked at, for people.

@@ -1,13 +1,16 @@
 //! `glisten watch`: runs a command again when a file that it may read changes.
 //!
 //! *In:* a command with its arguments. *Out:* what the command prints and writes, each time. *Holds:* the folders of all files
-//! and folders among the arguments are watched, with everything below them; what the command writes to its `-o`, and hidden
-//! files, start nothing. Changes that follow each other closely are one. Ctrl-C ends it.
+//! and folders among the arguments are watched, with everything below them, and so is each file elsewhere that the last run read or
+//! looked for. What the command writes to its `-o`, and hidden files that it does not read, start nothing. Changes that follow each
+//! other closely are one. Ctrl-C ends it.
 
 use crate::commands::examples::Examples;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
+use crate::seen;
+use crate::unfinished;
 use clap::{Args, CommandFactory};
 use notify::{Event, EventKind, RecursiveMode, Watcher};
 use std::any::TypeId;
@@ -16,7 +19,8 @@ use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
+use tempfile::NamedTempFile;
 
 /// Examples of its use.
 pub(crate) const EXAMPLES: Examples = &[
@@ -34,6 +38,8 @@ pub(crate) struct WatchArgs {
 
 /// Changes that are closer together than this are one: editors write files in several steps.
 const TOGETHER: Duration = Duration::from_millis(60);
+/// The beginning of the name of the file in which a run tells what it reads.
+const LIST: &str = ".glisten-watch-";
 /// The flags that name an output.
 const OUTPUTS: [&str; 7] = ["-o", "--output", "--difference", "--evidence", "--depfile", "--manifest", "--cache"];
 
@@ -43,9 +49,11 @@ pub(crate) fn run(args: &WatchArgs, console: &Console) -> Outcome {
     refuse_unknown(&name.to_string_lossy())?;
     let program = std::env::current_exe()
         .map_err(|error| Failure::new(Exit::Machine, format!("the program does not find itself: {error}")))?;
+    let list = unfinished_list()?;
     let run = || {
-        let run = Command::new(&program).args(&args.command).args(files::sandbox()).status();
-        run.map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))
+        let mut command = Command::new(&program);
+        command.args(&args.command).args(files::sandbox()).env(seen::LIST, list.path());
+        command.status().map_err(|error| Failure::new(Exit::Machine, format!("the command does not start: {error}")))
     };
     let named = std::iter::once("glisten".into()).chain(args.command.iter().cloned());
     match crate::Cli::command().try_get_matches_from(named) {
@@ -53,7 +61,7 @@ pub(crate) fn run(args: &WatchArgs, console: &Console) -> Outcome {
         // No change of a file mends wrong arguments; the command tells what is wrong with them.
         Err(_) => return Ok(run()?.code().and_then(|code| u8::try_from(code).ok()).map_or(Exit::Usage, Exit::of_code)),
     }
-    let watched = watched(rest);
+    let mut watched = watched(rest);
     let (sender, changes) = channel();
     let mut watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
         // The other end is gone when the program ends.
@@ -64,13 +72,30 @@ pub(crate) fn run(args: &WatchArgs, console: &Console) -> Outcome {
         watcher.watch(folder, RecursiveMode::Recursive).map_err(|error| cannot_watch(&error))?;
     }
     loop {
+        // What is there from the run before is of no use any more.
+        let _ = list.as_file().set_len(0);
+        let start = SystemTime::now();
         let status = run()?;
-        let list: Vec<String> = watched.folders.iter().map(|folder| format!("`{}`", folder.display())).collect();
+        let fresh = watched.look_at(&seen::told(list.path()).unwrap_or_default(), &mut watcher);
         let ended = if status.success() { "OK" } else { "Errors" };
-        console.remark(&format!("{ended}. Watching {} (Ctrl-C to stop)", list.join(", ")));
-        let Some(changed) = next_change(&changes, &watched) else { return Ok(Exit::Machine) };
+        console.remark(&format!("{ended}. Watching {} (Ctrl-C to stop)", watched.shown()));
+        // What was not watched during the run may have changed since it was read.
+        let late = fresh.into_iter().find(|file| is_newer(file, start));
+        let Some(changed) = late.or_else(|| next_change(&changes, &watched)) else { return Ok(Exit::Machine) };
         console.remark(&format!("{} changed", changed.display()));
     }
+}
+
+/// The file that each run tells the names of the files that it reads.
+fn unfinished_list() -> Result<NamedTempFile, Failure> {
+    let folder = std::env::temp_dir();
+    unfinished::sweep(&folder, LIST);
+    let made = unfinished::create(tempfile::Builder::new().prefix(LIST), &folder);
+    made.map_err(|error| Failure::usage(format!("cannot write to `{}`: {error}", folder.display())))
+}
+
+fn is_newer(file: &Path, time: SystemTime) -> bool {
+    file.metadata().and_then(|found| found.modified()).is_ok_and(|changed| changed > time)
 }
 
 fn cannot_watch(error: &notify::Error) -> Failure {
@@ -115,12 +140,16 @@ fn refuse_missing(matches: &clap::ArgMatches) -> Result<(), Failure> {
     }
 }
 
-/// The folders to watch, and the outputs in them.
-#[derive(Debug, PartialEq, Eq)]
+/// The folders and files to watch, and the outputs in them.
+#[derive(Debug, Default, PartialEq, Eq)]
 struct Watched {
     folders: BTreeSet<PathBuf>,
     /// As absolute paths.
     outputs: Vec<PathBuf>,
+    /// The files that the last run read or looked for: absolute paths, as named and after links.
+    files: BTreeSet<PathBuf>,
+    /// The folders of those files that are not below the others.
+    elsewhere: BTreeSet<PathBuf>,
 }
 
 /// The folders of all paths among the arguments; the current one if there is none.
@@ -151,7 +180,7 @@ fn watched(arguments: &[OsString]) -> Watched {
     if folders.is_empty() {
         folders.insert(".".into());
     }
-    Watched { folders, outputs }
+    Watched { folders, outputs, ..Watched::default() }
 }
 
 /// Waits for a change, and for the changes right behind it. `None` if there will be no more.
@@ -178,13 +207,60 @@ impl Watched {
 
     fn counts(&self, path: &Path) -> bool {
         let path = std::path::absolute(path).unwrap_or_default();
-        let folders = self.folders.iter().filter_map(|folder| std::path::absolute(folder).ok());
-        let below = folders.into_iter().find_map(|folder| path.strip_prefix(folder).map(Path::to_owned).ok());
         let is_hidden = |part: Component<'_>| part.as_os_str().to_string_lossy().starts_with('.');
-        let is_output = self.outputs.iter().any(|output| path.starts_with(output));
-        !is_output
-            && below.is_some_and(|below| !below.components().any(is_hidden))
-            && !path.to_string_lossy().ends_with('~')
+        let is_source = || {
+            self.below(&path).is_some_and(|below| !below.components().any(is_hidden))
+                && !path.to_string_lossy().ends_with('~')
+        };
+        !self.is_output(&path) && (self.files.contains(&path) || is_source())
+    }
+
+    fn is_output(&self, path: &Path) -> bool {
+        self.outputs.iter().any(|output| path.starts_with(output))
+    }
+
+    /// The rest of an absolute path below one of the folders.
+    fn below(&self, path: &Path) -> Option<PathBuf> {
+        let folders = self.folders.iter().filter_map(|folder| std::path::absolute(folder).ok());
+        folders.into_iter().find_map(|folder| path.strip_prefix(folder).map(Path::to_owned).ok())
+    }
+
+    /// Watches the files that a run has read or looked for, in place of those of the run before. Returns those that were not watched yet.
+    /// A run that tells none did not come to its end: the files stay.
+    fn look_at(&mut self, read: &BTreeSet<PathBuf>, watcher: &mut impl Watcher) -> Vec<PathBuf> {
+        if read.is_empty() {
+            return Vec::new();
+        }
+        let real = read.iter().filter_map(|path| std::fs::canonicalize(path).ok());
+        let named = read.iter().filter_map(|path| Some(files::real(path.parent()?).join(path.file_name()?)));
+        self.files = named.chain(real).filter(|path| !self.is_output(path)).collect();
+        let outside: Vec<PathBuf> = self.files.iter().filter(|path| self.below(path).is_none()).cloned().collect();
+        let folders = outside.iter().filter_map(|path| path.parent()).filter(|folder| folder.is_dir());
+        let folders: BTreeSet<PathBuf> = folders.map(Path::to_owned).collect();
+        // A folder that cannot be watched, such as one of the system, costs only its files.
+        for gone in self.elsewhere.difference(&folders) {
+            let _ = watcher.unwatch(gone);
+        }
+        let is_new = |folder: &&PathBuf| !self.elsewhere.contains(*folder);
+        let watch = |folder: &&PathBuf| watcher.watch(folder, RecursiveMode::NonRecursive).is_ok();
+        let added: BTreeSet<PathBuf> = folders.iter().filter(is_new).filter(watch).cloned().collect();
+        let kept = self.elsewhere.intersection(&folders).cloned().collect::<BTreeSet<_>>();
+        let in_added = |path: &PathBuf| path.parent().is_some_and(|folder| added.contains(folder));
+        let fresh = outside.into_iter().filter(in_added).collect();
+        self.elsewhere = kept.union(&added).cloned().collect();
+        fresh
+    }
+
+    /// The folders and the number of files elsewhere, for people.
+    fn shown(&self) -> String {
+        let folders: Vec<String> = self.folders.iter().map(|folder| format!("`{}`", folder.display())).collect();
+        let is_elsewhere = |path: &&PathBuf| path.parent().is_some_and(|folder| self.elsewhere.contains(folder));
+        let there = self.files.iter().filter(is_elsewhere).filter(|path| path.is_file() && !path.is_symlink());
+        match there.count() {
+            0 => folders.join(", "),
+            1 => format!("{} and 1 file elsewhere", folders.join(", ")),
+            count => format!("{} and {count} files elsewhere", folders.join(", ")),
+        }
     }
 }
 

@@ -25,7 +25,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 /// The name that is at the place.
-const PROBE: &str = "glisten_probe";
+pub(super) const PROBE: &str = "glisten_probe";
 /// The names of components, in sets (GLSL 1.50 §5.5).
 const COMPONENTS: [&str; 3] = ["xyzw", "rgba", "stpq"];
 /// The words in a `layout(..)` (GLSL 4.60 §4.4).

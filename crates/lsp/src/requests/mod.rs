@@ -16,6 +16,7 @@ mod hints;
 mod hover;
 mod lenses;
 mod links;
+mod overloads;
 mod rename;
 mod scene;
 mod selection;

@@ -63,11 +63,7 @@ impl FixedFunction {
     /// # Errors
     /// [`SetError`] if there is no such state, or another number of values.
     pub fn set(&mut self, name: &str, values: &[f64]) -> Result<(), SetError> {
-        let (path, member) = name.split_once('.').unwrap_or((name, ""));
-        let (root, index) = match path.strip_suffix(']').and_then(|path| path.split_once('[')) {
-            Some((root, index)) => (root, Some(index.parse::<usize>().map_err(|_| SetError::Unknown)?)),
-            None => (path, None),
-        };
+        let (root, index, member) = path(name).ok_or(SetError::Unknown)?;
         let mut rest = values;
         let (mut found, mut wanted) = (false, 0);
         let mut updated = self.clone();
@@ -120,6 +116,38 @@ impl FixedFunction {
         }
     }
 
+    /// Whether there is state of this name, which a host sets: an array, a struct, an element or a member.
+    pub fn has(name: &str) -> bool {
+        let Some((root, index, member)) = path(name) else { return false };
+        let mut found = false;
+        Self::default().visit(&mut |known, at, part, _| found |= is_part(known == root, (index, member), (at, part)));
+        found
+    }
+
+    /// Which values of a uniform, in flat order, follow from state of this name: of `gl_ModelViewMatrix` all of `gl_NormalMatrix`. `None` if
+    /// there is no such state, or no such uniform.
+    pub fn follow(name: &str, uniform: &str) -> Option<Vec<bool>> {
+        let (root, index, member) = path(name)?;
+        // Values of no meaning: what is derived differs only where it follows from what differs.
+        let (mut before, mut count) = (Self::default(), 0.0);
+        before.visit(&mut |_, _, _, slot| {
+            for value in slot {
+                count += 1.0;
+                *value = 1.0 + (count * 0.618_f64).fract();
+            }
+        });
+        let (mut after, mut found) = (before.clone(), false);
+        after.visit(&mut |known, at, part, slot| {
+            let is_named = is_part(known == root, (index, member), (at, part));
+            found |= is_named;
+            for (place, value) in slot.iter_mut().enumerate().filter(|_| is_named) {
+                *value += 0.125 * (place as f64 + 1.0).sqrt();
+            }
+        });
+        let (before, after) = (before.uniform(uniform)?, after.uniform(uniform)?);
+        found.then(|| before.iter().zip(&after).map(|(before, after)| before != after).collect())
+    }
+
     /// The values of a root of a program, rounded once.
     pub fn root_values(&self, root: &UniformRoot) -> Option<Vec<ScalarValue>> {
         let values = self.uniform(&root.name).filter(|_| root.block.is_none())?;
@@ -137,6 +165,20 @@ impl FixedFunction {
             "gl_TextureMatrix" => Some(flat(&self.texture)),
             _ => None,
         }
+    }
+}
+
+/// Whether an element and member of the root are part of what an index and a member name.
+fn is_part(of_root: bool, (index, member): (Option<usize>, &str), (at, part): (usize, &str)) -> bool {
+    of_root && index.is_none_or(|index| index == at) && (member.is_empty() || member == part)
+}
+
+/// The root of a name of state, its index and its member: of `gl_LightSource[0].position`. `None` if the index is none.
+fn path(name: &str) -> Option<(&str, Option<usize>, &str)> {
+    let (path, member) = name.split_once('.').unwrap_or((name, ""));
+    match path.strip_suffix(']').and_then(|path| path.split_once('[')) {
+        Some((root, index)) => Some((root, Some(index.parse().ok()?), member)),
+        None => Some((path, None, member)),
     }
 }
 
@@ -187,6 +229,49 @@ mod tests {
         assert_eq!(products.get(4..8), Some(&[0.5, 0.5, 0.5, 0.5][..]));
         let scene = state.uniform("gl_FrontLightModelProduct").unwrap_or_default();
         assert_eq!(scene.last(), Some(&0.5));
+    }
+
+    #[test]
+    fn what_follows_from_state_is_known() {
+        let follows = |name: &str, uniform: &str| {
+            FixedFunction::follow(name, uniform).is_some_and(|values| values.iter().any(|follows| *follows))
+        };
+        for (name, uniforms) in [
+            (
+                "gl_ModelViewMatrix",
+                &[
+                    "gl_ModelViewMatrix",
+                    "gl_NormalMatrix",
+                    "gl_NormalScale",
+                    "gl_ModelViewMatrixInverseTranspose",
+                    "gl_ModelViewProjectionMatrix",
+                    "gl_ModelViewProjectionMatrixTranspose",
+                ][..],
+            ),
+            ("gl_ProjectionMatrix", &["gl_ProjectionMatrixInverse", "gl_ModelViewProjectionMatrix"]),
+            ("gl_TextureMatrix[1]", &["gl_TextureMatrix", "gl_TextureMatrixTranspose"]),
+            ("gl_LightSource", &["gl_LightSource", "gl_FrontLightProduct", "gl_BackLightProduct"]),
+            ("gl_FrontMaterial", &["gl_FrontMaterial", "gl_FrontLightProduct", "gl_FrontLightModelProduct"]),
+            ("gl_LightModel.ambient", &["gl_LightModel", "gl_FrontLightModelProduct", "gl_BackLightModelProduct"]),
+            ("gl_Fog.end", &["gl_Fog"]),
+            ("gl_NormalMatrix", &[]),
+            ("gl_LightSource[x]", &[]),
+            ("light", &[]),
+        ] {
+            for row in FIXED.iter().filter(|row| row.storage == Storage::Uniform) {
+                // All forms of a matrix follow from it, whichever the list has.
+                let is_listed = uniforms.iter().any(|uniform| {
+                    let base = uniform.trim_end_matches("Transpose").trim_end_matches("Inverse");
+                    *uniform == row.name
+                        || base.ends_with("Matrix") && row.name.starts_with(base) && base != "gl_NormalMatrix"
+                });
+                assert_eq!(follows(name, row.name), is_listed, "{name}: {}", row.name);
+            }
+        }
+        let half = FixedFunction::follow("gl_LightSource[1].position", "gl_LightSource").unwrap_or_default();
+        let of_light: Vec<usize> = (0..half.len()).filter(|at| half[*at]).collect();
+        // The position and the half vector of that light, whose last component is 0.
+        assert_eq!(of_light, [29 + 12, 29 + 13, 29 + 14, 29 + 15, 29 + 16, 29 + 17, 29 + 18]);
     }
 
     #[test]

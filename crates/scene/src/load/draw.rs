@@ -12,7 +12,7 @@ use super::sources::load_sources;
 use super::textures::load_textures;
 use super::uniforms::{Context, load_uniforms};
 use super::{Loader, ProgramKey, Surroundings, library_file};
-use crate::dynamic::names_anything;
+use crate::dynamic::is_known;
 use crate::fixed::{FixedFunction, OtherStage, other_stage, uses_fixed_state};
 use crate::model::{AttributeData, BlendFactor, Compare, Cull, Draw, FixedDraw, Format, Framebuffer, Primitive, State};
 use crate::tables::{Node, NumberValue, Reader, report_unknown_name};
@@ -23,6 +23,7 @@ use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::hir::{Global, Scalar, Shader, Stage};
 use glisten_front::link::{FixedState, Program};
 use glisten_front::source::Span;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use toml::de::DeTable;
 
@@ -440,10 +441,12 @@ fn load_dynamic(reader: &mut Reader, table: &DeTable<'_>, program: &Program) -> 
     let mut candidates: Vec<&str> = interface.uniforms.iter().map(|leaf| leaf.name.as_str()).collect();
     candidates.extend(interface.roots.iter().map(|root| root.name.as_str()));
     candidates.extend(interface.samplers.iter().map(|sampler| sampler.name.as_str()));
+    let mut listed = BTreeSet::new();
+    candidates.retain(|name| listed.insert(*name));
     let mut names = Vec::new();
     for node in array {
         let Some(name) = reader.text(node, "dynamic") else { continue };
-        let known = names_anything(interface, name) || candidates.contains(&name);
+        let known = is_known(program, name) || candidates.contains(&name);
         if !known {
             let span = reader.span_of(node);
             report_unknown_name(reader, span, "uniform", name, &candidates);

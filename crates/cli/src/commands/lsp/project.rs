@@ -19,7 +19,7 @@ use crate::files;
 use crate::inputs::{self, Group, Input};
 use crate::process::guard;
 use crate::search;
-use crate::session::Session;
+use crate::session::{Session, allow_more_shaders};
 use crate::strings;
 use glisten_format::{Formatted, Options};
 use glisten_front::compiler::{Compilation, Compiler, Source};
@@ -401,7 +401,7 @@ impl Project for Files<'_> {
             inputs.push(Input { name, path: Some(file.to_owned()), stage: Stage::Fragment, part: None });
         }
         let name = format!("{} alone", stages::stem(file));
-        self.keep(Group { name, inputs })
+        self.keep(Group::new(name, inputs))
     }
 
     fn compile(&mut self, program: &ProgramKey) -> Compiled {
@@ -417,7 +417,11 @@ impl Project for Files<'_> {
                 let lints = self.lints(&compilation);
                 let lints = self.judged_lints(program, &group, &compilation, lints);
                 let mut batch = Batch { sources: compilation.sources, diagnostics: Vec::new() };
-                let found: Vec<Diagnostic> = compilation.diagnostics.into_iter().collect();
+                let mut found: Vec<Diagnostic> = compilation.diagnostics.into_iter().collect();
+                if group.has_files() {
+                    // The names of files are all that tells the programs here.
+                    allow_more_shaders(&mut found);
+                }
                 self.session.add(&mut batch, found);
                 self.session.add(&mut batch, lints);
                 self.keep_certain(&group, &mut batch);
@@ -539,6 +543,7 @@ impl Project for Files<'_> {
         let above = self.folders.iter().flat_map(|folder| folder.ancestors());
         let mut paths: Vec<PathBuf> = above.map(|folder| folder.join(CONFIGURATION)).collect();
         paths.extend(self.baselines.keys().cloned());
+        paths.extend(self.baseline.as_ref().map(|baseline| files::real(baseline.path())));
         paths.sort();
         paths.dedup();
         paths
@@ -554,6 +559,11 @@ impl Project for Files<'_> {
         }
         self.groups.clear();
         self.baselines.clear();
+        // As long as it cannot be read, what was known is.
+        let again = self.baseline.as_ref().map(|old| Baseline::new(&BaselineArgs::of(Some(old.path().to_owned()))));
+        if let Some(Ok(Some(read))) = again {
+            self.baseline = Some(read);
+        }
         self.judged.clear();
         self.includes = Includes::default();
     }

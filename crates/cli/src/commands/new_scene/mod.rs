@@ -163,7 +163,7 @@ pub(crate) fn make(args: &NewSceneArgs, console: &Console) -> Result<Result<Made
     let folder = args.output.as_deref().map(|output| output.parent().unwrap_or(Path::new("")));
     let stages = inputs.iter().map(|input| (input.stage, relative(&input.name, folder))).collect();
     let name = inputs.first().map(Input::stem).unwrap_or_default();
-    let units = session.compile(vec![Group { name, inputs }]);
+    let units = session.compile(vec![Group::new(name, inputs)]);
     let exit = if args.is_silent { Exit::Ok } else { session.tell_units(&units, false)? };
     let Some((unit, program)) = units.first().and_then(|unit| Some((unit, unit.sound_program()?))) else {
         return Ok(Err(exit.max(Exit::Content)));
@@ -330,7 +330,7 @@ fn contains_both(file: &str) -> bool {
 
 /// The stages for a shader that comes alone: with the fixed-function pipeline's other one, or with one that is made.
 fn alone(args: &NewSceneArgs, input: Input, session: &mut Session<'_>) -> Result<Result<Stages, Exit>, Failure> {
-    let units = session.compile(vec![Group { name: input.stem(), inputs: vec![input.clone()] }]);
+    let units = session.compile(vec![Group::new(input.stem(), vec![input.clone()])]);
     let Some(program) = units.first().and_then(Unit::sound_program) else {
         let exit = if args.is_silent { Exit::Ok } else { session.tell_units(&units, false)? };
         return Ok(Err(exit.max(Exit::Content)));
@@ -413,19 +413,13 @@ fn source_lines(args: &SourceArgs, folder: Option<&Path>) -> String {
 /// The name of a file as a scene in `folder` gives it: relative, unless the two have no folder in common but the root.
 fn relative(file: &str, folder: Option<&Path>) -> String {
     let Some(folder) = folder else { return file.to_owned() };
-    let parts = |path: &Path| {
-        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        path.components()
-            .filter(|part| *part != Component::CurDir)
-            .map(|part| part.as_os_str().to_owned())
-            .collect::<Vec<_>>()
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let folder = absolute(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    let file = absolute(Path::new(file));
+    let top = |path: &Path| {
+        path.components().find(|part| matches!(part, Component::Normal(_))).map(|part| part.as_os_str().to_owned())
     };
-    let folder = parts(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
-    let file = parts(Path::new(file));
-    let common = file.iter().zip(&folder).take_while(|(ours, theirs)| ours == theirs).count();
-    let is_near = common > 1 && !folder.iter().any(|part| part == "..");
-    let up = if is_near { folder.len() - common } else { 0 };
-    let down = if is_near { common } else { 0 };
-    let path: PathBuf = std::iter::repeat_n("..".into(), up).chain(file.into_iter().skip(down)).collect();
+    let is_near = top(&folder) == top(&file) && top(&file).is_some();
+    let path = files::from_folder(&file, &folder).filter(|_| is_near).unwrap_or(file);
     path.to_string_lossy().into_owned()
 }

@@ -56,7 +56,7 @@ impl Run<'_> {
             let message = format!("the scene `{}` and something else are both named `{name}`", table.file);
             return Err(Failure::usage(message).help("give the program a `name`, or rename the scene"));
         }
-        let mut unit = Unit::new(Group { name: name.clone(), inputs: Vec::new() });
+        let mut unit = Unit::new(Group::new(name.clone(), Vec::new()));
         self.session.read_configuration(&table.file);
         let (kept, key) = self.recall.scene(&table.file, &format!("{:?}", table.dynamic));
         let known = kept.and_then(|kept| Some((recalled(&kept)?, kept)));
@@ -135,7 +135,7 @@ fn group(program: &str, stages: impl Iterator<Item = Stage>) -> Group {
         let file = format!("{program}.{}", stages::extension(stage));
         Input { path: Some(PathBuf::from(&file)), name: file, stage, part: None }
     };
-    Group { name: program.to_owned(), inputs: stages.map(input).collect() }
+    Group::new(program, stages.map(input).collect())
 }
 
 /// The outputs of all draws for the cache; the first tells whose they are and what was read.

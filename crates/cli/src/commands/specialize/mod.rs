@@ -20,7 +20,7 @@ use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_reference::Precision;
 use glisten_report::account::{PAGE, SceneOnPage, page};
-use glisten_scene::dynamic::names_anything;
+use glisten_scene::dynamic::is_known;
 use glisten_scene::{Scene, ShaderFiles, write};
 use glisten_sources::stages::extension;
 use glisten_verify::specialize::{
@@ -224,9 +224,10 @@ fn specialized<'a>(
 
 /// A name of `--dynamic` that no program of any scene has is a mistake.
 fn check_dynamic(dynamic: &[String], scenes: &[&Scene]) -> Result<(), Failure> {
-    let interfaces = || scenes.iter().flat_map(|scene| &scene.draws).map(|draw| &draw.program.interface);
+    let programs = || scenes.iter().flat_map(|scene| &scene.draws).map(|draw| &draw.program);
+    let interfaces = || programs().map(|program| &program.interface);
     for name in dynamic {
-        let known = interfaces().any(|interface| names_anything(interface, name));
+        let known = programs().any(|program| is_known(program, name));
         if !known {
             let base = name.split(['[', '.']).next().unwrap_or(name);
             let leaves = interfaces().flat_map(|interface| {

@@ -266,6 +266,10 @@ fn write(
     }
     written.sort();
     written.dedup();
+    if args.in_place {
+        // Files that include each other change together or not at all.
+        written.iter().try_for_each(|(path, _)| files::check_replaceable(path))?;
+    }
     for (path, text) in written {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             files::make_folder(folder)?;

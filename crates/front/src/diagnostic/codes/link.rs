@@ -282,7 +282,8 @@ codes! {
         good Geometry("layout(points) in; layout(points, max_vertices = 1) out; void main() { }");
     LONE_WITHOUT_DEFINITION = "W0707" "lone-shader-without-definition" Warning "GLSL 1.50 §6.1"
         "The shader calls a function that it only declares. Another shader of its stage may define it; the shader \
-         cannot be linked alone."
+         cannot be linked alone. `lint` tells the same of a program whose files it found by their names: they do not say that \
+         there is no other shader."
         bad Vertex("float f(); void main() { gl_Position = vec4(f()); }"),
         good Vertex("float f() { return 1.0; } void main() { gl_Position = vec4(f()); }");
     ATTRIBUTE_ALIASING_UNUSED = "W0704" "attribute-aliasing-on-separate-paths" Warning "OpenGL 3.2 §2.11.3"

@@ -22,7 +22,7 @@ pub use hostile::clean;
 pub use human::human;
 pub use json::json;
 pub use junit::{escaped_xml, junit};
-pub use sarif::sarif;
+pub use sarif::{sarif, sarif_with_names};
 pub use scope::{NotChecked, Scope};
 
 use super::{Applicability, Diagnostic, Fix, Label, Severity};

@@ -20,6 +20,11 @@ const FINGERPRINT: &str = "glistenFinding/v1";
 
 /// Writes the findings as a SARIF log, ending in a newline.
 pub fn sarif(findings: &[Finding], scope: Option<&Scope>) -> String {
+    sarif_with_names(findings, scope, &|name| name.as_bytes().to_vec())
+}
+
+/// Writes the findings like [`sarif()`], for a caller who knows the bytes of names that are not UTF-8: the URI of a file has those.
+pub fn sarif_with_names(findings: &[Finding], scope: Option<&Scope>, bytes_of: &dyn Fn(&str) -> Vec<u8>) -> String {
     let codes: BTreeMap<&str, &Code> = findings.iter().map(|finding| (finding.code.id, finding.code)).collect();
     let indices: BTreeMap<&str, usize> = codes.keys().enumerate().map(|(index, id)| (*id, index)).collect();
     let rules: Vec<Value> = codes.values().map(|code| rule(code)).collect();
@@ -45,6 +50,7 @@ pub fn sarif(findings: &[Finding], scope: Option<&Scope>) -> String {
         let invocation = json!({ "executionSuccessful": true, "toolExecutionNotifications": notifications });
         run.insert("invocations".to_owned(), json!([invocation]));
     }
+    set_uris(&mut log, bytes_of);
     let text = serde_json::to_string_pretty(&log).expect("strings and numbers are always JSON");
     escaped(&text) + "\n"
 }
@@ -94,7 +100,7 @@ fn fix(fix: &FindingFix) -> Value {
     }
     let changes = files
         .into_iter()
-        .map(|(file, replacements)| json!({ "artifactLocation": { "uri": uri(file) }, "replacements": replacements }));
+        .map(|(file, replacements)| json!({ "artifactLocation": { "uri": file }, "replacements": replacements }));
     let changes: Vec<Value> = changes.collect();
     json!({
         "description": { "text": fix.title },
@@ -142,7 +148,7 @@ fn result(finding: &Finding, rule_index: Option<usize>, fingerprint: &str) -> Va
 
 fn location(at: &Region) -> Value {
     json!({ "physicalLocation": {
-        "artifactLocation": { "uri": uri(&at.file) },
+        "artifactLocation": { "uri": at.file },
         "region": region(at),
     }})
 }
@@ -156,14 +162,30 @@ fn region(region: &Region) -> Value {
     })
 }
 
+/// Makes URIs of the names of files.
+fn set_uris(value: &mut Value, bytes_of: &dyn Fn(&str) -> Vec<u8>) {
+    match value {
+        Value::Array(all) => all.iter_mut().for_each(|one| set_uris(one, bytes_of)),
+        Value::Object(map) => {
+            for (key, one) in map {
+                match one.get_mut("uri").filter(|_| key == "artifactLocation") {
+                    Some(name) => *name = json!(uri(&bytes_of(name.as_str().unwrap_or_default()))),
+                    None => set_uris(one, bytes_of),
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
 /// The path as a URI reference: bytes that RFC 3986 does not allow in a path are percent-encoded.
-fn uri(path: &str) -> String {
+fn uri(path: &[u8]) -> String {
     let mut uri = String::new();
-    for byte in path.replace('\\', "/").bytes() {
-        if byte.is_ascii_alphanumeric() || b"-._~/!$&'()*+,;=@".contains(&byte) {
-            uri.push(char::from(byte));
-        } else {
-            uri.push_str(&format!("%{byte:02X}"));
+    for &byte in path {
+        match byte {
+            b'\\' => uri.push('/'),
+            byte if byte.is_ascii_alphanumeric() || b"-._~/!$&'()*+,;=@".contains(&byte) => uri.push(char::from(byte)),
+            byte => uri.push_str(&format!("%{byte:02X}")),
         }
     }
     uri
