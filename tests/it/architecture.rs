@@ -205,12 +205,12 @@ static ORDER: &[(&str, &[&str])] = &[
         &[
             "random",
             "toml_string",
-            "dynamic",
             "dependence",
             "picture",
             "profile",
             "compare",
             "fixed",
+            "dynamic",
             "model",
             "files",
             "library",
