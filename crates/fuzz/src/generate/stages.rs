@@ -140,7 +140,7 @@ impl Writer<'_> {
     fn by_members(&mut self, varying: &str, number: usize, body: &mut Vec<Stmt>) {
         self.note("struct as a varying, by its members");
         let (ty, local) = (Ty::Struct(number), self.name("v"));
-        body.push(Stmt::text_only(format!("{};", ty.declared(&local))).with(Role::Output));
+        body.push(Stmt::text_only(format!("{};", ty.declared(&local))).with(Role::Declaration));
         for (member, ty) in self.structs.get(number).cloned().unwrap_or_default() {
             self.expressions_left = 6;
             let value = self.expr(&ty, 2);

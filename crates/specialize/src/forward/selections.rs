@@ -76,7 +76,7 @@ impl Forward<'_> {
     ) {
         self.forks = forks;
         if arms.is_empty() {
-            out.extend(otherwise);
+            take_in(out, otherwise, span);
             return;
         }
         for (mark, changes) in ways.into_iter().rev() {
@@ -167,5 +167,16 @@ impl Forward<'_> {
         self.targets.pop();
         self.store.live = !self.failed;
         out.push(Self::statement(StmtKind::Switch { selector, cases: walked }, span));
+    }
+}
+
+/// Appends the body of a branch that is taken. Iterations declare the same locals: one that is declared already gets a scope of its own.
+fn take_in(out: &mut Vec<Stmt>, body: Vec<Stmt>, span: Span) {
+    let local = |stmt: &Stmt| if let StmtKind::Local(local, _) = stmt.kind { Some(local) } else { None };
+    let is_again = body.iter().filter_map(local).any(|own| out.iter().filter_map(local).any(|other| other == own));
+    if is_again {
+        out.push(Stmt { kind: StmtKind::Block(body), span });
+    } else {
+        out.extend(body);
     }
 }
