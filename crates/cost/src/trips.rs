@@ -2,7 +2,8 @@
 //!
 //! *In:* a loop, the statements before it, and what is known of values. *Out:* the fewest and the most rounds, and from where they are
 //! known. *Holds:* rounds are counted by running the counter, as its kind of number runs; a start or a limit that is a uniform is
-//! between the ends of its stated range, or of the arrays that the counter indexes. *Not done here:* loops that are left by `break`: who walks their paths knows it.
+//! between the ends of its stated range, or of the arrays that the counter indexes. *Not done here:* loops that are left by `break`: who
+//! walks their paths knows it.
 
 use super::known::Known;
 use glisten_front::hir::written_by;

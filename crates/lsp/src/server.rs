@@ -30,7 +30,7 @@ use std::time::{Duration, SystemTime};
 /// The extensions of the files that an editor watches in its folders.
 const WATCHED: [&str; 13] =
     ["toml", "vert", "frag", "geom", "vs", "fs", "gs", "vsh", "fsh", "gsh", "glsl", "glslv", "glslf"];
-/// How often the files are looked at that the editor does not watch.
+/// How often the server looks at the files that the editor does not watch.
 const POLL: Duration = Duration::from_millis(750);
 
 /// A server between two messages.

@@ -5,8 +5,8 @@
 //! handles.
 //!
 //! *Holds:* there are no naga types here. Implicit conversions (§4.1.10) are explicit [`ExprKind::Convert`]s,
-//! constructors are in normal form, `.length()` is a literal, behind a comma if the expression before it has effects. Child expressions precede their parents in the arena. A
-//! shader with errors still has a HIR, in which anything in error is [`ExprKind::Error`] of [`TypeId::ERROR`]. No
+//! constructors are in normal form, `.length()` is a literal, behind a comma if the expression before it has effects. Child
+//! expressions precede their parents in the arena. A shader with errors still has a HIR, in which anything in error is [`ExprKind::Error`] of [`TypeId::ERROR`]. No
 //! phase after `link` ever sees one, because a program with errors is not passed on.
 
 mod effects;

@@ -22,6 +22,8 @@ pub(crate) static OWN_CODES: &[(&str, &str)] = &[
     ("the implicit conversion to `uint`", "E0401"),
     ("qualifiers in this order", "E0602"),
     ("a second `layout`", "E0601"),
+    ("the rule for a second `location`", "E0601"),
+    ("the rule for `invariant` with a layout", "E0603"),
     ("a swizzle of a scalar", "E0306"),
     ("the length of a vector", "E0416"),
     ("a converted `return` value", "W0501"),
