@@ -4,7 +4,6 @@ use glisten::emit::{Conventions, Emitted, Reflection, Target, emit, left_out, op
 use glisten::scene::{self, MemoryFiles, Scene};
 use glisten::{Compiler, Options, Program, Source, Stage};
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 fn program(vertex: &str, fragment: &str) -> (Program, glisten::source::SourceMap) {
     let text = |text: &str| format!("#version 150\n{text}").into();
@@ -203,18 +202,14 @@ fn stages_alone_and_blocks_keep_their_shape() {
 
 /// A scene whose draws run optimized programs.
 pub(crate) fn optimized_scene(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    for draw in &mut scene.draws {
-        draw.program = Arc::new(optimize(&draw.program));
-    }
-    scene
+    scene.with_programs(&optimize)
 }
 
 #[cfg(feature = "gpu")]
 mod drawn {
     use super::optimized_scene;
     use crate::random::{scene, seeds, text};
-    use crate::specialize::{Instead, bits, load, share};
+    use crate::specialize::{bits, load, share};
     use glisten::verify::{OnGpu, Options, Runner, verify};
     use glisten_emit::{Conventions, Target, emit};
     use glisten_gpu::Gpu;
@@ -236,16 +231,15 @@ mod drawn {
         collected.validate();
     }
 
-    /// Judged by the envelopes of the originals. `SPECIALIZE_ALL=1` draws all scenes instead of a share.
+    /// Other tests draw what `compile` writes by default; this one draws what `compile -O0` does. `SPECIALIZE_ALL=1` draws all
+    /// scenes instead of a share.
     #[test]
-    fn scenes_hold_on_the_gpu() {
+    fn whole_programs_hold_on_the_gpu() {
         let gpu: Gpu = crate::drawing::gpu();
         let mut wrong = Vec::new();
         for path in share() {
             let Some((scene, _)) = load(&path) else { continue };
-            let optimized = optimized_scene(&scene);
-            let runners = OnGpu::both(&gpu);
-            let runners = runners.each_ref().map(|runner| Instead { runner, scene: &optimized });
+            let runners = OnGpu::both(&gpu).map(|runner| runner.whole(true));
             let runners = [&runners[0] as &dyn Runner, &runners[1]];
             // Another test compares the same scenes with the population.
             let demands = Demands { likely: false, ..Demands::default() };

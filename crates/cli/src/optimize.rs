@@ -33,7 +33,12 @@ impl OptimizeArgs {
     /// Whether the flags leave it out for a target.
     pub(crate) fn applies(self, target: Target, debug_lines: bool) -> bool {
         let by_default = !debug_lines && target.omits_unused();
-        !self.no_optimize && !self.level_0 && (self.optimize || by_default)
+        !self.leaves_whole() && (self.optimize || by_default)
+    }
+
+    /// Whether a driver is to draw everything that the sources use.
+    pub(crate) fn leaves_whole(self) -> bool {
+        self.no_optimize || self.level_0
     }
 
     /// Whether `-O` itself was given.

@@ -37,7 +37,7 @@ impl Runner for Given {
 pub fn plan(loaded: Loaded, kept: &mut Kept) -> Result<Plan, String> {
     let (scene, _) = drawable(loaded)?;
     let scene = glisten_reference::expand(&scene).map_err(|errors| told(&errors))?;
-    Plan::with(&scene, &mut kept.written).map_err(|error| error.to_string())
+    Plan::with(&kept.as_compiled(&scene), &mut kept.written).map_err(|error| error.to_string())
 }
 
 /// The picture that the browser drew, from the planes of its attachments and of the stencil.

@@ -15,6 +15,7 @@ use glisten_reference::{Precision, RenderOptions};
 use glisten_scene::Scene;
 use glisten_scene::compare::flip;
 use glisten_scene::picture::Picture;
+use glisten_verify::verify::as_compiled;
 use std::sync::Arc;
 
 /// A variant that was drawn.
@@ -94,9 +95,9 @@ impl Drawing<'_> {
         self.step(&format!("{} on the GPU", planned.name), watcher);
         let (gpu, via) = (self.gpu, planned.via.unwrap_or(self.options.via));
         // No target has geometry stages: the host runs them, and the GPU draws what they emit.
-        let expanded = glisten_reference::expand(scene)
+        let compiled = as_compiled(scene)
             .map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
-        let prepared = gpu.prepare_in(&expanded, via, planned.floats).map_err(failed)?;
+        let prepared = gpu.prepare_in(&compiled, via, planned.floats).map_err(failed)?;
         let picture = gpu.draw(&prepared).map_err(failed)?.picture;
         let fragments = gpu.fragments_shaded(&prepared).map_err(failed)?;
         let frames = gpu.frames_for_a_stretch(&prepared).map_err(failed)?;

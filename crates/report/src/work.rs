@@ -7,7 +7,6 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_reference::{Counts, RenderOptions, Step, counts};
 use glisten_scene::Scene;
 use glisten_specialize::optimize;
-use std::sync::Arc;
 
 /// Counts the steps of a scene. What reaches no output of a program is left out, as emitters and drivers leave it out.
 ///
@@ -16,7 +15,7 @@ use std::sync::Arc;
 pub fn steps(scene: &Scene) -> Result<Counts, Vec<Diagnostic>> {
     let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
     let mut all = Counts::new();
-    for counts in counts(&without_unread(scene), &options)? {
+    for counts in counts(&scene.with_programs(&optimize), &options)? {
         for (step, count) in counts {
             *all.entry(step).or_default() += count;
         }
@@ -35,11 +34,3 @@ pub fn work(all: &Counts, weights: &Weights, floats: FloatWidth) -> Work {
     }
 }
 
-/// The scene with programs without what no output depends on.
-fn without_unread(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    for draw in &mut scene.draws {
-        draw.program = Arc::new(optimize(&draw.program));
-    }
-    scene
-}

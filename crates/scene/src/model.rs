@@ -20,6 +20,27 @@ pub struct Scene {
     pub draws: Vec<Draw>,
 }
 
+impl Scene {
+    /// The scene with other programs in the place of its own. Draws of one program share the other one too.
+    #[must_use]
+    pub fn with_programs(&self, other: &dyn Fn(&Program) -> Program) -> Self {
+        let mut scene = self.clone();
+        let mut known: Vec<(Arc<Program>, Arc<Program>)> = Vec::new();
+        for draw in &mut scene.draws {
+            let made = match known.iter().find(|(program, _)| Arc::ptr_eq(program, &draw.program)) {
+                Some((_, made)) => Arc::clone(made),
+                None => {
+                    let made = Arc::new(other(&draw.program));
+                    known.push((Arc::clone(&draw.program), Arc::clone(&made)));
+                    made
+                }
+            };
+            draw.program = made;
+        }
+        scene
+    }
+}
+
 /// The color attachments, and the depth buffer (cleared to 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framebuffer {

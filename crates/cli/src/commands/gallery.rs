@@ -18,6 +18,7 @@ use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_report::gallery::{self, Difference, Drawing, Entry, Tile};
 use glisten_scene::picture::Picture;
 use glisten_verify::specialize::specialize_scene_by;
+use glisten_verify::verify::as_compiled;
 use rayon::prelude::*;
 use std::path::PathBuf;
 
@@ -129,7 +130,7 @@ impl GalleryBackend {
         };
         let _work = matches!(self, Self::Gpu(..)).then(|| journal::at_work(&journal::drawing(entry.name)));
         let picture = match self {
-            Self::Gpu(gpu, via) => glisten_reference::expand(&scene)
+            Self::Gpu(gpu, via) => as_compiled(&scene)
                 .map_err(DrawError::from)
                 .and_then(|scene| gpu.render(&scene, *via).map(|rendered| rendered.picture).map_err(DrawError::from)),
             Self::Cpu => {

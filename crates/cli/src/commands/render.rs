@@ -6,6 +6,7 @@ use crate::console::Console;
 use crate::exit::{Failure, Outcome};
 use crate::files;
 use crate::opengl;
+use crate::optimize::OptimizeArgs;
 use crate::pictures::Target;
 use crate::process::journal;
 use crate::progress::Progress;
@@ -17,6 +18,7 @@ use glisten_gpu::Via;
 use glisten_reference::{LineRule, Precision, RenderOptions};
 use glisten_scene::picture::Picture;
 use glisten_verify::scene::Scene;
+use glisten_verify::verify::{OnGpu, Runner};
 use std::path::PathBuf;
 
 /// Examples of its use.
@@ -45,6 +47,8 @@ pub(crate) struct RenderArgs {
     /// Draw with programs of which nothing is left but what the picture needs
     #[arg(long)]
     specialize: bool,
+    #[command(flatten)]
+    optimize: OptimizeArgs,
     #[command(flatten)]
     contract: WithContractArgs,
     #[command(flatten)]
@@ -166,11 +170,10 @@ fn draw(args: &RenderArgs, scene: Scene) -> Result<Drawing, DrawError> {
             let gpu = args.scene.gpu()?;
             let drawn_by = Some(gpu.adapter().to_string());
             let work = journal::drawing(&args.scene.scene);
+            let whole = args.optimize.leaves_whole();
             let picture = args.scene.within_time(move || {
                 let _work = journal::at_work(&work);
-                let scene = glisten_reference::expand(&scene)?;
-                let prepared = gpu.prepare_foreign(&scene, via, &foreign, &glisten_specialize::optimize)?;
-                Ok(gpu.draw(&prepared)?.picture)
+                Ok(OnGpu::new(&gpu, via).with(&foreign).whole(whole).draw(&scene)?.picture)
             })?;
             Ok(Drawing { picture, drawn_by })
         }

@@ -23,6 +23,7 @@ use glisten_scene::picture::Picture;
 use glisten_verify::scene::Scene;
 use glisten_verify::shader_test::{self, TestBackend, TestResult};
 use glisten_verify::unit_test::{UnitTest, has_tests, tests};
+use glisten_verify::verify::as_compiled;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -344,7 +345,7 @@ struct GpuBackend {
 impl TestBackend for GpuBackend {
     fn draw(&mut self, scene: &Scene) -> Result<Picture, TestResult> {
         // What a geometry stage emits may be more than a vertex stage passes on.
-        let scene = glisten_reference::expand(scene).map_err(|found| TestResult::Skip(first(&found)))?;
+        let scene = as_compiled(scene).map_err(|found| TestResult::Skip(first(&found)))?;
         match self.gpu.render(&scene, self.via) {
             Ok(rendered) => Ok(rendered.picture),
             // What the target lacks, or what is not supported yet, is no mistake of the program.

@@ -1,4 +1,4 @@
-//! Generated programs on a GPU: what it draws lies in the envelope.
+//! Generated programs on a GPU: what it draws lies in the envelope, of whole programs for even seeds.
 //!
 //! *In:* a program that the reference has drawn. *Out:* a sentence where a picture differs. *Holds:* what a device lacks is no fault.
 
@@ -15,7 +15,8 @@ pub(super) fn new() -> Result<Check, String> {
     let adapter = std::env::var("GLISTEN_ADAPTER").ok();
     let gpu = Gpu::new(adapter.as_deref()).map_err(|error| error.to_string())?;
     Ok(Box::new(move |drawn| {
-        let runners = OnGpu::both(&gpu);
+        let whole = drawn.program.is_some_and(|program| program.seed.is_multiple_of(2));
+        let runners = OnGpu::both(&gpu).map(|runner| runner.whole(whole));
         let options = Options { sources: Some(&drawn.loaded.sources), allow_inconclusive: true, ..Options::default() };
         match verify(&drawn.scene, &[&runners[0] as &dyn Runner, &runners[1]], &options) {
             Ok(verification) if !verification.holds() => Err(format!("another picture\n{verification}")),

@@ -193,23 +193,42 @@ impl Runner for Cpu {
     }
 }
 
-/// The emitted code on a GPU.
+/// A scene as a device draws it: its geometry stages have run, and its programs are what `compile` writes by default, without
+/// what reaches no output.
+///
+/// # Errors
+/// The diagnostics of a geometry stage that cannot run.
+#[cfg(feature = "gpu")]
+pub fn as_compiled(scene: &Scene) -> Result<Scene, Vec<Diagnostic>> {
+    Ok(glisten_reference::expand(scene)?.with_programs(&glisten_specialize::optimize))
+}
+
+/// The emitted code on a GPU: what `compile` writes by default, or as `compile -O0` does.
 #[cfg(feature = "gpu")]
 #[derive(Clone, Copy)]
 pub struct OnGpu<'a> {
     gpu: &'a glisten_gpu::Gpu,
     via: glisten_gpu::Via,
     foreign: &'a [glisten_gpu::Foreign],
+    /// Whether what reaches no output is emitted as well.
+    whole: bool,
 }
 
 #[cfg(feature = "gpu")]
 impl<'a> OnGpu<'a> {
     /// The runner of one form.
     pub fn new(gpu: &'a glisten_gpu::Gpu, via: glisten_gpu::Via) -> Self {
-        Self { gpu, via, foreign: &[] }
+        Self { gpu, via, foreign: &[], whole: false }
     }
 
-    /// The runner with modules of other translators in place of the emitted ones.
+    /// The runner of everything that the sources use, as `compile -O0` writes it.
+    #[must_use]
+    pub fn whole(self, whole: bool) -> Self {
+        Self { whole, ..self }
+    }
+
+    /// The runner with modules of other translators in place of the emitted ones. What the emitter then adds has the interface
+    /// of the whole program.
     #[must_use]
     pub fn with(self, foreign: &'a [glisten_gpu::Foreign]) -> Self {
         Self { foreign, ..self }
@@ -228,8 +247,12 @@ impl Runner for OnGpu<'_> {
     }
 
     fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
-        let scene = glisten_reference::expand(scene)?;
-        let prepared = self.gpu.prepare_foreign(&scene, self.via, self.foreign, &glisten_specialize::optimize)?;
+        let prepared = if self.foreign.is_empty() && !self.whole {
+            self.gpu.prepare(&as_compiled(scene)?, self.via)?
+        } else {
+            let scene = glisten_reference::expand(scene)?;
+            self.gpu.prepare_foreign(&scene, self.via, self.foreign, &glisten_specialize::optimize)?
+        };
         let glisten_gpu::Rendered { picture, milliseconds } = self.gpu.draw(&prepared)?;
         Ok(Drawn { picture, milliseconds })
     }

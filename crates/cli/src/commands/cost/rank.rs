@@ -18,6 +18,7 @@ use glisten_gpu::{Gpu, Prepared, Via};
 use glisten_reference::{Counts, RenderOptions, Step, counts};
 use glisten_specialize::optimize;
 use glisten_verify::scene::{self, DiskFiles, Draw, FileSource, Scene};
+use glisten_verify::verify::as_compiled;
 use serde::Serialize;
 use serde_json::json;
 use std::path::PathBuf;
@@ -128,9 +129,9 @@ fn row(gpu: &Gpu, scene: Scene, iterations: u64) -> Result<Row, String> {
         .map_err(|found| told(&scene.name, found.first().map_or("", |first| &first.message)))?;
     let draws = scene.draws.iter().zip(&counted).map(|(draw, counts)| of_draw(draw, counts, iterations));
     let spent = draws.fold(Spent::default(), Spent::plus);
-    let expanded = glisten_reference::expand(&scene)
+    let compiled = as_compiled(&scene)
         .map_err(|found| told(&scene.name, found.first().map_or("", |first| &first.message)))?;
-    let prepared = gpu.prepare(&expanded, Via::Spirv).map_err(|error| told(&scene.name, &error.to_string()))?;
+    let prepared = gpu.prepare(&compiled, Via::Spirv).map_err(|error| told(&scene.name, &error.to_string()))?;
     let frames = gpu.frames_for_a_stretch(&prepared).map_err(|error| told(&scene.name, &error.to_string()))?;
     Ok(Row { name: scene.name, spent, prepared, frames, milliseconds: f64::INFINITY })
 }

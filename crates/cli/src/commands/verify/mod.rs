@@ -12,6 +12,7 @@ use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::files;
 use crate::inputs;
+use crate::optimize::OptimizeArgs;
 use crate::overwrite;
 use crate::pictures::Target;
 use crate::progress::Progress;
@@ -88,6 +89,8 @@ pub(crate) struct VerifyArgs {
     /// Let the GPU draw with programs of which nothing is left but what the picture needs, and judge it by the original
     #[arg(long)]
     specialize: bool,
+    #[command(flatten)]
+    optimize: OptimizeArgs,
     #[command(flatten)]
     contract: WithContractArgs,
     /// Write a picture of |difference| / bound on black: blue up to the bound, yellow to red beyond
@@ -401,7 +404,8 @@ fn compare(
 ) -> Result<(Verification, AdapterFacts), DrawError> {
     let machine = &of.machine;
     let gpu = Arc::new(of.gpu()?);
-    let runner = |via: &Via| TimedGpu::new(&gpu, *via, &of.scene, machine, progress).with(foreign);
+    let whole = args.optimize.leaves_whole();
+    let runner = |via: &Via| TimedGpu::new(&gpu, *via, &of.scene, machine, progress).with(foreign).whole(whole);
     let runners: Vec<TimedGpu<'_>> = vias.iter().map(runner).collect();
     let runners: Vec<Instead<'_>> = runners.iter().map(|runner| Instead { runner, scene: drawn }).collect();
     let runners: Vec<&dyn Runner> = runners.iter().map(|runner| runner as &dyn Runner).collect();

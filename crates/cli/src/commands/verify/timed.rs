@@ -91,6 +91,7 @@ pub(crate) struct TimedGpu<'a> {
     /// The scene's file.
     name: &'a str,
     foreign: Arc<[Foreign]>,
+    whole: bool,
     machine: &'a MachineArgs,
     progress: &'a Progress,
 }
@@ -103,12 +104,17 @@ impl<'a> TimedGpu<'a> {
         machine: &'a MachineArgs,
         progress: &'a Progress,
     ) -> Self {
-        Self { gpu: Arc::clone(gpu), via, name, foreign: Arc::new([]), machine, progress }
+        Self { gpu: Arc::clone(gpu), via, name, foreign: Arc::new([]), whole: false, machine, progress }
     }
 
     /// Draws with modules of other translators.
     pub(crate) fn with(self, foreign: &Arc<[Foreign]>) -> Self {
         Self { foreign: Arc::clone(foreign), ..self }
+    }
+
+    /// Draws everything that the sources use.
+    pub(crate) fn whole(self, whole: bool) -> Self {
+        Self { whole, ..self }
     }
 }
 
@@ -120,11 +126,11 @@ impl Runner for TimedGpu<'_> {
     fn draw(&self, scene: &Scene) -> Result<Drawn, verify::Failure> {
         self.progress.say(self.name());
         let (gpu, via, scene) = (Arc::clone(&self.gpu), self.via, scene.clone());
-        let foreign = Arc::clone(&self.foreign);
+        let (foreign, whole) = (Arc::clone(&self.foreign), self.whole);
         let work = format!("{} by {}", journal::drawing(self.name), via.name());
         let drawn = self.machine.within_time(move || {
             let _work = journal::at_work(&work);
-            Ok(OnGpu::new(&gpu, via).with(&foreign).draw(&scene)?)
+            Ok(OnGpu::new(&gpu, via).with(&foreign).whole(whole).draw(&scene)?)
         })?;
         self.progress.step();
         Ok(drawn)
