@@ -120,21 +120,26 @@ fn what_reaches_no_output_is_not_active() {
     }
 }
 
-/// Checks that a program is the same picture, bit for bit, when it is optimized, and when nothing of it is known to a specialization.
-fn assert_drawn_alike(vertex: &str, fragment: &str) {
+/// A scene of 4 by 4 pixels, with a triangle that covers them.
+fn scene_of(vertex: &str, fragment: &str) -> (Scene, glisten::source::SourceMap) {
     const SCENE: &str = "framebuffer = { width = 4, height = 4 }\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
         [draw.attributes]\np = { size = 3, values = [-1, -1, 0.5, 3, -1, -0.5, -1, 3, 0.25] }\n";
     let [vertex, fragment] = [vertex, fragment].map(|text| format!("#version 150\n{text}"));
     let files = MemoryFiles::new([("s.toml", SCENE), ("a.vert", &vertex), ("a.frag", &fragment)]);
     let loaded = scene::load("s.toml", &files, &Compiler::new(Options::default()));
     let messages: Vec<_> = loaded.diagnostics.iter().map(|found| found.message.clone()).collect();
-    let scene = loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{vertex}\n{fragment}"));
+    (loaded.scene.unwrap_or_else(|| panic!("{messages:?}\n{vertex}\n{fragment}")), loaded.sources)
+}
+
+/// Checks that a program is the same picture, bit for bit, when it is optimized, and when nothing of it is known to a specialization.
+fn assert_drawn_alike(vertex: &str, fragment: &str) {
+    let (scene, sources) = scene_of(vertex, fragment);
     let drawn = crate::specialize::bits(&scene);
     assert!(
         drawn.is_ok() && drawn == crate::specialize::bits(&optimized_scene(&scene)),
         "optimized:\n{vertex}\n{fragment}"
     );
-    let left = glisten::specialize::specialize_scene(&scene, &loaded.sources, &[]).scene;
+    let left = glisten::specialize::specialize_scene(&scene, &sources, &[]).scene;
     assert!(drawn == crate::specialize::bits(&left), "specialized:\n{vertex}\n{fragment}");
 }
 
@@ -250,5 +255,19 @@ mod drawn {
             }
         }
         assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+
+    /// The driver gets what `compile` writes by default: WGSL cannot hold what this program computes for nothing.
+    #[test]
+    fn compiled_programs_are_drawn() {
+        let levels: String = (0..100).map(|level| format!("if (v > {level}.0) {{ dead += 1.0; ")).collect();
+        let body = format!("float dead = v; {levels}{} color = vec4(v, 0.5, 0.25, 1.0);", "}".repeat(100));
+        let fragment = format!("in float v; out vec4 color; void main() {{ {body} }}");
+        let (scene, _) = super::scene_of("in vec4 p; out float v; void main() { v = p.x; gl_Position = p; }", &fragment);
+        let gpu: Gpu = crate::drawing::gpu();
+        let [spirv, wgsl] = OnGpu::both(&gpu);
+        let verification = verify(&scene, &[&spirv as &dyn Runner, &wgsl], &Options::default());
+        assert!(verification.is_ok_and(|verification| verification.holds()));
+        assert!(wgsl.whole(true).draw(&scene).is_err(), "WGSL holds the whole program");
     }
 }

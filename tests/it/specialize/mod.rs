@@ -18,7 +18,7 @@ mod rules;
 mod small;
 
 #[cfg(feature = "gpu")]
-pub(crate) use drawn::{Instead, share};
+pub(crate) use drawn::share;
 
 use crate::optimize::places;
 use glisten::Compiler;
