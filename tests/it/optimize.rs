@@ -263,7 +263,8 @@ mod drawn {
         let levels: String = (0..100).map(|level| format!("if (v > {level}.0) {{ dead += 1.0; ")).collect();
         let body = format!("float dead = v; {levels}{} color = vec4(v, 0.5, 0.25, 1.0);", "}".repeat(100));
         let fragment = format!("in float v; out vec4 color; void main() {{ {body} }}");
-        let (scene, _) = super::scene_of("in vec4 p; out float v; void main() { v = p.x; gl_Position = p; }", &fragment);
+        let (scene, _) =
+            super::scene_of("in vec4 p; out float v; void main() { v = p.x; gl_Position = p; }", &fragment);
         let gpu: Gpu = crate::drawing::gpu();
         let [spirv, wgsl] = OnGpu::both(&gpu);
         let verification = verify(&scene, &[&spirv as &dyn Runner, &wgsl], &Options::default());

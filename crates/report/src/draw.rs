@@ -95,8 +95,8 @@ impl Drawing<'_> {
         self.step(&format!("{} on the GPU", planned.name), watcher);
         let (gpu, via) = (self.gpu, planned.via.unwrap_or(self.options.via));
         // No target has geometry stages: the host runs them, and the GPU draws what they emit.
-        let compiled = as_compiled(scene)
-            .map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
+        let compiled =
+            as_compiled(scene).map_err(|diagnostics| Error::Reference { way: planned.name.clone(), diagnostics })?;
         let prepared = gpu.prepare_in(&compiled, via, planned.floats).map_err(failed)?;
         let picture = gpu.draw(&prepared).map_err(failed)?.picture;
         let fragments = gpu.fragments_shaded(&prepared).map_err(failed)?;

@@ -33,4 +33,3 @@ pub fn work(all: &Counts, weights: &Weights, floats: FloatWidth) -> Work {
         texture_lookups: of(Step::LOOKUP),
     }
 }
-

@@ -147,6 +147,50 @@ fn functions_of_a_narrow_range_go() {
     }
 }
 
+/// The length of a vector limits its products, as long as it is one vector: `u` is 0, and what is finite times 0 adds nothing.
+#[test]
+fn a_unit_vector_is_no_longer_than_one() {
+    let before = "c = clamp(c, 0.25, 1.0); vec3 n = normalize(c), m = normalize(c.yzx * c);";
+    let nothing = left_of("c = clamp(c, 0.25, 1.0);");
+    for product in [
+        "dot(n, m)",
+        "dot(-n, m.xyz)",
+        "dot(n, reflect(-m, n))",
+        "dot(reflect(m, -n), reflect(n, m))",
+        "length(cross(n, m))",
+        "dot(n, faceforward(n, m, n))",
+    ] {
+        let text = left_of(&format!("{before} c += u * pow(max({product}, 0.0), 300.0);"));
+        assert_eq!(text, nothing, "{product}");
+    }
+    for product in [
+        "dot(vec3(n.x, m.y, n.z), m)",
+        "dot(n.xxx, m)",
+        "dot(n.zyx, vec3(m.xy, n.z))",
+        "dot(mat3(n, m, n)[1] + n, m)",
+        "dot(transpose(mat3(n, m, n))[1], m)",
+        "dot(n + m, m)",
+    ] {
+        let text = left_of(&format!("{before} c += u * pow(max({product}, 0.0), 300.0);"));
+        assert!(text.contains("pow"), "{product}: {text}");
+    }
+    for statements in ["n.x = m.x;", "n[1] = m.y;", "n.yz = m.xy;", "if (c.x > 0.5) n.z = m.z;"] {
+        let text = left_of(&format!("{before} {statements} c += u * pow(max(dot(n, m), 0.0), 300.0);"));
+        assert!(text.contains("pow"), "{statements}: {text}");
+    }
+}
+
+#[test]
+fn a_product_with_the_identity_goes() {
+    let nothing = left_of("c = clamp(c, 0.25, 1.0);");
+    for factor in ["mat3(w)", "transpose(inverse(mat3(w)))", "mat3(mat4(w))", "(mat3(w) * mat3(w))"] {
+        assert_eq!(left_of(&format!("c = {factor} * clamp(c, 0.25, 1.0);")), nothing, "{factor}");
+        assert_eq!(left_of(&format!("c = clamp(c, 0.25, 1.0) * {factor};")), nothing, "{factor}");
+    }
+    // An infinity times 0 is NaN.
+    assert!(left_of("c = mat3(w) * c;").contains("mat3"));
+}
+
 #[test]
 fn a_decided_operand_goes_from_either_side() {
     for (condition, wanted) in [

@@ -3,8 +3,8 @@
 //! *In:* the facts of the arguments. *Out:* those of the result; empty where nothing is known. Textures are not among
 //! them: what they hold is the scene's.
 
-use super::operators::{equal_one, sum_of_products};
-use super::{Fact, Facts, Range, What, at, exact};
+use super::operators::equal_one;
+use super::{Fact, Facts, Range, What, at, exact, vectors};
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, Type, TypeId, Types, UnaryOp};
 
@@ -48,10 +48,13 @@ pub(crate) fn builtin(call: &Call<'_>) -> Facts {
         F::Mod => each(&|[x, y, _]| modulo(*x, *y)),
         // Rounded once or twice: both lie in the range.
         F::Fma => each(&|operands| fma(operands)),
-        F::Dot => Facts::from_elem(dot(call), 1),
-        F::Length | F::Distance => Facts::from_elem(length(call), 1),
-        F::Normalize => normalize(call, len),
-        F::Cross => cross(call),
+        F::Dot => Facts::from_elem(vectors::dot(call), 1),
+        F::Length | F::Distance => Facts::from_elem(vectors::length(call), 1),
+        F::Normalize => vectors::normalize(call, len),
+        F::Cross => vectors::cross(call),
+        F::Reflect => vectors::reflect(call),
+        F::Refract => vectors::refract(call),
+        F::Faceforward => vectors::faceforward(call),
         F::MatrixCompMult => each(&|[x, y, _]| product(*x, *y)),
         F::OuterProduct => outer_product(call),
         F::Transpose => transpose(call),
@@ -76,7 +79,7 @@ pub(crate) fn builtin(call: &Call<'_>) -> Facts {
 }
 
 impl Call<'_> {
-    fn all(&self, argument: usize) -> &[Fact] {
+    pub(super) fn all(&self, argument: usize) -> &[Fact] {
         self.arguments.get(argument).map_or(&[], |(facts, _)| facts)
     }
 
@@ -94,7 +97,7 @@ impl Call<'_> {
         self.arguments.first().and_then(|(_, ty)| self.types.scalar_of(*ty)).unwrap_or(Scalar::Float)
     }
 
-    fn pairs(&self) -> Vec<(Fact, Fact)> {
+    pub(super) fn pairs(&self) -> Vec<(Fact, Fact)> {
         let len = self.arguments.first().map_or(0, |(_, ty)| self.types.flat_len(*ty) as usize);
         (0..len).map(|index| (at(self.all(0), index), at(self.all(1), index))).collect()
     }
@@ -242,9 +245,9 @@ fn mix(call: &Call<'_>, [x, y, a]: &[Fact; 3]) -> Fact {
     let boolean = call.arguments.get(2).and_then(|(_, ty)| call.types.scalar_of(*ty)) == Some(Scalar::Bool);
     if boolean {
         return match a.truth() {
-            Some(true) => Fact { constant: y.constant && a.constant, bound: y.bound || a.bound, ..*y },
-            Some(false) => Fact { constant: x.constant && a.constant, bound: x.bound || a.bound, ..*x },
-            None => Fact { constant: false, ..x.join(*y) },
+            Some(true) => Fact { constant: y.constant && a.constant, bound: y.bound || a.bound, ..y.apart() },
+            Some(false) => Fact { constant: x.constant && a.constant, bound: x.bound || a.bound, ..x.apart() },
+            None => Fact { constant: false, ..x.join(*y).apart() },
         };
     }
     let (from, to, weight) = (x.range(), y.range(), a.range());
@@ -358,48 +361,6 @@ fn product(x: Fact, y: Fact) -> Fact {
     at(&super::binary(BinaryOp::Mul, Scalar::Float, 1, &[x], &[y]), 0)
 }
 
-fn dot(call: &Call<'_>) -> Fact {
-    let pairs = call.pairs();
-    let fact = sum_of_products(&pairs);
-    if call.twice && fact.value().is_none() {
-        let terms: Vec<Range> = pairs.iter().map(|(x, _)| x.range().square()).collect();
-        return Fact { what: What::Float(Range { negative_zero: false, ..Range::sum(&terms) }), ..fact };
-    }
-    fact
-}
-
-fn length(call: &Call<'_>) -> Fact {
-    let pairs = call.pairs();
-    let distance = call.function == F::Distance;
-    let terms: Vec<Range> = pairs
-        .iter()
-        .map(|(x, y)| if distance { x.range().sub(y.range()).square() } else { x.range().square() })
-        .collect();
-    let sum = Range::sum(&terms);
-    let root = sum.growing(f64::sqrt, 16.0, 0.0).at_least(0.0);
-    let operands: Facts = call.arguments.iter().flat_map(|(facts, _)| facts.iter().copied()).collect();
-    Fact::result(What::Float(Range { nan: sum.nan, negative_zero: false, ..root }), &operands)
-}
-
-fn normalize(call: &Call<'_>, len: usize) -> Facts {
-    let facts = call.all(0);
-    let terms: Vec<Range> = (0..len).map(|index| at(facts, index).range().square()).collect();
-    let square = Range::sum(&terms);
-    let defined = square.is_finite() && square.low > 1e-30 && square.high < 1e30;
-    let range = if defined { Range::between(-1.001, 1.001) } else { Range::ANY };
-    (0..len).map(|_| Fact::result(What::Float(range), if facts.is_empty() { &[Fact::ANY] } else { facts })).collect()
-}
-
-fn cross(call: &Call<'_>) -> Facts {
-    let (a, b) = (call.all(0), call.all(1));
-    let minus = |fact: Fact| at(&super::unary(UnaryOp::Negate, &[fact]), 0);
-    let component = |i: usize, j: usize| {
-        let fact = sum_of_products(&[(at(a, i), at(b, j)), (minus(at(a, j)), at(b, i))]);
-        Fact { what: What::Float(Range { negative_zero: true, ..fact.range() }), ..fact }
-    };
-    Facts::from_slice(&[component(1, 2), component(2, 0), component(0, 1)])
-}
-
 fn outer_product(call: &Call<'_>) -> Facts {
     let (column, row) = (call.all(0), call.all(1));
     row.iter().flat_map(|b| column.iter().map(move |a| product(*a, *b))).collect()
@@ -409,7 +370,7 @@ fn transpose(call: &Call<'_>) -> Facts {
     let Type::Matrix(columns, rows) = call.types.get(call.ty) else { return Facts::new() };
     let (columns, rows) = (usize::from(columns), usize::from(rows));
     let facts = call.all(0);
-    (0..columns).flat_map(|column| (0..rows).map(move |row| at(facts, row * columns + column))).collect()
+    (0..columns).flat_map(|column| (0..rows).map(move |row| at(facts, row * columns + column).apart())).collect()
 }
 
 fn quantified(all: bool, facts: &[Fact]) -> Fact {

@@ -254,14 +254,12 @@ fn is_certain(operation: Operation, operands: &[(Values, TypeId)], found: &[Scal
             Vanishing::AboveFirst => !is_below_first(operands),
             Vanishing::Any => true,
         };
+    // Cofactors that are 0 have the sign that the order of their products gives them, and any target may choose another order.
+    let has_sign = !matches!(operation, Operation::Call(F::Inverse)) && found.iter().any(signed);
     // Of 0 and -0 a target gives either.
     let chooses = matches!(operation, Operation::Call(F::Min | F::Max | F::Clamp));
     let either = chooses && found.iter().any(zero) && operands.iter().any(|(values, _)| values.iter().any(signed));
-    !to_integer
-        && !vanishes
-        && !either
-        && !found.iter().any(signed)
-        && operands.iter().all(|(values, _)| values.iter().all(plain))
+    !to_integer && !vanishes && !either && !has_sign && operands.iter().all(|(values, _)| values.iter().all(plain))
 }
 
 /// Whether each component of the last operand is at most that of the first.

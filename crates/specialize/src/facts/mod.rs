@@ -10,6 +10,7 @@ mod exact;
 mod folded;
 mod operators;
 mod range;
+mod vectors;
 
 pub(crate) use builtins::{Call, builtin};
 pub(crate) use folded::{Operation, Values, by_reference, folded};
@@ -32,6 +33,9 @@ pub(crate) struct Fact {
     pub(crate) scaled: bool,
     /// Whether one of these constants makes it larger.
     pub(crate) up: bool,
+    /// How long the vector is at most that it is a component of, as long as the facts are those of a whole vector: a component that
+    /// is taken out or put in has no such limit.
+    pub(crate) norm: f32,
 }
 
 /// A value, or where one is.
@@ -72,7 +76,7 @@ impl Fact {
 
     /// A fact of what is no product.
     pub(crate) const fn of(what: What, constant: bool, bound: bool) -> Self {
-        Self { what, constant, bound, scaled: false, up: false }
+        Self { what, constant, bound, scaled: false, up: false, norm: f32::INFINITY }
     }
 
     /// A literal.
@@ -141,8 +145,9 @@ impl Fact {
     /// The fact that holds whichever of two it is.
     pub(crate) fn join(self, other: Self) -> Self {
         let (bound, scaled, up) = (self.bound || other.bound, self.scaled || other.scaled, self.up || other.up);
+        let norm = self.norm.max(other.norm);
         if self.what == other.what {
-            return Self { what: self.what, constant: self.constant && other.constant, bound, scaled, up };
+            return Self { what: self.what, constant: self.constant && other.constant, bound, scaled, up, norm };
         }
         let what = match (self.scalar(), other.scalar()) {
             (Some(Scalar::Float), Some(Scalar::Float)) => What::Float(self.range().join(other.range())),
@@ -156,7 +161,7 @@ impl Fact {
             }
             _ => What::Any,
         };
-        Self { what, constant: false, bound, scaled, up }
+        Self { what, constant: false, bound, scaled, up, norm }
     }
 
     fn scalar(self) -> Option<Scalar> {
@@ -167,6 +172,11 @@ impl Fact {
             What::Uint(..) => Some(Scalar::Uint),
             What::Any => None,
         }
+    }
+
+    /// The same, of a component by itself.
+    pub(crate) fn apart(self) -> Self {
+        Self { norm: f32::INFINITY, ..self }
     }
 
     /// The result of an operation on these operands.
@@ -189,6 +199,16 @@ pub(crate) fn spread(facts: &[Fact], index: usize) -> Fact {
 /// All values, if all are known.
 pub(crate) fn values(facts: &[Fact]) -> Option<Values> {
     if facts.is_empty() { None } else { facts.iter().map(|fact| fact.value()).collect() }
+}
+
+/// How long a vector with these facts is at most, but for NaN.
+pub(crate) fn norm(facts: &[Fact]) -> f64 {
+    if facts.is_empty() {
+        return f64::INFINITY;
+    }
+    let known = facts.iter().map(|fact| f64::from(fact.norm)).fold(0.0, f64::max);
+    let square: f64 = facts.iter().map(|fact| fact.range().magnitude().powi(2)).sum();
+    known.min(square.sqrt())
 }
 
 /// The facts that hold whichever of two values it is.

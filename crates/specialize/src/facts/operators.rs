@@ -44,7 +44,8 @@ pub(crate) fn unary(op: UnaryOp, facts: &[Fact]) -> Facts {
                 (What::Int(low, high), UnaryOp::Negate) if low > i32::MIN => What::Int(-high, -low),
                 _ => What::Any,
             };
-            Fact { scaled: fact.scaled, up: fact.up, ..Fact::result(what, &[*fact]) }
+            let norm = if op == UnaryOp::Negate { fact.norm } else { f32::INFINITY };
+            Fact { scaled: fact.scaled, up: fact.up, norm, ..Fact::result(what, &[*fact]) }
         })
         .collect()
 }

@@ -248,8 +248,15 @@ impl Forward<'_> {
 }
 
 fn encode(fact: &Fact, bits: &mut Vec<u64>) {
-    let flags =
-        u64::from(fact.constant) | u64::from(fact.bound) << 1 | u64::from(fact.scaled) << 10 | u64::from(fact.up) << 11;
+    let has_norm = fact.norm.is_finite();
+    let flags = u64::from(fact.constant)
+        | u64::from(fact.bound) << 1
+        | u64::from(fact.scaled) << 10
+        | u64::from(fact.up) << 11
+        | u64::from(has_norm) << 12;
+    if has_norm {
+        bits.push(u64::from(fact.norm.to_bits()));
+    }
     match fact.what {
         What::Any => bits.push(flags),
         What::Value(value) => {

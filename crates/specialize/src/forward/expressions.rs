@@ -115,7 +115,8 @@ impl Forward<'_> {
                 let all = arguments
                     .iter()
                     .flat_map(|(facts, ty)| (0..self.types.flat_len(*ty) as usize).map(|index| at(facts, index)));
-                all.take(len).collect()
+                let is_mixed = kind == ConstructKind::Compose && arguments.len() > 1;
+                all.take(len).map(|fact| if is_mixed { fact.apart() } else { fact }).collect()
             }
             ConstructKind::Diagonal | ConstructKind::Resize => {
                 let Type::Matrix(columns, rows) = self.types.get(ty) else { return Facts::new() };
@@ -349,9 +350,8 @@ impl Forward<'_> {
 fn looked_up(channel: Input) -> Fact {
     match channel {
         Input::Value(value) => Fact::bound(value),
-        Input::Between(low, high) | Input::Unsigned(low, high) => {
-            Fact::in_range(facts::Range::between(f64::from(low), f64::from(high)))
-        }
+        Input::Between(low, high) => Fact::in_range(facts::Range::between(f64::from(low), f64::from(high))),
+        Input::Unsigned(low, high) => crate::inputs::unsigned(low, high),
         Input::Open => Fact::ANY,
     }
 }

@@ -171,6 +171,9 @@ impl Forward<'_> {
             Some(_) => Facts::new(),
             None => facts,
         };
+        // A vector's length limits its components together alone.
+        let is_part = matches!(kind, ExprKind::Swizzle(..)) || self.types.flat_len(ty) == 1;
+        let facts = if is_part { facts.into_iter().map(Fact::apart).collect() } else { facts };
         let small = self.types.flat_len(ty) <= super::NOTED as u32;
         let facts = if self.fast && small { crate::fast::finite(self.types, ty, facts) } else { facts };
         let id = self.push(kind, ty, span, &facts);
@@ -204,11 +207,13 @@ impl Forward<'_> {
             return;
         };
         let sure = place.open.is_empty();
+        let is_part = place.components.is_some() || place.len == 1 || value.len() == 1;
         let targets: Vec<SmallVec<[u32; 4]>> = starts.into_iter().map(|start| place.scalars(start)).collect();
         self.store.change(place.key, |cell| {
             for scalars in targets {
                 for (index, scalar) in scalars.iter().enumerate() {
                     let new = facts::at(value, index);
+                    let new = if is_part { new.apart() } else { new };
                     if let Some(slot) = cell.get_mut(*scalar as usize) {
                         *slot = if sure { new } else { slot.join(new) };
                     }

@@ -29,6 +29,12 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
         ExprKind::Binary(BinaryOp::NotEqual | BinaryOp::LogicalXor, ..) => {
             leaves(0, 1, false).or_else(|| leaves(1, 0, false))
         }
+        ExprKind::Binary(BinaryOp::MatMul, ..) => {
+            let leaves = |kept: usize, other: usize| {
+                (typed(kept) && pure(other) && is_product_with_one(facts(kept), facts(other))).then_some(kept)
+            };
+            leaves(1, 0).or_else(|| leaves(0, 1))
+        }
         ExprKind::Binary(op, ..) => of_numbers(walked.fast, *op, &gives),
         ExprKind::BuiltinCall(F::Max, _) => gives(0, 1, &is_above).or_else(|| gives(1, 0, &is_above)),
         ExprKind::BuiltinCall(F::Min, _) => gives(0, 1, &is_below).or_else(|| gives(1, 0, &is_below)),
@@ -184,6 +190,20 @@ fn takes_nothing(x: Fact, c: Fact) -> bool {
     let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
     let is_plain = is_any_zero(c) && !c.range().negative_zero;
     integers || is_plain || (is_any_zero(c) && !x.range().negative_zero)
+}
+
+/// Whether a linear algebra product of a vector or a matrix with a matrix gives it back: the matrix is the identity, and sums that
+/// end in zeros of either sign keep what is finite and not -0.
+fn is_product_with_one(kept: &[Fact], matrix: &[Fact]) -> bool {
+    let side = matrix.len().isqrt();
+    let is_identity = side >= 2
+        && side * side == matrix.len()
+        && matrix
+            .iter()
+            .enumerate()
+            .all(|(index, fact)| if index % (side + 1) == 0 { is(*fact, 1.0) } else { is_any_zero(*fact) });
+    let keeps = |fact: &Fact| fact.range().is_finite() && !fact.range().negative_zero;
+    is_identity && !kept.is_empty() && kept.iter().all(keeps)
 }
 
 /// Whether it is neither below 0, nor -0, nor NaN.

@@ -53,11 +53,11 @@ pub use files::write_pictures;
 pub use headline::{Headline, is_empty};
 pub use maps::{DIFFERENCE_LEGEND, EVIDENCE_LEGEND, difference, evidence};
 pub use part::MOST_WORK;
-#[cfg(feature = "gpu")]
-pub use runner::{OnGpu, as_compiled};
 #[cfg(feature = "gl")]
 pub use runner::OnOpenGl;
 pub use runner::{Channel, Cpu, Drawn, Failure, Reference, Runner, ThisThread};
+#[cfg(feature = "gpu")]
+pub use runner::{OnGpu, as_compiled};
 pub use undefined::UndefinedAt;
 pub use verification::{Verification, mark};
 pub use weakness::Weakness;

@@ -129,8 +129,8 @@ fn row(gpu: &Gpu, scene: Scene, iterations: u64) -> Result<Row, String> {
         .map_err(|found| told(&scene.name, found.first().map_or("", |first| &first.message)))?;
     let draws = scene.draws.iter().zip(&counted).map(|(draw, counts)| of_draw(draw, counts, iterations));
     let spent = draws.fold(Spent::default(), Spent::plus);
-    let compiled = as_compiled(&scene)
-        .map_err(|found| told(&scene.name, found.first().map_or("", |first| &first.message)))?;
+    let compiled =
+        as_compiled(&scene).map_err(|found| told(&scene.name, found.first().map_or("", |first| &first.message)))?;
     let prepared = gpu.prepare(&compiled, Via::Spirv).map_err(|error| told(&scene.name, &error.to_string()))?;
     let frames = gpu.frames_for_a_stretch(&prepared).map_err(|error| told(&scene.name, &error.to_string()))?;
     Ok(Row { name: scene.name, spent, prepared, frames, milliseconds: f64::INFINITY })
