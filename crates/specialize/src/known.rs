@@ -54,6 +54,8 @@ pub struct KnownState {
     pub front_facing: Option<bool>,
     /// How many color attachments there are: outputs beyond are nobody's.
     pub attachments: Option<u32>,
+    /// Whether the formats of the color attachments have no -0, as those of 8 bits and of integers.
+    pub unsigned_colors: bool,
     /// Whether the depth test is enabled; without it depth is not written either, and `gl_FragDepth` is nobody's.
     pub depth_test: Option<bool>,
     /// Width and height of the framebuffer in pixels.

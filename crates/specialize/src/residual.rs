@@ -6,10 +6,10 @@ use crate::known::Known;
 use crate::left::Left;
 use crate::options::{Extent, Options};
 use crate::prune::{self, Pruned};
-use crate::settle::{self, Demand, Demands, Settled};
+use crate::settle::{self, Demand, Demands, Settled, Signs};
 use crate::{fast, inputs, motion, text, unlocated};
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{GlobalId, Shader, Stage, Storage, Types, print};
+use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Types, print};
 use glisten_front::link::{Bindings, relink};
 use glisten_front::source::{SourceMap, Span};
 use glisten_front::{Compiler, Program, Source};
@@ -135,14 +135,21 @@ fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluate
     let mut moved = Vec::new();
     // The fragment stage first: what it reads is what the vertex stage must write.
     let mut wanted = None;
-    if let Some((shader, stage)) = fragment {
+    // Whether somebody sees the sign of a zero in what the vertex stage writes.
+    let mut signs: Vec<bool> = vertex.iter().flat_map(|(shader, _)| &shader.globals).map(is_written_out).collect();
+    if let Some((shader, mut stage)) = fragment {
+        stage.signs = Signs::of(&program.types, &stage, colors_with_signs(shader, known));
+        varyings_with_signs(program, &stage.signs, &mut signs);
         let live = live_colors(shader, program, known);
         let (settled, demands) = settled(program, &stage, vec![Demand::NONE; shader.globals.len()]);
         wanted = Some(demands).filter(|_| whole);
         pruned.push((prune::prune(&program.types, settled, &live), live));
         reasons.push((Stage::Fragment, stage.reasons));
     }
-    if let Some((shader, stage)) = vertex {
+    if let Some((shader, mut stage)) = vertex {
+        if whole {
+            stage.signs = Signs::of(&program.types, &stage, signs);
+        }
         let mut demands = vec![Demand::NONE; shader.globals.len()];
         if let Some(of_fragment) = &wanted {
             hand_on(program, of_fragment, &mut demands);
@@ -219,6 +226,27 @@ fn settled(program: &Program, stage: &Walked, globals: Vec<Demand>) -> (Settled,
     (settled, demands)
 }
 
+/// Whether somebody outside of a stage may see the sign of a zero in a global. A position is what it is with either sign.
+fn is_written_out(global: &Global) -> bool {
+    global.storage == Storage::Out && global.builtin != Some(BuiltinVariable::Position)
+}
+
+/// The globals of a fragment stage in which somebody sees the sign of a zero.
+fn colors_with_signs(shader: &Shader, known: &Known) -> Vec<bool> {
+    let unsigned = known.state.unsigned_colors;
+    shader.globals.iter().map(|global| is_written_out(global) && !(unsigned && global.builtin.is_none())).collect()
+}
+
+/// Of the globals of the vertex stage, those that the fragment stage reads have the signs that it sees.
+fn varyings_with_signs(program: &Program, fragment: &Signs, signs: &mut [bool]) {
+    for varying in &program.interface.varyings {
+        let (Some(from), Some(to)) = (varying.from, varying.to) else { continue };
+        if let Some(slot) = signs.get_mut(from.global.index()) {
+            *slot = fragment.is_seen_in(to.global.index());
+        }
+    }
+}
+
 /// What the fragment stage demands of a varying it demands of the output.
 fn hand_on(program: &Program, of_fragment: &Demands, demands: &mut [Demand]) {
     for varying in &program.interface.varyings {
@@ -239,7 +267,7 @@ fn live_colors(shader: &Shader, program: &Program, known: &Known) -> Vec<bool> {
             _ => true,
         }
     };
-    let live = |(id, global): (GlobalId, &glisten_front::hir::Global)| match global.builtin {
+    let live = |(id, global): (GlobalId, &Global)| match global.builtin {
         Some(BuiltinVariable::FragDepth) => known.state.depth_test != Some(false),
         _ => global.storage == Storage::Out && attached(id),
     };
@@ -259,7 +287,7 @@ fn live_varyings(shader: &Shader, program: &Program, known: &Known, wanted: Opti
         let fragment = program.stage(Stage::Fragment);
         fragment.is_some_and(|shader| shader.globals.iter().any(|global| global.builtin == Some(builtin)))
     };
-    let live = |(id, global): (GlobalId, &glisten_front::hir::Global)| match global.builtin {
+    let live = |(id, global): (GlobalId, &Global)| match global.builtin {
         _ if global.storage != Storage::Out => false,
         Some(BuiltinVariable::PointSize) => known.state.point_size != Some(false),
         Some(BuiltinVariable::ClipDistance) => {

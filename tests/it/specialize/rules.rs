@@ -110,12 +110,14 @@ fn a_factor_of_one_goes_next_to_a_scalar() {
     assert!(!kept.contains("vec3(v.w)"), "{kept}");
 }
 
+/// `c`, of which each component is one of two numbers.
+fn between(low: &str, high: &str) -> String {
+    format!("c = vec3(v.x > 0.1 ? {low} : {high}, v.y > 0.1 ? {low} : {high}, v.z > 0.1 ? {low} : {high}); ")
+}
+
 /// Functions that give their argument back, or one number, where its range says so.
 #[test]
 fn functions_of_a_narrow_range_go() {
-    let between = |low: &str, high: &str| {
-        format!("c = vec3(v.x > 0.1 ? {low} : {high}, v.y > 0.1 ? {low} : {high}, v.z > 0.1 ? {low} : {high}); ")
-    };
     let bounded = between("0.25", "0.75");
     for (statement, wanted) in [
         ("c = abs(c);", ""),
@@ -150,8 +152,9 @@ fn functions_of_a_narrow_range_go() {
 /// The length of a vector limits its products, as long as it is one vector: `u` is 0, and what is finite times 0 adds nothing.
 #[test]
 fn a_unit_vector_is_no_longer_than_one() {
-    let before = "c = clamp(c, 0.25, 1.0); vec3 n = normalize(c), m = normalize(c.yzx * c);";
-    let nothing = left_of("c = clamp(c, 0.25, 1.0);");
+    let bounded = between("0.25", "1.0");
+    let before = format!("{bounded}vec3 n = normalize(c), m = normalize(c.yzx * c);");
+    let nothing = left_of(&bounded);
     for product in [
         "dot(n, m)",
         "dot(-n, m.xyz)",
@@ -182,13 +185,116 @@ fn a_unit_vector_is_no_longer_than_one() {
 
 #[test]
 fn a_product_with_the_identity_goes() {
-    let nothing = left_of("c = clamp(c, 0.25, 1.0);");
+    let bounded = between("0.25", "1.0");
+    let nothing = left_of(&bounded);
     for factor in ["mat3(w)", "transpose(inverse(mat3(w)))", "mat3(mat4(w))", "(mat3(w) * mat3(w))"] {
-        assert_eq!(left_of(&format!("c = {factor} * clamp(c, 0.25, 1.0);")), nothing, "{factor}");
-        assert_eq!(left_of(&format!("c = clamp(c, 0.25, 1.0) * {factor};")), nothing, "{factor}");
+        assert_eq!(left_of(&format!("{bounded}c = {factor} * c;")), nothing, "{factor}");
+        assert_eq!(left_of(&format!("{bounded}c = c * {factor};")), nothing, "{factor}");
     }
+    assert_eq!(left_of(&format!("{bounded}c.x = dot(c, vec3(u, w, u));")), left_of(&format!("{bounded}c.x = c.y;")));
+    assert_eq!(
+        left_of(&format!("{bounded}c = mat3(c, c.zxy, c) * vec3(u, w, u);")),
+        left_of(&format!("{bounded}c = c.zxy;"))
+    );
     // An infinity times 0 is NaN.
     assert!(left_of("c = mat3(w) * c;").contains("mat3"));
+}
+
+/// Where nobody sees the sign of a zero, adding one does nothing; `v` may be -0.
+#[test]
+fn signs_of_zeros_that_nobody_sees_do_not_count() {
+    let texture = |coordinate: &str| {
+        let fragment = format!(
+            "#version 150\nin vec4 v;\nuniform float u;\nuniform sampler2D s;\nout vec4 color;\n\
+             void main() {{ vec2 c = v.xy; {coordinate} }}\n"
+        );
+        residual(&fragment, &[("u", &[0.0])]).text(Stage::Fragment).expect("a stage").to_owned()
+    };
+    for (with, without) in [
+        ("color = texture(s, c + u);", "color = texture(s, c);"),
+        ("c += u; color = texture(s, c.yx);", "color = texture(s, c.yx);"),
+        ("color = vec4(c.x + u > c.y + u);", "color = vec4(c.x > c.y);"),
+        ("color = vec4(abs(c.x + u) + 1.0);", "color = vec4(abs(c.x) + 1.0);"),
+        ("color = vec4((c.x + u) * 2.0 + 1.0);", "color = vec4(c.x * 2.0 + 1.0);"),
+        ("color = vec4(length(c + u));", "color = vec4(length(c));"),
+    ] {
+        assert_eq!(texture(with), texture(without), "{with}");
+    }
+    for seen in [
+        "color = vec4(c + u, 0.0, 1.0);",
+        "color = vec4(1.0 / (c.x + u));",
+        "color = textureProj(s, vec3(c, c.x + u));",
+        "c += u; color = texture(s, c) + c.x;",
+        "color = vec4(atan(c.x + u, c.y));",
+        "color = vec4(inversesqrt(c.x + u));",
+        "color = vec4(1.0 / sqrt(c.x + u));",
+    ] {
+        let text = texture(seen);
+        assert!(text.contains("+ 0.0") || text.contains("+= 0.0") || text.contains("vec2(0.0)"), "{seen}: {text}");
+    }
+}
+
+/// The larger of 0 and -0 is the first of them, and a remainder of an infinite divisor is NaN.
+#[test]
+fn what_comes_back_is_the_same_number() {
+    for (low, high, statement) in [("-1.0", "-0.0", "c = max(c, 0.0);"), ("0.0", "1.0", "c = max(vec3(-0.0), c);")] {
+        let bounded = between(low, high);
+        assert!(left_of(&format!("{bounded}{statement}")).contains("max("), "{statement}");
+    }
+    let infinite = "c = vec3(v.x > 0.1 ? 0.25 : 0.5); float far = max(1.0 / v.y, 2.0); c = mod(c, far);";
+    assert!(left_of(infinite).contains("mod("));
+}
+
+/// Iterations that were written out have variables of their own: one of them reads what the others do not.
+#[test]
+fn variables_of_an_iteration_are_its_own() {
+    let fragment = "#version 150\nin vec4 v;\nuniform float u[4];\nout vec4 color;\n\
+        float wave(float x) {\n    float r = 0.25;\n    if (v.x > x) { r = 0.5; if (v.y > x) r = 0.75; }\n    return r;\n}\n\
+        void main() {\n    float c = 1.0;\n    for (int i = 0; i < 4; i++) { float n = wave(float(i)); c += u[i] * n; }\n    \
+        color = vec4(c);\n}\n";
+    let residual = residual(fragment, &[("u", &[0.0, 1.0, 0.0, 0.0])]);
+    let text = residual.text(Stage::Fragment).expect("a stage");
+    // Its definition and one call, if it is no part of `main`.
+    assert!(text.matches("wave(").count() <= 2 && text.matches("= 0.75").count() == 1, "{text}");
+}
+
+/// A component that the next store overwrites, and a call that only gives what is overwritten.
+#[test]
+fn overwritten_components_go() {
+    for (with, without) in [
+        ("c.x = v.w; c.x = v.y;", "c.x = v.y;"),
+        ("c.xy = v.ww; c.x = v.y; c.y = v.x;", "c.x = v.y; c.y = v.x;"),
+        ("c[1] = v.w; c.y = v.x;", "c.y = v.x;"),
+        ("c.x *= v.w; c.xz = v.yy;", "c.xz = v.yy;"),
+        ("c.x++; c = v.zyx;", "c = v.zyx;"),
+    ] {
+        assert_eq!(left_of(with), left_of(without), "{with}");
+    }
+    for kept in [
+        "c.x = v.w; c.y = c.x;",
+        "c.xy = v.ww; c.x = v.y;",
+        "c.x *= v.w; c.x += v.y;",
+        "c.x = v.w; int i = int(v.x); c[i] = v.y;",
+    ] {
+        assert!(left_of(kept).contains("v.w"), "{kept}");
+    }
+}
+
+/// A case knows what the cases before it declare (GLSL 1.50 §6.2), and a constant has its value there.
+#[test]
+fn a_decided_case_knows_the_declarations_before_it() {
+    let fragment = "#version 150\nin vec4 v;\nuniform int mode;\nout vec4 color;\nfloat t = 0.5;\nfloat global() { return t; }\n\
+        void main() {\n    switch (mode) {\n    case 0: float t; const vec3 tint = vec3(0.25, 0.5, 1.0); color = vec4(1.0); break;\n\
+        case 1: t = v.x + global(); color = vec4(tint * t * v.y, global()); break;\n    }\n}\n";
+    let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", VERTEX, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let program = Compiler::new(Options::default()).compile(&sources).program.expect("it compiles");
+    let mut known = Known::default();
+    known.uniforms.insert("mode".into(), vec![ScalarValue::Int(1)]);
+    let residual = specialize(&program, &known);
+    assert!(residual.fault.is_none(), "{:?}", residual.fault);
+    let text = residual.text(Stage::Fragment).expect("a stage");
+    assert!(!text.contains("switch") && text.contains("float t = v.x"), "{text}");
 }
 
 #[test]

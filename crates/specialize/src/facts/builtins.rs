@@ -234,7 +234,9 @@ fn extremum(least: bool, scalar: Scalar, x: Fact, y: Fact) -> Fact {
 }
 
 fn step(edge: Fact, x: Fact) -> Fact {
-    let what = match x.range().less(edge.range()) {
+    // A target may compare the other way round, which a NaN tells.
+    let sure = !x.range().nan && !edge.range().nan;
+    let what = match x.range().less(edge.range()).filter(|_| sure) {
         Some(below) => What::Value(ScalarValue::Float(if below { 0.0 } else { 1.0 })),
         None => What::Float(Range { negative_zero: false, ..Range::between(0.0, 1.0) }),
     };
@@ -251,14 +253,35 @@ fn mix(call: &Call<'_>, [x, y, a]: &[Fact; 3]) -> Fact {
         };
     }
     let (from, to, weight) = (x.range(), y.range(), a.range());
+    if weight.low >= 0.0 && weight.high <= 1.0 && from.is_finite() && to.is_finite() {
+        return Fact::result(What::Float(between(from, to, weight.nan)), &[*x, *y, *a]);
+    }
     let rest = Range::point(1.0).sub(weight);
     let sum = from.mul(rest).add(to.mul(weight));
     let other = from.add(to.sub(from).mul(weight));
     Fact::result(What::Float(sum.join(other)), &[*x, *y, *a])
 }
 
+/// What lies between two numbers. Neither `x * (1 - a) + y * a` nor `x + (y - x) * a` of numbers that are not negative is negative: a rounded
+/// difference takes no more away than there is.
+fn between(from: Range, to: Range, nan: bool) -> Range {
+    let hull = from.join(to);
+    let slack = hull.magnitude() * 1e-6;
+    let low = if hull.low >= 0.0 { (hull.low - slack).max(0.0) } else { hull.low - slack };
+    let negative_zero = !(from.is_plus() && to.is_plus());
+    Range { nan, negative_zero, ..Range::between(low, hull.high + slack) }
+}
+
 fn function(function: F, x: Fact) -> Fact {
     let range = x.range();
+    // Of 0 and -0 the reference makes the same.
+    if (range.low, range.high, range.nan) == (0.0, 0.0, false) {
+        match function {
+            F::Exp | F::Exp2 | F::Cos => return Fact::result(What::Value(ScalarValue::Float(1.0)), &[x]),
+            F::Sin => return Fact::result(What::Float(range), &[x]),
+            _ => {}
+        }
+    }
     let what = match function {
         F::Sqrt => range.growing(|x| if x < 0.0 { f64::NAN } else { x.sqrt() }, 8.0, 0.0).at_least(0.0),
         F::Inversesqrt if range.low > 0.0 => {
@@ -322,7 +345,7 @@ fn pow(x: Fact, y: Fact) -> Fact {
         () if base.low < 0.0 || exponent.nan => Range::ANY,
         () if exponent.low > 0.0 && exponent.is_bounded() && base.high <= 1.0 => {
             // Near 1 a logarithm may miss by 2^-21.
-            Range::between(0.0, (exponent.high * 1e-6).exp2() * (1.0 + 1e-5))
+            Range { negative_zero: false, ..Range::between(0.0, (exponent.high * 1e-6).exp2() * (1.0 + 1e-5)) }
         }
         () if exponent.low > 0.0 && exponent.is_bounded() => {
             let high = base.high.max(1.0).powf(exponent.high) * (1.0 + exponent.high * 1e-5 + 1e-3);

@@ -174,6 +174,24 @@ impl Fact {
         }
     }
 
+    /// Whether it is a `float` of 0, whose sign may be open.
+    pub(crate) fn is_zero(self) -> bool {
+        let range = self.range();
+        let floats = matches!(self.what, What::Value(ScalarValue::Float(_)) | What::Float(_));
+        floats && !range.nan && (range.low, range.high) == (0.0, 0.0)
+    }
+
+    /// The same, where -0 is 0.
+    pub(crate) fn without_sign(self) -> Self {
+        let what = match self.what {
+            What::Value(ScalarValue::Float(0.0)) => What::Value(ScalarValue::Float(0.0)),
+            What::Float(range) => What::Float(Range { negative_zero: false, ..range }),
+            What::Any => What::Float(Range { negative_zero: false, ..Range::ANY }),
+            what => what,
+        };
+        Self { what, ..self }
+    }
+
     /// The same, of a component by itself.
     pub(crate) fn apart(self) -> Self {
         Self { norm: f32::INFINITY, ..self }

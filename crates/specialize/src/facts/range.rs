@@ -229,30 +229,29 @@ impl Range {
         if low > high { self } else { Self { low, high, nan: false, ..self } }
     }
 
-    /// Whether `a < b`, where that is sure.
+    /// Whether `a < b`, where that is sure. With a NaN it is false.
     pub(crate) fn less(self, other: Self) -> Option<bool> {
         match () {
+            () if self.low >= other.high => Some(false),
             () if self.nan || other.nan => None,
             () if self.high < other.low => Some(true),
-            () if self.low >= other.high => Some(false),
             () => None,
         }
     }
 
-    /// Whether `a <= b`, where that is sure.
+    /// Whether `a <= b`, where that is sure. With a NaN it is false.
     pub(crate) fn less_equal(self, other: Self) -> Option<bool> {
         match () {
+            () if self.low > other.high => Some(false),
             () if self.nan || other.nan => None,
             () if self.high <= other.low => Some(true),
-            () if self.low > other.high => Some(false),
             () => None,
         }
     }
 
-    /// Whether `a == b`, where that is sure.
+    /// Whether `a == b`, where that is sure. With a NaN it is false.
     pub(crate) fn equal(self, other: Self) -> Option<bool> {
-        let apart = self.high < other.low || other.high < self.low;
-        (apart && !self.nan && !other.nan).then_some(false)
+        (self.high < other.low || other.high < self.low).then_some(false)
     }
 }
 
@@ -276,10 +275,11 @@ mod tests {
     }
 
     #[test]
-    fn an_answer_is_sure_only_where_no_nan_is() {
+    fn an_answer_of_true_is_sure_only_where_no_nan_is() {
         let plus = Range::between(1.0, 2.0);
         assert_eq!(Range::point(0.0).less(plus), Some(true));
         assert_eq!(Range::point(0.0).less(Range { nan: true, ..plus }), None);
+        assert_eq!(plus.less(Range { nan: true, ..Range::point(0.0) }), Some(false));
         assert_eq!(plus.less_equal(plus), None);
     }
 }

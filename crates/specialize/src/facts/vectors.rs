@@ -64,11 +64,17 @@ pub(super) fn normalize(call: &Call<'_>, len: usize) -> Facts {
     let facts = call.all(0);
     let terms: Vec<Range> = (0..len).map(|index| at(facts, index).range().square()).collect();
     let square = Range::sum(&terms);
-    let defined = square.is_finite() && square.low > 1e-30 && square.high < 1e30;
-    let range = if defined { Range::between(-1.001, 1.001) } else { Range::ANY };
-    let fact = Fact::result(What::Float(range), if facts.is_empty() { &[Fact::ANY] } else { facts });
-    let all = std::iter::repeat_n(fact, len);
-    if defined { limited(all, 1.0) } else { all.collect() }
+    let operands = if facts.is_empty() { &[Fact::ANY] } else { facts };
+    if !square.is_finite() || square.low <= 1e-30 || square.high >= 1e30 {
+        return Facts::from_elem(Fact::result(What::Float(Range::ANY), operands), len);
+    }
+    // A component keeps its sign.
+    let length = Range::between(square.low.sqrt() * (1.0 - SLACK), square.high.sqrt() * (1.0 + SLACK));
+    let unit = |index: usize| {
+        let range = at(facts, index).range().div(length);
+        Fact::result(What::Float(Range { nan: false, ..range }), operands)
+    };
+    limited((0..len).map(unit), 1.0)
 }
 
 pub(super) fn cross(call: &Call<'_>) -> Facts {

@@ -26,6 +26,7 @@ pub(crate) use reasons::{Reason, Reasons};
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
 use super::options::Extent;
+use super::settle::Signs;
 use calls::Variants;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef, may_act,
@@ -71,6 +72,8 @@ pub(crate) struct Walked {
     pub(crate) named: FxHashMap<GlobalId, (ExprId, u32)>,
     /// Whether algebra is allowed that changes rounding.
     pub(crate) fast: bool,
+    /// Where somebody sees the sign of a zero: everywhere, until that is found out.
+    pub(crate) signs: Signs,
 }
 
 /// A value: the expression that gives it, and what is known of it.
@@ -164,7 +167,7 @@ pub(crate) fn walk(
         forward.run(inputs);
         let ends = forward.ends();
         let Forward { out, notes, before, origins, reasons, named, .. } = forward;
-        Walked { shader: out, notes, before, origins, reasons, ends, named, fast }
+        Walked { shader: out, notes, before, origins, reasons, ends, named, fast, signs: Signs::default() }
     })
 }
 

@@ -3,7 +3,7 @@
 use super::store::{Changes, Mark};
 use super::{Forward, Jump, Reason, Target};
 use crate::facts::at;
-use glisten_front::hir::{Case, CaseLabel, ExprId, ScalarValue, Stmt, StmtKind};
+use glisten_front::hir::{Case, CaseLabel, ExprId, LocalId, LocalKind, ScalarValue, Stmt, StmtKind};
 use glisten_front::source::Span;
 
 impl Forward<'_> {
@@ -116,6 +116,13 @@ impl Forward<'_> {
         let exits = self.frames.last().map_or(0, |frame| frame.exits.len());
         self.targets.push(Target::Flat { is_loop: false, forks: self.forks, open: None });
         let mut body = Vec::new();
+        // The scope of what a case declares is the whole switch (§6.2): a case that is jumped to knows it, without its value.
+        for stmt in cases.iter().take(start).flat_map(|case| &case.body) {
+            if let StmtKind::Local(local, initializer) = stmt.kind {
+                let initializer = initializer.filter(|_| self.is_constant(local));
+                body.extend(self.statements(&[Self::statement(StmtKind::Local(local, initializer), stmt.span)]));
+            }
+        }
         for case in cases.iter().skip(start) {
             body.extend(self.statements(&case.body));
             if !self.store.live {
@@ -132,6 +139,11 @@ impl Forward<'_> {
             self.store.live = true;
         }
         Some(body)
+    }
+
+    fn is_constant(&self, local: LocalId) -> bool {
+        let function = self.frames.last().map(|frame| self.shader.function(frame.function));
+        function.is_some_and(|function| function.local(local).kind == LocalKind::Const)
     }
 
     /// Back to before something was written out that could not be.

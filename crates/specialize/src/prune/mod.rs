@@ -4,6 +4,7 @@
 //!
 //! | file | what goes |
 //! | --- | --- |
+//! | `apart` | nothing: variables that are declared several times become several |
 //! | `uses` | counts who reads what |
 //! | `sweep` | stores that nobody reads, stores of what is there, statements without effect |
 //! | `once` | loops that run once |
@@ -16,6 +17,7 @@
 //! | `compact` | what nothing names: functions, parameters, locals, globals |
 //! | `unreached` | what reaches no output whatever the inputs are, in stages that are not evaluated |
 
+mod apart;
 mod clamped;
 mod compact;
 mod declare;
@@ -57,7 +59,9 @@ pub(super) struct Pruned {
 /// Prunes a stage. `live` says for each global of the original whether somebody reads it when the stage has ended.
 pub(super) fn prune(types: &Types, settled: Settled, live: &[bool]) -> Pruned {
     let globals = (0..settled.shader.globals.len()).map(GlobalId::new).collect();
-    let mut pruned = Pruned { shader: settled.shader, globals, origins: settled.origins, reach: settled.reach };
+    let mut shader = settled.shader;
+    apart::apart(&mut shader);
+    let mut pruned = Pruned { shader, globals, origins: settled.origins, reach: settled.reach };
     pruned.again(types, live);
     pruned
 }
@@ -70,7 +74,7 @@ impl Pruned {
                 self.globals.iter().map(|global| live.get(global.index()).copied().unwrap_or(true)).collect();
             let uses = Uses::of(types, &self.shader);
             let swept = sweep::sweep(types, &mut self.shader, &own, uses);
-            let mut changed = swept.changed | overwritten_in(&mut self.shader, &swept.uses.functions);
+            let mut changed = swept.changed | overwritten_in(types, &mut self.shader, &swept.uses);
             changed |= inline::inline(&mut self.shader);
             changed |= clamped::join(&mut self.shader);
             merge::merge(&mut self.shader);
@@ -124,15 +128,15 @@ impl Pruned {
 }
 
 /// Removes stores that are overwritten first from functions.
-fn overwritten_in(shader: &mut Shader, functions: &[FunctionId]) -> bool {
+fn overwritten_in(types: &Types, shader: &mut Shader, uses: &Uses) -> bool {
     let mut changed = false;
     let of_main = overwritten::globals_of_main(shader);
-    for id in functions {
+    for id in &uses.functions {
         let Some(body) = shader.functions.get_mut(id.index()).and_then(|function| function.body.take()) else {
             continue;
         };
-        let (body, removed) =
-            overwritten::remove(shader, *id, if Some(*id) == shader.main { &of_main } else { &[] }, body);
+        let globals = if Some(*id) == shader.main { &of_main[..] } else { &[] };
+        let (body, removed) = overwritten::remove(types, (shader, &uses.effects), *id, globals, body);
         changed |= removed;
         if let Some(function) = shader.functions.get_mut(id.index()) {
             function.body = Some(body);

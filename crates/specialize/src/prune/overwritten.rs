@@ -1,15 +1,21 @@
 //! Stores that are overwritten before anybody reads them.
 //!
-//! *In:* a body. *Out:* the body without them. *Holds:* only whole locals are followed, and in `main` whole globals that no other function
-//! names; what a loop reads anywhere is taken to be read at its end and wherever it is left.
+//! *In:* a body. *Out:* the body without them. *Holds:* locals are followed, vectors component by component and all others as a whole, and in
+//! `main` globals that no other function names; what a loop reads anywhere is taken to be read at its end and wherever it is left.
 
+use crate::forward::Effects;
 use glisten_front::hir::{
-    ExprId, ExprKind, FunctionId, ParamMode, Shader, Stage, Stmt, StmtKind, Storage, VarRef, is_pure,
+    ExprId, ExprKind, FunctionId, ParamMode, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, Type, TypeId, Types,
+    VarRef, may_act,
 };
+use smallvec::SmallVec;
 
-/// Variables that are read later, a bit each: a set is copied for each branch. The locals come first, then the globals.
+/// Parts of variables that are read later, a bit each: a set is copied for each branch. The locals come first, then the globals.
 #[derive(Clone, Debug, Default)]
 struct Live(Vec<u64>);
+
+/// The bits of the parts of a variable.
+type Slots = SmallVec<[usize; 4]>;
 
 impl Live {
     fn contains(&self, slot: usize) -> bool {
@@ -26,13 +32,14 @@ impl Live {
         }
     }
 
-    /// Whether it was there.
-    fn remove(&mut self, slot: usize) -> bool {
-        let was = self.contains(slot);
+    fn remove(&mut self, slot: usize) {
         if let Some(word) = self.0.get_mut(slot / 64) {
             *word &= !(1 << (slot % 64));
         }
-        was
+    }
+
+    fn contains_any(&self, slots: &[usize]) -> bool {
+        slots.iter().any(|slot| self.contains(*slot))
     }
 
     fn extend(&mut self, other: &Self) {
@@ -45,9 +52,11 @@ impl Live {
 
 struct Walk<'a> {
     shader: &'a Shader,
-    n_locals: usize,
-    /// The globals that are followed.
-    globals: &'a [bool],
+    effects: &'a Effects,
+    /// The first bit of each local, and how many there are.
+    locals: Vec<(usize, usize)>,
+    /// The same of each global; none where it is not followed.
+    globals: Vec<(usize, usize)>,
     /// The live variables where a `break` or `continue` leads, innermost last.
     jumps: Vec<Live>,
     /// The live variables where the function is left.
@@ -82,26 +91,39 @@ pub(super) fn globals_of_main(shader: &Shader) -> Vec<bool> {
     followed
 }
 
+/// How many parts of a variable are followed.
+fn parts(types: &Types, ty: TypeId) -> usize {
+    if let Type::Vector(_, size) = types.get(ty) { usize::from(size) } else { 1 }
+}
+
 /// Removes such stores from a function's body; whether there were any. `globals` says which globals are followed.
-pub(super) fn remove(shader: &Shader, function: FunctionId, globals: &[bool], body: Vec<Stmt>) -> (Vec<Stmt>, bool) {
+pub(super) fn remove(
+    types: &Types,
+    (shader, effects): (&Shader, &Effects),
+    function: FunctionId,
+    globals: &[bool],
+    body: Vec<Stmt>,
+) -> (Vec<Stmt>, bool) {
     let function = shader.function(function);
-    let mut walk = Walk {
-        shader,
-        n_locals: function.locals.len(),
-        globals,
-        jumps: Vec::new(),
-        end: Live::default(),
-        changed: false,
+    let mut next = 0;
+    let mut place = |count: usize| {
+        next += count;
+        (next - count, count)
     };
+    let locals = function.locals.iter().map(|local| place(parts(types, local.ty))).collect();
+    let followed = shader.globals.iter().zip(globals.iter().chain(std::iter::repeat(&false)));
+    let globals =
+        followed.map(|(global, followed)| place(if *followed { parts(types, global.ty) } else { 0 })).collect();
+    let mut walk = Walk { shader, effects, locals, globals, jumps: Vec::new(), end: Live::default(), changed: false };
     for (index, param) in function.params().iter().enumerate() {
         if matches!(param.kind, glisten_front::hir::LocalKind::Param(ParamMode::Out | ParamMode::Inout)) {
-            walk.end.insert(index);
+            let slots = walk.whole(VarRef::Local(glisten_front::hir::LocalId::new(index)));
+            slots.into_iter().for_each(|slot| walk.end.insert(slot));
         }
     }
-    for (id, global) in shader.globals() {
-        if let Some(slot) = walk.slot(VarRef::Global(id)).filter(|_| global.storage == Storage::Out) {
-            walk.end.insert(slot);
-        }
+    for (id, _) in shader.globals().filter(|(_, global)| global.storage == Storage::Out) {
+        let slots = walk.whole(VarRef::Global(id));
+        slots.into_iter().for_each(|slot| walk.end.insert(slot));
     }
     let mut live = walk.end.clone();
     let body = walk.body(body, &mut live);
@@ -109,15 +131,69 @@ pub(super) fn remove(shader: &Shader, function: FunctionId, globals: &[bool], bo
 }
 
 impl Walk<'_> {
-    /// The place of a variable in the sets, if it is followed.
-    fn slot(&self, variable: VarRef) -> Option<usize> {
-        match variable {
-            VarRef::Local(local) => Some(local.index()),
-            VarRef::Global(global) => {
-                let followed = self.globals.get(global.index()).copied().unwrap_or(false);
-                followed.then_some(self.n_locals + global.index())
+    /// The bits of a variable; none if it is not followed.
+    fn whole(&self, variable: VarRef) -> Slots {
+        let place = match variable {
+            VarRef::Local(local) => self.locals.get(local.index()),
+            VarRef::Global(global) => self.globals.get(global.index()),
+        };
+        let (first, count) = place.copied().unwrap_or_default();
+        (first..first + count).collect()
+    }
+
+    /// The bits of a variable or of some components of one, if an expression names these and nothing else.
+    fn named_by(&self, expr: ExprId) -> Option<Slots> {
+        match self.shader.expr(expr).kind {
+            ExprKind::Var(variable) => Some(self.whole(variable)),
+            ExprKind::Swizzle(base, swizzle) => {
+                let slots = self.vector(base)?;
+                swizzle.as_slice().iter().map(|component| slots.get(usize::from(*component)).copied()).collect()
             }
+            ExprKind::Index(base, index) => {
+                let slots = self.vector(base)?;
+                let index = match self.shader.expr(index).kind {
+                    ExprKind::Literal(ScalarValue::Int(index)) => usize::try_from(index).ok()?,
+                    ExprKind::Literal(ScalarValue::Uint(index)) => usize::try_from(index).ok()?,
+                    _ => return None,
+                };
+                slots.get(index).map(|slot| SmallVec::from_slice(&[*slot]))
+            }
+            _ => None,
         }
+    }
+
+    /// The bits of a vector that is a variable.
+    fn vector(&self, base: ExprId) -> Option<Slots> {
+        match self.shader.expr(base).kind {
+            ExprKind::Var(variable) => Some(self.whole(variable)).filter(|slots| slots.len() > 1),
+            _ => None,
+        }
+    }
+
+    /// Whether evaluating it does nothing.
+    fn is_idle(&self, root: ExprId) -> bool {
+        let mut idle = true;
+        self.shader.visit_expr(root, &mut |expr| {
+            idle &= match &self.shader.expr(expr).kind {
+                ExprKind::Call(callee, arguments) => {
+                    let (effect, function) = (self.effects.function(*callee), self.shader.function(*callee));
+                    let gives = (0..arguments.len()).any(|index| !crate::forward::is_in(function.param_mode(index)));
+                    !effect.ends && effect.writes.is_empty() && !gives
+                }
+                kind => !may_act(kind),
+            };
+        });
+        idle
+    }
+
+    /// What a statement stores to, and the value, if that is all that it does. A compound one reads what it stores to.
+    fn store(&self, expr: ExprId) -> Option<(Slots, Option<ExprId>, bool)> {
+        let (target, value, reads) = match self.shader.expr(expr).kind {
+            ExprKind::Assign(op, target, value) => (target, Some(value), op.is_some()),
+            ExprKind::IncDec(_, target) => (target, None, true),
+            _ => return None,
+        };
+        self.named_by(target).filter(|slots| !slots.is_empty()).map(|slots| (slots, value, reads))
     }
 
     fn body(&mut self, body: Vec<Stmt>, live: &mut Live) -> Vec<Stmt> {
@@ -135,25 +211,26 @@ impl Walk<'_> {
         let Stmt { kind, span } = stmt;
         let kind = match kind {
             StmtKind::Expr(expr) => {
-                if let ExprKind::Assign(None, target, value) = self.shader.expr(expr).kind
-                    && let ExprKind::Var(variable) = self.shader.expr(target).kind
-                    && let Some(slot) = self.slot(variable)
-                {
-                    if !live.contains(slot) && is_pure(self.shader, value) {
+                if let Some((slots, value, reads)) = self.store(expr) {
+                    if !live.contains_any(&slots) && value.is_none_or(|value| self.is_idle(value)) {
                         self.changed = true;
                         return None;
                     }
-                    live.remove(slot);
-                    self.read(value, live);
+                    if !reads {
+                        slots.iter().for_each(|slot| live.remove(*slot));
+                    }
+                    value.into_iter().for_each(|value| self.read(value, live));
                 } else {
                     self.read(expr, live);
                 }
                 StmtKind::Expr(expr)
             }
             StmtKind::Local(local, initializer) => {
-                let dead = !live.remove(local.index());
+                let slots = self.whole(VarRef::Local(local));
+                let dead = !live.contains_any(&slots);
+                slots.iter().for_each(|slot| live.remove(*slot));
                 let initializer = match initializer {
-                    Some(expr) if dead && is_pure(self.shader, expr) => {
+                    Some(expr) if dead && self.is_idle(expr) => {
                         self.changed = true;
                         None
                     }
@@ -228,16 +305,14 @@ impl Walk<'_> {
         Some(Stmt { kind, span })
     }
 
-    /// All variables that an expression names are taken to be read.
+    /// All that an expression names is taken to be read.
     fn read(&self, root: ExprId, live: &mut Live) {
-        self.shader.visit_expr(root, &mut |expr| self.named(expr, live));
-    }
-
-    fn named(&self, expr: ExprId, live: &mut Live) {
-        if let ExprKind::Var(variable) = self.shader.expr(expr).kind
-            && let Some(slot) = self.slot(variable)
-        {
-            live.insert(slot);
+        let mut pending = vec![root];
+        while let Some(expr) = pending.pop() {
+            match self.named_by(expr) {
+                Some(slots) => slots.into_iter().for_each(|slot| live.insert(slot)),
+                None => pending.extend(self.shader.expr(expr).kind.children()),
+            }
         }
     }
 
@@ -246,10 +321,13 @@ impl Walk<'_> {
             self.read(expr, live);
         }
         for body in kind.bodies() {
-            self.shader.visit_body(body, &mut |expr| self.named(expr, live));
+            self.shader.visit_statements(body, &mut |stmt| {
+                stmt.kind.exprs().into_iter().for_each(|expr| self.read(expr, live));
+            });
         }
         if let StmtKind::Loop { condition: Some(condition), .. } = kind {
-            condition.local.into_iter().for_each(|local| live.insert(local.index()));
+            let slots = condition.local.map(|local| self.whole(VarRef::Local(local))).unwrap_or_default();
+            slots.into_iter().for_each(|slot| live.insert(slot));
         }
         // Any round, or any case, may leave the function.
         if returns(kind) {

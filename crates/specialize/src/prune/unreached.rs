@@ -17,7 +17,7 @@ pub(crate) fn without_unreached(types: &Types, shader: &Shader, live: &[bool]) -
     for _ in 0..super::ROUNDS {
         let uses = Uses::of(types, &shader);
         let swept = sweep::sweep(types, &mut shader, live, uses);
-        let mut changed = swept.changed | overwritten_in(&mut shader, &swept.uses.functions);
+        let mut changed = swept.changed | overwritten_in(types, &mut shader, &swept.uses);
         let mut uses = if changed { Uses::of(types, &shader) } else { swept.uses };
         if forget_initializers(&mut shader, &uses) {
             changed = true;

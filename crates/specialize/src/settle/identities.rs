@@ -2,18 +2,19 @@
 //!
 //! *In:* an operation with the facts of its operands. *Out:* the operand that it gives back, if it is sure.
 //! *Holds:* signs of zeros and NaNs come out alike: `x + 0.0` is `x` only where `x` is not -0, `max(x, 0.0)` only where `x`
-//! is neither NaN nor below.
+//! is neither NaN nor below. Where nobody sees the sign of a zero ([`Signs`](super::Signs)), -0 is 0.
 
-use crate::facts::{Fact, GREATEST, What, at, spread};
+use crate::facts::{Fact, GREATEST, Range, What, at, spread};
 use crate::forward::Walked;
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, LogicalOp, Scalar, ScalarValue, TypeId};
 use smallvec::SmallVec;
+use std::borrow::Cow;
 
 /// The number of the operand that an operation gives back.
 pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
     let expr = walked.shader.expr(id);
-    let operation = Operation { walked, children: expr.kind.children() };
+    let operation = Operation::of(walked, id);
     let typed = |index: usize| operation.ty(index) == Some(expr.ty);
     let facts = |index: usize| operation.facts(index);
     let pure = |index: usize| operation.is_pure(index);
@@ -48,6 +49,7 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
             (typed(0) && holds(facts(0), facts(0), &|x, _| is_not_negative(x) && x.range().high < 1.0)).then_some(0)
         }
         ExprKind::BuiltinCall(F::Mod, _) => gives(0, 1, &is_remainder),
+        ExprKind::BuiltinCall(F::Pow, _) => gives(0, 1, &|x, c| is_not_negative(x) && is(c, 1.0)),
         ExprKind::BuiltinCall(F::Mix, _) => mixed(walked.fast, &facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
         _ => None,
     }
@@ -57,7 +59,7 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
 pub(super) fn spread_operand(walked: &Walked, id: ExprId) -> Option<usize> {
     let expr = walked.shader.expr(id);
     let ExprKind::Binary(op, ..) = expr.kind else { return None };
-    let operation = Operation { walked, children: expr.kind.children() };
+    let operation = Operation::of(walked, id);
     let typed = |index: usize| operation.ty(index).is_some_and(|ty| is_vector_of(expr.ty, ty));
     let gives = |kept: usize, other: usize, test: &dyn Fn(Fact, Fact) -> bool| {
         let facts = |index: usize| operation.facts(index);
@@ -76,12 +78,38 @@ pub(super) fn negated_operand(walked: &Walked, id: ExprId) -> Option<usize> {
         BinaryOp::NotEqual | BinaryOp::LogicalXor => true,
         _ => return None,
     };
-    let operation = Operation { walked, children: expr.kind.children() };
+    let operation = Operation::of(walked, id);
     let leaves = |kept: usize, other: usize| {
         let is_bool = operation.ty(kept) == Some(TypeId::BOOL);
         (is_bool && operation.is_pure(other) && truth(operation.facts(other)) == Some(neutral)).then_some(kept)
     };
     leaves(0, 1).or_else(|| leaves(1, 0))
+}
+
+/// The number of the operand of which an operation gives a part back, and the number of the part: of `dot(v, vec3(0.0, 0.0, 1.0))` the third
+/// component of the first, of `m * vec2(1.0, 0.0)` the first column.
+pub(super) fn part(walked: &Walked, id: ExprId) -> Option<(usize, u8)> {
+    let operation = Operation::of(walked, id);
+    let finite = |facts: &[Fact]| !facts.is_empty() && facts.iter().all(|fact| fact.range().is_finite());
+    let of = |kept: usize, axis: usize| {
+        let (facts, part) =
+            (operation.facts(kept), axis_of(operation.facts(axis)).filter(|_| operation.is_pure(axis))?);
+        let len = facts.len() / operation.facts(axis).len();
+        let own = facts.get(part * len..(part + 1) * len)?;
+        let keeps = finite(facts) && own.iter().all(|fact| !fact.range().negative_zero);
+        keeps.then_some((kept, part as u8))
+    };
+    match walked.shader.expr(id).kind {
+        ExprKind::BuiltinCall(F::Dot, _) => of(0, 1).or_else(|| of(1, 0)),
+        ExprKind::Binary(BinaryOp::MatMul, ..) if operation.facts(0).len() > operation.facts(1).len() => of(0, 1),
+        _ => None,
+    }
+}
+
+/// Which axis a vector is: the number of its component that is 1 where all others are 0.
+fn axis_of(facts: &[Fact]) -> Option<usize> {
+    let axis = facts.iter().position(|fact| is(*fact, 1.0)).filter(|_| facts.len() > 1)?;
+    facts.iter().enumerate().all(|(index, fact)| index == axis || fact.is_zero()).then_some(axis)
 }
 
 /// Whether an operation gives a value with the first fact back, where the other has the second.
@@ -104,11 +132,18 @@ fn of_numbers(fast: bool, op: BinaryOp, gives: &dyn Fn(usize, usize, Test<'_>) -
 struct Operation<'w> {
     walked: &'w Walked,
     children: SmallVec<[ExprId; 4]>,
+    facts: SmallVec<[Cow<'w, [Fact]>; 4]>,
 }
 
 impl<'w> Operation<'w> {
-    fn facts(&self, index: usize) -> &'w [Fact] {
-        self.children.get(index).map_or(&[][..], |child| self.walked.facts(*child))
+    fn of(walked: &'w Walked, id: ExprId) -> Self {
+        let children = walked.shader.expr(id).kind.children();
+        let facts = children.iter().map(|child| as_seen(walked, id, walked.facts(*child))).collect();
+        Self { walked, children, facts }
+    }
+
+    fn facts(&self, index: usize) -> &[Fact] {
+        self.facts.get(index).map_or(&[][..], |facts| facts)
     }
 
     fn ty(&self, index: usize) -> Option<TypeId> {
@@ -118,6 +153,18 @@ impl<'w> Operation<'w> {
     fn is_pure(&self, index: usize) -> bool {
         let note = self.children.get(index).and_then(|child| self.walked.notes.get(child.index()));
         note.is_some_and(|note| note.pure)
+    }
+}
+
+/// The facts of an operand as an operation needs them: where nobody sees the sign of a zero of its result, -0 is 0.
+pub(super) fn as_seen<'w>(walked: &Walked, operation: ExprId, facts: &'w [Fact]) -> Cow<'w, [Fact]> {
+    if !walked.signs.is_unseen(operation) {
+        Cow::Borrowed(facts)
+    } else if facts.is_empty() {
+        // Of a vector: this holds for each component.
+        Cow::Owned(vec![Fact::ANY.without_sign()])
+    } else {
+        Cow::Owned(facts.iter().map(|fact| fact.without_sign()).collect())
     }
 }
 
@@ -155,7 +202,8 @@ pub(super) fn keeps(op: BinaryOp, fast: bool, before: &[Fact], value: &[Fact]) -
 fn holds(kept: &[Fact], other: &[Fact], test: &dyn Fn(Fact, Fact) -> bool) -> bool {
     let len = kept.len().max(other.len());
     !other.is_empty()
-        && (0..len).all(|index| test(if kept.is_empty() { Fact::ANY } else { at(kept, index) }, spread(other, index)))
+        && (0..len)
+            .all(|index| test(if kept.is_empty() { Fact::ANY } else { spread(kept, index) }, spread(other, index)))
 }
 
 fn is(fact: Fact, value: f32) -> bool {
@@ -172,24 +220,17 @@ fn is_zero(_: Fact, c: Fact) -> bool {
     is(c, 0.0) || is(c, -0.0)
 }
 
-/// Whether it is 0, of a sign that may be open.
-fn is_any_zero(fact: Fact) -> bool {
-    let range = fact.range();
-    let floats = matches!(fact.what, What::Value(ScalarValue::Float(_)) | What::Float(_));
-    floats && !range.nan && (range.low, range.high) == (0.0, 0.0)
-}
-
 /// `x + c`: `-0 + 0` is 0.
 fn adds_nothing(x: Fact, c: Fact) -> bool {
     let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
-    integers || is(c, -0.0) || (is_any_zero(c) && !x.range().negative_zero)
+    integers || is(c, -0.0) || (c.is_zero() && !x.range().negative_zero)
 }
 
 /// `x - c`: `-0 - -0` is 0.
 fn takes_nothing(x: Fact, c: Fact) -> bool {
     let integers = matches!(c.what, What::Value(ScalarValue::Int(0) | ScalarValue::Uint(0)));
-    let is_plain = is_any_zero(c) && !c.range().negative_zero;
-    integers || is_plain || (is_any_zero(c) && !x.range().negative_zero)
+    let is_plain = c.is_zero() && !c.range().negative_zero;
+    integers || is_plain || (c.is_zero() && !x.range().negative_zero)
 }
 
 /// Whether a linear algebra product of a vector or a matrix with a matrix gives it back: the matrix is the identity, and sums that
@@ -201,7 +242,7 @@ fn is_product_with_one(kept: &[Fact], matrix: &[Fact]) -> bool {
         && matrix
             .iter()
             .enumerate()
-            .all(|(index, fact)| if index % (side + 1) == 0 { is(*fact, 1.0) } else { is_any_zero(*fact) });
+            .all(|(index, fact)| if index % (side + 1) == 0 { is(*fact, 1.0) } else { fact.is_zero() });
     let keeps = |fact: &Fact| fact.range().is_finite() && !fact.range().negative_zero;
     is_identity && !kept.is_empty() && kept.iter().all(keeps)
 }
@@ -218,30 +259,34 @@ fn is_not_negative(x: Fact) -> bool {
     }
 }
 
-/// `mod(x, y)` of an `x` between 0 and `y`: the whole number of `x / y`, however it is rounded, is 0.
+/// `mod(x, y)` of an `x` between 0 and a finite `y`: the whole number of `x / y`, however it is rounded, is 0.
 fn is_remainder(x: Fact, y: Fact) -> bool {
     let (range, whole) = (x.range(), y.range());
-    is_not_negative(x) && is_not_negative(y) && range.high < whole.low * (1.0 - 1e-5)
+    is_not_negative(x) && is_not_negative(y) && whole.is_bounded() && range.high < whole.low * (1.0 - 1e-5)
+}
+
+/// Whether one may be 0 and the other -0: which of equal numbers comes back depends on their order.
+fn may_be_both_zeros(a: Range, b: Range) -> bool {
+    a.has_zero() && b.has_zero() && (a.negative_zero || b.negative_zero)
 }
 
 /// `max(x, c)`
 fn is_above(x: Fact, c: Fact) -> bool {
     let (range, limit) = (x.range(), c.range());
     let floats = matches!(c.what, What::Value(ScalarValue::Float(_)) | What::Float(_));
-    floats && !range.nan && !limit.nan && range.low >= limit.high && !(range.negative_zero && limit.has_zero())
+    floats && !range.nan && !limit.nan && range.low >= limit.high && !may_be_both_zeros(range, limit)
 }
 
 /// `min(x, c)`
 fn is_below(x: Fact, c: Fact) -> bool {
     let (range, limit) = (x.range(), c.range());
     let floats = matches!(c.what, What::Value(ScalarValue::Float(_)) | What::Float(_));
-    let zero = limit.has_zero() && (range.negative_zero || limit.negative_zero);
-    floats && !range.nan && !limit.nan && range.high <= limit.low && !zero
+    floats && !range.nan && !limit.nan && range.high <= limit.low && !may_be_both_zeros(range, limit)
 }
 
 /// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers, or under fast math of any. What is left of the other is a 0 of
 /// either sign, which changes nothing but a -0.
-fn mixed<'w>(fast: bool, facts: &dyn Fn(usize) -> &'w [Fact]) -> Option<usize> {
+fn mixed<'f>(fast: bool, facts: &dyn Fn(usize) -> &'f [Fact]) -> Option<usize> {
     let moderate = |facts: &[Fact]| {
         let small = |fact: &Fact| fact.range().is_finite() && fact.range().magnitude() < GREATEST / 4.0;
         !facts.is_empty() && facts.iter().all(small)

@@ -14,9 +14,11 @@ mod demands;
 mod identities;
 mod operands;
 mod rewrite;
+mod signs;
 
 pub(super) use demands::Demands;
 pub(super) use rewrite::{Settled, settle};
+pub(super) use signs::Signs;
 
 use super::facts::{self, Fact};
 use super::forward::Walked;
@@ -69,7 +71,7 @@ impl Demand {
         }
         match self {
             Self::NONE => false,
-            Self::NO_ZERO => facts.iter().any(|fact| matches!(fact.value(), Some(ScalarValue::Float(0.0)))),
+            Self::NO_ZERO => facts.iter().any(|fact| fact.is_zero()),
             _ => true,
         }
     }
@@ -84,11 +86,21 @@ impl Walked {
     /// The values of an expression that are all known, if nothing speaks against writing them instead of it.
     pub(super) fn literal(&self, id: ExprId, demand: Demand) -> Option<smallvec::SmallVec<[ScalarValue; 4]>> {
         let note = self.notes.get(id.index())?;
-        let values = facts::values(&note.facts)?;
+        let values = facts::values(&note.facts).or_else(|| self.values_without_signs(id))?;
         let plain = |value: &ScalarValue| match value {
             ScalarValue::Float(value) => value.is_normal() || *value == 0.0,
             ScalarValue::Bool(_) | ScalarValue::Int(_) | ScalarValue::Uint(_) => true,
         };
         (note.pure && note.basic && values.iter().all(plain) && !demand.hits(&note.facts)).then_some(values)
+    }
+
+    /// The values of an expression of whose zeros nobody sees the sign: each is 0.
+    fn values_without_signs(&self, id: ExprId) -> Option<facts::Values> {
+        if !self.signs.is_unseen(id) {
+            return None;
+        }
+        let zero = |fact: &Fact| fact.is_zero().then_some(ScalarValue::Float(0.0));
+        let facts = self.facts(id);
+        if facts.is_empty() { None } else { facts.iter().map(|fact| fact.value().or_else(|| zero(fact))).collect() }
     }
 }

@@ -8,7 +8,7 @@ use crate::facts::{Fact, Facts};
 use crate::forward::Walked;
 use glisten_front::hir::{
     BinaryOp, Case, Condition, ConstructKind, Expr, ExprId, ExprKind, FunctionId, GlobalId, Scalar, ScalarValue,
-    Shader, Stmt, StmtKind, Storage, Type, TypeId, Types, UnaryOp, Value, VarRef, may_act,
+    Shader, Stmt, StmtKind, Storage, Swizzle, Type, TypeId, Types, UnaryOp, Value, VarRef, may_act,
 };
 use glisten_front::link::SamplerSlot;
 use glisten_front::source::Span;
@@ -197,6 +197,9 @@ impl Writer<'_> {
             return None;
         }
         let walked = self.walked;
+        if let Some((operand, part)) = identities::part(walked, id) {
+            return self.part_of(id, (operand, part), demand);
+        }
         let whole = identities::operand(walked, id);
         let spread = whole.is_none().then(|| identities::spread_operand(walked, id)).flatten();
         let negated = whole.is_none().then(|| identities::negated_operand(walked, id)).flatten();
@@ -213,6 +216,30 @@ impl Writer<'_> {
         } else {
             given
         })
+    }
+
+    /// A component or a column of an operand.
+    fn part_of(&mut self, id: ExprId, (operand, part): (usize, u8), demand: Demand) -> Option<ExprId> {
+        let walked = self.walked;
+        let Expr { kind, ty, span } = walked.shader.expr(id);
+        let child = kind.children().get(operand).copied()?;
+        let of = &walked.shader.expr(child);
+        let own = self.demands.of_operands(self.types, walked, self.function, id, demand);
+        let demand = own.get(operand).copied().unwrap_or(Demand::KEEP).and(demand);
+        if let Type::Vector(..) = self.types.get(of.ty) {
+            let given = self.expr(child, demand);
+            let component = Swizzle { len: 1, components: [part, 0, 0, 0] };
+            return Some(self.push(ExprKind::Swizzle(given, component), *ty, *span));
+        }
+        if let ExprKind::Construct(ConstructKind::Compose, columns) = &of.kind
+            && columns.iter().all(|column| walked.shader.expr(*column).ty == *ty)
+            && columns.iter().all(|column| walked.notes.get(column.index()).is_some_and(|note| note.pure))
+        {
+            return columns.get(usize::from(part)).map(|column| self.expr(*column, demand));
+        }
+        let given = self.expr(child, demand);
+        let index = self.literal(&[ScalarValue::Int(i32::from(part))], TypeId::INT, *span);
+        Some(self.push(ExprKind::Index(given, index), *ty, *span))
     }
 
     /// An operand that became a scalar in every component: next to a vector the scalar will do.
@@ -378,7 +405,10 @@ impl Writer<'_> {
             }
             let before = self.walked.before.get(&id);
             let known = before.map_or(&[][..], |before| before);
-            let neutral = identities::keeps(compound, self.walked.fast, known, self.walked.facts(value));
+            let walked = self.walked;
+            let seen = |facts: &[Fact]| identities::as_seen(walked, id, facts).into_owned();
+            let given = seen(self.walked.facts(value));
+            let neutral = identities::keeps(compound, self.walked.fast, &seen(known), &given);
             if neutral && !stored.is_apart() && !self.acts(target) {
                 // As a statement that does nothing it goes later.
                 let to = self.place(target);
@@ -387,7 +417,7 @@ impl Writer<'_> {
             }
             let of_value = self.walked.shader.expr(value).ty;
             let spread = identities::is_vector_of(ty, of_value);
-            let starts = |before: &Facts| identities::starts(compound, before, self.walked.facts(value));
+            let starts = |before: &Facts| identities::starts(compound, &seen(before), &given);
             if (of_value == ty || spread) && before.is_some_and(starts) {
                 let to = self.place(target);
                 let value = self.expr(value, demand.and(stored));

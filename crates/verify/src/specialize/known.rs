@@ -5,7 +5,7 @@
 use glisten_front::hir::{GlobalId, Scalar, ScalarValue, Stage};
 use glisten_front::link::{Interface, UniformLeaf};
 use glisten_scene::dynamic::{names_sampler, names_uniform};
-use glisten_scene::{AttributeData, Cull, Draw, Filter, Framebuffer, Primitive, Texels, Texture};
+use glisten_scene::{AttributeData, Cull, Draw, Filter, Format, Framebuffer, Primitive, Texels, Texture};
 use glisten_specialize::{Input, Known, KnownState, KnownTexture};
 
 /// What a draw fixes. What `dynamic` names, of the draw's own list or of this one, is not fixed: a uniform, an element or a
@@ -98,6 +98,10 @@ fn state(draw: &Draw, framebuffer: &Framebuffer) -> KnownState {
         clip_distances: direct.then_some(draw.state.clip_distances),
         front_facing: front_facing.filter(|_| direct),
         attachments: Some(framebuffer.attachments),
+        unsigned_colors: match framebuffer.format {
+            Format::Rgba8Unorm | Format::Rgba32Sint | Format::Rgba32Uint => true,
+            Format::Rgba32Float | Format::Rgba16Float => false,
+        },
         depth_test: Some(draw.state.depth_test),
         framebuffer: Some([framebuffer.width, framebuffer.height]),
         vertices,
