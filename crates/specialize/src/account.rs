@@ -133,6 +133,17 @@ impl Account<'_> {
         self.how.reasons.iter().find(|(of, _)| *of == stage)?.1.get(span)
     }
 
+    /// The reason why nothing gets to a statement.
+    fn never(&self, shader: &Shader, stmt: &Stmt) -> Option<String> {
+        let reasons = &self.how.reasons.iter().find(|(of, _)| *of == shader.stage)?.1;
+        let condition = reasons.never_reached(stmt.span)?;
+        let text = condition.map(|condition| self.text(condition));
+        Some(match text.filter(|text| !text.is_empty()) {
+            Some(condition) => format!("nothing gets to it: `{condition}` is true"),
+            None => "nothing gets to it".to_owned(),
+        })
+    }
+
     /// Whether a value may have been known.
     fn evaluates(&self) -> bool {
         !self.how.reasons.is_empty()
@@ -230,11 +241,28 @@ impl Account<'_> {
             shader.visit_statements(bodies, &mut |stmt| any |= kept.contains(&stmt.span));
             any
         };
+        let never = self.never(shader, stmt).filter(|_| !kept.contains(&stmt.span));
+        let is_loop = |stmt: &Stmt| matches!(stmt.kind, StmtKind::Loop { .. });
         match &stmt.kind {
+            // All of it is passed over; what it is made of is not told apart.
+            StmtKind::If { .. } | StmtKind::Switch { .. } | StmtKind::Loop { .. } | StmtKind::Block(_)
+                if never.is_some() =>
+            {
+                let is_loop = is_loop(stmt) || stmt.kind.bodies().concat().iter().any(is_loop);
+                let what = if is_loop { Kind::Loop } else { Kind::Branch };
+                self.tell(what, self.line(stmt.span), stmt.span, never.unwrap_or_default());
+            }
             StmtKind::If { arms, otherwise } => {
                 let conditions: Vec<ExprId> = arms.iter().map(|(condition, _)| *condition).collect();
                 for (index, (condition, body)) in arms.iter().enumerate() {
                     if !inside(body) {
+                        // Of what is taken, a jump to where control goes anyway is no loss.
+                        let is_jump = |stmt: &Stmt| {
+                            matches!(stmt.kind, StmtKind::Return(None) | StmtKind::Break | StmtKind::Continue)
+                        };
+                        if body.iter().all(is_jump) && self.holds(shader, *condition) == Some(true) {
+                            continue;
+                        }
                         let before = conditions.get(..index).unwrap_or_default();
                         self.branch(shader, *condition, body, self.not_taken(shader, before, *condition));
                         continue;
@@ -308,7 +336,7 @@ impl Account<'_> {
                     .find(|one| one.span.start >= stmt.span.start && one.span.end <= stmt.span.end);
                 let because = match moved {
                     Some(moved) => format!("it moved to the vertex stage, as `{}`", moved.name),
-                    None => self.unread(),
+                    None => never.unwrap_or_else(|| self.unread()),
                 };
                 self.tell(Kind::Statement, self.line(stmt.span), stmt.span, because);
             }

@@ -52,6 +52,7 @@ mod residual;
 mod settle;
 mod text;
 mod unlocated;
+mod words;
 
 pub use account::{Kind, LeftOut, Moved};
 pub use known::{Input, Known, KnownState, KnownTexture};

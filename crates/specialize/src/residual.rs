@@ -7,7 +7,7 @@ use crate::left::Left;
 use crate::options::{Extent, Options};
 use crate::prune::{self, Pruned};
 use crate::settle::{self, Demand, Demands, Settled, Signs};
-use crate::{fast, inputs, motion, text, unlocated};
+use crate::{fast, inputs, motion, text, unlocated, words};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Types, print};
 use glisten_front::link::{Bindings, relink};
@@ -301,7 +301,8 @@ fn live_varyings(shader: &Shader, program: &Program, known: &Known, wanted: Opti
 
 /// The stages as text, read back.
 fn assemble(program: &Program, known: &Known, options: &Options<'_>, evaluated: Evaluated) -> Residual {
-    let Evaluated { types, mut shaders, reasons, mut moved } = evaluated;
+    let Evaluated { mut types, mut shaders, reasons, mut moved } = evaluated;
+    words::free(&mut types, &mut shaders);
     let renamed = unlocated::by_name(&types, &mut shaders);
     let stages = written(&types, &shaders, options.sources);
     match read_back(program, &stages) {
@@ -355,9 +356,10 @@ fn read_back(program: &Program, stages: &[ResidualStage]) -> Result<(Program, So
 /// The program without what reaches no output.
 fn unevaluated(program: &Program, options: &Options<'_>) -> Residual {
     let optimized = crate::optimize(program);
-    let mut shaders = optimized.stages.clone();
-    unlocated::by_name(&optimized.types, &mut shaders);
-    let stages = written(&optimized.types, &shaders, options.sources);
+    let (mut types, mut shaders) = (optimized.types.clone(), optimized.stages.clone());
+    words::free(&mut types, &mut shaders);
+    unlocated::by_name(&types, &mut shaders);
+    let stages = written(&types, &shaders, options.sources);
     match read_back(program, &stages) {
         Ok((program_left, sources)) => {
             let left_out = crate::left_out(program, &optimized, options.sources);
@@ -369,9 +371,10 @@ fn unevaluated(program: &Program, options: &Options<'_>) -> Residual {
 
 /// The program as it was.
 fn whole(program: &Program, options: &Options<'_>) -> Residual {
-    let mut shaders = program.stages.clone();
-    unlocated::by_name(&program.types, &mut shaders);
-    let stages = written(&program.types, &shaders, options.sources);
+    let (mut types, mut shaders) = (program.types.clone(), program.stages.clone());
+    words::free(&mut types, &mut shaders);
+    unlocated::by_name(&types, &mut shaders);
+    let stages = written(&types, &shaders, options.sources);
     let sources = options.sources.cloned().unwrap_or_default();
     Residual {
         stages,

@@ -49,7 +49,7 @@ fn last_comments(shader: &Shader, sources: &SourceMap) -> Vec<String> {
 
 /// The first version of OpenGL's language, from 1.50 on, that has all functions that the stage calls. Where no extension brings an overload to
 /// earlier versions, which the text would then name, it is one that has the overload.
-fn language(shader: &Shader) -> Version {
+pub(crate) fn language(shader: &Shader) -> Version {
     let since = |function: BuiltinFunction, arguments: &[ExprId]| {
         let types: Vec<TypeId> = arguments.iter().map(|argument| shader.expr(*argument).ty).collect();
         let takes = |row: &&'static Row| row.signatures(shader.stage).any(|one| one.has_types(&types));

@@ -297,6 +297,29 @@ fn a_decided_case_knows_the_declarations_before_it() {
     assert!(!text.contains("switch") && text.contains("float t = v.x"), "{text}");
 }
 
+/// Names that the language of the residual does not allow, which that of the original does (GLSL 1.10 §3.6).
+#[test]
+fn words_of_later_versions_are_no_names_of_a_residual() {
+    let fragment = "uniform float k;\nvarying vec4 v;\nfloat common;\nstruct Pair { float smooth; float active; };\n\
+        float filter(float case) { common += case; if (common > v.w) return case; return common * case; }\n\
+        void main() {\n    vec2 flat = v.xy * 2.0;\n    Pair precision = Pair(flat.x, v.z);\n    if (k > 0.5) flat = v.zw;\n\
+        gl_FragColor = vec4(flat, filter(precision.smooth), precision.active);\n}\n";
+    let vertex = "attribute vec4 p;\nvarying vec4 v;\nvoid main() { v = p; gl_Position = p; }\n";
+    let source = |name: &str, text: &str, stage| Source {
+        name: name.into(),
+        text: format!("#version 110\n{text}").into(),
+        stage,
+    };
+    let sources = [source("a.vert", vertex, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let program = Compiler::new(Options::default()).compile(&sources).program.expect("it compiles");
+    for value in [0.0, 1.0] {
+        let mut known = Known::default();
+        known.uniforms.insert("k".into(), vec![ScalarValue::Float(value)]);
+        let residual = specialize(&program, &known);
+        assert!(residual.fault.is_none(), "{:?}", residual.fault);
+    }
+}
+
 #[test]
 fn a_decided_operand_goes_from_either_side() {
     for (condition, wanted) in [

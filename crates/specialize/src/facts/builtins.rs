@@ -214,8 +214,7 @@ fn extremum(least: bool, scalar: Scalar, x: Fact, y: Fact) -> Fact {
             (Some(a), Some(b)) if a != b || a.to_bits() == b.to_bits() => {
                 What::Value(ScalarValue::Float(if least { a.min(b) } else { a.max(b) }))
             }
-            _ if least => What::Float(x.range().min(y.range())),
-            _ => What::Float(x.range().max(y.range())),
+            _ => point(if least { x.range().min(y.range()) } else { x.range().max(y.range()) }),
         },
         Scalar::Int | Scalar::Uint => {
             let (a, b) = (x.integers(scalar), y.integers(scalar));
@@ -231,6 +230,13 @@ fn extremum(least: bool, scalar: Scalar, x: Fact, y: Fact) -> Fact {
     };
     // A value that only one operand leaves open depends on that one as well.
     Fact::result(what, &[x, y])
+}
+
+/// A range of one number other than 0, which may have either sign, is that number.
+fn point(range: Range) -> What {
+    let value = range.low as f32;
+    let is_one = range.low == range.high && range.low != 0.0 && !range.nan && f64::from(value) == range.low;
+    if is_one && exact::is_plain(value) { What::Value(ScalarValue::Float(value)) } else { What::Float(range) }
 }
 
 fn step(edge: Fact, x: Fact) -> Fact {

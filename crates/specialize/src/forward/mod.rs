@@ -121,6 +121,8 @@ pub(crate) struct Forward<'a> {
     before: FxHashMap<ExprId, Facts>,
     origins: Vec<FunctionId>,
     reasons: Reasons,
+    /// The decided condition by which control left the body that is walked.
+    left_by: Option<Span>,
     named: FxHashMap<GlobalId, (ExprId, u32)>,
     store: Store,
     frames: Vec<Frame>,
@@ -184,6 +186,7 @@ impl<'a> Forward<'a> {
             before: FxHashMap::default(),
             origins: Vec::new(),
             reasons: Reasons::default(),
+            left_by: None,
             named: FxHashMap::default(),
             store: Store::live(),
             frames: Vec::new(),

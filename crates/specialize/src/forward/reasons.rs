@@ -3,7 +3,7 @@
 //! *In:* what each call, round and evaluation decides of a place. *Out:* the [`Reason`] that holds of all of them.
 
 use glisten_front::source::Span;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Why something went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,31 +51,54 @@ impl Told {
     }
 }
 
-/// What was decided, by the place of the condition.
+/// What was decided, by the place of the condition, and which statements nothing gets to.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Reasons(FxHashMap<Span, Told>);
+pub(crate) struct Reasons {
+    told: FxHashMap<Span, Told>,
+    /// The statements that were walked.
+    reached: FxHashSet<Span>,
+    /// Statements behind what leaves a body, and the condition that was decided so, if there is one.
+    behind: FxHashMap<Span, Option<Span>>,
+}
 
 impl Reasons {
     /// Notes what was decided at a place. It is walked once for each call and round, which may decide it otherwise.
     pub(super) fn tell(&mut self, place: Span, reason: Reason) {
-        self.0.entry(place).or_default().tell(reason);
+        self.told.entry(place).or_default().tell(reason);
+    }
+
+    /// Notes that a statement is walked.
+    pub(super) fn reach(&mut self, stmt: Span) {
+        self.reached.insert(stmt);
+    }
+
+    /// Notes that nothing gets to a statement in this call and round, since a condition is decided.
+    pub(super) fn pass_over(&mut self, stmt: Span, condition: Option<Span>) {
+        self.behind.entry(stmt).or_insert(condition);
+    }
+
+    /// Whether nothing ever gets to a statement, and the place of the condition that is decided so, if there is one.
+    pub(crate) fn never_reached(&self, stmt: Span) -> Option<Option<Span>> {
+        self.behind.get(&stmt).copied().filter(|_| !self.reached.contains(&stmt))
     }
 
     /// What holds of a place.
     pub(crate) fn get(&self, place: Span) -> Option<Reason> {
-        let told = self.0.get(&place)?;
+        let told = self.told.get(&place)?;
         if told.open { Some(Reason::Open) } else { told.decided }
     }
 
     /// Adds what evaluating the residual decided: what was open may be so no longer.
     pub(crate) fn then(&mut self, later: Self) {
         // Each place has its own entry, so their order does not matter.
-        later.0.into_iter().for_each(|(place, told)| {
-            let own = self.0.entry(place).or_default();
+        later.told.into_iter().for_each(|(place, told)| {
+            let own = self.told.entry(place).or_default();
             own.open = told.open;
             if let Some(decided) = told.decided {
                 own.tell(decided);
             }
         });
+        self.reached = later.reached;
+        later.behind.into_iter().for_each(|(stmt, condition)| self.pass_over(stmt, condition));
     }
 }

@@ -17,6 +17,7 @@ impl Forward<'_> {
         let mut kept: Vec<(ExprId, Vec<Stmt>)> = Vec::new();
         let mut ways: Vec<(Mark, Changes)> = Vec::new();
         let mut last = otherwise;
+        let mut decided = None;
         let forks = self.forks;
         for (condition, body) in arms {
             let c = self.eval(*condition);
@@ -39,6 +40,7 @@ impl Forward<'_> {
                 Some(false) => {}
                 Some(true) => {
                     last = body;
+                    decided = Some(self.shader.expr(*condition).span);
                     break;
                 }
                 None => {
@@ -61,7 +63,11 @@ impl Forward<'_> {
             }
         }
         let rest = self.statements(last);
+        let is_sure = kept.is_empty();
         self.close(kept, rest, ways, span, out, forks);
+        if is_sure && !self.store.live {
+            self.left_by = decided;
+        }
     }
 
     /// The ways meet.

@@ -10,11 +10,18 @@ impl Forward<'_> {
     /// Walks statements until nothing gets past one.
     pub(super) fn statements(&mut self, body: &[Stmt]) -> Vec<Stmt> {
         let mut out = Vec::with_capacity(body.len());
-        for stmt in body {
+        for (index, stmt) in body.iter().enumerate() {
             // Once something cannot be written out, whoever tried goes back to before: nothing on the way may try again.
-            if !self.store.live || self.failed {
+            if self.failed {
                 break;
             }
+            if !self.store.live {
+                let rest = body.get(index..).unwrap_or_default();
+                rest.iter().for_each(|stmt| self.reasons.pass_over(stmt.span, self.left_by));
+                break;
+            }
+            self.left_by = None;
+            self.reasons.reach(stmt.span);
             self.one(stmt, &mut out);
         }
         out

@@ -9,7 +9,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{hir::Stage, link::Program, source::SourceMap};
 use glisten_reference::{Precision, Work, work};
 use glisten_scene::{Draw, Scene};
-use glisten_specialize::{Extent, Moved};
+use glisten_specialize::{Extent, Moved, optimize};
 use glisten_variants::spirv_instructions;
 use serde::Serialize;
 
@@ -117,7 +117,7 @@ pub struct Entry {
 /// The work of a draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Figures {
-    /// Instructions in the function bodies of both stages as emitted.
+    /// Instructions in the function bodies of both stages as `compile` writes them by default.
     pub spirv_instructions: u64,
     /// Scalars and vectors that are interpolated.
     pub varyings: u64,
@@ -229,7 +229,7 @@ fn figures(draw: &Draw, work: Work) -> Figures {
     let blocks: u64 =
         interface.blocks.iter().map(|block| u64::from(block.size) * u64::from(block.array_size.unwrap_or(1))).sum();
     Figures {
-        spirv_instructions: spirv_instructions(&draw.program),
+        spirv_instructions: spirv_instructions(&optimize(&draw.program)),
         varyings: interface.varyings.len() as u64,
         attributes: given().count() as u64,
         attribute_bytes: given().map(|data| data.values.len() as u64 * 4).sum(),

@@ -23,6 +23,7 @@ use glisten_report::account::{PAGE, SceneOnPage, page};
 use glisten_scene::dynamic::is_known;
 use glisten_scene::{Scene, ShaderFiles, write};
 use glisten_sources::stages::extension;
+use glisten_specialize::optimize;
 use glisten_verify::specialize::{
     Account, PictureError, Pictures, SpecializedScene, Times, account, files_of, pictures, specialize_scene_by,
 };
@@ -278,6 +279,8 @@ fn write_residual(
     (conventions, console): (&Conventions, &Console),
 ) -> Result<(), Failure> {
     let Some(program) = residuals.programs.get(stem) else { return Ok(()) };
+    // What `compile` writes for it.
+    let program = &optimize(program);
     let mut targets: BTreeSet<Target> = args.targets.iter().copied().collect();
     if targets.is_empty() {
         targets.extend([Target::Wgsl, Target::Spirv]);
