@@ -2,7 +2,7 @@
 //!
 //! *In:* the choices of a host. *Out:* what the phases read of them.
 
-use glisten_front::source::SourceMap;
+use glisten_front::source::{SourceMap, Span};
 
 /// The choices of a specialization.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,6 +16,8 @@ pub struct Options<'a> {
     pub move_to_vertex: bool,
     /// How far the program is evaluated.
     pub extent: Extent,
+    /// Loops that stay loops if they run more than once, by their places ([`Residual::written_out`](crate::Residual::written_out)).
+    pub kept: &'a [Span],
 }
 
 /// How far a program is evaluated. What is written out is faster, and may be longer.

@@ -13,6 +13,7 @@ use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Types, print}
 use glisten_front::link::{Bindings, relink};
 use glisten_front::source::{SourceMap, Span};
 use glisten_front::{Compiler, Program, Source};
+use rustc_hash::FxHashMap;
 
 /// A program is evaluated at most so often.
 const ROUNDS: usize = 4;
@@ -32,6 +33,8 @@ pub struct Residual {
     pub moved: Vec<Moved>,
     /// How far the program was evaluated.
     pub extent: Extent,
+    /// The places of the loops that were written out, those first that became longest.
+    pub written_out: Vec<Span>,
     /// Why the residual did not read back, a fault of this crate: the program is then as it was.
     pub fault: Option<String>,
 }
@@ -97,6 +100,8 @@ struct Evaluated {
     /// What was decided, by stage.
     reasons: Vec<(Stage, Reasons)>,
     moved: Vec<Moved>,
+    /// By how many expressions loops became longer.
+    written_out: FxHashMap<Span, u64>,
 }
 
 impl Evaluated {
@@ -109,6 +114,7 @@ impl Evaluated {
             }
         }
         self.moved.splice(0..0, before.moved);
+        before.written_out.into_iter().for_each(|(place, grown)| *self.written_out.entry(place).or_default() += grown);
         self
     }
 }
@@ -120,19 +126,15 @@ fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluate
     let whole = program.stage(Stage::Geometry).is_none();
     let walk = |shader: &Shader, ends: Option<&Walked>| {
         let ends = ends.filter(|_| whole).map(|walked| walked.ends.as_slice());
-        forward::walk(
-            &program.types,
-            shader,
-            inputs::inputs(program, shader, known, ends),
-            &textures,
-            (options.fast_math, options.extent),
-        )
+        forward::walk(&program.types, shader, inputs::inputs(program, shader, known, ends), &textures, options)
     };
     let vertex = vertex.map(|shader| (shader, walk(shader, None)));
     let fragment = fragment.map(|shader| (shader, walk(shader, vertex.as_ref().map(|(_, walked)| walked))));
     let mut reasons: Vec<(Stage, Reasons)> = Vec::new();
     let mut pruned: Vec<(Pruned, Vec<bool>)> = Vec::new();
     let mut moved = Vec::new();
+    let stages = vertex.iter().chain(&fragment);
+    let written_out = stages.flat_map(|(_, stage)| &stage.written_out).map(|(place, grown)| (*place, *grown)).collect();
     // The fragment stage first: what it reads is what the vertex stage must write.
     let mut wanted = None;
     // Whether somebody sees the sign of a zero in what the vertex stage writes.
@@ -175,7 +177,7 @@ fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluate
     let mut shaders: Vec<Shader> = pruned.into_iter().map(|(pruned, _)| pruned.shader).collect();
     shaders.extend(program.stage(Stage::Geometry).cloned());
     shaders.sort_by_key(|shader| shader.stage);
-    Evaluated { types, shaders, reasons, moved }
+    Evaluated { types, shaders, reasons, moved, written_out }
 }
 
 /// What is left, as a program.
@@ -301,7 +303,10 @@ fn live_varyings(shader: &Shader, program: &Program, known: &Known, wanted: Opti
 
 /// The stages as text, read back.
 fn assemble(program: &Program, known: &Known, options: &Options<'_>, evaluated: Evaluated) -> Residual {
-    let Evaluated { mut types, mut shaders, reasons, mut moved } = evaluated;
+    let Evaluated { mut types, mut shaders, reasons, mut moved, written_out } = evaluated;
+    let mut written_out: Vec<(Span, u64)> = written_out.into_iter().collect();
+    written_out.sort_unstable_by_key(|(place, grown)| (std::cmp::Reverse(*grown), place.start));
+    let written_out = written_out.into_iter().map(|(place, _)| place).collect();
     words::free(&mut types, &mut shaders);
     let renamed = unlocated::by_name(&types, &mut shaders);
     let stages = written(&types, &shaders, options.sources);
@@ -315,7 +320,16 @@ fn assemble(program: &Program, known: &Known, options: &Options<'_>, evaluated: 
             let kept: Vec<&str> = kept.map(|row| row.old.as_str()).collect();
             names.varyings.extend(kept);
             let left_out = account::left_out(program, options.sources, &how, &names);
-            Residual { stages, program: left, sources, left_out, moved, extent: options.extent, fault: None }
+            Residual {
+                stages,
+                program: left,
+                sources,
+                left_out,
+                moved,
+                extent: options.extent,
+                written_out,
+                fault: None,
+            }
         }
         Err(fault) => Residual { fault: Some(fault), ..whole(program, options) },
     }
@@ -383,6 +397,7 @@ fn whole(program: &Program, options: &Options<'_>) -> Residual {
         left_out: Vec::new(),
         moved: Vec::new(),
         extent: Extent::Nothing,
+        written_out: Vec::new(),
         fault: None,
     }
 }

@@ -11,6 +11,9 @@ use glisten_specialize::{Extent, Known, Options, Residual, optimize, specialize_
 /// Instructions in functions, and words.
 type Size = (u64, u64);
 
+/// Of the loops that became longest, so many stay loops before all do.
+const MOST_KEPT: usize = 3;
+
 /// Leaves out of a program what is not needed when this is known, and never makes it larger.
 pub fn specialize_smallest(program: &Program, known: &Known, options: &Options<'_>) -> Residual {
     let residual = specialize_with(program, known, options);
@@ -19,6 +22,11 @@ pub fn specialize_smallest(program: &Program, known: &Known, options: &Options<'
         return residual;
     };
     if first <= limit {
+        return residual;
+    }
+    if options.extent == Extent::All
+        && let Some(residual) = with_fewer_written_out(program, known, options, &residual, limit)
+    {
         return residual;
     }
     let further = Extent::ALL.into_iter().filter(|extent| *extent > options.extent);
@@ -33,6 +41,23 @@ pub fn specialize_smallest(program: &Program, known: &Known, options: &Options<'
         }
     }
     best
+}
+
+/// A residual that is short enough, of which some loops are not written out: those that became longest.
+fn with_fewer_written_out(
+    program: &Program,
+    known: &Known,
+    options: &Options<'_>,
+    first: &Residual,
+    limit: Size,
+) -> Option<Residual> {
+    let longest = first.written_out.get(..MOST_KEPT.min(first.written_out.len()))?;
+    (1..=longest.len()).find_map(|count| {
+        let kept = longest.get(..count)?;
+        let residual = specialize_with(program, known, &Options { kept, ..*options });
+        let fits = residual.fault.is_none() && size(&optimize(&residual.program))? <= limit;
+        fits.then_some(Residual { extent: Extent::LoopsKept, ..residual })
+    })
 }
 
 fn size(program: &Program) -> Option<Size> {

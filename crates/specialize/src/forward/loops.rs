@@ -28,10 +28,16 @@ const ALWAYS: u64 = 160;
 impl Forward<'_> {
     pub(super) fn iteration(&mut self, parts: &Parts<'_>, out: &mut Vec<Stmt>) {
         let mut blocked = None;
+        let (weight, outside) = (self.weight, std::mem::take(&mut self.inner));
         let written = self.unroll(parts, None, &mut blocked);
         let open = blocked.filter(|_| written.is_none());
         let written = written.or_else(|| self.unroll(parts, Some(open?), &mut blocked));
+        let grown = self.weight - weight;
+        let own = grown.saturating_sub(std::mem::replace(&mut self.inner, outside.saturating_add(grown)));
         if let Some((body, rounds)) = written {
+            if rounds > 1 {
+                *self.written_out.entry(parts.span).or_default() += own - own / u64::from(rounds);
+            }
             let reason = if open.is_some() { Reason::UnrolledUpTo(rounds) } else { Reason::Unrolled(rounds) };
             self.tell(parts.span, reason);
             out.extend(body);
@@ -148,7 +154,7 @@ impl Forward<'_> {
             }
             // What gains nothing by being written out stays a loop.
             let most = if open.is_some() { ALWAYS } else { self.most(first) };
-            let repeats = self.extent > Extent::All && rounds > 1;
+            let repeats = (self.extent > Extent::All || self.kept.contains(&parts.span)) && rounds > 1;
             let too_long = repeats || (grown > ALWAYS && grown > most);
             if rounds >= MOST_ROUNDS || too_long || !self.may_grow() {
                 return None;

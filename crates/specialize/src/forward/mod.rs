@@ -25,7 +25,7 @@ pub(crate) use reasons::{Reason, Reasons};
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
-use super::options::Extent;
+use super::options::{Extent, Options};
 use super::settle::Signs;
 use calls::Variants;
 use glisten_front::hir::{
@@ -74,6 +74,8 @@ pub(crate) struct Walked {
     pub(crate) fast: bool,
     /// Where somebody sees the sign of a zero: everywhere, until that is found out.
     pub(crate) signs: Signs,
+    /// By how many expressions each loop that was written out became longer, without the loops in it.
+    pub(crate) written_out: FxHashMap<Span, u64>,
 }
 
 /// A value: the expression that gives it, and what is known of it.
@@ -148,28 +150,37 @@ pub(crate) struct Forward<'a> {
     fast: bool,
     /// How much may be written out.
     extent: Extent,
+    /// Loops that stay loops.
+    kept: &'a [Span],
+    /// By how many expressions each loop that was written out became longer.
+    written_out: FxHashMap<Span, u64>,
+    /// The expressions of loops in the present one.
+    inner: u64,
 }
 
-/// Walks a stage. `inputs` are the facts of its globals, `textures` those of the interface's sampler slots; `fast` allows
-/// algebra that changes rounding, `extent` says how much may be written out.
+/// Walks a stage. `inputs` are the facts of its globals, `textures` those of the interface's sampler slots; `options` say how
+/// much may be written out, and whether algebra is allowed that changes rounding.
 pub(crate) fn walk(
     types: &Types,
     shader: &Shader,
     inputs: Vec<Vec<Fact>>,
     textures: &[Option<KnownTexture>],
-    (fast, extent): (bool, Extent),
+    options: &Options<'_>,
 ) -> Walked {
+    let fast = options.fast_math;
     with_stack(shader.depth.saturating_mul(2).saturating_add(4096), move || {
         let mut forward = Forward::new(types, shader, textures);
         forward.fast = fast;
-        forward.extent = extent;
-        if extent > Extent::LoopsKept {
+        forward.extent = options.extent;
+        forward.kept = options.kept;
+        if options.extent > Extent::LoopsKept {
             forward.fuel = 0;
         }
         forward.run(inputs);
         let ends = forward.ends();
-        let Forward { out, notes, before, origins, reasons, named, .. } = forward;
-        Walked { shader: out, notes, before, origins, reasons, ends, named, fast, signs: Signs::default() }
+        let Forward { out, notes, before, origins, reasons, named, written_out, .. } = forward;
+        let signs = Signs::default();
+        Walked { shader: out, notes, before, origins, reasons, ends, named, fast, signs, written_out }
     })
 }
 
@@ -202,6 +213,9 @@ impl<'a> Forward<'a> {
             weight: 0,
             fast: false,
             extent: Extent::All,
+            kept: &[],
+            written_out: FxHashMap::default(),
+            inner: 0,
         }
     }
 

@@ -117,6 +117,7 @@ fn specialize_to(
         sources: Some(sources),
         fast_math: contract.fast_math,
         move_to_vertex: contract.move_to_vertex,
+        kept: &[],
     };
     let mut draws = Vec::with_capacity(scene.draws.len());
     let mut residuals: Vec<(StageTexts, Arc<Program>)> = Vec::new();
@@ -124,7 +125,7 @@ fn specialize_to(
     result.draws.clear();
     for draw in &scene.draws {
         let known = known(draw, &scene.framebuffer, dynamic);
-        let Residual { stages, program, left_out, moved, sources, extent, fault } =
+        let Residual { stages, program, left_out, moved, sources, extent, fault, .. } =
             specialize_smallest(&draw.program, &known, &options);
         let lines = stages.iter().map(|stage| (stage.stage, stage.lines.clone())).collect();
         let texts: StageTexts = stages.into_iter().map(|stage| (stage.stage, stage.text)).collect();
