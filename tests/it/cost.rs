@@ -164,6 +164,26 @@ fn the_first_of_two_conditions_that_fails_ends_a_loop() {
     );
 }
 
+/// The counter of a loop has bounds in its body, where another one may start or end.
+#[test]
+fn a_loop_in_another_knows_its_counter() {
+    let inner = |head: &str| {
+        let stage = fragment(LOOPS, &format!("float s = 0.0;\n{head}\nc = vec4(s);"), &[]);
+        let loops = stage["loops"].as_array().expect("a list").clone();
+        let found = loops.iter().map(|one| (one["least"].as_u64(), one["most"].as_u64(), one["known"].as_str()));
+        found.map(|(least, most, known)| format!("{least:?} {most:?} {known:?}")).collect::<Vec<_>>().join(", ")
+    };
+    for (head, rounds) in [
+        ("for (int i = 0; i < 3; i++)\nfor (int j = i; j < 3; j++) s += x;", "Some(1) Some(3) Some(\"range\")"),
+        ("for (int i = 0; i < 4; i++)\nfor (int j = 0; j < i; j++) s += x;", "Some(0) Some(3) Some(\"range\")"),
+        ("for (int i = 8; i > 0; i -= 2)\nfor (int j = 0; j < i; j++) s += x;", "Some(2) Some(8) Some(\"range\")"),
+        // What the body changes has no bounds.
+        ("for (int i = 0; i < 4;) { for (int j = 0; j < i; j++) s += x; i++; }", "Some(0) Some(8) Some(\"assumed\")"),
+    ] {
+        assert!(inner(head).contains(rounds), "{head}: {}", inner(head));
+    }
+}
+
 #[test]
 fn a_counter_without_a_sign_wraps() {
     check(

@@ -7,9 +7,10 @@ use glisten_front::builtin::BuiltinFunction as B;
 use glisten_front::fold;
 use glisten_front::hir::written_by;
 use glisten_front::hir::{
-    BinaryOp, Case, CaseLabel, ExprId, ExprKind, Function, LogicalOp, Scalar, ScalarValue, Shader, StmtKind, Storage,
-    Type, Types, UnaryOp, VarRef,
+    BinaryOp, Case, CaseLabel, ExprId, ExprKind, Function, LocalId, LogicalOp, Scalar, ScalarValue, Shader, StmtKind,
+    Storage, Type, Types, UnaryOp, VarRef,
 };
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How deep expressions are followed.
@@ -53,6 +54,8 @@ pub(super) struct Known<'a> {
     ranges: &'a Ranges,
     /// The only value that each local is given, if it is one.
     definitions: Vec<Option<ExprId>>,
+    /// The bounds of the counters of the loops that are walked, innermost last.
+    counters: RefCell<Vec<(LocalId, [f64; 2])>>,
 }
 
 impl<'a> Known<'a> {
@@ -75,7 +78,20 @@ impl<'a> Known<'a> {
         for (definition, _) in definitions.iter_mut().zip(written).filter(|(_, written)| *written) {
             *definition = None;
         }
-        Self { types, shader, function, ranges, definitions }
+        Self { types, shader, function, ranges, definitions, counters: RefCell::default() }
+    }
+
+    /// Walks the body of a loop with these bounds of its counter.
+    pub(super) fn inside<R>(&self, counter: Option<(LocalId, [f64; 2])>, walk: impl FnOnce() -> R) -> R {
+        let before = self.counters.borrow().len();
+        self.counters.borrow_mut().extend(counter);
+        let result = walk();
+        self.counters.borrow_mut().truncate(before);
+        result
+    }
+
+    fn counter(&self, local: LocalId) -> Option<[f64; 2]> {
+        self.counters.borrow().iter().rev().find(|(counter, _)| *counter == local).map(|(_, sides)| *sides)
     }
 
     /// The value of a constant scalar.
@@ -149,7 +165,9 @@ impl<'a> Known<'a> {
         let is_whole = matches!(self.scalar(id), Some(Scalar::Int | Scalar::Uint));
         let of = |id: ExprId| self.walk(id, depth + 1);
         match &self.shader.expr(id).kind {
-            ExprKind::Var(VarRef::Local(local)) => of((*self.definitions.get(local.index())?)?),
+            ExprKind::Var(VarRef::Local(local)) => {
+                self.counter(*local).or_else(|| of((*self.definitions.get(local.index())?)?))
+            }
             ExprKind::Var(_) | ExprKind::Member(..) | ExprKind::Index(..) => self.ranges.get(&self.path(id)?),
             ExprKind::Convert(value) => {
                 let [low, high] = of(*value)?;

@@ -34,6 +34,8 @@ pub(super) struct Trips {
     pub(super) least: u64,
     pub(super) most: u64,
     pub(super) source: Source,
+    /// The counter, and its bounds in the body, if nothing but the step of the loop changes it.
+    pub(super) counter: Option<(LocalId, [f64; 2])>,
 }
 
 /// A loop as it is written.
@@ -52,6 +54,8 @@ struct Counter {
     start: Bound,
     step: Step,
     scalar: Scalar,
+    /// Whether nothing but the step of the loop changes it.
+    is_steady: bool,
 }
 
 /// A number of which two sides are known.
@@ -84,11 +88,11 @@ struct Test {
 /// The rounds of a loop with `assumed` rounds where nothing is known.
 pub(super) fn trips(known: &Known<'_>, repeat: Repeat<'_>, before: &[Stmt], assumed: u64) -> Trips {
     let least = u64::from(repeat.kind == LoopKind::DoWhile);
-    let unknown = Trips { least, most: assumed.max(least), source: Source::Assumed };
+    let unknown = Trips { least, most: assumed.max(least), source: Source::Assumed, counter: None };
     let Some(condition) = repeat.condition else { return unknown };
     match known.decided(condition.expr) {
         Some(true) => return unknown,
-        Some(false) => return Trips { least, most: least, source: Source::Counted },
+        Some(false) => return Trips { least, most: least, source: Source::Counted, counter: None },
         None => {}
     }
     // The loop ends with the first of its conditions that fails.
@@ -107,7 +111,7 @@ pub(super) fn trips(known: &Known<'_>, repeat: Repeat<'_>, before: &[Stmt], assu
     let Some(trips) = all else { return unknown };
     let source = if is_stated && trips.source == Source::Counted { Source::Range } else { trips.source };
     let fewest = if is_whole { trips.least.max(least) } else { least };
-    Trips { least: fewest, most: trips.most.max(least), source }
+    Trips { least: fewest, most: trips.most.max(least), source, ..trips }
 }
 
 impl Trips {
@@ -118,7 +122,8 @@ impl Trips {
             (own, _) if self.most <= other.most => own,
             (_, other) => other,
         };
-        Self { least: self.least.min(other.least), most: self.most.min(other.most), source }
+        let counter = self.counter.or(other.counter);
+        Self { least: self.least.min(other.least), most: self.most.min(other.most), source, counter }
     }
 }
 
@@ -157,10 +162,11 @@ fn tested(known: &Known<'_>, repeat: Repeat<'_>, before: &[Stmt], test: Test) ->
             // An array says nothing against bounds that are constant.
             let by_array = by_array.filter(|_| source != Source::Counted).unwrap_or(u64::MAX);
             let most = most.min(by_array);
-            return Some(Trips { least: fewest.min(most) + more, most: most + more, source });
+            let counter = counter.within(most).map(|sides| (test.local, sides));
+            return Some(Trips { least: fewest.min(most) + more, most: most + more, source, counter });
         }
     }
-    by_array.map(|most| Trips { least: more, most: most + more, source: Source::Array })
+    by_array.map(|most| Trips { least: more, most: most + more, source: Source::Array, counter: None })
 }
 
 /// The fewest and the most rounds, which are at the ends of both bounds: a counter that starts nearer to its limit makes no more of them.
@@ -273,7 +279,8 @@ fn counter(known: &Known<'_>, repeat: Repeat<'_>, before: &[Stmt], test: Test, s
             start = Some(Bound { sides: [low, high.min(size - 1.0)], ..bound });
         }
     }
-    let counter = Counter { start: start?, step, scalar };
+    let is_steady = in_step && repeat.kind != LoopKind::DoWhile;
+    let counter = Counter { start: start?, step, scalar, is_steady };
     // The first test sees the counter after a step where it comes behind one.
     let is_behind = match in_test {
         Some((_, is_behind)) => is_behind,
@@ -339,6 +346,14 @@ impl Step {
 }
 
 impl Counter {
+    /// The bounds of its values in so many rounds.
+    fn within(&self, rounds: u64) -> Option<[f64; 2]> {
+        let Step::Add(by) = self.step else { return None };
+        let way = by * rounds.checked_sub(1)? as f64;
+        let [low, high] = self.start.sides;
+        self.is_steady.then_some([low + way.min(0.0), high + way.max(0.0)])
+    }
+
     /// The value after a step, as its kind of number has it: integers wrap (§4.1.3).
     fn next(&self, value: f64) -> f64 {
         let next = match self.step {

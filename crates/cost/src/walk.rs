@@ -172,7 +172,7 @@ impl<'a> Walk<'a> {
             head = self.paths.then(condition, head);
         }
         let step = repeat.step.map_or_else(Paths::nothing, |step| self.expr(known, step));
-        let body = self.list(known, repeat.body);
+        let body = known.inside(trips.counter, || self.list(known, repeat.body));
         // On the shortest path the first round leaves the loop.
         let leaves = [Exit::Break, Exit::Return, Exit::End].iter().any(|exit| body.at(*exit).is_some());
         let least = if leaves { trips.least.min(1) } else { trips.least };

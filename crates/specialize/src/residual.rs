@@ -6,7 +6,7 @@ use crate::known::Known;
 use crate::left::Left;
 use crate::options::{Extent, Options};
 use crate::prune::{self, Pruned};
-use crate::settle::{self, Demand, Demands, Settled, Signs};
+use crate::settle::{self, Demand, Demands, Settled, mark_signs};
 use crate::{fast, inputs, motion, text, unlocated, words};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Types, print};
@@ -140,8 +140,8 @@ fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluate
     // Whether somebody sees the sign of a zero in what the vertex stage writes.
     let mut signs: Vec<bool> = vertex.iter().flat_map(|(shader, _)| &shader.globals).map(is_written_out).collect();
     if let Some((shader, mut stage)) = fragment {
-        stage.signs = Signs::of(&program.types, &stage, colors_with_signs(shader, known));
-        varyings_with_signs(program, &stage.signs, &mut signs);
+        let seen = mark_signs(&program.types, &mut stage, colors_with_signs(shader, known));
+        varyings_with_signs(program, &seen, &mut signs);
         let live = live_colors(shader, program, known);
         let (settled, demands) = settled(program, &stage, vec![Demand::NONE; shader.globals.len()]);
         wanted = Some(demands).filter(|_| whole);
@@ -150,7 +150,7 @@ fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluate
     }
     if let Some((shader, mut stage)) = vertex {
         if whole {
-            stage.signs = Signs::of(&program.types, &stage, signs);
+            mark_signs(&program.types, &mut stage, signs);
         }
         let mut demands = vec![Demand::NONE; shader.globals.len()];
         if let Some(of_fragment) = &wanted {
@@ -240,11 +240,11 @@ fn colors_with_signs(shader: &Shader, known: &Known) -> Vec<bool> {
 }
 
 /// Of the globals of the vertex stage, those that the fragment stage reads have the signs that it sees.
-fn varyings_with_signs(program: &Program, fragment: &Signs, signs: &mut [bool]) {
+fn varyings_with_signs(program: &Program, fragment: &[bool], signs: &mut [bool]) {
     for varying in &program.interface.varyings {
         let (Some(from), Some(to)) = (varying.from, varying.to) else { continue };
         if let Some(slot) = signs.get_mut(from.global.index()) {
-            *slot = fragment.is_seen_in(to.global.index());
+            *slot = fragment.get(to.global.index()).copied().unwrap_or(true);
         }
     }
 }

@@ -26,7 +26,6 @@ pub(crate) use reasons::{Reason, Reasons};
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
 use super::options::{Extent, Options};
-use super::settle::Signs;
 use calls::Variants;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef, may_act,
@@ -72,8 +71,8 @@ pub(crate) struct Walked {
     pub(crate) named: FxHashMap<GlobalId, (ExprId, u32)>,
     /// Whether algebra is allowed that changes rounding.
     pub(crate) fast: bool,
-    /// Where somebody sees the sign of a zero: everywhere, until that is found out.
-    pub(crate) signs: Signs,
+    /// For each expression whether somebody sees the sign of its zeros; empty until that is found out.
+    pub(crate) signs: Vec<bool>,
     /// By how many expressions each loop that was written out became longer, without the loops in it.
     pub(crate) written_out: FxHashMap<Span, u64>,
 }
@@ -179,7 +178,7 @@ pub(crate) fn walk(
         forward.run(inputs);
         let ends = forward.ends();
         let Forward { out, notes, before, origins, reasons, named, written_out, .. } = forward;
-        let signs = Signs::default();
+        let signs = Vec::new();
         Walked { shader: out, notes, before, origins, reasons, ends, named, fast, signs, written_out }
     })
 }

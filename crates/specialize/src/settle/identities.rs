@@ -2,7 +2,7 @@
 //!
 //! *In:* an operation with the facts of its operands. *Out:* the operand that it gives back, if it is sure.
 //! *Holds:* signs of zeros and NaNs come out alike: `x + 0.0` is `x` only where `x` is not -0, `max(x, 0.0)` only where `x`
-//! is neither NaN nor below. Where nobody sees the sign of a zero ([`Signs`](super::Signs)), -0 is 0.
+//! is neither NaN nor below. Where nobody sees the sign of a zero (see `signs`), -0 is 0.
 
 use crate::facts::{Fact, GREATEST, Range, What, at, spread};
 use crate::forward::Walked;
@@ -158,7 +158,7 @@ impl<'w> Operation<'w> {
 
 /// The facts of an operand as an operation needs them: where nobody sees the sign of a zero of its result, -0 is 0.
 pub(super) fn as_seen<'w>(walked: &Walked, operation: ExprId, facts: &'w [Fact]) -> Cow<'w, [Fact]> {
-    if !walked.signs.is_unseen(operation) {
+    if !walked.is_unsigned(operation) {
         Cow::Borrowed(facts)
     } else if facts.is_empty() {
         // Of a vector: this holds for each component.

@@ -18,7 +18,7 @@ mod signs;
 
 pub(super) use demands::Demands;
 pub(super) use rewrite::{Settled, settle};
-pub(super) use signs::Signs;
+pub(super) use signs::mark_signs;
 
 use super::facts::{self, Fact};
 use super::forward::Walked;
@@ -78,6 +78,11 @@ impl Demand {
 }
 
 impl Walked {
+    /// Whether nobody sees the sign of an expression's zeros. Where nothing was found out, somebody does.
+    fn is_unsigned(&self, id: ExprId) -> bool {
+        self.signs.get(id.index()) == Some(&false)
+    }
+
     /// The facts of an expression.
     pub(super) fn facts(&self, id: ExprId) -> &[Fact] {
         self.notes.get(id.index()).map_or(&[], |note| &note.facts)
@@ -96,7 +101,7 @@ impl Walked {
 
     /// The values of an expression of whose zeros nobody sees the sign: each is 0.
     fn values_without_signs(&self, id: ExprId) -> Option<facts::Values> {
-        if !self.signs.is_unseen(id) {
+        if !self.is_unsigned(id) {
             return None;
         }
         let zero = |fact: &Fact| fact.is_zero().then_some(ScalarValue::Float(0.0));

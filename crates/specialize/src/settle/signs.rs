@@ -53,8 +53,8 @@ impl Sees {
 }
 
 /// Where somebody sees the sign of a zero.
-#[derive(Debug, Default)]
-pub(crate) struct Signs {
+#[derive(Debug)]
+struct Signs {
     /// By expression.
     exprs: Vec<bool>,
     /// By clone and local.
@@ -65,43 +65,36 @@ pub(crate) struct Signs {
     changed: bool,
 }
 
-impl Signs {
-    /// Whether nobody sees that of an expression's zeros. Where nothing is known, somebody does.
-    pub(crate) fn is_unseen(&self, id: ExprId) -> bool {
-        self.exprs.get(id.index()) == Some(&false)
-    }
-
-    /// Whether somebody sees that of a global's zeros.
-    pub(crate) fn is_seen_in(&self, global: usize) -> bool {
-        self.globals.get(global).copied().unwrap_or(true)
-    }
-
-    /// Those of a stage, from the globals in which somebody outside sees them.
-    pub(crate) fn of(types: &Types, walked: &Walked, globals: Vec<bool>) -> Self {
-        let shader = &walked.shader;
-        let mut signs = Self {
-            exprs: vec![false; shader.exprs.len()],
-            locals: shader.functions.iter().map(|function| vec![false; function.locals.len()]).collect(),
-            globals,
-            results: vec![false; shader.functions.len()],
-            changed: true,
-        };
-        for _ in 0..ROUNDS {
-            if !std::mem::take(&mut signs.changed) {
-                return signs;
-            }
-            signs.round(types, walked);
+/// Finds out where in a stage somebody sees the sign of a zero, from the globals in which somebody outside does. The globals come back with
+/// those that the stage itself looks at.
+pub(crate) fn mark_signs(types: &Types, walked: &mut Walked, globals: Vec<bool>) -> Vec<bool> {
+    let shader = &walked.shader;
+    let n_globals = globals.len();
+    let mut signs = Signs {
+        exprs: vec![false; shader.exprs.len()],
+        locals: shader.functions.iter().map(|function| vec![false; function.locals.len()]).collect(),
+        globals,
+        results: vec![false; shader.functions.len()],
+        changed: true,
+    };
+    for _ in 0..ROUNDS {
+        if !std::mem::take(&mut signs.changed) {
+            walked.signs = signs.exprs;
+            return signs.globals;
         }
-        Self::default()
+        signs.round(types, walked);
     }
+    vec![true; n_globals]
+}
 
+impl Signs {
     fn round(&mut self, types: &Types, walked: &Walked) {
         for (id, function) in walked.shader.functions() {
             self.body((types, walked, id), function.body.as_deref().unwrap_or(&[]));
         }
         for (id, global) in walked.shader.globals() {
             if let Some(initializer) = global.initializer {
-                let seen = self.is_seen_in(id.index());
+                let seen = self.globals.get(id.index()).copied().unwrap_or(true);
                 self.expr((types, walked, FunctionId::new(0)), initializer, seen);
             }
         }
