@@ -6,13 +6,15 @@
 //! target may compute.
 
 mod builtins;
+mod call;
 mod exact;
 mod folded;
 mod operators;
 mod range;
 mod vectors;
 
-pub(crate) use builtins::{Call, builtin};
+pub(crate) use builtins::builtin;
+pub(crate) use call::Call;
 pub(crate) use folded::{Operation, Values, by_reference, folded};
 pub(crate) use operators::{binary, convert, mat_mul, unary};
 pub(crate) use range::{GREATEST, Range};

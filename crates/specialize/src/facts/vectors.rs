@@ -3,9 +3,8 @@
 //! *In:* the facts of the arguments. *Out:* those of the result. *Holds:* beside the range of each component, the length of a vector
 //! limits what a function makes of it: by the inequality of Cauchy and Schwarz, `dot` of two unit vectors is at most 1.
 
-use super::builtins::Call;
 use super::operators::sum_of_products;
-use super::{Fact, Facts, GREATEST, Range, What, at, norm, unary};
+use super::{Call, Fact, Facts, GREATEST, Range, What, at, norm, unary};
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::UnaryOp;
 

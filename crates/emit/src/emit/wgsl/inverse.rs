@@ -1,23 +1,21 @@
-//! `inverse`, which WGSL lacks: the functions that naga's writer uses for it.
+//! `inverse`, which WGSL lacks.
 //!
-//! *Holds:* the text is naga's own, taken from what it writes for a module with nothing else in it.
+//! *In:* the square matrices that a module inverts. *Out:* a function for each kind of them.
 
-use naga::valid::{Capabilities, ValidationFlags, Validator};
-use naga::{Expression, Function, FunctionArgument, FunctionResult, MathFunction, Module, Scalar, Span, Statement};
-use naga::{Type, TypeInner, VectorSize};
+use naga::{Expression, MathFunction, Module, Scalar, TypeInner, VectorSize};
 
-/// The square matrices that a module inverts, each with naga's function for it.
+/// The square matrices that a module inverts, each with the function for it.
 #[derive(Default)]
 pub(super) struct Inverses {
     found: Vec<(VectorSize, Scalar)>,
 }
 
 const SIZES: [VectorSize; 3] = [VectorSize::Bi, VectorSize::Tri, VectorSize::Quad];
-/// The names of naga's functions, for each size and both widths.
+/// The names of the functions, for each size and both widths.
 const NAMES: [[&str; 2]; 3] = [
-    ["_naga_inverse_2x2_f32", "_naga_inverse_2x2_f16"],
-    ["_naga_inverse_3x3_f32", "_naga_inverse_3x3_f16"],
-    ["_naga_inverse_4x4_f32", "_naga_inverse_4x4_f16"],
+    ["inverse_2x2_f32", "inverse_2x2_f16"],
+    ["inverse_3x3_f32", "inverse_3x3_f16"],
+    ["inverse_4x4_f32", "inverse_4x4_f16"],
 ];
 
 fn name((size, scalar): (VectorSize, Scalar)) -> Option<&'static str> {
@@ -60,34 +58,73 @@ impl Inverses {
     }
 
     /// The functions.
-    pub(super) fn text(&self) -> Result<String, String> {
-        let texts: Result<Vec<String>, String> = self.found.iter().map(|(size, scalar)| text(*size, *scalar)).collect();
-        Ok(texts?.concat())
+    pub(super) fn text(&self) -> String {
+        self.found.iter().filter_map(|(size, scalar)| text(*size, *scalar)).collect()
     }
 }
 
-/// naga's function for one kind of matrix.
-fn text(size: VectorSize, scalar: Scalar) -> Result<String, String> {
-    let mut module = Module::default();
-    let inner = TypeInner::Matrix { columns: size, rows: size, scalar };
-    let ty = module.types.insert(Type { name: None, inner }, Span::UNDEFINED);
-    let mut function = Function {
-        name: Some("f".to_owned()),
-        arguments: vec![FunctionArgument { name: Some("m".to_owned()), ty, binding: None }],
-        result: Some(FunctionResult { ty, binding: None }),
-        ..Function::default()
+/// The function for one kind of matrix: the adjugate over the determinant.
+fn text(size: VectorSize, scalar: Scalar) -> Option<String> {
+    let body = match size {
+        VectorSize::Bi => TWO,
+        VectorSize::Tri => THREE,
+        VectorSize::Quad => FOUR,
     };
-    let arg = function.expressions.append(Expression::FunctionArgument(0), Span::UNDEFINED);
-    let inverse = Expression::Math { fun: MathFunction::Inverse, arg, arg1: None, arg2: None, arg3: None };
-    let before = function.expressions.len();
-    let value = function.expressions.append(inverse, Span::UNDEFINED);
-    function.body.push(Statement::Emit(function.expressions.range_from(before)), Span::UNDEFINED);
-    function.body.push(Statement::Return { value: Some(value) }, Span::UNDEFINED);
-    module.functions.append(function, Span::UNDEFINED);
-    let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module);
-    let info = info.map_err(|error| error.to_string())?;
-    let flags = naga::back::wgsl::WriterFlags::empty();
-    let text = naga::back::wgsl::write_string(&module, &info, flags).map_err(|error| error.to_string())?;
-    let start = text.find("fn _naga_inverse").ok_or("naga has no inverse")?;
-    Ok(format!("\n{}\n", text[start..].trim_end()))
+    let (name, letter) = (name((size, scalar))?, if scalar.width == 2 { "h" } else { "f" });
+    let side = size as u8;
+    let ty = format!("mat{side}x{side}{letter}");
+    Some(format!("\nfn {name}(m: {ty}) -> {ty} {{\n{}}}\n", body.replace('@', letter)))
+}
+
+/// `@` stands for the letter of the type of the scalars.
+const TWO: &str = "    let a = m[0];
+    let b = m[1];
+    return mat2x2@(b.y, -a.y, -b.x, a.x) * (1.0 / (a.x * b.y - b.x * a.y));
+";
+
+/// The rows are the cross products of two columns each.
+const THREE: &str = "    let x = cross(m[1], m[2]);
+    let y = cross(m[2], m[0]);
+    let z = cross(m[0], m[1]);
+    return transpose(mat3x3@(x, y, z)) * (1.0 / dot(m[0], x));
+";
+
+/// Minors of two of the first two columns and of the last two make all cofactors, and the determinant.
+const FOUR: &str = "    let a = m[0];
+    let b = m[1];
+    let c = m[2];
+    let d = m[3];
+    let p = vec3@(a.x, a.x, a.x) * b.yzw - vec3@(b.x, b.x, b.x) * a.yzw;
+    let q = a.yyz * b.zww - b.yyz * a.zww;
+    let r = vec3@(c.x, c.x, c.x) * d.yzw - vec3@(d.x, d.x, d.x) * c.yzw;
+    let s = c.yyz * d.zww - d.yyz * c.zww;
+    let determinant = p.x * s.z - p.y * s.y + p.z * s.x + q.x * r.z - q.y * r.y + q.z * r.x;
+    return mat4x4@(
+        vec4@(b.y * s.z - b.z * s.y + b.w * s.x, a.z * s.y - a.y * s.z - a.w * s.x,
+            d.y * q.z - d.z * q.y + d.w * q.x, c.z * q.y - c.y * q.z - c.w * q.x),
+        vec4@(b.z * r.z - b.x * s.z - b.w * r.y, a.x * s.z - a.z * r.z + a.w * r.y,
+            d.z * p.z - d.x * q.z - d.w * p.y, c.x * q.z - c.z * p.z + c.w * p.y),
+        vec4@(b.x * s.y - b.y * r.z + b.w * r.x, a.y * r.z - a.x * s.y - a.w * r.x,
+            d.x * q.y - d.y * p.z + d.w * p.x, c.y * p.z - c.x * q.y - c.w * p.x),
+        vec4@(b.y * r.y - b.x * s.x - b.z * r.x, a.x * s.x - a.y * r.y + a.z * r.x,
+            d.y * p.y - d.x * q.x - d.z * p.x, c.x * q.x - c.y * p.y + c.z * p.x),
+    ) * (1.0 / determinant);
+";
+
+#[cfg(test)]
+mod tests {
+    use super::{SIZES, text};
+    use naga::Scalar;
+
+    /// naga reads each function, as WGSL without any of its own.
+    #[test]
+    fn the_functions_are_wgsl() {
+        for size in SIZES {
+            let text = text(size, Scalar::F32).expect("a function");
+            naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+            let half = super::text(size, Scalar::F16).expect("a function");
+            naga::front::wgsl::parse_str(&format!("enable f16;\n{half}"))
+                .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&half)));
+        }
+    }
 }

@@ -37,7 +37,7 @@ pub(super) fn write(module: &Module, info: &ModuleInfo, style: Style, notes: &No
     }
     writer.text.truncate(writer.text.trim_end().len());
     writer.text.push('\n');
-    let inverses = inverses.text()?;
+    let inverses = inverses.text();
     writer.text.push_str(&inverses);
     let origins = origins(&writer.text, &writer.marks);
     Ok((writer.text, origins))
