@@ -97,6 +97,38 @@ fn standard_input_and_mistakes() {
     assert_eq!(code(&folder.run(&["fmt", "nowhere.frag"])), 2);
 }
 
+/// Blanks matter in other files: only what is named as a shader, begins as one or parses is formatted.
+#[test]
+fn files_of_other_kinds_are_refused() {
+    let others: [(&str, &str); 7] = [
+        ("Makefile", "all:\n\tcc   -c a.c\n"),
+        ("a.yml", "a:\n    - b:   1\n"),
+        ("a.md", "# Title\n\n    void main() {}\n\n```glsl\n#version 150\nvoid  main(){}\n```\n"),
+        ("a.mtl", "newmtl   x\nKd 1 1 1\n"),
+        ("a.obj", "v  0 0 0\nf   1 2 3\n"),
+        ("a.csv", "a,b,  c\n1,2,  3\n"),
+        ("a.json", "{\"a\":   [1]}\n"),
+    ];
+    let files: Vec<(&str, &[u8])> = others.iter().map(|(name, text)| (*name, text.as_bytes())).collect();
+    let folder = Folder::new(&files);
+    for (name, text) in others {
+        let run = folder.run(&["fmt", name]);
+        assert_eq!(code(&run), 2, "{name}");
+        assert!(err(&run).contains("is no shader by its name"), "{name}: {}", err(&run));
+        assert_eq!(fs::read_to_string(folder.path(name)).expect("a file"), text, "{name}");
+        assert_eq!(code(&folder.run_with_input(&["fmt", "--stdin-filename", name, "-"], text)), 2, "{name}");
+    }
+    let shaders = [
+        ("a.inc", "float   f(float x){return x;}\n"),
+        ("shader.txt", "// a shader\n#version 150\nvoid  main(){}\n"),
+        ("a.gdshader", "shader_type   canvas_item;\n"),
+    ];
+    for (name, text) in shaders {
+        let run = folder.run_with_input(&["fmt", "--stdin-filename", name, "-"], text);
+        assert!(code(&run) == 0 && out(&run) != text, "{name}: {}", err(&run));
+    }
+}
+
 /// All GLSL of the repository, valid or not; some files are none, and are there to be refused.
 fn sources(folder: &Path, into: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {

@@ -1,7 +1,7 @@
 //! `glisten fmt`: brings sources into one style.
 //!
 //! *In:* files, folders, or standard input. *Out:* the files, rewritten; or which ones would change, or how. *Holds:* a file is
-//! replaced at once or not at all; a file whose bytes are not UTF-8 keeps them, and what is no text is an error. In a file of another
+//! replaced at once or not at all; a file whose bytes are not UTF-8 keeps them, and what is no text, or text of another kind, is an error. In a file of another
 //! language, only strings change that are shaders.
 
 use crate::arguments::config::{self, Configs};
@@ -18,8 +18,11 @@ use crate::threads::Threads;
 use clap::Args;
 use glisten_format::{Formatted, Options};
 use glisten_front::Stage;
-use glisten_front::diagnostic::{Levels, write};
+use glisten_front::compiler::{Compiler, Options as CompilerOptions, Source};
+use glisten_front::diagnostic::codes::preprocess;
+use glisten_front::diagnostic::{Area, Code, Levels, write};
 use glisten_sources::embedded::{self, Host};
+use glisten_sources::engines::code::without_comments;
 use glisten_sources::stages;
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -64,8 +67,8 @@ struct Done {
 enum Undone {
     /// It cannot be read, or is no source.
     Unread(Batch),
-    /// It cannot be written.
-    Unwritten(Failure),
+    /// It is of another kind, or cannot be written.
+    Refused(Failure),
 }
 
 impl Done {
@@ -103,11 +106,12 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
             return Err(Undone::Unread(as_batch(error, &name)));
         }
         let text = Text::new(bytes);
+        refuse_other_kinds(path, &text.text).map_err(Undone::Refused)?;
         let options = styles.get(folder_of(path)).cloned().unwrap_or_default();
         let formatted = any_formatted(&text.text, path, &options);
         let done = Done { path: path.clone(), text, formatted };
         if done.changes() && !args.check && !args.diff {
-            files::replace(path, &done.text.bytes(&done.formatted.text)).map_err(Undone::Unwritten)?;
+            files::replace(path, &done.text.bytes(&done.formatted.text)).map_err(Undone::Refused)?;
         }
         Ok(done)
     };
@@ -117,7 +121,7 @@ pub(crate) fn run(args: &FmtArgs, console: &Console) -> Outcome {
         match result {
             Ok(done) => all.push(done),
             Err(Undone::Unread(batch)) => exit = exit.max(refused(&batch, console)),
-            Err(Undone::Unwritten(failure)) => exit = exit.max(console.tell(failure)),
+            Err(Undone::Refused(failure)) => exit = exit.max(console.tell(failure)),
         }
     }
     for done in all.iter().filter(|done| done.changes()) {
@@ -178,6 +182,9 @@ fn standard_input(args: &FmtArgs, console: &Console) -> Outcome {
     refuse_host(&path, args.embedded)?;
     let name = path.display().to_string();
     if let Err(error) = refuse_no_text(&name, &path, &bytes) {
+    if args.stdin_filename.is_some() {
+        refuse_other_kinds(&path, &text.text)?;
+    }
         return Ok(refused(&as_batch(error, &name), console));
     }
     let text = Text::new(bytes);
@@ -252,6 +259,45 @@ fn refuse_host(path: &Path, embedded: bool) -> Result<(), Failure> {
         return Ok(());
     }
     let message = format!("`{}` is no shader", path.display());
+/// Refuses a text of another kind, whose blanks may matter: one that neither its name nor its first line calls a shader, and that does
+/// not parse.
+fn refuse_other_kinds(path: &Path, text: &str) -> Result<(), Failure> {
+    let is_named = stages::by_name(path).is_some()
+        || stages::unread(path).is_some()
+        || stages::may_be_included(path)
+        || stages::may_be_combined(path)
+        || Host::of(path).is_some();
+    if is_named || begins_as_a_shader(text) || parses(text) {
+        return Ok(());
+    }
+    let message = format!("`{}` is no shader by its name, and its text does not parse as one", path.display());
+    Err(Failure::usage(message).help("standard input has no name: `glisten fmt - < FILE`"))
+}
+
+/// The words of directives that a source may begin with, and the declaration that Godot's do.
+const BEGINNINGS: [&str; 10] =
+    ["#version", "#extension", "#pragma", "#include", "#define", "#ifdef", "#ifndef", "#if", "#line", "shader_type"];
+
+fn begins_as_a_shader(text: &str) -> bool {
+    let code = without_comments(text);
+    let word = code.split_whitespace().next().unwrap_or_default();
+    BEGINNINGS.contains(&word)
+}
+
+/// The errors of directives and signs that a text of another kind has.
+const NO_SOURCE: [&Code; 3] =
+    [&preprocess::ILLEGAL_CHARACTER, &preprocess::UNKNOWN_DIRECTIVE, &preprocess::MALFORMED_DIRECTIVE];
+
+/// Whether a text has no errors of grammar.
+fn parses(text: &str) -> bool {
+    let source = Source { name: "source".into(), text: text.into(), stage: Stage::Fragment };
+    let compiled = guard::guarded(|| Compiler::new(CompilerOptions::default()).compile(&[source]));
+    compiled.is_ok_and(|compiled| {
+        let is_wrong = |code: &Code| code.area() == Area::Syntax || NO_SOURCE.contains(&code);
+        !compiled.diagnostics.iter().any(|found| found.is_error() && is_wrong(found.code))
+    })
+}
+
     Err(Failure::usage(message).help("`--embedded` formats the shaders in its strings"))
 }
 
