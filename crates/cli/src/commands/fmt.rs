@@ -160,10 +160,7 @@ fn wrong_configuration<'p>(folders: impl Iterator<Item = &'p Path>, console: &Co
     for folder in folders {
         configs.levels(&folder.join("source").to_string_lossy());
     }
-    for batch in &configs.errors {
-        refused(batch, console);
-    }
-    (!configs.errors.is_empty()).then_some(Exit::Content)
+    configs.errors.iter().map(|batch| refused(batch, console)).max()
 }
 
 /// Formats standard input onto standard output.
@@ -182,12 +179,12 @@ fn standard_input(args: &FmtArgs, console: &Console) -> Outcome {
     refuse_host(&path, args.embedded)?;
     let name = path.display().to_string();
     if let Err(error) = refuse_no_text(&name, &path, &bytes) {
-    if args.stdin_filename.is_some() {
-        refuse_other_kinds(&path, &text.text)?;
-    }
         return Ok(refused(&as_batch(error, &name), console));
     }
     let text = Text::new(bytes);
+    if args.stdin_filename.is_some() {
+        refuse_other_kinds(&path, &text.text)?;
+    }
     let formatted = any_formatted(&text.text, &path, &config::style_of(folder_of(&path)));
     let done = Done { path, text, formatted };
     if args.check || args.diff {
@@ -259,6 +256,9 @@ fn refuse_host(path: &Path, embedded: bool) -> Result<(), Failure> {
         return Ok(());
     }
     let message = format!("`{}` is no shader", path.display());
+    Err(Failure::usage(message).help("`--embedded` formats the shaders in its strings"))
+}
+
 /// Refuses a text of another kind, whose blanks may matter: one that neither its name nor its first line calls a shader, and that does
 /// not parse.
 fn refuse_other_kinds(path: &Path, text: &str) -> Result<(), Failure> {
@@ -296,9 +296,6 @@ fn parses(text: &str) -> bool {
         let is_wrong = |code: &Code| code.area() == Area::Syntax || NO_SOURCE.contains(&code);
         !compiled.diagnostics.iter().any(|found| found.is_error() && is_wrong(found.code))
     })
-}
-
-    Err(Failure::usage(message).help("`--embedded` formats the shaders in its strings"))
 }
 
 /// Formats a shader, or the shaders in the strings of a file.
