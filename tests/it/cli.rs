@@ -125,6 +125,51 @@ fn an_unreadable_file_is_told() {
     assert_eq!((codes(&findings), exit), (vec!["E0011"], 2));
 }
 
+/// A folder that cannot be read does not keep the rest of a tree from being checked, and an exclusion leaves it out.
+#[cfg(unix)]
+#[test]
+fn an_unreadable_folder_is_told_and_the_others_are_searched() {
+    use std::os::unix::fs::PermissionsExt;
+    let broken = "#version 150\nvoid main() { x; }\n";
+    let folder = Folder::new(&[("a/locked/a.frag", FRAGMENT.as_bytes()), ("a/b.frag", broken.as_bytes())]);
+    let set = |mode: u32| {
+        fs::set_permissions(folder.path("a/locked"), fs::Permissions::from_mode(mode)).expect("permissions");
+    };
+    set(0o000);
+    // The superuser reads everything.
+    if fs::read_dir(folder.path("a/locked")).is_err() {
+        let (findings, exit) = folder.lint(&["a"]);
+        assert_eq!((codes(&findings), exit), (vec!["E0301", "E0011"], 2));
+        let formatted = folder.run(&["fmt", "--check", "a"]);
+        assert_eq!(code(&formatted), 2);
+        assert!(out(&formatted).contains("would reformat a/b.frag"), "{}", out(&formatted));
+        let tested = folder.run(&["test", "a", "--backend", "cpu"]);
+        assert!(code(&tested) == 2 && err(&tested).contains("cannot read `a/locked`"), "{}", err(&tested));
+        fs::write(folder.path("a/glisten.toml"), "[lint]\nexclude = [\"locked/\"]\n").expect("written");
+        let (findings, exit) = folder.lint(&["a"]);
+        assert_eq!((codes(&findings), exit), (vec!["E0301"], 1));
+    }
+    set(0o755);
+}
+
+/// Depfiles and manifests name files by their bytes.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_no_text_are_names_of_files() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = Folder::new(&[]);
+    let name = OsStr::from_bytes(b"a\xff b.frag");
+    fs::write(folder.path("").join(name), FRAGMENT).expect("written");
+    let arguments = ["compile", "--target", "wgsl", "-o", "out", "--depfile", "d", "--manifest", "m.json"];
+    let output = folder.command(&arguments).arg(name).output().expect("it runs");
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let rule = fs::read(folder.path("d")).expect("written");
+    assert!(rule.ends_with(b": a\xff\\ b.frag\n"), "{}", String::from_utf8_lossy(&rule));
+    let manifest: Value = serde_json::from_slice(&fs::read(folder.path("m.json")).expect("written")).expect("JSON");
+    assert!(manifest["outputs"][0]["sources"][0]["sha256"].is_string(), "{manifest}");
+}
+
 #[test]
 fn a_stage_that_no_name_tells_is_asked_for() {
     let folder = Folder::new(&[("a.txt", FRAGMENT.as_bytes())]);

@@ -151,7 +151,16 @@ fn read_whole(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     // Room for all of it: otherwise a file is read in pieces.
     let room = metadata.len().min(MAX_BYTES) as usize + 1;
     if metadata.is_dir() {
-        return Err(ReadError::new(&general::FILE_IS_FOLDER, format!("`{name}` is a folder, not a file")));
+        // A search gives the folders that it cannot read.
+        return Err(match fs::read_dir(path) {
+            Ok(_) => ReadError::new(&general::FILE_IS_FOLDER, format!("`{name}` is a folder, not a file")),
+            Err(error) => {
+                let message = format!("cannot read the folder `{name}`: {error}");
+                let exclude =
+                    "`exclude` under `[lint]` in glisten.toml, or .gitignore, leaves a folder out of searches";
+                ReadError { help: Some(exclude.to_owned()), ..ReadError::new(&general::FILE_UNREADABLE, message) }
+            }
+        });
     }
     if metadata.len() > MAX_BYTES {
         return Err(too_large(name));

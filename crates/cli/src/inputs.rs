@@ -276,6 +276,7 @@ pub(crate) fn collect(
             inputs.found.extend(search.found.iter().cloned());
             inputs.left.extend(search.left);
             named.extend(search.found);
+            named.extend(search.unreadable);
         } else {
             named.push(file.clone());
         }

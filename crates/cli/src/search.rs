@@ -44,6 +44,17 @@ pub(crate) struct Search {
     pub(crate) found: Vec<PathBuf>,
     /// The files that were not taken.
     pub(crate) left: Vec<Left>,
+    /// The folders in it that cannot be read.
+    pub(crate) unreadable: Vec<PathBuf>,
+}
+
+/// The files and folders that a walk through a folder finds.
+#[derive(Debug, Default)]
+pub(crate) struct Walk {
+    /// The files that look like shaders.
+    pub(crate) files: Vec<PathBuf>,
+    /// The folders that cannot be read. A command that reads them as files tells so, as for any other file.
+    pub(crate) unreadable: Vec<PathBuf>,
 }
 
 /// Searches a folder. Hidden folders are skipped, and links to folders are not followed, so that a cycle of links does no harm.
@@ -51,8 +62,9 @@ pub(crate) struct Search {
 /// # Errors
 /// A folder that cannot be read.
 pub(crate) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> {
-    let mut search = Search::default();
-    for path in files(root)? {
+    let walk = files(root)?;
+    let mut search = Search { unreadable: walk.unreadable, ..Search::default() };
+    for path in walk.files {
         match classify(&path, engines) {
             Some(Ok(())) => search.found.push(path),
             Some(Err(why)) => search.left.push(Left { path, why }),
@@ -64,7 +76,7 @@ pub(crate) fn folder(root: &Path, engines: &Engines) -> Result<Search, Failure> 
     Ok(search)
 }
 
-/// The sources in a folder that have a style: all shaders, and what is there to be included.
+/// The sources in a folder that have a style: all shaders, and what is there to be included. Folders that cannot be read are among them.
 ///
 /// # Errors
 /// A folder that cannot be read.
@@ -73,29 +85,57 @@ pub(crate) fn texts(root: &Path) -> Result<Vec<PathBuf>, Failure> {
         let named = stages::by_name(path).is_some() || stages::unread(path).is_some() || stages::may_be_included(path);
         named && !stages::is_assembly(path)
     };
-    let mut found: Vec<PathBuf> = files(root)?.into_iter().filter(is_source).collect();
+    let walk = files(root)?;
+    let mut found: Vec<PathBuf> = walk.files.into_iter().filter(is_source).chain(walk.unreadable).collect();
     found.sort();
     Ok(found)
 }
 
-/// The files in a folder that look like shaders, but for those that are excluded.
-pub(crate) fn files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+/// The files in a folder, but for those that are excluded.
+///
+/// # Errors
+/// The folder itself cannot be read.
+pub(crate) fn files(root: &Path) -> Result<Walk, Failure> {
     let mut excludes = Excludes::default();
     let mut walk = WalkBuilder::new(root);
     // Without a repository, `.gitignore` says as much about what is generated.
     walk.hidden(false).require_git(false).filter_entry(|entry| entry.depth() == 0 || !is_hidden_folder(entry));
-    let mut files = Vec::new();
+    let mut found = Walk::default();
+    // `./a.frag` is `a.frag` to services that show findings.
+    let shown = |path: &Path| path.strip_prefix(".").unwrap_or(path).to_owned();
     for entry in walk.build() {
-        let entry =
-            entry.map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
-        if entry.file_type().is_some_and(|kind| kind.is_dir()) || !may_end(&entry) || excludes.has(entry.path()) {
-            continue;
+        let entry = match entry {
+            Ok(entry) => entry,
+            Err(error) => {
+                let folder = unread_below(&error, root).ok_or_else(|| cannot_read(root, &error))?;
+                if !excludes.has(folder, true) {
+                    found.unreadable.push(shown(folder));
+                }
+                continue;
+            }
+        };
+        if !entry.file_type().is_some_and(|kind| kind.is_dir()) && may_end(&entry) && !excludes.has(entry.path(), false)
+        {
+            found.files.push(shown(entry.path()));
         }
-        let path = entry.into_path();
-        // `./a.frag` is `a.frag` to services that show findings.
-        files.push(path.strip_prefix(".").map(Path::to_owned).unwrap_or(path));
     }
-    Ok(files)
+    Ok(found)
+}
+
+/// The failure to read a folder: the root of a walk, or one below it.
+pub(crate) fn cannot_read(root: &Path, error: &ignore::Error) -> Failure {
+    let folder = unread_below(error, root).unwrap_or(root).display();
+    let reason = error.io_error().map_or_else(|| error.to_string(), ToString::to_string);
+    Failure::usage(format!("cannot read the folder `{folder}`: {reason}"))
+}
+
+/// The folder below the root that an error of a walk is about.
+fn unread_below<'e>(error: &'e ignore::Error, root: &Path) -> Option<&'e Path> {
+    match error {
+        ignore::Error::WithPath { path, .. } => Some(path.as_path()).filter(|path| *path != root),
+        ignore::Error::WithDepth { err, .. } | ignore::Error::WithLineNumber { err, .. } => unread_below(err, root),
+        _ => None,
+    }
 }
 
 /// Whether a search takes a file: its name tells its stage, or its engine does, or it contains several stages. `None` for a file
@@ -139,13 +179,14 @@ struct Excludes {
 }
 
 impl Excludes {
-    /// Whether the nearest configuration excludes a file or a folder that it is in.
-    fn has(&mut self, path: &Path) -> bool {
+    /// Whether the nearest configuration excludes a file or folder, or a folder that it is in.
+    fn has(&mut self, path: &Path, is_folder: bool) -> bool {
         let Some(file) = self.nearest.of(path.parent().unwrap_or(Path::new(""))) else { return false };
         let patterns = self.by_file.entry(file).or_insert_with_key(|file| config::excluded(file));
         patterns.as_ref().is_some_and(|patterns| {
             let absolute = files::real(path);
-            absolute.starts_with(patterns.path()) && patterns.matched_path_or_any_parents(&absolute, false).is_ignore()
+            absolute.starts_with(patterns.path())
+                && patterns.matched_path_or_any_parents(&absolute, is_folder).is_ignore()
         })
     }
 }

@@ -77,7 +77,7 @@ pub(crate) fn add(inputs: &mut Inputs, hosts: &[PathBuf], named: &[PathBuf]) -> 
 /// # Errors
 /// A folder that cannot be read.
 pub(crate) fn hosts_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let mut found = search::files(folder)?;
+    let mut found = search::files(folder)?.files;
     found.retain(|path| Host::of(path).is_some());
     found.sort();
     Ok(found)

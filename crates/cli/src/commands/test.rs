@@ -106,7 +106,7 @@ const MOST_FOLDERS: u32 = 64;
 
 /// Runs the command.
 pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
-    let (mut files, mut exit) = (Vec::new(), Exit::Ok);
+    let (mut files, mut unread, mut exit) = (Vec::new(), Vec::new(), Exit::Ok);
     for path in &args.paths {
         match std::fs::metadata(path) {
             // The others are run all the same.
@@ -114,9 +114,10 @@ pub(crate) fn run(args: &TestArgs, console: &Console) -> Outcome {
                 console.failure(&format!("cannot read `{}`: {error}", path.display()), None);
                 exit = Exit::Usage;
             }
-            _ => collect(path, &mut files, 0)?,
+            _ => collect(path, &mut files, &mut unread, 0)?,
         }
     }
+    exit = unread.into_iter().map(|failure| console.tell(failure)).fold(exit, Exit::max);
     if files.is_empty() && exit > Exit::Ok {
         return Ok(exit);
     }
@@ -285,8 +286,9 @@ fn one(name: &str, text: &str, compiler: &Compiler, backend: &mut dyn TestBacken
         .unwrap_or_else(|panic| TestResult::Fail(format!("internal error: {panic}")))
 }
 
-/// Collects the files at a path: the path itself, or the files in it, in the order of their names.
-fn collect(path: &Path, found: &mut Vec<PathBuf>, depth: u32) -> Result<(), Failure> {
+/// Collects the files at a path: the path itself, or the files in it, in the order of their names. A folder in it that cannot be read
+/// does not keep the others from being searched.
+fn collect(path: &Path, found: &mut Vec<PathBuf>, unread: &mut Vec<Failure>, depth: u32) -> Result<(), Failure> {
     if path.as_os_str() == STDIN {
         found.push(path.to_owned());
         return Ok(());
@@ -312,7 +314,8 @@ fn collect(path: &Path, found: &mut Vec<PathBuf>, depth: u32) -> Result<(), Fail
         // A link to a parent folder would make the search endless.
         let is_folder = entry.is_dir() && !entry.is_symlink() && depth < MOST_FOLDERS;
         if is_test || is_folder {
-            collect(&entry, found, depth + 1)?;
+            let failed = collect(&entry, found, unread, depth + 1).err();
+            unread.extend(failed);
         }
     }
     Ok(())

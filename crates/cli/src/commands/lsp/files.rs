@@ -31,9 +31,9 @@ impl Includes {
         if self.folders.iter().any(|known| folder.starts_with(known)) || !self.folders.insert(folder.to_owned()) {
             return;
         }
-        let Ok(files) = search::files(folder) else { return };
+        let Ok(walk) = search::files(folder) else { return };
         let is_source = |path: &PathBuf| stages::by_name(path).is_some() || stages::may_be_combined(path);
-        let (mut next, mut others): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(is_source);
+        let (mut next, mut others): (Vec<PathBuf>, Vec<PathBuf>) = walk.files.into_iter().partition(is_source);
         next.truncate(MAX_FILES);
         // What these include is a source whatever its name ends in.
         while !next.is_empty() {

@@ -6,6 +6,7 @@
 use super::ACCOUNT;
 use crate::exit::Failure;
 use crate::files;
+use crate::search;
 use ignore::{DirEntry, WalkBuilder};
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
@@ -34,8 +35,7 @@ impl NewFolder {
         walk.hidden(false).git_ignore(false).ignore(false).require_git(false).filter_entry(is_kept);
         let walk = walk.build();
         for entry in walk {
-            let entry = entry
-                .map_err(|error| Failure::usage(format!("cannot read the folder `{}`: {error}", root.display())))?;
+            let entry = entry.map_err(|error| search::cannot_read(root, &error))?;
             if !entry.file_type().is_some_and(|kind| kind.is_file()) {
                 continue;
             }
