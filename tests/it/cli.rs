@@ -213,6 +213,26 @@ fn a_reader_that_goes_away_ends_the_program_in_silence() {
     assert!(err(&output).is_empty(), "{}", err(&output));
 }
 
+/// What was found is in the exit code, whoever reads the findings.
+#[test]
+fn a_reader_that_goes_away_changes_no_exit_code() {
+    let broken = "#version 150\nvoid  main(){ x; }\n";
+    let folder = Folder::new(&[("a.frag", broken.as_bytes())]);
+    for (arguments, exit) in [
+        (&["lint", "-q", "a.frag"][..], 1),
+        (&["lint", "--format", "json", "a.frag"], 1),
+        (&["lint", "--format", "sarif", "a.frag"], 1),
+        (&["fmt", "-q", "--check", "a.frag"], 1),
+        (&["rules"], 0),
+    ] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let mut child = folder.command(arguments).stdout(writer).stderr(Stdio::piped()).spawn().expect("it runs");
+        let told = std::io::read_to_string(child.stderr.take().expect("it is piped")).expect("it is read");
+        assert_eq!((child.wait().expect("it ends").code(), told.as_str()), (Some(exit), ""), "{arguments:?}");
+    }
+}
+
 /// Whether a path is a non-empty file.
 fn is_written(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0)

@@ -1,7 +1,7 @@
 //! [`Console`]: the only place that prints.
 //!
 //! *Holds:* results go to standard output, everything else to standard error. If the reader of standard output goes
-//! away, the program ends silently; any other failure to write is reported. Where diagnostics are a document for programs, nothing
+//! away, nothing more is written there, and the exit code is the same; any other failure to write is reported. Where diagnostics are a document for programs, nothing
 //! else is written to standard error but the failure that ends the command.
 
 use crate::arguments::args::DiagnosticFormat;
@@ -164,13 +164,8 @@ impl Console {
 
     /// Reports why a command, or a part of its work, cannot continue. Returns the exit code.
     pub(crate) fn tell(&self, failure: Failure) -> Exit {
-        match failure {
-            Failure::Told { exit, message, help } => {
-                self.failure(&message, help.as_deref());
-                exit
-            }
-            Failure::OutputClosed => Exit::Ok,
-        }
+        self.failure(&failure.message, failure.help.as_deref());
+        failure.exit
     }
 
     /// Reports a failure.
@@ -187,7 +182,7 @@ impl Console {
 pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
     match result {
         Ok(()) => Ok(()),
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::OutputClosed),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::usage(format!("cannot write to standard output: {error}"))),
     }
 }

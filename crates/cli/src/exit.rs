@@ -52,20 +52,15 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why a command cannot continue.
+/// Why a command cannot continue, for the user.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) enum Failure {
-    /// A failure to report to the user.
-    Told {
-        /// The exit code.
-        exit: Exit,
-        /// The message, without a full stop.
-        message: String,
-        /// The help text.
-        help: Option<String>,
-    },
-    /// Standard output was closed by its reader: end silently.
-    OutputClosed,
+pub(crate) struct Failure {
+    /// The exit code.
+    pub(crate) exit: Exit,
+    /// The message, without a full stop.
+    pub(crate) message: String,
+    /// The help text.
+    pub(crate) help: Option<String>,
 }
 
 impl Failure {
@@ -76,23 +71,12 @@ impl Failure {
 
     /// A failure with any exit code.
     pub(crate) fn new(exit: Exit, message: impl Into<String>) -> Self {
-        Self::Told { exit, message: message.into(), help: None }
-    }
-
-    /// The message.
-    pub(crate) fn message(&self) -> &str {
-        match self {
-            Self::Told { message, .. } => message,
-            Self::OutputClosed => "standard output was closed",
-        }
+        Self { exit, message: message.into(), help: None }
     }
 
     /// Adds a help text.
     pub(crate) fn help(self, help: impl Into<String>) -> Self {
-        match self {
-            Self::Told { exit, message, .. } => Self::Told { exit, message, help: Some(help.into()) },
-            Self::OutputClosed => self,
-        }
+        Self { help: Some(help.into()), ..self }
     }
 }
 

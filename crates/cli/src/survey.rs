@@ -98,8 +98,5 @@ pub fn scene(path: &str) -> Option<Scene> {
 }
 
 fn told(failure: Failure) -> String {
-    match failure {
-        Failure::Told { message, .. } => message,
-        Failure::OutputClosed => "the output is closed".to_owned(),
-    }
+    failure.message
 }

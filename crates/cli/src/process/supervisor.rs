@@ -130,13 +130,13 @@ mod tests {
 
     #[test]
     fn a_crash_names_the_driver_the_signal_and_the_scene() {
-        let Next::Tell(Failure::Told { exit, message, help }) = next(false, Ended::Signal(11), &begun()) else {
+        let Next::Tell(Failure { exit, message, help }) = next(false, Ended::Signal(11), &begun()) else {
             panic!("a crash is told");
         };
         assert_eq!(exit, Exit::Machine);
         assert_eq!(message, "the driver llvmpipe crashed (SIGSEGV) while drawing `a.toml`");
         assert!(help.is_some_and(|help| help.contains("--backend cpu")));
-        let Next::Tell(Failure::Told { message, .. }) = next(false, Ended::Exited(1), &begun()) else {
+        let Next::Tell(Failure { message, .. }) = next(false, Ended::Exited(1), &begun()) else {
             panic!("a driver must not end the program");
         };
         assert!(message.contains("ended the program (exit code 1)"), "{message}");
@@ -162,11 +162,11 @@ mod tests {
         let mut done = begun();
         done.push(Note::Done(0));
         assert_eq!(next(true, Ended::Signal(11), &done), Next::Exit(0));
-        let Next::Tell(Failure::Told { exit, message, .. }) = next(true, Ended::Signal(11), &[]) else {
+        let Next::Tell(Failure { exit, message, .. }) = next(true, Ended::Signal(11), &[]) else {
             panic!("a crash without a driver is told");
         };
         assert!(exit == Exit::Content && message.contains("internal error"), "{message}");
-        let Next::Tell(Failure::Told { exit, .. }) = next(true, Ended::Signal(9), &begun()) else {
+        let Next::Tell(Failure { exit, .. }) = next(true, Ended::Signal(9), &begun()) else {
             panic!("a killed child is told");
         };
         assert_eq!(exit, Exit::Machine);

@@ -54,10 +54,9 @@ pub(super) fn run(args: &PlayArgs, output: &Path, module: &Path, console: &Conso
         match held.add(args, &name, console) {
             Ok(()) => {}
             Err(failure) if !is_folder => return Err(failure),
-            Err(Failure::Told { message, .. }) => {
+            Err(Failure { message, .. }) => {
                 console.message(&format!("warning: `{name}` is not in the page: {message}\n"));
             }
-            Err(closed) => return Err(closed),
         }
         progress.step();
     }

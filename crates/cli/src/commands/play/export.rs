@@ -101,7 +101,7 @@ fn studies(args: &PlayArgs, of: &SceneArgs, console: &Console) -> Result<Value, 
             Ok(answer(&job, &mut OwnLevels, &mut Pictures::default(), |_| loaded)
                 .unwrap_or_else(|error| json!({ "error": error })))
         });
-        let answered = answered.unwrap_or_else(|error| json!({ "error": failure(error).message() }));
+        let answered = answered.unwrap_or_else(|error| json!({ "error": failure(error).message }));
         told.insert(name.to_owned(), answered);
     }
     Ok(told.into())

@@ -111,10 +111,7 @@ pub(super) fn save(folders: &Folders, name: &str, text: &str, was: Option<&str>)
         text.push_str(if was == Some(now.as_str()) || read.len() == now.len() { "" } else { END_OF_FILE });
     }
     let written = disk::write(&path, text.as_bytes());
-    written.map_err(|failure| match failure {
-        crate::exit::Failure::Told { message, .. } => NotSaved::Failed(message),
-        crate::exit::Failure::OutputClosed => NotSaved::Failed("it cannot be written".into()),
-    })
+    written.map_err(|failure| NotSaved::Failed(failure.message))
 }
 
 /// How often files changed.

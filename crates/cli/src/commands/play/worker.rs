@@ -176,10 +176,9 @@ fn new_scene(args: &PlayArgs, console: &Console, job: &Job, files: &[String]) ->
 }
 
 fn told(failure: Failure) -> String {
-    match failure {
-        Failure::Told { message, help: Some(help), .. } => format!("{message}; {help}"),
-        Failure::Told { message, .. } => message,
-        Failure::OutputClosed => String::new(),
+    match failure.help {
+        Some(help) => format!("{}; {help}", failure.message),
+        None => failure.message,
     }
 }
 

@@ -52,7 +52,7 @@ pub(super) fn judged(
     let files: Vec<String> = one.files.iter().map(|path| absolute(path)).collect();
     let quiet = Console::new(true, ColorChoice::Never);
     let args = new_scene::NewSceneArgs::of(files, path.to_owned(), SIDE, sources, levels);
-    new_scene::run(&args, &quiet).map_err(|failure| format!("no scene can be made: {}", failure.message()))?;
+    new_scene::run(&args, &quiet).map_err(|failure| format!("no scene can be made: {}", failure.message))?;
     let name = path.to_string_lossy();
     let old = if one.is_older { &ported.older } else { &ported.old };
     let (mut before, _) = load(&name, &DiskFiles, old)?;

@@ -73,7 +73,7 @@ pub(super) fn run(args: &VerifyArgs, scenes: &[String], console: &Console) -> Ou
         let judged = match examine(args, &args.scene.at(scene), console) {
             Ok(judged) => judged,
             // Of several scenes, the others may still be drawn.
-            Err(Failure::Told { exit, message, help }) if scenes.len() > 1 && exit != Exit::Machine => {
+            Err(Failure { exit, message, help }) if scenes.len() > 1 && exit != Exit::Machine => {
                 console.failure(&message, help.as_deref());
                 (exit, None)
             }

@@ -144,11 +144,10 @@ impl From<DrawError> for verify::Failure {
     fn from(error: DrawError) -> Self {
         match error {
             DrawError::Diagnostics(diagnostics) => Self::Diagnostics(diagnostics),
-            DrawError::Failure(Failure::Told { exit, message, help }) => {
+            DrawError::Failure(Failure { exit, message, help }) => {
                 let text = help.map_or(message.clone(), |help| format!("{message}{HELP}{help}"));
                 if exit == Exit::Machine { Self::Machine(text) } else { Self::Refused(text) }
             }
-            DrawError::Failure(Failure::OutputClosed) => Self::Refused("the output was closed".to_owned()),
         }
     }
 }
