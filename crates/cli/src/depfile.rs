@@ -27,7 +27,7 @@ pub(crate) struct Made {
 impl Made {
     /// The outputs of a program in a folder.
     pub(crate) fn new(group: &Group, folder: &Path, outputs: &[Output], sources: &SourceMap) -> Self {
-        let path = |name: &str| folder.join(name).to_string_lossy().into_owned();
+        let path = |name: &str| files::shown(&folder.join(name));
         let outputs = outputs.iter().map(|(name, content)| (path(name), content.clone())).collect();
         Self { program: group.name.clone(), outputs, sources: files_read(group, sources) }
     }
@@ -46,21 +46,30 @@ pub(crate) fn files_read(group: &Group, sources: &SourceMap) -> Vec<String> {
 pub(crate) fn make_rule(
     outputs: impl IntoIterator<Item = String>,
     sources: impl IntoIterator<Item = String>,
-) -> String {
+) -> Vec<u8> {
     let mut seen = BTreeSet::new();
     let mut words = |names: &mut dyn Iterator<Item = String>| {
         let fresh = names.filter(|name| seen.insert(name.clone()));
-        fresh.map(|name| make_word(&name)).collect::<Vec<_>>().join(" ")
+        fresh.map(|name| make_word(&files::bytes_of_name(&name))).collect::<Vec<_>>().join(&b' ')
     };
     let outputs = words(&mut outputs.into_iter());
-    format!("{outputs}: {}\n", words(&mut sources.into_iter()))
+    [&outputs, &b": "[..], &words(&mut sources.into_iter()), b"\n"].concat()
 }
 
-/// A file name as a word of a Make rule.
-fn make_word(name: &str) -> String {
-    let word = name.replace('$', "$$").replace('#', "\\#").replace(' ', "\\ ");
-    // On Windows it is the colon of a drive.
-    if cfg!(windows) { word } else { word.replace(':', "\\:") }
+/// A file name, which need not be UTF-8, as a word of a Make rule.
+fn make_word(name: &[u8]) -> Vec<u8> {
+    let mut word = Vec::with_capacity(name.len());
+    for byte in name {
+        match byte {
+            b'$' => word.push(b'$'),
+            b'#' | b' ' => word.push(b'\\'),
+            // On Windows it is the colon of a drive.
+            b':' if cfg!(not(windows)) => word.push(b'\\'),
+            _ => {}
+        }
+        word.push(*byte);
+    }
+    word
 }
 
 #[derive(Serialize)]
@@ -89,7 +98,7 @@ struct ManifestSource<'a> {
 pub(crate) fn manifest(made: &[Made]) -> String {
     let mut digests: BTreeMap<&str, Option<Digest>> = BTreeMap::new();
     for name in made.iter().flat_map(|made| &made.sources) {
-        let digest = || files::read(name, Path::new(name)).ok().map(|bytes| Digest::of(&bytes));
+        let digest = || files::read(name, &files::path_of_name(name)).ok().map(|bytes| Digest::of(&bytes));
         digests.entry(name).or_insert_with(digest);
     }
     let mut seen = BTreeSet::new();
@@ -142,9 +151,9 @@ mod tests {
     #[test]
     fn make_words_are_escaped() {
         let rule = make_rule(["a b$c#d".to_owned()], ["x".to_owned(), "y".to_owned(), "x".to_owned()]);
-        assert_eq!(rule, "a\\ b$$c\\#d: x y\n");
+        assert_eq!(rule, b"a\\ b$$c\\#d: x y\n");
         if !cfg!(windows) {
-            assert_eq!(make_rule(["a:b".to_owned()], ["c:d/e".to_owned()]), "a\\:b: c\\:d/e\n");
+            assert_eq!(make_rule(["a:b".to_owned()], ["c:d/e".to_owned()]), b"a\\:b: c\\:d/e\n");
         }
     }
 }

@@ -80,22 +80,37 @@ pub(crate) fn read_prelude(path: &Path) -> Result<Prelude, ReadError> {
     Ok(Prelude { name, text })
 }
 
-/// The bytes of the names that are not UTF-8, by what is shown for them.
-static NAMES: Mutex<BTreeMap<String, Vec<u8>>> = Mutex::new(BTreeMap::new());
+/// The paths that are not UTF-8, by what is shown for them.
+static NAMES: Mutex<BTreeMap<String, PathBuf>> = Mutex::new(BTreeMap::new());
+
+/// The name that is shown for a path.
+pub(crate) fn shown(path: &Path) -> String {
+    let name = path.to_string_lossy().into_owned();
+    note_name(&name, path);
+    name
+}
+
+fn note_name(name: &str, path: &Path) {
+    if path.to_str().is_none() {
+        NAMES.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned(), path.to_owned());
+    }
+}
+
+/// The path of a name that is shown.
+pub(crate) fn path_of_name(name: &str) -> PathBuf {
+    let names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
+    names.get(name).cloned().unwrap_or_else(|| PathBuf::from(name))
+}
 
 /// The bytes of a name that is shown.
 pub(crate) fn bytes_of_name(name: &str) -> Vec<u8> {
-    let names = NAMES.lock().unwrap_or_else(PoisonError::into_inner);
-    names.get(name).cloned().unwrap_or_else(|| name.as_bytes().to_vec())
+    path_of_name(name).as_os_str().as_encoded_bytes().to_vec()
 }
 
 /// Reads a file of any kind.
 pub(crate) fn read(name: &str, path: &Path) -> Result<Vec<u8>, ReadError> {
     overwrite::note(path);
-    if path.to_str().is_none() {
-        let bytes = path.as_os_str().as_encoded_bytes().to_vec();
-        NAMES.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned(), bytes);
-    }
+    note_name(name, path);
     let bytes = read_whole(name, path);
     trace::read(path, bytes.as_deref().ok());
     bytes

@@ -229,9 +229,9 @@ fn write_accounts(
             let folder = folder.join(below(&unit.group));
             plan.names(&unit.group).into_iter().map(move |name| folder.join(name))
         };
-        let outputs = units.iter().flat_map(paths).map(|path| path.to_string_lossy().into_owned());
+        let outputs = units.iter().flat_map(paths).map(|path| files::shown(&path));
         let sources = units.iter().flat_map(|unit| depfile::files_read(&unit.group, &unit.batch.sources));
-        files::write(path, depfile::make_rule(outputs, sources).as_bytes())?;
+        files::write(path, &depfile::make_rule(outputs, sources))?;
     }
     if let Some(path) = &args.manifest {
         files::write(path, depfile::manifest(made).as_bytes())?;

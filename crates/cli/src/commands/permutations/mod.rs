@@ -286,17 +286,17 @@ impl Run<'_> {
 
     /// Writes the depfile and the manifest.
     fn write_accounts(&self) -> Result<(), Failure> {
-        let permutations = self.job.file.to_string_lossy().into_owned();
+        let permutations = files::shown(self.job.file);
         let sources: Vec<String> = self.made.iter().flat_map(|made| made.sources.clone()).collect();
         let all: Vec<String> = [permutations].into_iter().chain(sources).collect();
         if let Some(path) = self.job.depfile {
             // The other outputs are not known to a build system before they are written.
-            let index = self.job.folder.join(INDEX).to_string_lossy().into_owned();
+            let index = files::shown(&self.job.folder.join(INDEX));
             let rule = depfile::make_rule([index], all.clone());
-            files::write(path, rule.as_bytes())?;
+            files::write(path, &rule)?;
         }
         if let Some(path) = self.job.manifest {
-            let path_of = |name: &str| self.job.folder.join(name).to_string_lossy().into_owned();
+            let path_of = |name: &str| files::shown(&self.job.folder.join(name));
             let made: Vec<Made> = self.programs_made(&all, path_of);
             files::write(path, depfile::manifest(&made).as_bytes())?;
         }
