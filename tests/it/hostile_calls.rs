@@ -40,6 +40,37 @@ fn run(folder: &Path, arguments: &str) -> (Option<i32>, String, String) {
     (status.code(), text(&stdout), text(&stderr))
 }
 
+/// A pipe without a reader is no reason to wait for ever.
+#[cfg(unix)]
+#[test]
+fn a_pipe_that_nobody_reads_is_told() {
+    let folder = folder();
+    let made = Command::new("mkfifo").arg(folder.path().join("pipe")).status().expect("mkfifo runs");
+    assert!(made.success());
+    let (code, _, said) = run(folder.path(), "compile a.vert a.frag -o out --depfile pipe");
+    assert!(
+        code == Some(2) && said.contains("cannot write `pipe`: it is a pipe that nobody reads"),
+        "{code:?}: {said}"
+    );
+    let mut reader =
+        Command::new("cat").arg(folder.path().join("pipe")).stdout(Stdio::piped()).spawn().expect("it runs");
+    let (code, _, said) = run(folder.path(), "compile a.vert a.frag -o out --depfile pipe");
+    assert_eq!(code, Some(0), "{said}");
+    let read = std::io::read_to_string(reader.stdout.take().expect("it is piped")).expect("it is read");
+    assert!(reader.wait().is_ok() && read.contains("a.vert.wgsl"), "{read}");
+}
+
+/// The time of a model counts that is read before anything is drawn.
+#[test]
+fn timeout_ends_the_reading_of_a_model() {
+    let rows: String = (0..400_000).map(|k| format!("v {k} 0 0\n")).collect();
+    let faces: String = (1..399_999).map(|k| format!("f {k} {} {}\n", k + 1, k + 2)).collect();
+    let folder = folder();
+    fs::write(folder.path().join("a.obj"), rows + &faces).expect("written");
+    let (code, _, said) = run(folder.path(), "render a.obj -o a.png --backend cpu --timeout 0.05");
+    assert!(code == Some(1) && said.contains("gave up after 0.05 s"), "{code:?}: {said}");
+}
+
 #[test]
 fn timeout_ends_each_command() {
     let folder = folder();

@@ -5,6 +5,7 @@ use crate::exit::Failure;
 #[cfg(feature = "play")]
 use crate::gate;
 use crate::overwrite;
+use crate::pipes;
 use crate::trace;
 use crate::unfinished;
 use glisten_front::diagnostic::codes::general;
@@ -345,7 +346,7 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
             return Err(Failure::usage(format!("cannot write `{}`: it is a folder", path.display())));
         }
         Ok(metadata) if !metadata.is_file() => {
-            return open_to_write(path)?.write_all(bytes).map_err(|error| failed(&error));
+            return pipes::open(path).and_then(|mut pipe| pipe.write_all(bytes)).map_err(|error| failed(&error));
         }
         // A link is followed, so that it remains a link.
         Ok(_) => {

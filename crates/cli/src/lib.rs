@@ -34,6 +34,7 @@ mod optimize;
 mod outputs;
 mod overwrite;
 mod pictures;
+mod pipes;
 mod process;
 mod progress;
 mod recall;
