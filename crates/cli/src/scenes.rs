@@ -265,6 +265,8 @@ impl SceneArgs {
         let loaded = guard::guarded(|| scene::load(&self.scene, &SceneFiles, session.compiler()));
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
+        // A model of many triangles takes as long as a picture.
+        let _watchdog = self.watchdog(console);
         })?;
         let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
         session.read_configuration(&self.scene);
