@@ -29,6 +29,19 @@ fn update(folder: &Folder, more: &[&str]) -> String {
     err(&output)
 }
 
+/// A file without text is a finding like others; one that cannot be read is none, and is told.
+#[test]
+fn files_without_text_are_known_and_unreadable_ones_are_told() {
+    let folder = Folder::new(&[("empty.frag", b""), ("binary.frag", b"\x00\x01\x02")]);
+    let (exit, all) = lint(&folder, &[]);
+    assert_eq!((exit, all.len()), (1, 2), "{all:#?}");
+    update(&folder, &["."]);
+    assert_eq!(lint(&folder, &["--baseline", "known.json"]), (0, Vec::new()));
+    let output = folder.run(&["lint", "empty.frag", "no.frag", "--baseline", "known.json", "--update-baseline"]);
+    assert!(code(&output) == 2 && out(&output).contains("there is no file `no.frag`"), "{}", out(&output));
+    assert!(!fs::read_to_string(folder.path("known.json")).expect("written").contains("no.frag"));
+}
+
 #[test]
 fn known_findings_are_left_out_and_new_ones_are_told() {
     let folder = folder();

@@ -7,7 +7,7 @@
 
 use crate::batch::Batch;
 use crate::console::Console;
-use crate::exit::Failure;
+use crate::exit::{Exit, Failure};
 use crate::files;
 use crate::session::Unit;
 use clap::Args;
@@ -120,11 +120,11 @@ impl Baseline {
 
     /// Removes the known findings from the units. Tells how many there were, and how many are gone from the files of the run.
     pub(crate) fn apply(&self, units: &mut [Unit], console: Option<&Console>) {
-        let found = self.entries(&units.iter().map(|unit| &unit.batch).collect::<Vec<_>>());
+        let found = self.entries(units.iter().flat_map(judged));
         let known: BTreeSet<(&str, &str)> = self.known.iter().map(Entry::key).collect();
         let mut left_out = 0;
-        for unit in units.iter_mut() {
-            keep_new(&mut unit.batch, &found, &known);
+        for batch in units.iter_mut().flat_map(|unit| unit.unread.iter_mut().chain([&mut unit.batch])) {
+            keep_new(batch, &found, &known);
         }
         let present: BTreeSet<(&str, &str)> = found.values().map(Entry::key).collect();
         left_out += known.intersection(&present).count();
@@ -145,7 +145,7 @@ impl Baseline {
     /// Removes the known findings of one program.
     #[cfg(feature = "lsp")]
     pub(crate) fn keep_new(&self, batch: &mut Batch) {
-        let found = self.entries(&[&*batch]);
+        let found = self.entries([&*batch]);
         let known: BTreeSet<(&str, &str)> = self.known.iter().map(Entry::key).collect();
         keep_new(batch, &found, &known);
     }
@@ -158,8 +158,7 @@ impl Baseline {
         let checked = self.checked(units);
         let elsewhere = |entry: &&Entry| !checked.contains(&entry.file) && self.folder.0.join(&entry.file).exists();
         let mut findings: Vec<Entry> = self.known.iter().filter(elsewhere).cloned().collect();
-        let batches: Vec<&Batch> = units.iter().map(|unit| &unit.batch).collect();
-        findings.extend(self.entries(&batches).into_values());
+        findings.extend(self.entries(units.iter().copied().flat_map(judged)).into_values());
         findings.sort();
         let count = findings.len();
         let document = Document { version: VERSION, findings };
@@ -174,7 +173,7 @@ impl Baseline {
     }
 
     /// The finding of each diagnostic, each once though programs share files.
-    fn entries(&self, batches: &[&Batch]) -> BTreeMap<Told, Entry> {
+    fn entries<'b>(&self, batches: impl IntoIterator<Item = &'b Batch>) -> BTreeMap<Told, Entry> {
         let mut seen = BTreeSet::new();
         let mut findings = Vec::new();
         for batch in batches {
@@ -196,7 +195,7 @@ impl Baseline {
         let names = |sources: &SourceMap| -> Vec<String> {
             sources.files().map(|(_, file)| self.folder.name_of(file.name())).collect()
         };
-        units.iter().flat_map(|unit| names(&unit.batch.sources)).collect()
+        units.iter().flat_map(|unit| unit.batches()).flat_map(|batch| names(&batch.sources)).collect()
     }
 }
 
@@ -226,6 +225,16 @@ impl Entry {
     fn key(&self) -> (&str, &str) {
         (&self.file, &self.fingerprint)
     }
+}
+
+/// The diagnostics that a baseline may have: that a file cannot be read is no finding in it.
+fn judged(unit: &Unit) -> impl Iterator<Item = &Batch> {
+    unit.unread.iter().filter(|batch| !is_unreadable(batch)).chain([&unit.batch])
+}
+
+/// Whether a file could not be read at all.
+pub(crate) fn is_unreadable(batch: &Batch) -> bool {
+    Exit::of(&batch.diagnostics) == Exit::Usage
 }
 
 /// Removes the findings of a batch that are known.

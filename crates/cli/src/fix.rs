@@ -245,10 +245,7 @@ impl Fixer {
 
 /// The number of errors of each unit.
 fn n_errors(units: &[Unit]) -> Vec<usize> {
-    let of = |unit: &Unit| {
-        let batches = unit.unread.iter().chain([&unit.batch]);
-        batches.flat_map(|batch| &batch.diagnostics).filter(|one| one.is_error()).count()
-    };
+    let of = |unit: &Unit| unit.batches().flat_map(|batch| &batch.diagnostics).filter(|one| one.is_error()).count();
     units.iter().map(of).collect()
 }
 

@@ -79,10 +79,14 @@ impl Unit {
         self.program.is_some() || self.kept.is_some()
     }
 
+    /// All of its diagnostics: of files that could not be read, and of the compiler.
+    pub(crate) fn batches(&self) -> impl Iterator<Item = &Batch> {
+        self.unread.iter().chain([&self.batch])
+    }
+
     /// The exit code of the diagnostics.
     pub(crate) fn exit(&self) -> Exit {
-        let unread = self.unread.iter().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default();
-        unread.max(Exit::of(&self.batch.diagnostics))
+        self.batches().map(|batch| Exit::of(&batch.diagnostics)).max().unwrap_or_default()
     }
 
     /// The program, unless it has any error (which may be a denied warning).
@@ -340,7 +344,7 @@ impl<'a> Session<'a> {
 
     /// Reports the diagnostics of these units; see [`Self::tell`].
     pub(crate) fn tell_units(&self, units: &[Unit], to_output: bool) -> Result<Exit, Failure> {
-        let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
+        let batches: Vec<&Batch> = units.iter().flat_map(Unit::batches).collect();
         self.tell(&batches, to_output)
     }
 }

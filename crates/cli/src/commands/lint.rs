@@ -3,8 +3,9 @@
 use crate::arguments::args::{BindingArgs, DiagnosticFormat, LevelArgs, ProgramArgs, SourceArgs};
 use crate::arguments::config::Settings;
 use crate::arguments::settings::numbers;
-use crate::baseline::BaselineArgs;
+use crate::baseline::{BaselineArgs, is_unreadable};
 use crate::baselines::Baselines;
+use crate::batch::Batch;
 use crate::cache::CacheArgs;
 use crate::commands::examples::Examples;
 use crate::commands::permutations;
@@ -157,7 +158,9 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
     baselines.complete(&args.baseline, &mut session, &units)?;
     if args.baseline.updates() {
         baselines.update(&mut session, &units, console)?;
-        return Ok(Exit::Ok);
+        let unread = units.iter().flat_map(|unit| &unit.unread);
+        let unreadable: Vec<&Batch> = unread.filter(|batch| is_unreadable(batch)).collect();
+        return if unreadable.is_empty() { Ok(Exit::Ok) } else { session.tell(&unreadable, true) };
     }
     baselines.apply(&mut units, Some(console).filter(|_| session.is_human()));
     if !args.fixes.any() {

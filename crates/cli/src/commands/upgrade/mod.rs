@@ -126,7 +126,7 @@ pub(crate) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
     let places = Places::new(args, &inputs);
     let mut session = Session::new(console, &args.sources, &BindingArgs::default(), &args.levels, 0)?;
     let units = session.compile(inputs.groups);
-    let batches: Vec<&Batch> = units.iter().flat_map(|unit| unit.unread.iter().chain([&unit.batch])).collect();
+    let batches: Vec<&Batch> = units.iter().flat_map(Unit::batches).collect();
     let exit = units.iter().map(Unit::exit).max().unwrap_or_default();
     if exit > Exit::Ok {
         return session.tell(&batches, false);
