@@ -102,7 +102,7 @@ impl Baseline {
                 true => "delete it if it may be replaced, or name another file",
                 false => "`--update-baseline` writes one to another file",
             };
-            Failure::usage(format!("`{name}` is no baseline: {why}")).help(help)
+            Failure::new(Exit::Content, format!("`{name}` is no baseline: {why}")).help(help)
         };
         let document: Document = serde_json::from_slice(&bytes).map_err(|error| refused(error.to_string()))?;
         if document.version != VERSION {
