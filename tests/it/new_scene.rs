@@ -316,6 +316,19 @@ fn a_vertex_shader_alone_shows_its_varyings() {
     draws(&[("es.vert", es)], &["es.vert"]);
 }
 
+/// A scene whose pictures would need two formats is not written.
+#[test]
+fn outputs_of_two_kinds_have_no_scene() {
+    let fragment = "#version 150\nout vec4 a;\nout ivec2 b;\nvoid main() { a = vec4(1.0); b = ivec2(1); }\n";
+    let folder = Folder::new(&[("a.frag", fragment.as_bytes())]);
+    let made = folder.run(&["new-scene", "a.frag", "-o", "a.toml"]);
+    assert_eq!(code(&made), 1);
+    assert!(err(&made).contains("`a` (vec4) and `b` (ivec2) need two"), "{}", err(&made));
+    assert!(!folder.path("a.toml").exists());
+    let picture = folder.run(&["new-scene", "a.frag", "-o", "a.png"]);
+    assert!(code(&picture) == 2 && err(&picture).contains("`a.png` is the name of a picture"), "{}", err(&picture));
+}
+
 #[test]
 fn attributes_without_a_position() {
     let vertex = "#version 150\nin vec2 texCoord;\nin vec3 weightColor;\nuniform sampler2D positions;\nout vec3 color;\n\

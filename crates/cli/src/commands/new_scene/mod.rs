@@ -30,13 +30,14 @@ use choice::{Choice, Taste};
 use clap::Args;
 use forms::{Shape, forms, shape_of};
 use glisten_front::hir::{Global, Shader, Stage, Storage};
-use glisten_front::link::Program;
+use glisten_front::link::{Output, Program};
+use glisten_scene::picture::ImageFormat;
 use glisten_scene::{default_tessellation, shape_names, toml_string};
 use glisten_sources::engines::{Member, STYLES};
 use glisten_sources::stages::extension;
 use glisten_sources::{members, stages};
 use glisten_verify::scene::is_model_file;
-use reads::Reads;
+use reads::{Reads, scalar_of};
 use std::fmt::Write;
 use std::path::{Component, Path, PathBuf};
 use std::time::Instant;
@@ -121,6 +122,10 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         let failure = Failure::usage(format!("`{}` exists already", output.display()));
         return Err(failure.help("name a new file, or remove the old one"));
     }
+    if let Some(output) = args.output.as_deref().filter(|output| ImageFormat::of_name(output).is_some()) {
+        let failure = Failure::usage(format!("`{}` is the name of a picture", output.display()));
+        return Err(failure.help("name the scene, `-o SCENE.toml`; `glisten render` draws it"));
+    }
     if let [model] = args.files.as_slice()
         && is_model_file(model)
     {
@@ -168,9 +173,29 @@ pub(crate) fn make(args: &NewSceneArgs, console: &Console) -> Result<Result<Made
     let Some((unit, program)) = units.first().and_then(|unit| Some((unit, unit.sound_program()?))) else {
         return Ok(Err(exit.max(Exit::Content)));
     };
+    refuse_mixed(program)?;
     let head = Head { stages, sources: source_lines(&args.sources, folder) };
     let scene = written(args, &session, (unit, program), &head, folder, console);
     Ok(Ok(Made { scene, shader, exit }))
+}
+
+/// The pictures of a scene have one format, which holds either fractions or integers of one kind.
+fn refuse_mixed(program: &Program) -> Result<(), Failure> {
+    let kind = |output: &Output| scalar_of(&program.types, output.ty);
+    let outputs = &program.interface.outputs;
+    let Some((first, other)) =
+        outputs.first().and_then(|first| Some((first, outputs.iter().find(|output| kind(output) != kind(first))?)))
+    else {
+        return Ok(());
+    };
+    let shown = |output: &Output| format!("`{}` ({})", output.name, program.types.name(output.ty));
+    let message = format!(
+        "no scene draws this program: the pictures of a scene have one format, and {} and {} need two",
+        shown(first),
+        shown(other)
+    );
+    Err(Failure::new(Exit::Content, message)
+        .help("write the integers as floats, or draw them with a program of their own"))
 }
 
 /// A scene that names the shaders of a program and nothing else: what a page shows until their errors are mended.
