@@ -206,7 +206,8 @@ fn wrong_files_and_keys_are_told_with_their_place() {
     }
     // A loop of nodes ends.
     let cycle = file.replacen("\"mesh\": 0,", "\"mesh\": 0, \"children\": [0, 1],", 1);
-    assert!(scene(PLAIN, &cycle).scene.is_some());
+    let cycle = scene(PLAIN, &cycle);
+    assert!(cycle.scene.is_some() && told(&cycle).concat().contains("its nodes are no trees"), "{:?}", told(&cycle));
     // A file is read once for all of its draws, and a missing one is told once.
     let missing = scene("[[scene]]\ngltf = \"b.gltf\"\n", &file);
     assert!(missing.io_error && told(&missing).len() == 1, "{:?}", told(&missing));
@@ -228,6 +229,28 @@ fn what_is_not_drawn_is_a_note() {
     ] {
         assert!(told.contains("W0912") && told.contains(words), "{told}");
     }
+}
+
+/// A camera without a view, textures and images that are not there; an image in a file that begins with a byte order mark is read.
+#[test]
+fn what_is_not_there_is_a_note() {
+    let textured = |texture: u32| {
+        format!(r#"{{"name": "t", "pbrMetallicRoughness": {{"baseColorTexture": {{"index": {texture}}}}}}}"#)
+    };
+    let image = r#", "images": [{"uri": "data:image/png;base64,AAAA"}], "textures": [{"source": 0}, {"source": 7}]"#;
+    for (texture, words) in [
+        (9, "there is no texture 9, which `t` names: it is left out"),
+        (1, "there is no image 7, which the texture of `t` names: it is left out"),
+    ] {
+        let loaded = scene(PLAIN, &squares(&[&textured(texture)], "", image));
+        assert!(told(&loaded).concat().contains(words), "{:?}", told(&loaded));
+    }
+    let blind = squares(&[PAINT], "", "").replace("\"yfov\": 0.5", "\"yfov\": 0");
+    let told_of_it = told(&scene(PLAIN, &blind)).concat();
+    assert!(told_of_it.contains("camera 0 is left out: its angle, its height or its planes"), "{told_of_it}");
+    let marked = format!("\u{feff}{}", squares(&[&textured(0)], "", image));
+    let told_of_it = told(&scene(PLAIN, &marked)).concat();
+    assert!(!told_of_it.contains("no glTF"), "{told_of_it}");
 }
 
 /// In an environment, a thick body is one draw that bends light. A strength of the mirror is one of its own, and leaves pass light on.

@@ -115,6 +115,8 @@ fn wrong_models_are_told_with_their_line() {
         ("a.gltf", b"{ \"asset\": {\"version\": \"1.0\"} }", "it is glTF 1.0, and version 2.0 is read"),
         ("a.gltf", b"{ \"asset\": ", "it is no glTF 2.0: EOF while parsing"),
         ("a.glb", b"glTF\x02\x00\x00\x00", "the file ends in its header"),
+        ("a.gltf", b"", "it is no glTF 2.0: it is empty"),
+        ("a.gltf", b"[]", "it is no glTF 2.0: it begins neither with `{` nor with `glTF`"),
         (
             "a.gltf",
             b"{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_draco_mesh_compression\"],\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}",
@@ -133,6 +135,32 @@ fn wrong_models_are_told_with_their_line() {
     let (code, _, text) =
         the_error(&with_mesh("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ", color = \"normal\""));
     assert!(code == "E0911" && text.contains("`a.obj` has no colors"), "{text}");
+}
+
+/// What a file names has to be in it, and indices are integers.
+#[test]
+fn wrong_references_of_gltf_are_told() {
+    let sparse = r#""sparse": {"count": 25, "indices": {"bufferView": 3, "componentType": 5123}, "values": {"bufferView": 0}}, "#;
+    for (from, to, message) in [
+        ("\"mesh\": 0,", "\"mesh\": 0, \"skin\": 3,".to_owned(), "there is no skin 3"),
+        ("\"count\": 24", format!("{sparse}\"count\": 24"), "25 of its 24 elements are sparse"),
+        ("\"indices\": 3", "\"indices\": 0".to_owned(), "accessor 0: indices are single unsigned integers"),
+    ] {
+        let wrong = boxes(|text| {
+            assert!(text.contains(from), "{from}: {text}");
+            text.replacen(from, &to, 1)
+        });
+        let (code, _, text) = the_error(&with_mesh("a.gltf", &wrong, ""));
+        assert!(code == "E0911" && text.contains(message), "{text}");
+    }
+    // A file that it names and that cannot be read is no fault of its content.
+    let elsewhere = boxes(|text| {
+        let (before, data) = text.split_once("data:application").expect("it has a buffer");
+        let (_, after) = data.split_once('"').expect("the data end");
+        format!("{before}no.bin\"{after}")
+    });
+    let (code, _, said) = the_error(&with_mesh("a.gltf", &elsewhere, ""));
+    assert!(code == "E0901" && said.contains("cannot read `no.bin`: there is no such file"), "{said}");
 }
 
 /// The box of `boxes.gltf`, changed.
@@ -196,7 +224,6 @@ fn damaged_gltf_is_an_error_and_never_a_panic() {
         ("\"indices\": 3", "\"indices\": 33", "there is no accessor 33"),
         ("\"mesh\": 1", "\"mesh\": 7", "there is no mesh 7"),
         ("base64,", "base64,?", "its base64 is malformed"),
-        ("data:application/octet-stream;base64,", "no.bin?", "cannot read"),
         ("data:application/octet-stream;base64,", "https://example.org/", "nothing is downloaded"),
     ];
     for (from, to, message) in changes {

@@ -4,6 +4,7 @@
 //! the loader itself does no I/O. It asks a [`FileSource`], so tests and pages supply files from memory, and the
 //! program uses [`DiskFiles`].
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, ErrorKind, Read};
@@ -79,6 +80,29 @@ pub trait FileSource {
     /// # Errors
     /// The reason for the failure.
     fn read(&self, path: &str) -> Result<Vec<u8>, FileError>;
+}
+
+/// The files of a source, with whether one of them could not be read.
+pub(crate) struct Noting<'a> {
+    files: &'a dyn FileSource,
+    failed: Cell<bool>,
+}
+
+impl<'a> Noting<'a> {
+    pub(crate) fn new(files: &'a dyn FileSource) -> Self {
+        Self { files, failed: Cell::new(false) }
+    }
+
+    /// Whether a file that was asked for could not be read.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.failed.get()
+    }
+}
+
+impl FileSource for Noting<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        self.files.read(path).inspect_err(|_| self.failed.set(true))
+    }
 }
 
 /// The files of the file system, relative to the working directory.

@@ -21,7 +21,7 @@ pub(crate) use gltf::{
     is_gltf, passes,
 };
 pub use model::is_model_file;
-pub(crate) use model::{Look, Model, ModelCamera, Projection, TextureSource};
+pub(crate) use model::{Look, Model, ModelCamera, ModelError, Projection, TextureSource};
 pub(crate) use mtl::parse as parse_mtl;
 pub(crate) use normals::Normals;
 pub(crate) use soup::Soup;

@@ -5,7 +5,7 @@
 
 use super::normals::Normals;
 use super::{Geometry, MAX_TRIANGLES, Soup, gltf, obj};
-use crate::files::FileSource;
+use crate::files::{FileSource, Noting};
 use glam::{DMat4, DVec3};
 use std::collections::BTreeSet;
 
@@ -23,6 +23,15 @@ pub(crate) struct Model {
     pub(crate) remarks: Vec<String>,
     /// Why there are no parts, if there are none: a scene may take its lights and cameras alone.
     pub(crate) nothing: Option<&'static str>,
+}
+
+/// Why a model cannot be read.
+#[derive(Clone, Debug)]
+pub(crate) struct ModelError {
+    /// A sentence about the file, which it does not name.
+    pub(crate) sentence: String,
+    /// Whether a file that it names cannot be read, rather than its own content.
+    pub(crate) is_unread: bool,
 }
 
 /// Triangles of one material.
@@ -118,13 +127,20 @@ impl Model {
     ///
     /// # Errors
     /// A sentence about the file, which it does not name, with the line if the format has lines.
-    pub(crate) fn read(path: &str, bytes: &[u8], files: &dyn FileSource) -> Result<Self, String> {
+    pub(crate) fn read(path: &str, bytes: &[u8], files: &dyn FileSource) -> Result<Self, ModelError> {
+        let files = Noting::new(files);
+        let read = Self::parse(path, bytes, &files);
+        read.map_err(|sentence| ModelError { sentence, is_unread: files.has_failed() })
+    }
+
+    fn parse(path: &str, bytes: &[u8], files: &dyn FileSource) -> Result<Self, String> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let model = if bytes.starts_with(b"glTF") || text.trim_ascii_start().starts_with(b"{") {
             gltf::read(path, text, files)?
         } else {
             refuse_other_formats(path, bytes)?;
-            obj::parse(&String::from_utf8_lossy(text))?
+            let read = obj::parse(&String::from_utf8_lossy(text));
+            read.map_err(|error| if is_named_gltf(path) { no_gltf(text) } else { error })?
         };
         let triangles: usize = model.parts.iter().map(|part| part.soup.triangles.len()).sum();
         if triangles > MAX_TRIANGLES {
@@ -159,10 +175,23 @@ impl Model {
     }
 }
 
+/// Whether the name is that of a glTF file.
+fn is_named_gltf(path: &str) -> bool {
+    let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
+    ["gltf", "glb"].iter().any(|known| extension.eq_ignore_ascii_case(known))
+}
+
+fn no_gltf(text: &[u8]) -> String {
+    match text.trim_ascii() {
+        [] => "it is no glTF 2.0: it is empty".to_owned(),
+        _ => "it is no glTF 2.0: it begins neither with `{` nor with `glTF`".to_owned(),
+    }
+}
+
 /// Whether the name is that of a model that a scene can be made of: OBJ or glTF.
 pub fn is_model_file(path: &str) -> bool {
     let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
-    ["obj", "gltf", "glb"].iter().any(|known| extension.eq_ignore_ascii_case(known))
+    extension.eq_ignore_ascii_case("obj") || is_named_gltf(path)
 }
 
 /// The first bytes of other formats.

@@ -8,7 +8,7 @@ mod looks;
 mod surfaces;
 
 use crate::files::{FileError, FileSource};
-use crate::geometry::{Framing, Model, Normals, is_gltf};
+use crate::geometry::{Framing, Model, ModelError, Normals, is_gltf};
 use crate::toml_string::toml_string;
 use looks::Shown;
 use std::collections::BTreeSet;
@@ -32,6 +32,14 @@ pub enum PortraitError {
     File(FileError),
     /// The file is no model; a sentence.
     Model(String),
+    /// A file that the model names cannot be read; a sentence.
+    Part(String),
+}
+
+impl From<ModelError> for PortraitError {
+    fn from(error: ModelError) -> Self {
+        if error.is_unread { Self::Part(error.sentence) } else { Self::Model(error.sentence) }
+    }
 }
 
 /// The scene for the model at `path`, which the scene names as `name`.
@@ -40,7 +48,7 @@ pub enum PortraitError {
 /// The file cannot be read, or is no model.
 pub fn portrait(path: &str, name: &str, files: &dyn FileSource) -> Result<Portrait, PortraitError> {
     let bytes = files.read(path).map_err(PortraitError::File)?;
-    let model = Model::read(path, &bytes, files).map_err(PortraitError::Model)?;
+    let model = Model::read(path, &bytes, files)?;
     if let Some(nothing) = model.nothing {
         return Err(PortraitError::Model(nothing.to_owned()));
     }

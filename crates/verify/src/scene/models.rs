@@ -31,10 +31,11 @@ fn failed(path: &str, error: &PortraitError) -> Loaded {
     let (code, message) = match error {
         PortraitError::File(error) => (&SCENE_FILE_UNREADABLE, format!("cannot read `{path}`: {error}")),
         PortraitError::Model(error) => (&SCENE_BAD_ASSET, format!("`{path}`: {error}")),
+        PortraitError::Part(error) => (&SCENE_FILE_UNREADABLE, format!("`{path}`: {error}")),
     };
     let mut diagnostics = Diagnostics::default();
     diagnostics.push(Diagnostic::new(code, Span::default(), message));
-    let io_error = matches!(error, PortraitError::File(_));
+    let io_error = matches!(error, PortraitError::File(_) | PortraitError::Part(_));
     Loaded { scene: None, sources: SourceMap::default(), diagnostics, io_error }
 }
 

@@ -13,6 +13,7 @@ pub(crate) fn run(path: &str, name: &str, output: Option<&Path>, console: &Conso
     let made = portrait(path, name, &SceneFiles).map_err(|error| match error {
         PortraitError::File(error) => Failure::usage(format!("cannot read `{path}`: {error}")),
         PortraitError::Model(error) => Failure::new(Exit::Content, format!("`{path}`: {error}")),
+        PortraitError::Part(error) => Failure::usage(format!("`{path}`: {error}")),
     })?;
     for remark in &made.remarks {
         console.remark(&format!("note: `{path}`: {remark}"));

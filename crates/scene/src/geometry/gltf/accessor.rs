@@ -39,6 +39,23 @@ pub(super) fn read(root: &Root, buffers: &mut Buffers<'_>, index: Index<Accessor
     values(root, buffers, accessor).map_err(|error| format!("accessor {number}: {error}"))
 }
 
+/// Reads an accessor of the indices of vertices (§3.7.2.1).
+pub(super) fn indices(root: &Root, buffers: &mut Buffers<'_>, index: Index<Accessor>) -> Result<Vec<u32>, String> {
+    let numbers = read(root, buffers, index)?;
+    let kind = root.get(index).map(|accessor| accessor.component_type);
+    let is_unsigned = matches!(
+        kind,
+        Some(Checked::Valid(GenericComponentType(ComponentType::U8 | ComponentType::U16 | ComponentType::U32)))
+    );
+    if !is_unsigned || numbers.width != 1 {
+        return Err(format!(
+            "accessor {}: indices are single unsigned integers, and it has other elements",
+            index.value()
+        ));
+    }
+    Ok(numbers.values.into_iter().map(|value| value as u32).collect())
+}
+
 fn values(root: &Root, buffers: &mut Buffers<'_>, accessor: &Accessor) -> Result<Numbers, String> {
     let Checked::Valid(GenericComponentType(kind)) = accessor.component_type else {
         return Err("its component type is unknown".to_owned());
@@ -60,7 +77,10 @@ fn values(root: &Root, buffers: &mut Buffers<'_>, accessor: &Accessor) -> Result
         }
     };
     if let Some(sparse) = &accessor.sparse {
-        let n_changed = sparse.count.0.min(accessor.count.0) as usize;
+        if sparse.count.0 > accessor.count.0 {
+            return Err(format!("{} of its {count} elements are sparse", sparse.count.0));
+        }
+        let n_changed = sparse.count.0 as usize;
         let Checked::Valid(index) = sparse.indices.component_type else {
             return Err("the type of its sparse indices is unknown".to_owned());
         };

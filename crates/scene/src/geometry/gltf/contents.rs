@@ -28,8 +28,7 @@ pub(crate) struct Contents {
 /// # Errors
 /// A sentence about the file.
 pub(crate) fn contents(bytes: &[u8], surrounded: bool) -> Result<Contents, String> {
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let (root, _) = super::document(text)?;
+    let (root, _) = super::document(bytes)?;
     super::check_extensions(&root)?;
     let nodes = Nodes::of(&root)?;
     let mut contents = Contents::default();
@@ -37,7 +36,8 @@ pub(crate) fn contents(bytes: &[u8], surrounded: bool) -> Result<Contents, Strin
     for &number in &nodes.order {
         let Some(node) = root.nodes.get(number) else { continue };
         let world = nodes.world(number);
-        if let Some(camera) = node.camera.and_then(|camera| super::model_camera(&root, camera, world)) {
+        let remarks = &mut contents.remarks;
+        if let Some(camera) = node.camera.and_then(|camera| super::model_camera(&root, camera, world, remarks)) {
             let own = node.camera.and_then(|camera| root.get(camera)?.name.clone());
             let name = own.or_else(|| node.name.clone()).unwrap_or_default();
             contents.cameras.push((name, camera));

@@ -55,6 +55,9 @@ fn exponent(roughness: f64) -> f64 {
     (2.0 / roughness.max(0.1).powi(4) - 2.0).clamp(1.0, 512.0)
 }
 
+/// The number of the image of a texture that names none: an extension does.
+const NO_SOURCE: u32 = u32::MAX;
+
 /// Where the image of a texture is.
 pub(super) fn source(
     root: &Root,
@@ -62,9 +65,18 @@ pub(super) fn source(
     name: &str,
     remarks: &mut Vec<String>,
 ) -> Option<TextureSource> {
-    let texture = root.get(index)?;
+    let number = index.value();
+    let Some(texture) = root.get(index) else {
+        remarks.push(format!("there is no texture {number}, which `{name}` names: it is left out"));
+        return None;
+    };
     let Some(image) = root.get(texture.source) else {
-        remarks.push(format!("the texture of `{name}` is in a format that is not read (KTX or WebP): it is left out"));
+        remarks.push(match texture.source.value() as u32 {
+            NO_SOURCE => {
+                format!("the texture of `{name}` is in a format that is not read (KTX or WebP): it is left out")
+            }
+            image => format!("there is no image {image}, which the texture of `{name}` names: it is left out"),
+        });
         return None;
     };
     match &image.uri {

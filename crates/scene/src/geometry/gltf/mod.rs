@@ -59,7 +59,7 @@ pub(super) fn read(path: &str, bytes: &[u8], files: &dyn FileSource) -> Result<M
     let buffers = Buffers::new(path, &root, blob, files);
     let nodes = Nodes::of(&root)?;
     let mut builder = Builder::new(&root, buffers);
-    let mut camera = None;
+    let (mut camera, mut left_out) = (None, Vec::from_iter(nodes.remark()));
     for &node in &nodes.order {
         let Some(found) = root.nodes.get(node) else { continue };
         let world = nodes.world(node);
@@ -69,9 +69,10 @@ pub(super) fn read(path: &str, bytes: &[u8], files: &dyn FileSource) -> Result<M
                 builder.mesh(mesh, found.skin, world * copy, &nodes).map_err(named)?;
             }
         }
-        camera = camera.or_else(|| model_camera(&root, found.camera?, world));
+        camera = camera.or_else(|| model_camera(&root, found.camera?, world, &mut left_out));
     }
     let (parts, mut remarks) = builder.finish();
+    remarks.append(&mut left_out);
     let why = if root.meshes.is_empty() { "it has no meshes" } else { "its scene has no triangles" };
     let nothing = parts.is_empty().then_some(why);
     let looks = looks::of(&root, &mut remarks);
@@ -98,6 +99,7 @@ pub(crate) fn image(path: &str, bytes: &[u8], number: u32, files: &dyn FileSourc
 
 /// The JSON of a file, and the chunk of a binary one.
 fn document(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), String> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let malformed = |error: &dyn std::fmt::Display| format!("it is no glTF 2.0: {error}");
     let (json, blob) = if bytes.starts_with(b"glTF") {
         if bytes.len() < 20 {
@@ -128,8 +130,17 @@ fn check_extensions(root: &Root) -> Result<(), String> {
     Ok(())
 }
 
-fn model_camera(root: &Root, camera: Index<Camera>, world: DMat4) -> Option<ModelCamera> {
-    let camera = root.get(camera)?;
+/// A camera in world space; a remark says why there is none.
+fn model_camera(root: &Root, camera: Index<Camera>, world: DMat4, remarks: &mut Vec<String>) -> Option<ModelCamera> {
+    let number = camera.value();
+    let found = root.get(camera).ok_or_else(|| format!("there is no camera {number}, which a node names"));
+    found
+        .and_then(|camera| placed(camera, world).map_err(|why| format!("camera {number} is left out: {why}")))
+        .map_err(|remark| remarks.push(remark))
+        .ok()
+}
+
+fn placed(camera: &Camera, world: DMat4) -> Result<ModelCamera, &'static str> {
     let camera = match (&camera.perspective, &camera.orthographic) {
         (Some(given), _) => {
             let angle = f64::from(given.yfov).to_degrees();
@@ -139,11 +150,12 @@ fn model_camera(root: &Root, camera: Index<Camera>, world: DMat4) -> Option<Mode
             let half = Projection::Orthographic(given.ymag.into());
             ModelCamera::of_node(world, half, given.znear.into(), Some(given.zfar.into()))
         }
-        (None, None) => return None,
+        (None, None) => return Err("it is neither perspective nor orthographic"),
     };
     let is_sound = match camera.projection {
         Projection::Perspective(angle) => angle > 1.0 && angle < 179.0 && camera.near > 0.0,
         Projection::Orthographic(half) => half > 0.0,
     };
-    (is_sound && camera.eye.is_finite() && camera.far.is_none_or(|far| far > camera.near)).then_some(camera)
+    let sees = is_sound && camera.eye.is_finite() && camera.far.is_none_or(|far| far > camera.near);
+    sees.then_some(camera).ok_or("its angle, its height or its planes leave it no view")
 }

@@ -12,6 +12,8 @@ use std::collections::BTreeSet;
 pub(super) struct Nodes {
     /// Their numbers.
     pub(super) order: Vec<usize>,
+    /// How often the walk came to a node again: the nodes of a file are trees (§3.5.2).
+    n_again: usize,
     worlds: Vec<DMat4>,
 }
 
@@ -26,14 +28,17 @@ impl Nodes {
             None if !root.scenes.is_empty() => return Err(format!("there is no scene {scene}")),
             None => (0..root.nodes.len()).filter(|node| !children.contains(node)).collect(),
         };
-        let mut nodes = Self { order: Vec::new(), worlds: vec![DMat4::IDENTITY; root.nodes.len()] };
+        let mut nodes = Self { order: Vec::new(), n_again: 0, worlds: vec![DMat4::IDENTITY; root.nodes.len()] };
         let mut visited = vec![false; root.nodes.len()];
         let mut stack: Vec<(usize, DMat4)> = starts.into_iter().rev().map(|node| (node, DMat4::IDENTITY)).collect();
         while let Some((number, parent)) = stack.pop() {
             let node = root.nodes.get(number).ok_or_else(|| format!("there is no node {number}"))?;
             match visited.get_mut(number) {
                 Some(seen) if !*seen => *seen = true,
-                _ => continue,
+                _ => {
+                    nodes.n_again += 1;
+                    continue;
+                }
             }
             let world = parent * local(node);
             if !world.is_finite() {
@@ -46,6 +51,12 @@ impl Nodes {
             stack.extend(node.children.iter().flatten().rev().map(|child| (child.value(), world)));
         }
         Ok(nodes)
+    }
+
+    /// A sentence on nodes that more than one node has as its child, or that are below themselves.
+    pub(super) fn remark(&self) -> Option<String> {
+        let times = if self.n_again == 1 { "once".to_owned() } else { format!("{} times", self.n_again) };
+        (self.n_again > 0).then(|| format!("its nodes are no trees: {times}, a node is reached again, and is left out"))
     }
 
     /// The matrix of a node to world space.

@@ -61,8 +61,11 @@ impl<'a> Builder<'a> {
         let root = self.root;
         let number = mesh.value();
         let mesh = root.get(mesh).ok_or_else(|| format!("there is no mesh {number}"))?;
-        let joints = match skin.and_then(|skin| root.get(skin)) {
-            Some(skin) => self.joints(skin, nodes)?,
+        let joints = match skin {
+            Some(skin) => {
+                let found = root.get(skin).ok_or_else(|| format!("there is no skin {}", skin.value()))?;
+                self.joints(found, nodes)?
+            }
             None => Vec::new(),
         };
         for primitive in &mesh.primitives {
@@ -129,10 +132,7 @@ impl<'a> Builder<'a> {
         }
         let mirrored = self.place(primitive, &mut soup, world, joints)?;
         let indices: Vec<u32> = match primitive.indices {
-            Some(indices) => {
-                let numbers = accessor::read(self.root, &mut self.buffers, indices)?;
-                numbers.values.into_iter().map(|value| value as u32).collect()
-            }
+            Some(indices) => accessor::indices(self.root, &mut self.buffers, indices)?,
             None => (0..count as u32).collect(),
         };
         if let Some(past) = indices.iter().find(|index| **index as usize >= count) {

@@ -5,7 +5,7 @@
 use super::super::Loader;
 use crate::geometry::{Geometry, Model, Normals};
 use crate::tables::{Node, NumberValue};
-use glisten_front::diagnostic::codes::scenes::{SCENE_BAD_ASSET, SCENE_WRONG_VALUE};
+use glisten_front::diagnostic::codes::scenes::{SCENE_BAD_ASSET, SCENE_FILE_UNREADABLE, SCENE_WRONG_VALUE};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::source::Span;
 use std::sync::Arc;
@@ -119,7 +119,9 @@ impl Loader<'_> {
         let model = match read {
             Some(Ok(model)) => Some(Arc::new(model)),
             Some(Err(error)) => {
-                self.reader.error(&SCENE_BAD_ASSET, span, format!("`{path}`: {error}"), "not a mesh that can be read");
+                let code = if error.is_unread { &SCENE_FILE_UNREADABLE } else { &SCENE_BAD_ASSET };
+                let message = format!("`{path}`: {}", error.sentence);
+                self.reader.error(code, span, message, "not a mesh that can be read");
                 None
             }
             None => None,
