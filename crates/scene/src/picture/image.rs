@@ -57,6 +57,9 @@ impl Size {
 
     /// Rejects larger pictures.
     pub(super) fn bound(self, width: usize, height: usize) -> Result<(u32, u32), ImageError> {
+        if width == 0 || height == 0 {
+            return Err(ImageError(format!("it has {width}x{height} pixels, which is none")));
+        }
         let side = |side: usize| u32::try_from(side).ok().filter(|side| *side <= self.max_side);
         match (side(width), side(height)) {
             (Some(width), Some(height)) if u64::from(width) * u64::from(height) <= self.max_pixels => {
