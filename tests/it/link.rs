@@ -98,6 +98,12 @@ fn elements_of_arrays_have_their_offsets() {
         Found::Known(found) => found.into_iter().map(|one| one.description).collect::<Vec<_>>().join("\n"),
         Found::Unknown { .. } => "unknown".to_owned(),
     };
+    let near = |name: &str| match find(&program, &reflection, name) {
+        Found::Known(found) => panic!("{found:?}"),
+        Found::Unknown { nearest } => nearest,
+    };
+    // Past the end, and with a block before it that has no instance.
+    assert_eq!((near("w[4]").as_deref(), near("Block.first").as_deref()), (Some("w"), Some("first")));
     assert_eq!(told("w[2]"), "`w[2]` is an element of the uniform `w`: vec4 at group 0, binding 0, offset 48");
     assert_eq!(told("w[0]"), "`w` is a uniform: vec4[4] at group 0, binding 0, offset 16");
     assert_eq!([told("w[4]"), told("w[-1]"), told("first[0][1]")], ["unknown"; 3]);

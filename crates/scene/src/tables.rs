@@ -8,7 +8,7 @@ use glisten_front::diagnostic::codes::general::BAD_CONFIG;
 use glisten_front::diagnostic::codes::scenes::{
     SCENE_SYNTAX, SCENE_UNKNOWN_KEY, SCENE_UNKNOWN_NAME, SCENE_WRONG_TYPE, SCENE_WRONG_VALUE,
 };
-use glisten_front::diagnostic::{Advice, Code, Diagnostic, Diagnostics, did_you_mean};
+use glisten_front::diagnostic::{Advice, Code, Diagnostic, Diagnostics, did_you_mean, nearest_path};
 use glisten_front::source::Span;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
@@ -400,23 +400,6 @@ pub fn list(names: &[&str]) -> String {
     }
 }
 
-/// The name that has the same last member, or that of a member where the whole was named: hosts name members after the block rather than
-/// its instance, after nothing where the block has no instance, and elements one by one.
-fn of_that_member<'c>(name: &str, candidates: &[&'c str]) -> Option<&'c str> {
-    let last = |path: &str| {
-        let member = path.rsplit('.').next().unwrap_or(path);
-        member.split('[').next().unwrap_or(member).to_owned()
-    };
-    let root = |path: &str| path.split(['.', '[']).next().unwrap_or(path).to_owned();
-    let member = last(name);
-    let alike: Vec<&str> = candidates.iter().copied().filter(|candidate| last(candidate) == member).collect();
-    let of_root = alike.iter().copied().find(|candidate| root(candidate) == root(name));
-    let part = |candidate: &&str| {
-        candidate.strip_prefix(name).is_some_and(|rest| rest.starts_with('.') || rest.starts_with('['))
-    };
-    of_root.or(alike.first().copied()).or_else(|| candidates.iter().copied().find(part))
-}
-
 /// Reports a name that the program does not declare, and suggests the most similar one, which is returned.
 pub fn report_unknown_name<'c>(
     reader: &mut Reader,
@@ -425,7 +408,7 @@ pub fn report_unknown_name<'c>(
     name: &str,
     candidates: &[&'c str],
 ) -> Option<&'c str> {
-    let near = did_you_mean(name, candidates.iter().copied()).or_else(|| of_that_member(name, candidates));
+    let near = nearest_path(name, candidates);
     let help = match near {
         Some(near) if near.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') => {
             Some(Advice::meant(near))

@@ -206,3 +206,25 @@ pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str
         .min()
         .map(|(_, candidate)| candidate)
 }
+
+/// The path among `candidates` that `name` most likely means: the most similar one, or one of the same last member.
+pub fn nearest_path<'c>(name: &str, candidates: &[&'c str]) -> Option<&'c str> {
+    did_you_mean(name, candidates.iter().copied()).or_else(|| of_that_member(name, candidates))
+}
+
+/// The name that has the same last member, or that of a member where the whole was named: hosts name members after the block rather than
+/// its instance, after nothing where the block has no instance, and elements one by one.
+fn of_that_member<'c>(name: &str, candidates: &[&'c str]) -> Option<&'c str> {
+    let last = |path: &str| {
+        let member = path.rsplit('.').next().unwrap_or(path);
+        member.split('[').next().unwrap_or(member).to_owned()
+    };
+    let root = |path: &str| path.split(['.', '[']).next().unwrap_or(path).to_owned();
+    let member = last(name);
+    let alike: Vec<&str> = candidates.iter().copied().filter(|candidate| last(candidate) == member).collect();
+    let of_root = alike.iter().copied().find(|candidate| root(candidate) == root(name));
+    let part = |candidate: &&str| {
+        candidate.strip_prefix(name).is_some_and(|rest| rest.starts_with('.') || rest.starts_with('['))
+    };
+    of_root.or(alike.first().copied()).or_else(|| candidates.iter().copied().find(part))
+}

@@ -4,7 +4,7 @@
 //! returns -1, so the answer says which kind a name is.
 
 use super::{Binding, Reflection};
-use glisten_front::diagnostic::did_you_mean;
+use glisten_front::diagnostic::nearest_path;
 use glisten_front::hir::Storage;
 use glisten_front::link::Program;
 use serde::Serialize;
@@ -238,5 +238,5 @@ fn nearest(program: &Program, reflection: &Reflection, name: &str) -> Option<Str
     names.extend(reflection.uniforms.iter().map(|row| row.name.as_str()));
     names.extend(reflection.samplers.iter().map(|row| row.name.as_str()));
     names.extend(program.stages.iter().flat_map(|shader| &shader.globals).map(|global| global.name.as_str()));
-    did_you_mean(name, names).map(str::to_owned)
+    nearest_path(name, &names).map(str::to_owned)
 }
