@@ -237,7 +237,12 @@ pub(crate) fn told(exit: Exit, text: &str) -> Failure {
 /// The GPU with that name, or the first one.
 pub(crate) fn open_gpu(name: Option<&str>) -> Result<Gpu, Error> {
     let _work = journal::at_work("listing the adapters");
-    let gpu = Gpu::new(name)?;
+    let gpu = Gpu::new(name).inspect_err(|error| {
+        // wgpu's words; where `--max-memory` is why, that is told.
+        if error.to_string().contains("Not enough memory") {
+            memory::exhausted();
+        }
+    })?;
     journal::note(&Note::Driver(gpu.adapter().driver.clone()));
     Ok(gpu)
 }

@@ -72,9 +72,14 @@ impl fmt::Display for Error {
                     f,
                     "no Vulkan {kind}adapter was found: {found}\n\
                      help: install Mesa's driver (Debian, Ubuntu: `apt-get install mesa-vulkan-drivers`; \
-                     Fedora: `dnf install mesa-vulkan-drivers`; Arch: `pacman -S vulkan-swrast`), \
-                     choose another adapter with `--adapter NAME`, or draw with `--backend cpu`",
-                )
+                     Fedora: `dnf install mesa-vulkan-drivers`; Arch: `pacman -S vulkan-swrast`)"
+                )?;
+                f.write_str(if available.is_empty() {
+                    ""
+                } else {
+                    ", or choose another adapter with `--adapter NAME`"
+                })?;
+                f.write_str("; `glisten render --backend cpu` draws without one")
             }
             Self::UnknownAdapter { name, available } if available.is_empty() => {
                 write!(

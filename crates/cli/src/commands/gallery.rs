@@ -75,12 +75,12 @@ enum GalleryBackend {
 pub(crate) fn run(args: &GalleryArgs, console: &Console) -> Outcome {
     args.backend.require()?;
     let entries = gallery::entries().map_err(internal)?;
-    files::make_folder(&args.output)?;
     let backend = match args.backend {
         Backend::Gpu => GalleryBackend::Gpu(Box::new(args.machine.gpu().map_err(failure)?), args.via.into()),
         Backend::Cpu => GalleryBackend::Cpu,
         Backend::Gl => GalleryBackend::OpenGl,
     };
+    files::make_folder(&args.output)?;
     let progress = Progress::new(console, entries.len());
     let mut drawings = Vec::with_capacity(entries.len());
     for entry in &entries {

@@ -164,11 +164,11 @@ pub(crate) fn run(args: &ReportArgs, console: &Console) -> Outcome {
         Some(Err(exit)) => return Ok(exit),
         read => read.and_then(Result::ok),
     };
-    files::make_folder(&args.output)?;
     let gpu = match args.scene.gpu() {
         Ok(gpu) => gpu,
         Err(error) => return told(session, SourceMap::default(), error),
     };
+    files::make_folder(&args.output)?;
     let options = Options {
         via: args.via.into(),
         specialized: args.specialize.then(|| args.contract.contract()),
