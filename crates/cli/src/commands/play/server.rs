@@ -14,7 +14,7 @@ use super::pages::Pages;
 use crate::console::Console;
 use crate::exit::{Exit, Failure, Outcome};
 use crate::process::interrupt::Interrupt;
-use glisten_sources::stages;
+use glisten_sources::{read_bounded, stages};
 use percent_encoding::percent_decode_str;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -233,7 +233,7 @@ impl Server {
         let name = percent_decode_str(path.strip_prefix('/').unwrap_or(path)).decode_utf8_lossy().into_owned();
         let name = Path::new(&self.root).join(name).to_string_lossy().into_owned();
         let Some(path) = self.path(&name) else { return outside() };
-        match std::fs::read(&path) {
+        match read_bounded(Path::new(&path)) {
             Ok(body) => Answer { status: 200, kind: "text/plain; charset=utf-8", body },
             Err(_) => Answer::refused(404, "there is no such file"),
         }
