@@ -167,8 +167,8 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
         return session.tell_units(&units, true);
     }
     if groups.iter().flat_map(|group| &group.inputs).any(|input| input.path.is_none()) {
-        let message = "standard input cannot be fixed in its place";
-        return Err(Failure::usage(message).help("name the file"));
+        let message = "fixes change files, and standard input is none";
+        return Err(Failure::usage(message).help("name the file; `--format json` has the fixes of standard input"));
     }
     let mut fixer = Fixer::new(args.fixes);
     while fixer.advance(&units) {

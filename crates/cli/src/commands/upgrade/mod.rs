@@ -118,6 +118,10 @@ pub(crate) fn run(args: &UpgradeArgs, console: &Console) -> Outcome {
         let failure = Failure::usage("cannot write several files to standard output");
         return Err(failure.help("add `-o DIR` or `--in-place`"));
     }
+    if args.in_place && inputs.groups.iter().flat_map(|group| &group.inputs).any(|input| input.path.is_none()) {
+        let failure = Failure::usage("standard input has no place to be rewritten in");
+        return Err(failure.help("leave `--in-place` out"));
+    }
     let has_parts = inputs.groups.iter().flat_map(|group| &group.inputs).find(|input| input.part.is_some());
     if let Some(input) = has_parts.filter(|_| args.output.is_none() || !args.scenes.is_empty()) {
         let failure = Failure::usage(format!("`{}` contains several stages, each of which becomes a file", input.name));
