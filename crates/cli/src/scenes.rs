@@ -48,7 +48,7 @@ const MANY_SECONDS: f64 = 600.0;
 #[derive(Args, Clone, Debug)]
 pub(crate) struct MachineArgs {
     /// Give up after this many seconds: 60 by default, and 600 where a command measures or draws a scene many times
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true)]
     timeout: Option<f64>,
     /// The GPU to use, by a part of its name, or `software` (default: `GLISTEN_ADAPTER` of the environment, or the
     /// first hardware adapter, or else the first software adapter)
@@ -265,13 +265,13 @@ impl SceneArgs {
 
     /// Reads the scene and reports its diagnostics. Without a scene, returns the exit code.
     pub(crate) fn read<'a>(&self, console: &'a Console) -> Result<Result<Read<'a>, Exit>, Failure> {
+        // A model of many triangles takes as long as a picture.
+        let _watchdog = self.watchdog(console);
         let mut session = self.session(console)?;
         refuse_shader(&self.scene)?;
         let loaded = guard::guarded(|| scene::load(&self.scene, &SceneFiles, session.compiler()));
         let loaded = loaded.map_err(|panic| {
             Failure::new(Exit::Content, format!("internal error: {panic}")).help("please report it with the scene")
-        // A model of many triangles takes as long as a picture.
-        let _watchdog = self.watchdog(console);
         })?;
         let mut batch = Batch { sources: loaded.sources, diagnostics: Vec::new() };
         session.read_configuration(&self.scene);

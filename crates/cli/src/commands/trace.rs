@@ -24,7 +24,7 @@ pub(crate) struct TraceArgs {
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pixel: Option<[u32; 2]>,
     /// Follow this vertex
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     vertex: Option<u32>,
     /// The draw of the vertex
     #[arg(long, value_name = "N", default_value_t = 0, requires = "vertex", conflicts_with = "pixel")]

@@ -61,7 +61,7 @@ pub(crate) struct StabilityArgs {
     #[arg(long, value_name = "FILE.toml")]
     worst: Option<PathBuf>,
     /// The largest error of the picture that is accepted (default: that of the scene, or 1/1024)
-    #[arg(long, value_name = "X", value_parser = parse_bound)]
+    #[arg(long, value_name = "X", value_parser = parse_bound, allow_negative_numbers = true)]
     bound: Option<f64>,
     /// Accept errors of this share of a pixel's largest channel, too (for colors far above 1, of which f32 has fewer digits;
     /// default: that of the scene, or none)

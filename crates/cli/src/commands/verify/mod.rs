@@ -51,7 +51,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_enum, default_value_t)]
     format: VerifyFormat,
     /// Judge by this absolute difference per channel instead of the derived envelope
-    #[arg(long, value_name = "X", value_parser = parse_tolerance)]
+    #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Count pixels that the reference cannot decide as judged
     #[arg(long)]
