@@ -376,6 +376,24 @@ fn a_scene_reads_nothing_outside_of_the_sandbox() {
             assert_eq!(run(fragment, false).0, Some(0), "{fragment} is read without a sandbox");
         }
     }
+    // Modules of other translators, and files of arguments.
+    write("secret.wgsl", "@fragment fn main() {}\n");
+    write(
+        "inside/s.toml",
+        &format!("[framebuffer]\n{SMALL}\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"own.frag\"\n{THREE}\n"),
+    );
+    std::os::unix::fs::symlink("/dev/zero", inside.join("zero.wgsl")).expect("a link");
+    for module in ["fragment=secret.wgsl", "fragment=inside/zero.wgsl"] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_glisten"));
+        command.current_dir(folder.path()).args(["--sandbox", "inside", "verify", "inside/s.toml", "--with", module]);
+        let output = command.output().expect("the program runs");
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        let is_refused = output.status.code() == Some(2) && errors.contains("outside of the sandbox");
+        assert!(is_refused, "{module}: {errors}");
+    }
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_glisten"));
+    let output = command.args(["lint", "@/dev/zero"]).output().expect("the program runs");
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
     let (code, errors) = run("/dev/zero", false);
     assert!(code == Some(2) && errors.contains("a pipe or a device, not a file"), "{code:?} {errors}");
 }

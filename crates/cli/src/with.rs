@@ -5,7 +5,7 @@
 
 use crate::arguments::stages::StageArg;
 use crate::exit::{Exit, Failure};
-use crate::overwrite;
+use crate::files;
 use crate::scenes::gpu_failure;
 use clap::{Args, ValueEnum};
 use glisten_front::diagnostic::did_you_mean;
@@ -14,7 +14,7 @@ use glisten_gpu::{Foreign, Via};
 use glisten_verify::scene::Scene;
 
 /// The largest size of a file that is read; the reader of modules has a smaller limit of its own.
-const MAX_BYTES: u64 = 16 << 20;
+const MAX_BYTES: usize = 16 << 20;
 
 /// Modules of other translators.
 #[derive(Args, Clone, Debug, Default)]
@@ -112,17 +112,11 @@ impl With {
             let draws = if count == 1 { "one draw, 0".to_owned() } else { format!("{count} draws, counted from 0") };
             return Err(Failure::usage(format!("--with: there is no draw {draw}: the scene has {draws}")));
         }
-        let cannot = |why: &dyn std::fmt::Display| Failure::usage(format!("cannot read `{file}`: {why}"));
-        let facts = std::fs::metadata(file).map_err(|error| cannot(&error))?;
-        if facts.is_dir() {
-            return Err(cannot(&"it is a folder"));
-        }
-        if facts.len() > MAX_BYTES {
-            let message = format!("`{file}`: the file has {} bytes, and at most {MAX_BYTES} are read", facts.len());
+        let bytes = files::read(file, file.as_ref()).map_err(|error| Failure::usage(error.message))?;
+        if bytes.len() > MAX_BYTES {
+            let message = format!("`{file}`: the file has {} bytes, and at most {MAX_BYTES} are read", bytes.len());
             return Err(Failure::new(Exit::Content, message));
         }
-        overwrite::note(file.as_ref());
-        let bytes = std::fs::read(file).map_err(|error| cannot(&error))?;
         Foreign::read(*draw, *stage, file, &bytes, *via).map_err(gpu_failure)
     }
 }

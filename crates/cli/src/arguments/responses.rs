@@ -5,12 +5,17 @@
 //! name others. What begins with `@` and names no file stays as it is, as does what follows `--`.
 
 use crate::exit::Failure;
+use glisten_scene::may_end;
 use std::ffi::OsString;
-use std::fs;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
 
 /// How deep response files may name others, and how many words there may be.
 const MAX_DEPTH: usize = 32;
 const MAX_WORDS: usize = 1 << 20;
+/// The largest response file.
+const MAX_BYTES: u64 = 64 << 20;
 
 /// The arguments, with those of response files in their places.
 ///
@@ -29,9 +34,17 @@ pub(crate) fn expanded(arguments: Vec<OsString>) -> Result<Vec<OsString>, Failur
     Ok(words)
 }
 
+/// The bytes of a file; none of what is no file, never ends or is too large for arguments.
+fn read(path: &Path) -> Option<Vec<u8>> {
+    may_end(path).ok().filter(|ends| *ends)?;
+    let mut bytes = Vec::new();
+    File::open(path).ok()?.take(MAX_BYTES + 1).read_to_end(&mut bytes).ok()?;
+    (bytes.len() as u64 <= MAX_BYTES).then_some(bytes)
+}
+
 fn expand(argument: OsString, depth: usize, words: &mut Vec<OsString>) -> Result<(), Failure> {
     let name = argument.to_str().and_then(|text| text.strip_prefix('@')).filter(|name| !name.is_empty());
-    let Some((name, bytes)) = name.and_then(|name| Some((name.to_owned(), fs::read(name).ok()?))) else {
+    let Some((name, bytes)) = name.and_then(|name| Some((name.to_owned(), read(Path::new(name))?))) else {
         words.push(argument);
         return Ok(());
     };
