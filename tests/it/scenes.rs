@@ -80,6 +80,38 @@ pub(crate) fn the_error(loaded: &Loaded) -> (&'static str, String, String) {
     (error.code.id, place, format!("{} {}", error.message, error.help.as_deref().unwrap_or("")))
 }
 
+/// A view that no camera has, a size that no shape has, and a number that f32 has not.
+#[test]
+fn impossible_views_and_sizes_are_told_at_their_numbers() {
+    let scene = |camera: &str, mesh: &str| {
+        let text = format!(
+            "[camera]\n{camera}\n[[draw]]\nprogram = \"standard\"\nmesh = {{ {mesh} }}\nmaterial = {{ diffuse = [0.8, 0.8, 0.8] }}\n"
+        );
+        load("a.toml", &MemoryFiles::new([("a.toml", text.as_str())]), &compiler())
+    };
+    let sphere = "shape = \"sphere\"";
+    assert!(scene("near = 0.5\nfar = 2.0\nfovy = 179.0", sphere).scene.is_some());
+    for (camera, mesh, place, message) in [
+        ("fovy = 0", sphere, "0", "`fovy` is an angle between 0 and 180 degrees"),
+        ("fovy = -10", sphere, "-10", "`fovy` is an angle"),
+        ("fovy = nan", sphere, "nan", "`fovy` must be finite"),
+        ("near = 0", sphere, "0", "`near` is more than 0"),
+        ("near = 100", sphere, "100", "`far` is more than `near`"),
+        ("far = inf", sphere, "inf", "`far` must be finite"),
+        ("aspect = 0", sphere, "0", "`aspect` of a camera is more than 0"),
+        ("ortho = 0", sphere, "0", "`ortho` is half the height"),
+        ("target = [0, 0, 3]", sphere, "[0, 0, 3]", "the `eye` and the `target` are at one place"),
+        ("up = [0, 0, 2]", sphere, "[0, 0, 2]", "`up` points along the view"),
+        ("eye = [nan, 0, 0]", sphere, "[nan, 0, 0]", "`eye` must be finite"),
+        ("", "shape = \"sphere\", height = 3.0", "height", "a `sphere` has no `height`: its size is by `radius`"),
+        ("", "shape = \"plane\", radius = 5", "radius", "a `plane` has no `radius`: its size is by `size`"),
+        ("", "shape = \"sphere\", radius = 1e39", "1e39", "`radius` must be finite"),
+    ] {
+        let (code, at, text) = the_error(&scene(camera, mesh));
+        assert!(code == "E0905" && at == place && text.contains(message), "{camera} {mesh}: {code} {at} {text}");
+    }
+}
+
 #[test]
 fn every_value_arrives() {
     let loaded = load_text(GOOD);

@@ -295,10 +295,23 @@ impl Reader {
     /// A number under a key, as `f64`; `default` if the key is not there.
     pub fn real(&mut self, table: &DeTable<'_>, key: &str, default: f64) -> f64 {
         let Some(node) = table.get(key) else { return default };
-        as_f64(node.get_ref()).unwrap_or_else(|| {
-            self.wrong_type(node, key, "a number");
-            default
-        })
+        match as_f64(node.get_ref()) {
+            Some(value) if is_f32(value) => value,
+            Some(_) => {
+                self.not_finite(node, key);
+                default
+            }
+            None => {
+                self.wrong_type(node, key, "a number");
+                default
+            }
+        }
+    }
+
+    /// Reports a number that is none of f32.
+    fn not_finite(&mut self, node: &Node<'_>, key: &str) {
+        let span = self.span_of(node);
+        self.wrong_value(span, format!("`{key}` must be finite, as f32 has numbers"), "not finite");
     }
 
     /// `N` numbers under a key, as `f64`.
@@ -306,10 +319,17 @@ impl Reader {
         let Some(node) = table.get(key) else { return default };
         let numbers: Option<Vec<f64>> =
             node.get_ref().as_array().and_then(|array| array.iter().map(|node| as_f64(node.get_ref())).collect());
-        numbers.and_then(|numbers| numbers.try_into().ok()).unwrap_or_else(|| {
-            self.wrong_type(node, key, &format!("a list of {N} numbers"));
-            default
-        })
+        match numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok()) {
+            Some(numbers) if numbers.iter().all(|value| is_f32(*value)) => numbers,
+            Some(_) => {
+                self.not_finite(node, key);
+                default
+            }
+            None => {
+                self.wrong_type(node, key, &format!("a list of {N} numbers"));
+                default
+            }
+        }
     }
 
     /// One of the names of a table; `None` (reported) if it is none of them.
@@ -377,6 +397,11 @@ fn as_number(value: &DeValue<'_>) -> Option<NumberValue> {
         DeValue::Float(float) => float.as_str().replace('_', "").parse().ok().map(NumberValue::Float),
         DeValue::String(_) | DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => None,
     }
+}
+
+/// Whether a number is finite in f32, which scenes are computed in.
+fn is_f32(value: f64) -> bool {
+    (value as f32).is_finite()
 }
 
 fn as_f64(value: &DeValue<'_>) -> Option<f64> {

@@ -62,12 +62,36 @@ impl View {
         let aspect = reader.real(camera, "aspect", aspect);
         let near = reader.real(camera, "near", 0.1);
         let far = reader.real(camera, "far", 100.0);
+        require(reader, camera, &["aspect"], aspect > 0.0, "the `aspect` of a camera is more than 0");
+        require(reader, camera, &["target", "eye"], target != self.eye, "the `eye` and the `target` are at one place");
+        let side = (target - self.eye).cross(up).length();
+        let least = FLAT * (target - self.eye).length() * up.length();
+        let looks = target == self.eye || side > least;
+        require(reader, camera, &["up", "target", "eye"], looks, "`up` points along the view, or nowhere");
         self.view = look_at(self.eye, target, up);
         self.projection = if camera.contains_key("ortho") {
             let half_height = reader.real(camera, "ortho", 1.0);
+            require(
+                reader,
+                camera,
+                &["ortho"],
+                half_height > 0.0,
+                "`ortho` is half the height of the view, more than 0",
+            );
+            require(reader, camera, &["far", "near"], far > near, "`far` is more than `near`");
             orthographic(half_height * aspect, half_height, near, far)
         } else {
-            perspective(reader.real(camera, "fovy", 45.0).to_radians(), aspect, near, far)
+            let fovy = reader.real(camera, "fovy", 45.0);
+            require(
+                reader,
+                camera,
+                &["fovy"],
+                fovy > 0.0 && fovy < 180.0,
+                "`fovy` is an angle between 0 and 180 degrees",
+            );
+            require(reader, camera, &["near"], near > 0.0, "`near` is more than 0: the planes are in front of the eye");
+            require(reader, camera, &["far", "near"], near <= 0.0 || far > near, "`far` is more than `near`");
+            perspective(fovy.to_radians(), aspect, near, far)
         };
     }
 
@@ -117,6 +141,17 @@ impl View {
             Role::ModelNormal => normal(self.model),
             Role::Eye => round(&self.eye.to_array()),
         })
+    }
+}
+
+/// The sine of the angle between `up` and the view below which they are one direction.
+const FLAT: f64 = 1e-9;
+
+/// Reports the first of the keys that the camera has, if its view is impossible.
+fn require(reader: &mut Reader, camera: &DeTable<'_>, keys: &[&str], holds: bool, rule: &str) {
+    if let Some(node) = keys.iter().find_map(|key| camera.get(*key)).filter(|_| !holds) {
+        let span = reader.span_of(node);
+        reader.wrong_value(span, rule, "there is no such view");
     }
 }
 

@@ -11,7 +11,7 @@ mod shapes;
 use super::Loader;
 use crate::geometry::Geometry;
 use crate::roles::AttributeRole;
-use crate::tables::{Node, Reader};
+use crate::tables::{Node, Reader, list};
 pub(super) use feed::likely_roles;
 use from_file::FILE_KEYS;
 use glisten_front::diagnostic::Diagnostic;
@@ -47,6 +47,8 @@ pub(super) struct Named {
 const ROLE_KEYS: &[&str] = &["position", "normal", "texcoord", "texcoord2", "color", "tangent", "bitangent"];
 const SHAPE_KEYS: &[&str] =
     &["shape", "radius", "minor_radius", "segments", "rings", "size", "height", "tube", "turns"];
+/// The keys of a shape that all shapes have.
+const COMMON_KEYS: [&str; 3] = ["shape", "segments", "rings"];
 
 const SHAPES: &[(&str, Shape)] = &[
     ("sphere", Shape::Sphere),
@@ -78,6 +80,7 @@ pub(super) fn load_mesh(loader: &mut Loader<'_>, node: &Node<'_>, conventional: 
         (Some(name), None) => {
             refuse_file_keys(&mut loader.reader, table);
             let shape = loader.reader.choice(name, "shape", SHAPES)?;
+            refuse_keys_of_others(&mut loader.reader, table, shape);
             (shapes::build(&mut loader.reader, table, shape), "the shape".to_owned())
         }
         (None, Some(file)) => from_file::load(loader, table, file)?,
@@ -110,6 +113,19 @@ fn refuse_file_keys(reader: &mut Reader, table: &DeTable<'_>) {
         if let Some((name, _)) = table.get_key_value(*key) {
             let span = reader.span_of(name);
             let message = format!("`{key}` is for a mesh from a `file`: a shape has its own");
+            reader.error(&SCENE_WRONG_VALUE, span, message, "leave it out");
+        }
+    }
+}
+
+/// Reports sizes that another shape has.
+fn refuse_keys_of_others(reader: &mut Reader, table: &DeTable<'_>, shape: Shape) {
+    let name = SHAPES.iter().find(|(_, known)| *known == shape).map_or("shape", |(name, _)| name);
+    for key in SHAPE_KEYS.iter().filter(|key| !COMMON_KEYS.contains(key) && !shape.keys().contains(key)) {
+        if let Some((key_node, _)) = table.get_key_value(*key) {
+            let span = reader.span_of(key_node);
+            let sizes = list(shape.keys());
+            let message = format!("a `{name}` has no `{key}`: its size is by {sizes}");
             reader.error(&SCENE_WRONG_VALUE, span, message, "leave it out");
         }
     }

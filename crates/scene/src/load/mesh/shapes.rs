@@ -29,6 +29,17 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
+    /// The keys of its sizes.
+    pub(super) fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Sphere => &["radius"],
+            Self::Torus => &["radius", "minor_radius"],
+            Self::Quad | Self::Plane | Self::Cube => &["size"],
+            Self::Cylinder | Self::Cone => &["radius", "height"],
+            Self::TorusKnot => &["radius", "minor_radius", "tube", "turns"],
+        }
+    }
+
     /// Segments and rings, if the scene does not say.
     pub(super) fn default_tessellation(self) -> [u32; 2] {
         match self {
