@@ -78,7 +78,8 @@ const MISTAKES: &[(&str, &str, &str)] = &[
 
 #[test]
 fn a_mistyped_word_fails_and_is_no_skip() {
-    for (from, to, expected) in MISTAKES {
+    let tolerance = ("[test]\n", "[test]\ntolerance -1 0 0 0\n", "is no tolerance");
+    for (from, to, expected) in MISTAKES.iter().copied().chain([tolerance]) {
         let (results, code) = changed(from, to);
         assert_eq!(code, Some(1), "{to}");
         for result in results {

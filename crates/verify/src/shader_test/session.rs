@@ -128,7 +128,10 @@ impl TestSession {
             "uniform" => self.uniforms.set(&self.program, words, self.element),
             "tolerance" => {
                 self.tolerance = words.numbers()?;
-                Ok(())
+                match self.tolerance.iter().find(|tolerance| **tolerance < 0.0) {
+                    Some(negative) => fail(words.line, format_args!("{negative} is no tolerance: it is negative")),
+                    None => Ok(()),
+                }
             }
             "enable" => self.capability(words, true),
             "disable" => self.capability(words, false),
