@@ -48,11 +48,11 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     specialize: bool,
     #[command(flatten)]
-    optimize: OptimizeArgs,
-    #[command(flatten)]
     contract: WithContractArgs,
     #[command(flatten)]
     scene: SceneArgs,
+    #[command(flatten)]
+    optimize: OptimizeArgs,
 }
 
 /// The backend that draws a scene.

@@ -90,8 +90,6 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     specialize: bool,
     #[command(flatten)]
-    optimize: OptimizeArgs,
-    #[command(flatten)]
     contract: WithContractArgs,
     /// Write a picture of |difference| / bound on black: blue up to the bound, yellow to red beyond
     #[arg(long, value_name = "FILE")]
@@ -101,6 +99,8 @@ pub(crate) struct VerifyArgs {
     evidence: Option<PathBuf>,
     #[command(flatten)]
     scene: SceneArgs,
+    #[command(flatten)]
+    optimize: OptimizeArgs,
 }
 
 /// The format of the result.
