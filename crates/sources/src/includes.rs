@@ -271,11 +271,10 @@ fn in_backquotes(text: &str) -> Arc<str> {
 
 impl IncludeResolver for DiskIncludes {
     fn remedy(&self, path: &str, from: &str) -> Option<String> {
-        let name = path.trim_start_matches('/');
-        if name.is_empty() {
+        let wanted: PathBuf = normal(Path::new(path.trim_start_matches('/')));
+        if wanted.as_os_str().is_empty() {
             return None;
         }
-        let wanted: PathBuf = normal(Path::new(name));
         let found = self.seen.nearest(&wanted, from)?;
         let folder = found.ancestors().nth(wanted.components().count())?;
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -289,7 +288,7 @@ impl IncludeResolver for DiskIncludes {
     }
 
     fn resolve(&self, path: &str, form: IncludeForm, from: &str) -> Result<Included, String> {
-        if path.is_empty() {
+        if normal(Path::new(path)).as_os_str().is_empty() {
             return Err("an include names no file".to_owned());
         }
         if let (IncludeForm::Quoted, Some(module)) = (form, Embedded::find(path, form, from)) {
@@ -366,6 +365,7 @@ mod tests {
         assert_eq!(text(IncludeForm::Quoted, "./sub/../a.glsl").as_deref(), Ok("folder"));
         assert_eq!(text(IncludeForm::Angled, "a.glsl").as_deref(), Ok("library"));
         assert!(text(IncludeForm::Quoted, "b.glsl").expect_err("there is none").contains("no `"));
+        assert!(text(IncludeForm::Quoted, ".").expect_err("it is a folder").contains("names no file"));
         assert!(quoted(Vec::new()).resolve("a.glsl", IncludeForm::Angled, &from).is_err());
         for form in [IncludeForm::Quoted, IncludeForm::Angled] {
             assert_eq!(text(form, "/a.glsl").as_deref(), Ok("library"), "from the root of a folder of -I");

@@ -99,6 +99,12 @@ fn is_newer(file: &Path, time: SystemTime) -> bool {
 }
 
 fn cannot_watch(error: &notify::Error) -> Failure {
+    if let notify::ErrorKind::Io(reason) = &error.kind
+        && reason.kind() == std::io::ErrorKind::PermissionDenied
+    {
+        let paths: Vec<String> = error.paths.iter().map(|path| format!("`{}`", path.display())).collect();
+        return Failure::usage(format!("cannot read {}: {reason}", paths.join(", ")));
+    }
     Failure::new(Exit::Machine, format!("the system does not tell of changes: {error}"))
 }
 
