@@ -213,7 +213,7 @@ fn a_reader_that_goes_away_ends_the_program_in_silence() {
     assert!(err(&output).is_empty(), "{}", err(&output));
 }
 
-/// What was found is in the exit code, whoever reads the findings.
+/// The exit code has the findings, whoever reads them.
 #[test]
 fn a_reader_that_goes_away_changes_no_exit_code() {
     let broken = "#version 150\nvoid  main(){ x; }\n";

@@ -137,7 +137,7 @@ fn wrong_models_are_told_with_their_line() {
     assert!(code == "E0911" && text.contains("`a.obj` has no colors"), "{text}");
 }
 
-/// What a file names has to be in it, and indices are integers.
+/// All that a file names is in it, and indices are integers.
 #[test]
 fn wrong_references_of_gltf_are_told() {
     let sparse = r#""sparse": {"count": 25, "indices": {"bufferView": 3, "componentType": 5123}, "values": {"bufferView": 0}}, "#;
