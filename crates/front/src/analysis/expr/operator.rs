@@ -329,7 +329,10 @@ impl Analyzer<'_> {
             .maybe_help(help);
         if let Some((left, right)) = assigned {
             let between = Span { start: left.end, end: right.start, ..span };
-            finding = finding.fix(Fix::new(Applicability::Unsafe, "write `==` to compare", between, " == "));
+            // Operands that a macro puts together have something else between them.
+            if self.sources.snippet(between).trim() == "=" {
+                finding = finding.fix(Fix::new(Applicability::Unsafe, "write `==` to compare", between, " == "));
+            }
         }
         self.report(finding);
     }
