@@ -280,9 +280,13 @@ impl Preprocessor<'_> {
         let message = format!("the macro `{}` takes {wanted} argument{plural} and is given {given}", definition.name);
         let diagnostic = Diagnostic::new(&codes::MACRO_ARGUMENTS, call, message).label(definition.span, "defined here");
         session.report(diagnostic);
-        // A number replaces the use, so that the parser sees no hole.
-        let zero = self.number_token(session, 0, Token::new(TokenKind::Number, call));
-        self.contexts.push(TokenRun::list(vec![zero], None));
+        // Something replaces the use, so that the parser sees no hole: a value of no known type, and a number in a condition.
+        let mut instead = self.number_token(session, 0, Token::new(TokenKind::Number, call));
+        if !self.contexts.iter().any(TokenRun::is_barrier) {
+            instead.kind = TokenKind::Invalid;
+            instead.flags.insert(TokenFlags::REPORTED);
+        }
+        self.contexts.push(TokenRun::list(vec![instead], None));
         None
     }
 
