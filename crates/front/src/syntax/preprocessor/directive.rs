@@ -11,11 +11,13 @@ pub(super) struct Conditional {
     name: &'static str,
     /// The position of its `#else`.
     else_at: Option<Span>,
+    /// The first directive in a skipped group of it that looks like a misspelled one, and that one.
+    misspelled: Option<(Span, &'static str)>,
 }
 
 impl Conditional {
     fn new(opening: Span, name: &'static str) -> Self {
-        Self { opening, name, else_at: None }
+        Self { opening, name, else_at: None, misspelled: None }
     }
 
     /// Records an `#else`, and reports it, or an `#elif`, behind another one.
@@ -30,10 +32,14 @@ impl Conditional {
         }
     }
 
-    pub(super) fn report_unterminated(self, session: &mut ParseSession<'_>) {
+    pub(super) fn report_unterminated(&self, session: &mut ParseSession<'_>) {
         let message = format!("the `{}` has no `#endif`", self.name);
         let diagnostic = Diagnostic::new(&codes::UNTERMINATED_CONDITIONAL, self.opening, message)
             .here("opened here and never closed");
+        let diagnostic = match self.misspelled {
+            Some((place, meant)) => diagnostic.label(place, "skipped").help(format!("did you mean `#{meant}` there?")),
+            None => diagnostic,
+        };
         session.report(diagnostic);
     }
 }
@@ -76,6 +82,9 @@ static DIRECTIVES: &[(&str, Directive)] = &[
     ("line", Directive::Line),
     ("include", Directive::Include),
 ];
+
+/// The directives that end a group.
+const ENDS: &[&str] = &["elif", "else", "endif"];
 
 /// Directives of engines, with the help on how to read them.
 static ENGINES: &[(&str, &str)] =
@@ -334,6 +343,15 @@ impl Preprocessor<'_> {
                 (Some(directive @ (Directive::Elif | Directive::Else | Directive::Endif)), None) => {
                     self.note_inactive(from, hash.span.start);
                     return Some((span, directive));
+                }
+                (None, open) if token.kind == TokenKind::Word && session.may_suggest() => {
+                    let meant = did_you_mean(session.spelling(token), ENDS.iter().copied());
+                    let meant = meant.and_then(|meant| ENDS.iter().find(|end| **end == meant));
+                    let frame = self.frames.last_mut();
+                    let open = open.or(frame.and_then(|frame| frame.conditionals.last_mut()));
+                    if let (Some(open), Some(meant)) = (open, meant) {
+                        open.misspelled.get_or_insert((span, meant));
+                    }
                 }
                 _ => {}
             }
