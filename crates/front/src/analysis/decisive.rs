@@ -14,7 +14,7 @@ use crate::source::Span;
 const QUALIFIERS: u32 = 64;
 
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
-/// other errors but those of tokens before the place that shows it, after an unsupported feature or
+/// other errors but those before the place that shows it, after an unsupported feature or
 /// extension those of the syntax and the meaning of the text. `late` is a `#version` line that tokens come before.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<Span>) {
     if diagnostics.iter().skip(first).any(|found| *found.code == LATE_VERSION) {
@@ -49,10 +49,9 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
             return true;
         }
         if version.is_some() {
-            // What is wrong with the tokens before is so in every version.
-            let is_of_tokens = matches!(diagnostic.code.area(), Area::Preprocess | Area::Syntax)
-                && *diagnostic.code != MISSING_VERSION;
-            return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
+            // What is wrong before is so in every version.
+            let is_before = diagnostic.primary.span.start < version_start && *diagnostic.code != MISSING_VERSION;
+            return Some(own) == version || is_before;
         }
         if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
             // What is of a feature has no type here, so that an error of types does not follow from it. Arrays without a size are
