@@ -19,8 +19,8 @@ pub(super) const MAX_BODY: usize = 1 << 16;
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// external_declaration
     pub(super) fn external_declaration(&mut self) {
-        // A brace that closes nothing is none of the next declaration.
-        self.braces = self.braces.max(0);
+        // Braces that close nothing, or that nothing closes, are none of the next declaration.
+        self.braces = 0;
         let (first, start) = (self.current, self.start());
         let before = self.mark();
         self.begin();
@@ -63,6 +63,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn global(&mut self) -> Parse<DeclarationKind> {
+        self.correct_layout();
         if self.kind() == TokenKind::Ident && !self.begins_named_declaration() {
             return Err(self.missing_type());
         }

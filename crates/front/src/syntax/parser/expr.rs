@@ -397,18 +397,18 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Some(cast(span, &name, ty))
     }
 
-    /// `(float)value`: a type in parentheses. It is reported, and read as the constructor that is meant.
+    /// `(float)value`: a type in parentheses. It is reported, and its type counts as unknown.
     fn cast(&mut self, opening: Start) -> Parse<ExprId> {
         let name = self.session.spelling(self.current).to_owned();
         let reported = self.report_found(cast(self.current.span, &name, &name));
-        let ty = self.bump();
+        self.bump();
         self.bump();
         if !self.begins_value() {
             return Err(reported);
         }
         let value = self.nested(Self::unary_expression)?;
-        let spec = TypeSpec { base: TypeBase::Keyword(ty.symbol()), array: Vec::new(), span: ty.span };
-        self.push(ExprKind::Construct(Box::new(spec), vec![value]), opening)
+        let whole = self.since(opening);
+        Ok(self.error_expr(whole, vec![value]))
     }
 
     /// Whether an operand is next.

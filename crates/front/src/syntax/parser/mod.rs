@@ -101,8 +101,8 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     end_reported: bool,
     /// Whether a function begins inside a function: the outer body ends as if its brace were there.
     leaving_function: bool,
-    /// Whether the braces of the file have been counted.
-    counted_braces: bool,
+    /// Whether each brace of the file has its partner, once they have been counted.
+    paired: Option<bool>,
     /// How many tokens were looked at to find braces that close nothing.
     sought: usize,
     /// Whether the error that is being propagated leaves nothing to skip.
@@ -153,7 +153,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             assumed_semicolon: false,
             end_reported: false,
             leaving_function: false,
-            counted_braces: false,
+            paired: None,
             sought: 0,
             recovered: false,
             returned_to: FxHashSet::default(),
@@ -289,6 +289,10 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     fn ident(&mut self, what: &str) -> Parse<Ident> {
         let token = self.current;
         match token.kind {
+            // A malformed number is a value.
+            TokenKind::Invalid if self.session.spelling(token).starts_with(|first: char| first.is_ascii_digit()) => {
+                return Err(self.unexpected(what));
+            }
             TokenKind::Ident | TokenKind::Invalid => {}
             TokenKind::Reserved => self.report_reserved(token, what),
             kind if is_word(kind) && !(token.starts_line() && self.consumed > 0) => self.keyword_as_name(token, what),

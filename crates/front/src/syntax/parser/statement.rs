@@ -174,6 +174,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn simple_statement(&mut self) -> Parse<StmtKind> {
+        if self.begins_global() {
+            return Err(self.leave_before_global());
+        }
         if !self.begins_declaration() {
             let expr = self.expression()?;
             self.semicolon("the expression")?;
@@ -258,21 +261,46 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(StmtKind::Empty)
     }
 
-    /// Whether each brace that is open is closed up to the end of the file. That is sought only once.
-    fn braces_are_paired(&mut self) -> bool {
-        if std::mem::replace(&mut self.counted_braces, true) {
-            return false;
+    /// Whether each brace that is open is closed up to the end of the file. They are counted only once.
+    pub(super) fn braces_are_paired(&mut self) -> bool {
+        if let Some(paired) = self.paired {
+            return paired;
         }
         let mut depth = self.braces;
+        let mut paired = false;
         for at in 0..MAX_BODY {
             match self.ahead(at).kind {
                 TokenKind::LeftBrace => depth += 1,
                 TokenKind::RightBrace => depth -= 1,
-                TokenKind::Eof => return depth == 0,
+                TokenKind::Eof => {
+                    paired = depth == 0;
+                    break;
+                }
                 _ => {}
             }
         }
-        false
+        self.paired = Some(paired);
+        paired
+    }
+
+    /// Whether a line is next that declares something only outside of functions: if braces are missing, one is above it.
+    fn begins_global(&mut self) -> bool {
+        use TokenKind::*;
+        self.braces > 0
+            && self.current.starts_line()
+            && matches!(self.kind(), Uniform | In | Out | Attribute | Varying | Layout)
+            && !self.braces_are_paired()
+    }
+
+    /// Reports the function whose `}` is missing above a global declaration, and leaves it.
+    fn leave_before_global(&mut self) -> Reported {
+        let diagnostic = Diagnostic::new(&codes::UNCLOSED_DELIMITER, self.function_brace, "`{` is not closed")
+            .here("the function begins here")
+            .label(self.current.span, "this declares something outside of functions: a `}` is missing above");
+        self.session.report(diagnostic);
+        self.leaving_function = true;
+        self.assumed_brace = true;
+        Reported
     }
 
     fn stray_case(&mut self) -> Reported {

@@ -1,7 +1,7 @@
 //! Parses qualifiers, types, structs and their members (GLSL 1.50 §4, §9).
 
 use super::place::Start;
-use super::{Between, Parse, Parser, Token, TokenKind, TokenSource, codes};
+use super::{Between, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::language::Extensions;
 use crate::source::Span;
@@ -60,7 +60,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 let kind = QualifierKind::Layout(self.layout()?);
                 list.push(Qualifier { kind, span: self.since(start) });
             } else if self.is_foreign_qualifier() || self.is_storage_block() {
-                let _: super::Reported = self.foreign();
+                let _: Reported = self.foreign();
             } else if self.is_reserved_qualifier() {
                 let token = self.current;
                 self.report_reserved_qualifier(token);
@@ -198,7 +198,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
             TokenKind::Unsigned => self.unsigned(),
             TokenKind::Foreign => {
-                let _: super::Reported = self.foreign();
+                let _: Reported = self.foreign();
                 TypeBase::Error
             }
             TokenKind::Ident => {
@@ -327,6 +327,30 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         first.starts_line() && (is_type && self.ahead(at + 1).kind == TokenKind::Ident || is_qualifier(first.kind))
     }
 
+    /// Whether a function or a uniform begins where a member may, though braces are missing.
+    fn begins_global_in_members(&mut self) -> bool {
+        let begins = match self.kind() {
+            TokenKind::Type | TokenKind::Void | TokenKind::Ident => {
+                self.ahead(1).kind == TokenKind::Ident && self.ahead(2).kind == TokenKind::LeftParen
+            }
+            TokenKind::Uniform | TokenKind::Attribute | TokenKind::Varying => true,
+            _ => false,
+        };
+        begins && self.current.starts_line() && !self.braces_are_paired()
+    }
+
+    /// Reports members whose `}` is missing before something global, and goes on as if it and its `;` were there.
+    fn unclosed_members(&mut self, opening: Span) -> Reported {
+        let at = self.behind();
+        let diagnostic = Diagnostic::new(&codes::UNCLOSED_DELIMITER, opening, "`{` is not closed")
+            .here("this brace is never closed")
+            .label(at, "what is behind this is global");
+        self.session.report(diagnostic);
+        self.braces -= 1;
+        self.assumed_semicolon = true;
+        Reported
+    }
+
     /// struct_declaration_list, in its braces
     pub(super) fn member_list(&mut self) -> Parse<Vec<MemberDecl>> {
         let opening = self.opening_brace()?;
@@ -334,6 +358,10 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         while self.kind() != TokenKind::RightBrace {
             if self.kind() == TokenKind::Eof {
                 return Err(self.unclosed_brace(opening));
+            }
+            if self.begins_global_in_members() {
+                let _: Reported = self.unclosed_members(opening);
+                return Ok(members);
             }
             let before = self.mark();
             self.taken.clear();
