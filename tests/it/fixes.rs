@@ -103,7 +103,6 @@ out vec4 c;
         "c = vec4(SUM * u.x, SUM * SUM, u);",
         "int i = ADD(1, 2.0); c = vec4(i);",
         "float z[3] = float[3](1.0, 1.0, 1.0); c = vec4(z[ADD(u.x, 1.0)]);",
-        "int f = SUM * 2.0; c = vec4(f);",
     ] {
         let text = format!("{HEAD}void main() {{ {line} }}\n");
         let folder = Folder::new(&[("a.frag", text.as_bytes())]);
@@ -115,7 +114,7 @@ out vec4 c;
     // Whole uses are text as any other.
     for (old, new) in [
         ("int f = ADD(u.x, u.y) + u.z; c = vec4(f);", "int f = int(ADD(u.x, u.y) + u.z); c = vec4(f);"),
-        ("int f = 2.0 * SUM; c = vec4(f);", "int f = int(2.0 * SUM); c = vec4(f);"),
+        ("int f = SUM * 2.0; c = vec4(f);", "int f = int(SUM * 2.0); c = vec4(f);"),
     ] {
         let whole = |line: &str| format!("{HEAD}void main() {{ {line} }}\n");
         let folder = Folder::new(&[("a.frag", whole(old).as_bytes())]);

@@ -15,10 +15,10 @@ use crate::source::Span;
 const QUALIFIERS: u32 = 64;
 
 /// The features that people take for granted in every version: a text that uses one may be of the version that it is read in.
-const SLIPS: [Feature; 3] = [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::FloatSuffix];
+const FOR_GRANTED: [Feature; 3] = [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::FloatSuffix];
 
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
-/// other errors but those of tokens before the place that shows it, or all before it if that may be a [slip](SLIPS), after an unsupported feature or
+/// other errors but those of tokens before the place that shows it, or all before it if that is a feature that is [taken for granted](FOR_GRANTED), after an unsupported feature or
 /// extension those of the syntax and the meaning of the text. `late` is a `#version` line that tokens come before.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<Span>) {
     if diagnostics.iter().skip(first).any(|found| *found.code == LATE_VERSION) {
@@ -44,7 +44,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
     };
     let version_start = start_of(version);
     let shown = version.and_then(|index| diagnostics.iter().nth(index)).and_then(|found| found.lacking);
-    let is_slip = shown.is_some_and(|feature| SLIPS.contains(&feature));
+    let is_for_granted = shown.is_some_and(|feature| FOR_GRANTED.contains(&feature));
     let start = diagnostics.iter().nth(feature.unwrap_or(0)).map_or(0, |diagnostic| diagnostic.primary.span.start);
     let mut messages: Vec<String> = Vec::new();
     let mut index = 0;
@@ -59,7 +59,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
             // the version of an engine.
             let is_of_tokens = matches!(diagnostic.code.area(), Area::Preprocess | Area::Syntax);
             let is_before = diagnostic.primary.span.start < version_start && *diagnostic.code != MISSING_VERSION;
-            return Some(own) == version || is_before && (is_of_tokens || is_slip);
+            return Some(own) == version || is_before && (is_of_tokens || is_for_granted);
         }
         if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
             // What is of a feature has no type here, so that an error of types does not follow from it. Arrays without a size are
