@@ -41,6 +41,12 @@ pub(super) fn is_precision(kind: &QualifierKind) -> bool {
     matches!(kind, QualifierKind::Lowp | QualifierKind::Mediump | QualifierKind::Highp)
 }
 
+/// Whether it is a storage qualifier of global variables and blocks.
+fn is_of_global(kind: TokenKind) -> bool {
+    use TokenKind::*;
+    matches!(kind, Const | Uniform | In | Out | Attribute | Varying)
+}
+
 /// Whether a token begins a qualifier.
 pub(super) fn is_qualifier(kind: TokenKind) -> bool {
     kind == TokenKind::Layout || qualifier(kind).is_some()
@@ -333,8 +339,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             TokenKind::Type | TokenKind::Void | TokenKind::Ident => {
                 self.ahead(1).kind == TokenKind::Ident && self.ahead(2).kind == TokenKind::LeftParen
             }
-            TokenKind::Uniform | TokenKind::Attribute | TokenKind::Varying => true,
-            _ => false,
+            TokenKind::Layout if self.ahead(1).kind == TokenKind::LeftParen => {
+                let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
+                is_of_global(self.ahead(behind).kind)
+            }
+            kind => is_of_global(kind),
         };
         begins && self.current.starts_line() && !self.braces_are_paired()
     }
