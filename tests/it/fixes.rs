@@ -83,6 +83,96 @@ fn includes_are_fixed_once_and_macros_not_at_all() {
     assert!(err(&fixed).contains("changed 1 file"), "{}", err(&fixed));
 }
 
+/// In the arguments of a macro, the text between the ends of an expression is another one, or none at all.
+#[test]
+fn what_a_macro_puts_together_is_left() {
+    const HEAD: &str = "#version 330
+uniform vec3 u;
+uniform int n;
+out vec4 c;
+#define ADD(a, b) a + b
+#define REV(a, b) b - a
+#define SQ(x) x * x
+#define SUM u.x + 1.0
+#define ADDTO(a, b) a += b; b
+#define ARG(type, word, name) type word name
+";
+    for line in [
+        "if (REV(n, 1)) { c = vec4(u, 1.0); }",
+        "c = vec4(SQ(u.x + 1.0));",
+        "c = vec4(SUM * u.x, SUM * SUM, u);",
+        "int i = ADD(1, 2.0); c = vec4(i);",
+        "float z[3] = float[3](1.0, 1.0, 1.0); c = vec4(z[ADD(u.x, 1.0)]);",
+    ] {
+        let text = format!("{HEAD}void main() {{ {line} }}\n");
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let fixed = folder.run(&["lint", "a.frag", "--unsafe-fixes", "--warn", "style"]);
+        let shown = out(&fixed);
+        assert_eq!(read(&folder, "a.frag"), text, "{shown}");
+        assert!(!shown.contains("int(1, 2.0)"), "{shown}");
+    }
+    // Whole uses are text as any other.
+    for (old, new) in [
+        ("int f = ADD(u.x, u.y) + u.z; c = vec4(f);", "int f = int(ADD(u.x, u.y) + u.z); c = vec4(f);"),
+        ("int f = SUM * 2.0; c = vec4(f);", "int f = int(SUM * 2.0); c = vec4(f);"),
+    ] {
+        let whole = |line: &str| format!("{HEAD}void main() {{ {line} }}\n");
+        let folder = Folder::new(&[("a.frag", whole(old).as_bytes())]);
+        let fixed = folder.run(&["lint", "a.frag", "--unsafe-fixes"]);
+        assert_eq!(read(&folder, "a.frag"), whole(new), "{}", out(&fixed));
+    }
+    let behind = |line: &str| format!("{HEAD}void main() {{\n float s = 0.0;\n {line}\n c = vec4(s);\n}}\n");
+    let text = behind("ADDTO(s, s++)");
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    let fixed = folder.run(&["lint", "a.frag", "--fix"]);
+    assert_eq!(read(&folder, "a.frag"), behind("ADDTO(s, s++);"), "{}", out(&fixed));
+    let text = format!("{HEAD}void f(ARG(vec3, in, v)) {{ c.xyz = v; }}\nvoid main() {{ f(u); }}\n");
+    let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+    folder.run(&["lint", "a.frag", "--fix"]);
+    assert_eq!(read(&folder, "a.frag"), text);
+}
+
+/// A number keeps its value, whatever it is written in.
+#[test]
+fn numbers_keep_their_values() {
+    const ES: &str = "#version 300 es\nprecision highp float;\nout vec4 c;\n";
+    const OLD: &str = "#version 110\n#define c gl_FragColor\nuniform sampler2D t;\nuniform samplerCube q;\n";
+    for (head, option, old, new) in [
+        (ES, "--fix", "float f = 010;", "float f = float(010);"),
+        (ES, "--fix", "float f = 1.0 * 0777;", "float f = 1.0 * float(0777);"),
+        (ES, "--fix", "float f = 2147483648;", "float f = float(2147483648);"),
+        (ES, "--fix", "float f = 10;", "float f = 10.0;"),
+        (
+            ES,
+            "--unsafe-fixes",
+            "int i = 3000000000.0; float f = float(i);",
+            "int i = int(3000000000.0); float f = float(i);",
+        ),
+        (ES, "--fix", "uint i = 3000000000.0; float f = float(i);", "uint i = 3000000000u; float f = float(i);"),
+        (OLD, "--fix", "float f = pow(2, 3.0);", "float f = pow(2.0, 3.0);"),
+        (OLD, "--unsafe-fixes", "float f = tex2D(t, vec2(1.0)).x;", "float f = texture2D(t, vec2(1.0)).x;"),
+        (OLD, "--unsafe-fixes", "float f = texCUBE(q, vec3(1.0)).x;", "float f = textureCube(q, vec3(1.0)).x;"),
+    ] {
+        let whole = |line: &str| format!("{head}void main() {{ {line} c = vec4(f); }}\n");
+        let text = whole(old);
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let fixed = folder.run(&["lint", "a.frag", option]);
+        assert_eq!(read(&folder, "a.frag"), whole(new), "{}", out(&fixed));
+    }
+}
+
+/// A brace on the next line tells that its head is no declaration.
+#[test]
+fn a_head_is_no_declaration_without_a_semicolon() {
+    for head in ["varing Block", "interface Block", "static Block", "cbuffer Block", "float f"] {
+        let text = format!("#version 330\n{head}\n{{\n vec4 a;\n}};\nout vec4 c;\nvoid main() {{ c = vec4(1.0); }}\n");
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let fixed = folder.run(&["lint", "a.frag", "--fix"]);
+        let left = text.replace("float f\n{\n vec4 a;\n};", "float f\n{\n vec4 a;\n}");
+        assert_eq!(read(&folder, "a.frag"), left, "{}", out(&fixed));
+    }
+}
+
 #[test]
 fn bytes_and_line_ends_stay_as_they_are() {
     let old = b"#version 150\r\n// caf\xe9\r\nout vec4 c;\r\n#define A 1\r\n#define A 2\r\nvoid main() {\r\n    c = vec4(A) // \xe9\r\n}\r\n";

@@ -64,7 +64,7 @@ impl Analyzer<'_> {
     }
 
     /// Enters the names of a broken declaration as poison, so that their uses raise no more messages.
-    fn enter_broken(&mut self, names: &[Ident]) {
+    pub(super) fn enter_broken(&mut self, names: &[Ident]) {
         for name in names {
             if self.scopes.find_here(name.symbol).is_none() {
                 self.scopes.enter(name.symbol, Entry::Poison, name.span);

@@ -8,14 +8,19 @@ use crate::diagnostic::codes::preprocess::{LATE_VERSION, MISSING_VERSION, UNSUPP
 use crate::diagnostic::codes::qualifiers::{MISSING_PRECISION, UNKNOWN_LAYOUT};
 use crate::diagnostic::codes::types::UNSIZED_ARRAY;
 use crate::diagnostic::{Area, Code, Diagnostic, Diagnostics};
+use crate::language::Feature;
 use crate::source::Span;
 
 /// How many bytes the qualifiers before a keyword take at most.
 const QUALIFIERS: u32 = 64;
 
+/// The features that people take for granted in every version: a text that uses one may be of the version that it is read in.
+const FOR_GRANTED: [Feature; 3] = [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::FloatSuffix];
+
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
-/// other errors but those of tokens before the place that shows it, after an unsupported feature or
-/// extension those of the syntax and the meaning of the text. `late` is a `#version` line that tokens come before.
+/// other errors but those of tokens before the place that shows it, or all before it if that is [taken for granted](FOR_GRANTED);
+/// after an unsupported feature or extension those of the syntax and the meaning of the text. `late` is a `#version` line that
+/// tokens come before.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<Span>) {
     if diagnostics.iter().skip(first).any(|found| *found.code == LATE_VERSION) {
         // There is a `#version` line, and what comes before it was read without.
@@ -39,6 +44,8 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
         index.and_then(|index| diagnostics.iter().nth(index)).map_or(0, |diagnostic| diagnostic.primary.span.start)
     };
     let version_start = start_of(version);
+    let shown = version.and_then(|index| diagnostics.iter().nth(index)).and_then(|found| found.lacking);
+    let is_for_granted = shown.is_some_and(|feature| FOR_GRANTED.contains(&feature));
     let start = diagnostics.iter().nth(feature.unwrap_or(0)).map_or(0, |diagnostic| diagnostic.primary.span.start);
     let mut messages: Vec<String> = Vec::new();
     let mut index = 0;
@@ -49,10 +56,11 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
             return true;
         }
         if version.is_some() {
-            // What is wrong with the tokens before is so in every version.
-            let is_of_tokens = matches!(diagnostic.code.area(), Area::Preprocess | Area::Syntax)
-                && *diagnostic.code != MISSING_VERSION;
-            return Some(own) == version || is_of_tokens && diagnostic.primary.span.start < version_start;
+            // What is wrong with the tokens before is so in every version. All else may follow from what is not there: the macros and
+            // the version of an engine.
+            let is_of_tokens = matches!(diagnostic.code.area(), Area::Preprocess | Area::Syntax);
+            let is_before = diagnostic.primary.span.start < version_start && *diagnostic.code != MISSING_VERSION;
+            return Some(own) == version || is_before && (is_of_tokens || is_for_granted);
         }
         if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
             // What is of a feature has no type here, so that an error of types does not follow from it. Arrays without a size are

@@ -54,28 +54,26 @@ impl Analyzer<'_> {
     }
 
     /// Reports a feature at `span` that the language lacks, with what to write instead.
-    pub(super) fn require_with(&mut self, feature: Feature, span: Span, help: Option<String>) {
+    pub(super) fn require_with(&mut self, feature: Feature, span: Span, help: Option<Advice>) {
         if self.allows(feature, span) {
             return;
         }
         let finding = self.finding_of(feature, span);
-        let help = help.filter(|_| self.ast.version.span.is_known());
-        self.report(Diagnostic { help: help.or(finding.help.clone()), ..finding });
+        self.report(finding.maybe_help(help.filter(|_| self.ast.version.span.is_known())));
     }
 
-    /// Reports an integer that only other versions convert to a `float`. ES has no conversions: its help is how to write the value.
+    /// Reports an integer that only other versions convert to a `float`. The help is how to write the value.
     pub(super) fn require_float(&mut self, id: ExprId) {
         let (feature, span) = (Feature::ImplicitToFloat, self.span(id));
         if self.allows(feature, span) {
             return;
         }
         let finding = self.finding_of(feature, span);
-        if !self.ast.version.is_es() {
+        if !self.ast.version.span.is_known() {
             return self.report(finding);
         }
         let text = self.sources.snippet(span);
-        let is_literal =
-            !span.expansion.is_some() && text.bytes().all(|byte| byte.is_ascii_digit()) && !text.is_empty();
+        let is_literal = !span.expansion.is_some() && is_decimal(text);
         let is_scalar = matches!(self.types.get(self.ty(id)), Type::Scalar(_));
         let help = match (is_literal, is_scalar) {
             (true, _) => Advice::write(Applicability::Safe, format!("{text}.0")),
@@ -110,4 +108,9 @@ impl Analyzer<'_> {
             self.report(warning);
         }
     }
+}
+
+/// Whether a text is a decimal number that an `int` holds: another one, such as the octal `010`, has another value with `.0` behind it.
+fn is_decimal(text: &str) -> bool {
+    (text == "0" || text.starts_with(|first: char| matches!(first, '1'..='9'))) && text.parse::<i32>().is_ok()
 }

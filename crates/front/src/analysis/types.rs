@@ -52,7 +52,7 @@ impl Analyzer<'_> {
         let help = text
             .split_once('[')
             .map(|(base, size)| format!("write the size behind the name: `{} a[{size}`", base.trim_end()));
-        self.require_with(Feature::ArrayTypes, spec.span, help);
+        self.require_with(Feature::ArrayTypes, spec.span, help.map(Advice::from));
     }
 
     /// The type of a constructor, whose arguments tell every size that the brackets leave out (4.30 §5.4.4).

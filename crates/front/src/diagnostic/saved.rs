@@ -144,10 +144,10 @@ impl Writer<'_> {
         self.show(span);
         // From the inside to the outside; written the other way round.
         let mut chain = Vec::new();
-        let mut inner = span.expansion;
+        let mut inner = span.expansion.plain();
         while let Some(expansion) = self.sources.expansion(inner).filter(|_| !self.numbers.contains_key(&inner)) {
             chain.push((inner, expansion));
-            inner = expansion.call.expansion;
+            inner = expansion.call.expansion.plain();
         }
         for (id, expansion) in chain.into_iter().rev() {
             let call = self.written(expansion.call);
@@ -160,7 +160,8 @@ impl Writer<'_> {
 
     fn written(&mut self, span: Span) -> SavedSpan {
         self.show(span);
-        (span.start, span.end, self.numbers.get(&span.expansion).copied().unwrap_or(0))
+        let number = self.numbers.get(&span.expansion.plain()).copied().unwrap_or(0);
+        (span.start, span.end, ExpansionId::new(number).marked_as(span.expansion).bits())
     }
 
     fn show(&mut self, span: Span) {

@@ -135,8 +135,13 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
     }
     let same_name = producer.globals.iter().find(|global| global.match_name() == name && global.builtin.is_none());
     if let Some(other) = same_name {
-        let what = describe_other(other);
-        diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{name}` as {what}"));
+        let what = match (other.storage, other.location, input.location) {
+            (Storage::Out, Some(there), Some(here)) if other.block.is_none() && input.block.is_none() => {
+                format!("at location {there}, not {here}")
+            }
+            _ => format!("as {}", describe_other(other)),
+        };
+        diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{name}` {what}"));
     }
     let near = did_you_mean(name, outputs.iter().map(|output| output.match_name()));
     let near = near.and_then(|near| outputs.iter().copied().find(|output| output.match_name() == near));

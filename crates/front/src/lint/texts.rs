@@ -187,28 +187,10 @@ impl<'a> Texts<'a> {
         if starts_line { span } else { Span::new(span.start - indent as u32, span.end) }
     }
 
-    /// Whether a span has whole pairs of brackets and no comma between them: otherwise a macro made the expression out of several of its
-    /// arguments.
-    fn is_one_piece(&self, span: Span) -> bool {
-        let Some(file) = self.sources.file_of(span) else { return false };
-        let mut depth = 0_i32;
-        let mut whole = true;
-        for token in self.lexemes(file).within(span) {
-            match token.kind {
-                TokenKind::LeftParen | TokenKind::LeftBracket => depth += 1,
-                TokenKind::RightParen | TokenKind::RightBracket => depth -= 1,
-                TokenKind::Comma => whole &= depth > 0,
-                _ => {}
-            }
-            whole &= depth >= 0;
-        }
-        whole && depth == 0
-    }
-
     /// A fix of one replacement, if the span is written in place.
     pub(super) fn replace(&self, applicability: Applicability, span: Span, text: impl Into<String>) -> Option<Fix> {
         let text = text.into();
-        self.text(span).filter(|_| self.is_one_piece(span))?;
+        self.text(span)?;
         Some(Fix::new(applicability, format!("write `{text}`"), span, text))
     }
 

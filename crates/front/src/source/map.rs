@@ -6,6 +6,7 @@
 //! *Holds:* offset 0 belongs to no file; a [`FileId`] or [`ExpansionId`] is valid only in the map that made it.
 
 use super::{ExpansionId, Span};
+use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
@@ -152,6 +153,8 @@ pub struct Location {
 pub struct SourceMap {
     files: Vec<SourceFile>,
     expansions: Vec<Expansion>,
+    /// The macro uses that are in no other one: from where to where.
+    uses: BTreeMap<u32, u32>,
     /// Sorted by offset.
     renumberings: Vec<Renumbering>,
     /// The languages of the texts from an offset on, sorted by it.
@@ -201,7 +204,7 @@ struct Renumbering {
 /// The hash of all texts that somebody wrote, and of where macros are used: the macros of the command line are no part of it.
 impl Hash for SourceMap {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        let Self { files, expansions, renumberings, languages } = self;
+        let Self { files, expansions, uses: _, renumberings, languages } = self;
         files.len().hash(state);
         for SourceFile { name, text, shown, base, line_starts: _, characters: _, is_changing: _ } in files {
             let written = (name != Self::COMMAND_LINE).then_some((text, shown));
@@ -285,7 +288,9 @@ impl SourceMap {
         let fits = self.mark() == addition.from;
         if fits {
             self.files.extend_from_slice(&addition.files);
-            self.expansions.extend_from_slice(&addition.expansions);
+            addition.expansions.iter().for_each(|expansion| {
+                self.add_expansion(expansion.clone());
+            });
             self.renumberings.extend_from_slice(&addition.renumberings);
             self.languages.extend_from_slice(&addition.languages);
         }
@@ -315,8 +320,37 @@ impl SourceMap {
 
     /// Records a macro use.
     pub fn add_expansion(&mut self, expansion: Expansion) -> ExpansionId {
+        if !expansion.call.expansion.is_some() {
+            self.add_use(expansion.call);
+        }
         self.expansions.push(expansion);
         ExpansionId::new(self.expansions.len() as u32)
+    }
+
+    /// Records a macro use outside of macros. One that the text of another one begins, as `SQ` in `F (x)` with `#define F SQ`, is
+    /// one with it.
+    fn add_use(&mut self, call: Span) {
+        let (mut start, mut end) = (call.start, call.end);
+        while let Some((&other, &until)) = self.uses.range(..end).next_back().filter(|(_, until)| **until > start) {
+            if other <= start && end <= until {
+                return;
+            }
+            self.uses.remove(&other);
+            (start, end) = (start.min(other), end.max(until));
+        }
+        self.uses.insert(start, end);
+    }
+
+    /// Whether the texts use any macro.
+    pub(crate) fn has_uses(&self) -> bool {
+        !self.uses.is_empty()
+    }
+
+    /// The outermost macro use that put a token where it is: that of its macro, or the one in whose arguments it is written.
+    pub(crate) fn use_around(&self, token: Span) -> Option<Span> {
+        let site = self.call_site(token);
+        let (start, end) = self.uses.range(..=site.start).next_back().filter(|(_, end)| site.end <= **end)?;
+        (site.start < *end).then(|| Span::new(*start, *end))
     }
 
     /// The macro use that a span's expansion number names.
@@ -415,12 +449,21 @@ impl SourceMap {
         while let Some(expansion) = self.expansion(outer.expansion) {
             outer = expansion.call;
         }
-        outer
+        Span { expansion: outer.expansion.plain(), ..outer }
     }
 
     /// The smallest span from the start of `first` to the end of `last`. If they come from different macro uses or
     /// files, this joins their call sites; if those lie in two files, it is `first`.
     pub fn join(&self, first: Span, last: Span) -> Span {
+        let joined = self.joined(
+            Span { expansion: first.expansion.plain(), ..first },
+            Span { expansion: last.expansion.plain(), ..last },
+        );
+        let expansion = joined.expansion.marked_as(first.expansion).marked_as(last.expansion);
+        Span { expansion, ..joined }
+    }
+
+    fn joined(&self, first: Span, last: Span) -> Span {
         if !first.is_known() {
             return last;
         }

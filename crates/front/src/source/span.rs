@@ -7,6 +7,8 @@ pub struct ExpansionId(u32);
 impl ExpansionId {
     /// Text that does not come from a macro.
     pub const NONE: Self = Self(0);
+    /// The mark of a scattered span ([`Span::scattered`]), next to the number.
+    const SCATTERED: u32 = 1 << 31;
 
     /// The expansion with this number in the source map, counted from 1.
     pub(crate) fn new(number: u32) -> Self {
@@ -15,10 +17,25 @@ impl ExpansionId {
 
     /// The index in the source map's table, or `None` for text outside macros.
     pub(crate) fn index(self) -> Option<usize> {
-        (self.0 as usize).checked_sub(1)
+        (self.plain().0 as usize).checked_sub(1)
     }
 
-    /// Whether the text comes from a macro.
+    /// The same number without a mark.
+    pub(crate) fn plain(self) -> Self {
+        Self(self.0 & !Self::SCATTERED)
+    }
+
+    /// This number with the mark of another one.
+    pub(crate) fn marked_as(self, other: Self) -> Self {
+        Self(self.0 | other.0 & Self::SCATTERED)
+    }
+
+    /// The number as it is saved.
+    pub(crate) fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// Whether the text comes from a macro, or from several places around one.
     pub fn is_some(self) -> bool {
         self.0 != 0
     }
@@ -47,6 +64,12 @@ impl Span {
     /// Whether this is a position in a text at all.
     pub fn is_known(self) -> bool {
         self.end != 0
+    }
+
+    /// This place for what was read in pieces: a macro use begins or ends inside of it, or puts together what is apart in the text.
+    /// The text of the span is then not what was read, so nobody may quote or change it.
+    pub(crate) fn scattered(self) -> Self {
+        Self { expansion: ExpansionId(self.expansion.0 | ExpansionId::SCATTERED), ..self }
     }
 
     /// An empty span directly after this one, where something is missing.

@@ -17,8 +17,9 @@ pub(crate) fn of_version(finding: Diagnostic, version: Version) -> Diagnostic {
     if version.span.is_known() {
         return finding;
     }
-    let Diagnostic { message, primary, .. } = finding;
-    Diagnostic::new(&MISSING_VERSION, primary.span, "the source has no `#version` line")
+    let Diagnostic { message, primary, lacking, .. } = finding;
+    let missing = Diagnostic::new(&MISSING_VERSION, primary.span, "the source has no `#version` line");
+    Diagnostic { lacking, ..missing }
         .here(message)
         .note("without it the language is GLSL 1.10")
         .help("begin the source with the line of its version, such as `#version 150`, or say `--assume-version 150`")

@@ -41,15 +41,24 @@ impl Analyzer<'_> {
             if matches!(idents, [name] if is_struct(name)) {
                 return;
             }
-            self.report(
-                Diagnostic::new(&qualifiers::MISPLACED, span, "a declaration without a type")
-                    .here("only `invariant` may be added to a declared variable"),
-            );
+            self.without_type(idents, span);
             return;
         }
         for &name in idents {
             self.make_invariant(name);
         }
+    }
+
+    /// Reports `uniform t;`. If nothing is declared by a name, it is known from here on.
+    fn without_type(&mut self, idents: &[Ident], span: Span) {
+        let finding = Diagnostic::new(&qualifiers::MISPLACED, span, "a declaration without a type");
+        let new = idents.iter().find(|name| self.scopes.find(name.symbol).is_none());
+        let finding = match new.map(|name| self.name(*name)) {
+            Some(name) => finding.here("a type is missing").help(format!("write a type before `{name}`")),
+            None => finding.here("only `invariant` may be added to a declared variable"),
+        };
+        self.report(finding);
+        self.enter_broken(idents);
     }
 
     /// Reports what cannot be added to a variable that is declared: all but `invariant` and `precise`.

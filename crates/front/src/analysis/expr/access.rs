@@ -30,7 +30,9 @@ impl Analyzer<'_> {
                     return self.member(base, index, span);
                 }
                 let structure = self.types.structure(id);
-                let near = did_you_mean(spelling, structure.members.iter().map(|member| member.name.as_str()));
+                let members = structure.members.iter().map(|member| member.name.as_str());
+                let may_suggest = self.budget.may_suggest(members.len());
+                let near = may_suggest.then(|| did_you_mean(spelling, members)).flatten();
                 let help = near.map(Advice::meant);
                 let name = self.type_name(self.ty(base));
                 self.report(

@@ -122,7 +122,7 @@ impl Analyzer<'_> {
             self.report(finding);
             return false;
         }
-        let foreign = super::foreign::function(spelling);
+        let foreign = super::foreign::function(spelling, self.ast.version);
         if foreign.is_none() && is_taken(spelling, self.ast.version) {
             // The parser has reported a keyword as a name.
             return false;

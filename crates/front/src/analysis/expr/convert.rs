@@ -86,6 +86,7 @@ impl Analyzer<'_> {
         if let (Type::Scalar(Scalar::Float), Type::Scalar(whole @ (Scalar::Int | Scalar::Uint))) =
             (self.types.get(from), self.types.get(to))
             && let Some(number) = whole_literal(text).filter(|_| !span.expansion.is_some())
+            && (number.parse::<i32>().is_ok() || whole == Scalar::Uint && number.parse::<u32>().is_ok())
         {
             let suffix = if whole == Scalar::Uint { "u" } else { "" };
             return Some(Advice::write(Applicability::Safe, format!("{number}{suffix}")));

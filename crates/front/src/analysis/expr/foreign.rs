@@ -42,6 +42,12 @@ static RENAMED: &[(&str, &str)] = &[
     ("ddy", "dFdy"), ("tex2D", "texture"), ("texCUBE", "texture"),
 ];
 
+/// The versions in which one `texture` takes all samplers.
+const OVERLOADED_LOOKUPS: Since = Since::new(130, 300);
+
+/// Lookups of HLSL and what versions without [`OVERLOADED_LOOKUPS`] have for them, with its arguments.
+static EARLY_LOOKUPS: &[(&str, &str, &str)] = &[("tex2D", "texture2D", "s, p"), ("texCUBE", "textureCube", "s, p")];
+
 /// Methods of textures in HLSL.
 static METHODS: &[(&str, &str)] = &[
     ("Sample", "use `texture(s, p)`; declare one `sampler2D` instead of the texture and its sampler"),
@@ -116,7 +122,13 @@ pub(super) fn reason(name: &str) -> Option<(&'static str, &'static str)> {
 }
 
 /// The replacement for a function that does not exist.
-pub(super) fn function(name: &str) -> Option<Advice> {
+pub(super) fn function(name: &str, version: Version) -> Option<Advice> {
+    if !version.reaches(OVERLOADED_LOOKUPS)
+        && let Some((_, own, arguments)) = EARLY_LOOKUPS.iter().find(|row| row.0 == name)
+    {
+        let sentence = format!("write `{own}({arguments})`");
+        return Some(Advice::new(Applicability::Unsafe, sentence, Place::Over, *own));
+    }
     let renamed = RENAMED.iter().find(|row| row.0 == name);
     let foreign = FUNCTIONS.iter().find(|row| row.0 == name).map(|&(_, sentence)| match renamed {
         Some(&(_, other)) => Advice::new(Applicability::Unsafe, sentence, Place::Over, other),

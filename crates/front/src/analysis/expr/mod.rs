@@ -20,6 +20,7 @@ mod overload;
 mod swizzle;
 
 use super::context::Analyzer;
+use crate::diagnostic::{Advice, Applicability};
 use crate::hir::{ExprId, ScalarValue};
 use crate::language::Feature;
 use crate::source::Span;
@@ -82,8 +83,9 @@ impl Analyzer<'_> {
         match literal {
             Literal::Uint(_) => self.require(Feature::UnsignedLiterals, span),
             Literal::Float(_) if !self.ast.version.has(Feature::FloatSuffix) => {
-                if self.sources.snippet(span).ends_with(['f', 'F']) {
-                    self.require(Feature::FloatSuffix, span);
+                if let Some(number) = self.sources.snippet(span).strip_suffix(['f', 'F']) {
+                    let help = Advice::write(Applicability::Safe, number);
+                    self.require_with(Feature::FloatSuffix, span, Some(help));
                 }
             }
             Literal::Float(_) | Literal::Bool(_) | Literal::Int(_) => {}

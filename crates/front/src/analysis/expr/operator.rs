@@ -100,7 +100,9 @@ impl Analyzer<'_> {
     pub(super) fn typed_binary(&mut self, operator: ast::BinaryOp, left: ExprId, right: ExprId) -> Option<Typed> {
         use ast::BinaryOp as B;
         let operands = (left, right);
-        if matches!(operator, B::Rem | B::BitAnd | B::BitXor | B::BitOr | B::Shl | B::Shr) {
+        let is_integer = |id| self.types.scalar_of(self.ty(id)).is_some_and(Scalar::is_integer);
+        let is_of_integers = matches!(operator, B::Rem | B::BitAnd | B::BitXor | B::BitOr | B::Shl | B::Shr);
+        if is_of_integers && is_integer(left) && is_integer(right) {
             self.require_operator(operator.spelling(), self.span(right));
         }
         match operator {
@@ -329,7 +331,10 @@ impl Analyzer<'_> {
             .maybe_help(help);
         if let Some((left, right)) = assigned {
             let between = Span { start: left.end, end: right.start, ..span };
-            finding = finding.fix(Fix::new(Applicability::Unsafe, "write `==` to compare", between, " == "));
+            // Operands that a macro puts together have something else between them.
+            if self.sources.snippet(between).trim() == "=" {
+                finding = finding.fix(Fix::new(Applicability::Unsafe, "write `==` to compare", between, " == "));
+            }
         }
         self.report(finding);
     }

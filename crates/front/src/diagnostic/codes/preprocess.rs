@@ -69,8 +69,8 @@ codes! {
         good Fragment("#ifndef LIGHTS\n#define LIGHTS 4\n#endif\nvoid main() {}");
     MISSING_VERSION = "E0120" "missing-version" Error "GLSL 1.50 §3.3"
         "By the specification, a shader without a `#version` line is written in GLSL 1.10. This one uses what 1.10 does \
-         not have, so it is written in another version and must say so. Other errors of the source are not reported, \
-         because they depend on its version."
+         not have, so it is written in another version and must say so. Other errors of the source are not reported \
+         where they may depend on its version."
         bad Text("in vec4 a; out vec4 c; void main() { c = a; }   // this is the first line of the file"), good Fragment("#version 130\nin vec4 a; out vec4 c; void main() { c = a; }");
     UNKNOWN_VERSION = "E0121" "unknown-version" Error "GLSL 1.50 §3.3"
         "The `#version` line names a version that does not exist, or a profile that the version does not have. Other errors of the source \

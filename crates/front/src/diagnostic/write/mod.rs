@@ -137,8 +137,7 @@ fn resolved(sources: &SourceMap, fix: &Fix) -> Option<FindingFix> {
     let mut edits = Vec::new();
     for edit in &fix.edits {
         // What a macro brings is written elsewhere, and for other uses of the macro, too.
-        let is_written_here = sources.expansion(edit.span.expansion).is_none();
-        let at = sources.location(edit.span).filter(|_| is_written_here)?;
+        let at = sources.location(edit.span).filter(|_| !edit.span.expansion.is_some())?;
         (!sources.file(at.file).name().starts_with('<')).then_some(())?;
         let span = if edit.text.is_empty() { removed(sources, edit.span) } else { edit.span };
         edits.push(FindingEdit { region: region(sources, span), text: edit.text.clone() });

@@ -1,9 +1,9 @@
 //! Parses declarations, global and local (GLSL 1.50 §4, §6.1, §9).
 
+use super::place::Start;
 use super::types::{is_precision, is_qualifier};
-use super::{Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
+use super::{Between, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
-use crate::source::Span;
 use crate::syntax::ast::{
     BlockDecl, Declaration, DeclarationKind, Declarator, FunctionHeader, Ident, ParamDecl, Qualifier, Stmt, TypeBase,
     TypeSpec, VariableDecl,
@@ -19,7 +19,9 @@ pub(super) const MAX_BODY: usize = 1 << 16;
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// external_declaration
     pub(super) fn external_declaration(&mut self) {
-        let start = self.current;
+        // Braces that close nothing, or that nothing closes, are none of the next declaration.
+        self.braces = 0;
+        let (first, start) = (self.current, self.start());
         let before = self.mark();
         self.begin();
         let kind = match self.kind() {
@@ -40,12 +42,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let kind = kind.unwrap_or_else(|_: Reported| {
             self.recover_declaration(before);
             self.name_skipped();
+            self.name_members();
             let fragment = self.fragment(before, start.span);
             DeclarationKind::Broken(Box::new(fragment))
         });
-        let span = self.since(start.span);
+        let span = self.since(start);
         // A line in the body of a function turns an extension on from there.
-        let extensions = self.session.extensions_at(start) | self.session.extensions_at(self.previous);
+        let extensions = self.session.extensions_at(first) | self.session.extensions_at(self.previous);
         self.ast.declarations.push(Declaration { kind, span, extensions });
     }
 
@@ -60,6 +63,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn global(&mut self) -> Parse<DeclarationKind> {
+        self.correct_layout();
         if self.kind() == TokenKind::Ident && !self.begins_named_declaration() {
             return Err(self.missing_type());
         }
@@ -68,9 +72,15 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
             return self.function_definition(header);
         }
-        if matches!(kind, DeclarationKind::Prototype(_)) && self.kind() != TokenKind::Semicolon && self.lost_brace(0) {
+        if matches!(kind, DeclarationKind::Prototype(_))
+            && self.kind() != TokenKind::Semicolon
+            && self.before_lost_brace(0).is_some()
+        {
             let DeclarationKind::Prototype(header) = kind else { return Err(Reported) };
             return Ok(self.function_without_brace(header));
+        }
+        if self.is_head(&kind) {
+            return self.unknown_head(kind);
         }
         if !matches!(kind, DeclarationKind::Function(..))
             && let Err(reported) = self.semicolon("the declaration")
@@ -155,28 +165,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(DeclarationKind::Function(header, body))
     }
 
-    /// Whether a `{` was forgotten: from the token `first` on, a `}` follows that closes nothing. It is sought only once, so that text
-    /// with many errors is not read again and again.
-    pub(super) fn lost_brace(&mut self, first: usize) -> bool {
-        if std::mem::replace(&mut self.sought_brace, true) {
-            return false;
-        }
-        let mut depth = 0_usize;
-        for at in first..MAX_BODY {
-            match self.ahead(at).kind {
-                TokenKind::LeftBrace => depth += 1,
-                TokenKind::RightBrace if depth == 0 => return true,
-                TokenKind::RightBrace => depth -= 1,
-                TokenKind::Eof => return false,
-                _ => {}
-            }
-        }
-        false
-    }
-
     /// function_definition without its `{`, which is reported and assumed.
     fn function_without_brace(&mut self, header: FunctionHeader) -> DeclarationKind {
-        let at = self.previous.span.after();
+        let at = self.behind();
         let diagnostic =
             Diagnostic::new(&codes::UNEXPECTED_TOKEN, at, "`{` is missing before the body of the function")
                 .here("expected `{`")
@@ -197,7 +188,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if let Some(reported) = self.definition_of_type() {
             return Err(reported);
         }
-        let start = self.current.span;
+        let start = self.start();
         let qualifiers = self.qualifiers()?;
         if !qualifiers.is_empty() {
             match (self.kind(), self.ahead(1).kind) {
@@ -212,15 +203,18 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 _ => {}
             }
         }
-        if self.kind() == TokenKind::Ident && self.ahead(1).kind == TokenKind::LeftBrace {
+        if self.kind() == TokenKind::Ident
+            && (self.ahead(1).kind == TokenKind::LeftBrace || self.lacks_brace(&qualifiers))
+        {
             return self.block(qualifiers);
         }
         let mut qualifiers = qualifiers;
         if self.kind() == TokenKind::LeftBrace && !qualifiers.is_empty() {
             return Err(self.nameless_block());
         }
+        let type_start = self.start();
         let ty = self.type_specifier()?;
-        self.late_qualifiers(&mut qualifiers, &ty)?;
+        self.late_qualifiers(&mut qualifiers, type_start, &ty)?;
         if matches!(self.kind(), TokenKind::Semicolon) || self.forgot_semicolon(&ty) {
             return Ok(DeclarationKind::Variables(VariableDecl { qualifiers, ty, declarators: Vec::new() }));
         }
@@ -304,6 +298,15 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             names.push(self.ident("the name of a variable")?);
         }
         Ok(DeclarationKind::Requalify { qualifiers, names })
+    }
+
+    /// Whether a block is next whose `{` is missing: `uniform Light`, and members on the lines below it.
+    fn lacks_brace(&mut self, qualifiers: &[Qualifier]) -> bool {
+        self.braces == 0
+            && !self.in_parameters
+            && !qualifiers.is_empty()
+            && self.begins_member(1)
+            && self.before_lost_brace(1) == Some(Between::Declarations)
     }
 
     /// An interface block (§4.3.7).
@@ -396,7 +399,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// function_prototype, from its parentheses on
     fn function_header(
         &mut self,
-        start: Span,
+        start: Start,
         qualifiers: Vec<Qualifier>,
         ty: TypeSpec,
         name: Ident,
@@ -455,10 +458,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// parameter_declaration
     fn parameter(&mut self) -> Parse<ParamDecl> {
-        let start = self.current.span;
+        let start = self.start();
         let mut qualifiers = self.qualifiers()?;
+        let type_start = self.start();
         let ty = self.type_specifier()?;
-        self.late_qualifiers(&mut qualifiers, &ty)?;
+        self.late_qualifiers(&mut qualifiers, type_start, &ty)?;
         if matches!(self.kind(), TokenKind::Star | TokenKind::Ampersand) {
             let spelling = self.kind().spelling();
             let message = format!("`{spelling}` before a parameter: there are neither pointers nor references");

@@ -1,5 +1,6 @@
 //! Parses expressions (GLSL 1.50 §5, §9).
 
+use super::place::Start;
 use super::{MAX_NESTING, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
@@ -88,13 +89,15 @@ fn prefix_op(kind: TokenKind) -> Option<Prefix> {
 }
 
 impl<T: TokenSource> Parser<'_, '_, T> {
-    /// Adds an expression to the tree, unless it is too deep.
-    pub(super) fn push(&mut self, kind: ExprKind, span: Span) -> Parse<ExprId> {
+    /// Adds an expression to the tree, from its start to the last token read, unless it is too deep.
+    pub(super) fn push(&mut self, kind: ExprKind, start: Start) -> Parse<ExprId> {
         let depth = self.depth_of(&kind);
+        let span = self.since(start);
         if u32::from(depth) > MAX_NESTING {
             return Err(self.too_deep(span));
         }
         self.depths.push(depth);
+        self.starts.push(start);
         Ok(self.ast.push(kind, span))
     }
 
@@ -102,7 +105,13 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn error_expr(&mut self, span: Span, pieces: Vec<ExprId>) -> ExprId {
         let depth = self.deepest(&pieces) + 1;
         self.depths.push(depth);
+        self.starts.push(self.start());
         self.ast.push(ExprKind::Error(pieces), span)
+    }
+
+    /// The beginning of an expression.
+    fn start_of(&self, id: ExprId) -> Start {
+        self.starts.get(id.index()).copied().unwrap_or_else(|| self.start())
     }
 
     fn depth(&self, id: ExprId) -> u16 {
@@ -140,17 +149,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         self.ast.expr(id)
     }
 
-    fn join(&self, first: Span, last: Span) -> Span {
-        self.session.sources.join(first, last)
-    }
-
     /// expression
     pub(super) fn expression(&mut self) -> Parse<ExprId> {
         let mut left = self.assignment_expression()?;
         while self.eat(TokenKind::Comma).is_some() {
             let right = self.assignment_expression()?;
-            let span = self.join(self.expr(left).span, self.expr(right).span);
-            left = self.push(ExprKind::Comma(left, right), span)?;
+            left = self.push(ExprKind::Comma(left, right), self.start_of(left))?;
         }
         Ok(left)
     }
@@ -165,8 +169,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             let Some(op) = assignment_op(this.kind()) else { return Ok(left) };
             let operator = this.bump().span;
             let right = this.assignment_expression()?;
-            let span = this.join(this.expr(left).span, this.expr(right).span);
-            this.push(ExprKind::Assign(op, operator, left, right), span)
+            this.push(ExprKind::Assign(op, operator, left, right), this.start_of(left))
         })
     }
 
@@ -186,8 +189,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
         self.bump();
         let no = self.assignment_expression()?;
-        let span = self.join(self.expr(condition).span, self.expr(no).span);
-        self.push(ExprKind::Ternary(condition, yes, no), span)
+        self.push(ExprKind::Ternary(condition, yes, no), self.start_of(condition))
     }
 
     /// logical_or_expression and everything below it down to multiplicative_expression, on an explicit stack.
@@ -202,8 +204,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                     break;
                 };
                 self.operators.pop();
-                let whole = self.join(self.expr(operand).span, self.expr(left).span);
-                left = self.push(ExprKind::Binary(op, span, operand, left), whole)?;
+                left = self.push(ExprKind::Binary(op, span, operand, left), self.start_of(operand))?;
             }
             let Some((op, _)) = next else { return Ok(left) };
             let operator = self.bump().span;
@@ -217,19 +218,18 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if prefix_op(self.kind()).is_none() {
             return self.postfix_expression();
         }
-        let mut operators: SmallVec<[(Prefix, Span); 4]> = SmallVec::new();
+        let mut operators: SmallVec<[(Prefix, Start); 4]> = SmallVec::new();
         while let Some(op) = prefix_op(self.kind()) {
-            operators.push((op, self.current.span));
+            operators.push((op, self.start()));
             self.bump();
         }
         let mut operand = self.postfix_expression()?;
         while let Some((op, operator)) = operators.pop() {
-            let span = self.join(operator, self.expr(operand).span);
             let kind = match op {
                 Prefix::Unary(op) => ExprKind::Unary(op, operand),
                 Prefix::Step(op) => ExprKind::IncDec(op, operand),
             };
-            operand = self.push(kind, span)?;
+            operand = self.push(kind, operator)?;
         }
         Ok(operand)
     }
@@ -251,16 +251,14 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     fn step(&mut self, base: ExprId, op: IncDec) -> Parse<ExprId> {
         self.bump();
-        let span = self.since(self.expr(base).span);
-        self.push(ExprKind::IncDec(op, base), span)
+        self.push(ExprKind::IncDec(op, base), self.start_of(base))
     }
 
     fn index(&mut self, base: ExprId) -> Parse<ExprId> {
         let opening = self.bump();
         let index = if self.kind() == TokenKind::RightBracket { None } else { Some(self.expression()?) };
         self.close(opening, TokenKind::RightBracket, "`]` or an operator")?;
-        let span = self.since(self.expr(base).span);
-        self.push(ExprKind::Index(base, index), span)
+        self.push(ExprKind::Index(base, index), self.start_of(base))
     }
 
     fn field(&mut self, base: ExprId) -> Parse<ExprId> {
@@ -268,11 +266,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let name = self.ident("the name of a member or a swizzle")?;
         if self.kind() == TokenKind::LeftParen {
             let arguments = self.arguments()?;
-            let span = self.since(self.expr(base).span);
-            return self.push(ExprKind::Method(base, name, arguments), span);
+            return self.push(ExprKind::Method(base, name, arguments), self.start_of(base));
         }
-        let span = self.since(self.expr(base).span);
-        self.push(ExprKind::Field(base, name), span)
+        self.push(ExprKind::Field(base, name), self.start_of(base))
     }
 
     /// `S[2](..)`: what was read as indices of a name are the array sizes of a type.
@@ -302,8 +298,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let span = self.expr(base).span;
         let ty = TypeSpec { base: TypeBase::Named(name), array: sizes, span };
         let arguments = self.arguments()?;
-        let whole = self.since(span);
-        self.push(ExprKind::Construct(Box::new(ty), arguments), whole)
+        self.push(ExprKind::Construct(Box::new(ty), arguments), self.start_of(base))
     }
 
     /// `(a, b)`, `()`, `(void)`
@@ -325,7 +320,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// primary_expression, and calls by name
     fn primary_expression(&mut self) -> Parse<ExprId> {
-        let token = self.current;
+        let (token, start) = (self.current, self.start());
         let literal = match token.kind {
             TokenKind::Ident | TokenKind::Reserved => return self.name(),
             TokenKind::Invalid => {
@@ -337,8 +332,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             TokenKind::Unsigned => {
                 let ty = self.type_specifier()?;
                 let arguments = self.arguments()?;
-                let whole = self.since(token.span);
-                return self.push(ExprKind::Construct(Box::new(ty), arguments), whole);
+                return self.push(ExprKind::Construct(Box::new(ty), arguments), start);
             }
             TokenKind::LeftParen => return self.parenthesized(),
             TokenKind::Int => Literal::Int(token.payload as i32),
@@ -349,7 +343,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             _ => return Err(self.no_expression()),
         };
         self.bump();
-        self.push(ExprKind::Literal(literal), token.span)
+        self.push(ExprKind::Literal(literal), start)
     }
 
     fn no_expression(&mut self) -> Reported {
@@ -364,58 +358,57 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn name(&mut self) -> Parse<ExprId> {
+        let start = self.start();
         let name: Ident = self.ident("a name")?;
         if self.kind() != TokenKind::LeftParen {
-            return self.push(ExprKind::Name(name), name.span);
+            return self.push(ExprKind::Name(name), start);
         }
         let arguments = self.arguments()?;
-        let span = self.since(name.span);
-        self.push(ExprKind::Call(name, arguments), span)
+        self.push(ExprKind::Call(name, arguments), start)
     }
 
     /// A type keyword and the arguments of its constructor.
     fn constructor(&mut self) -> Parse<ExprId> {
+        let start = self.start();
         let token: Token = self.bump();
         let array = self.array_specifiers()?;
-        let span = self.since(token.span);
+        let span = self.since(start);
         if self.kind() != TokenKind::LeftParen {
             let name = self.session.spelling(token).to_owned();
             return Err(self.unexpected(&format!("`(` after the type `{name}`")));
         }
         let ty = TypeSpec { base: TypeBase::Keyword(token.symbol()), array, span };
         let arguments = self.arguments()?;
-        let whole = self.since(span);
-        self.push(ExprKind::Construct(Box::new(ty), arguments), whole)
+        self.push(ExprKind::Construct(Box::new(ty), arguments), start)
     }
 
     /// The finding for `(float3)value`: a name in parentheses before a value is a cast of C or HLSL.
-    fn named_cast(&mut self, opening: Token, inner: ExprId) -> Option<Diagnostic> {
+    fn named_cast(&mut self, opening: Start, inner: ExprId) -> Option<Diagnostic> {
         let is_name = matches!(self.ast.exprs.get(inner.index()).map(|expr| &expr.kind), Some(ExprKind::Name(_)));
         let before_value =
             matches!(self.kind(), TokenKind::Ident | TokenKind::Int | TokenKind::Uint | TokenKind::Float);
         if !is_name || !before_value {
             return None;
         }
-        let span = self.since(opening.span);
+        let span = self.since(opening);
         let name = self.session.sources.snippet(span).trim_matches(['(', ')', ' ']).to_owned();
         // Any other name may be a variable, with an operator missing behind it.
         let ty = crate::language::foreign::type_name(&name)?;
         Some(cast(span, &name, ty))
     }
 
-    /// `(float)value`: a type in parentheses. It is reported, and read as the constructor that is meant.
-    fn cast(&mut self, opening: Token) -> Parse<ExprId> {
+    /// `(float)value`: a type in parentheses. It is reported, and its type counts as unknown.
+    fn cast(&mut self, opening: Start) -> Parse<ExprId> {
         let name = self.session.spelling(self.current).to_owned();
         let reported = self.report_found(cast(self.current.span, &name, &name));
-        let ty = self.bump();
+        self.bump();
         self.bump();
         if !self.begins_value() {
             return Err(reported);
         }
         let value = self.nested(Self::unary_expression)?;
-        let spec = TypeSpec { base: TypeBase::Keyword(ty.symbol()), array: Vec::new(), span: ty.span };
-        let whole = self.since(opening.span);
-        self.push(ExprKind::Construct(Box::new(spec), vec![value]), whole)
+        let whole = self.since(opening);
+        Ok(self.error_expr(whole, vec![value]))
     }
 
     /// Whether an operand is next.
@@ -427,21 +420,25 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// `(a)`: in the tree, parentheses only widen the span.
     fn parenthesized(&mut self) -> Parse<ExprId> {
+        let start = self.start();
         let opening = self.bump();
         if self.kind() == TokenKind::Type && self.ahead(1).kind == TokenKind::RightParen {
-            return self.cast(opening);
+            return self.cast(start);
         }
         let inner = self.expression()?;
         self.close(opening, TokenKind::RightParen, "`)` or an operator")?;
-        if let Some(finding) = self.named_cast(opening, inner) {
+        if let Some(finding) = self.named_cast(start, inner) {
             let _: Reported = self.report_found(finding);
             let value = self.nested(Self::unary_expression)?;
-            let whole = self.since(opening.span);
+            let whole = self.since(start);
             return Ok(self.error_expr(whole, vec![value]));
         }
-        let span = self.since(opening.span);
+        let span = self.since(start);
         if let Some(expr) = self.ast.exprs.get_mut(inner.index()) {
             expr.span = span;
+        }
+        if let Some(place) = self.starts.get_mut(inner.index()) {
+            *place = start;
         }
         let depth = self.depth(inner) + 1;
         if u32::from(depth) > MAX_NESTING {

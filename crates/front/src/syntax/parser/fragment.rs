@@ -3,6 +3,7 @@
 //! *In:* the expressions and names that were read before the error. *Out:* a [`Fragment`], so that names in broken text are known to an
 //! editor, and variables have their types. *Not done here:* saying anything about it; the error has been reported.
 
+use super::types::is_qualifier;
 use super::{Mark, Parser, TokenKind, TokenSource};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprId, ExprKind, Fragment, VariableDecl};
@@ -44,7 +45,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             });
             let is_typed = matches!(before, [Type, ..] | [RightAngle, Type | Ident, LeftAngle, Type]);
             let is_declared = is_typed && matches!(next.kind, Equal | Semicolon | Comma | LeftBracket);
-            if depth == 0 && token.kind == Ident && is_declared {
+            // The parentheses of a `layout` may be broken.
+            let is_global = is_typed && is_qualifier(before[1]) && matches!(next.kind, Semicolon | LeftBracket);
+            if (depth == 0 || is_global) && token.kind == Ident && is_declared {
                 names.push(ast::Ident { symbol: token.symbol(), span: token.span });
             }
         }

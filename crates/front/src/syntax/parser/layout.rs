@@ -185,7 +185,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             kind if !continues(kind) && is_next && open.is_none() => expected,
             _ => "an expression",
         };
-        let at = before.span.after();
+        let at = self.between(before.span, target);
         let closes = !continues(before.kind) || matches!(before.kind, TokenKind::Comma) || open_kind(before.kind);
         let diagnostic = match open.filter(|_| closes) {
             Some(opening) => unclosed(opening, at),
@@ -257,6 +257,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if let Some(before) = self.taken.last() {
             self.previous = *before;
         }
+        self.note_seam();
     }
 }
 

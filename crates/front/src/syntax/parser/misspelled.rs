@@ -105,6 +105,16 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
+    /// Makes a name the `layout` that begins `layot(location = 0) out vec4 a;`.
+    pub(super) fn correct_layout(&mut self) {
+        if self.braces == 0 && self.kind() == TokenKind::Ident && self.ahead(1).kind == TokenKind::LeftParen {
+            let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
+            if is_qualifier(self.ahead(behind).kind) {
+                self.correct_to("expected a qualifier or a type", |kind| kind == TokenKind::Layout);
+            }
+        }
+    }
+
     /// Reports a name that is similar to a keyword of a statement, and makes it that keyword.
     fn correct(&mut self, is_wanted: impl Fn(TokenKind) -> bool) {
         self.correct_to("expected a statement", is_wanted);

@@ -15,9 +15,11 @@ mod declaration;
 mod expr;
 mod foreign;
 mod fragment;
+mod head;
 mod keyword_names;
 mod layout;
 mod misspelled;
+mod place;
 mod recover;
 mod statement;
 #[cfg(test)]
@@ -34,6 +36,7 @@ use crate::diagnostic::{Advice, Applicability, Code, Diagnostic, Place};
 use crate::language::NEVER;
 use crate::source::Span;
 use crate::stack::with_stack;
+use place::{Seams, Start};
 use rustc_hash::FxHashSet;
 use std::collections::VecDeque;
 
@@ -59,6 +62,15 @@ struct Mark {
     exprs: usize,
 }
 
+/// The text up to a `}` that closes nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Between {
+    /// Declarations alone, if anything.
+    Declarations,
+    /// A statement that is no declaration, among others.
+    Statements,
+}
+
 /// The state of a parse.
 pub(super) struct Parser<'p, 's, T: TokenSource> {
     source: &'p mut T,
@@ -74,6 +86,9 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     nesting: u32,
     /// The depth of each expression (see the module's documentation).
     depths: Vec<u16>,
+    /// The beginning of each expression.
+    starts: Vec<Start>,
+    seams: Seams,
     /// Operators that wait for their right operand.
     operators: Vec<(BinaryOp, Span, ExprId)>,
     /// Reserved words that were used as names. That was reported; from then on they are names.
@@ -86,8 +101,10 @@ pub(super) struct Parser<'p, 's, T: TokenSource> {
     end_reported: bool,
     /// Whether a function begins inside a function: the outer body ends as if its brace were there.
     leaving_function: bool,
-    /// Whether a forgotten `{` of a function has been sought.
-    sought_brace: bool,
+    /// Whether each brace of the file has its partner, once they have been counted.
+    paired: Option<bool>,
+    /// How many tokens were looked at to find braces that close nothing.
+    sought: usize,
     /// Whether the error that is being propagated leaves nothing to skip.
     recovered: bool,
     /// The tokens to which the parser went back. It goes back to none twice, so it ends.
@@ -128,13 +145,16 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             braces: 0,
             nesting: 0,
             depths: Vec::new(),
+            starts: Vec::new(),
+            seams: Seams::default(),
             operators: Vec::new(),
             renamed: FxHashSet::default(),
             keyword_names: FxHashSet::default(),
             assumed_semicolon: false,
             end_reported: false,
             leaving_function: false,
-            sought_brace: false,
+            paired: None,
+            sought: 0,
             recovered: false,
             returned_to: FxHashSet::default(),
             overdeep: false,
@@ -206,6 +226,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
             Some(token) => token,
             None => self.fetch(),
         };
+        self.note_seam();
         if !self.keyword_names.is_empty() {
             self.name_keyword();
         }
@@ -235,7 +256,7 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         if let Some(reported) = self.left_unfinished(expected) {
             return Err(reported);
         }
-        let diagnostic = layout::unclosed(opening, self.previous.span.after());
+        let diagnostic = layout::unclosed(opening, self.behind());
         let diagnostic = match self.open_in_macro() {
             Some((span, name)) => diagnostic.label(span, format!("the macro `{name}` does not close this")),
             None => diagnostic,
@@ -252,13 +273,10 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         if !forgotten {
             return Err(self.unexpected(&format!("`;` after {what}")));
         }
-        let diagnostic = Diagnostic::new(
-            &codes::MISSING_SEMICOLON,
-            self.previous.span.after(),
-            format!("`;` is missing after {what}"),
-        )
-        .here("expected `;`")
-        .help(Advice::new(Applicability::Safe, "write `;` here", Place::Before, ";"));
+        let message = format!("`;` is missing after {what}");
+        let diagnostic = Diagnostic::new(&codes::MISSING_SEMICOLON, self.behind(), message)
+            .here("expected `;`")
+            .help(Advice::new(Applicability::Safe, "write `;` here", Place::Before, ";"));
         // A brace that is missing, too, at the end of the file is another error.
         let end_reported = self.end_reported;
         let _: Reported = self.report_found(diagnostic);
@@ -271,6 +289,10 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     fn ident(&mut self, what: &str) -> Parse<Ident> {
         let token = self.current;
         match token.kind {
+            // A malformed number is a value.
+            TokenKind::Invalid if self.session.spelling(token).starts_with(|first: char| first.is_ascii_digit()) => {
+                return Err(self.unexpected(what));
+            }
             TokenKind::Ident | TokenKind::Invalid => {}
             TokenKind::Reserved => self.report_reserved(token, what),
             kind if is_word(kind) && !(token.starts_line() && self.consumed > 0) => self.keyword_as_name(token, what),
@@ -391,11 +413,6 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
     /// The position before the next token.
     fn mark(&self) -> Mark {
         Mark { consumed: self.consumed, braces: self.braces, exprs: self.n_exprs() }
-    }
-
-    /// The span from `first` to the last token read.
-    fn since(&self, first: Span) -> Span {
-        self.session.sources.join(first, self.previous.span)
     }
 
     /// Runs a production one level deeper.

@@ -1,13 +1,17 @@
 //! Error recovery: what to skip after an error, so that the rest is parsed and nothing is reported twice.
 
-use super::{Mark, Parser, Reported, TokenKind, TokenSource, codes};
+use super::types::is_qualifier;
+use super::{Between, Mark, Parser, Reported, TokenKind, TokenSource, codes};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
+
+/// How many tokens are looked at to find braces that close nothing.
+const MAX_SOUGHT: usize = 1 << 18;
 
 impl<T: TokenSource> Parser<'_, '_, T> {
     /// Reports, once, that the file ends inside braces.
     pub(super) fn unclosed_brace(&mut self, opening: Span) -> Reported {
-        let end = self.previous.span.after();
+        let end = self.behind();
         let diagnostic = Diagnostic::new(&codes::UNCLOSED_DELIMITER, opening, "`{` is not closed")
             .here("this brace is never closed")
             .label(end, "the file ends here");
@@ -17,14 +21,41 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     /// Whether the next `}` would end a function though its statements go on, up to another `}` that closes nothing: one `{` is missing, or
     /// this `}` is too much.
     pub(super) fn ends_too_early(&mut self) -> bool {
+        self.braces == 1 && matches!(self.before_lost_brace(1), Some(Between::Statements))
+    }
+
+    /// The text from the token `first` on before a `}` that closes nothing; `None` if there is none before the next function. All
+    /// searches together look at a bounded number of tokens, so that text with many errors is not read again and again.
+    pub(super) fn before_lost_brace(&mut self, first: usize) -> Option<Between> {
         use TokenKind::*;
-        let next = self.ahead(1).kind;
-        let goes_on = match next {
-            If | For | While | Do | Switch | Return | Break | Continue | Discard => true,
-            Ident => self.ahead(2).kind != Ident && self.is_named_statement(self.taken.len() + 1),
-            _ => false,
-        };
-        self.braces == 1 && goes_on && self.lost_brace(1)
+        let (mut depth, mut begins) = (0_usize, true);
+        let mut between = Between::Declarations;
+        for at in first.. {
+            self.sought = self.sought.checked_add(1).filter(|sought| *sought < MAX_SOUGHT)?;
+            let kind = self.ahead(at).kind;
+            if begins && depth == 0 {
+                match kind {
+                    If | Else | For | While | Do | Switch | Return | Break | Continue | Discard => {
+                        between = Between::Statements;
+                    }
+                    Type | Void | Ident if self.ahead(at + 1).kind == Ident => {
+                        (self.ahead(at + 2).kind != LeftParen).then_some(())?;
+                    }
+                    Ident if self.is_named_statement(self.taken.len() + at) => between = Between::Statements,
+                    Uniform | In | Out | Attribute | Varying | Layout => return None,
+                    _ => {}
+                }
+            }
+            begins = matches!(kind, Semicolon | LeftBrace | RightBrace) || begins && is_qualifier(kind);
+            match kind {
+                LeftBrace => depth += 1,
+                RightBrace if depth == 0 => return Some(between),
+                RightBrace => depth -= 1,
+                Eof => return None,
+                _ => {}
+            }
+        }
+        None
     }
 
     /// Reports the `}`, and goes on in the function.
@@ -37,6 +68,8 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 .label(self.function_brace, "it begins here")
                 .help("a `{` is missing above, or this `}` is too much");
         self.session.report(diagnostic);
+        // Its `if` is behind the brace.
+        self.eat(TokenKind::Else);
     }
 
     /// Skips the rest of a broken statement or member that began at `start`: up to its `;` or past its `{..}`, but

@@ -47,7 +47,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// statement; reports and skips one that makes no sense.
     pub(super) fn statement(&mut self) -> Stmt {
-        let start = self.current.span;
+        let start = self.start();
         let before = self.mark();
         self.begin();
         let kind = self.nested(Self::statement_kind).unwrap_or_else(|_: Reported| {
@@ -55,7 +55,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 self.recover_statement(before);
                 self.name_skipped();
             }
-            let fragment = self.fragment(before, start);
+            let fragment = self.fragment(before, start.span);
             if fragment.is_empty() { StmtKind::Error } else { StmtKind::Broken(Box::new(fragment)) }
         });
         self.taken.clear();
@@ -116,7 +116,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// Reports the attribute, and reads the statement behind it.
     fn attribute(&mut self) -> Parse<StmtKind> {
-        let opening = self.current.span;
+        let opening = self.start();
         let mut depth = 0_usize;
         loop {
             match self.bump().kind {
@@ -174,6 +174,9 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn simple_statement(&mut self) -> Parse<StmtKind> {
+        if self.begins_global() {
+            return Err(self.leave_before_global());
+        }
         if !self.begins_declaration() {
             let expr = self.expression()?;
             self.semicolon("the expression")?;
@@ -193,7 +196,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     fn local_declaration(&mut self) -> Parse<StmtKind> {
-        let start = self.current.span;
+        let start = self.start();
         Ok(match self.declaration()? {
             DeclarationKind::Precision { qualifier, ty } => StmtKind::Precision { qualifier, ty },
             DeclarationKind::Variables(variables) => StmtKind::Variables(variables),
@@ -247,32 +250,57 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// Reads a function inside a function, as if it were in front of the outer one.
     fn inner_function(&mut self) -> Parse<StmtKind> {
-        let (start, outer_brace) = (self.current, self.function_brace);
+        let (first, start, outer_brace) = (self.current, self.start(), self.function_brace);
         let DeclarationKind::Prototype(mut header) = self.declaration()? else { return Err(Reported) };
         // It may read what the outer one declares, which is not known in front of it.
         header.is_whole = false;
         let kind = self.function_definition(header)?;
         self.function_brace = outer_brace;
-        let extensions = self.session.extensions_at(start);
-        self.ast.declarations.push(Declaration { kind, span: self.since(start.span), extensions });
+        let extensions = self.session.extensions_at(first);
+        self.ast.declarations.push(Declaration { kind, span: self.since(start), extensions });
         Ok(StmtKind::Empty)
     }
 
-    /// Whether each brace that is open is closed up to the end of the file. That is sought only once.
-    fn braces_are_paired(&mut self) -> bool {
-        if std::mem::replace(&mut self.sought_brace, true) {
-            return false;
+    /// Whether each brace that is open is closed up to the end of the file. They are counted only once.
+    pub(super) fn braces_are_paired(&mut self) -> bool {
+        if let Some(paired) = self.paired {
+            return paired;
         }
         let mut depth = self.braces;
+        let mut paired = false;
         for at in 0..MAX_BODY {
             match self.ahead(at).kind {
                 TokenKind::LeftBrace => depth += 1,
                 TokenKind::RightBrace => depth -= 1,
-                TokenKind::Eof => return depth == 0,
+                TokenKind::Eof => {
+                    paired = depth == 0;
+                    break;
+                }
                 _ => {}
             }
         }
-        false
+        self.paired = Some(paired);
+        paired
+    }
+
+    /// Whether a line is next that declares something only outside of functions: if braces are missing, one is above it.
+    fn begins_global(&mut self) -> bool {
+        use TokenKind::*;
+        self.braces > 0
+            && self.current.starts_line()
+            && matches!(self.kind(), Uniform | In | Out | Attribute | Varying | Layout)
+            && !self.braces_are_paired()
+    }
+
+    /// Reports the function whose `}` is missing above a global declaration, and leaves it.
+    fn leave_before_global(&mut self) -> Reported {
+        let diagnostic = Diagnostic::new(&codes::UNCLOSED_DELIMITER, self.function_brace, "`{` is not closed")
+            .here("the function begins here")
+            .label(self.current.span, "this declares something outside of functions: a `}` is missing above");
+        self.session.report(diagnostic);
+        self.leaving_function = true;
+        self.assumed_brace = true;
+        Reported
     }
 
     fn stray_case(&mut self) -> Reported {
@@ -379,7 +407,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 return Err(self.unclosed_brace(opening.span));
             }
             let before = self.mark();
-            let start = self.current.span;
+            let start = self.start();
             self.begin();
             match self.switch_item() {
                 Ok(item) => body.push(item),
@@ -402,7 +430,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// case_label or statement
     fn switch_item(&mut self) -> Parse<SwitchItem> {
-        let start = self.current.span;
+        let start = self.start();
         match self.kind() {
             TokenKind::Case => {
                 self.bump();
@@ -449,7 +477,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// for_init_statement
     fn for_init(&mut self) -> Parse<Stmt> {
-        let start: Span = self.current.span;
+        let start = self.start();
         let kind = if self.kind() == TokenKind::Semicolon {
             StmtKind::Empty
         } else if self.begins_declaration() {
@@ -472,7 +500,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if !self.begins_declaration() {
             return Ok(Condition::Expr(self.expression()?));
         }
-        let start = self.current.span;
+        let start = self.start();
         match self.declaration()? {
             DeclarationKind::Variables(variables) if is_one_initialized(&variables) => {
                 Ok(Condition::Declaration(Box::new(variables)))

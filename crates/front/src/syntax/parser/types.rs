@@ -1,7 +1,8 @@
 //! Parses qualifiers, types, structs and their members (GLSL 1.50 §4, §9).
 
-use super::{Parse, Parser, Token, TokenKind, TokenSource, codes};
-use crate::diagnostic::{Advice, Applicability, Diagnostic};
+use super::place::Start;
+use super::{Between, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
+use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
 use crate::language::Extensions;
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -40,6 +41,12 @@ pub(super) fn is_precision(kind: &QualifierKind) -> bool {
     matches!(kind, QualifierKind::Lowp | QualifierKind::Mediump | QualifierKind::Highp)
 }
 
+/// Whether it is a storage qualifier of global variables and blocks.
+fn is_of_global(kind: TokenKind) -> bool {
+    use TokenKind::*;
+    matches!(kind, Const | Uniform | In | Out | Attribute | Varying)
+}
+
 /// Whether a token begins a qualifier.
 pub(super) fn is_qualifier(kind: TokenKind) -> bool {
     kind == TokenKind::Layout || qualifier(kind).is_some()
@@ -50,22 +57,22 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn qualifiers(&mut self) -> Parse<Vec<Qualifier>> {
         let mut list = Vec::new();
         loop {
-            let start = self.current.span;
+            let start = self.start();
             self.correct_block();
             if let Some(kind) = qualifier(self.kind()) {
                 self.bump();
-                list.push(Qualifier { kind, span: start });
+                list.push(Qualifier { kind, span: start.span });
             } else if self.kind() == TokenKind::Layout || self.is_later_layout() {
                 let kind = QualifierKind::Layout(self.layout()?);
                 list.push(Qualifier { kind, span: self.since(start) });
             } else if self.is_foreign_qualifier() || self.is_storage_block() {
-                let _: super::Reported = self.foreign();
+                let _: Reported = self.foreign();
             } else if self.is_reserved_qualifier() {
                 let token = self.current;
                 self.report_reserved_qualifier(token);
                 self.bump();
             } else if self.is_unknown_qualifier() {
-                list.extend(self.unknown_qualifier().map(|kind| Qualifier { kind, span: start }));
+                list.extend(self.unknown_qualifier().map(|kind| Qualifier { kind, span: start.span }));
             } else {
                 return Ok(list);
             }
@@ -73,7 +80,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// Reports qualifiers behind the type, as in `vec3 in n`, and reads them as if they were in front of it.
-    pub(super) fn late_qualifiers(&mut self, list: &mut Vec<Qualifier>, ty: &TypeSpec) -> Parse<()> {
+    pub(super) fn late_qualifiers(&mut self, list: &mut Vec<Qualifier>, start: Start, ty: &TypeSpec) -> Parse<()> {
         let behind = match self.kind() {
             TokenKind::Layout if self.ahead(1).kind == TokenKind::LeftParen => {
                 let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
@@ -87,16 +94,17 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         if self.current.starts_line() || !is_late {
             return Ok(());
         }
-        let first = self.current.span;
+        let first = self.start();
         list.extend(self.qualifiers()?);
         let snippet = |span| self.session.sources.snippet(span).to_owned();
         let (words, name) = (snippet(self.since(first)), snippet(ty.span));
         let help = match ty.base {
             TypeBase::Struct(_) => Advice::from("write it before the type"),
+            _ if self.since(start).expansion.is_some() => Advice::from("write it before the type"),
             _ => Advice::write(Applicability::Safe, format!("{words} {name}")),
         };
         let diagnostic =
-            Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.since(ty.span), format!("`{words}` is behind the type"))
+            Diagnostic::new(&codes::UNEXPECTED_TOKEN, self.since(start), format!("`{words}` is behind the type"))
                 .here("qualifiers come before the type")
                 .help(help);
         self.session.report(diagnostic);
@@ -184,7 +192,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// type_specifier_no_prec
     pub(super) fn type_specifier(&mut self) -> Parse<TypeSpec> {
-        let token = self.current;
+        let (token, start) = (self.current, self.start());
         let base = match token.kind {
             TokenKind::Void => {
                 self.bump();
@@ -196,7 +204,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
             TokenKind::Unsigned => self.unsigned(),
             TokenKind::Foreign => {
-                let _: super::Reported = self.foreign();
+                let _: Reported = self.foreign();
                 TypeBase::Error
             }
             TokenKind::Ident => {
@@ -212,7 +220,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             _ => return Err(self.unexpected("a type")),
         };
         let array = self.array_specifiers()?;
-        Ok(TypeSpec { base, array, span: self.since(token.span) })
+        Ok(TypeSpec { base, array, span: self.since(start) })
     }
 
     /// Reports `precision mediump float` and its like where the version is missing: two names before a keyword for a type are
@@ -250,7 +258,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// Reports `unsigned int` of C, and reads it as the `uint` that is meant.
     fn reserved_unsigned(&mut self) -> TypeBase {
-        let start = self.current.span;
+        let start = self.start();
         let base = self.unsigned();
         let message = "`unsigned int` has another name in GLSL";
         let help = Advice::write(Applicability::Safe, "uint");
@@ -283,10 +291,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     pub(super) fn array_specifiers(&mut self) -> Parse<Vec<ArrayDim>> {
         let mut dims = Vec::new();
         while self.kind() == TokenKind::LeftBracket {
+            let start = self.start();
             let opening = self.bump();
             let size = if self.kind() == TokenKind::RightBracket { None } else { Some(self.constant_expression()?) };
             self.close(opening, TokenKind::RightBracket, "`]` or an operator")?;
-            dims.push(ArrayDim { size, span: self.since(opening.span) });
+            dims.push(ArrayDim { size, span: self.since(start) });
             if dims.len() > super::MAX_NESTING as usize {
                 return Err(self.too_deep(opening.span));
             }
@@ -302,19 +311,77 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         Ok(StructSpec { name, members })
     }
 
+    /// The `{` of a struct or a block. A missing one before members and their `}` is reported and assumed.
+    fn opening_brace(&mut self) -> Parse<Span> {
+        let is_lost = self.begins_member(0) && self.before_lost_brace(0) == Some(Between::Declarations);
+        if !is_lost {
+            return self.expect(TokenKind::LeftBrace).map(|token| token.span);
+        }
+        let at = self.behind();
+        let diagnostic = Diagnostic::new(&codes::UNEXPECTED_TOKEN, at, "`{` is missing before the members")
+            .here("expected `{`")
+            .help(Advice::new(Applicability::Unsafe, "write `{` here", Place::Before, " {"));
+        self.session.report(diagnostic);
+        self.braces += 1;
+        Ok(at)
+    }
+
+    /// Whether a line that begins with a token begins a member.
+    pub(super) fn begins_member(&mut self, at: usize) -> bool {
+        let first = self.ahead(at);
+        let is_type = matches!(first.kind, TokenKind::Type | TokenKind::Ident);
+        first.starts_line() && (is_type && self.ahead(at + 1).kind == TokenKind::Ident || is_qualifier(first.kind))
+    }
+
+    /// Whether a function or a uniform begins where a member may, though braces are missing.
+    fn begins_global_in_members(&mut self) -> bool {
+        let begins = match self.kind() {
+            TokenKind::Type | TokenKind::Void | TokenKind::Ident => {
+                self.ahead(1).kind == TokenKind::Ident && self.ahead(2).kind == TokenKind::LeftParen
+            }
+            TokenKind::Layout if self.ahead(1).kind == TokenKind::LeftParen => {
+                let behind = self.past_bracket(1, TokenKind::LeftParen, TokenKind::RightParen);
+                is_of_global(self.ahead(behind).kind)
+            }
+            kind => is_of_global(kind),
+        };
+        begins && self.current.starts_line() && !self.braces_are_paired()
+    }
+
+    /// Reports members whose `}` is missing before something global, and goes on as if it and its `;` were there.
+    fn unclosed_members(&mut self, opening: Span) -> Reported {
+        let at = self.behind();
+        let diagnostic = Diagnostic::new(&codes::UNCLOSED_DELIMITER, opening, "`{` is not closed")
+            .here("this brace is never closed")
+            .label(at, "what is behind this is global");
+        self.session.report(diagnostic);
+        self.braces -= 1;
+        self.assumed_semicolon = true;
+        Reported
+    }
+
     /// struct_declaration_list, in its braces
     pub(super) fn member_list(&mut self) -> Parse<Vec<MemberDecl>> {
-        let opening = self.expect(TokenKind::LeftBrace)?;
+        let opening = self.opening_brace()?;
         let mut members = Vec::new();
         while self.kind() != TokenKind::RightBrace {
             if self.kind() == TokenKind::Eof {
-                return Err(self.unclosed_brace(opening.span));
+                return Err(self.unclosed_brace(opening));
+            }
+            if self.begins_global_in_members() {
+                let _: Reported = self.unclosed_members(opening);
+                return Ok(members);
             }
             let before = self.mark();
             self.taken.clear();
-            match self.nested(Self::member) {
+            let start = self.start();
+            let mut named = Vec::new();
+            match self.nested(|this| this.member(&mut named)) {
                 Ok(member) => members.push(member),
-                Err(_) => self.recover_statement(before),
+                Err(_) => {
+                    self.recover_statement(before);
+                    members.extend(self.broken_member(start, named));
+                }
             }
         }
         self.bump();
@@ -322,32 +389,46 @@ impl<T: TokenSource> Parser<'_, '_, T> {
     }
 
     /// struct_declaration
-    fn member(&mut self) -> Parse<MemberDecl> {
-        let start = self.current.span;
+    fn member(&mut self, named: &mut Vec<Declarator>) -> Parse<MemberDecl> {
+        let start = self.start();
         let mut qualifiers = self.qualifiers()?;
+        let type_start = self.start();
         let ty = self.type_specifier()?;
-        self.late_qualifiers(&mut qualifiers, &ty)?;
-        let mut declarators = Vec::new();
+        self.late_qualifiers(&mut qualifiers, type_start, &ty)?;
         loop {
-            declarators.push(self.member_declarator()?);
+            self.member_declarator(named)?;
             if self.eat(TokenKind::Comma).is_none() || self.ends_at_comma(&ty) {
                 break;
             }
         }
         self.semicolon("the member")?;
+        let declarators = std::mem::take(named);
         Ok(MemberDecl { qualifiers, ty, declarators, span: self.since(start) })
     }
 
-    fn member_declarator(&mut self) -> Parse<Declarator> {
+    /// The understood part of a member that has an error: its names.
+    fn broken_member(&self, start: Start, declarators: Vec<Declarator>) -> Option<MemberDecl> {
+        let span = self.since(start);
+        let ty = TypeSpec { base: TypeBase::Error, array: Vec::new(), span };
+        (!declarators.is_empty()).then_some(MemberDecl { qualifiers: Vec::new(), ty, declarators, span })
+    }
+
+    /// Reads a declarator. Its name is known, too, if the rest is broken.
+    fn member_declarator(&mut self, named: &mut Vec<Declarator>) -> Parse<()> {
         let name = self.ident("the name of a member")?;
+        named.push(Declarator { name, array: Vec::new(), initializer: None });
         let array = self.array_specifiers()?;
-        if let Some(equal) = self.eat(TokenKind::Equal) {
+        if let Some(last) = named.last_mut() {
+            last.array = array;
+        }
+        let equal = self.start();
+        if self.eat(TokenKind::Equal).is_some() {
             self.initializer()?;
-            let span = self.since(equal.span);
+            let span = self.since(equal);
             let message = format!("the member `{}` has an initializer", self.session.names.spelling(name.symbol));
             self.report(&codes::MEMBER_INITIALIZER, span, message);
         }
-        Ok(Declarator { name, array, initializer: None })
+        Ok(())
     }
 
     /// initializer, including the lists of 420pack; the analysis knows whether the language has them
@@ -360,6 +441,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     fn initializer_list(&mut self) -> Parse<ExprId> {
         self.nested(|this| {
+            let start = this.start();
             let opening = this.bump();
             let mut items = Vec::new();
             while this.kind() != TokenKind::RightBrace {
@@ -373,8 +455,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
                 }
             }
             this.close(opening, TokenKind::RightBrace, "`,` or `}`")?;
-            let span: Span = this.since(opening.span);
-            this.push(ExprKind::List(items), span)
+            this.push(ExprKind::List(items), start)
         })
     }
 }

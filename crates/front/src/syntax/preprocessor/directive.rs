@@ -11,13 +11,35 @@ pub(super) struct Conditional {
     name: &'static str,
     /// The position of its `#else`.
     else_at: Option<Span>,
+    /// The first directive in a skipped group of it that looks like a misspelled one, and that one.
+    misspelled: Option<(Span, &'static str)>,
 }
 
 impl Conditional {
-    pub(super) fn report_unterminated(self, session: &mut ParseSession<'_>) {
+    fn new(opening: Span, name: &'static str) -> Self {
+        Self { opening, name, else_at: None, misspelled: None }
+    }
+
+    /// Records an `#else`, and reports it, or an `#elif`, behind another one.
+    fn check_order(&mut self, session: &mut ParseSession<'_>, span: Span, name: &str) {
+        if let Some(first) = self.else_at {
+            let diagnostic = Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` after an `#else`"))
+                .label(first, "only `#endif` may follow this")
+                .label(self.opening, "the group begins here");
+            session.report(diagnostic);
+        } else if name == "#else" {
+            self.else_at = Some(span);
+        }
+    }
+
+    pub(super) fn report_unterminated(&self, session: &mut ParseSession<'_>) {
         let message = format!("the `{}` has no `#endif`", self.name);
         let diagnostic = Diagnostic::new(&codes::UNTERMINATED_CONDITIONAL, self.opening, message)
             .here("opened here and never closed");
+        let diagnostic = match self.misspelled {
+            Some((place, meant)) => diagnostic.label(place, "skipped").help(format!("did you mean `#{meant}` there?")),
+            None => diagnostic,
+        };
         session.report(diagnostic);
     }
 }
@@ -60,6 +82,9 @@ static DIRECTIVES: &[(&str, Directive)] = &[
     ("line", Directive::Line),
     ("include", Directive::Include),
 ];
+
+/// The directives that end a group.
+const ENDS: &[&str] = &["elif", "else", "endif"];
 
 /// Directives of engines, with the help on how to read them.
 static ENGINES: &[(&str, &str)] =
@@ -171,7 +196,7 @@ impl Preprocessor<'_> {
 
     fn open(&mut self, opening: Span, name: &'static str) {
         if let Some(frame) = self.frames.last_mut() {
-            frame.conditionals.push(Conditional { opening, name, else_at: None });
+            frame.conditionals.push(Conditional::new(opening, name));
         }
     }
 
@@ -218,14 +243,7 @@ impl Preprocessor<'_> {
             self.stray(session, span, name);
             return false;
         };
-        if let Some(first) = open.else_at {
-            let diagnostic = Diagnostic::new(&codes::STRAY_CONDITIONAL, span, format!("`{name}` after an `#else`"))
-                .label(first, "only `#endif` may follow this")
-                .label(open.opening, "the group begins here");
-            session.report(diagnostic);
-        } else if name == "#else" {
-            open.else_at = Some(span);
-        }
+        open.check_order(session, span, name);
         true
     }
 
@@ -295,7 +313,8 @@ impl Preprocessor<'_> {
 
     /// Skips to the next `#elif`, `#else` or `#endif` of the innermost conditional, and reads its name.
     fn skip_group(&mut self, session: &mut ParseSession<'_>) -> Option<(Span, Directive)> {
-        let mut depth = 0_usize;
+        // The conditionals inside of the group.
+        let mut inner: Vec<Conditional> = Vec::new();
         let from = self.frames.last()?.lexer.offset();
         loop {
             // Skipped text need only consist of lines: continuations and `glisten:` comments in it mean nothing.
@@ -311,12 +330,28 @@ impl Preprocessor<'_> {
             let hash = self.line_token(session);
             let token = self.line_token(session);
             let name = if token.kind == TokenKind::Word { session.spelling(token) } else { "" };
-            match directive_named(name) {
-                Some(Directive::If | Directive::Ifdef | Directive::Ifndef) => depth += 1,
-                Some(Directive::Endif) if depth > 0 => depth -= 1,
-                Some(directive @ (Directive::Elif | Directive::Else | Directive::Endif)) if depth == 0 => {
+            let directive = directive_named(name);
+            let span = session.sources.join(hash.span, token.span);
+            match (directive, inner.last_mut()) {
+                (Some(Directive::If), _) => inner.push(Conditional::new(span, "#if")),
+                (Some(Directive::Ifdef), _) => inner.push(Conditional::new(span, "#ifdef")),
+                (Some(Directive::Ifndef), _) => inner.push(Conditional::new(span, "#ifndef")),
+                (Some(Directive::Endif), Some(_)) => drop(inner.pop()),
+                // The order of groups counts in skipped text, too.
+                (Some(Directive::Elif), Some(open)) => open.check_order(session, span, "#elif"),
+                (Some(Directive::Else), Some(open)) => open.check_order(session, span, "#else"),
+                (Some(directive @ (Directive::Elif | Directive::Else | Directive::Endif)), None) => {
                     self.note_inactive(from, hash.span.start);
-                    return Some((session.sources.join(hash.span, token.span), directive));
+                    return Some((span, directive));
+                }
+                (None, open) if token.kind == TokenKind::Word && session.may_suggest() => {
+                    let meant = did_you_mean(session.spelling(token), ENDS.iter().copied());
+                    let meant = meant.and_then(|meant| ENDS.iter().find(|end| **end == meant));
+                    let frame = self.frames.last_mut();
+                    let open = open.or(frame.and_then(|frame| frame.conditionals.last_mut()));
+                    if let (Some(open), Some(meant)) = (open, meant) {
+                        open.misspelled.get_or_insert((span, meant));
+                    }
                 }
                 _ => {}
             }

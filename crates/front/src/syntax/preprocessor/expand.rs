@@ -31,23 +31,37 @@ pub(super) struct TokenRun {
     next: usize,
     definition: Option<usize>,
     barrier: bool,
+    /// Whether the first of them begins a line, as the name of the macro does.
+    starts_line: bool,
 }
 
 impl TokenRun {
     /// Tokens after which nothing else is read until they are removed.
     pub(super) fn barrier(tokens: Vec<Token>) -> Self {
-        Self { run: RunTokens::List(tokens), next: 0, definition: None, barrier: true }
+        Self { barrier: true, ..Self::of(RunTokens::List(tokens), None) }
     }
 
     fn list(tokens: Vec<Token>, definition: Option<usize>) -> Self {
-        Self { run: RunTokens::List(tokens), next: 0, definition, barrier: false }
+        Self::of(RunTokens::List(tokens), definition)
+    }
+
+    fn of(run: RunTokens, definition: Option<usize>) -> Self {
+        Self { run, next: 0, definition, barrier: false, starts_line: false }
+    }
+
+    /// The same tokens in place of the name of a macro.
+    fn in_place_of(self, name: Token) -> Self {
+        Self { starts_line: name.starts_line(), ..self }
     }
 
     pub(super) fn next(&mut self) -> Option<Token> {
-        let token = match &self.run {
+        let mut token = match &self.run {
             RunTokens::Body(body, expansion) => body.get(self.next).map(|token| placed(*token, *expansion)),
             RunTokens::List(tokens) => tokens.get(self.next).copied(),
         };
+        if let Some(first) = token.as_mut().filter(|_| self.next == 0 && self.definition.is_some()) {
+            first.flags.set(TokenFlags::LINE_START, self.starts_line);
+        }
         self.next += 1;
         token
     }
@@ -100,11 +114,7 @@ impl Preprocessor<'_> {
             let (body, span) = (definition.body.clone(), name.span);
             let id = self.note_expansion(session, index, span);
             self.spend(session, body.len(), span);
-            self.push(
-                session,
-                TokenRun { run: RunTokens::Body(body, id), next: 0, definition: Some(index), barrier: false },
-                span,
-            );
+            self.push(session, TokenRun::of(RunTokens::Body(body, id), Some(index)).in_place_of(name), span);
             return true;
         }
         let mut call = name.span;
@@ -121,7 +131,7 @@ impl Preprocessor<'_> {
         let Some(arguments) = self.check_argument_count(session, index, arguments, call) else { return true };
         let id = self.note_expansion(session, index, call);
         let tokens = self.substitute(session, index, &arguments, id);
-        self.push(session, TokenRun::list(tokens, Some(index)), call);
+        self.push(session, TokenRun::list(tokens, Some(index)).in_place_of(name), call);
         true
     }
 
@@ -270,9 +280,13 @@ impl Preprocessor<'_> {
         let message = format!("the macro `{}` takes {wanted} argument{plural} and is given {given}", definition.name);
         let diagnostic = Diagnostic::new(&codes::MACRO_ARGUMENTS, call, message).label(definition.span, "defined here");
         session.report(diagnostic);
-        // A number replaces the use, so that the parser sees no hole.
-        let zero = self.number_token(session, 0, Token::new(TokenKind::Number, call));
-        self.contexts.push(TokenRun::list(vec![zero], None));
+        // Something replaces the use, so that the parser sees no hole: a value of no known type, and a number in a condition.
+        let mut instead = self.number_token(session, 0, Token::new(TokenKind::Number, call));
+        if !self.contexts.iter().any(TokenRun::is_barrier) {
+            instead.kind = TokenKind::Invalid;
+            instead.flags.insert(TokenFlags::REPORTED);
+        }
+        self.contexts.push(TokenRun::list(vec![instead], None));
         None
     }
 

@@ -23,7 +23,10 @@ impl Preprocessor<'_> {
                 }
             }
             TokenKind::Number => number(session, &mut token),
-            TokenKind::Invalid if !token.flags.contains(TokenFlags::REPORTED) => invalid_token(session, token),
+            TokenKind::Invalid if !token.flags.contains(TokenFlags::REPORTED) => {
+                invalid_token(session, token);
+                token.flags.insert(TokenFlags::REPORTED);
+            }
             TokenKind::Unknown => {
                 // A character that looks like one of the language replaces it, so that this is one error and not
                 // many.
@@ -111,13 +114,8 @@ fn number(session: &mut ParseSession<'_>, token: &mut Token) {
         Err(malformed) => {
             let text = session.spelling(*token).to_owned();
             session.report(malformed_number(&text, malformed, token.span));
-            // A point shows well enough whether a float was meant to check the rest.
-            let kind = match text.as_bytes() {
-                text if text.contains(&b'.') => TokenKind::Float,
-                [.., b'u' | b'U'] => TokenKind::Uint,
-                _ => TokenKind::Int,
-            };
-            (token.kind, token.payload) = (kind, 0);
+            // It is a value of no known type.
+            token.kind = TokenKind::Invalid;
             token.flags.insert(TokenFlags::REPORTED);
         }
     }

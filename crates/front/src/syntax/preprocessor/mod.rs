@@ -352,8 +352,12 @@ impl<'a> Preprocessor<'a> {
     /// Leaves a file at its end. Returns false if it is the main file.
     fn leave(&mut self, session: &mut ParseSession<'_>) -> bool {
         let Some(frame) = self.frames.last_mut() else { return false };
-        let open = frame.conditionals.drain(..).filter(|_| !self.is_cut);
-        open.for_each(|conditional| conditional.report_unterminated(session));
+        let open = std::mem::take(&mut frame.conditionals);
+        if !self.is_cut {
+            open.iter().for_each(|conditional| conditional.report_unterminated(session));
+            // What is missing at the end of the text may be in a group that was skipped.
+            self.is_cut = !open.is_empty();
+        }
         if self.frames.len() == 1 {
             return false;
         }
