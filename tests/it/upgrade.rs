@@ -161,3 +161,20 @@ fn inputs_lose_their_invariance() {
     let kept = folder.run(&["upgrade", "b.frag", "--to", "330"]);
     assert!(out(&kept).contains("invariant in vec2 a;"), "{}{}", out(&kept), err(&kept));
 }
+
+/// A backslash that ends a `//` comment joins no line before GLSL 4.20, and does so after it: the statement behind it stays one.
+#[test]
+fn comments_that_end_in_a_backslash_end_with_their_line() {
+    let vertex = "#version 110\nattribute vec4 p;\nvoid main() { gl_Position = p; }\n";
+    let fragment = "#version 110\nuniform vec4 c;\n// a macro \\\n#define HALF 0.5\nvoid main() {\n    vec4 d = c;\n    // half of it: a \\ b, or \\\n    \
+        d *= HALF;\n    gl_FragColor = d; /* in here it does not count \\\n    */\n}\n";
+    for to in ["150", "450", "460", "300es"] {
+        let folder = Folder::new(&[("a.vert", vertex), ("a.frag", fragment)]);
+        let output = folder.run(&["upgrade", "a.vert", "a.frag", "--to", to, "-o", "new"]);
+        assert_eq!(code(&output), 0, "{to}: {}", err(&output));
+        let compiled = folder.run(&["compile", "new/a.vert", "new/a.frag", "--target", "glsl", "-o", "glsl"]);
+        assert_eq!(code(&compiled), 0, "{to}: {}", err(&compiled));
+        let text = fs::read_to_string(folder.path("glsl/a.frag.glsl")).expect("it was written");
+        assert!(text.contains("*= 0.5") || text.contains("* 0.5"), "{to}: {text}");
+    }
+}

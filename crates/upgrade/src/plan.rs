@@ -10,7 +10,7 @@ use glisten_front::Stage;
 use glisten_front::builtin::constants::{CONSTANTS, Constant};
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
 use glisten_front::builtin::functions;
-use glisten_front::language::{Profile, Storage, Types, Version};
+use glisten_front::language::{Feature, Profile, Storage, Types, Version};
 use glisten_front::link::Program;
 use glisten_front::source::Span;
 use glisten_front::syntax::keywords;
@@ -80,6 +80,11 @@ impl Target {
         version(self.number())
     }
 
+    /// Whether a backslash joins lines.
+    pub(super) fn joins_lines(self) -> bool {
+        self.language().has(Feature::LineContinuation)
+    }
+
     /// Whether inputs of fragment shaders may be `invariant` (up to GLSL 4.10; not in ES 3.00).
     pub(super) fn has_invariant_inputs(self) -> bool {
         self != Self::Es300 && self.number() < 420
@@ -137,6 +142,13 @@ pub struct Text<'t> {
     pub is_shader: bool,
     /// The number of its version: 110 for GLSL 1.10.
     pub version: u16,
+}
+
+impl Text<'_> {
+    /// Whether a backslash joins lines in its version.
+    pub(super) fn joins_lines(&self) -> bool {
+        version(self.version).has(Feature::LineContinuation)
+    }
 }
 
 /// Names without a counterpart: clipping by a vertex, and the inputs of EXT_geometry_shader4.

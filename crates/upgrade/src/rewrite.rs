@@ -68,7 +68,25 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
             edits.push((place..place, lines + gap));
         }
     }
+    if plan.target.joins_lines() && !text.joins_lines() {
+        edits.extend(open_comments(text.text, &code));
+    }
     applied(text.text, edits)
+}
+
+/// A space behind each backslash that ends a `//` comment: the comment would go on in the next line where backslashes join lines (GLSL 4.20 §3.1).
+fn open_comments<'t>(text: &'t str, code: &'t str) -> impl Iterator<Item = Edit> + 't {
+    let mut start = 0;
+    text.split_inclusive('\n').filter_map(move |line| {
+        let own = start;
+        start += line.len();
+        let content = line.trim_end_matches(['\n', '\r']);
+        let end = own + content.len();
+        let is_comment = content.ends_with('\\')
+            && content.contains("//")
+            && code.get(own..end).is_some_and(|code| code.ends_with(' '));
+        is_comment.then(|| (end..end, " ".to_owned()))
+    })
 }
 
 /// The text with new names, and nothing else that is new.
