@@ -277,9 +277,12 @@ fn outcome(Tried { text, errors, change }: &Tried, cause: &Cause, before: &Befor
                  causes (error of the picture {error:.1e})"
             );
         }
-        let operands =
-            if cause.first_lost_bits < CAUSE_BITS { ", because its operands have lost digits, too" } else { "" };
-        return format!(". Tried: `{text}` alone does not help (error {error:.1e}){operands}");
+        let reason = match cause.kind {
+            _ if cause.first_lost_bits < CAUSE_BITS => ", because its operands have lost digits, too",
+            CauseKind::Cancellation => ", because the rounding of its operands is magnified, too",
+            _ => "",
+        };
+        return format!(". Tried: `{text}` alone does not help (error {error:.1e}){reason}");
     }
     let rest = if before.is_finite { "" } else { " where the exact picture is finite; elsewhere it draws its own" };
     format!(". Tried: with `{text}`, the error of the picture is {error:.1e}{rest}")

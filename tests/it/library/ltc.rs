@@ -38,13 +38,14 @@ fn lights_are_near_the_integral() {
     }
 }
 
-/// A part of the bent cosine is below the horizon for eyes at a grazing angle.
+/// A part of the bent cosine is below the horizon for eyes at a grazing angle, unless the surface is as rough as can be.
 #[test]
 fn the_whole_sky_is_all_of_the_cosine_from_above_alone() {
     for (roughness, parts) in errors::skies().expect("the module is called") {
         let [first, last] = [parts[0], parts[errors::SEEN.len() - 1]];
-        assert!((first - 1.0).abs() < 1e-3 && (0.7..0.99).contains(&last), "{roughness}: {parts:?}");
-        assert!(parts.iter().all(|part| *part < 1.001), "{roughness}: {parts:?}");
+        let is_bent = roughness > 0.2 && roughness < 0.8;
+        assert!((first - 1.0).abs() < 1e-3 && (last < 0.95 || !is_bent), "{roughness}: {parts:?}");
+        assert!(parts.iter().all(|part| (0.7..1.001).contains(part)), "{roughness}: {parts:?}");
     }
 }
 

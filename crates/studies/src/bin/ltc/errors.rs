@@ -29,6 +29,7 @@ vec2 tube(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y)
     return vec2(ltcTube(bent(m, V, r), c - x, c + x, radius) * all(a, V, r), ltcTube(mat3(1.0), c - x, c + x, radius));
 }
 vec2 thick_tube(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y) { return tube(m, a, V, r, c, x, y); }
+vec2 close_tube(sampler2D m, sampler2D a, vec3 V, float r, vec3 c, vec3 x, vec3 y) { return tube(m, a, V, r, c, x, y); }
 vec2 sky(sampler2D m, sampler2D a, vec3 V, float r)
 { return vec2(ltcRectangle(bent(m, V, r), vec3(0.0, 0.0, 1.0), vec3(1e6, 0.0, 0.0), vec3(0.0, 1e6, 0.0)), 1.0); }
 ";
@@ -64,6 +65,7 @@ const SHAPES: &[Shape] = &[
     },
     Shape { name: "tube", widest: 0.1, meets: |ray, c, x, y| meets_tube(ray, c, x, dot(y, y).sqrt()) },
     Shape { name: "thick_tube", widest: 0.65, meets: |ray, c, x, y| meets_tube(ray, c, x, dot(y, y).sqrt()) },
+    Shape { name: "close_tube", widest: 0.9, meets: |ray, c, x, y| meets_tube(ray, c, x, dot(y, y).sqrt()) },
 ];
 
 /// Where a ray meets a plane, by its axes.
