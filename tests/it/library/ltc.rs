@@ -44,7 +44,7 @@ fn the_whole_sky_is_all_of_the_cosine_from_above_alone() {
     for (roughness, parts) in errors::skies().expect("the module is called") {
         let [first, last] = [parts[0], parts[errors::SEEN.len() - 1]];
         let is_bent = roughness > 0.2 && roughness < 0.8;
-        assert!((first - 1.0).abs() < 1e-3 && (last < 0.95 || !is_bent), "{roughness}: {parts:?}");
+        assert!((first - 1.0).abs() < 1e-3 && (last < 0.97 || !is_bent), "{roughness}: {parts:?}");
         assert!(parts.iter().all(|part| (0.7..1.001).contains(part)), "{roughness}: {parts:?}");
     }
 }
