@@ -6,7 +6,7 @@
 use super::forms;
 use super::patterns::{self, Found, Pattern};
 use glisten_front::builtin::BuiltinFunction;
-use glisten_front::hir::{ExprKind, Shader};
+use glisten_front::hir::{ExprKind, Shader, same_value};
 use glisten_reference::stability::{Cause, CauseKind};
 use glisten_scene::Scene;
 
@@ -54,6 +54,19 @@ fn adds(shader: &Shader, found: Found) -> bool {
     matches!(shader.expr(found.expr).kind, ExprKind::Binary(Add | Sub, ..) | ExprKind::Assign(Some(Add | Sub), ..))
 }
 
+/// Whether a number is too large or too small for f32 on the way.
+fn leaves_range(kind: CauseKind) -> bool {
+    matches!(kind, CauseKind::Overflow | CauseKind::Underflow)
+}
+
+/// Whether a function of two arguments has one value for both.
+fn is_squared(shader: &Shader, found: Found) -> bool {
+    match &shader.expr(found.expr).kind {
+        ExprKind::BuiltinCall(_, list) => matches!(list.as_slice(), [a, b] if same_value(shader, *a, *b)),
+        _ => false,
+    }
+}
+
 fn called(shader: &Shader, found: Found) -> Option<BuiltinFunction> {
     match shader.expr(found.expr).kind {
         ExprKind::BuiltinCall(function, _) => Some(function),
@@ -90,27 +103,42 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
         (Pattern::OneMinusCos, _) => {
             "write `2.0 * s * s` with `s = sin(0.5 * x)`; `safeOneMinusCos` of <glisten/safe.glsl> takes two unit vectors"
         }
+        (Pattern::SquareMinusOne, _) => "write `(c - 1.0) * (c + 1.0)`",
+        (Pattern::VectorAndOne, _) => {
+            "a length near 1 has too few digits left for its distance from 1: pass what is computed from that, such as the third \
+             component of a unit vector, instead of taking it from the other two"
+        }
         (Pattern::Discriminant, _) => {
-            "the discriminant of a quadratic cancels: for a ray and a sphere, take it from the distance of the center to \
-             the ray, `r * r - dot(q, q)` with `q = oc - dot(oc, d) * d`"
+            "a square minus a number cancels: for a ray and a sphere, take the discriminant from the distance of the center to \
+             the ray, `r * r - dot(q, q)` with `q = oc - dot(oc, d) * d`; from a square that is known by its root, \
+             `x * x - y * y` is `(x - y) * (x + y)`"
         }
         (Pattern::QuadraticRoot, _) => {
             "of the two roots of `a * x * x + b * x + c`, take the one that does not cancel, `q / a` with `s = sqrt(b * b - 4.0 * a * c)` \
              and `q = -0.5 * (b + (b < 0.0 ? -s : s))`, and the other as `c / q`"
         }
         (Pattern::Variance, _) => {
-            "a mean of squares minus a squared mean cancels: average the squares of the differences from the mean, or \
-             subtract a common offset from all values first"
+            "a number minus a square cancels: if it is the square of a known number, `x * x - y * y` is `(x - y) * (x + y)`; if it is a \
+             mean of squares, average the squares of the differences from the mean, or subtract a common offset from all \
+             values first"
         }
         (Pattern::DifferenceOfSquares, _) => "write `(x - y) * (x + y)`",
+        (Pattern::DifferenceOfDots, _) => "write `dot(x - y, x + y)`",
+        (Pattern::VectorAndSquare, _) => {
+            "`dot(x, x) - dot(y, y)` is `dot(x - y, x + y)`: use that with a vector of the number's length near the other one, if their \
+             difference is known to more digits"
+        }
         (Pattern::DifferenceOfProducts, _) => {
             "a difference of products cancels: move the origin to one of the points first, so that the factors are small, \
              or order the terms so that the differences come before the products"
         }
         (Pattern::DifferenceOfRoots, _) => "write `(a - b) / (sqrt(a) + sqrt(b))`",
         (Pattern::ExpMinusOne, _) => {
-            "near 0, use the series `x * (1.0 + x * (0.5 + x / 6.0))`, or carry the difference from 1 instead of the number; \
-             `safePowOneMinus` of <glisten/safe.glsl> takes the distance from 1"
+            "near 0, use the series `x * (1.0 + x * (0.5 + x / 6.0))`, or carry the difference from 1 instead of the number"
+        }
+        (Pattern::PowMinusOne, _) => {
+            "carry the base's difference from 1, `x`: for a small `n * x`, the power minus 1 is `n * x * (1.0 + 0.5 * (n - 1.0) * x)`; \
+             `safePowOneMinus` of <glisten/safe.glsl> is the power of a base below 1 by its distance from 1"
         }
         (Pattern::LinearDepth, _) => {
             "depth made linear cancels far away: pass the distance from the camera as a varying, or store depth reversed \
@@ -120,27 +148,31 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
             "the coordinates are large against their differences: subtract the camera's position on the host in double \
              precision, or multiply the matrices there, and pass positions relative to the camera"
         }
-        (Pattern::HalfVector, _) => {
+        (Pattern::HalfVector, _) if kind != CauseKind::Overflow => {
             "the sum of two vectors vanishes where they are opposite: for a half vector, `halfVector` of \
              <glisten/blinn_phong.glsl> is defined everywhere; `safeNormalize` of <glisten/safe.glsl> is for every vector"
         }
         (Pattern::Smoothstep, _) if kind == CauseKind::Division => {
             "`smoothstep` with equal edges is 0 / 0: keep the edges apart, or use `step`"
         }
-        (Pattern::Difference, _) => {
-            "the operands are large against their difference: subtract the common offset on the host in double precision, \
-             and pass positions relative to the camera"
-        }
         (_, Some(BuiltinFunction::Normalize)) if kind == CauseKind::Division => {
             "a vector of length 0 has no direction: treat the case apart, or use `safeNormalize` of <glisten/safe.glsl>, which \
              yields the zero vector"
         }
-        (_, Some(BuiltinFunction::Normalize)) => {
+        (_, Some(BuiltinFunction::Normalize)) if leaves_range(kind) => {
             "the square of this length leaves the range of f32: `safeNormalize` of <glisten/safe.glsl> scales first and \
              is defined for the zero vector"
         }
-        (_, Some(BuiltinFunction::Length | BuiltinFunction::Distance)) => {
+        (_, Some(BuiltinFunction::Length | BuiltinFunction::Distance)) if leaves_range(kind) => {
             "the square of this length leaves the range of f32: `safeLength` of <glisten/safe.glsl> scales first"
+        }
+        (_, Some(BuiltinFunction::Dot)) if leaves_range(kind) && is_squared(shader, found) => {
+            "the squares of this vector leave the range of f32: for its length or its direction, `safeLength` and `safeNormalize` of \
+             <glisten/safe.glsl> scale first; else scale it by a power of two, and undo that in the result"
+        }
+        (Pattern::Difference, _) | (_, Some(BuiltinFunction::Distance)) => {
+            "the operands are large against their difference: subtract the common offset on the host in double precision, \
+             and pass positions relative to the camera"
         }
         (_, Some(BuiltinFunction::Acos | BuiltinFunction::Asin)) => {
             "an angle from its cosine has few digits near 0 and 180 degrees, and none beyond: use `atan(length(cross(a, b)), \
@@ -162,9 +194,14 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
         (_, Some(BuiltinFunction::Sqrt | BuiltinFunction::Inversesqrt)) => {
             "rounding makes the argument negative or 0: use `sqrt(max(x, 0.0))`, and bound the divisor from below"
         }
-        (_, Some(BuiltinFunction::Log | BuiltinFunction::Log2)) => {
+        (_, Some(BuiltinFunction::Log)) => {
             "the argument reaches 0 or is near 1: bound it from below; `safeLogOneMinus` of <glisten/safe.glsl> is the logarithm of a \
              number below 1 by its distance from 1, and that of `1.0 + x` for a small x is `2.0 * y * (1.0 + y * y / 3.0)` with \
+             `y = x / (2.0 + x)`"
+        }
+        (_, Some(BuiltinFunction::Log2)) => {
+            "the argument reaches 0 or is near 1: bound it from below; `1.442695 * safeLogOneMinus(d)` of <glisten/safe.glsl> is that of a \
+             number below 1 by its distance from 1, and `log2(1.0 + x)` for a small x is `2.885390 * y * (1.0 + y * y / 3.0)` with \
              `y = x / (2.0 + x)`"
         }
         (_, Some(BuiltinFunction::Pow)) if kind == CauseKind::Domain => {
@@ -176,8 +213,9 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
              from the pole; reduce an angle before it becomes large"
         }
         (_, Some(BuiltinFunction::Pow)) => {
-            "`safePow` of <glisten/safe.glsl> keeps the digits of a base near 1 and is defined at 0, for exponents from 0 on; \
-             for a power of the cosine between two vectors, `safeCosPow` takes the vectors, which have more digits"
+            "`safePow` of <glisten/safe.glsl> keeps the digits of a base that is below 1 but near it and is defined at 0, for bases from 0 to \
+             1 and exponents from 0 on; of a base `1.0 + x` with a small x, it is `exp(n * l)` with `l = 2.0 * y * (1.0 + y * y / 3.0)` and \
+             `y = x / (2.0 + x)`; for a power of the cosine between two vectors, `safeCosPow` takes the vectors, which have more digits"
         }
         (_, Some(BuiltinFunction::Inverse | BuiltinFunction::Determinant)) => {
             "the matrix is nearly singular: compute its inverse on the host in double precision"
@@ -191,7 +229,8 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
              bound the argument from above: `exp(min(x, 80.0))`"
         }
         (_, Some(BuiltinFunction::Mix)) => {
-            "`mix` subtracts large numbers: interpolate the differences from one of them, `a + t * (b - a)`"
+            "`mix(a, b, t)` is `a * (1.0 - t) + b * t`: where `a` and `b` are near each other, write `a + t * (b - a)`; where `t` is near 1 \
+             and `a` large, compute `1.0 - t` directly, as `s`, and write `a * s + b * (1.0 - s)`"
         }
         (_, Some(BuiltinFunction::Mod)) => {
             "`mod` of a number that is large against the divisor keeps few digits: reduce it on the host, or count in integers"
@@ -219,7 +258,7 @@ fn of_kind(kind: CauseKind) -> &'static str {
         CauseKind::Domain => "clamp the argument into the domain of the function before the call",
         CauseKind::Power => {
             "the exponent multiplies the relative error of the base: compute the base's distance from 1 instead of the \
-             base; `safePow` and `safePowOneMinus` of <glisten/safe.glsl> do"
+             base; `safePow` and `safePowOneMinus` of <glisten/safe.glsl> do for a base from 0 to 1"
         }
         CauseKind::Argument => {
             "reduce the angle before it becomes large: keep time or phase modulo the period on the host, `fract(phase) * \

@@ -1,14 +1,16 @@
 //! [`Findings`]: what an examination found, at places in the text.
 //!
 //! *In:* a scene, its texts, and the [`Examination`]. *Out:* the form of `glisten stability --format json`. *Holds:* one
-//! cause an expression, and one a line unless kinds differ; causes are sorted by harm.
+//! cause an expression, and one a line unless kinds differ, which tells the places of the others; causes are sorted by harm.
 
 use super::advice::advice;
 use super::recomputed::ExactFound;
 use super::rewrite::{Reload, Tried, tried};
 use glisten_front::diagnostic::{Diagnostic, codes, write};
 use glisten_front::source::SourceMap;
-use glisten_reference::stability::{Cause, CauseKind, Examination, ExamineOptions, examine, inputs_at};
+use glisten_reference::stability::{
+    CAUSE_BITS, Cause, CauseKind, ErrorMap, Examination, ExamineOptions, examine, inputs_at,
+};
 use glisten_scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -69,6 +71,15 @@ pub struct Spot {
     pub y: u32,
 }
 
+/// Where an expression begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Start {
+    /// The line from 1.
+    pub line: u32,
+    /// The column from 1.
+    pub column: u32,
+}
+
 /// A cause at its place.
 #[derive(Clone, Debug, Serialize)]
 pub struct CauseFound {
@@ -101,6 +112,9 @@ pub struct CauseFound {
     pub at: Spot,
     /// Whether the exact result jumps there, so that no rewriting helps.
     pub ill_posed: bool,
+    /// Where the line has more causes of this kind, apart from this one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<Start>,
     /// See [`Cause::undefined`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub undefined: Option<&'static str>,
@@ -162,33 +176,41 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The causes at their places, without those that repeat a line and a kind.
+/// The causes at their places; those that repeat a line and a kind are told with the first.
 fn placed(
     scene: &Scene,
     sources: &SourceMap,
     (examined, bound): (&Examination, f64),
     reload: Option<Reload<'_>>,
 ) -> Vec<CauseFound> {
-    let before = Before { error: examined.all_errors.largest(), bound, is_finite: examined.is_finite_in_exact() };
+    let before = Before { errors: &examined.all_errors, bound, is_finite: examined.is_finite_in_exact() };
     let mut list: Vec<CauseFound> = Vec::new();
+    let mut kept: Vec<&Cause> = Vec::new();
     for cause in &examined.causes {
+        let Some(region) = region(sources, cause) else { continue };
+        let known = list.iter_mut().find(|known| {
+            (&known.file, known.line, known.kind) == (&region.file, region.line, cause.kind.name())
+                && known.stage == cause.stage.name()
+        });
+        if let Some(known) = known {
+            if !kept.iter().any(|kept| overlap(kept, cause)) {
+                let start = Start { line: region.line, column: region.column };
+                known.also.push(start);
+                known.diagnostic =
+                    known.diagnostic.clone().note(format!("the same at {}:{}", start.line, start.column));
+                kept.push(cause);
+            }
+            continue;
+        }
         let tried = match reload {
             Some(reload) if list.len() < MOST_REWRITINGS && !cause.ill_posed => {
                 tried((scene, &examined.exact), sources, cause, reload)
             }
             _ => None,
         };
-        let help = advice(scene, cause) + &tried.map_or_else(String::new, |tried| outcome(&tried, &before));
+        let help = advice(scene, cause) + &tried.map_or_else(String::new, |tried| outcome(&tried, cause, &before));
         let diagnostic = diagnostic(cause, &help);
-        let Some(finding) = write::findings(sources, [&diagnostic]).pop() else { continue };
-        let region = finding.region;
-        let is_known = list.iter().any(|known| {
-            (&known.file, known.line, known.kind) == (&region.file, region.line, cause.kind.name())
-                && known.stage == cause.stage.name()
-        });
-        if is_known {
-            continue;
-        }
+        kept.push(cause);
         list.push(CauseFound {
             file: region.file,
             line: region.line,
@@ -204,6 +226,7 @@ fn placed(
             disagreements: cause.disagreements,
             at: Spot { x: cause.at[0], y: cause.at[1] },
             ill_posed: cause.ill_posed,
+            also: Vec::new(),
             undefined: cause.undefined,
             f64_enough: None,
             help,
@@ -213,10 +236,20 @@ fn placed(
     list
 }
 
+/// The place of a cause; `None` if it is not in a file.
+fn region(sources: &SourceMap, cause: &Cause) -> Option<write::Region> {
+    let finding = write::findings(sources, [&diagnostic(cause, "")]).pop()?;
+    Some(finding.region)
+}
+
+/// Whether one of two causes of a kind is a part of the other.
+fn overlap(a: &Cause, b: &Cause) -> bool {
+    a.stage == b.stage && a.kind == b.kind && a.span.start < b.span.end && b.span.start < a.span.end
+}
+
 /// The picture before a rewriting.
-struct Before {
-    /// Its largest error.
-    error: f64,
+struct Before<'a> {
+    errors: &'a ErrorMap,
     /// The error that is accepted.
     bound: f64,
     /// Whether the exact picture has a number everywhere.
@@ -224,20 +257,32 @@ struct Before {
 }
 
 /// The result of a rewriting, compared with the error before.
-fn outcome(Tried { text, error, change }: &Tried, before: &Before) -> String {
+fn outcome(Tried { text, errors, change }: &Tried, cause: &Cause, before: &Before<'_>) -> String {
     let text: Vec<&str> = text.split_whitespace().collect();
     let text = text.join(" ");
+    let (error, error_before) = (errors.largest(), before.errors.largest());
     if error.is_infinite() {
         return format!(". Tried: `{text}` alone leaves pixels that are not finite");
     }
-    let is_little = *error > 0.5 * before.error || before.error.is_infinite() && *error > before.bound;
+    let is_little = error > 0.5 * error_before || error_before.is_infinite() && error > before.bound;
     if is_little && *change > 0.5 * error {
         return format!(". Tried: `{text}` does not help, because it draws another picture (error {error:.1e})");
     }
-    if *error > 0.5 * before.error {
-        return format!(
-            ". Tried: `{text}` alone does not help (error {error:.1e}), because its operands have lost digits, too"
-        );
+    if error > 0.5 * error_before {
+        let [x, y] = cause.at;
+        let [here, here_before] = [errors, before.errors].map(|errors| errors.at(cause.at));
+        if cause.harm.is_some_and(|harm| here_before - here >= 0.5 * harm) {
+            return format!(
+                ". Tried: with `{text}`, the error at pixel ({x}, {y}) is {here:.1e} instead of {here_before:.1e}; the rest has other \
+                 causes (error of the picture {error:.1e})"
+            );
+        }
+        let reason = match cause.kind {
+            _ if cause.first_lost_bits < CAUSE_BITS => ", because its operands have lost digits, too",
+            CauseKind::Cancellation => ", because the rounding of its operands is magnified, too",
+            _ => "",
+        };
+        return format!(". Tried: `{text}` alone does not help (error {error:.1e}){reason}");
     }
     let rest = if before.is_finite { "" } else { " where the exact picture is finite; elsewhere it draws its own" };
     format!(". Tried: with `{text}`, the error of the picture is {error:.1e}{rest}")

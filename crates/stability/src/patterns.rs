@@ -12,23 +12,33 @@ use glisten_front::source::Span;
 pub(super) enum Pattern {
     /// `1 - c * c`
     OneMinusSquare,
+    /// `c * c - 1`
+    SquareMinusOne,
+    /// `1 - dot(v, v)`, `dot(v, v) - 1`
+    VectorAndOne,
     /// `1 - cos(x)`
     OneMinusCos,
-    /// `b * b - 4 * a * c`
+    /// `b * b - 4 * a * c`, and a square minus any other number.
     Discriminant,
     /// `-b + sqrt(d)`
     QuadraticRoot,
-    /// `a - m * m`: a mean of squares minus a squared mean.
+    /// `a - m * m`: a mean of squares minus a squared mean, or a square by another name.
     Variance,
     /// `x * x - y * y`
     DifferenceOfSquares,
+    /// `dot(x, x) - dot(y, y)`
+    DifferenceOfDots,
+    /// `dot(x, x) - y * y`, `y * y - dot(x, x)`
+    VectorAndSquare,
     /// `a * b - c * d`
     DifferenceOfProducts,
     /// `sqrt(a) - sqrt(b)`
     DifferenceOfRoots,
-    /// `exp(x) - 1`, `pow(1 + x, n) - 1`
+    /// `exp(x) - 1`
     ExpMinusOne,
-    /// `f - z * (f - n)`: the depth buffer made linear.
+    /// `pow(1 + x, n) - 1`
+    PowMinusOne,
+    /// `f - z * (f - n)`, `f + n - z * (f - n)`: the depth buffer made linear.
     LinearDepth,
     /// A matrix times a vector.
     MatrixProduct,
@@ -79,27 +89,50 @@ fn pattern(types: &Types, shader: &Shader, id: ExprId) -> Pattern {
 
 fn difference(types: &Types, shader: &Shader, a: ExprId, b: ExprId) -> Pattern {
     let (a, b) = (bare(shader, a), bare(shader, b));
-    let (left, right) = (square(shader, a), square(shader, b));
+    // The factors of a product of matrices cannot be exchanged.
+    let square = |id: ExprId| square(shader, id).filter(|root| !is_matrix(types, shader, *root));
+    let (left, right) = (square(a), square(b));
+    let dots = [a, b].map(|id| calls(shader, id, BuiltinFunction::Dot));
+    match (left, right) {
+        (None, Some(_)) if is_one(shader, a) => {
+            if dots[1] {
+                Pattern::VectorAndOne
+            } else {
+                Pattern::OneMinusSquare
+            }
+        }
+        (Some(_), None) if is_one(shader, b) => {
+            if dots[0] {
+                Pattern::VectorAndOne
+            } else {
+                Pattern::SquareMinusOne
+            }
+        }
+        (Some(x), Some(y)) => match dots {
+            [false, false] => Pattern::DifferenceOfSquares,
+            [true, true] if shader.expr(x).ty == shader.expr(y).ty => Pattern::DifferenceOfDots,
+            _ => Pattern::VectorAndSquare,
+        },
+        (Some(_), None) => Pattern::Discriminant,
+        (None, Some(_)) => Pattern::Variance,
+        (None, None) => without_squares(types, shader, a, b),
+    }
+}
+
+/// The form of a difference of which neither side is a square.
+fn without_squares(types: &Types, shader: &Shader, a: ExprId, b: ExprId) -> Pattern {
     let product = |id: ExprId| matches!(shader.expr(id).kind, ExprKind::Binary(BinaryOp::Mul, ..));
     match () {
-        () if is_one(shader, a) && right.is_some() => Pattern::OneMinusSquare,
         () if is_one(shader, a) && calls(shader, b, BuiltinFunction::Cos) => Pattern::OneMinusCos,
-        () if is_one(shader, b)
-            && (calls(shader, a, BuiltinFunction::Exp) || calls(shader, a, BuiltinFunction::Pow)) =>
-        {
-            Pattern::ExpMinusOne
-        }
-        () if left.is_some() && right.is_some() => Pattern::DifferenceOfSquares,
-        () if left.is_some() && product(b) => Pattern::Discriminant,
-        () if left.is_some() => Pattern::Discriminant,
-        () if right.is_some() => Pattern::Variance,
+        () if is_one(shader, b) && calls(shader, a, BuiltinFunction::Exp) => Pattern::ExpMinusOne,
+        () if is_one(shader, b) && calls(shader, a, BuiltinFunction::Pow) => Pattern::PowMinusOne,
         () if calls(shader, a, BuiltinFunction::Sqrt) && calls(shader, b, BuiltinFunction::Sqrt) => {
             Pattern::DifferenceOfRoots
         }
         () if calls(shader, b, BuiltinFunction::Sqrt) || (calls(shader, a, BuiltinFunction::Sqrt) && !product(b)) => {
             Pattern::QuadraticRoot
         }
-        () if product(b) && has_difference(shader, b) && !product(a) => Pattern::LinearDepth,
+        () if is_linear_depth(shader, a, b) => Pattern::LinearDepth,
         () if product(a) && product(b) => Pattern::DifferenceOfProducts,
         () if matches!(types.get(shader.expr(a).ty), Type::Vector(..)) => Pattern::Difference,
         () => Pattern::Other,
@@ -153,7 +186,17 @@ fn square(shader: &Shader, id: ExprId) -> Option<ExprId> {
     }
 }
 
-fn has_difference(shader: &Shader, id: ExprId) -> bool {
-    let children = shader.expr(id).kind.children();
-    children.iter().any(|child| matches!(shader.expr(*child).kind, ExprKind::Binary(BinaryOp::Sub, ..)))
+/// Whether a difference has the form `f - z * (f - n)`, or `f + n - z * (f - n)`.
+fn is_linear_depth(shader: &Shader, a: ExprId, b: ExprId) -> bool {
+    let ExprKind::Binary(BinaryOp::Mul, x, y) = shader.expr(b).kind else { return false };
+    let is_far = |far: ExprId| match shader.expr(a).kind {
+        ExprKind::Binary(BinaryOp::Add, c, d) => [c, d].iter().any(|term| same_value(shader, *term, far)),
+        _ => same_value(shader, a, far),
+    };
+    [x, y].iter().any(|factor| match shader.expr(bare(shader, *factor)).kind {
+        ExprKind::Binary(BinaryOp::Sub, far, _) => {
+            !matches!(shader.expr(far).kind, ExprKind::Literal(_)) && is_far(far)
+        }
+        _ => false,
+    })
 }

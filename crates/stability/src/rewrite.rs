@@ -9,7 +9,7 @@ use super::patterns::{self, Found, Pattern};
 use glisten_front::builtin::BuiltinFunction;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, ScalarValue, Shader, Type, Types, may_act};
 use glisten_front::source::{SourceMap, Span};
-use glisten_reference::stability::{Cause, CauseKind, errors_against};
+use glisten_reference::stability::{Cause, CauseKind, ErrorMap, errors_against};
 use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
 
@@ -17,12 +17,12 @@ use glisten_scene::picture::Picture;
 pub type Reload<'a> = &'a dyn Fn(&str, &str) -> Option<Scene>;
 
 /// A rewriting that was tried.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(super) struct Tried {
     /// The text in place of the expression.
     pub(super) text: String,
-    /// The largest error of the picture with it, against the exact picture of the program as it is; infinite if it is not finite.
-    pub(super) error: f64,
+    /// The errors of the picture with it, against the exact picture of the program as it is.
+    pub(super) errors: ErrorMap,
     /// The largest difference that it makes to the exact picture.
     pub(super) change: f64,
 }
@@ -54,7 +54,7 @@ pub(super) fn tried(
         draw.program = std::sync::Arc::clone(&other.program);
     }
     let against = errors_against(&rewritten, exact).ok()?;
-    Some(Tried { text, error: against.errors.largest(), change: against.exact.largest() })
+    Some(Tried { text, errors: against.errors, change: against.exact.largest() })
 }
 
 /// The bytes of a span in its file; `None` for what a macro expands to.
@@ -70,10 +70,13 @@ fn rewriting(types: &Types, shader: &Shader, sources: &SourceMap, found: Found, 
     let text = |id: ExprId| operand(shader, sources, id);
     let kind = &shader.expr(found.expr).kind;
     match (found.pattern, kind) {
-        (Pattern::OneMinusSquare, ExprKind::Binary(BinaryOp::Sub, one, square)) => {
+        (Pattern::OneMinusSquare, ExprKind::Binary(BinaryOp::Sub, _, square)) => {
             let x = text(squared(shader, *square)?)?;
-            let is_scalar = matches!(types.get(shader.expr(*one).ty), Type::Scalar(_));
-            (is_scalar && !is_dot(shader, *square)).then(|| format!("((1.0 - {x}) * (1.0 + {x}))"))
+            Some(format!("((1.0 - {x}) * (1.0 + {x}))"))
+        }
+        (Pattern::SquareMinusOne, ExprKind::Binary(BinaryOp::Sub, square, _)) => {
+            let x = text(squared(shader, *square)?)?;
+            Some(format!("(({x} - 1.0) * ({x} + 1.0))"))
         }
         (Pattern::OneMinusCos, ExprKind::Binary(BinaryOp::Sub, _, cosine)) => {
             let x = text(only_argument(shader, *cosine)?)?;
@@ -81,7 +84,11 @@ fn rewriting(types: &Types, shader: &Shader, sources: &SourceMap, found: Found, 
         }
         (Pattern::DifferenceOfSquares, ExprKind::Binary(BinaryOp::Sub, a, b)) => {
             let (x, y) = (text(squared(shader, *a)?)?, text(squared(shader, *b)?)?);
-            (!is_dot(shader, *a) && !is_dot(shader, *b)).then(|| format!("(({x} - {y}) * ({x} + {y}))"))
+            Some(format!("(({x} - {y}) * ({x} + {y}))"))
+        }
+        (Pattern::DifferenceOfDots, ExprKind::Binary(BinaryOp::Sub, a, b)) => {
+            let (x, y) = (text(squared(shader, *a)?)?, text(squared(shader, *b)?)?);
+            Some(format!("dot({x} - {y}, {x} + {y})"))
         }
         (Pattern::DifferenceOfRoots, ExprKind::Binary(BinaryOp::Sub, a, b)) => {
             let (x, y) = (text(only_argument(shader, *a)?)?, text(only_argument(shader, *b)?)?);
@@ -168,10 +175,6 @@ fn squared(shader: &Shader, id: ExprId) -> Option<ExprId> {
         ExprKind::Convert(inner) => squared(shader, *inner),
         _ => None,
     }
-}
-
-fn is_dot(shader: &Shader, id: ExprId) -> bool {
-    matches!(shader.expr(id).kind, ExprKind::BuiltinCall(BuiltinFunction::Dot, _))
 }
 
 fn only_argument(shader: &Shader, id: ExprId) -> Option<ExprId> {

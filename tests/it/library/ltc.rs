@@ -30,8 +30,22 @@ fn the_tables_are_fitted_here() {
 fn lights_are_near_the_integral() {
     for row in errors::rows(1500, 8).expect("the module is called") {
         let told = row.to_string();
-        assert!(row.mirrored[0] < 0.01 && row.mirrored[1] < 0.04, "{told}");
-        assert!(row.diffuse[0] < 0.003 && row.diffuse[1] < 0.01, "{told}");
+        // Larger lights and grazing eyes have larger errors.
+        for ([mean, most], bounds) in row.mirrored.into_iter().zip([[0.02, 0.08], [0.06, 0.2], [0.15, 0.4]]) {
+            assert!(mean < bounds[0] && most < bounds[1], "{told}");
+        }
+        assert!(row.diffuse[0] < 0.006 && row.diffuse[1] < 0.03, "{told}");
+    }
+}
+
+/// A part of the bent cosine is below the horizon for eyes at a grazing angle, unless the surface is as rough as can be.
+#[test]
+fn the_whole_sky_is_all_of_the_cosine_from_above_alone() {
+    for (roughness, parts) in errors::skies().expect("the module is called") {
+        let [first, last] = [parts[0], parts[errors::SEEN.len() - 1]];
+        let is_bent = roughness > 0.2 && roughness < 0.8;
+        assert!((first - 1.0).abs() < 1e-3 && (last < 0.97 || !is_bent), "{roughness}: {parts:?}");
+        assert!(parts.iter().all(|part| (0.7..1.001).contains(part)), "{roughness}: {parts:?}");
     }
 }
 

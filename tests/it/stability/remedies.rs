@@ -124,3 +124,107 @@ fn exact_operations_on_integers_are_no_cause() {
     let found = found("int i = 16777217 + 2 * int(uv.x * 4.0);\nc = vec4(float(i) - big);");
     assert!(kinds(&found).contains(&"rounding") || kinds(&found).contains(&"cancellation"), "{found}");
 }
+
+/// The starts and the kinds of the causes.
+fn places(found: &Value) -> Vec<(u64, u64, &str)> {
+    let causes = found["causes"].as_array().into_iter().flatten();
+    let number = |cause: &Value, key: &str| cause[key].as_u64().unwrap_or(0);
+    causes.map(|cause| (number(cause, "line"), number(cause, "column"), cause["kind"].as_str().unwrap_or(""))).collect()
+}
+
+/// The shader's text begins on line 6.
+#[test]
+fn what_passes_an_infinity_or_a_nan_on_is_no_cause() {
+    for (body, first) in [
+        (
+            "vec3 p = vec3(floor(uv * 12.0) - 6.0, 0.0);\nvec3 n = normalize(p);\nc = vec4(n * 0.5 + 0.5, 1.0);",
+            (7, 10, "division"),
+        ),
+        (
+            "vec3 p = vec3(floor(uv * 12.0) - 6.0, 0.0);\nvec3 n = normalize(p);\nc = vec4(dot(n, vec3(0.3, 0.4, 0.5)));",
+            (7, 10, "division"),
+        ),
+        ("float x = floor(uv.x * 12.0) - 6.0;\nfloat y = 1.0 / x;\nc = vec4(y - 0.2);", (7, 11, "division")),
+        (
+            "vec3 p = vec3(uv - 0.5, 0.3);\nif (uv.x > 0.9) p *= 0.0;\nvec3 n = normalize(p);\nc = vec4(max(dot(n, normalize(vec3(1.0, \
+             -1.0, 0.5))), 0.0));",
+            (8, 10, "division"),
+        ),
+    ] {
+        let found = found(body);
+        assert_eq!(places(&found), [first], "{body}: {found}");
+    }
+}
+
+#[test]
+fn a_sum_that_bears_the_error_of_a_sine_is_no_cause() {
+    let found = found("float t = 86400.0 * 30.0;\nc = vec4(0.5 + 0.5 * sin(t * 3.0 + uv.x * 6.0));");
+    assert!(kinds(&found).contains(&"argument") && !kinds(&found).contains(&"cancellation"), "{found}");
+}
+
+#[test]
+fn further_causes_of_a_line_have_their_places() {
+    let found = found("float a = uv.x * 1e20 + 1e19;\nfloat b = uv.y * 1e20;\nc = vec4(sqrt(a * a + b * b) * 1e-20);");
+    let overflow = &found["causes"][0];
+    let starts = [&overflow["column"], &overflow["also"][0]["column"]].map(|column| column.as_u64().unwrap_or(0));
+    assert!(starts == [15, 23] || starts == [23, 15], "{found}");
+    assert_eq!(found["causes"].as_array().map(Vec::len), Some(1), "{found}");
+}
+
+#[test]
+fn a_rewriting_is_judged_at_its_place() {
+    let found = found(
+        "float a = uv.x * 1e-3;\nfloat b = uv.y * 1e-3;\nfloat p = (1.0 - cos(a)) * 1e6;\nfloat q = (1.0 - cos(b)) * 1e6;\nc = vec4(p, \
+         q, 0.0, 1.0);",
+    );
+    let helps = helps(&found);
+    assert_eq!(helps.len(), 2, "{found}");
+    for help in helps {
+        assert!(help.contains("the rest has other causes") && !help.contains("lost digits"), "{help}");
+    }
+}
+
+/// Bodies, and words that their first help has and has not.
+#[test]
+fn a_remedy_fits_the_expression() {
+    for (body, has, has_not) in [
+        (
+            "vec3 q = vec3(2e6, 1e6, 3e6);\nvec3 p = q + vec3(uv, 0.3);\nc = vec4(distance(p, q));",
+            "relative to the camera",
+            "safeLength",
+        ),
+        ("c = vec4(mix(1e8, 1.0 + uv.y, 1.0 - uv.x * 1e-9 - 1e-9));", "where `t` is near 1", "subtracts"),
+        ("float x = 1.0 + uv.x * 1e-6;\nc = vec4(pow(x, 1e6));", "bases from 0 to 1", "of a base near 1 and"),
+        ("c = vec4((pow(1.0 + uv.x * 1e-4, 1.0 / 3.0) - 1.0) * 3e4);", "n * x * (1.0", "x / 6.0"),
+        ("float x = uv.x * 1e-5 + 1e-6;\nc = vec4(log2(x + 1.0) / x);", "2.885390", "is `2.0 * y"),
+        (
+            "float r = 9e6;\nfloat d = 2999.99 + uv.x * 0.01;\nc = vec4(sqrt(max(r - d * d, 0.0)) * 0.1);",
+            "`(x - y) * (x + y)`",
+            "squared mean",
+        ),
+        (
+            "vec2 n = vec2(0.8, 0.6) * (1.0 - uv.x * 1e-6);\nc = vec4((1.0 - dot(n, n)) * 1e5);",
+            "third component",
+            "1.0 - c",
+        ),
+        (
+            "vec3 p = vec3(uv.x * 1e-3, 0.0, 3000.0 + uv.y);\nfloat r = 3000.0;\nc = vec4((dot(p, p) - r * r) * 1e-2);",
+            "`dot(x - y, x + y)`",
+            "write `(x - y)",
+        ),
+        ("float x = 1.0 - uv.x * 1e-3;\nc = vec4((1.0 - x * (2.0 - x)) * 1e6);", "rearrange", "depth"),
+        ("float x = 1.0 + uv.x * 1e-5;\nc = vec4((x * x - 1.0) * 1e5);", "`(c - 1.0) * (c + 1.0)`", "quadratic"),
+        ("vec3 v = vec3(uv + 0.1, 0.3) * 1e-20;\nc = vec4(dot(v, v) * 1e38);", "safeNormalize", "cancel"),
+    ] {
+        let found = found(body);
+        let helps = helps(&found);
+        let help = helps.iter().find(|help| help.contains(has)).unwrap_or_else(|| panic!("{body}: {found}"));
+        assert!(!help.contains(has_not), "{body}: {help}");
+    }
+}
+
+#[test]
+fn the_square_of_a_tiny_vector_is_an_underflow() {
+    let found = found("vec3 v = vec3(uv + 0.1, 0.3) * 1e-20;\nfloat d = dot(v, v);\nc = vec4(v / sqrt(d), 1.0);");
+    assert!(!kinds(&found).contains(&"cancellation") && kinds(&found).contains(&"underflow"), "{found}");
+}

@@ -6,7 +6,9 @@
 //! places: `x / 0.0` is an infinity.
 
 use super::code::{Code, Inner, Section};
-use super::inst::{Compare, Composite, Float1, Float2, Float3, FloatToInt, Inst, Lookup, TextureCall, Use};
+use super::inst::{
+    Class, Compare, Composite, Float1, Float2, Float3, FloatToInt, Inst, Lookup, Operand, TextureCall, Use,
+};
 use super::machine::Machine;
 use super::{LANES, Mask};
 use crate::domain::{Domain, Integer, Number, Source};
@@ -303,14 +305,14 @@ impl<D: Domain> Machine<D> {
         guess.note(place);
         let Some(numbers) = guess.numbers.filter(|_| guess.applies(place)) else { return };
         let is_replaced = |lane: usize| lanes >> lane & 1 == 1;
-        for (result, (class, operand)) in self.written(inst, section).into_iter().enumerate() {
+        for (result, (class, operand)) in self.operands(inst, section, Use::Write).into_iter().enumerate() {
             match class {
-                super::inst::Class::Float => {
+                Class::Float => {
                     let lanes = self.registers.floats.register(operand).spread();
                     let float = |lane| D::Float::from_f64(numbers.float(lane, result));
                     lanes.update(|lane, old| if is_replaced(lane) { float(lane) } else { old });
                 }
-                super::inst::Class::Int => {
+                Class::Int => {
                     let lanes = self.registers.ints.register(operand).spread();
                     let int = match inst {
                         // The two kinds differ for some numbers, so that a later comparison does not undo an earlier one.
@@ -326,13 +328,13 @@ impl<D: Domain> Machine<D> {
         }
     }
 
-    /// The registers that an instruction writes.
-    pub(super) fn written(&self, inst: &Inst, section: &Section) -> Vec<(super::inst::Class, super::inst::Operand)> {
-        let mut written = Vec::new();
+    /// The registers that an instruction reads, or those that it writes.
+    pub(super) fn operands(&self, inst: &Inst, section: &Section, wanted: Use) -> Vec<(Class, Operand)> {
+        let mut found = Vec::new();
         let mut copy = *inst;
-        let mut note = |class, using, operand: &mut super::inst::Operand| {
-            if using == Use::Write {
-                written.push((class, *operand));
+        let mut note = |class, using, operand: &mut Operand| {
+            if using == wanted {
+                found.push((class, *operand));
             }
         };
         copy.visit(&mut note);
@@ -341,10 +343,10 @@ impl<D: Domain> Machine<D> {
         {
             call.clone().visit(&mut note);
         }
-        for (class, _, list) in inst.lists().into_iter().flatten().filter(|(_, using, _)| *using == Use::Write) {
-            written.extend(section.list(list).iter().map(|operand| (class, *operand)));
+        for (class, _, list) in inst.lists().into_iter().flatten().filter(|(_, using, _)| *using == wanted) {
+            found.extend(section.list(list).iter().map(|operand| (class, *operand)));
         }
-        written
+        found
     }
 }
 

@@ -73,9 +73,14 @@ impl<T: Element> Register<T> {
 
     /// Replaces each number.
     pub(super) fn change(&mut self, f: impl Fn(T) -> T) {
+        self.change_lanes(|_, number| f(number));
+    }
+
+    /// Replaces each number by one that may depend on its lane: 0, if all lanes have the same.
+    pub(super) fn change_lanes(&mut self, f: impl Fn(usize, T) -> T) {
         match self.filled {
-            Filled::Lanes => self.lanes.update(|_, number| f(number)),
-            Filled::One => self.lanes.set(0, f(self.lanes.get(0))),
+            Filled::Lanes => self.lanes.update(f),
+            Filled::One => self.lanes.set(0, f(0, self.lanes.get(0))),
         }
     }
 

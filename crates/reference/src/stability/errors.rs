@@ -76,6 +76,13 @@ impl ErrorMap {
         [(index % width) as u32, (index / width) as u32]
     }
 
+    /// The error of a pixel by its column and row; 0 outside of the picture.
+    pub fn at(&self, [x, y]: [u32; 2]) -> f64 {
+        let is_inside = x < self.width;
+        let index = y as usize * self.width as usize + x as usize;
+        self.errors.get(index).copied().filter(|_| is_inside).unwrap_or(0.0)
+    }
+
     /// The largest finite error, and the index of its pixel.
     pub fn worst(&self) -> Option<(usize, f64)> {
         let finite = self.errors.iter().copied().enumerate().filter(|(_, error)| error.is_finite() && *error > 0.0);

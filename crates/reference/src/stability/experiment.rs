@@ -43,17 +43,16 @@ pub(super) fn causes(
     let loops = loops(bench.scene);
     let candidates = candidates(tallies, &loops);
     let total = candidates.len();
-    let mut found = Vec::new();
+    let mut tried: Vec<(Cause, Gains)> = Vec::new();
     let mut jitter: Option<Vec<f64>> = None;
     let mut open = bench.not_finite();
     for (done, candidate) in candidates.iter().enumerate() {
         if !(options.progress)(done, total) {
             break;
         }
-        if let Some(cause) = try_candidate(bench, candidate, options, (&mut jitter, &mut open))? {
-            found.push(cause);
-        }
+        tried.extend(try_candidate(bench, candidate, options, (&mut jitter, &mut open))?);
     }
+    let mut found = without_bearers(&tried, options.least());
     found.extend(joint(bench, &candidates, &found, &open, options)?);
     found.extend(lost_before(bench, tallies, &loops, &found, options)?);
     let explained = found.iter().filter_map(|cause| cause.harm).fold(0.0, f64::max);
@@ -131,7 +130,7 @@ fn try_candidate(
     candidate: &Candidate,
     options: &ExamineOptions<'_>,
     (jitter, open): (&mut Option<Vec<f64>>, &mut BTreeSet<usize>),
-) -> Result<Option<Cause>, Vec<Diagnostic>> {
+) -> Result<Option<(Cause, Gains)>, Vec<Diagnostic>> {
     let Candidate { stage, span, .. } = *candidate;
     let tally = &candidate.tally;
     let spans = [span];
@@ -166,7 +165,29 @@ fn try_candidate(
     let equality = candidate.act == Act::Compare { equality: true };
     let cured = outcome.cured();
     let found = Found { kind, cured, harm, index, ill_posed, equality };
-    Ok(Some(found.cause(bench, (stage, span), tally)))
+    let gains = outcome.gains.into_iter().enumerate().filter(|(_, gain)| *gain >= 0.5 * least).collect();
+    Ok(Some((found.cause(bench, (stage, span), tally), gains)))
+}
+
+/// By how much the errors of pixels shrink, by their indices; those that shrink by too little to count are left out.
+type Gains = BTreeMap<usize, f64>;
+
+/// The causes without the sums that merely bear a loss: they cancel nothing where their operands have digits, and at each pixel that they
+/// harm, a function that loses its argument's digits does at least half as much.
+fn without_bearers(tried: &[(Cause, Gains)], least: f64) -> Vec<Cause> {
+    let loses = |cause: &Cause| {
+        let by_itself = !matches!(cause.kind, CauseKind::Cancellation | CauseKind::Accumulation);
+        by_itself && cause.first_lost_bits >= CAUSE_BITS && cause.harm.is_some()
+    };
+    let bears = |cause: &Cause, gains: &Gains| {
+        let covers = |others: &Gains| {
+            let mut harmed = gains.iter().filter(|(_, gain)| **gain >= least);
+            harmed.all(|(index, gain)| others.get(index).is_some_and(|other| *other >= 0.5 * gain))
+        };
+        let is_sum = cause.kind == CauseKind::Cancellation && cause.first_lost_bits < CAUSE_BITS;
+        is_sum && cause.harm.is_some() && tried.iter().any(|(other, others)| loses(other) && covers(others))
+    };
+    tried.iter().filter(|(cause, gains)| !bears(cause, gains)).map(|(cause, _)| *cause).collect()
 }
 
 /// The causes of pixels that no expression alone makes finite, since several of them break each: those without which the others do

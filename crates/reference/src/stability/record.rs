@@ -30,6 +30,9 @@ const LARGEST_SQUARED: f64 = 1.8e19;
 /// The square of a number below this is below the smallest normal f32.
 const SMALLEST_SQUARED: f64 = 1.1e-19;
 
+/// The smallest normal f32.
+const SMALLEST: f64 = f32::MIN_POSITIVE as f64;
+
 /// The act of a span: an operation on floats, or an answer about them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Act {
@@ -154,6 +157,7 @@ impl Tally {
         let is_sum = matches!(kind, Kind::Sum | Kind::Dot | Kind::Pairs);
         self.underflows +=
             u64::from(!is_sum && result.single == 0.0 && rounded(result.exact) == 0.0 && result.exact != 0.0);
+        self.underflows += u64::from(kind == Kind::Dot && lost >= CAUSE_BITS && vanishes(operands));
         // A root or a quotient shows digits that left the range before.
         self.underflows += u64::from(!is_sum && lost >= CAUSE_BITS && operands.iter().any(is_vanished));
         if matches!(kind, Kind::Normalize | Kind::Vector) && lost >= CAUSE_BITS {
@@ -170,6 +174,13 @@ impl Tally {
         self.disagreements += 1;
         self.at_edge += u64::from(worst_ulps(operands) <= SOUND_ULPS);
     }
+}
+
+/// Whether the products of a dot product are too small for f32, so that their sum is, without any cancellation.
+fn vanishes(operands: &[ShadowFloat]) -> bool {
+    let (a, b) = operands.split_at(operands.len() / 2);
+    let sizes = a.iter().zip(b).map(|(a, b)| (a.single * b.single).abs());
+    (f64::MIN_POSITIVE..SMALLEST).contains(&sizes.fold(0.0, f64::max))
 }
 
 /// By how much a discontinuous function jumps: 1, or the divisor of `mod`.

@@ -195,6 +195,7 @@ fn cause(one: &SceneOnPage<'_>, cause: &CauseFound, anchors: &Anchors<'_>, input
         non_finite => cause.non_finite,
         disagreements => cause.disagreements,
         ill_posed => cause.ill_posed,
+        also => cause.also.iter().map(|start| format!("{}:{}", start.line, start.column)).collect::<Vec<_>>().join(", "),
         x => cause.at.x,
         y => cause.at.y,
         left,

@@ -203,5 +203,5 @@ const FAR: f64 = 1e-4;
 fn is_far(single: f64, exact: f64) -> bool {
     let is_same = single == exact || single.is_nan() && exact.is_nan();
     let off = (single - exact).abs();
-    !is_same && (off.is_nan() || off > FAR * exact.abs().max(1e-30))
+    !is_same && (off.is_nan() || off > FAR * exact.abs())
 }

@@ -22,8 +22,14 @@ fn main() -> ExitCode {
                 }
             }
         }
-        Some("errors") => match errors::rows(20_000, 24) {
-            Ok(rows) => rows.iter().for_each(|row| println!("{row}")),
+        Some("errors") => match errors::rows(20_000, 24).and_then(|rows| Ok((rows, errors::skies()?))) {
+            Ok((rows, skies)) => {
+                rows.iter().for_each(|row| println!("{row}"));
+                for (roughness, parts) in skies {
+                    let parts: Vec<String> = parts.iter().map(|part| format!("{part:.3}")).collect();
+                    println!("| {roughness} | {} |", parts.join(" | "));
+                }
+            }
             Err(message) => {
                 eprintln!("{message}");
                 return ExitCode::FAILURE;
