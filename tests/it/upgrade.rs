@@ -169,7 +169,7 @@ fn comments_that_end_in_a_backslash_end_with_their_line() {
     let fragment = "#version 110\nuniform vec4 c;\n// a macro \\\n#define HALF 0.5\nvoid main() {\n    vec4 d = c;\n    // half of it: a \\ b, or \\\n    \
         d *= HALF;\n    gl_FragColor = d; /* in here it does not count \\\n    */\n}\n";
     for to in ["150", "450", "460", "300es"] {
-        let folder = Folder::new(&[("a.vert", vertex), ("a.frag", fragment)]);
+        let folder = Folder::new(&[("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes())]);
         let output = folder.run(&["upgrade", "a.vert", "a.frag", "--to", to, "-o", "new"]);
         assert_eq!(code(&output), 0, "{to}: {}", err(&output));
         let compiled = folder.run(&["compile", "new/a.vert", "new/a.frag", "--target", "glsl", "-o", "glsl"]);

@@ -259,8 +259,7 @@ impl<D: Domain> Machine<D> {
 
     /// The lanes in which a coordinate of a lookup is no finite number: no texel is there (GLSL 1.50 §8.7).
     fn without_a_place(&self, call: &TextureCall, mask: u64) -> u64 {
-        let is_finite =
-            |lane, operand: &super::inst::Operand| self.registers.float(*operand).at(lane).value().is_finite();
+        let is_finite = |lane, operand: &Operand| self.registers.float(*operand).at(lane).value().is_finite();
         lanes_where(mask, |lane| !call.coordinate.iter().all(|operand| is_finite(lane, operand)))
     }
 
@@ -275,7 +274,7 @@ impl<D: Domain> Machine<D> {
 
     /// Whether a texel that a lane fetches is not in the texture.
     fn is_beyond(&self, call: &TextureCall, lane: usize) -> bool {
-        let at = |operand: &super::inst::Operand| i64::from(self.registers.int(*operand).at(lane).bits() as i32);
+        let at = |operand: &Operand| i64::from(self.registers.int(*operand).at(lane).bits() as i32);
         let slot = self.registers.int(call.sampler).at(lane).bits() as usize;
         // A texture that is missing or incomplete is (0, 0, 0, 1).
         let Some(texture) = self.textures.get(slot).and_then(Option::as_deref) else { return false };
