@@ -735,11 +735,12 @@ const turn = (image, event) => {
   event.preventDefault();
   const from = offset();
   const length = Math.hypot(...from) || 1;
-  turning = { x: event.clientX, y: event.clientY, length, around: Math.atan2(from[0], from[2]), up: Math.asin(Math.max(-1, Math.min(1, from[1] / length))) };
+  const began = { x: event.clientX, y: event.clientY, length, around: Math.atan2(from[0], from[2]), up: Math.asin(Math.max(-1, Math.min(1, from[1] / length))) };
+  turning = began;
   const moved = (now) => {
-    const around = turning.around - (now.clientX - turning.x) / 120;
-    const up = Math.max(-1.55, Math.min(1.55, turning.up + (now.clientY - turning.y) / 120));
-    place(control, [Math.sin(around) * Math.cos(up), Math.sin(up), Math.cos(around) * Math.cos(up)].map((value) => value * turning.length));
+    const around = began.around - (now.clientX - began.x) / 120;
+    const up = Math.max(-1.55, Math.min(1.55, began.up + (now.clientY - began.y) / 120));
+    place(control, [Math.sin(around) * Math.cos(up), Math.sin(up), Math.cos(around) * Math.cos(up)].map((value) => value * began.length));
   };
   const ended = () => {
     turning = null;
