@@ -153,12 +153,18 @@ pub struct Location {
 pub struct SourceMap {
     files: Vec<SourceFile>,
     expansions: Vec<Expansion>,
+    rare: Box<Rare>,
+    /// The languages of the texts from an offset on, sorted by it.
+    languages: Vec<(u32, Language)>,
+}
+
+/// What most texts have little of.
+#[derive(Clone, Debug, Default)]
+struct Rare {
     /// The macro uses that are in no other one: from where to where.
     uses: BTreeMap<u32, u32>,
     /// Sorted by offset.
     renumberings: Vec<Renumbering>,
-    /// The languages of the texts from an offset on, sorted by it.
-    languages: Vec<(u32, Language)>,
 }
 
 /// The state of a map, as far as the places of what is added later depend on it.
@@ -204,7 +210,7 @@ struct Renumbering {
 /// The hash of all texts that somebody wrote, and of where macros are used: the macros of the command line are no part of it.
 impl Hash for SourceMap {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        let Self { files, expansions, uses: _, renumberings, languages } = self;
+        let Self { files, expansions, rare, languages } = self;
         files.len().hash(state);
         for SourceFile { name, text, shown, base, line_starts: _, characters: _, is_changing: _ } in files {
             let written = (name != Self::COMMAND_LINE).then_some((text, shown));
@@ -212,7 +218,7 @@ impl Hash for SourceMap {
         }
         expansions.len().hash(state);
         expansions.iter().for_each(|Expansion { name, call, definition: _ }| (name, call).hash(state));
-        (renumberings, languages).hash(state);
+        (&rare.renumberings, languages).hash(state);
     }
 }
 
@@ -267,7 +273,7 @@ impl SourceMap {
             files: self.files.len(),
             next: self.next_base(),
             expansions: self.expansions.len(),
-            renumberings: self.renumberings.len(),
+            renumberings: self.rare.renumberings.len(),
             languages: self.languages.len(),
         }
     }
@@ -278,7 +284,7 @@ impl SourceMap {
             from,
             files: self.files.iter().skip(from.files).cloned().collect(),
             expansions: self.expansions.iter().skip(from.expansions).cloned().collect(),
-            renumberings: self.renumberings.iter().skip(from.renumberings).copied().collect(),
+            renumberings: self.rare.renumberings.iter().skip(from.renumberings).copied().collect(),
             languages: self.languages.iter().skip(from.languages).copied().collect(),
         }
     }
@@ -291,7 +297,7 @@ impl SourceMap {
             addition.expansions.iter().for_each(|expansion| {
                 self.add_expansion(expansion.clone());
             });
-            self.renumberings.extend_from_slice(&addition.renumberings);
+            self.rare.renumberings.extend_from_slice(&addition.renumberings);
             self.languages.extend_from_slice(&addition.languages);
         }
         fits
@@ -331,25 +337,26 @@ impl SourceMap {
     /// one with it.
     fn add_use(&mut self, call: Span) {
         let (mut start, mut end) = (call.start, call.end);
-        while let Some((&other, &until)) = self.uses.range(..end).next_back().filter(|(_, until)| **until > start) {
+        while let Some((&other, &until)) = self.rare.uses.range(..end).next_back().filter(|(_, until)| **until > start)
+        {
             if other <= start && end <= until {
                 return;
             }
-            self.uses.remove(&other);
+            self.rare.uses.remove(&other);
             (start, end) = (start.min(other), end.max(until));
         }
-        self.uses.insert(start, end);
+        self.rare.uses.insert(start, end);
     }
 
     /// Whether the texts use any macro.
     pub(crate) fn has_uses(&self) -> bool {
-        !self.uses.is_empty()
+        !self.rare.uses.is_empty()
     }
 
     /// The outermost macro use that put a token where it is: that of its macro, or the one in whose arguments it is written.
     pub(crate) fn use_around(&self, token: Span) -> Option<Span> {
         let site = self.call_site(token);
-        let (start, end) = self.uses.range(..=site.start).next_back().filter(|(_, end)| site.end <= **end)?;
+        let (start, end) = self.rare.uses.range(..=site.start).next_back().filter(|(_, end)| site.end <= **end)?;
         (site.start < *end).then(|| Span::new(*start, *end))
     }
 
@@ -377,16 +384,16 @@ impl SourceMap {
     pub fn renumber(&mut self, directive: Span, number: u32) {
         let Some(line) = self.line(directive) else { return };
         let row = Renumbering { offset: directive.start, line, number };
-        let index = self.renumberings.partition_point(|other| other.offset < row.offset);
-        match self.renumberings.get_mut(index).filter(|other| other.offset == row.offset) {
+        let index = self.rare.renumberings.partition_point(|other| other.offset < row.offset);
+        match self.rare.renumberings.get_mut(index).filter(|other| other.offset == row.offset) {
             Some(same) => *same = row,
-            None => self.renumberings.insert(index, row),
+            None => self.rare.renumberings.insert(index, row),
         }
     }
 
     /// The `#line` directives: the offset of each and the number that it gives to the line after it.
     pub(crate) fn renumbered(&self) -> impl Iterator<Item = (u32, u32)> {
-        self.renumberings.iter().map(|row| (row.offset, row.number))
+        self.rare.renumberings.iter().map(|row| (row.offset, row.number))
     }
 
     /// Records the language of a text and of those that were added after it, which it includes.
@@ -427,8 +434,8 @@ impl SourceMap {
     /// The number that an earlier `#line` directive of its file gave to the line of a span, if there is such a
     /// directive.
     pub fn presented_line(&self, span: Span) -> Option<u32> {
-        let index = self.renumberings.partition_point(|row| row.offset < span.start).checked_sub(1)?;
-        let row = self.renumberings.get(index)?;
+        let index = self.rare.renumberings.partition_point(|row| row.offset < span.start).checked_sub(1)?;
+        let row = self.rare.renumberings.get(index)?;
         let file = self.file(self.file_of(span)?);
         let line = (row.offset >= file.base).then(|| file.line_at(span.start))?;
         (line > row.line).then(|| row.number.saturating_add(line - row.line - 1))

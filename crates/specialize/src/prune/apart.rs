@@ -43,11 +43,11 @@ impl Walk<'_> {
     fn statement(&mut self, kind: &mut StmtKind) {
         match kind {
             StmtKind::Local(local, initializer) => {
-                initializer.into_iter().for_each(|expr| self.expr(*expr));
+                initializer.iter().for_each(|expr| self.expr(*expr));
                 *local = self.declare(*local);
             }
             StmtKind::Expr(expr) => self.expr(*expr),
-            StmtKind::Return(value) => value.into_iter().for_each(|expr| self.expr(*expr)),
+            StmtKind::Return(value) => value.iter().for_each(|expr| self.expr(*expr)),
             StmtKind::Block(body) => self.body(body),
             StmtKind::If { arms, otherwise } => {
                 for (condition, body) in arms {
@@ -73,7 +73,7 @@ impl Walk<'_> {
                         *local = self.declare(*local);
                     }
                 }
-                step.into_iter().for_each(|expr| self.expr(*expr));
+                step.iter().for_each(|expr| self.expr(*expr));
                 self.body(body);
                 self.names = outside;
             }

@@ -181,7 +181,19 @@ impl Signs {
                         operands.get_mut(index).into_iter().for_each(|slot| *slot = given);
                     }
                 }
-                _ => {
+                ExprKind::Error
+                | ExprKind::Literal(_)
+                | ExprKind::Member(..)
+                | ExprKind::Index(..)
+                | ExprKind::Swizzle(..)
+                | ExprKind::Convert(_)
+                | ExprKind::Construct(..)
+                | ExprKind::Unary(..)
+                | ExprKind::Binary(..)
+                | ExprKind::Logical(..)
+                | ExprKind::Ternary(..)
+                | ExprKind::Comma(..)
+                | ExprKind::BuiltinCall(..) => {
                     for (slot, sees) in operands.iter_mut().zip(of_operands(types, walked, id)) {
                         *slot = sees.given(seen);
                     }
