@@ -158,7 +158,7 @@ pub struct SourceMap {
     languages: Vec<(u32, Language)>,
 }
 
-/// What most texts have little of.
+/// Facts that most texts have few of.
 #[derive(Clone, Debug, Default)]
 struct Rare {
     /// The macro uses that are in no other one: from where to where.
