@@ -18,7 +18,7 @@ const QUALIFIERS: u32 = 64;
 const FOR_GRANTED: [Feature; 3] = [Feature::ImplicitToFloat, Feature::ImplicitToUint, Feature::FloatSuffix];
 
 /// Drops what follows from a decisive error, among the diagnostics from number `first` on: with a missing version all
-/// other errors but those of tokens before the place that shows it, or all before it if that is [taken for granted](FOR_GRANTED);
+/// other errors but those of tokens before the place that shows it, or all before it if that is taken for granted;
 /// after an unsupported feature or extension those of the syntax and the meaning of the text. `late` is a `#version` line that
 /// tokens come before.
 pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<Span>) {
