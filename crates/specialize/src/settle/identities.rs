@@ -101,7 +101,13 @@ pub(super) fn part(walked: &Walked, id: ExprId) -> Option<(usize, u8)> {
     };
     match walked.shader.expr(id).kind {
         ExprKind::BuiltinCall(F::Dot, _) => of(0, 1).or_else(|| of(1, 0)),
-        ExprKind::Binary(BinaryOp::MatMul, ..) if operation.facts(0).len() > operation.facts(1).len() => of(0, 1),
+        // A matrix times a vector; of two matrices, the second is no axis.
+        ExprKind::Binary(BinaryOp::MatMul, ..)
+            if operation.facts(0).len() > operation.facts(1).len()
+                && operation.ty(1).is_some_and(|ty| is_vector_of(ty, TypeId::FLOAT)) =>
+        {
+            of(0, 1)
+        }
         _ => None,
     }
 }
