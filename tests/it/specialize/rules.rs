@@ -196,6 +196,9 @@ fn a_product_with_the_identity_goes() {
         left_of(&format!("{bounded}c = mat3(c, c.zxy, c) * vec3(u, w, u);")),
         left_of(&format!("{bounded}c = c.zxy;"))
     );
+    // A matrix with a single 1 is no axis.
+    let matrix = "c = (mat4x3(c, c, c, c) * mat2x4(w, u, u, u, u, u, u, u))[0];";
+    assert!(left_of(&format!("{bounded}{matrix}")).contains("mat2x4"));
     // An infinity times 0 is NaN.
     assert!(left_of("c = mat3(w) * c;").contains("mat3"));
 }
