@@ -57,7 +57,7 @@ mod words;
 pub use account::{Kind, LeftOut, Moved};
 pub use known::{Input, Known, KnownState, KnownTexture};
 pub use optimize::{left_out, optimize, optimize_by, without_unreached};
-pub use options::{Extent, Options};
+pub use options::{Extent, Math, Options};
 pub use residual::{Residual, ResidualStage, specialize, specialize_with};
 
 pub use glisten_front::Program;

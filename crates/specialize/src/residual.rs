@@ -4,7 +4,7 @@ use crate::account::{self, How, LeftOut, Moved};
 use crate::forward::{self, Reasons, Walked};
 use crate::known::Known;
 use crate::left::Left;
-use crate::options::{Extent, Options};
+use crate::options::{Extent, Math, Options};
 use crate::prune::{self, Pruned};
 use crate::settle::{self, Demand, Demands, Settled, mark_signs};
 use crate::{fast, inputs, motion, text, unlocated, words};
@@ -222,7 +222,7 @@ fn described(moved: motion::Move, sources: Option<&SourceMap>) -> Moved {
 fn settled(program: &Program, stage: &Walked, globals: Vec<Demand>) -> (Settled, Demands) {
     let demands = Demands::of(&program.types, stage, globals);
     let mut settled = settle::settle(&program.types, stage, &demands, &program.interface.samplers);
-    if stage.fast {
+    if stage.math == Math::Fast {
         fast::simplify(&program.types, &mut settled.shader);
     }
     (settled, demands)

@@ -2,7 +2,7 @@
 
 use glisten_front::hir::{ScalarValue, Stage};
 use glisten_front::{Compiler, Options, Source};
-use glisten_specialize::{Known, Options as How, Residual, specialize_with};
+use glisten_specialize::{Known, Math, Options as How, Residual, specialize_with};
 
 const VERTEX: &str = "#version 150\nin vec4 p;\nin vec4 q;\nout vec4 v;\nvoid main() { v = q; gl_Position = p; }\n";
 
@@ -12,7 +12,7 @@ fn compiled(vertex: &str, fragment: &str) -> glisten_front::Compilation {
     Compiler::new(Options::default()).compile(&sources)
 }
 
-fn residual(vertex: &str, fragment: &str, known: &[(&str, &[f32])], fast_math: bool, move_to_vertex: bool) -> Residual {
+fn residual(vertex: &str, fragment: &str, known: &[(&str, &[f32])], math: Math, move_to_vertex: bool) -> Residual {
     let compiled = compiled(vertex, fragment);
     let messages: Vec<_> = compiled.diagnostics.iter().map(|found| found.message.clone()).collect();
     let program = compiled.program.unwrap_or_else(|| panic!("{messages:?}\n{fragment}"));
@@ -20,7 +20,7 @@ fn residual(vertex: &str, fragment: &str, known: &[(&str, &[f32])], fast_math: b
     for (name, numbers) in known {
         values.uniforms.insert((*name).into(), numbers.iter().map(|value| ScalarValue::Float(*value)).collect());
     }
-    let how = How { sources: Some(&compiled.sources), fast_math, move_to_vertex, ..How::default() };
+    let how = How { sources: Some(&compiled.sources), math, move_to_vertex, ..How::default() };
     let residual = specialize_with(&program, &values, &how);
     assert!(residual.fault.is_none(), "{:?}", residual.fault);
     residual
@@ -32,7 +32,7 @@ fn fast(expression: &str, u: f32, w: f32) -> String {
         "#version 150\nin vec4 v;\nuniform float u;\nuniform float w;\nuniform float d;\nuniform mat4 m;\nout vec4 color;\n\
          void main() {{ color = vec4({expression}); }}\n"
     );
-    let residual = residual(VERTEX, &fragment, &[("u", &[u]), ("w", &[w])], true, false);
+    let residual = residual(VERTEX, &fragment, &[("u", &[u]), ("w", &[w])], Math::Fast, false);
     let text = residual.text(Stage::Fragment).expect("a stage").to_owned();
     let line = text.lines().find(|line| line.trim_start().starts_with("color = ")).unwrap_or_default();
     line.trim().trim_start_matches("color = ").trim_end_matches(';').to_owned()
@@ -45,7 +45,7 @@ fn fast_math_drops_assignments_that_change_nothing() {
             "#version 150\nin vec4 v;\nuniform float u;\nuniform float w;\nout vec4 color;\n\
              void main() {{ vec3 c = v.xyz; {statements} color = vec4(c, 1.0); }}\n"
         );
-        let residual = residual(VERTEX, &fragment, &[("u", &[0.0]), ("w", &[1.0])], true, false);
+        let residual = residual(VERTEX, &fragment, &[("u", &[0.0]), ("w", &[1.0])], Math::Fast, false);
         residual.text(Stage::Fragment).expect("a stage").to_owned()
     };
     assert_eq!(text("c += u; c *= w; c -= vec3(u); c /= w;"), text(""));
@@ -97,7 +97,7 @@ fn a_whole_power_becomes_products() {
     let power = |n: f32| {
         let fragment = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\nvoid main() {\n    float x = max(v.x, v.y);\n    \
              color = vec4(pow(x * v.z, u));\n}\n";
-        residual(VERTEX, fragment, &[("u", &[n])], true, false).text(Stage::Fragment).expect("a stage").to_owned()
+        residual(VERTEX, fragment, &[("u", &[n])], Math::Fast, false).text(Stage::Fragment).expect("a stage").to_owned()
     };
     let five = power(5.0);
     assert!(five.contains("float pow5(float x)") && five.contains("x * x") && !five.contains("pow("), "{five}");
@@ -113,9 +113,61 @@ fn a_whole_power_becomes_products() {
 fn without_fast_math_nothing_of_it_happens() {
     let fragment = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\n\
         void main() { color = vec4((v.x / u) + pow(v.y, u)) * 3.0; }\n";
-    let text = residual(VERTEX, fragment, &[("u", &[3.0])], false, false);
+    let text = residual(VERTEX, fragment, &[("u", &[3.0])], Math::Exact, false);
     let text = text.text(Stage::Fragment).expect("a stage");
     assert!(text.contains("/ 3.0") && text.contains("pow("), "{text}");
+}
+
+/// The residual's fragment stage under finite math, of a program that computes `color` so.
+fn finite(expression: &str, u: f32) -> String {
+    let fragment = format!(
+        "#version 150\nin vec4 v;\nuniform float u;\nuniform float d;\nuniform sampler2D t;\nout vec4 color;\n\
+         float half_of(float x) {{ return x / d; }}\nvoid main() {{ color = vec4({expression}); }}\n"
+    );
+    let text = |math| {
+        residual(VERTEX, &fragment, &[("u", &[u])], math, false).text(Stage::Fragment).expect("a stage").to_owned()
+    };
+    assert_ne!(text(Math::Exact), text(Math::Finite), "{expression}");
+    text(Math::Finite)
+}
+
+#[test]
+fn finite_math_takes_numbers_from_outside_to_be_finite() {
+    // Of each, what is left of the part that `u` decides; a sum with 1 hides the sign of a zero.
+    let zeros = [
+        "1.0 + v.x * u",
+        "1.0 + d * u",
+        "1.0 + texture(t, v.xy).x * u",
+        "1.0 + half_of(v.x) * u",
+        "1.0 + u * pow(v.x, d)",
+        "1.0 + dot(v, vec4(u))",
+        "mix(v.x + 1.0, 1.0, 1.0 - u)",
+        "1.0 + u * (v.x / v.y)",
+    ];
+    for expression in zeros {
+        let text = finite(expression, 0.0);
+        assert!(text.contains("color = vec4(1.0);") && !text.contains("uniform"), "{expression}\n{text}");
+    }
+    assert!(finite("isnan(v.x) || isinf(half_of(v.x)) ? 2.0 : 1.0", 0.0).contains("color = vec4(1.0);"));
+}
+
+#[test]
+fn finite_math_rounds_as_before_and_keeps_signs_of_zeros() {
+    let exact = |expression: &str, u: f32| {
+        let fragment = format!(
+            "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\nvoid main() {{ color = vec4({expression}); }}\n"
+        );
+        let text = |math| {
+            residual(VERTEX, &fragment, &[("u", &[u])], math, false).text(Stage::Fragment).expect("a stage").to_owned()
+        };
+        assert_eq!(text(Math::Exact), text(Math::Finite), "{expression}");
+    };
+    // A color of floats shows the sign of a zero.
+    for (expression, u) in
+        [("v.x / u", 3.0), ("(v.x * u) * 0.5", 0.25), ("(v.x + u) + 1.0", 2.0), ("pow(v.x, u)", 2.0), ("v.x + u", 0.0)]
+    {
+        exact(expression, u);
+    }
 }
 
 #[test]
@@ -123,7 +175,7 @@ fn fast_math_keeps_effects_discards_and_derivatives() {
     let fragment = "#version 150\nin vec4 v;\nuniform float u;\nout vec4 color;\nfloat count = 0.0;\n\
         float more() { count += v.x; return v.y; }\n\
         void main() { float a = more() * u; if (v.z > 0.5) discard; color = vec4(a, count, dFdx(v.x), 1.0); }\n";
-    let text = residual(VERTEX, fragment, &[("u", &[0.0])], true, false);
+    let text = residual(VERTEX, fragment, &[("u", &[0.0])], Math::Fast, false);
     let text = text.text(Stage::Fragment).expect("a stage");
     assert!(text.contains("count") && text.contains("more()") && text.contains("discard"), "{text}");
     assert!(text.contains("dFdx(v.x)"), "{text}");
@@ -140,7 +192,7 @@ fn moved(body: &str) -> Residual {
          float half_of(float x) {{ return x * 0.5; }}\n\
          float tilted(vec3 x) {{ if (x.x > 2.0) return 1.0; return length(turn * x); }}\nvoid main() {{\n{body}\n}}\n"
     );
-    residual(LIT, &fragment, &[], false, true)
+    residual(LIT, &fragment, &[], Math::Exact, true)
 }
 
 #[test]
@@ -200,7 +252,7 @@ fn nothing_moves_into_a_stage_that_returns_early() {
         void main() { at = p.xyz; gl_Position = p; if (early) return; gl_Position = p * 2.0; }\n";
     let fragment = "#version 150\nin vec3 at;\nuniform vec3 light;\nout vec4 color;\n\
         void main() { color = vec4(normalize(light - at), 1.0); }\n";
-    assert!(residual(vertex, fragment, &[], false, true).moved.is_empty());
+    assert!(residual(vertex, fragment, &[], Math::Exact, true).moved.is_empty());
 }
 
 /// The fragment stage of a body, where `u` is known to be 3.
@@ -208,7 +260,7 @@ fn written(body: &str) -> String {
     let fragment = format!(
         "#version 150\nin vec4 v;\nuniform float u;\nuniform vec4 list[16];\nout vec4 color;\nvoid main() {{\n{body}\n}}\n"
     );
-    residual(VERTEX, &fragment, &[("u", &[3.0])], false, false).text(Stage::Fragment).expect("a stage").to_owned()
+    residual(VERTEX, &fragment, &[("u", &[3.0])], Math::Exact, false).text(Stage::Fragment).expect("a stage").to_owned()
 }
 
 #[test]

@@ -1,14 +1,15 @@
 //! The account of scenes, its page, and the contracts that may change rounding, end to end.
 
-use super::{load, scene_files};
+use super::{bits, load, scene_files};
 use crate::support::root;
 use glisten_front::hir::Stage;
 use glisten_reference::Precision;
 use glisten_report::account::{SceneOnPage, page};
-use glisten_verify::specialize::{Contract, account, picture_error, pictures, specialize_scene_by};
+use glisten_scene::Scene;
+use glisten_verify::specialize::{Contract, Math, account, picture_error, pictures, specialize_scene_by};
 use std::path::Path;
 
-const BOTH: Contract = Contract { fast_math: true, move_to_vertex: true };
+const BOTH: Contract = Contract { math: Math::Fast, move_to_vertex: true };
 
 fn page_of(name: &str, contract: Contract) -> (String, serde_json::Value) {
     page_of_file(&root().join("fixtures/scenes").join(name), contract)
@@ -118,4 +119,45 @@ fn scenes_draw_nearly_the_same_under_both_contracts() {
     }
     assert!(wrong.is_empty(), "{} of {n_checked} scenes:\n{}", wrong.len(), wrong.join("\n"));
     assert!(n_checked > 10 && n_moved > 0, "{n_checked} scenes, {n_moved} moves");
+}
+
+/// The uniforms that the vertex stages of a scene read, by the names of their declarations: what a camera that moves changes.
+fn of_the_camera(scene: &Scene) -> Vec<String> {
+    let roots = scene.draws.iter().flat_map(|draw| &draw.program.interface.roots);
+    let read = roots.filter(|root| root.globals.iter().any(|(stage, _)| *stage == Stage::Vertex));
+    read.map(|root| root.name.clone()).collect()
+}
+
+/// Finite math changes no bit of a picture without infinities, and leaves out more where the camera moves.
+#[test]
+fn finite_math_draws_the_same_bits_and_leaves_out_more() {
+    let (mut wrong, mut n_checked, mut n_shorter) = (Vec::new(), 0, 0);
+    for path in scene_files().iter().step_by(7) {
+        let Some((scene, sources)) = load(path) else { continue };
+        let dynamic = of_the_camera(&scene);
+        let by = |math| specialize_scene_by(Contract { math, ..Contract::default() }, &scene, &sources, &dynamic);
+        let (exact, finite) = (by(Math::Exact), by(Math::Finite));
+        let name = path.display();
+        wrong.extend(finite.draws.iter().filter_map(|draw| Some(format!("{name}: {}", draw.fault.as_ref()?))));
+        let (Ok(before), Ok(after)) = (bits(&scene), bits(&finite.scene)) else { continue };
+        n_checked += 1;
+        n_shorter += usize::from(finite.is_shorter_than(&exact.scene));
+        if before != after {
+            wrong.push(format!("{name}: {:?}", picture_error(&scene, &finite.scene)));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {n_checked} scenes:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(n_checked > 20 && n_shorter > 0, "{n_checked} scenes, {n_shorter} of them shorter");
+}
+
+#[test]
+fn the_account_of_finite_math_tells_its_error() {
+    let (page, account) = page_of("phong.toml", Contract { math: Math::Finite, ..Contract::default() });
+    assert!(
+        page.contains("every bit of every pixel is the same") && page.contains("Every number was taken to be finite.")
+    );
+    for error in [&account["finite_math"], &account["draws"][0]["finite_math"]] {
+        assert!(error["max_abs"] == 0.0 && error["pixels"] == 0 && error["original"]["max_abs"].is_number(), "{error}");
+    }
+    assert!(account["fast_math"].is_null(), "{account}");
 }

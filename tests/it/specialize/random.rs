@@ -7,7 +7,7 @@ use super::difference;
 use crate::random::{scene, seeds, text};
 use glisten::specialize::specialize_scene;
 use glisten_front::source::SourceMap;
-use glisten_verify::specialize::{Contract, specialize_scene_by};
+use glisten_verify::specialize::{Contract, Math, specialize_scene_by};
 
 /// Seeds of programs that were once specialized wrongly: initializers of globals that assign to others, and a loop that was
 /// written out although a `continue` in it was open, an argument that does something for a call that does nothing.
@@ -76,7 +76,7 @@ fn random_programs_draw_the_same_bytes() {
 /// Fast math and moves change numbers, but what is left is always a program, and it is drawn.
 #[test]
 fn random_programs_read_back_under_contracts_that_change_rounding() {
-    let contract = Contract { fast_math: true, move_to_vertex: true };
+    let contract = Contract { math: Math::Fast, move_to_vertex: true };
     let mut wrong = Vec::new();
     for seed in seeds() {
         let fragment = text::fragment(seed);

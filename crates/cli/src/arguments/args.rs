@@ -12,7 +12,7 @@ use glisten_front::diagnostic::{Key, Level, Levels, Severity, codes, did_you_mea
 use glisten_front::link::FixedState;
 use glisten_sources::engines::{self, Style};
 use glisten_sources::parse_version;
-use glisten_verify::specialize::Contract;
+use glisten_verify::specialize::{Contract, Math};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -423,6 +423,9 @@ mod tests {
 /// The changes that `specialize` may make to a picture.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct ContractArgs {
+    /// Take every number to be finite: where that holds, the picture stays the same bit for bit; print what differs
+    #[arg(long)]
+    finite_math: bool,
     /// Allow algebra that changes rounding, infinities and NaN, and print the error that it makes
     #[arg(long)]
     fast_math: bool,
@@ -434,13 +437,16 @@ pub(crate) struct ContractArgs {
 impl ContractArgs {
     /// The contract.
     pub(crate) fn contract(self) -> Contract {
-        Contract { fast_math: self.fast_math, move_to_vertex: self.move_to_vertex }
+        Contract { math: math(self.finite_math, self.fast_math), move_to_vertex: self.move_to_vertex }
     }
 }
 
 /// The changes that `--specialize` may make to a picture.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct WithContractArgs {
+    /// With --specialize, take every number to be finite
+    #[arg(long, requires = "specialize")]
+    finite_math: bool,
     /// With --specialize, allow algebra that changes rounding, infinities and NaN
     #[arg(long, requires = "specialize")]
     fast_math: bool,
@@ -452,6 +458,15 @@ pub(crate) struct WithContractArgs {
 impl WithContractArgs {
     /// The contract.
     pub(crate) fn contract(self) -> Contract {
-        Contract { fast_math: self.fast_math, move_to_vertex: self.move_to_vertex }
+        Contract { math: math(self.finite_math, self.fast_math), move_to_vertex: self.move_to_vertex }
+    }
+}
+
+/// The furthest of the contracts about numbers that are asked for.
+fn math(finite: bool, fast: bool) -> Math {
+    match (finite, fast) {
+        (_, true) => Math::Fast,
+        (true, false) => Math::Finite,
+        (false, false) => Math::Exact,
     }
 }

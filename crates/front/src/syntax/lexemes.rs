@@ -4,7 +4,9 @@
 
 use super::lexer::{Lexer, Mode};
 use super::names::Names;
+use super::preprocessor;
 use super::token::{Token, TokenFlags, TokenKind};
+use crate::language::Feature;
 use crate::source::{SourceFile, Span};
 use std::sync::Arc;
 
@@ -23,6 +25,8 @@ impl Lexemes {
     /// Cuts a text into tokens.
     pub fn new(file: &SourceFile) -> Self {
         let mut lexer = Lexer::new(Arc::clone(file.text()), file.base());
+        lexer.joins_comments =
+            preprocessor::announced(file.text()).is_some_and(|version| version.has(Feature::LineContinuation));
         let (mut names, mut trivia) = (Names::default(), Vec::new());
         let mut tokens = Vec::new();
         let mut mode = Mode::Text;

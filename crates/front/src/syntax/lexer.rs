@@ -135,8 +135,8 @@ impl Lexer {
             DIGIT => self.number(),
             _ if byte >= 0x80 && self.foreign_letter().is_some() => self.word(),
             _ if (matches!(byte, b'"' | b'\'') || byte >= 0x80) && self.opens_string() => self.string(),
-            _ if byte == b'.' && class(self.peek(1)) == DIGIT => self.number(),
-            _ => self.operator(byte),
+            _ if byte == b'.' && class(self.peek(self.joined(1))) == DIGIT => self.number(),
+            _ => self.operator(byte, trivia),
         };
         let mut token = Token { flags, ..Token::new(kind, self.span_from(start)) };
         if matches!(kind, TokenKind::Word | TokenKind::Number | TokenKind::Invalid) {
@@ -151,8 +151,9 @@ impl Lexer {
     fn word(&mut self) -> TokenKind {
         let mut kind = TokenKind::Word;
         loop {
-            if class(self.peek(0)) != 0 {
-                self.pos += 1;
+            let next = self.joined(0);
+            if class(self.peek(next)) != 0 {
+                self.pos += next + 1;
             } else if let Some(length) = self.foreign_letter() {
                 self.pos += length;
                 kind = TokenKind::Invalid;
@@ -195,39 +196,52 @@ impl Lexer {
         }
     }
 
-    /// Interns what was read since `start`, which a line continuation may split.
+    /// Interns what was read since `start`, without the line continuations in it.
     fn intern(&mut self, start: usize, names: &mut Names, trivia: &mut Vec<Trivia>) -> super::token::Symbol {
-        if self.peek(0) != b'\\' || !self.is_word_continued() {
-            return names.intern(self.text.get(start..self.pos).unwrap_or(""));
+        let end = self.pos;
+        let raw = self.text.get(start..end).unwrap_or("");
+        if !raw.contains(['\n', '\r']) {
+            return names.intern(raw);
         }
-        let mut spelling = self.text.get(start..self.pos).unwrap_or("").to_owned();
-        while self.peek(0) == b'\\' && self.is_word_continued() {
-            self.continuation(trivia);
-            let part = self.pos;
-            while class(self.peek(0)) != 0 {
-                self.pos += 1;
+        let joined: String = raw.chars().filter(|letter| !matches!(letter, '\\' | '\n' | '\r')).collect();
+        self.tell_continuations(start, trivia);
+        names.intern(&joined)
+    }
+
+    /// Notes the line continuations between `start` and the place that was reached.
+    fn tell_continuations(&mut self, start: usize, trivia: &mut Vec<Trivia>) {
+        let end = std::mem::replace(&mut self.pos, start);
+        while self.pos < end {
+            match self.continuation_length(0) {
+                Some(_) => self.continuation(trivia),
+                None => self.pos += 1,
             }
-            spelling.push_str(self.text.get(part..self.pos).unwrap_or(""));
         }
-        names.intern(&spelling)
     }
 
-    /// Whether a backslash, a line end, and a letter or digit follow.
-    fn is_word_continued(&self) -> bool {
-        self.continuation_length().is_some_and(|length| class(self.peek(length)) != 0)
+    /// The offset of the first byte from `offset` on that no line continuation hides: lines are joined before there are tokens, so
+    /// that a token may go on in the next line (GLSL 4.20 §3.2, GLSL ES 3.00 §3.1).
+    fn joined(&self, mut offset: usize) -> usize {
+        while let Some(length) = self.continuation_length(offset) {
+            offset += length;
+        }
+        offset
     }
 
-    /// The length of a backslash and the line end after it, if they are next.
-    fn continuation_length(&self) -> Option<usize> {
-        match (self.peek(0), self.peek(1), self.peek(2)) {
-            (b'\\', b'\r', b'\n') => Some(3),
-            (b'\\', b'\r' | b'\n', _) => Some(2),
+    /// The length of a backslash and the line end after it, if they are at an offset.
+    fn continuation_length(&self, offset: usize) -> Option<usize> {
+        if self.peek(offset) != b'\\' {
+            return None;
+        }
+        match (self.peek(offset + 1), self.peek(offset + 2)) {
+            (b'\r', b'\n') => Some(3),
+            (b'\r' | b'\n', _) => Some(2),
             _ => None,
         }
     }
 
     fn continuation(&mut self, trivia: &mut Vec<Trivia>) {
-        if let Some(length) = self.continuation_length() {
+        if let Some(length) = self.continuation_length(0) {
             let start = self.pos;
             self.pos += 1;
             trivia.push(Trivia::Continuation(self.span_from(start), false));
@@ -249,8 +263,8 @@ impl Lexer {
                     self.pos += 1;
                     self.at_line_start = true;
                 }
-                b'/' if self.peek(1) == b'/' => self.line_comment(trivia),
-                b'/' if self.peek(1) == b'*' => {
+                b'/' if self.comment_sign() == b'/' => self.line_comment(trivia),
+                b'/' if self.comment_sign() == b'*' => {
                     let start = self.offset();
                     if self.block_comment(trivia) {
                         match mode {
@@ -259,7 +273,7 @@ impl Lexer {
                         }
                     }
                 }
-                b'\\' if self.continuation_length().is_some() => self.continuation(trivia),
+                b'\\' if self.continuation_length(0).is_some() => self.continuation(trivia),
                 _ => {
                     let goes_on = self.at(0).is_some();
                     trivia.extend(crossed.filter(|_| goes_on).map(Trivia::Crossed));
@@ -270,9 +284,20 @@ impl Lexer {
         }
     }
 
+    /// The offset of the second byte of a comment's sign, which may be on the next line where comments are joined.
+    fn second(&self) -> usize {
+        if self.joins_comments { self.joined(1) } else { 1 }
+    }
+
+    /// The second byte of a comment's sign.
+    fn comment_sign(&self) -> u8 {
+        self.peek(self.second())
+    }
+
     fn line_comment(&mut self, trivia: &mut Vec<Trivia>) {
         let start = self.pos;
-        self.pos += 2;
+        self.pos += self.second() + 1;
+        let opening = self.pos;
         loop {
             self.skip_to_line_end();
             let before = self.pos.checked_sub(1).and_then(|last| self.text.as_bytes().get(last)).copied();
@@ -286,7 +311,7 @@ impl Lexer {
             }
             self.pos += if self.peek(0) == b'\r' && self.peek(1) == b'\n' { 2 } else { 1 };
         }
-        let text = self.text.get(start + 2..self.pos).unwrap_or("");
+        let text = self.text.get(opening..self.pos).unwrap_or("");
         if is_pragma(text) {
             trivia.push(Trivia::Pragma(self.span_from(start)));
         }
@@ -306,8 +331,8 @@ impl Lexer {
     /// Skips a block comment. Returns whether it contained a line end.
     fn block_comment(&mut self, trivia: &mut Vec<Trivia>) -> bool {
         let start = self.pos;
-        self.pos += 2;
-        let opening = self.span_from(start);
+        self.pos += self.second() + 1;
+        let (opening, begin) = (self.span_from(start), self.pos);
         let mut lines = false;
         loop {
             match self.at(0) {
@@ -315,9 +340,9 @@ impl Lexer {
                     trivia.push(Trivia::Unterminated(opening));
                     return lines;
                 }
-                Some(b'*') if self.peek(1) == b'/' => {
-                    let is_pragma = self.text.get(start + 2..self.pos).is_some_and(is_pragma);
-                    self.pos += 2;
+                Some(b'*') if self.comment_sign() == b'/' => {
+                    let is_pragma = self.text.get(begin..self.pos).is_some_and(is_pragma);
+                    self.pos += self.second() + 1;
                     if is_pragma {
                         trivia.push(Trivia::Pragma(self.span_from(start)));
                     }
@@ -334,30 +359,33 @@ impl Lexer {
     /// Reads everything that can belong to a number, by C++'s rule for preprocessing numbers. Whether it is one is
     /// checked later.
     fn number(&mut self) -> TokenKind {
-        let hexadecimal = self.peek(0) == b'0' && matches!(self.peek(1), b'x' | b'X');
+        let hexadecimal = self.peek(0) == b'0' && matches!(self.peek(self.joined(1)), b'x' | b'X');
         // After a point or an exponent, another point with a word selects components: `1.0.xxx` (4.20 §5.5).
         let mut is_float = self.peek(0) == b'.';
         self.pos += 1;
         loop {
-            let byte = self.peek(0);
+            let here = self.joined(0);
+            let (byte, next) = (self.peek(here), self.joined(here + 1));
             let exponent = matches!(byte, b'e' | b'E') && !hexadecimal;
-            if byte == b'.' && is_float && (self.peek(1).is_ascii_alphabetic() || self.peek(1) == b'_') {
+            if byte == b'.' && is_float && class(self.peek(next)) == WORD {
                 return TokenKind::Number;
             }
             is_float |= byte == b'.' || exponent;
-            if exponent && matches!(self.peek(1), b'+' | b'-') {
-                self.pos += 2;
+            if exponent && matches!(self.peek(next), b'+' | b'-') {
+                self.pos += next + 1;
             } else if class(byte) != 0 || byte == b'.' {
-                self.pos += 1;
+                self.pos += here + 1;
             } else {
                 return TokenKind::Number;
             }
         }
     }
 
-    fn operator(&mut self, byte: u8) -> TokenKind {
+    fn operator(&mut self, byte: u8, trivia: &mut Vec<Trivia>) -> TokenKind {
         use TokenKind::*;
-        let (next, third) = (self.peek(1), self.peek(2));
+        let one = self.joined(1);
+        let two = self.joined(one + 1);
+        let (next, third) = (self.peek(one), self.peek(two));
         let (kind, length) = match (byte, next) {
             (b'(', _) => (LeftParen, 1),
             (b')', _) => (RightParen, 1),
@@ -408,7 +436,15 @@ impl Lexer {
             (b'#', _) => (Hash, 1),
             _ => (Unknown, self.text.get(self.pos..).and_then(|rest| rest.chars().next()).map_or(1, char::len_utf8)),
         };
-        self.pos += length;
+        let start = self.pos;
+        match length {
+            2 if one > 1 => self.pos += one + 1,
+            3 if two > 2 => self.pos += two + 1,
+            _ => self.pos += length,
+        }
+        if self.pos - start > length {
+            self.tell_continuations(start, trivia);
+        }
         kind
     }
 
@@ -494,6 +530,34 @@ mod tests {
         let (tokens, trivia) = lex("ab\\\ncd \\\r\n e // x \\\nf");
         assert_eq!(tokens, ["abcd", "e", "f"]);
         assert_eq!(trivia.len(), 3);
+    }
+
+    #[test]
+    fn continued_lines_join_every_token() {
+        let (tokens, trivia) = lex("1\\\n.5e\\\n-3\\\nf .\\\n5 0\\\nx1f <\\\n<\\\r\n= -\\\n- +\\\n \\\n+ a\\\n\\\nb");
+        assert_eq!(tokens[..3], ["1.5e-3f", ".5", "0x1f"]);
+        assert_eq!(tokens[3..], ["<\\\n<\\\r\n=", "-\\\n-", "+", "+", "ab"]);
+        assert_eq!(trivia.len(), 12);
+    }
+
+    #[test]
+    fn continued_lines_join_the_signs_of_comments() {
+        let cut = |joins: bool| {
+            let (mut names, mut trivia) = (Names::default(), Vec::new());
+            let mut lexer = Lexer::new("/\\\n/ a\n/\\\n* b *\\\n/ c /* d *\\\n/ e".into(), 1);
+            lexer.joins_comments = joins;
+            let mut words = Vec::new();
+            loop {
+                let token = lexer.next(Mode::Text, &mut names, &mut trivia);
+                match token.kind {
+                    TokenKind::Eof => return words,
+                    TokenKind::Word => words.push(names.spelling(token.symbol()).to_owned()),
+                    _ => {}
+                }
+            }
+        };
+        assert_eq!(cut(true), ["c", "e"]);
+        assert_eq!(cut(false), ["a", "b", "c"]);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use glisten_page::{Page, Place, View, viewer};
 use glisten_scene::picture::{Encoding, Picture};
 use glisten_scene::{Draw, Scene};
 use glisten_verify::specialize::{
-    Account, DrawAccount, Figures, PictureError, Pictures, SpecializedDraw, SpecializedScene,
+    Account, DrawAccount, Figures, Math, PictureError, Pictures, SpecializedDraw, SpecializedScene,
 };
 use minijinja::{Value, context};
 
@@ -45,12 +45,16 @@ pub fn page(scenes: &[SceneOnPage<'_>]) -> Result<String, String> {
 }
 
 fn scene(one: &SceneOnPage<'_>) -> Value {
-    let error = one.account.fast_math.or(one.account.move_to_vertex);
+    let error = one.account.error();
     let draws = one.account.draws.iter().zip(&one.scene.draws).zip(&one.specialized.draws);
     let draws: Vec<Value> = draws.map(|((account, draw), done)| self::draw(account, draw, done, one.sources)).collect();
     context! {
         name => &one.account.scene,
         viewer => viewer(None, &views(one.pictures, one.scene.framebuffer.encode)),
+        allowed => match one.specialized.contract.math {
+            Math::Finite => "Every number was taken to be finite.",
+            Math::Exact | Math::Fast => "Rounding was allowed to change.",
+        },
         error => error.map(|error| self::error(&error)),
         several_draws => draws.len() > 1,
         draws,

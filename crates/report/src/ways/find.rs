@@ -12,7 +12,7 @@ use glisten_emit::FloatWidth;
 use glisten_front::source::SourceMap;
 use glisten_gpu::Via;
 use glisten_scene::{Filter, Scene};
-use glisten_verify::specialize::{Contract, specialize_scene_by};
+use glisten_verify::specialize::{Contract, Math, specialize_scene_by};
 use toml::Table;
 
 /// Texels of tables.
@@ -74,10 +74,14 @@ impl Finder<'_, '_> {
         let exact =
             "Whatever the values of the scene decide is left out of its programs; the picture is the same bit for bit.";
         self.add(("specialized", "specialized"), exact.into(), self.base.clone());
-        let fast = Contract { fast_math: true, move_to_vertex: false };
+        let finite = Contract { math: Math::Finite, ..Contract::default() };
+        let about =
+            "Specialized as if no number were infinite or NaN; the picture is the same bit for bit where that holds.";
+        self.add(("finite math", "finite-math"), about.into(), specialized(self.origin.scene, finite));
+        let fast = Contract { math: Math::Fast, ..Contract::default() };
         let about = "Specialized by the algebra of real numbers, which changes rounding.";
         self.add(("fast math", "fast-math"), about.into(), specialized(self.origin.scene, fast));
-        let moved = Contract { fast_math: false, move_to_vertex: true };
+        let moved = Contract { move_to_vertex: true, ..Contract::default() };
         let about = "Specialized, and whatever is affine in varyings is computed at the vertices.";
         self.add(("moved to the vertices", "moved"), about.into(), specialized(self.origin.scene, moved));
     }

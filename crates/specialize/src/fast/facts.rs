@@ -1,9 +1,10 @@
-//! Facts under fast math.
+//! Facts under finite math and fast math.
 //!
 //! *In:* an operation, the facts of its operands, and those of its result by the exact rules. *Out:* better ones: what the
 //! compiler's constant folding computes from known operands, and what algebra says of the others (`x * 0.0` is 0).
 //! *Holds:* a result that is not finite, or subnormal, is not folded: the target computes it.
 
+use crate::Math;
 use crate::facts::{self, Fact, Facts, GREATEST, Operation, Range, Values, What, at, values};
 use glisten_front::builtin::BuiltinFunction as F;
 use glisten_front::hir::{BinaryOp, Scalar, ScalarValue, Shader, Type, TypeId, Types};
@@ -25,12 +26,12 @@ pub(crate) fn improved(
     }
     let folded = folded(types, like, operation, operands, ty);
     let facts = folded.unwrap_or_else(|| by_algebra(types, operation, operands, ty, facts));
-    finite(types, ty, facts)
+    finite(Math::Fast, types, ty, facts)
 }
 
-/// Takes every `float` to be finite, and no zero to have a sign.
-pub(crate) fn finite(types: &Types, ty: TypeId, facts: Facts) -> Facts {
-    if types.scalar_of(ty) != Some(Scalar::Float) {
+/// Takes every `float` to be finite, under fast math no zero to have a sign, and under exact math nothing.
+pub(crate) fn finite(math: Math, types: &Types, ty: TypeId, facts: Facts) -> Facts {
+    if math == Math::Exact || types.scalar_of(ty) != Some(Scalar::Float) {
         return facts;
     }
     let len = types.flat_len(ty) as usize;
@@ -40,7 +41,8 @@ pub(crate) fn finite(types: &Types, ty: TypeId, facts: Facts) -> Facts {
         _ => {
             let range = fact.range();
             let (low, high) = (range.low.clamp(-GREATEST, GREATEST), range.high.clamp(-GREATEST, GREATEST));
-            Fact { what: What::Float(Range { low, high, nan: false, negative_zero: false }), ..fact }
+            let negative_zero = range.negative_zero && math != Math::Fast;
+            Fact { what: What::Float(Range { low, high, nan: false, negative_zero }), ..fact }
         }
     };
     facts.into_iter().map(limited).collect()

@@ -6,7 +6,8 @@
 //! | `algebra` | rewrites expressions: joins constants, divides by none, applies matrices to vectors first |
 //! | `powers` | writes powers with whole exponents as products |
 //!
-//! *Holds:* nothing here runs unless [`Options::fast_math`](crate::Options::fast_math) is set. Effects, discards and
+//! *Holds:* nothing here runs under [`Math::Exact`](crate::Math::Exact), and under [`Math::Finite`](crate::Math::Finite) only what takes numbers to
+//! be finite. Effects, discards and
 //! derivatives stay where they are, as without it: only the values of numbers may change, NaN and infinities included.
 
 mod algebra;

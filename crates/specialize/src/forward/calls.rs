@@ -225,7 +225,8 @@ impl Forward<'_> {
             self.store.forget(Key(global.index() as u32));
         }
         self.copy_back(function, given, &[]);
-        self.give(ExprKind::Call(clone, ids), own, Facts::new())
+        let facts = crate::fast::finite(self.math, self.types, own.0, Facts::new());
+        self.give(ExprKind::Call(clone, ids), own, facts)
     }
 
     /// Walks the bodies of the clones that stand for all calls.

@@ -1,6 +1,7 @@
 //! Expressions: evaluated with what is known, written down as they are.
 
 use super::{Forward, Val};
+use crate::Math;
 use crate::facts::{self, Call, Fact, Facts, Operation, What, at};
 use crate::fast;
 use crate::known::Input;
@@ -73,12 +74,13 @@ impl Forward<'_> {
         }
     }
 
-    /// Better facts of an operation's result: by the reference's arithmetic, under fast math by algebra, too.
+    /// Better facts of an operation's result: by the reference's arithmetic, under fast math by algebra instead.
     fn improved(&self, operation: Operation, operands: &[(&[Fact], TypeId)], ty: TypeId, facts: Facts) -> Facts {
-        if !self.fast {
-            return facts::by_reference(self.types, self.shader, operation, operands, ty, facts);
+        if self.math == Math::Fast {
+            return fast::improved(self.types, self.shader, operation, operands, ty, facts);
         }
-        fast::improved(self.types, self.shader, operation, operands, ty, facts)
+        let facts = facts::by_reference(self.types, self.shader, operation, operands, ty, facts);
+        fast::finite(self.math, self.types, ty, facts)
     }
 
     /// Writes an expression down that has these facts.
@@ -103,7 +105,7 @@ impl Forward<'_> {
         let len = self.types.flat_len(own.0) as usize;
         let facts =
             if len > super::FOLLOWED as usize { Facts::new() } else { self.constructed(kind, own.0, &facts, len) };
-        let facts = if self.fast { fast::finite(self.types, own.0, facts) } else { facts };
+        let facts = fast::finite(self.math, self.types, own.0, facts);
         self.give(ExprKind::Construct(kind, ids), own, facts)
     }
 

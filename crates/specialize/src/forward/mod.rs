@@ -25,7 +25,7 @@ pub(crate) use reasons::{Reason, Reasons};
 
 use super::facts::{Fact, Facts};
 use super::known::KnownTexture;
-use super::options::{Extent, Options};
+use super::options::{Extent, Math, Options};
 use calls::Variants;
 use glisten_front::hir::{
     ExprId, ExprKind, FunctionId, GlobalId, LocalId, Shader, Stmt, Storage, TypeId, Types, VarRef, may_act,
@@ -69,8 +69,8 @@ pub(crate) struct Walked {
     pub(crate) ends: Vec<Facts>,
     /// Globals that are named as a whole: by one of the expressions, and how often.
     pub(crate) named: FxHashMap<GlobalId, (ExprId, u32)>,
-    /// Whether algebra is allowed that changes rounding.
-    pub(crate) fast: bool,
+    /// What was taken for granted of numbers.
+    pub(crate) math: Math,
     /// For each expression whether somebody sees the sign of its zeros; empty until that is found out.
     pub(crate) signs: Vec<bool>,
     /// By how many expressions each loop that was written out became longer, without the loops in it.
@@ -145,8 +145,8 @@ pub(crate) struct Forward<'a> {
     fuel: u64,
     /// Expressions written so far of which something is open.
     weight: u64,
-    /// Whether algebra is allowed that changes rounding.
-    fast: bool,
+    /// What is taken for granted of numbers.
+    math: Math,
     /// How much may be written out.
     extent: Extent,
     /// Loops that stay loops.
@@ -158,7 +158,7 @@ pub(crate) struct Forward<'a> {
 }
 
 /// Walks a stage. `inputs` are the facts of its globals, `textures` those of the interface's sampler slots; `options` say how
-/// much may be written out, and whether algebra is allowed that changes rounding.
+/// much may be written out, and what is taken for granted of numbers.
 pub(crate) fn walk(
     types: &Types,
     shader: &Shader,
@@ -166,10 +166,9 @@ pub(crate) fn walk(
     textures: &[Option<KnownTexture>],
     options: &Options<'_>,
 ) -> Walked {
-    let fast = options.fast_math;
     with_stack(shader.depth.saturating_mul(2).saturating_add(4096), move || {
         let mut forward = Forward::new(types, shader, textures);
-        forward.fast = fast;
+        forward.math = options.math;
         forward.extent = options.extent;
         forward.kept = options.kept;
         if options.extent > Extent::LoopsKept {
@@ -178,8 +177,8 @@ pub(crate) fn walk(
         forward.run(inputs);
         let ends = forward.ends();
         let Forward { out, notes, before, origins, reasons, named, written_out, .. } = forward;
-        let signs = Vec::new();
-        Walked { shader: out, notes, before, origins, reasons, ends, named, fast, signs, written_out }
+        let (signs, math) = (Vec::new(), options.math);
+        Walked { shader: out, notes, before, origins, reasons, ends, named, math, signs, written_out }
     })
 }
 
@@ -210,7 +209,7 @@ impl<'a> Forward<'a> {
             leaving_since: Mark::default(),
             fuel: shader.exprs.len() as u64 * 6 + 20_000,
             weight: 0,
-            fast: false,
+            math: Math::Exact,
             extent: Extent::All,
             kept: &[],
             written_out: FxHashMap::default(),

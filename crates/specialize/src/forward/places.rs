@@ -175,7 +175,7 @@ impl Forward<'_> {
         let is_part = matches!(kind, ExprKind::Swizzle(..)) || self.types.flat_len(ty) == 1;
         let facts = if is_part { facts.into_iter().map(Fact::apart).collect() } else { facts };
         let small = self.types.flat_len(ty) <= super::NOTED as u32;
-        let facts = if self.fast && small { crate::fast::finite(self.types, ty, facts) } else { facts };
+        let facts = if small { crate::fast::finite(self.math, self.types, ty, facts) } else { facts };
         let id = self.push(kind, ty, span, &facts);
         (Val { id, facts }, place)
     }

@@ -5,6 +5,7 @@
 
 use super::cancels::cancelling;
 use super::{Demand, builtins, danger};
+use crate::Math;
 use crate::facts::Fact;
 use crate::forward::Walked;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, FunctionId, ParamMode, Stmt, StmtKind, Types, VarRef};
@@ -39,8 +40,8 @@ impl Demands {
             globals,
             results: vec![Demand::NONE; functions.len()],
             changed: false,
-            fast: walked.fast,
-            cancelling: if walked.fast { FxHashSet::default() } else { cancelling(walked) },
+            fast: walked.math == Math::Fast,
+            cancelling: if walked.math == Math::Fast { FxHashSet::default() } else { cancelling(walked) },
         };
         if demands.fast {
             return demands;

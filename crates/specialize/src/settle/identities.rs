@@ -4,6 +4,7 @@
 //! *Holds:* signs of zeros and NaNs come out alike: `x + 0.0` is `x` only where `x` is not -0, `max(x, 0.0)` only where `x`
 //! is neither NaN nor below. Where nobody sees the sign of a zero (see `signs`), -0 is 0.
 
+use crate::Math;
 use crate::facts::{Fact, GREATEST, Range, What, at, spread};
 use crate::forward::Walked;
 use glisten_front::builtin::BuiltinFunction as F;
@@ -36,7 +37,7 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
             };
             leaves(1, 0).or_else(|| leaves(0, 1))
         }
-        ExprKind::Binary(op, ..) => of_numbers(walked.fast, *op, &gives),
+        ExprKind::Binary(op, ..) => of_numbers(walked.math, *op, &gives),
         ExprKind::BuiltinCall(F::Max, _) => gives(0, 1, &is_above).or_else(|| gives(1, 0, &is_above)),
         ExprKind::BuiltinCall(F::Min, _) => gives(0, 1, &is_below).or_else(|| gives(1, 0, &is_below)),
         ExprKind::BuiltinCall(F::Clamp, _) => {
@@ -50,7 +51,7 @@ pub(super) fn operand(walked: &Walked, id: ExprId) -> Option<usize> {
         }
         ExprKind::BuiltinCall(F::Mod, _) => gives(0, 1, &is_remainder),
         ExprKind::BuiltinCall(F::Pow, _) => gives(0, 1, &|x, c| is_not_negative(x) && is(c, 1.0)),
-        ExprKind::BuiltinCall(F::Mix, _) => mixed(walked.fast, &facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
+        ExprKind::BuiltinCall(F::Mix, _) => mixed(walked.math, &facts).filter(|kept| typed(*kept) && (0..3).all(pure)),
         _ => None,
     }
 }
@@ -66,7 +67,7 @@ pub(super) fn spread_operand(walked: &Walked, id: ExprId) -> Option<usize> {
         let each = (0..facts(other).len()).all(|index| test(spread(facts(kept), index), at(facts(other), index)));
         (typed(kept) && operation.is_pure(other) && !facts(other).is_empty() && each).then_some(kept)
     };
-    of_numbers(walked.fast, op, &gives)
+    of_numbers(walked.math, op, &gives)
 }
 
 /// The number of the operand that an operation gives back as its opposite: of `a == false` the first.
@@ -122,12 +123,12 @@ fn axis_of(facts: &[Fact]) -> Option<usize> {
 type Test<'a> = &'a dyn Fn(Fact, Fact) -> bool;
 
 /// The operand that an operator on numbers gives back. `gives` tries one, by the other and a test.
-fn of_numbers(fast: bool, op: BinaryOp, gives: &dyn Fn(usize, usize, Test<'_>) -> Option<usize>) -> Option<usize> {
+fn of_numbers(math: Math, op: BinaryOp, gives: &dyn Fn(usize, usize, Test<'_>) -> Option<usize>) -> Option<usize> {
     match op {
         BinaryOp::Mul => gives(0, 1, &|_, c| is(c, 1.0)).or_else(|| gives(1, 0, &|_, c| is(c, 1.0))),
         BinaryOp::Div => gives(0, 1, &|_, c| is(c, 1.0)),
-        BinaryOp::Add | BinaryOp::Sub if fast && gives(0, 1, &is_zero).is_some() => Some(0),
-        BinaryOp::Add if fast && gives(1, 0, &is_zero).is_some() => Some(1),
+        BinaryOp::Add | BinaryOp::Sub if math == Math::Fast && gives(0, 1, &is_zero).is_some() => Some(0),
+        BinaryOp::Add if math == Math::Fast && gives(1, 0, &is_zero).is_some() => Some(1),
         BinaryOp::Add => gives(0, 1, &adds_nothing).or_else(|| gives(1, 0, &adds_nothing)),
         BinaryOp::Sub => gives(0, 1, &takes_nothing),
         _ => None,
@@ -195,10 +196,10 @@ pub(super) fn starts(op: BinaryOp, before: &[Fact], value: &[Fact]) -> bool {
 }
 
 /// Whether `t op= v` leaves `t` as it is, from what is known of `t` before: what [`operand`] is for `t op v`.
-pub(super) fn keeps(op: BinaryOp, fast: bool, before: &[Fact], value: &[Fact]) -> bool {
+pub(super) fn keeps(op: BinaryOp, math: Math, before: &[Fact], value: &[Fact]) -> bool {
     match op {
         BinaryOp::Mul | BinaryOp::Div => holds(before, value, &|_, c| is(c, 1.0)),
-        BinaryOp::Add | BinaryOp::Sub if fast && holds(before, value, &is_zero) => true,
+        BinaryOp::Add | BinaryOp::Sub if math == Math::Fast && holds(before, value, &is_zero) => true,
         BinaryOp::Add => holds(before, value, &adds_nothing),
         BinaryOp::Sub => holds(before, value, &takes_nothing),
         _ => false,
@@ -290,17 +291,19 @@ fn is_below(x: Fact, c: Fact) -> bool {
     floats && !range.nan && !limit.nan && range.high <= limit.low && !may_be_both_zeros(range, limit)
 }
 
-/// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers, or under fast math of any. What is left of the other is a 0 of
-/// either sign, which changes nothing but a -0.
-fn mixed<'f>(fast: bool, facts: &dyn Fn(usize) -> &'f [Fact]) -> Option<usize> {
+/// `mix(a, b, 0.0)` and `mix(a, b, 1.0)` of moderate numbers, or of any where all are taken to be finite. What is left of the other is a
+/// 0 of either sign, which changes nothing but a -0.
+fn mixed<'f>(math: Math, facts: &dyn Fn(usize) -> &'f [Fact]) -> Option<usize> {
     let moderate = |facts: &[Fact]| {
-        let small = |fact: &Fact| fact.range().is_finite() && fact.range().magnitude() < GREATEST / 4.0;
+        let small = |fact: &Fact| {
+            fact.range().is_finite() && (math != Math::Exact || fact.range().magnitude() < GREATEST / 4.0)
+        };
         !facts.is_empty() && facts.iter().all(small)
     };
     let all = |value: f32| !facts(2).is_empty() && facts(2).iter().all(|fact| is(*fact, value) && !is_integer(*fact));
     let kept = if all(0.0) { 0 } else { all(1.0).then_some(1)? };
     let exact = moderate(facts(0)) && moderate(facts(1)) && facts(kept).iter().all(|fact| !fact.range().negative_zero);
-    (fast || exact).then_some(kept)
+    (math == Math::Fast || exact).then_some(kept)
 }
 
 fn is_integer(fact: Fact) -> bool {

@@ -408,7 +408,7 @@ impl Writer<'_> {
             let walked = self.walked;
             let seen = |facts: &[Fact]| identities::as_seen(walked, id, facts).into_owned();
             let given = seen(self.walked.facts(value));
-            let neutral = identities::keeps(compound, self.walked.fast, &seen(known), &given);
+            let neutral = identities::keeps(compound, self.walked.math, &seen(known), &given);
             if neutral && !stored.is_apart() && !self.acts(target) {
                 // As a statement that does nothing it goes later.
                 let to = self.place(target);

@@ -9,7 +9,7 @@ use glisten_front::diagnostic::Diagnostic;
 use glisten_front::{hir::Stage, link::Program, source::SourceMap};
 use glisten_reference::{Precision, Work, work};
 use glisten_scene::{Draw, Scene};
-use glisten_specialize::{Extent, Moved, optimize};
+use glisten_specialize::{Extent, Math, Moved, optimize};
 use glisten_variants::spirv_instructions;
 use serde::Serialize;
 
@@ -20,6 +20,9 @@ pub struct Account {
     pub scene: String,
     /// Its draws, in order.
     pub draws: Vec<DrawAccount>,
+    /// Under finite math, the error of the whole picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_math: Option<PictureError>,
     /// Under fast math, the error of the whole picture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fast_math: Option<PictureError>,
@@ -29,6 +32,13 @@ pub struct Account {
     /// The times of the original and the residual, where they were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<Times>,
+}
+
+impl Account {
+    /// The error of the whole picture, where the contract allows one. The contracts are measured together: the picture is one.
+    pub fn error(&self) -> Option<PictureError> {
+        self.finite_math.or(self.fast_math).or(self.move_to_vertex)
+    }
 }
 
 /// The times of a scene, drawn in turns with its original and with its residual programs.
@@ -68,12 +78,22 @@ pub struct DrawAccount {
     pub before: Figures,
     /// The work of the residual.
     pub after: Figures,
+    /// Under finite math, the error of a picture of this draw alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_math: Option<PictureError>,
     /// Under fast math, the error of a picture of this draw alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fast_math: Option<PictureError>,
     /// What moved to the vertex stage, where that is allowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub move_to_vertex: Option<Moves>,
+}
+
+impl DrawAccount {
+    /// The error of a picture of this draw alone, where the contract allows one.
+    pub fn error(&self) -> Option<PictureError> {
+        self.finite_math.or(self.fast_math).or_else(|| self.move_to_vertex.as_ref().map(|moves| moves.error))
+    }
 }
 
 /// What moved to the vertex stage of a draw.
@@ -187,7 +207,8 @@ pub fn account(
             left_out: left_out.collect(),
             before: figures(scene, &before),
             after: figures(&specialized.scene, &after),
-            fast_math: of_draw.filter(|_| contract.fast_math),
+            finite_math: of_draw.filter(|_| contract.math == Math::Finite),
+            fast_math: of_draw.filter(|_| contract.math == Math::Fast),
             move_to_vertex: of_draw
                 .filter(|_| contract.move_to_vertex)
                 .map(|error| Moves { moved: done.moved.iter().map(moved_entry).collect(), error }),
@@ -196,7 +217,8 @@ pub fn account(
     Ok(Account {
         scene: name.to_owned(),
         draws,
-        fast_math: error.filter(|_| contract.fast_math),
+        finite_math: error.filter(|_| contract.math == Math::Finite),
+        fast_math: error.filter(|_| contract.math == Math::Fast),
         move_to_vertex: error.filter(|_| contract.move_to_vertex),
         time: None,
     })

@@ -16,6 +16,7 @@ mod suggest;
 pub use account::files_of;
 pub use account::{Account, DrawAccount, Entry, Figures, MovedEntry, Moves, Times, account};
 pub use error::{Distance, PictureError, Pictures, picture_error, pictures};
+pub use glisten_specialize::Math;
 pub use known::known;
 pub use residual::{
     Contract, SpecializedDraw, SpecializedScene, specialize_scene, specialize_scene_by, unspecialized_scene,

@@ -10,7 +10,7 @@ use glisten_front::link::{Interface, Program};
 use glisten_front::source::{SourceMap, Span};
 use glisten_scene::dynamic::{names_anything, names_element};
 use glisten_scene::{AttributeData, AttributeValues, Draw, Scene};
-use glisten_specialize::{Extent, LeftOut, Moved, Options, Residual};
+use glisten_specialize::{Extent, LeftOut, Math, Moved, Options, Residual};
 use glisten_variants::{specialize_smallest, spirv_instructions};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -18,14 +18,14 @@ use std::sync::Arc;
 /// The changes that a specialization may make to a picture. The default allows none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Contract {
-    /// Algebra that changes rounding.
-    pub fast_math: bool,
+    /// What is taken for granted of numbers, and the algebra that is allowed.
+    pub math: Math,
     /// Computations that move to the vertex stage.
     pub move_to_vertex: bool,
 }
 
 impl Contract {
-    /// Whether the picture stays as it is, bit by bit.
+    /// Whether the picture stays as it is, bit by bit, whatever the inputs are.
     pub fn is_exact(self) -> bool {
         self == Self::default()
     }
@@ -115,7 +115,7 @@ fn specialize_to(
     let options = Options {
         extent,
         sources: Some(sources),
-        fast_math: contract.fast_math,
+        math: contract.math,
         move_to_vertex: contract.move_to_vertex,
         kept: &[],
     };

@@ -392,13 +392,11 @@ fn table(account: &Account) -> String {
                 text.push_str(&format!("{of}: `{}` moved to the vertex stage, from {place}\n", moved.name));
             }
         }
-        // Both contracts are measured together: the picture is one.
-        let error = draw.fast_math.or_else(|| draw.move_to_vertex.as_ref().map(|moves| moves.error));
-        if let Some(error) = error.filter(|_| account.draws.len() > 1) {
+        if let Some(error) = draw.error().filter(|_| account.draws.len() > 1) {
             text.push_str(&error_line(&of, &error));
         }
     }
-    if let Some(error) = account.fast_math.or(account.move_to_vertex) {
+    if let Some(error) = account.error() {
         text.push_str(&error_line(&account.scene, &error));
     }
     text

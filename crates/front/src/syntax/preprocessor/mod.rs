@@ -26,6 +26,8 @@ mod tests;
 mod unroll;
 mod version;
 
+pub(super) use version::announced;
+
 use super::ast::{Allow, Behavior, Extensions, Profile, Version};
 use super::directives::{Directives, MacroMention};
 use super::keywords;

@@ -25,7 +25,7 @@ const PROFILES: [&str; 3] = ["core", "compatibility", "es"];
 
 /// The language that the `#version` line of a text states, for the lines before it: from GLSL 4.20 on, a backslash joins lines before comments are
 /// read (4.60 §3.3), also there. A line that would itself be joined to a comment says nothing.
-pub(super) fn announced(text: &str) -> Option<Version> {
+pub(in crate::syntax) fn announced(text: &str) -> Option<Version> {
     if !text.contains('\\') {
         return None;
     }
