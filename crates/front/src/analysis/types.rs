@@ -9,7 +9,7 @@ use crate::hir::{ArraySize, Member, Scalar, ScalarValue, Type, TypeId};
 use crate::language::{Feature, Precision};
 use crate::source::Span;
 use crate::syntax::ast::{
-    ArrayDim, ExprId as AstExprId, Ident, Qualifier, QualifierKind, TypeBase, TypeSpec, VariableDecl,
+    ArrayDim, ExprId as AstExprId, Ident, ParamDecl, Qualifier, QualifierKind, TypeBase, TypeSpec, VariableDecl,
 };
 use crate::syntax::of_later_word;
 use crate::syntax::token::Symbol;
@@ -319,6 +319,24 @@ impl Analyzer<'_> {
                 TypeId::ERROR
             }
         }
+    }
+
+    /// Reports a parameter that is a name without a type: `float f(x)`.
+    pub(super) fn report_untyped(&mut self, param: &ParamDecl) -> bool {
+        let (TypeBase::Named(name), None) = (&param.ty.base, param.name) else { return false };
+        let name = *name;
+        let spelling = self.name(name);
+        let is_known =
+            self.scopes.find(name.symbol).is_some() || self.is_probe(name) || self.builtin_struct(spelling).is_some();
+        if is_known || super::expr::foreign::type_name(spelling).is_some() || self.nearest_type(spelling).is_some() {
+            return false;
+        }
+        let finding =
+            Diagnostic::new(&names::UNKNOWN_TYPE, name.span, format!("the parameter `{spelling}` has no type"))
+                .here("a type is expected here")
+                .help(format!("write the type before the name, such as `float {spelling}`"));
+        self.report(of_later_word(finding, spelling, self.ast.version));
+        true
     }
 
     fn nearest_type(&mut self, spelling: &str) -> Option<String> {

@@ -74,8 +74,13 @@ impl Analyzer<'_> {
         self.body = Some(Body { function: id, loops: 0, switches: 0, returns: false, parts: Vec::new() });
         self.scopes.open();
         for (index, param) in header.params.iter().enumerate() {
-            if let Some(name) = param.name {
-                self.enter(name, Entry::Variable(VarRef::Local(LocalId::new(index))));
+            let is_broken = self.shader.function(id).locals.get(index).is_some_and(|local| local.ty.is_error());
+            match (param.name, &param.ty.base) {
+                (Some(name), _) => self.enter(name, Entry::Variable(VarRef::Local(LocalId::new(index)))),
+                (None, TypeBase::Named(name)) if is_broken && self.scopes.find(name.symbol).is_none() => {
+                    self.enter(*name, Entry::Poison);
+                }
+                (None, _) => {}
             }
         }
         // In older versions the body is a scope nested inside that of the parameters (1.50 §4.2, 4.30 §4.2.2).
@@ -291,6 +296,9 @@ impl Analyzer<'_> {
                 Diagnostic::new(&types::STRUCT, param.ty.span, "a struct cannot be declared in a parameter")
                     .here("declare it before the function"),
             );
+        }
+        if self.report_untyped(param) {
+            return TypeId::ERROR;
         }
         let base = self.type_spec(&param.ty);
         let ty = self.with_array(base, &param.array);

@@ -55,6 +55,27 @@ impl<T: TokenSource> Parser<'_, '_, T> {
             }
         } else if (behind_number || behind_constructor || self.is_value_behind()) && !next.starts_line() {
             self.correct(|kind| kind == TokenKind::Return);
+        } else if self.is_declaration_behind() && !next.starts_line() {
+            self.correct_to("expected a qualifier or a type", |kind| is_qualifier(kind) && kind != TokenKind::Layout);
+        }
+    }
+
+    /// Whether a name is next and behind it a declaration: `cosnt float a`.
+    fn is_declaration_behind(&mut self) -> bool {
+        let ty = self.ahead(1).kind;
+        matches!(ty, TokenKind::Type | TokenKind::Ident) && self.ahead(2).kind == TokenKind::Ident
+    }
+
+    /// Makes a name in the braces of a `switch` the label that is meant: `csae 1:`, `defualt:`.
+    pub(super) fn correct_label(&mut self) {
+        use TokenKind::{Case, Colon, Default, Ident, Int, Uint};
+        if self.kind() != Ident {
+            return;
+        }
+        match (self.ahead(1).kind, self.ahead(2).kind) {
+            (Int | Uint | Ident, Colon) => self.correct_to("expected a label or a statement", |kind| kind == Case),
+            (Colon, _) => self.correct_to("expected a label or a statement", |kind| kind == Default),
+            _ => {}
         }
     }
 

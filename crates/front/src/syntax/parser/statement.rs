@@ -430,6 +430,7 @@ impl<T: TokenSource> Parser<'_, '_, T> {
 
     /// case_label or statement
     fn switch_item(&mut self) -> Parse<SwitchItem> {
+        self.correct_label();
         let start = self.start();
         match self.kind() {
             TokenKind::Case => {

@@ -206,7 +206,7 @@ impl<'a> Preprocessor<'a> {
         this.define_from_outside(session, defines);
         // To define a macro from outside is no use of it.
         this.words.iter_mut().for_each(|word| word.asked = false);
-        this.announced = version::announced(session.sources.file(file).text());
+        this.announced = announced(session.sources.file(file).text());
         this.enter(session, file, Span::default());
         this.check_is_text(session, file);
         this

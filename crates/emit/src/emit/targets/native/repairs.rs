@@ -6,6 +6,8 @@
 //! | `(float[3])0` | a list of zeros | glslang reads casts to arrays |
 //! | calls of constructing functions in initializers of globals | lists, with zeros for what pads a struct | glslang links them (it finds a recursion) |
 //! | one `float` for all clip distances | vectors of up to four | naga writes built-in arrays |
+//! | functions that set a part of a matrix of two rows in a struct, and get the struct by value | `inout` parameters | naga writes them |
+//! | such a matrix as one number of a list for a struct, which has its columns | the columns | glslang reads it |
 //! | `int2(int3(..))` as the offset of a lookup in a 3D texture | `int3(int3(..))` | naga counts its components |
 //!
 //! *In:* HLSL as naga writes it, one declaration per line. *Out:* the same program.
@@ -25,7 +27,8 @@ pub(super) fn repaired(text: &str) -> String {
             continue;
         }
         let line = line.replace("int2(int3(", "int3(int3(");
-        let repaired = plain_sampler(&line).or_else(|| zeros(&line)).or_else(|| listed(&line, &structs));
+        let repaired =
+            plain_sampler(&line).or_else(|| setter(&line)).or_else(|| zeros(&line)).or_else(|| listed(&line, &structs));
         result.push_str(&repaired.unwrap_or(line));
         result.push('\n');
     }
@@ -43,6 +46,15 @@ fn plain_sampler(line: &str) -> Option<String> {
     let index = heap.strip_prefix("nagaSamplerHeap[").or_else(|| heap.strip_prefix("nagaComparisonSamplerHeap["))?;
     let number = index.split_once('[')?.1.strip_suffix("]];")?;
     Some(format!("{declaration} : register(s{number});"))
+}
+
+/// `void SetMatmOnS(S obj, float2x2 mat) {` as `void SetMatmOnS(inout S obj, float2x2 mat) {`.
+fn setter(line: &str) -> Option<String> {
+    let (name, parameters) = line.strip_prefix("void ")?.split_once('(')?;
+    let (first, _) = parameters.split_once(", ")?;
+    let of_struct = name.starts_with("SetMat") && name.contains("On") && first.ends_with(" obj");
+    let of_matrix = name.starts_with("__set_") && first.starts_with("__mat");
+    ((of_struct || of_matrix) && line.ends_with('{')).then(|| format!("void {name}(inout {parameters}"))
 }
 
 /// `float a[3] = (float[3])0;` as `float a[3] = { (float)0, (float)0, (float)0 };`, also behind a `return`.
@@ -77,6 +89,37 @@ fn structs(text: &str) -> Structs<'_> {
     structs
 }
 
+/// An open parenthesis in the initializer of a global.
+enum Open<'a> {
+    /// Of a struct, for which it became a brace, with the members to come: whether each only pads.
+    Struct(Iter<'a, bool>),
+    /// Of an array, for which it became a brace.
+    Array,
+    /// Of a matrix of two rows in a struct, whose columns are members.
+    Columns,
+    /// It stays.
+    Call,
+}
+
+impl<'a> Open<'a> {
+    /// What the parenthesis after `word` opens, in the one that is `around`.
+    fn by(word: &str, structs: &'a Structs<'_>, around: Option<&Open<'_>>) -> Self {
+        if let Some(name) = word.strip_prefix("Construct") {
+            return structs.get(name).map_or(Self::Array, |members| Self::Struct(members.iter()));
+        }
+        let in_struct = matches!(around, Some(Open::Struct(_)));
+        if in_struct && matches!(word, "float2x2" | "float3x2" | "float4x2") { Self::Columns } else { Self::Call }
+    }
+
+    fn sign(&self) -> &'static str {
+        match self {
+            Self::Struct(_) | Self::Array => "{ ",
+            Self::Columns => "",
+            Self::Call => "(",
+        }
+    }
+}
+
 /// The initializer of a global as a list: `static float a[2] = Constructarray2_float_(1.0, 2.0);`. A list has a number for each scalar of
 /// the struct, also for those that pad it.
 fn listed(line: &str, structs: &Structs<'_>) -> Option<String> {
@@ -85,36 +128,36 @@ fn listed(line: &str, structs: &Structs<'_>) -> Option<String> {
         return None;
     }
     let mut list = String::with_capacity(value.len());
-    // For each open parenthesis, the members to come, if it became a brace.
-    let mut open: Vec<Option<Iter<'_, bool>>> = Vec::new();
+    let mut open: Vec<Open<'_>> = Vec::new();
     let mut word = String::new();
     for character in value.chars() {
         if character.is_ascii_alphanumeric() || character == '_' {
             word.push(character);
             continue;
         }
-        let constructed = word.strip_prefix("Construct").filter(|_| character == '(');
-        let members = constructed.map(|name| structs.get(name).map_or(&[] as &[bool], Vec::as_slice).iter());
-        if members.is_none() {
+        let opened = Open::by(&word, structs, open.last());
+        if character != '(' || matches!(opened, Open::Call) {
             list.push_str(&word);
         }
         word.clear();
         match character {
             '(' => {
-                list.push_str(if members.is_some() { "{ " } else { "(" });
-                open.push(members);
+                list.push_str(opened.sign());
+                open.push(opened);
             }
             ')' => match open.pop()? {
-                Some(members) => {
+                Open::Struct(members) => {
                     members.for_each(|_| list.push_str(", 0"));
                     list.push_str(" }");
                 }
-                None => list.push(')'),
+                Open::Array => list.push_str(" }"),
+                Open::Columns => {}
+                Open::Call => list.push(')'),
             },
             other => list.push(other),
         }
         if matches!(character, '(' | ',')
-            && let Some(Some(members)) = open.last_mut()
+            && let Some(Open::Struct(members)) = open.last_mut()
         {
             // Up to the next member that the call has an argument for.
             let pads = members.by_ref().take_while(|pads| **pads).count();
@@ -192,6 +235,21 @@ mod tests {
             repaired(&format!("{declared}{}", text.replace("static S ", "static S_ "))),
             format!("{declared}{padded}")
         );
+    }
+
+    #[test]
+    fn what_sets_a_matrix_of_two_rows_gets_the_struct() {
+        let text = "void SetMatmOnS(S obj, float2x2 mat) {\nvoid SetMatVecmOnS(S obj, float2 vec, uint mat_idx) {\n\
+                    void __set_el_of_mat2x2_f32(__mat2x2_f32 mat, uint idx, uint vec_idx, float value) {\nvoid SetMatter(float obj) {\n";
+        let inout = "void SetMatmOnS(inout S obj, float2x2 mat) {\nvoid SetMatVecmOnS(inout S obj, float2 vec, uint mat_idx) {\n\
+                     void __set_el_of_mat2x2_f32(inout __mat2x2_f32 mat, uint idx, uint vec_idx, float value) {\nvoid SetMatter(float obj) {\n";
+        assert_eq!(repaired(text), inout);
+        let declared = "struct S {\n    float a;\n    int _pad1_0;\n    float2 m_0; float2 m_1;\n};\n";
+        let global = "static S s0_ = ConstructS(1.0, float2x2(float2(1.0, 2.0), float2(3.0, 4.0)));\n";
+        let listed = "static S s0_ = { 1.0, 0, float2(1.0, 2.0), float2(3.0, 4.0) };\n";
+        assert_eq!(repaired(&format!("{declared}{global}")), format!("{declared}{listed}"));
+        let array = "static float2x2 a[1] = Constructarray1_float2x2_(float2x2(float2(1.0, 2.0), float2(3.0, 4.0)));\n";
+        assert_eq!(repaired(array), "static float2x2 a[1] = { float2x2(float2(1.0, 2.0), float2(3.0, 4.0)) };\n");
     }
 
     #[test]
