@@ -45,7 +45,8 @@ impl Analyzer<'_> {
                 &crate::diagnostic::codes::general::NOT_SUPPORTED_YET,
                 self.span(id),
                 "this constant expression cannot be evaluated yet",
-            );
+            )
+            .here(super::decisive::UNKNOWN_VALUE);
         }
         self.not_constant(id, what)
     }

@@ -11,6 +11,9 @@ use crate::diagnostic::{Area, Code, Diagnostic, Diagnostics};
 use crate::language::Feature;
 use crate::source::Span;
 
+/// The label of an unsupported variable, function or constant. It declares nothing, so that no error follows from it.
+pub(super) const UNKNOWN_VALUE: &str = "its value is not known here";
+
 /// How many bytes the qualifiers before a keyword take at most.
 const QUALIFIERS: u32 = 64;
 
@@ -38,7 +41,9 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
         found.map(|place| place + first)
     };
     let version = first_in_text(diagnostics, first);
-    let feature = [&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].into_iter().filter_map(place).min();
+    let is_feature = |found: &Diagnostic| [&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&found.code);
+    let declares = |found: &Diagnostic| is_feature(found) && found.primary.message != UNKNOWN_VALUE;
+    let feature = diagnostics.iter().skip(first).position(|found| declares(found)).map(|place| place + first);
     let is_extension = place(&UNSUPPORTED_EXTENSION).is_some();
     let start_of = |index: Option<usize>| {
         index.and_then(|index| diagnostics.iter().nth(index)).map_or(0, |diagnostic| diagnostic.primary.span.start)
@@ -52,7 +57,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
     diagnostics.retain_mut(|diagnostic| {
         let own = index;
         index += 1;
-        if own < first || !diagnostic.is_error() || (version.is_none() && feature.is_none()) {
+        if own < first || !diagnostic.is_error() {
             return true;
         }
         if version.is_some() {
@@ -62,7 +67,10 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
             let is_before = diagnostic.primary.span.start < version_start && *diagnostic.code != MISSING_VERSION;
             return Some(own) == version || is_before && (is_of_tokens || is_for_granted);
         }
-        if ![&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&diagnostic.code) {
+        if !is_feature(diagnostic) {
+            if feature.is_none() {
+                return true;
+            }
             // What is of a feature has no type here, so that an error of types does not follow from it. Arrays without a size are
             // of storage blocks, and of extensions.
             let follows = matches!(diagnostic.code.area(), Area::Syntax | Area::Names | Area::Qualifiers)

@@ -179,9 +179,10 @@ impl Analyzer<'_> {
             Type::Error => self.precisions.forgive(),
             _ => {}
         }
-        // GLSL ES and 4.x added samplers here; every driver accepts them, also without effect.
-        let forgiven = !self.strict && self.types.contains_sampler(ty);
-        if ty.is_error() || ty == TypeId::INT || ty == TypeId::FLOAT || forgiven {
+        // Every driver accepts samplers here in every version, also without effect.
+        let takes_samplers = !self.strict || self.ast.version.has(Feature::SamplerPrecision);
+        let is_sampler = matches!(self.types.get(ty), Type::Sampler(_));
+        if ty.is_error() || ty == TypeId::INT || ty == TypeId::FLOAT || takes_samplers && is_sampler {
             return;
         }
         let name = self.type_name(ty);

@@ -81,6 +81,10 @@ features! {
     ExtensionsFirst "the rule for the place of `#extension`" since(NEVER, 300), STAYS, NONE, "§3.5";
     /// "The maximum length of an identifier is 1024 characters."
     ShortNames "the rule for the length of names" since(NEVER, 300), STAYS, NONE, "§3.9";
+    /// `precision lowp sampler2D;`
+    SamplerPrecision "a default precision of samplers" since(440, 100), STAYS, NONE, "§4.7.3";
+    /// A lone `;` at global scope.
+    EmptyDeclarations "an empty declaration" since(460, NEVER), STAYS, NONE, "§9";
     /// `in` and `out` at global scope.
     InOut "a global `in` or `out`" since(130, 300), STAYS, NONE, "§4.3";
     /// `attribute` and `varying`.

@@ -134,15 +134,23 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
         return;
     }
     let same_name = producer.globals.iter().find(|global| global.match_name() == name && global.builtin.is_none());
-    if let Some(other) = same_name {
+    let same_location =
+        || outputs.iter().copied().find(|output| is_at(output) && is_at(input) && output.location == input.location);
+    if let Some(other) = same_name.or_else(same_location) {
         let what = match (other.storage, other.location, input.location) {
-            (Storage::Out, Some(there), Some(here)) if other.block.is_none() && input.block.is_none() => {
-                format!("at location {there}, not {here}")
+            (Storage::Out, Some(there), Some(here)) if is_at(other) && is_at(input) => {
+                let (from, to) = (other.component.unwrap_or(0), input.component.unwrap_or(0));
+                match there == here {
+                    true => format!("at component {from} of location {there}, not at component {to}"),
+                    false => format!("at location {there}, not {here}"),
+                }
             }
             _ => format!("as {}", describe_other(other)),
         };
-        diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{name}` {what}"));
+        diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{}` {what}", other.match_name()));
     }
+    // Another name mends nothing where both have a location.
+    let outputs: Vec<&Global> = outputs.into_iter().filter(|output| !is_at(output) || !is_at(input)).collect();
     let near = did_you_mean(name, outputs.iter().map(|output| output.match_name()));
     let near = near.and_then(|near| outputs.iter().copied().find(|output| output.match_name() == near));
     if let Some(output) = near.or_else(|| only_unread(ctx.types, &outputs, consumer, input)) {
@@ -157,6 +165,11 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
             .help(format!("declare it in the {stage} stage: `{}`", declaration(ctx.types, producer, consumer, input)));
     }
     ctx.report(diagnostic);
+}
+
+/// Whether a variable that is no block has an explicit location.
+fn is_at(global: &Global) -> bool {
+    global.location.is_some() && global.block.is_none()
 }
 
 /// The fix that gives an input the name of an output, everywhere in its shader.

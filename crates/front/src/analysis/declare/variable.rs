@@ -103,7 +103,8 @@ impl Analyzer<'_> {
             (StorageWord::Attribute, Stage::Vertex) => Storage::In,
             (StorageWord::Attribute, stage) => {
                 let message = format!("there are no attributes in a {} shader", stage.name());
-                self.misplaced(span, message, "use `in`");
+                let has_in = self.ast.version.has(Feature::InOut);
+                self.misplaced(span, message, if has_in { "use `in`" } else { "use `varying`" });
                 Storage::In
             }
             (StorageWord::VaryingOut, Stage::Fragment) => Storage::Out,

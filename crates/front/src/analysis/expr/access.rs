@@ -185,11 +185,14 @@ impl Analyzer<'_> {
         if self.is_fragment_output(base) {
             self.require(Feature::DynamicOutputs, at);
         }
-        if size.is_none() && !self.is_geometry_input(base) {
+        if size.is_none() {
+            // A geometry shader's inputs have their size from the layout, which comes "before any use .. requiring its size be known"
+            // (1.50 §4.3.8.1).
+            let help = self.how_to_size(base);
             self.report(
                 Diagnostic::new(&types::UNSIZED_ARRAY, at, "an array without a size takes constant indices only")
                     .here("not a constant expression")
-                    .help("declare the array with a size before this"),
+                    .help(help),
             );
             return false;
         }
@@ -249,6 +252,15 @@ impl Analyzer<'_> {
 
     /// Whether an expression is an input of a geometry shader, whose size is that of the input primitive, which may
     /// be declared later.
+    /// The remedy for an array that has no size yet.
+    fn how_to_size(&self, base: ExprId) -> &'static str {
+        if self.is_geometry_input(base) {
+            "put `layout(triangles) in;` or another input primitive before this"
+        } else {
+            "declare the array with a size before this"
+        }
+    }
+
     fn is_geometry_input(&self, base: ExprId) -> bool {
         match self.expr_at(base).kind {
             ExprKind::Var(VarRef::Global(id)) => {
@@ -308,11 +320,7 @@ impl Analyzer<'_> {
             Type::Matrix(columns, _) if self.allows(Feature::VectorLength, name.span) => u32::from(columns),
             Type::Array(_, ArraySize::Unsized) => {
                 let at = self.span(base);
-                let help = if self.is_geometry_input(base) {
-                    "put `layout(triangles) in;` or another input primitive before this"
-                } else {
-                    "declare the array with a size before this"
-                };
+                let help = self.how_to_size(base);
                 self.report(
                     Diagnostic::new(&types::UNSIZED_ARRAY, at, "the length of an array without a size is not known")
                         .here("no size yet")

@@ -2,6 +2,7 @@
 //! are in `builtin`.
 
 use super::super::context::Analyzer;
+use super::super::decisive::UNKNOWN_VALUE;
 use super::super::keywords;
 use super::super::scope::{Entry, OverloadSet};
 use super::super::state::Signature;
@@ -115,7 +116,7 @@ impl Analyzer<'_> {
                 return false;
             }
             let message = format!("the function `{spelling}` is not supported yet");
-            let mut finding = Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message);
+            let mut finding = Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message).here(UNKNOWN_VALUE);
             if let Some((why, instead)) = super::foreign::reason(spelling) {
                 finding = finding.note(why).help(instead);
             }

@@ -2,6 +2,7 @@
 //! constants.
 
 use super::super::context::Analyzer;
+use super::super::decisive::UNKNOWN_VALUE;
 use super::super::scope::Entry;
 use super::super::state::{Denoted, NoteRole};
 use crate::builtin::{Availability, constants, fixed, functions, variables};
@@ -107,7 +108,7 @@ impl Analyzer<'_> {
         let spelling = self.name(name);
         if spelling == "gl_Layer" && self.stage == Stage::Fragment && self.ast.version.reaches(Since::new(430, 320)) {
             let message = "`gl_Layer` in a fragment shader is not supported yet";
-            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message).here(UNKNOWN_VALUE));
             return;
         }
         let stages: Vec<&str> = variables::stages_with(spelling).map(Stage::name).collect();
@@ -169,7 +170,7 @@ impl Analyzer<'_> {
         }
         if super::foreign::is_unsupported_variable(spelling, self.ast.version, self.extensions) {
             let message = format!("the variable `{spelling}` is not supported yet");
-            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message));
+            self.report(Diagnostic::new(&NOT_SUPPORTED_YET, name.span, message).here(UNKNOWN_VALUE));
             return;
         }
         if self.body.as_ref().is_some_and(|body| self.declared.is_partial(body.function)) {

@@ -4,6 +4,7 @@ use super::place::Start;
 use super::types::{is_precision, is_qualifier};
 use super::{Between, Parse, Parser, Reported, Token, TokenKind, TokenSource, codes};
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Place};
+use crate::language::Feature;
 use crate::syntax::ast::{
     BlockDecl, Declaration, DeclarationKind, Declarator, FunctionHeader, Ident, ParamDecl, Qualifier, Stmt, TypeBase,
     TypeSpec, VariableDecl,
@@ -27,10 +28,12 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         let kind = match self.kind() {
             TokenKind::Semicolon => {
                 let span = self.bump().span;
-                let message = "a lone `;` at global scope";
-                let advice = Advice::new(Applicability::Safe, "leave it out", Place::Over, "");
-                let diagnostic = kind::STRAY_SEMICOLON.diagnostic(self.strict, span, message).help(advice);
-                self.session.report(diagnostic);
+                if !self.session.version.has(Feature::EmptyDeclarations) {
+                    let message = "a lone `;` at global scope";
+                    let advice = Advice::new(Applicability::Safe, "leave it out", Place::Over, "");
+                    let diagnostic = kind::STRAY_SEMICOLON.diagnostic(self.strict, span, message).help(advice);
+                    self.session.report(diagnostic);
+                }
                 Ok(DeclarationKind::Empty)
             }
             TokenKind::RightBrace => {
