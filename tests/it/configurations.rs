@@ -203,3 +203,84 @@ fn what_an_engine_adds_or_replaces_is_left_alone() {
     assert!(!of_search.iter().any(|one| one.contains("E0120") || one.contains("W0115")), "{of_search:?}");
     assert!(codes(&["a.frag"]).iter().any(|one| one.contains("E0120")), "whoever names the file wants to know");
 }
+
+const NEEDS: &str = "#version 150
+out vec4 c;
+#if defined(PCF) && !defined(SHADOWS)
+#error PCF needs SHADOWS
+#endif
+#if defined(PCF) && defined(SOFT)
+vec3 abc = vec2(1.0);
+#endif
+void main() { c = vec4(1.0); }
+";
+
+/// What an `#error` forbids hides nothing: the macros that it asks for are defined, too.
+#[test]
+fn configurations_that_an_error_forbids_are_completed() {
+    let folder = folder(&[("a.frag", NEEDS)]);
+    let expected = ["a.frag:7 E0401 only with `PCF=1` and `SHADOWS=1` and `SOFT=1`"];
+    assert_eq!(found(folder.path(), &["a.frag"]), expected);
+    let output = lint(folder.path(), &["a.frag"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout);
+    assert!(told.contains("all of 2 branches reached"), "{told}");
+}
+
+/// Three macros of a chain of demands, in every order.
+#[test]
+fn chains_of_demands_are_followed() {
+    let demand = |a: &str, b: &str| format!("#if defined({a}) && !defined({b})\n#error {a} needs {b}\n#endif\n");
+    let [ab, bc, cd] = [("A", "B"), ("B", "C"), ("C", "D")].map(|(a, b)| demand(a, b));
+    for chain in [[&ab, &bc, &cd], [&cd, &ab, &bc], [&bc, &cd, &ab]] {
+        let chain: String = chain.into_iter().map(String::as_str).collect();
+        let text = format!(
+            "#version 150\nout vec4 c;\n{chain}#if defined(A) && defined(X)\nvec3 v = vec2(1.0);\n#endif\nvoid main() {{ c = vec4(1.0); }}\n"
+        );
+        let folder = folder(&[("a.frag", &text)]);
+        let told = found(folder.path(), &["a.frag"]);
+        assert!(told.len() == 1 && told[0].contains("E0401"), "{told:?}");
+    }
+}
+
+/// A pair that a condition of the project drops is completed, and lines that it reaches are not dead.
+#[test]
+fn configurations_that_the_project_forbids_are_completed() {
+    let live = NEEDS.replace("#error PCF needs SHADOWS\n", "").replace("vec3 abc = vec2(1.0)", "float live = 1.0");
+    let settings = ("glisten.toml", "[lint.configurations]\nskip = [\"PCF !SHADOWS\"]\n");
+    let wrong = folder(&[settings, ("a.frag", NEEDS)]);
+    let told = found(wrong.path(), &["a.frag"]);
+    assert!(told.iter().any(|one| one.starts_with("a.frag:7 E0401")), "{told:?}");
+    let right = folder(&[settings, ("a.frag", &live)]);
+    let told = found(right.path(), &["a.frag"]);
+    assert!(!told.iter().any(|one| one.contains("W0115")), "{told:?}");
+}
+
+/// A listed variant is no guess: its `#error` is told.
+#[test]
+fn listed_variants_tell_their_errors() {
+    let list = "[[program]]\nfiles = [\"a.frag\"]\n[program.values]\nPCF = [false, true]\nSHADOWS = [false, true]\nSOFT = [false, true]\n";
+    let folder = folder(&[("a.frag", NEEDS), ("p.toml", list)]);
+    let output = Command::new(env!("CARGO_BIN_EXE_glisten"))
+        .current_dir(folder.path())
+        .args(["lint", "--permutations", "p.toml"])
+        .output()
+        .expect("the program runs");
+    let told = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(1) && told.contains("E0118") && told.contains("E0401"), "{told}");
+}
+
+#[test]
+fn standard_input_has_configurations() {
+    use std::io::Write;
+    let mut child = Command::new(env!("CARGO_BIN_EXE_glisten"))
+        .args(["lint", "--configurations", "-", "--stage", "fragment"])
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    child.stdin.take().expect("a pipe").write_all(NEEDS.as_bytes()).expect("it reads");
+    let output = child.wait_with_output().expect("it ends");
+    let told = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(1) && told.contains("E0401"), "{told}");
+}

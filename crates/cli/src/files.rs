@@ -68,9 +68,21 @@ pub(crate) fn from_folder(file: &Path, folder: &Path) -> Option<PathBuf> {
 pub(crate) fn read_source(name: &str, path: Option<&Path>) -> Result<Arc<str>, ReadError> {
     let bytes = match path {
         Some(path) => read(name, path)?,
-        None => read_all(name, io::stdin().lock(), 0)?,
+        None => standard_input(name)?,
     };
     text_of(name, bytes)
+}
+
+/// The bytes of standard input, which each configuration of a source reads again.
+fn standard_input(name: &str) -> Result<Vec<u8>, ReadError> {
+    static READ: Mutex<Option<Vec<u8>>> = Mutex::new(None);
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(bytes) = read.as_ref() {
+        return Ok(bytes.clone());
+    }
+    let bytes = read_all(name, io::stdin().lock(), 0)?;
+    *read = Some(bytes.clone());
+    Ok(bytes)
 }
 
 /// Reads a text to put before sources. It may be empty.

@@ -29,6 +29,8 @@ pub(super) struct Branch {
     pub(super) end: usize,
     /// The macros that decide it, those of the conditions around it included.
     pub(super) names: BTreeSet<String>,
+    /// Whether an `#error` is directly in it.
+    pub(super) is_error: bool,
 }
 
 /// The conditions of a text.
@@ -129,6 +131,10 @@ pub(super) fn conditions(text: &str) -> Conditions {
                     found.end(last.branch, line);
                 }
             }
+            "error" => {
+                let innermost = open.last().and_then(|open| found.branches.get_mut(open.branch));
+                innermost.into_iter().for_each(|branch| branch.is_error = true);
+            }
             "define" => {
                 let mut words = rest.split_whitespace();
                 let name = words.next().unwrap_or_default();
@@ -158,7 +164,7 @@ impl Conditions {
         let around = around.iter().flat_map(|open| &open.names);
         // No macro decides `#if 0`.
         let names = if names.is_empty() { BTreeSet::new() } else { names.iter().chain(around).cloned().collect() };
-        self.branches.push(Branch { directive: line, end: line, names });
+        self.branches.push(Branch { directive: line, end: line, names, is_error: false });
         self.branches.len() - 1
     }
 
@@ -222,7 +228,7 @@ fn unless(word: &str, rest: &str) -> Option<String> {
 
 /// The values that make a difference where a macro is compared with another text: that, and those next to it.
 fn compared(operator: &str, with: &str) -> Option<Vec<String>> {
-    let number: Option<i64> = with.parse().ok();
+    let number = number(with);
     let is_name = with.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') && with != "defined";
     let near: &[i64] = match operator {
         "==" | "!=" => &[0, 1],
@@ -238,6 +244,18 @@ fn compared(operator: &str, with: &str) -> Option<Vec<String>> {
     }
 }
 
+/// The value of an integer of any base, with or without a sign.
+fn number(text: &str) -> Option<i64> {
+    let (sign, digits) = text.strip_prefix('-').map_or((1, text), |digits| (-1, digits.trim_start()));
+    let digits = digits.trim_end_matches(['u', 'U']);
+    let (digits, base) = match digits.strip_prefix("0x").or(digits.strip_prefix("0X")) {
+        Some(digits) => (digits, 16),
+        None if digits.len() > 1 && digits.starts_with('0') => (digits, 8),
+        None => (digits, 10),
+    };
+    i64::from_str_radix(digits, base).ok().map(|value| sign * value)
+}
+
 /// The operator with its sides changed.
 fn mirrored(operator: &str) -> Option<&str> {
     Some(match operator {
@@ -250,10 +268,10 @@ fn mirrored(operator: &str) -> Option<&str> {
     })
 }
 
-/// The names, numbers and operators of a condition.
+/// The names, numbers and operators of a condition. A number has its sign, and what is alone in parentheses has none of them.
 fn tokens(text: &str) -> Vec<&str> {
-    let mut tokens = Vec::new();
-    let mut rest = text.trim_start();
+    let mut tokens: Vec<&str> = Vec::new();
+    let (mut rest, mut minus) = (text.trim_start(), None);
     while let Some(first) = rest.chars().next() {
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let length = if is_word(first) {
@@ -263,11 +281,32 @@ fn tokens(text: &str) -> Vec<&str> {
         } else {
             first.len_utf8()
         };
-        let (token, after) = rest.split_at(length);
+        let at = text.len() - rest.len();
+        let (mut token, after) = rest.split_at(length);
+        let before = tokens.len().checked_sub(2).and_then(|at| tokens.get(at)).copied().unwrap_or("(");
+        if let Some(start) =
+            minus.take().filter(|_| first.is_ascii_digit() && !before.ends_with(|c| is_word(c) || c == ')'))
+        {
+            tokens.pop();
+            token = text.get(start..at + length).unwrap_or(token);
+        }
+        minus = (token == "-").then_some(at);
         tokens.push(token);
+        if let [.., "(", _, ")"] = tokens.as_slice()
+            && !is_call(tokens.len().checked_sub(4).and_then(|at| tokens.get(at)))
+        {
+            let inner = tokens.len() - 2;
+            tokens.swap(inner - 1, inner);
+            tokens.truncate(inner);
+        }
         rest = after.trim_start();
     }
     tokens
+}
+
+/// Whether a parenthesis after this token belongs to it: `defined(A)`, `F(1)`.
+fn is_call(before: Option<&&str>) -> bool {
+    before.is_some_and(|before| before.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_'))
 }
 
 /// The directives of a text without `#`, each with the number of its line, from 0. Comments are blanks, and continued lines are one.
@@ -330,6 +369,9 @@ mod tests {
             ("#if A\n#elif B == HIGH\n#endif", "A: - 1|B: - HIGH|HIGH: - B"),
             ("# if ! defined A /* B */ // C\n#endif", "A: - 1"),
             ("#if A \\\n == 7\n#endif", "A: - 7 8"),
+            ("#if A == 0x10 || B == 010 || C == -1\n#endif", "A: - 16 17|B: - 8 9|C: - -1 0"),
+            ("#if (A) == 3 || B == (3) || ((C)) > ( - 2u )\n#endif", "A: - 3 4|B: - 3 4|C: - -2 -1"),
+            ("#if A - 1 == 2\n#endif", "A: - 1"),
             ("#ifdef GIVEN\n#endif\n#if GL_ES || __VERSION__ > 130\n#endif", ""),
             ("#define A 1\n#if A\n#endif", ""),
             ("#ifndef A\n#define A 4\n#endif\n#if A == 2\n#endif", "A: - 1 2 3"),

@@ -2,7 +2,7 @@
 //!
 //! *In:* the units of configurations. *Out:* the units without what an earlier one tells; findings that not all configurations have
 //! carry a note. *Holds:* the note names as few macros as tell the configurations that have the finding from those that
-//! have not; macros of the conditions around the finding come first. A finding of a rule is compared among programs without
+//! have not, with those that the conditions around the finding name. A finding of a rule is compared among programs without
 //! errors, since rules look at no others. A finding that some configurations do not have has no fix: it might break those.
 
 use super::choices::Conditions;
@@ -67,12 +67,17 @@ fn key_of(sources: &SourceMap, diagnostic: &Diagnostic) -> Key {
     (finding.region, finding.code.id, finding.message)
 }
 
-/// The macros of the conditions around a place.
+/// The macros of the conditions around a place, and those that an `#error` asks of these.
 fn around(region: &Region, texts: &BTreeMap<String, Conditions>) -> BTreeSet<String> {
     let line = region.line.saturating_sub(1) as usize;
     let branches = texts.get(&region.file).into_iter().flat_map(|text| &text.branches);
     let around = branches.filter(|one| one.directive < line && line < one.end);
-    around.flat_map(|one| one.names.iter().cloned()).collect()
+    let mut names: BTreeSet<String> = around.flat_map(|one| one.names.iter().cloned()).collect();
+    // What an `#error` asks of them is needed to see the finding.
+    let errors = texts.values().flat_map(|text| &text.branches).filter(|one| one.is_error);
+    let asked: Vec<&String> = errors.filter(|one| !names.is_disjoint(&one.names)).flat_map(|one| &one.names).collect();
+    names.extend(asked.into_iter().cloned());
+    names
 }
 
 /// The macros under which a finding comes; `None` if all configurations have it.
@@ -102,6 +107,11 @@ fn note(first: Option<&Variant>, compared: &[(&Variant, bool)], around: &BTreeSe
     terms.sort_by_key(|(name, value)| (around.contains(*name), value.is_some()));
     let mut at = 0;
     while at < terms.len() {
+        // A reader who defines what the note names sees the finding.
+        if terms.get(at).is_some_and(|(name, value)| value.is_some() && around.contains(*name)) {
+            at += 1;
+            continue;
+        }
         let mut fewer = terms.clone();
         let term = fewer.remove(at);
         if tells(&fewer) {

@@ -4,7 +4,7 @@
 //!  texts ──► choices   macros that decide conditions and are defined nowhere, with the values that matter
 //!        ──► cover     a few configurations with every pair of values
 //!        ──► allowed   those that `[lint.configurations]` allows
-//!        ──► search    more of them, for branches that are still left out
+//!        ──► complete  more of them, for pairs and branches that are left out where configurations are forbidden
 //!        ──► merge     each finding once, with the macros under which it comes
 //! ```
 //!
@@ -15,6 +15,7 @@
 
 mod allowed;
 mod choices;
+mod complete;
 mod cover;
 mod merge;
 
@@ -25,6 +26,7 @@ use crate::variants::Variant;
 use crate::variants::stated::{Stated, Values};
 use allowed::allowed;
 use choices::{Choice, Conditions, choices_of, conditions};
+use complete::{Completion, Fixed, has};
 use glisten_front::compiler::{Compiler, Options};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::preprocess::{BRANCH_IN_NO_CONFIGURATION, ERROR_DIRECTIVE, MISSING_VERSION};
@@ -33,8 +35,10 @@ use merge::merged;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The most configurations of a program.
+/// The most configurations of a program that nothing forbids.
 const MAX_CONFIGURATIONS: usize = 64;
+/// The most configurations of a program that are compiled, with those that an `#error` forbids.
+const MAX_COMPILED: usize = 256;
 /// The most macros of a program that are varied.
 const MAX_CHOICES: usize = 40;
 /// How many configurations are compiled at a time.
@@ -75,6 +79,8 @@ struct Found {
     unit: Unit,
     /// For each file the branches that it reaches, by the lines of their directives.
     reached: BTreeMap<String, BTreeSet<usize>>,
+    /// Whether it reaches an `#error`.
+    is_forbidden: bool,
 }
 
 /// The macros that the conditions of these texts ask for and that come from outside, with the values that make a difference; not
@@ -143,8 +149,10 @@ impl<'l> Search<'l> {
     /// Looks for conditions in the files of results.
     fn read<'u>(&mut self, units: impl IntoIterator<Item = &'u Unit>) {
         for unit in units {
-            // A name in angle brackets is no file: the command line, an engine's texts, the library.
-            for (_, file) in unit.batch.sources.files().filter(|(_, file)| !file.name().starts_with('<')) {
+            // A name in angle brackets is no file: the command line, an engine's texts, the library; or it is standard input.
+            let is_input = |name: &str| unit.group.inputs.iter().any(|input| input.name == name);
+            let is_text = |name: &str| !name.starts_with('<') || is_input(name);
+            for (_, file) in unit.batch.sources.files().filter(|(_, file)| is_text(file.name())) {
                 self.texts.entry(file.name().to_owned()).or_insert_with(|| conditions(file.text()));
             }
         }
@@ -169,8 +177,13 @@ impl<'l> Search<'l> {
         covering.iter().filter_map(|one| allowed(self.variant(one), &self.stated, &self.choices)).collect()
     }
 
-    fn most(&self) -> usize {
-        if self.listed.is_some() { MAX_VARIANTS } else { MAX_CONFIGURATIONS }
+    /// Whether `more` configurations may still be compiled.
+    fn may_compile(&self, more: usize) -> bool {
+        if self.listed.is_some() {
+            return self.found.len() + more < MAX_VARIANTS;
+        }
+        let good = self.found.iter().filter(|found| !found.is_forbidden).count();
+        good + more < MAX_CONFIGURATIONS && self.found.len() + more < MAX_COMPILED
     }
 
     fn run(&mut self, session: &Session<'_>, group: &Group) {
@@ -193,15 +206,68 @@ impl<'l> Search<'l> {
         if self.listed.is_some() {
             return;
         }
+        for pair in self.open_pairs() {
+            self.search(session, group, vec![pair.clone()], |search| search.has_good(&pair));
+        }
         for branch in self.unreached() {
-            let variants = self.variants_of(&branch.names);
-            for variant in variants {
-                if self.found.len() >= MAX_CONFIGURATIONS || self.is_reached(&branch.file, branch.directive) {
+            let fixed = self.combinations(&branch.names);
+            self.search(session, group, fixed, |search| search.is_reached(&branch));
+        }
+    }
+
+    /// Tries configurations that have some of these values, one after the other, until one is `enough`.
+    fn search(&mut self, session: &Session<'_>, group: &Group, all: Vec<Fixed>, enough: impl Fn(&Self) -> bool) {
+        let mut tries = 0;
+        for fixed in all {
+            let forbidden = self.forbidden_groups();
+            let good = self.found.iter().filter(|found| !found.is_forbidden).map(|found| &found.variant).collect();
+            let groups = self.stated.groups().chain(forbidden).collect();
+            let offered = Completion { stated: &self.stated, choices: &self.choices, groups, good }.of(&fixed);
+            for variant in offered {
+                if tries >= MAX_TRIES || enough(self) || !self.may_compile(0) {
+                    return;
+                }
+                tries += 1;
+                self.try_all(session, group, vec![variant]);
+                // Where nothing forbids it, the others differ in macros that do not decide here.
+                if self.has_good(&fixed) {
                     break;
                 }
-                self.try_all(session, group, vec![variant]);
             }
         }
+    }
+
+    /// The macros of the branches with an `#error`.
+    fn forbidden_groups(&self) -> impl Iterator<Item = BTreeSet<String>> + '_ {
+        let branches = self.texts.values().flat_map(|text| &text.branches);
+        branches.filter(|branch| branch.is_error).map(|branch| branch.names.clone())
+    }
+
+    /// Whether a configuration that nothing forbids has these values.
+    fn has_good(&self, fixed: &Fixed) -> bool {
+        self.tried.iter().any(|tried| {
+            has(&tried.variant, fixed) && self.found.get(tried.result).is_some_and(|found| !found.is_forbidden)
+        })
+    }
+
+    /// The pairs of values that only forbidden configurations have; those of configurations that are allowed are there already.
+    fn open_pairs(&self) -> Vec<Fixed> {
+        let is_free = self.stated.groups().next().is_none() && self.found.iter().all(|found| !found.is_forbidden);
+        if is_free {
+            return Vec::new();
+        }
+        let mut open = Vec::new();
+        for (at, a) in self.choices.iter().enumerate() {
+            for b in self.choices.iter().skip(at + 1) {
+                for (x, y) in a.values.iter().flat_map(|x| b.values.iter().map(move |y| (x, y))) {
+                    let pair = Fixed::from([(a.name.clone(), x.clone()), (b.name.clone(), y.clone())]);
+                    if !self.has_good(&pair) {
+                        open.push(pair);
+                    }
+                }
+            }
+        }
+        open
     }
 
     fn variant(&self, numbers: &[usize]) -> Variant {
@@ -212,21 +278,20 @@ impl<'l> Search<'l> {
         self.choices.iter().zip(numbers).filter_map(value).collect()
     }
 
-    /// The combinations of the values of some macros, the others not being defined.
-    fn variants_of(&self, names: &BTreeSet<String>) -> Vec<Variant> {
-        let mut all = vec![Variant::new()];
+    /// The combinations of the values of some macros. Those with more macros come first: a branch that is left is seldom one that
+    /// wants none.
+    fn combinations(&self, names: &BTreeSet<String>) -> Vec<Fixed> {
+        let mut all = vec![Fixed::new()];
         for choice in self.choices.iter().filter(|choice| names.contains(&choice.name)) {
-            let with = |one: &Variant, value: &Option<String>| {
+            let with = |one: &Fixed, value: &Option<String>| {
                 let mut one = one.clone();
-                one.extend(value.clone().map(|value| (choice.name.clone(), value)));
+                one.insert(choice.name.clone(), value.clone());
                 one
             };
             all = all.iter().flat_map(|one| choice.values.iter().map(move |value| with(one, value))).collect();
             all.truncate(MAX_TRIES * MAX_TRIES);
         }
-        // Those with more macros come first: a branch that is left is seldom one that wants none.
-        all.sort_by_key(|one| std::cmp::Reverse(one.len()));
-        all.retain(|one| self.stated.allows(one));
+        all.sort_by_key(|one| std::cmp::Reverse(one.values().flatten().count()));
         all.truncate(MAX_TRIES);
         all
     }
@@ -237,7 +302,7 @@ impl<'l> Search<'l> {
         for variant in variants {
             match self.found.iter().position(|found| has_result(&variant, found)) {
                 Some(result) => self.tried.push(Tried { variant, result }),
-                None if self.found.len() + fresh.len() < self.most() => fresh.push(variant),
+                None if self.may_compile(fresh.len()) => fresh.push(variant),
                 None => {}
             }
         }
@@ -253,8 +318,9 @@ impl<'l> Search<'l> {
         }
     }
 
-    fn is_reached(&self, file: &str, directive: usize) -> bool {
-        self.found.iter().any(|found| found.reached.get(file).is_some_and(|lines| lines.contains(&directive)))
+    /// Whether a configuration that nothing forbids reaches a branch. An `#error` is reached by those that it forbids.
+    fn is_reached(&self, branch: &Named) -> bool {
+        self.found.iter().any(|found| (branch.is_error || !found.is_forbidden) && found.reaches(branch))
     }
 
     /// The branches that choices alone decide.
@@ -263,19 +329,27 @@ impl<'l> Search<'l> {
         self.texts.iter().flat_map(move |(file, text)| {
             let branches = text.branches.iter().filter(move |one| one.end > one.directive + 1);
             let decided = branches.filter(move |one| !one.names.is_empty() && one.names.iter().all(is_choice));
-            decided.map(|one| Named { file: file.clone(), directive: one.directive, names: one.names.clone() })
+            decided.map(|one| Named {
+                file: file.clone(),
+                directive: one.directive,
+                names: one.names.clone(),
+                is_error: one.is_error,
+            })
         })
     }
 
     fn unreached(&self) -> Vec<Named> {
-        self.branches().filter(|one| !self.is_reached(&one.file, one.directive)).collect()
+        self.branches().filter(|one| !self.is_reached(one)).collect()
     }
 
-    /// Whether all values of the macros that decide a branch were tried.
+    /// Whether all values of the macros that decide a branch were tried, and none reaches it, forbidden or not.
     fn is_dead(&self, branch: &Named) -> bool {
+        if self.found.iter().any(|found| found.reaches(branch)) {
+            return false;
+        }
         let deciding = self.choices.iter().filter(|choice| branch.names.contains(&choice.name));
         let count = deciding.map(|choice| choice.values.len()).fold(1, usize::saturating_mul);
-        self.found.len() < self.most() && (self.listed.is_some() || count <= MAX_TRIES)
+        self.may_compile(0) && (self.listed.is_some() || count <= MAX_TRIES)
     }
 
     /// The units of all configurations, without what others told already, and with what no configuration reaches.
@@ -306,7 +380,11 @@ impl<'l> Search<'l> {
         let is_found = |unit: &Unit| {
             unit.group.inputs.iter().any(|input| input.path.as_ref().is_some_and(|path| from_search.contains(path)))
         };
+        let is_listed = self.listed.is_some();
         let is_excluded = |unit: &Unit| {
+            if is_listed {
+                return false;
+            }
             let mut errors = unit.batch.diagnostics.iter().filter(|one| one.is_error());
             errors.any(|one| *one.code == ERROR_DIRECTIVE || *one.code == MISSING_VERSION && is_found(unit))
         };
@@ -334,6 +412,13 @@ struct Named {
     file: String,
     directive: usize,
     names: BTreeSet<String>,
+    is_error: bool,
+}
+
+impl Found {
+    fn reaches(&self, branch: &Named) -> bool {
+        self.reached.get(&branch.file).is_some_and(|lines| lines.contains(&branch.directive))
+    }
 }
 
 /// The finding that no configuration reaches a branch.
@@ -421,5 +506,6 @@ fn compiled(
         (file.name().to_owned(), lines.collect())
     });
     let reached = reached.collect();
-    Found { variant, reached, unit }
+    let is_forbidden = unit.batch.diagnostics.iter().any(|one| one.is_error() && *one.code == ERROR_DIRECTIVE);
+    Found { variant, reached, is_forbidden, unit }
 }

@@ -51,6 +51,11 @@ impl Stated {
         self.broken(variant).is_none()
     }
 
+    /// The macros of each condition.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = BTreeSet<String>> + '_ {
+        self.skip.iter().chain(&self.only).map(|condition| condition.names().map(str::to_owned).collect())
+    }
+
     /// The reason why a configuration is none.
     pub(crate) fn broken(&self, variant: &Variant) -> Option<Broken<'_>> {
         if let Some(condition) = self.skip.iter().find(|condition| condition.holds(variant)) {
