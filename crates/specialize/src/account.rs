@@ -7,14 +7,18 @@
 use crate::forward::{Reason, Reasons};
 use crate::known::Known;
 use crate::left::Left;
+use crate::named_parts::named_parts;
 use glisten_front::Program;
-use glisten_front::hir::{
-    ExprId, ExprKind, Global, LogicalOp, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, VarRef,
-};
+use glisten_front::hir::{ExprId, ExprKind, Global, LogicalOp, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage};
 use glisten_front::link::{Interface, UniformLeaf};
 use glisten_front::source::{SourceMap, Span};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
+
+/// The most values that a reason names.
+const MOST_VALUES: usize = 4;
+/// The most scalars of a value that is written out.
+const MOST_SCALARS: usize = 4;
 
 /// The kind of a thing that was left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -441,26 +445,35 @@ impl Account<'_> {
         if values.is_empty() { decided } else { format!("{decided}: {}", values.join(", ")) }
     }
 
-    /// The uniforms and attributes that an expression names, with their values.
+    /// The uniforms that an expression names, with their values: the first few.
     fn values(&self, shader: &Shader, root: ExprId) -> Vec<String> {
-        let mut roots: BTreeSet<&str> = BTreeSet::new();
-        shader.visit_expr(root, &mut |expr| {
-            if let ExprKind::Var(VarRef::Global(id)) = shader.expr(expr).kind {
-                roots.insert(shader.global(id).name.as_str());
-            }
-        });
-        let mut values = Vec::new();
-        let text = self.sources.map_or("", |sources| sources.snippet(shader.expr(root).span));
-        for leaf in &self.program.interface.uniforms {
-            let Some(known) = self.how.known.uniforms.get(&leaf.name) else { continue };
-            let root = self.program.interface.roots.get(leaf.root.0 as usize);
-            let member = leaf.name.rsplit_once('.').map_or("", |(_, member)| member);
-            if known.len() <= 4 && text.contains(member) && root.is_some_and(|root| roots.contains(root.name.as_str()))
-            {
-                values.push(format!("`{}` is {}", leaf.name, written(known)));
+        let types = &self.program.types;
+        let mut values: Vec<String> = Vec::new();
+        for part in named_parts(types, shader, root) {
+            let is_of = |leaf: &&UniformLeaf| {
+                let root = self.program.interface.roots.get(leaf.root.0 as usize);
+                root.is_some_and(|root| root.globals.contains(&(shader.stage, part.global)))
+            };
+            for leaf in self.program.interface.uniforms.iter().filter(is_of) {
+                let Some(known) = self.how.known.uniforms.get(&leaf.name) else { continue };
+                let len = types.flat_len(leaf.ty);
+                for (element, known) in known.chunks(len.max(1) as usize).enumerate() {
+                    let start = leaf.flat_offset + element as u32 * len;
+                    if known.len() > MOST_SCALARS || !part.meets(&(start..start + len)) {
+                        continue;
+                    }
+                    let index = leaf.array_size.map_or(String::new(), |_| format!("[{element}]"));
+                    let value = format!("`{}{index}` is {}", leaf.name, written(known));
+                    if !values.contains(&value) {
+                        values.push(value);
+                    }
+                }
             }
         }
-        values.truncate(3);
+        if values.len() > MOST_VALUES {
+            values.truncate(MOST_VALUES);
+            values.push("and so on".to_owned());
+        }
         values
     }
 

@@ -45,6 +45,7 @@ mod inputs;
 mod known;
 mod left;
 mod motion;
+mod named_parts;
 mod optimize;
 mod options;
 mod prune;

@@ -220,6 +220,8 @@ fn signs_of_zeros_that_nobody_sees_do_not_count() {
         ("color = vec4(abs(c.x + u) + 1.0);", "color = vec4(abs(c.x) + 1.0);"),
         ("color = vec4((c.x + u) * 2.0 + 1.0);", "color = vec4(c.x * 2.0 + 1.0);"),
         ("color = vec4(length(c + u));", "color = vec4(length(c));"),
+        ("color = vec4(pow(c.x + u, 64.0));", "color = vec4(pow(c.x, 64.0));"),
+        ("color = vec4(pow(c.x + u, 2.5));", "color = vec4(pow(c.x, 2.5));"),
     ] {
         assert_eq!(texture(with), texture(without), "{with}");
     }
@@ -231,6 +233,8 @@ fn signs_of_zeros_that_nobody_sees_do_not_count() {
         "color = vec4(atan(c.x + u, c.y));",
         "color = vec4(inversesqrt(c.x + u));",
         "color = vec4(1.0 / sqrt(c.x + u));",
+        "color = vec4(pow(c.x + u, 3.0));",
+        "color = vec4(pow(c.x + u, c.y));",
     ] {
         let text = texture(seen);
         assert!(text.contains("+ 0.0") || text.contains("+= 0.0") || text.contains("vec2(0.0)"), "{seen}: {text}");

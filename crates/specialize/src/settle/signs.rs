@@ -25,7 +25,8 @@ use glisten_front::builtin::operations::{
     Binary, Class, Composite, Lookup, MatrixFunction, Numbers, Ternary, TextureForm, Unary,
 };
 use glisten_front::hir::{
-    BinaryOp, ExprId, ExprKind, FunctionId, LocalId, ParamMode, Scalar, Stmt, StmtKind, Types, UnaryOp, VarRef,
+    BinaryOp, ExprId, ExprKind, FunctionId, LocalId, ParamMode, Scalar, ScalarValue, Stmt, StmtKind, Types, UnaryOp,
+    VarRef,
 };
 use smallvec::{SmallVec, smallvec};
 
@@ -246,6 +247,10 @@ fn of_operands(types: &Types, walked: &Walked, id: ExprId) -> SmallVec<[Sees; 4]
         ExprKind::Logical(..) => all(Nobody),
         ExprKind::Ternary(..) => smallvec![Nobody, AsTheResult, AsTheResult],
         ExprKind::Comma(..) => smallvec![Nobody, AsTheResult],
+        ExprKind::BuiltinCall(BuiltinFunction::Pow, _) => {
+            let exponents = children.get(1).map_or(&[][..], |exponent| walked.facts(*exponent));
+            smallvec![of_base(exponents), Nobody]
+        }
         ExprKind::BuiltinCall(function, _) => of_function(*function, children.len()),
         ExprKind::Literal(_)
         | ExprKind::Var(_)
@@ -253,6 +258,17 @@ fn of_operands(types: &Types, walked: &Walked, id: ExprId) -> SmallVec<[Sees; 4]
         | ExprKind::IncDec(..)
         | ExprKind::Call(..)
         | ExprKind::Error => all(TheOperation),
+    }
+}
+
+/// Who sees the sign of a base that is 0: for an odd exponent the result has it, for other positive ones it is 0.
+fn of_base(exponents: &[Fact]) -> Sees {
+    let is_odd = |value: f32| value % 2.0 == 1.0;
+    let is_even = |fact: &Fact| matches!(fact.value(), Some(ScalarValue::Float(value)) if !is_odd(value));
+    match () {
+        () if exponents.is_empty() || exponents.iter().any(|fact| !(fact.range().low > 0.0)) => TheOperation,
+        () if exponents.iter().all(is_even) => Nobody,
+        () => AsTheResult,
     }
 }
 
