@@ -75,8 +75,9 @@ const FOREIGN: &[&str] =
 /// The shader of a string.
 pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {
     let inside = text.get(literal.inside.clone())?;
-    let joined = literal.is_joined.then(|| super::text::decoded(inside, literal.inside.start, &literal.escapes));
-    let inside = joined.as_deref().unwrap_or(inside);
+    let has_escapes = !literal.escapes.is_empty();
+    let decoded = has_escapes.then(|| super::text::decoded(inside, literal.inside.start, &literal.escapes));
+    let inside = decoded.as_deref().unwrap_or(inside);
     let before = tail(text.get(..literal.start)?, MAX_BEFORE);
     let (before, comment) = last_comment(before);
     let tag = parts_of(&literal.tag);
@@ -107,6 +108,7 @@ pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {
         stage,
         inside: literal.inside.clone(),
         is_whole,
+        is_joined: literal.is_joined,
         escapes: literal.escapes.clone(),
         holes: literal.holes.iter().map(|range| hole(text, literal, range.clone())).collect(),
         place: (literal.owner, stem.join(" ")),

@@ -111,6 +111,46 @@ fn strings_of_c_that_follow_each_other_are_one() {
 }
 
 #[test]
+fn lines_that_a_host_joins_are_one_line() {
+    for (host, text) in [
+        (Host::Python, "FRAG = '''\\\n#version 150 // a \\\r\nx\nvoid main() { gl_FragColor = vec4(1.0); }'''\n"),
+        (Host::Script, "const FRAG = `\\\n#version 150 // a \\\r\nx\nvoid main() { gl_FragColor = vec4(1.0); }`;\n"),
+        (
+            Host::C,
+            "const char* frag = \"\\\n#version 150 // a \\\r\nx\\n\\\nvoid main() { gl_FragColor = vec4(1.0); }\";\n",
+        ),
+    ] {
+        let programs = programs(host, text);
+        let masked = programs[0].shaders[0].text(text, Filling::Name);
+        assert_eq!(masked.len(), text.len());
+        let lines: Vec<String> =
+            masked.trim().lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+        assert_eq!(lines, ["#version 150 // a x", "void main() { gl_FragColor = vec4(1.0); }"], "{text}");
+    }
+}
+
+#[test]
+fn numbers_of_characters_are_read() {
+    let text = "const char* f = \"void main() { gl_FragColor = vec4(1.0)\\x3b \\175\\0\";";
+    let expected = vec![vec![(Stage::Fragment, "void main() { gl_FragColor = vec4(1.0) ; }".to_owned())]];
+    assert_eq!(found(Host::C, text), expected);
+}
+
+#[test]
+fn conversions_of_python_are_interpolations() {
+    let main = "void main() { gl_FragColor = vec4(";
+    let of = |text: &str| found(Host::Python, text).into_iter().flatten().map(|(_, text)| text).collect::<Vec<_>>();
+    for (text, expected) in [
+        (format!("f = '''{main}1 %% 2, %d, %.2f, 1); }}''' % (a, b)"), format!("{main}1 % 2, ho, hooo, 1); }}")),
+        (format!("f = '''{main}a %(alpha)s, 1); }}'''"), format!("{main}a hoooooooo, 1); }}")),
+        (format!("f = '''{main}%s, a %d); }}'''\ng = f % 1"), format!("{main}ho, a ho); }}")),
+        (format!("f = '''{main}a %d, b % c); /* %s */ }}'''"), format!("{main}a %d, b % c); /* %s */ }}")),
+    ] {
+        assert_eq!(of(&text), [expected], "{text}");
+    }
+}
+
+#[test]
 fn styles_keep_what_is_not_theirs() {
     let text = "const f = /* glsl */ `\n    #define N ${n}\n    // \\`x\\`\n    void main(){float a=${b};\n    gl_FragColor=vec4(a); }\n    ${rest}\n  `;\nconst g = `${f}void main(){gl_FragColor=vec4(1);}`;\n";
     let mut upper = |text: &str| text.replace("float a=", "float a = ").replace("{float", "{\n    float");

@@ -1,7 +1,7 @@
 //! The strings of C and C++: raw ones (C++11 §2.14.5), which compilers of C take, too, and others, of which those that follow each
 //! other are one.
 
-use super::{Cursor, Escape, Literal, is_word};
+use super::{Cursor, Escape, Literal, escape, is_word, joined_lines};
 
 /// The prefixes of raw strings.
 const PREFIXES: &[&str] = &["R", "LR", "uR", "UR", "u8R"];
@@ -111,21 +111,8 @@ fn escapes(text: &str, range: std::ops::Range<usize>, list: &mut Vec<Escape>) {
     let mut at = range.start;
     while let Some(place) = text.get(at..range.end).and_then(|rest| rest.find('\\')) {
         let from = at + place;
-        let sign = text.as_bytes().get(from + 1).copied().unwrap_or(0);
-        let means = match sign {
-            b'n' => Some(b'\n'),
-            b't' => Some(b'\t'),
-            b'r' => Some(b'\r'),
-            b'"' | b'\'' | b'\\' | b'?' => Some(sign),
-            // A line that ends in `\` goes on in the next one.
-            b'\n' => Some(b' '),
-            _ => None,
-        };
-        let mut end = (from + 2).min(range.end);
-        while !text.is_char_boundary(end) {
-            end += 1;
-        }
-        list.push(Escape { range: from..end, means });
-        at = end;
+        let found = joined_lines(text, from).unwrap_or_else(|| escape(text, from));
+        at = found.range.end;
+        list.push(found);
     }
 }
