@@ -145,6 +145,11 @@ pub struct Text<'t> {
 }
 
 impl Text<'_> {
+    /// Whether its version is one of ES, which has precisions.
+    pub(super) fn is_of_es(&self) -> bool {
+        version(self.version).profile == Profile::Es
+    }
+
     /// Whether a backslash joins lines in its version.
     pub(super) fn joins_lines(&self) -> bool {
         version(self.version).has(Feature::LineContinuation)
@@ -464,7 +469,12 @@ impl<'t> Planner<'t> {
 
     /// `gl_FragColor` and `gl_FragData`.
     fn outputs(&mut self, texts: &[Text<'_>]) {
-        let precision = if self.plan.target == Target::Es300 { "mediump " } else { "" };
+        // `gl_FragColor` of ES is `mediump`; other languages know no precisions.
+        let precision = match self.plan.target {
+            Target::Es300 if texts.iter().any(Text::is_of_es) => "mediump ",
+            Target::Es300 => "highp ",
+            _ => "",
+        };
         let stage = Stage::Fragment;
         if self.uses(stage, "gl_FragData") {
             let name = self.free("fragData");
