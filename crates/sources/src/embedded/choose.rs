@@ -99,7 +99,9 @@ pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {
     let own = || OWN.iter().find(|(word, _)| has(&code, word)).map(|(_, stage)| *stage);
     let called = || parts_of(segment(before)).iter().rev().find_map(|word| stage_of(word));
     let is_whole = count_definitions(&code, "main") > 0;
-    let stated = [&said, &tag, &parts].into_iter().find_map(|words| words.iter().find_map(|word| stage_of(word)));
+    let told = || [&said, &tag].into_iter().find_map(|words| words.iter().find_map(|word| stage_of(word)));
+    // `GEOMETRY_PASS_FS` is of a pass for geometry: the last word counts.
+    let stated = told().or_else(|| parts.iter().rev().find_map(|word| stage_of(word)));
     let stage = if is_whole { own().or(stated) } else { stated.or_else(own) };
     let stage = stage.or_else(called).unwrap_or(Stage::Fragment);
     let stem: Vec<String> =

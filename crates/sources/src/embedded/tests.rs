@@ -67,12 +67,32 @@ fn other_strings_are_left_alone() {
         (Host::C, "const char* a = R\"(#version 430\nlayout(local_size_x = 1) in; void main() {})\";".to_owned()),
         (Host::C, format!("f(\"#version %d\\n{F}\", 3); const char* s = HEADER \"{F}\"; const char* t = \"{F}\" END;")),
         (Host::C, "const char* s = \"void main() { vec4 a; }".to_owned()),
+        (
+            Host::C,
+            format!("const char* s =\n#if A\n\"#version 330\\n\"\n#else\n\"#version 150\\n\"\n# endif\n\"{F}\";\n"),
+        ),
         (Host::Python, "a = '''void main''' # glsl".to_owned()),
         (Host::Python, format!("def f():\n    '''{F}'''\n")),
         (Host::Script, format!("const a = `{F}`.replace(/A/g, b);")),
     ] {
         assert_eq!(found(host, &text), Vec::<Vec<(Stage, String)>>::new(), "{text}");
     }
+}
+
+#[test]
+fn the_last_word_of_a_name_tells_the_stage() {
+    let main = "#version 330\nout vec4 c; void main() { c = vec4(1.0); }";
+    for (name, stage) in [
+        ("GEOMETRY_PASS_FS", Stage::Fragment),
+        ("GEOMETRY_OUTPUT_FRAGMENT_SHADER", Stage::Fragment),
+        ("geometryFragmentSource", Stage::Fragment),
+        ("FS_GEOMETRY", Stage::Geometry),
+    ] {
+        let found = found(Host::C, &format!("const char* {name} = R\"({main})\";"));
+        assert_eq!(found.first().and_then(|program| program.first()).map(|(stage, _)| *stage), Some(stage), "{name}");
+    }
+    let text = format!("#define A \"{F}\"\n#define B 1\n#ifdef C\n#define D \"{V}\"\n#endif\n");
+    assert_eq!(found(Host::C, &text).len(), 2);
 }
 
 #[test]

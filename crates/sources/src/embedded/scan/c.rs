@@ -54,12 +54,15 @@ fn raw(cursor: &mut Cursor<'_>, start: usize) -> Option<Literal> {
     Some(Literal { start, inside: inside..end, tag: tag.to_owned(), owner: cursor.owner(), ..Literal::default() })
 }
 
+/// Directives that choose between strings.
+const CONDITIONS: &[&str] = &["if", "ifdef", "ifndef", "elif", "else", "endif"];
+
 /// The strings that follow each other from here on, as one: `"a\n" "b"`. A macro between or before them is a text that is not
-/// known here, and so is what `printf` would complete: there is no shader then.
+/// known here, and so is what `printf` would complete, or what a condition of the preprocessor chooses: there is no shader then.
 fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
     let start = cursor.at;
     let mut literal = Literal { start, owner: cursor.owner(), is_joined: true, ..Literal::default() };
-    let mut is_known = !follows_macro(cursor);
+    let (mut is_known, is_in_directive) = (!follows_macro(cursor), is_in_directive(cursor));
     loop {
         let quote = cursor.at;
         cursor.pass_line_string();
@@ -72,6 +75,10 @@ fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
             break;
         }
         pass_blanks(cursor);
+        while !is_in_directive && passes_condition(cursor) {
+            is_known = false;
+            pass_blanks(cursor);
+        }
         if cursor.byte(0) != b'"' {
             is_known &= !cursor.byte(0).is_ascii_alphabetic() && cursor.byte(0) != b'_';
             break;
@@ -92,6 +99,27 @@ fn follows_macro(cursor: &Cursor<'_>) -> bool {
     let is_macro = name.len() > 1
         && name.chars().all(|letter| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_');
     is_macro && !line.starts_with('#')
+}
+
+/// Whether this place is in the line of a directive, or in one that it is joined with.
+fn is_in_directive(cursor: &Cursor<'_>) -> bool {
+    let mut lines = cursor.text.get(..cursor.at).unwrap_or("").rsplit('\n');
+    let own = lines.next().unwrap_or("");
+    let above = lines.take_while(|line| line.trim_end_matches('\r').ends_with('\\')).last();
+    above.unwrap_or(own).trim_start().starts_with('#')
+}
+
+/// Goes past the line of a condition of the preprocessor, if one is here.
+fn passes_condition(cursor: &mut Cursor<'_>) -> bool {
+    let rest = cursor.rest();
+    let is_one = rest.strip_prefix('#').is_some_and(|rest| {
+        let rest = rest.trim_start_matches([' ', '\t']);
+        CONDITIONS.contains(&rest.split(|letter: char| !letter.is_ascii_alphabetic()).next().unwrap_or(""))
+    });
+    if is_one {
+        cursor.to("\n");
+    }
+    is_one
 }
 
 /// Goes past white space, comments and joined lines.
