@@ -232,7 +232,7 @@ fn allowing_a_finding_leaves_the_text_valid() {
         let action = all.find(|action| action["title"].as_str().is_some_and(|one| one.starts_with(&title)));
         editor.close();
         let edits = action.map(|action| action["edit"].clone());
-        let begins = |edits: &serde_json::Value| {
+        let begins = |edits: &Value| {
             let changes = edits["changes"].as_object().expect("changes").values().next().expect("a file").clone();
             changes[0]["range"]["start"]["line"].as_u64()
         };
