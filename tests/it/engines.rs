@@ -215,6 +215,24 @@ fn a_version_by_name_is_assumed() {
 }
 
 #[test]
+fn iris_lets_a_sampler_have_the_name_of_a_lookup() {
+    let text = "#version 130\nuniform sampler2D texture, noisetex;\nvarying vec2 p;\n\
+                void main() { gl_FragColor = texture2D(texture, p) + texture(noisetex, p); }\n";
+    let folder = Folder::new(&[("a.fsh", text.as_bytes())]);
+    assert_eq!(codes(&folder.lint(&["a.fsh", "--engine", "optifine"]).0), ["E0312"]);
+    assert_eq!(folder.lint(&["a.fsh", "--engine", "iris"]).1, 0);
+    let compiled = folder.run(&["compile", "a.fsh", "--engine", "iris", "--target", "glsl", "-o", "out"]);
+    assert_eq!(code(&compiled), 0, "{}", err(&compiled));
+    let glsl = std::fs::read_to_string(folder.path("out/a.fsh.glsl")).expect("it was written");
+    assert!(glsl.contains("texture(texture_, "), "{glsl}");
+    let other = text
+        .replace("sampler2D texture,", "float texture; uniform sampler2D")
+        .replace("texture2D(texture", "texture2D(noisetex");
+    let folder = Folder::new(&[("a.fsh", other.as_bytes())]);
+    assert_eq!(codes(&folder.lint(&["a.fsh", "--engine", "iris"]).0), ["E0312"]);
+}
+
+#[test]
 fn iris_lets_the_color_stand_beside_outputs() {
     let text = "#version 330 compatibility\nlayout(location = 1) out vec4 o;\nvoid main() { gl_FragColor = vec4(1.0); o = vec4(0.5); }\n";
     let folder = Folder::new(&[("a.fsh", text.as_bytes())]);
@@ -393,6 +411,34 @@ fn hostile_sources_end() {
         assert_eq!(exit, 1, "{file}");
     }
     assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
+}
+
+/// The names tell a vertex and a fragment shader alone, and a third file is between them.
+#[test]
+fn stages_with_an_unnamed_one_between_are_no_pair() {
+    let stages: [(&str, &[u8]); 2] = [
+        ("Vertexshader.glsl", b"#version 330\nin vec3 at;\nvoid main() { gl_Position = vec4(at, 1.0); }\n"),
+        (
+            "Fragmentshader.glsl",
+            b"#version 330\nin vec3 tint;\nout vec4 color;\nvoid main() { color = vec4(tint, 1.0); }\n",
+        ),
+    ];
+    let geometry: &[u8] = b"#version 330\nlayout(points) in;\nlayout(points, max_vertices = 1) out;\nout vec3 tint;\n\
+        void main() { tint = vec3(1.0); gl_Position = gl_in[0].gl_Position; EmitVertex(); }\n";
+    let part: &[u8] = b"// EmitVertex\nvec3 shade(vec3 x) { return x; }\n";
+    let folder = Folder::new(&[stages[0], stages[1], ("part.glsl", part)]);
+    assert_eq!(codes(&folder.lint(&["."]).0), ["E0702"]);
+    let folder = Folder::new(&[stages[0], stages[1], ("Geometrieshader.glsl", geometry)]);
+    let (found, exit) = folder.lint(&["."]);
+    assert_eq!((exit, codes(&found)), (0, vec![]), "{found:?}");
+    let named = folder.lint(&["Vertexshader.glsl", "Fragmentshader.glsl"]);
+    assert_eq!(codes(&named.0), ["E0702"]);
+    let files = ["a_vs.glsl", "a_fs.glsl", "b_vs.glsl", "b_fs.glsl"];
+    let both: Vec<(&str, &[u8])> =
+        files.iter().zip(stages.iter().cycle()).map(|(name, stage)| (*name, stage.1)).collect();
+    let folder = Folder::new(&[&both[..], &[("b_mesh.glsl", geometry)]].concat());
+    let (found, _) = folder.lint(&["."]);
+    assert_eq!((codes(&found), found[0]["file"].as_str()), (vec!["E0702"], Some("a_fs.glsl")));
 }
 
 #[test]

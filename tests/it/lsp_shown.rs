@@ -1,7 +1,7 @@
 //! `glisten lsp`: what an editor chooses, baselines, and messages that are none.
 
-use crate::cli::Folder;
-use crate::editor::Editor;
+use crate::cli::{Folder, codes};
+use crate::editor::{Editor, edited};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{Read, Write};
@@ -202,6 +202,81 @@ fn a_name_of_a_header_is_followed_into_all_programs() {
     assert_eq!(changed.len(), 22, "twenty users, the header, and what includes it: {changed:?}");
     let refused = rename("twice");
     assert!(refused["error"]["message"].as_str().is_some_and(|text| text.contains("twice")), "{refused}");
+    editor.close();
+}
+
+/// The comment is in front of all lines that a backslash joins, and in a host where both have such comments, or in the string.
+#[test]
+fn allowing_a_finding_leaves_the_text_valid() {
+    let condition = "#version 150\n#define A 1\n#if defined(A) && \\\n   B > 1\n#endif\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+    let main = "out vec4 c; uniform float x;\nvoid main() { c = vec4(x); if (x == x) c.r = 1.0; }\n";
+    let joined = format!("const char* fs = \"#version 150\\n\\\n{}\";\n", main.replace('\n', "\\n\\\n"));
+    let long = format!("F = \"\"\"#version 150\n{main}\"\"\"\n");
+    let short = format!("F = \"\"\"{}\"\"\"\n", format!("#version 150\n{main}").replace('\n', "\\n"));
+    for (name, text, code, line) in [
+        ("w.frag", condition, "W0102", Some(2)),
+        ("q.c", &joined, "L0025", Some(0)),
+        ("q.py", &long, "L0025", Some(2)),
+        ("s.py", &short, "L0025", None),
+    ] {
+        let folder = Folder::new(&[(name, text.as_bytes())]);
+        let mut editor = Editor::new(&folder, json!({}));
+        editor.open(name, text);
+        let end = text.matches('\n').count();
+        let range = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": end, "character": 0 } });
+        let ask =
+            json!({ "textDocument": { "uri": editor.uri(name) }, "range": range, "context": { "diagnostics": [] } });
+        let actions = editor.ask("textDocument/codeAction", ask);
+        let title = format!("Allow {code} ");
+        let mut all = actions.as_array().into_iter().flatten();
+        let action = all.find(|action| action["title"].as_str().is_some_and(|one| one.starts_with(&title)));
+        editor.close();
+        let edits = action.map(|action| action["edit"].clone());
+        let begins = |edits: &Value| {
+            let changes = edits["changes"].as_object().expect("changes").values().next().expect("a file").clone();
+            changes[0]["range"]["start"]["line"].as_u64()
+        };
+        assert_eq!(edits.as_ref().and_then(begins), line, "{name}: {actions}");
+        let Some(edits) = edits else { continue };
+        fs::write(folder.path(name), &edited(&folder, &edits)[name]).expect("written");
+        let (found, exit) = folder.lint(&["--embedded", name]);
+        assert!(exit == 0 && !codes(&found).contains(&code), "{name}: {found:?}");
+    }
+}
+
+/// A scene names variables as keys and as values.
+#[test]
+fn a_scene_follows_a_name_wherever_it_has_it() {
+    let vertex = "#version 150\nin vec3 pv, nv;\nuniform mat4 mc, toMap;\nout vec3 n;\n\
+        void main() { n = nv; gl_Position = mc * vec4(pv, 1.0) + toMap[0]; }\n";
+    let fragment = "#version 150\nin vec3 n;\nuniform float rough;\nuniform sampler2D map;\nout vec4 c;\n\
+        void main() { c = texture(map, n.xy) * rough; }\n";
+    let scene = "[framebuffer]\nwidth = 8\nheight = 8\n[stability.sweep]\nrough = \"0..1:3\"\n[stability.range]\n\"toMap[0].x\" = [0, 1]\n\
+        [[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\nuniforms.rough = 1\n\
+        [draw.mesh]\nshape = \"sphere\"\nposition = \"pv\"\nnormal = 'nv'\n[draw.matrices]\nmc = \"model_view_projection\"\n\
+        [draw.textures.map]\ndepths = { camera = { eye = [2, 6, 3], ortho = 4, near = 1, far = 12 }, matrix = \"toMap\" }\n";
+    let files = [("a.vert", vertex.as_bytes()), ("a.frag", fragment.as_bytes()), ("s.toml", scene.as_bytes())];
+    let folder = Folder::new(&files);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.vert", vertex);
+    editor.open("a.frag", fragment);
+    for (name, text, word) in [
+        ("a.vert", vertex, "pv"),
+        ("a.vert", vertex, "nv"),
+        ("a.vert", vertex, "mc"),
+        ("a.vert", vertex, "toMap"),
+        ("a.frag", fragment, "rough"),
+        ("a.frag", fragment, "map"),
+    ] {
+        let mut there = editor.on(name, text, word);
+        there["newName"] = json!("other");
+        let done = edited(&folder, &editor.ask("textDocument/rename", there));
+        let expected = match word {
+            "map" => scene.replace("textures.map", "textures.other"),
+            _ => scene.replace(word, "other"),
+        };
+        assert_eq!(done.get("s.toml"), Some(&expected), "{word}");
+    }
     editor.close();
 }
 

@@ -85,13 +85,19 @@ fn what_cannot_be_upgraded_is_told_and_nothing_is_written() {
         ("wrong.frag", b"void main() { gl_FragColor = missing; }\n"),
         ("new.frag", b"#version 330\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
         ("es.frag", b"#version 300 es\nout mediump vec4 c;\nvoid main() { c = vec4(1.0); }\n"),
+        ("part.frag", b"vec4 tone(vec4 c);\nvoid main() { gl_FragColor = tone(vec4(1.0)); }\n"),
+        ("module.frag", b"vec4 tone(vec4 c) { return c; }\n"),
     ]);
     let es = folder.run(&["upgrade", "es.frag"]);
     assert!(err(&es).contains("newer than the target 1.50") && err(&es).contains("add `--to 300es`"), "{}", err(&es));
     assert_eq!(code(&folder.run(&["upgrade", "es.frag", "--to", "300es"])), 0);
-    for (file, exit, told) in
-        [("clip.vert", 1, "gl_ClipVertex"), ("wrong.frag", 1, "missing"), ("new.frag", 1, "newer than the target 1.50")]
-    {
+    for (file, exit, told) in [
+        ("clip.vert", 1, "gl_ClipVertex"),
+        ("wrong.frag", 1, "missing"),
+        ("new.frag", 1, "newer than the target 1.50"),
+        ("part.frag", 1, "`tone` is called and only declared; if another fragment shader defines it, name all shaders"),
+        ("module.frag", 1, "no source has a `main`"),
+    ] {
         let output = folder.run(&["upgrade", file, "-o", "new"]);
         assert_eq!(code(&output), exit, "{file}: {}", err(&output));
         assert!(err(&output).contains(told), "{file}: {}", err(&output));
@@ -142,6 +148,23 @@ fn words_that_the_new_version_reserves_get_other_names() {
     assert!(out(&output).contains("uniform float buffer_;"), "{}", out(&output));
     let output = folder.run(&["upgrade", "b.frag", "--to", "150"]);
     assert!(out(&output).contains("uniform float buffer;"), "{}", out(&output));
+}
+
+/// In 1.30 and later, a variable may hide a function that old names of lookups become.
+#[test]
+fn variables_give_way_to_the_lookups_of_today() {
+    let code_of = |version: &str| {
+        format!(
+            "#version {version}\nuniform sampler2D texture;\nin vec2 p;\nout vec4 o;\nvoid main() {{ o = texture2D(texture, p); }}\n"
+        )
+    };
+    let folder = Folder::new(&[("a.frag", code_of("130").as_bytes()), ("b.frag", code_of("410 core").as_bytes())]);
+    for (file, to) in [("a.frag", "150"), ("a.frag", "330"), ("a.frag", "vulkan"), ("b.frag", "450")] {
+        let output = folder.run(&["upgrade", file, "--to", to]);
+        assert_eq!(code(&output), 0, "{file} {to}: {}", err(&output));
+        assert!(out(&output).contains("uniform sampler2D texture_;"), "{file} {to}: {}", out(&output));
+        assert!(out(&output).contains("texture(texture_, p)"), "{file} {to}: {}", out(&output));
+    }
 }
 
 /// From GLSL 4.20 on, only outputs are invariant.

@@ -311,6 +311,19 @@ fn a_uniform_may_follow_its_struct_on_a_line() {
     );
 }
 
+/// No blank follows the comma, and none the words that come in its place.
+#[test]
+fn declarations_of_several_names_become_several() {
+    let text = rewritten(
+        "#version 150\nin vec4 a,b;\nuniform sampler2D s,t;\nout vec4 c;\n\
+         void main() { c = a * texture(s, b.xy) * texture(t, b.zw); }\n",
+    );
+    has(
+        &text,
+        &["in vec4 a; layout(location = 1) in vec4 b;\n", "uniform sampler2D s; layout(", ") uniform sampler2D t;\n"],
+    );
+}
+
 #[test]
 fn centers_of_pixels_at_integers_become_vulkans() {
     let source = |layout: &str| {

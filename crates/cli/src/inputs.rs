@@ -316,7 +316,8 @@ pub(crate) fn collect(
             listed.extend(stages_of(name, args, &engines, alone)?);
         }
     }
-    inputs.groups = group(listed);
+    let is_found = |input: &Input| input.path.as_ref().is_some_and(|path| inputs.found.contains(path));
+    inputs.groups = without_gaps(group(listed), &|group| group.inputs.iter().any(is_found));
     inputs.n_by_names = inputs.groups.len();
     inputs.groups.extend(groups);
     Ok(inputs)
@@ -445,6 +446,32 @@ pub(crate) fn group(inputs: Vec<Input>) -> Vec<Group> {
         }
     });
     groups.map(in_pipeline_order).collect()
+}
+
+/// These groups, with each stage alone where the names of files form a program, and the text of another file in the folder shows that a stage
+/// is missing in it: its name tells none.
+pub(crate) fn without_gaps(groups: Vec<Group>, is_guess: &dyn Fn(&Group) -> bool) -> Vec<Group> {
+    let mut of_folder: BTreeMap<PathBuf, Vec<PathBuf>> = BTreeMap::new();
+    let mut has_gap = |group: &Group| {
+        let has_inner = group.inputs.iter().any(|input| input.stage == Stage::Geometry);
+        if !group.has_files() || has_inner || !is_guess(group) {
+            return false;
+        }
+        let folder = group.inputs.first().and_then(|input| input.path.as_deref()?.parent()).unwrap_or(Path::new(""));
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let inner = of_folder.entry(folder.to_owned()).or_insert_with_key(|folder| stages::inner_stages(folder));
+        inner.iter().any(|file| stages::may_be_of(file, &group.name))
+    };
+    let mut all = Vec::with_capacity(groups.len());
+    for group in groups {
+        if has_gap(&group) {
+            let name = group.name;
+            all.extend(group.inputs.into_iter().map(|input| Group::new(name.clone(), vec![input])));
+        } else {
+            all.push(group);
+        }
+    }
+    all
 }
 
 /// Sorts the stages in pipeline order, so that the order on the command line does not matter.

@@ -68,6 +68,8 @@ pub struct Piece {
     pub text: Arc<str>,
     /// The name of its program.
     pub program: String,
+    /// Whether `//` begins a comment outside of the string, too.
+    pub has_own_comments: bool,
 }
 
 /// A macro that conditions ask for and no text defines.

@@ -116,6 +116,11 @@ impl Text {
         self.document().get(range).unwrap_or("").trim_end_matches(['\n', '\r'])
     }
 
+    /// The first of the lines that `\` joins with this one.
+    pub(crate) fn first_joined(&self, line: usize) -> usize {
+        (0..line).rev().take_while(|above| self.line(*above).ends_with('\\')).last().unwrap_or(line)
+    }
+
     /// The offset of a position.
     pub(crate) fn offset(&self, position: Position, encoding: Encoding) -> usize {
         let line = position.line as usize;

@@ -26,7 +26,10 @@ pub fn header(name: &str, program: &Program, reflection: &Reflection) -> String 
         define("BINDING", &sampler.name, sampler.unit.unwrap_or(sampler.texture.binding));
     }
     for block in &reflection.blocks {
-        let own = |one: &&Uniform| one.group == block.group && one.binding == block.binding;
+        // Blocks of several stages may be views of one buffer, of different sizes.
+        let own = |one: &&Uniform| {
+            (one.group, one.binding) == (block.group, block.binding) && one.offset + bytes(one) <= block.size
+        };
         let mut members: Vec<&Uniform> = reflection.uniforms.iter().filter(own).collect();
         members.sort_by_key(|one| one.offset);
         structure(&mut text, &format!("{}_{}", word(name), word(&block.name)), &members, block.size);

@@ -121,6 +121,7 @@ impl Settings {
             resolves_includes: style.is_some(),
             redefines: self.profile.and_then(|profile| profile.redefines).unwrap_or(false),
             mixes_outputs: self.profile.and_then(|profile| profile.mixes_outputs).unwrap_or(false),
+            replaced_samplers: self.profile.map(|profile| profile.replaced_samplers.clone()).unwrap_or_default(),
             unrolls: self.profile.and_then(|profile| profile.unrolls).unwrap_or(false),
         };
         prepared.problems = added.problems;

@@ -1,10 +1,11 @@
 //! The stage of a shader, by the name of its file.
 
-use super::engines::code::{names_function, without_comments};
+use super::engines::code::{names_function, without_comments, words};
+use super::settings::members;
 use glisten_front::hir::Stage;
 use std::fs;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// File extensions, with their stages.
 static EXTENSIONS: &[(&str, Stage)] = &[
@@ -181,6 +182,31 @@ pub fn is_tessellated(folder: &Path, stem: &str) -> bool {
     const TESSELLATION: [&str; 4] = ["tesc", "tese", "tcs", "tes"];
     let names = |word: &str| [format!("{stem}.{word}"), format!("{stem}.{word}.glsl"), format!("{stem}_{word}.glsl")];
     TESSELLATION.iter().flat_map(|word| names(word)).any(|name| folder.join(name).is_file())
+}
+
+/// Names that stages between the vertex and the fragment stage alone have.
+const OF_INNER_STAGES: [&str; 4] = ["EmitVertex", "gl_TessCoord", "gl_TessLevelOuter", "gl_TessLevelInner"];
+
+/// The files of a folder that are stages between the vertex and the fragment stage by their texts, and of no stage by their names.
+pub fn inner_stages(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let is_one = |path: &PathBuf| {
+        let is_unnamed = may_be_included(path) && by_name(path).is_none() && unread(path).is_none();
+        let text = || fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
+        is_unnamed && path.is_file() && is_inner(&text(), path)
+    };
+    entries.filter(is_one).collect()
+}
+
+fn is_inner(text: &str, path: &Path) -> bool {
+    let code = without_comments(text);
+    words(&code).any(|(_, word)| OF_INNER_STAGES.contains(&word)) && members(Some(path), text).is_empty()
+}
+
+/// Whether a file whose name tells no stage may be of the program with a stem.
+pub fn may_be_of(file: &Path, stem: &str) -> bool {
+    let own = |name: &str| name.to_lowercase();
+    stem == NAMELESS || file.file_name().is_some_and(|name| own(&name.to_string_lossy()).starts_with(&own(stem)))
 }
 
 /// The extension for a stage.

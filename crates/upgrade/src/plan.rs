@@ -145,6 +145,11 @@ pub struct Text<'t> {
 }
 
 impl Text<'_> {
+    /// Whether its version is one of ES, which has precisions.
+    pub(super) fn is_of_es(&self) -> bool {
+        version(self.version).profile == Profile::Es
+    }
+
     /// Whether a backslash joins lines in its version.
     pub(super) fn joins_lines(&self) -> bool {
         version(self.version).has(Feature::LineContinuation)
@@ -329,6 +334,7 @@ impl<'t> Planner<'t> {
         // ES 3.00 lets nobody define a built-in function again (§6.1).
         let keeps_own = target.is_for_vulkan() || target == Target::Es300;
         let mut declared = declared_functions(texts, is_old, keeps_own);
+        declared.extend(hiding_variables(texts));
         if target == Target::Es300 {
             declared.extend(globals_named_as_functions(texts));
         }
@@ -463,7 +469,12 @@ impl<'t> Planner<'t> {
 
     /// `gl_FragColor` and `gl_FragData`.
     fn outputs(&mut self, texts: &[Text<'_>]) {
-        let precision = if self.plan.target == Target::Es300 { "mediump " } else { "" };
+        // `gl_FragColor` of ES is `mediump`; other languages know no precisions.
+        let precision = match self.plan.target {
+            Target::Es300 if texts.iter().any(Text::is_of_es) => "mediump ",
+            Target::Es300 => "highp ",
+            _ => "",
+        };
         let stage = Stage::Fragment;
         if self.uses(stage, "gl_FragData") {
             let name = self.free("fragData");
@@ -527,8 +538,31 @@ fn globals_named_as_functions<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
     found
 }
 
-/// The names of old lookups under which the texts declare variables: after a word, and not before arguments.
+/// The names of old lookups under which the texts declare variables.
 fn declared_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    declared(texts, |name| lookup(name).is_some())
+}
+
+/// The variables that would hide a function that is called in place of an old lookup. Texts of 1.30 and later may call both
+/// `texture2D` and `texture`, so a name that a text calls stays, as does one that members have.
+fn hiding_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
+    let (mut kept, mut new) = (BTreeSet::new(), BTreeSet::new());
+    for text in texts {
+        let all = tokens(text.text);
+        for (token, next) in all.iter().zip(all.iter().skip(1)) {
+            if next.text == "(" {
+                kept.insert(token.text);
+                new.extend(lookup(token.text).map(|lookup| lookup.name));
+            } else if token.text == "." {
+                kept.insert(next.text);
+            }
+        }
+    }
+    declared(texts, |name| FUNCTIONS.contains(&name) && new.contains(name) && !kept.contains(name))
+}
+
+/// The names of a kind under which the texts declare variables: after a word, and not before arguments.
+fn declared<'t>(texts: &[Text<'t>], is_of_kind: impl Fn(&str) -> bool) -> BTreeSet<&'t str> {
     let mut found = BTreeSet::new();
     for text in texts {
         let all = tokens(text.text);
@@ -536,7 +570,7 @@ fn declared_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
         let declared = pairs.filter(|((before, token), after)| {
             let is_type = before.is_word()
                 && !["return", "else", "define", "defined", "ifdef", "ifndef", "undef"].contains(&before.text);
-            is_type && lookup(token.text).is_some() && [";", ",", ")", "=", "["].contains(&after.text)
+            is_type && is_of_kind(token.text) && [";", ",", ")", "=", "["].contains(&after.text)
         });
         found.extend(declared.map(|((_, token), _)| token.text));
     }
@@ -602,6 +636,15 @@ mod tests {
         let lines: Vec<&str> = plan.declarations(Stage::Fragment).collect();
         assert_eq!(lines, ["in vec4 frontColor;", "in vec4 texCoord[2];", "out vec4 fragColor;"]);
         assert_eq!(plain_name("gl_ModelViewMatrix"), "modelViewMatrix");
+    }
+
+    #[test]
+    fn variables_do_not_hide_what_is_called_in_place_of_old_lookups() {
+        let plan = |code| Plan::new(&[Text { version: 130, ..text(code, Stage::Fragment) }], Target::Core330);
+        let word = |code| plan(code).word(Stage::Fragment, "texture").map(str::to_owned);
+        assert_eq!(word("uniform sampler2D texture; f(texture2D(texture, p));").as_deref(), Some("texture_"));
+        assert_eq!(word("uniform sampler2D texture; f(texelFetch(texture, p, 0));"), None);
+        assert_eq!(word("f(texture2D(s, p) + texture(s, p)); { sampler2D texture; }"), None);
     }
 
     #[test]

@@ -12,8 +12,10 @@ use glisten_sources::engines::code::without_comments;
 use std::cmp::Reverse;
 use std::ops::Range;
 
-/// The samplers without a default precision.
+/// The samplers, the ones with a default precision of fewer bits first (GLSL ES 3.00 §4.5.4).
 static SAMPLERS: &[&str] = &[
+    "sampler2D",
+    "samplerCube",
     "sampler3D",
     "sampler2DShadow",
     "samplerCubeShadow",
@@ -60,7 +62,7 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
         version_edit(text, plan.target, version, &code, &mut edits);
         let mut declarations: Vec<String> = plan.declarations(text.stage).map(str::to_owned).collect();
         if plan.target == Target::Es300 {
-            declarations.splice(0..0, precisions(text.stage, &all));
+            declarations.splice(0..0, precisions(text, &all));
         }
         if !declarations.is_empty() {
             let (place, gap) = above_comment(text.text, &code, first_code(&code, &lines));
@@ -103,15 +105,26 @@ fn with_names(text: &Text<'_>, plan: &Plan) -> String {
     applied(text.text, edits.collect())
 }
 
-/// The default precisions that ES lacks, for the types that a stage uses (GLSL ES 3.00 §4.5.4).
-fn precisions(stage: Stage, all: &[Token<'_>]) -> Vec<String> {
+/// The number of samplers with a default precision.
+const N_WITH_DEFAULTS: usize = 2;
+
+/// The default precisions that ES lacks, for the types that a stage uses, and, for a text of no ES, those that have fewer bits than it has
+/// (GLSL ES 3.00 §4.5.4).
+fn precisions(text: &Text<'_>, all: &[Token<'_>]) -> Vec<String> {
     let is_set = |ty: &str| {
         all.windows(3).any(|words| matches!(words, [word, _, of] if word.text == "precision" && of.text == ty))
     };
     let uses = |ty: &str| all.iter().any(|token| token.text == ty);
-    let samplers = SAMPLERS.iter().copied().filter(|ty| uses(ty));
-    let float = (stage == Stage::Fragment).then_some("float");
-    float.into_iter().chain(samplers).filter(|ty| !is_set(ty)).map(|ty| format!("precision highp {ty};")).collect()
+    let known = if text.is_of_es() { N_WITH_DEFAULTS } else { 0 };
+    let samplers = SAMPLERS.iter().copied().skip(known).filter(|ty| uses(ty));
+    let is_fragment = text.stage == Stage::Fragment;
+    let is_whole = |token: &Token<'_>| {
+        let word = token.text.trim_end_matches(['2', '3', '4']);
+        ["int", "uint", "ivec", "uvec", "include"].contains(&word)
+    };
+    let int = (is_fragment && !text.is_of_es() && all.iter().any(is_whole)).then_some("int");
+    let types = is_fragment.then_some("float").into_iter().chain(int).chain(samplers);
+    types.filter(|ty| !is_set(ty)).map(|ty| format!("precision highp {ty};")).collect()
 }
 
 /// The text with its replacements, which do not overlap. New lines end as those of the text.

@@ -9,6 +9,7 @@
 use super::{Code, Diagnostic, Group, Key, Severity};
 use crate::source::{SourceFile, SourceMap};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// The treatment of a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,21 +110,34 @@ impl Levels {
     }
 }
 
-/// Whether a comment on the diagnostic's line, or on comment-only lines directly above it, allows the code.
+/// Whether a comment on the diagnostic's line, or on comment-only lines directly above it, allows the code. Lines that `\` joins are one.
 fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
     let Some(at) = sources.location(sources.call_site(diagnostic.primary.span)) else { return false };
     let file = sources.file(at.file);
     let allows = |line: &str| allowed(line).any(|key| Key::find(key).is_some_and(|key| key.names(diagnostic.code)));
-    if file.line(at.line).is_some_and(allows) {
-        return true;
-    }
-    (1..at.line).rev().map_while(|number| file.line(number).filter(|line| is_comment(line))).any(allows)
+    let joined = joined_lines(file, at.line);
+    let above = (1..*joined.start()).rev();
+    joined.filter_map(|number| file.line(number)).any(allows)
+        || above.map_while(|number| file.line(number).filter(|line| is_comment(line))).any(allows)
 }
 
-/// The last line whose findings a comment on this line of a file allows: the first one that has more than comments.
-pub(crate) fn last_allowed_line(file: &SourceFile, comment: u32) -> u32 {
+/// The lines of a file whose findings a comment on this line allows: those that are one with it, or, below lines of comments, with the first
+/// one that has more.
+pub(crate) fn allowed_lines(file: &SourceFile, comment: u32) -> RangeInclusive<u32> {
     let comments = (comment..).take_while(|number| file.line(*number).is_some_and(is_comment)).count();
-    comment.saturating_add(u32::try_from(comments).unwrap_or(u32::MAX))
+    let last = comment.saturating_add(u32::try_from(comments).unwrap_or(u32::MAX));
+    *joined_lines(file, comment).start()..=*joined_lines(file, last).end()
+}
+
+/// The largest number of lines above or below a line that are taken for one with it.
+const MAX_JOINED: u32 = 256;
+
+/// The lines that `\` joins with this one.
+fn joined_lines(file: &SourceFile, line: u32) -> RangeInclusive<u32> {
+    let goes_on = |number: &u32| file.line(*number).is_some_and(|line| line.ends_with('\\'));
+    let above = (line.saturating_sub(MAX_JOINED)..line).rev().take_while(goes_on).last();
+    let below = (line..line.saturating_add(MAX_JOINED)).take_while(goes_on).last();
+    above.unwrap_or(line)..=below.map_or(line, |last| last + 1)
 }
 
 /// The codes in a line's `// glisten: allow(CODE, CODE)`, in any case and with any white space, in either kind of comment.
@@ -216,6 +230,9 @@ mod tests {
             ("// glisten: allow(W0001)\nint y;\nint x;\n", 3, false),
             ("int x; //glisten:allow(W0001)\n", 1, true),
             ("/* Glisten: allow (W0001) */\nint x;\n", 2, true),
+            ("// glisten: allow(W0001)\n#if A && \\\r\n  B\n", 3, true),
+            ("#if A && \\\n  B // glisten: allow(W0001)\n", 1, true),
+            ("// glisten: allow(W0001)\n#if A\n  B\n", 3, false),
             ("int x; // glisten: allow(W0101)\n", 1, false),
             ("int x; // glisten: allow(W0001\n", 1, false),
         ] {

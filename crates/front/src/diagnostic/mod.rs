@@ -22,7 +22,7 @@ pub use advice::{Advice, Place};
 pub use codes::{Area, Code, Example, Key};
 pub use fix::{Applicability, Edit, Fix};
 pub use group::{Fixable, Group, LintInfo};
-pub(crate) use levels::last_allowed_line;
+pub(crate) use levels::allowed_lines;
 pub use levels::{Level, Levels};
 pub use patch::Patch;
 pub(crate) use plural::plural;

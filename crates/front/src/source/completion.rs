@@ -44,6 +44,8 @@ pub struct Completion {
     pub redefines: bool,
     /// Whether the engine makes outputs of `gl_FragColor` and `gl_FragData`, so that they may stand next to declared ones.
     pub mixes_outputs: bool,
+    /// The names of samplers that the engine replaces where they are no call, so that they hide no built-in function.
+    pub replaced_samplers: Vec<String>,
     /// Whether the engine unrolls loops between `#pragma unroll_loop_start` and `#pragma unroll_loop_end`.
     pub unrolls: bool,
 }

@@ -67,6 +67,8 @@ pub struct Ast {
     pub asked: Vec<bool>,
     /// Whether an engine makes outputs of `gl_FragColor` and `gl_FragData`.
     pub mixes_outputs: bool,
+    /// The names of samplers that an engine replaces where they are no call.
+    pub replaced_samplers: Vec<String>,
     /// The directives and comments that the preprocessor met.
     pub directives: Directives,
 }

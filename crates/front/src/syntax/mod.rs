@@ -80,6 +80,7 @@ pub fn parse(
     ast.macros = outcome.macros;
     ast.asked = outcome.asked;
     ast.mixes_outputs = options.completion.mixes_outputs;
+    ast.replaced_samplers.clone_from(&options.completion.replaced_samplers);
     ast.directives = outcome.directives;
     ast.names = session.names;
     ast
@@ -101,6 +102,7 @@ fn empty_tree() -> Ast {
         macros: Vec::new(),
         asked: Vec::new(),
         mixes_outputs: false,
+        replaced_samplers: Vec::new(),
         directives: Directives::default(),
     }
 }

@@ -69,17 +69,30 @@ fn quick(state: &State<'_>, analysis: &Rc<Analysis>, finding: &Finding, path: &P
             add(fix.title.clone(), workspace_edit(state, changes.into_iter().collect()), is_safe);
         }
     }
-    if !finding.is_error() || finding.severity != finding.code.severity {
-        let line = shown.range.start.line;
-        let at = Position { line, character: 0 };
-        let document = state.documents.get(path);
-        let text = document.map(|document| document.text.line(line as usize).to_owned()).unwrap_or_default();
-        let indent = text.get(..text.len() - text.trim_start().len()).unwrap_or("");
-        let new_text = format!("{indent}// glisten: allow({})\n", finding.code.id);
-        let edit = TextEdit { range: Range { start: at, end: at }, new_text };
+    let can_be_allowed = !finding.is_error() || finding.severity != finding.code.severity;
+    if let Some(edit) = can_be_allowed.then(|| allowing(state, finding, path, shown.range.start)).flatten() {
         let title = format!("Allow {} ({}) here", finding.code.id, finding.code.name);
         add(title, workspace_edit(state, vec![(path.to_owned(), vec![edit])]), false);
     }
+}
+
+/// The comment that allows a finding, above its line: above the first one, if `\` joins several. Nothing if that is in no shader, and a
+/// host has other comments.
+fn allowing(state: &State<'_>, finding: &Finding, path: &Path, start: Position) -> Option<TextEdit> {
+    let text = &state.documents.get(path)?.text;
+    let line = text.first_joined(start.line as usize);
+    let place = text.start_of(line);
+    let offset = text.offset(start, state.encoding);
+    let pieces = state.pieces(path).unwrap_or_default();
+    let piece = pieces.iter().find(|piece| piece.inside.start <= offset && offset <= piece.inside.end);
+    if piece.is_some_and(|piece| place < piece.inside.start && !piece.has_own_comments) {
+        return None;
+    }
+    let code = text.line(line);
+    let indent = code.get(..code.len() - code.trim_start().len()).unwrap_or("");
+    let at = Position { line: u32::try_from(line).ok()?, character: 0 };
+    let new_text = format!("{indent}// glisten: allow({})\n", finding.code.id);
+    Some(TextEdit { range: Range { start: at, end: at }, new_text })
 }
 
 /// The edits of a fix by file; `None` if one of them is in no file, or in a macro's body.

@@ -1,7 +1,7 @@
 //! Scene files that name variables of a program: the keys to change with a rename.
 //!
 //! *In:* the places of a symbol, and the scenes of the workspace. *Out:* edits. *Holds:* only draws with the program's own files count;
-//! a key is a path through members (`lights[0].position`), and the part that is the symbol is changed.
+//! a name is a path through members (`lights[0].position`), and the part that is the symbol is changed.
 
 use super::definition::InProgram;
 use crate::analysis::Analysis;
@@ -10,13 +10,17 @@ use crate::text::Text;
 use glisten_front::analysis::Denoted;
 use glisten_front::hir::{Storage, Type, TypeId};
 use glisten_front::index::SymbolId;
+use glisten_scene::roles::AttributeRole;
 use lsp_types::TextEdit;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
 use toml::de::{DeTable, DeValue};
 
 /// The tables of a draw whose keys are names of variables.
-const TABLES: &[&str] = &["uniforms", "textures", "attributes", "attribute_locations", "frag_data_locations"];
+const TABLES: &[&str] =
+    &["uniforms", "textures", "attributes", "attribute_locations", "frag_data_locations", "matrices"];
+/// The tables of `[stability]` whose keys are names of uniforms.
+const RANGES: &[&str] = &["sweep", "range"];
 /// The keys of a draw that name a file of a program.
 const FILES: &[&str] = &["vertex", "geometry", "fragment"];
 
@@ -134,29 +138,55 @@ fn sampler(texture: &DeValue<'_>) -> Option<String> {
 
 /// Where a scene names a symbol.
 fn in_scene(analysis: &Analysis, symbol: SymbolId, path: &Path, text: &str) -> Vec<Range<usize>> {
-    let mut ranges = Vec::new();
+    let (mut names, mut is_drawn) = (Vec::new(), false);
     each_draw(path, text, &analysis.key.files, |draw| {
-        for table in TABLES.iter().filter_map(|key| draw.get(*key)?.get_ref().as_table()) {
-            for (key, _) in table {
-                ranges.extend(in_key(analysis, symbol, text, key.span()));
-            }
-        }
-        if let Some(DeValue::Array(names)) = draw.get("dynamic").map(|node| node.get_ref()) {
-            for name in names {
-                ranges.extend(in_key(analysis, symbol, text, name.span()));
-            }
-        }
+        is_drawn = true;
+        names.extend(named_in_draw(draw));
     });
-    ranges
+    if is_drawn {
+        names.extend(named_in_ranges(text));
+    }
+    names.into_iter().filter_map(|name| in_name(analysis, symbol, text, name)).collect()
 }
 
-/// The part of a key that is the symbol.
-fn in_key(analysis: &Analysis, symbol: SymbolId, text: &str, key: Range<usize>) -> Option<Range<usize>> {
-    let written = text.get(key.clone())?;
+/// The names of variables in a draw: keys, and values that are names.
+fn named_in_draw(draw: &DeTable<'_>) -> Vec<Range<usize>> {
+    let mut names: Vec<Range<usize>> = TABLES.iter().flat_map(|key| keys(draw, key)).collect();
+    if let Some(DeValue::Array(all)) = draw.get("dynamic").map(|node| node.get_ref()) {
+        names.extend(all.iter().map(|name| name.span()));
+    }
+    if let Some(mesh) = table(draw, "mesh") {
+        names.extend(AttributeRole::ALL.iter().filter_map(|role| mesh.get(role.name())).map(|name| name.span()));
+    }
+    let textures = table(draw, "textures").into_iter().flat_map(DeTable::values);
+    let depths = textures.filter_map(|texture| table(texture.get_ref().as_table()?, "depths"));
+    names.extend(depths.filter_map(|depths| depths.get("matrix")).map(|name| name.span()));
+    names
+}
+
+/// The names of uniforms in the ranges that a scene states.
+fn named_in_ranges(text: &str) -> Vec<Range<usize>> {
+    let Ok(document) = DeTable::parse(text) else { return Vec::new() };
+    let stability = table(document.get_ref(), "stability");
+    stability.into_iter().flat_map(|stability| RANGES.iter().flat_map(|key| keys(stability, key))).collect()
+}
+
+fn table<'d, 't>(within: &'d DeTable<'t>, key: &str) -> Option<&'d DeTable<'t>> {
+    within.get(key)?.get_ref().as_table()
+}
+
+/// The places of the keys of a table.
+fn keys(within: &DeTable<'_>, key: &str) -> Vec<Range<usize>> {
+    table(within, key).into_iter().flat_map(DeTable::keys).map(|key| key.span()).collect()
+}
+
+/// The part of a name that is the symbol.
+fn in_name(analysis: &Analysis, symbol: SymbolId, text: &str, name: Range<usize>) -> Option<Range<usize>> {
+    let written = text.get(name.clone())?;
     let quotes = written.len() - written.trim_start_matches(['"', '\'']).len();
     let path = written.trim_matches(['"', '\'']);
     let mut parts: Vec<Range<usize>> = Vec::new();
-    let mut at = key.start + quotes;
+    let mut at = name.start + quotes;
     for part in path.split('.') {
         let name = part.split('[').next().unwrap_or("");
         parts.push(at..at + name.len());

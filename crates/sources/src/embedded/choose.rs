@@ -75,8 +75,9 @@ const FOREIGN: &[&str] =
 /// The shader of a string.
 pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {
     let inside = text.get(literal.inside.clone())?;
-    let joined = literal.is_joined.then(|| super::text::decoded(inside, literal.inside.start, &literal.escapes));
-    let inside = joined.as_deref().unwrap_or(inside);
+    let has_escapes = !literal.escapes.is_empty();
+    let decoded = has_escapes.then(|| super::text::decoded(inside, literal.inside.start, &literal.escapes));
+    let inside = decoded.as_deref().unwrap_or(inside);
     let before = tail(text.get(..literal.start)?, MAX_BEFORE);
     let (before, comment) = last_comment(before);
     let tag = parts_of(&literal.tag);
@@ -98,7 +99,9 @@ pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {
     let own = || OWN.iter().find(|(word, _)| has(&code, word)).map(|(_, stage)| *stage);
     let called = || parts_of(segment(before)).iter().rev().find_map(|word| stage_of(word));
     let is_whole = count_definitions(&code, "main") > 0;
-    let stated = [&said, &tag, &parts].into_iter().find_map(|words| words.iter().find_map(|word| stage_of(word)));
+    let told = || [&said, &tag].into_iter().find_map(|words| words.iter().find_map(|word| stage_of(word)));
+    // `GEOMETRY_PASS_FS` is of a pass for geometry: the last word counts.
+    let stated = told().or_else(|| parts.iter().rev().find_map(|word| stage_of(word)));
     let stage = if is_whole { own().or(stated) } else { stated.or_else(own) };
     let stage = stage.or_else(called).unwrap_or(Stage::Fragment);
     let stem: Vec<String> =
@@ -107,6 +110,7 @@ pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {
         stage,
         inside: literal.inside.clone(),
         is_whole,
+        is_joined: literal.is_joined,
         escapes: literal.escapes.clone(),
         holes: literal.holes.iter().map(|range| hole(text, literal, range.clone())).collect(),
         place: (literal.owner, stem.join(" ")),

@@ -84,6 +84,8 @@ pub struct Shader {
     pub inside: Range<usize>,
     /// Whether it has a `main`. Others are pieces, which lack what is put before them.
     pub(crate) is_whole: bool,
+    /// Whether the string is made of strings that follow each other, so that a line of it is none of the file.
+    is_joined: bool,
     escapes: Vec<Escape>,
     holes: Vec<Hole>,
     /// The bracket of the host that it is in, and its name there without the stage.

@@ -30,6 +30,15 @@ pub(super) struct Literal {
     pub(super) holes: Vec<Range<usize>>,
 }
 
+impl Literal {
+    /// Puts escapes and interpolations in order; of those that overlap, the first one counts.
+    fn sort(&mut self) {
+        self.escapes.sort_by_key(|escape| escape.range.start);
+        self.holes.sort_by_key(|hole| hole.start);
+        self.holes.dedup_by(|next, hole| next.start < hole.end);
+    }
+}
+
 /// The strings of a text.
 pub(super) fn literals(host: Host, text: &str) -> Vec<Literal> {
     match host {
@@ -154,31 +163,39 @@ fn find(bytes: &[u8], from: usize, word: &[u8]) -> Option<usize> {
     rest.windows(word.len()).position(|window| window == word).map(|at| from + at)
 }
 
-/// The escape at a backslash of a language that has those of C. A line that is continued has none: GLSL continues it, too.
+/// The escape at a backslash before the end of a line, if one is here: a language of which it joins both lines leaves out both.
+fn joined_lines(text: &str, at: usize) -> Option<Escape> {
+    let rest = text.get(at + 1..)?;
+    let end = ["\r\n", "\n", "\r"].into_iter().find(|end| rest.starts_with(end))?;
+    Some(Escape { range: at..at + 1 + end.len(), means: Some(b' ') })
+}
+
+/// The escape at a backslash of a language that has those of C.
 fn escape(text: &str, at: usize) -> Escape {
     let rest = text.get(at + 1..).unwrap_or("");
     let first = rest.chars().next().unwrap_or(' ');
-    let code = |digits: usize| {
-        let digits = rest.get(1..).map_or(0, |rest| {
-            let rest = rest.chars().take(digits);
-            rest.take_while(char::is_ascii_hexdigit).count()
-        });
-        let value = rest.get(1..1 + digits).and_then(|text| u32::from_str_radix(text, 16).ok());
-        (1 + digits, value.and_then(|value| u8::try_from(value).ok()).filter(u8::is_ascii))
+    // The length of a number of at most so many digits, from an offset on, and the character that it is.
+    let number = |from: usize, digits: usize, radix: u32| {
+        let rest = rest.get(from..).unwrap_or("");
+        let digits = rest.chars().take(digits).take_while(|digit| digit.is_digit(radix)).count();
+        let value = rest.get(..digits).and_then(|text| u32::from_str_radix(text, radix).ok());
+        let ascii = value.and_then(|value| u8::try_from(value).ok()).filter(u8::is_ascii);
+        (from + digits, ascii.map(|sign| if sign == 0 { b' ' } else { sign }))
     };
     let (length, means) = match first {
         'n' => (1, Some(b'\n')),
         'r' => (1, Some(b'\r')),
         't' => (1, Some(b'\t')),
-        'f' | 'v' | 'b' | 'a' | '0' => (1, Some(b' ')),
-        'x' => code(2),
+        'f' | 'v' | 'b' | 'a' => (1, Some(b' ')),
+        '0'..='7' => number(0, 3, 8),
+        'x' => number(1, 2, 16),
         'u' if rest.starts_with("u{") => {
             let end = rest.find('}').unwrap_or(1);
             let value = rest.get(2..end).and_then(|text| u32::from_str_radix(text, 16).ok());
             (end + 1, value.and_then(|value| u8::try_from(value).ok()).filter(u8::is_ascii))
         }
-        'u' => code(4),
-        'U' => code(8),
+        'u' => number(1, 4, 16),
+        'U' => number(1, 8, 16),
         other if other.is_ascii() => (1, Some(other as u8)),
         other => (other.len_utf8(), None),
     };

@@ -28,7 +28,12 @@ fn shader_in_style(text: &str, shader: &Shader, format: &mut dyn FnMut(&str) -> 
     let is_in_code = |range: &std::ops::Range<usize>| {
         code.get(range.start - start..range.end - start).is_none_or(|code| !code.trim().is_empty())
     };
-    if shader.escapes.iter().any(|escape| is_in_code(&escape.range)) {
+    // Where the host joins lines, GLSL joins them, too.
+    let joins_lines = |range: &std::ops::Range<usize>| {
+        text.get(range.clone()).is_some_and(|escape| escape.starts_with('\\') && escape.ends_with(['\n', '\r']))
+    };
+    let changes_code = |range: &std::ops::Range<usize>| is_in_code(range) && !joins_lines(range);
+    if shader.is_joined || shader.escapes.iter().any(|escape| changes_code(&escape.range)) {
         return None;
     }
     let (filled, words) = filled(inside, shader)?;
@@ -37,13 +42,14 @@ fn shader_in_style(text: &str, shader: &Shader, format: &mut dyn FnMut(&str) -> 
         return None;
     }
     let margin = margin(&filled);
-    let begins_below = first.trim().is_empty();
+    let begins_below = matches!(first.trim(), "" | "\\");
     let body = if begins_below { filled.get(first.len() + 1..)? } else { &filled };
     // The blanks before the closing quote are the host's.
     let tail = body.rfind('\n').map_or("", |end| body.get(end + 1..).unwrap_or(""));
     let tail = if tail.trim().is_empty() { tail } else { "" };
     let ends_below = body.ends_with('\n') || !tail.is_empty();
     let formatted = format(&without_margin(body, &margin));
+    let line_end = if formatted.ends_with("\r\n") { "\r\n" } else { "\n" };
     let formatted = formatted.trim_end_matches(['\n', '\r']);
     let mut new = String::with_capacity(inside.len());
     if begins_below {
@@ -60,7 +66,7 @@ fn shader_in_style(text: &str, shader: &Shader, format: &mut dyn FnMut(&str) -> 
         new.push_str(line);
     }
     if ends_below {
-        new.push('\n');
+        new.push_str(line_end);
         new.push_str(tail);
     }
     restored(&new, &words)

@@ -67,12 +67,32 @@ fn other_strings_are_left_alone() {
         (Host::C, "const char* a = R\"(#version 430\nlayout(local_size_x = 1) in; void main() {})\";".to_owned()),
         (Host::C, format!("f(\"#version %d\\n{F}\", 3); const char* s = HEADER \"{F}\"; const char* t = \"{F}\" END;")),
         (Host::C, "const char* s = \"void main() { vec4 a; }".to_owned()),
+        (
+            Host::C,
+            format!("const char* s =\n#if A\n\"#version 330\\n\"\n#else\n\"#version 150\\n\"\n# endif\n\"{F}\";\n"),
+        ),
         (Host::Python, "a = '''void main''' # glsl".to_owned()),
         (Host::Python, format!("def f():\n    '''{F}'''\n")),
         (Host::Script, format!("const a = `{F}`.replace(/A/g, b);")),
     ] {
         assert_eq!(found(host, &text), Vec::<Vec<(Stage, String)>>::new(), "{text}");
     }
+}
+
+#[test]
+fn the_last_word_of_a_name_tells_the_stage() {
+    let main = "#version 330\nout vec4 c; void main() { c = vec4(1.0); }";
+    for (name, stage) in [
+        ("GEOMETRY_PASS_FS", Stage::Fragment),
+        ("GEOMETRY_OUTPUT_FRAGMENT_SHADER", Stage::Fragment),
+        ("geometryFragmentSource", Stage::Fragment),
+        ("FS_GEOMETRY", Stage::Geometry),
+    ] {
+        let found = found(Host::C, &format!("const char* {name} = R\"({main})\";"));
+        assert_eq!(found.first().and_then(|program| program.first()).map(|(stage, _)| *stage), Some(stage), "{name}");
+    }
+    let text = format!("#define A \"{F}\"\n#define B 1\n#ifdef C\n#define D \"{V}\"\n#endif\n");
+    assert_eq!(found(Host::C, &text).len(), 2);
 }
 
 #[test]
@@ -108,6 +128,46 @@ fn strings_of_c_that_follow_each_other_are_one() {
         "{masked:?}"
     );
     assert_eq!(masked.find("void main"), text.find("void main"));
+}
+
+#[test]
+fn lines_that_a_host_joins_are_one_line() {
+    for (host, text) in [
+        (Host::Python, "FRAG = '''\\\n#version 150 // a \\\r\nx\nvoid main() { gl_FragColor = vec4(1.0); }'''\n"),
+        (Host::Script, "const FRAG = `\\\n#version 150 // a \\\r\nx\nvoid main() { gl_FragColor = vec4(1.0); }`;\n"),
+        (
+            Host::C,
+            "const char* frag = \"\\\n#version 150 // a \\\r\nx\\n\\\nvoid main() { gl_FragColor = vec4(1.0); }\";\n",
+        ),
+    ] {
+        let programs = programs(host, text);
+        let masked = programs[0].shaders[0].text(text, Filling::Name);
+        assert_eq!(masked.len(), text.len());
+        let lines: Vec<String> =
+            masked.trim().lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+        assert_eq!(lines, ["#version 150 // a x", "void main() { gl_FragColor = vec4(1.0); }"], "{text}");
+    }
+}
+
+#[test]
+fn numbers_of_characters_are_read() {
+    let text = "const char* f = \"void main() { gl_FragColor = vec4(1.0)\\x3b \\175\\0\";";
+    let expected = vec![vec![(Stage::Fragment, "void main() { gl_FragColor = vec4(1.0) ; }".to_owned())]];
+    assert_eq!(found(Host::C, text), expected);
+}
+
+#[test]
+fn conversions_of_python_are_interpolations() {
+    let main = "void main() { gl_FragColor = vec4(";
+    let of = |text: &str| found(Host::Python, text).into_iter().flatten().map(|(_, text)| text).collect::<Vec<_>>();
+    for (text, expected) in [
+        (format!("f = '''{main}1 %% 2, %d, %.2f, 1); }}''' % (a, b)"), format!("{main}1 % 2, ho, hooo, 1); }}")),
+        (format!("f = '''{main}a %(alpha)s, 1); }}'''"), format!("{main}a hoooooooo, 1); }}")),
+        (format!("f = '''{main}%s, a %d); }}'''\ng = f % 1"), format!("{main}ho, a ho); }}")),
+        (format!("f = '''{main}a %d, b % c); /* %s */ }}'''"), format!("{main}a %d, b % c); /* %s */ }}")),
+    ] {
+        assert_eq!(of(&text), [expected], "{text}");
+    }
 }
 
 #[test]

@@ -82,6 +82,8 @@ struct Settings {
     redefines: Option<bool>,
     /// Whether the engine makes outputs of `gl_FragColor` and `gl_FragData`, besides declared ones.
     mixes_outputs: Option<bool>,
+    /// The names of samplers that the engine replaces where they are no call, so that they hide no built-in function.
+    replaced_samplers: Vec<String>,
     /// Whether the engine unrolls the loops between two pragmas.
     unrolls: Option<bool>,
     /// The kind of files next to the sources that describe programs.
@@ -122,6 +124,8 @@ pub struct Profile {
     pub redefines: Option<bool>,
     /// Whether the engine makes outputs of `gl_FragColor` and `gl_FragData`, besides declared ones.
     pub mixes_outputs: Option<bool>,
+    /// The names of samplers that the engine replaces where they are no call, so that they hide no built-in function.
+    pub replaced_samplers: Vec<String>,
     /// Whether the engine unrolls the loops between two pragmas.
     pub unrolls: Option<bool>,
     /// Whether files of JSON next to the sources describe programs, with macros.
@@ -199,6 +203,7 @@ fn load((name, text, preludes): &Embedded) -> Profile {
         parts: settings.parts,
         redefines: settings.redefines,
         mixes_outputs: settings.mixes_outputs,
+        replaced_samplers: settings.replaced_samplers,
         unrolls: settings.unrolls,
         has_program_files: settings.programs.as_deref() == Some("json"),
         has_isf_header: settings.header.as_deref() == Some("isf"),
@@ -238,6 +243,7 @@ impl Profile {
             parts: self.parts.or(base.parts),
             redefines: self.redefines.or(base.redefines),
             mixes_outputs: self.mixes_outputs.or(base.mixes_outputs),
+            replaced_samplers: [self.replaced_samplers, base.replaced_samplers].concat(),
             unrolls: self.unrolls.or(base.unrolls),
             define_pragma: self.define_pragma.or(base.define_pragma),
             defines,

@@ -246,7 +246,17 @@ impl<'a> Text<'a> {
         }
         let comma = one.token.checked_sub(1).filter(|at| self.chunks.word(*at) == ",")?;
         let head = self.head(&one.chunk)?;
-        Some((self.chunks.place(comma), format!("; layout({}) {head}", words.join(", "))))
+        Some(self.begun_at(comma, format!("; layout({}) {head}", words.join(", "))))
+    }
+
+    /// A declaration that begins in place of a comma. A blank follows its words: `in vec4 a,b;` has none.
+    fn begun_at(&self, comma: usize, mut words: String) -> Edit {
+        let place = self.chunks.place(comma);
+        let next = self.chunks.text.get(place.end..).and_then(|rest| rest.chars().next());
+        if !next.is_some_and(char::is_whitespace) {
+            words.push(' ');
+        }
+        (place, words)
     }
 
     /// The words of a declaration before its first name, without its layout.
@@ -286,10 +296,7 @@ impl<'a> Text<'a> {
             let comma = one.token.checked_sub(1).filter(|at| self.chunks.word(*at) == ",");
             let words = self.head(&one.chunk).unwrap_or_default();
             let plain: Vec<&str> = words.split(' ').filter(|word| !self.is_of_varyings(word)).collect();
-            return comma
-                .map(|comma| (self.chunks.place(comma), format!("; {}", plain.join(" "))))
-                .into_iter()
-                .collect();
+            return comma.map(|comma| self.begun_at(comma, format!("; {}", plain.join(" ")))).into_iter().collect();
         }
         let mut edits: Vec<Edit> = Vec::new();
         let mut index = one.chunk.tokens.start;

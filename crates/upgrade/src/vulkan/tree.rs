@@ -23,6 +23,8 @@ use super::{Compiled, Key};
 use crate::tokens::tokens;
 use glisten_front::builtin::{BuiltinVariable, functions};
 use glisten_front::compiler::Compilation;
+use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::codes::link::{LONE_WITHOUT_DEFINITION, UNDEFINED_FUNCTION};
 use glisten_front::hir::{ExprKind, SamplerDim, Shader, Stage, Type, TypeId, Types};
 use glisten_front::syntax::keywords;
 use std::collections::{BTreeMap, BTreeSet};
@@ -113,9 +115,7 @@ fn sound<'a>(
     dialect: Option<&Dialect>,
 ) -> Result<&'a glisten_front::link::Program, String> {
     let Some(program) = compilation.program.as_ref().filter(|_| !compilation.diagnostics.has_errors()) else {
-        let first = compilation.diagnostics.iter().find(|found| found.is_error());
-        let without_main = || "no source has a `main`: it is a part of other programs".to_owned();
-        return Err(first.map_or_else(without_main, |error| error.message.clone()));
+        return Err(lacking(compilation));
     };
     let Some(dialect) = dialect else { return Ok(program) };
     if program.stage(Stage::Geometry).is_some() && !dialect.geometry {
@@ -127,6 +127,20 @@ fn sound<'a>(
     }
     program.stages.iter().try_for_each(|shader| refuse(shader, &program.types))?;
     Ok(program)
+}
+
+/// Why a compilation is none of a program.
+fn lacking(compilation: &Compilation) -> String {
+    let found = || compilation.diagnostics.iter();
+    let is_undefined = |found: &&Diagnostic| [&LONE_WITHOUT_DEFINITION, &UNDEFINED_FUNCTION].contains(&found.code);
+    match found().find(|found| found.is_error()).or_else(|| found().find(is_undefined)) {
+        Some(one) if is_undefined(&one) => {
+            let help = one.help.as_ref().map(|help| format!("; {help}"));
+            format!("{}{}", one.message, help.unwrap_or_default())
+        }
+        Some(error) => error.message.clone(),
+        None => "no source has a `main`: it is a part of other programs".to_owned(),
+    }
 }
 
 /// Refuses what no edit says in Vulkan's terms.

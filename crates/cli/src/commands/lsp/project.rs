@@ -322,7 +322,7 @@ impl Project for Files<'_> {
         let engines = self.session.engines().clone();
         let is_taken = |path: &PathBuf| path == file || matches!(search::classify(path, &engines), Some(Ok(())));
         let inputs = listed.iter().filter(|path| is_taken(path)).flat_map(|path| self.inputs(path)).collect();
-        let groups = inputs::group(inputs).into_iter();
+        let groups = inputs::without_gaps(inputs::group(inputs), &|_| true).into_iter();
         let has = |group: &Group| group.inputs.iter().any(|input| input.path.as_deref() == Some(file));
         groups.filter(has).map(|group| self.keep(group)).collect()
     }
@@ -517,10 +517,11 @@ impl Project for Files<'_> {
     fn pieces(&self, file: &Path, text: &str) -> Option<Vec<Piece>> {
         let programs = strings::programs(file, text)?;
         let inputs = strings::inputs_in(file, text);
+        let has_own_comments = Host::of(file) != Some(Host::Python);
         let mut pieces = Vec::new();
         for (input, shader) in inputs.iter().zip(programs.iter().flat_map(|program| &program.shaders)) {
             let text = shader.text(text, Filling::Name);
-            pieces.push(Piece { inside: shader.inside.clone(), text, program: input.stem() });
+            pieces.push(Piece { inside: shader.inside.clone(), text, program: input.stem(), has_own_comments });
         }
         Some(pieces)
     }

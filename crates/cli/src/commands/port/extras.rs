@@ -29,9 +29,10 @@ pub(super) fn add(
             let path = Path::new(kind).join(&place).join(format!("{stem}.{extension}"));
             path.to_string_lossy().replace('\\', "/")
         };
+        let whole = first.rsplit_once('.').map_or(first.as_str(), |(stem, _)| stem);
         let mut new = if host.has_header { reflection(program) } else { reflect(program, &Conventions::default()) };
         if host.has_header {
-            folder.add(&name("include", "h"), header(&stem, program, &new).into_bytes());
+            folder.add(&name("include", "h"), header(whole, program, &new).into_bytes());
         }
         new.compact();
         let json = serde_json::to_string_pretty(&new).unwrap_or_default() + "\n";
@@ -41,9 +42,7 @@ pub(super) fn add(
             wgsl(program, &name, folder);
         }
         if host.has_rust && one.report.new.len() == 2 {
-            let module =
-                first.rsplit_once('.').map_or(first.as_str(), |(stem, _)| stem).replace(['/', '.', '-', ' '], "_");
-            pairs.push((module, compilation));
+            pairs.push((whole.replace(['/', '.', '-', ' '], "_"), compilation));
         }
     }
     if !pairs.is_empty() {

@@ -14,7 +14,7 @@ use crate::builtin::functions;
 use crate::diagnostic::codes::general::NOT_SUPPORTED_YET;
 use crate::diagnostic::codes::{names, types};
 use crate::diagnostic::{Advice, Diagnostic, did_you_mean};
-use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, TypeId};
+use crate::hir::{ExprId, ExprKind, FunctionId, ParamMode, Type, TypeId, VarRef};
 use crate::language::Feature;
 use crate::source::Span;
 use crate::syntax::ast::{self, Ident};
@@ -33,7 +33,7 @@ impl Analyzer<'_> {
             self.arguments(arguments);
             return self.poison(span);
         }
-        let binding = self.scopes.find_called(name.symbol);
+        let binding = self.scopes.find_called(name.symbol).filter(|found| !self.is_replaced(name, found.entry));
         if let Some(binding) = binding {
             self.note_binding(name.span, binding);
         } else if !functions::named(self.name(name)).is_empty() {
@@ -80,6 +80,13 @@ impl Analyzer<'_> {
                 self.poison(span)
             }
         }
+    }
+
+    /// Whether an engine gives another name to a sampler, so that a call is one of the built-in function.
+    fn is_replaced(&self, name: Ident, entry: Entry) -> bool {
+        let Entry::Variable(VarRef::Global(id)) = entry else { return false };
+        self.ast.replaced_samplers.iter().any(|one| one == self.name(name))
+            && matches!(self.types.get(self.shader.global(id).ty), Type::Sampler(_))
     }
 
     /// Whether a call of a function of the shader is one of the built-in function that it overloads (GLSL ES 1.00 §8).

@@ -1,28 +1,30 @@
 //! `uninitialized-read`: reads a local, an `out` parameter, an output or another global before anything can have been assigned to it.
 //!
 //! The traversal follows the text. An earlier assignment on any path counts, and the assignments in a loop count from
-//! its first line on. Globals count in `main`, up to the first call of a function, which may assign them. So the rule errs on the side of
-//! silence.
+//! its first line on. Globals count in `main`, up to the first call of a function that may assign them. An `inout` argument is read if the
+//! function reads it before it assigns it. So the rule errs on the side of silence.
 
 use super::super::{Findings, Subject, running};
 use crate::hir::written_by;
-use crate::hir::{ExprId, ExprKind, Function, Global, LocalKind, ParamMode, Shader, Stmt, StmtKind, Storage, VarRef};
+use crate::hir::{
+    ExprId, ExprKind, Function, FunctionId, Global, GlobalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, Storage,
+    VarRef,
+};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let program = subject.program;
     for shader in &program.stages {
+        let callees = callees(shader);
         for (function, body) in running(shader) {
-            let assigned = function.locals.iter().enumerate().map(|(index, local)| {
-                index < function.param_count && local.kind != LocalKind::Param(ParamMode::Out)
-                    || local.kind == LocalKind::Const
-            });
+            let assigned = given(function, &[ParamMode::Out]);
             let is_main = function.name == "main";
             let is_unset = |global: &Global| {
                 matches!(global.storage, Storage::Out | Storage::Private) && global.initializer.is_none()
             };
             let globals = shader.globals.iter().map(|global| !(is_main && is_unset(global)));
-            let (assigned, globals) = (assigned.collect(), globals.collect());
-            let mut walk = Walk { shader, function, assigned, globals, reads: Vec::new() };
+            let globals = globals.collect();
+            let mut walk = Walk { shader, function, callees: &callees, assigned, globals, reads: Vec::new() };
             walk.body(body);
             for (variable, read) in walk.reads {
                 let (name, declared) = match variable {
@@ -38,9 +40,78 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     }
 }
 
+/// For each local, whether it has a value where the function begins: a constant, and a parameter that has none of these modes.
+fn given(function: &Function, without: &[ParamMode]) -> Vec<bool> {
+    let has_none = |kind| matches!(kind, LocalKind::Param(mode) if without.contains(&mode));
+    let given =
+        function.locals.iter().enumerate().map(|(index, local)| {
+            index < function.param_count && !has_none(local.kind) || local.kind == LocalKind::Const
+        });
+    given.collect()
+}
+
+/// The largest number of globals that are told apart in a call.
+const MAX_GLOBALS: usize = 64;
+
+/// What a call does to the variables of its caller.
+#[derive(Default)]
+struct Callee {
+    /// The parameters that are read before they are assigned, by their places.
+    reads: FxHashSet<usize>,
+    /// The globals that it may assign; any, if there is no list.
+    assigns: Option<FxHashSet<GlobalId>>,
+}
+
+/// The functions that `main` reaches and that have a body.
+fn callees(shader: &Shader) -> FxHashMap<FunctionId, Callee> {
+    let mut callees: FxHashMap<FunctionId, Callee> = FxHashMap::default();
+    for id in shader.main.map(|main| shader.callees_first(main)).unwrap_or_default() {
+        let function = shader.function(id);
+        let Some(body) = &function.body else { continue };
+        let assigned = given(function, &[ParamMode::Out, ParamMode::Inout]);
+        let globals = vec![true; shader.globals.len()];
+        let mut walk = Walk { shader, function, callees: &callees, assigned, globals, reads: Vec::new() };
+        walk.body(body);
+        let parameter = |(variable, _): &(VarRef, ExprId)| match variable {
+            VarRef::Local(id) => Some(id.index()),
+            VarRef::Global(_) => None,
+        };
+        let callee = Callee {
+            reads: walk.reads.iter().filter_map(parameter).collect(),
+            assigns: globals_of(shader, body, &callees),
+        };
+        callees.insert(id, callee);
+    }
+    callees
+}
+
+/// The globals that statements may assign.
+fn globals_of(shader: &Shader, body: &[Stmt], callees: &FxHashMap<FunctionId, Callee>) -> Option<FxHashSet<GlobalId>> {
+    let mut found: Option<FxHashSet<GlobalId>> = Some(FxHashSet::default());
+    shader.visit_body(body, &mut |expr| {
+        let Some(all) = &mut found else { return };
+        written_by(shader, expr, &mut |target| {
+            if let Some(VarRef::Global(id)) = shader.root_variable(target) {
+                all.insert(id);
+            }
+        });
+        if let ExprKind::Call(callee, _) = shader.expr(expr).kind {
+            match callees.get(&callee).and_then(|callee| callee.assigns.as_ref()) {
+                Some(more) => all.extend(more),
+                None => found = None,
+            }
+        }
+        if found.as_ref().is_some_and(|all| all.len() > MAX_GLOBALS) {
+            found = None;
+        }
+    });
+    found
+}
+
 struct Walk<'a> {
     shader: &'a Shader,
     function: &'a Function,
+    callees: &'a FxHashMap<FunctionId, Callee>,
     /// Whether each local is assigned.
     assigned: Vec<bool>,
     /// Whether each global is assigned.
@@ -131,8 +202,11 @@ impl Walk<'_> {
             written_by(shader, expr, &mut |target| {
                 shader.root_variable(target).into_iter().for_each(|variable| self.assign(variable));
             });
-            if matches!(shader.expr(expr).kind, ExprKind::Call(..)) {
-                self.globals.fill(true);
+            if let ExprKind::Call(callee, _) = shader.expr(expr).kind {
+                match self.callees.get(&callee).and_then(|callee| callee.assigns.as_ref()) {
+                    Some(globals) => globals.iter().for_each(|id| self.assign(VarRef::Global(*id))),
+                    None => self.globals.fill(true),
+                }
             }
         });
     }
@@ -148,13 +222,15 @@ impl Walk<'_> {
                 self.assign_in(id);
             }
             ExprKind::Call(function, arguments) => {
+                let reads = self.callees.get(function).map(|callee| &callee.reads);
                 let function = shader.function(*function);
                 for (index, &argument) in arguments.iter().enumerate() {
-                    if function.param_mode(index) == ParamMode::Out {
-                        self.indices(argument)
-                    } else {
-                        self.expr(argument)
-                    }
+                    let is_read = match function.param_mode(index) {
+                        ParamMode::Out => false,
+                        ParamMode::Inout => reads.is_some_and(|reads| reads.contains(&index)),
+                        _ => true,
+                    };
+                    if !is_read { self.indices(argument) } else { self.expr(argument) }
                 }
                 self.assign_in(id);
             }

@@ -4,9 +4,10 @@
 //! the findings of other phases.
 
 use super::super::{Findings, Subject};
-use crate::diagnostic::{Applicability, Code, Key, last_allowed_line};
+use crate::diagnostic::{Applicability, Code, Key, allowed_lines};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let mut found = Found::new(subject.texts.sources(), findings);
@@ -44,8 +45,8 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
 struct Found<'a> {
     sources: &'a SourceMap,
     by_line: BTreeMap<(FileId, u32), Vec<&'static Code>>,
-    /// The last run of lines that are comments alone: from where it was looked at, and the line after it.
-    run: Option<(FileId, u32, u32)>,
+    /// The lines that the last comment was about, if lines of comments alone followed it.
+    run: Option<(FileId, RangeInclusive<u32>)>,
 }
 
 impl<'a> Found<'a> {
@@ -62,12 +63,10 @@ impl<'a> Found<'a> {
     /// The codes of the findings that a comment may silence.
     fn allowed_by(&mut self, comment: Span) -> Vec<&'static Code> {
         let Some(at) = self.sources.location(self.sources.call_site(comment)) else { return Vec::new() };
-        let is_in = |(file, first, last): &(FileId, u32, u32)| *file == at.file && (*first..=*last).contains(&at.line);
-        let last = match self.run.filter(is_in) {
-            Some((_, _, last)) => last,
-            None => last_allowed_line(self.sources.file(at.file), at.line),
-        };
-        self.run = Some((at.file, at.line, last));
-        self.by_line.range((at.file, at.line)..=(at.file, last)).flat_map(|(_, codes)| codes).copied().collect()
+        let known = self.run.take().filter(|(file, lines)| *file == at.file && lines.contains(&at.line));
+        let lines = known.map_or_else(|| allowed_lines(self.sources.file(at.file), at.line), |(_, lines)| lines);
+        self.run = Some((at.file, lines.clone()));
+        let range = (at.file, *lines.start())..=(at.file, *lines.end());
+        self.by_line.range(range).flat_map(|(_, codes)| codes).copied().collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The strings of C and C++: raw ones (C++11 §2.14.5), which compilers of C take, too, and others, of which those that follow each
 //! other are one.
 
-use super::{Cursor, Escape, Literal, is_word};
+use super::{Cursor, Escape, Literal, escape, is_word, joined_lines};
 
 /// The prefixes of raw strings.
 const PREFIXES: &[&str] = &["R", "LR", "uR", "UR", "u8R"];
@@ -54,12 +54,15 @@ fn raw(cursor: &mut Cursor<'_>, start: usize) -> Option<Literal> {
     Some(Literal { start, inside: inside..end, tag: tag.to_owned(), owner: cursor.owner(), ..Literal::default() })
 }
 
+/// Directives that choose between strings.
+const CONDITIONS: &[&str] = &["if", "ifdef", "ifndef", "elif", "else", "endif"];
+
 /// The strings that follow each other from here on, as one: `"a\n" "b"`. A macro between or before them is a text that is not
-/// known here, and so is what `printf` would complete: there is no shader then.
+/// known here, and so is what `printf` would complete, or what a condition of the preprocessor chooses: there is no shader then.
 fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
     let start = cursor.at;
     let mut literal = Literal { start, owner: cursor.owner(), is_joined: true, ..Literal::default() };
-    let mut is_known = !follows_macro(cursor);
+    let (mut is_known, is_in_directive) = (!follows_macro(cursor), is_in_directive(cursor));
     loop {
         let quote = cursor.at;
         cursor.pass_line_string();
@@ -72,6 +75,10 @@ fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
             break;
         }
         pass_blanks(cursor);
+        while !is_in_directive && passes_condition(cursor) {
+            is_known = false;
+            pass_blanks(cursor);
+        }
         if cursor.byte(0) != b'"' {
             is_known &= !cursor.byte(0).is_ascii_alphabetic() && cursor.byte(0) != b'_';
             break;
@@ -94,6 +101,27 @@ fn follows_macro(cursor: &Cursor<'_>) -> bool {
     is_macro && !line.starts_with('#')
 }
 
+/// Whether this place is in the line of a directive, or in one that it is joined with.
+fn is_in_directive(cursor: &Cursor<'_>) -> bool {
+    let mut lines = cursor.text.get(..cursor.at).unwrap_or("").rsplit('\n');
+    let own = lines.next().unwrap_or("");
+    let above = lines.take_while(|line| line.trim_end_matches('\r').ends_with('\\')).last();
+    above.unwrap_or(own).trim_start().starts_with('#')
+}
+
+/// Goes past the line of a condition of the preprocessor, if one is here.
+fn passes_condition(cursor: &mut Cursor<'_>) -> bool {
+    let rest = cursor.rest();
+    let is_one = rest.strip_prefix('#').is_some_and(|rest| {
+        let rest = rest.trim_start_matches([' ', '\t']);
+        CONDITIONS.contains(&rest.split(|letter: char| !letter.is_ascii_alphabetic()).next().unwrap_or(""))
+    });
+    if is_one {
+        cursor.to("\n");
+    }
+    is_one
+}
+
 /// Goes past white space, comments and joined lines.
 fn pass_blanks(cursor: &mut Cursor<'_>) {
     loop {
@@ -111,21 +139,8 @@ fn escapes(text: &str, range: std::ops::Range<usize>, list: &mut Vec<Escape>) {
     let mut at = range.start;
     while let Some(place) = text.get(at..range.end).and_then(|rest| rest.find('\\')) {
         let from = at + place;
-        let sign = text.as_bytes().get(from + 1).copied().unwrap_or(0);
-        let means = match sign {
-            b'n' => Some(b'\n'),
-            b't' => Some(b'\t'),
-            b'r' => Some(b'\r'),
-            b'"' | b'\'' | b'\\' | b'?' => Some(sign),
-            // A line that ends in `\` goes on in the next one.
-            b'\n' => Some(b' '),
-            _ => None,
-        };
-        let mut end = (from + 2).min(range.end);
-        while !text.is_char_boundary(end) {
-            end += 1;
-        }
-        list.push(Escape { range: from..end, means });
-        at = end;
+        let found = joined_lines(text, from).unwrap_or_else(|| escape(text, from));
+        at = found.range.end;
+        list.push(found);
     }
 }

@@ -1,9 +1,12 @@
 //! The strings of Python in three quotes (The Python Language Reference §2.4).
 //!
-//! *Holds:* in an f-string, and in one that `.format(` follows, `{{` is a brace and `{..}` an interpolation.
+//! *Holds:* in an f-string, and in one that `.format(` follows, `{{` is a brace and `{..}` an interpolation. In one that `%` completes,
+//! `%%` is a percent sign and a conversion such as `%d` or `%(name)s` an interpolation (The Python Standard Library, "printf-style String
+//! Formatting").
 
 use super::rust::add_fields;
-use super::{Cursor, Literal, escape, find};
+use super::{Cursor, Escape, Literal, escape, find, is_word, joined_lines};
+use crate::engines::code::without_comments;
 
 /// The strings of a text.
 pub(super) fn literals(text: &str) -> Vec<Literal> {
@@ -34,6 +37,7 @@ pub(super) fn literals(text: &str) -> Vec<Literal> {
                 if prefix.contains(['f', 't']) || after.starts_with(".format(") {
                     add_fields(text, &mut literal);
                 }
+                add_conversions(text, &mut literal, after.starts_with('%'));
                 if is_taken {
                     found.push(literal);
                 }
@@ -64,6 +68,54 @@ fn add_templates(text: &str, literal: &mut Literal) {
     }
 }
 
+/// Notes the conversions of a string that `%` completes, where it is or later. Of the latter they have names, or one of them is where GLSL
+/// has no `%`.
+fn add_conversions(text: &str, literal: &mut Literal, is_completed: bool) {
+    let inside = text.get(literal.inside.clone()).unwrap_or("");
+    if !inside.contains('%') {
+        return;
+    }
+    let is_completed = is_completed || is_foreign(&without_comments(inside));
+    let mut at = 0;
+    while let Some(sign) = inside.get(at..).and_then(|rest| rest.find('%')).map(|sign| at + sign) {
+        let rest = inside.get(sign + 1..).unwrap_or("");
+        let length = conversion(rest).filter(|_| is_completed || rest.starts_with('('));
+        at = sign + 1 + length.unwrap_or(0);
+        let range = literal.inside.start + sign..literal.inside.start + at;
+        if length.is_some() {
+            literal.holes.push(range);
+        } else if is_completed && rest.starts_with('%') {
+            at += 1;
+            literal.escapes.push(Escape { range: range.start..range.end + 1, means: Some(b'%') });
+        }
+    }
+    literal.sort();
+}
+
+/// Whether a conversion is where GLSL has no operator: after no operand, or in the line of a directive.
+fn is_foreign(code: &str) -> bool {
+    code.match_indices('%').any(|(at, _)| {
+        let before = code.get(..at).unwrap_or("");
+        let is_directive = before.rsplit('\n').next().unwrap_or("").trim_start().starts_with('#');
+        let is_after_operand =
+            before.trim_end().ends_with(|sign: char| is_word(sign) || matches!(sign, ')' | ']' | '.' | '%'));
+        let rest = code.get(at + 1..).unwrap_or("");
+        (is_directive || !is_after_operand) && !rest.starts_with(' ') && conversion(rest).is_some()
+    })
+}
+
+/// The length of a conversion after its `%`.
+fn conversion(rest: &str) -> Option<usize> {
+    let mut after = rest;
+    if let Some(name) = rest.strip_prefix('(') {
+        after = name.get(name.find(')')? + 1..)?;
+    }
+    let after = after.trim_start_matches(|sign: char| "#0- +".contains(sign));
+    let after = after.trim_start_matches(|sign: char| sign.is_ascii_digit() || matches!(sign, '*' | '.'));
+    let after = after.trim_start_matches(['h', 'l', 'L']);
+    after.starts_with(|kind: char| "diouxXeEfFgGcrsa".contains(kind)).then(|| rest.len() - after.len() + 1)
+}
+
 /// The string in three quotes that begins here. Nothing if it is not closed.
 fn long(cursor: &mut Cursor<'_>, three: &str, is_raw: bool) -> Option<Literal> {
     let mut literal = Literal { owner: cursor.owner(), ..Literal::default() };
@@ -76,12 +128,12 @@ fn long(cursor: &mut Cursor<'_>, three: &str, is_raw: bool) -> Option<Literal> {
             return Some(literal);
         }
         match cursor.byte(0) {
-            b'\\' if is_raw || matches!(cursor.byte(1), b'\n' | b'\r') => {
+            b'\\' if is_raw => {
                 cursor.at += 1;
                 cursor.step();
             }
             b'\\' => {
-                let escape = escape(cursor.text, cursor.at);
+                let escape = joined_lines(cursor.text, cursor.at).unwrap_or_else(|| escape(cursor.text, cursor.at));
                 cursor.at = escape.range.end;
                 literal.escapes.push(escape);
             }

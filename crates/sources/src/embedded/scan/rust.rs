@@ -154,7 +154,5 @@ pub(super) fn add_fields(text: &str, literal: &mut Literal) {
             _ => at += 1,
         }
     }
-    literal.escapes.sort_by_key(|escape| escape.range.start);
-    literal.holes.sort_by_key(|hole| hole.start);
-    literal.holes.dedup_by(|next, hole| next.start < hole.end);
+    literal.sort();
 }

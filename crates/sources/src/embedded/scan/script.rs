@@ -3,7 +3,7 @@
 //! *Holds:* an interpolation is passed over whole, with the strings, templates and brackets in it. Whether a slash begins a regular
 //! expression is told by what is before it.
 
-use super::{Cursor, Literal, escape, is_word};
+use super::{Cursor, Literal, escape, is_word, joined_lines};
 
 /// Words after which a slash begins a regular expression.
 const BEFORE_EXPRESSIONS: &[&str] =
@@ -88,12 +88,12 @@ fn template(cursor: &mut Cursor<'_>, is_raw: bool) -> Option<Literal> {
                 cursor.at += 1;
                 return Some(literal);
             }
-            b'\\' if matches!(cursor.byte(1), b'\n' | b'\r') || is_raw => {
+            b'\\' if is_raw => {
                 cursor.at += 1;
                 cursor.step();
             }
             b'\\' => {
-                let escape = escape(cursor.text, cursor.at);
+                let escape = joined_lines(cursor.text, cursor.at).unwrap_or_else(|| escape(cursor.text, cursor.at));
                 cursor.at = escape.range.end;
                 literal.escapes.push(escape);
             }
