@@ -187,6 +187,8 @@ fn what_the_language_leaves_undefined_has_a_class_and_a_place() {
         // Drivers differ in what `!=` says of a NaN, and none in an infinity.
         ("    float i = 1.0 / (e - 0.25); if (q.x > 0.5) if (i - i != e) c.x = q.y;\n", "comparison with NaN", 2016),
         ("    float i = 1.0 / (e - 0.25); if (q.x > 0.5) if (i != e) c.x = q.y;\n", "", 0),
+        // Drivers fold a product with 0.0, and `isnan` with it.
+        ("    float i = 1.0 / (e - 0.25); if (q.x > 0.5) if (isnan(i * 0.0)) c.x = q.y;\n", "`isnan` of a NaN", 2016),
         // What is undefined here reaches no pixel.
         ("    float d = smoothstep(e, e, q.y) * 0.0; if (q.x > 0.5) c.x = q.y;\n", "", 0),
         // An infinity of a division by zero is one on every GPU.

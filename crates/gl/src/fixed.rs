@@ -26,6 +26,8 @@ const S: u32 = 0x2000;
 const OBJECT_PLANE: u32 = 0x2501;
 const EYE_PLANE: u32 = 0x2502;
 const CLAMP_VERTEX_COLOR: u32 = 0x891A;
+const FLAT: u32 = 0x1D00;
+const SMOOTH: u32 = 0x1D01;
 const VERTEX_PROGRAM_TWO_SIDE: u32 = 0x8643;
 const POINT_SPRITE: u32 = 0x8861;
 const VERTEX_ARRAY: u32 = 0x8074;
@@ -63,6 +65,7 @@ pub(super) fn set(api: &Api, old: &Old, draw: &FixedDraw) -> Result<(), Error> {
     matrix(old, MODEL_VIEW, &state.model_view.to_cols_array());
     let clamp = if draw.switches.unclamped_colors { 0 } else { 1 };
     (old.clamp_color)(CLAMP_VERTEX_COLOR, clamp);
+    (old.shade_model)(if draw.switches.flat_colors { FLAT } else { SMOOTH });
     if draw.switches.two_side {
         api.enable(VERTEX_PROGRAM_TWO_SIDE);
     } else {

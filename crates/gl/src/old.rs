@@ -44,6 +44,7 @@ old! {
     texture_generation: "glTexGenfv" = fn(u32, u32, &[f32; 4]);
     color_material: "glColorMaterial" = fn(u32, u32);
     clamp_color: "glClampColor" = fn(u32, u32);
+    shade_model: "glShadeModel" = fn(u32);
     enable_array: "glEnableClientState" = fn(u32);
     client_unit: "glClientActiveTexture" = fn(u32);
     vertex_pointer: "glVertexPointer" = fn(i32, u32, i32, usize);

@@ -68,7 +68,7 @@ pub enum Positions {
     /// Those of f32 arithmetic, in every domain: pictures of different domains cover the same pixels.
     #[default]
     Shared,
-    /// Those of the domain.
+    /// Those of the domain, with its clip distances and its sizes of points.
     Own,
 }
 

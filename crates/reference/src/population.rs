@@ -10,7 +10,7 @@
 
 use crate::domain::{Gpu, Simulated};
 use crate::pipeline::{self, PixelSet, Study};
-use crate::{Precision, RenderOptions};
+use crate::{Positions, Precision, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_scene::Scene;
 use glisten_scene::compare::Population;
@@ -73,7 +73,8 @@ fn drawn_by(
     options: &RenderOptions,
     pixels: Option<&PixelSet>,
 ) -> Result<Picture, Vec<Diagnostic>> {
-    let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..*options };
+    let own = RenderOptions { positions: Positions::Own, ..*options };
+    let options = RenderOptions { precision: Precision::F32, mark_edges: false, ..own };
     let gpu = gpu.on(&options.profile);
     gpu.enter();
     let drawn = pipeline::render_studied::<Simulated>(scene, &options, Study { gpu: Some(gpu), pixels, ..Study::NONE });

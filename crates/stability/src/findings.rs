@@ -54,6 +54,8 @@ pub struct WorstPixel {
     pub x: u32,
     /// The row from the top.
     pub y: u32,
+    /// The attachment in which that is.
+    pub attachment: u32,
     /// Its color in f32; `None` for a channel that is not finite.
     pub f32: [Option<f64>; 4],
     /// Its exact color.
@@ -153,8 +155,9 @@ fn figures(scene: &Scene, examined: &Examination) -> Result<PictureFigures, Vec<
         None => None,
         Some(index) => {
             let [x, y] = errors.place(index);
+            let attachment = examined.attachment_at(index);
             let color = |picture: &glisten_scene::picture::Picture| {
-                let pixel = picture.attachments.first().and_then(|pixels| pixels.get(index)).copied();
+                let pixel = picture.attachments.get(attachment).and_then(|pixels| pixels.get(index)).copied();
                 pixel.unwrap_or_default().map(finite)
             };
             let inputs = inputs_at(scene, [x, y])?;
@@ -162,6 +165,7 @@ fn figures(scene: &Scene, examined: &Examination) -> Result<PictureFigures, Vec<
             Some(WorstPixel {
                 x,
                 y,
+                attachment: attachment as u32,
                 f32: color(&examined.single),
                 exact: color(&examined.exact),
                 inputs: inputs.collect(),

@@ -400,6 +400,7 @@ impl Ctx<'_, '_> {
         match builtin {
             B::VertexId => self.index_input(&global.name, BuiltIn::VertexIndex),
             B::InstanceId => self.index_input(&global.name, BuiltIn::InstanceIndex),
+            B::PrimitiveId if self.low.draws_sprites() => self.sprite_number(&global.name),
             B::PrimitiveId => self.index_input(&global.name, BuiltIn::PrimitiveIndex),
             B::SampleId => self.index_input(&global.name, BuiltIn::SampleIndex),
             B::SampleMaskIn => {

@@ -169,6 +169,8 @@ struct Lower<'a> {
     functions: Vec<Option<Lowered>>,
     helpers: aggregates::Helpers,
     hidden: Vec<(u32, naga::Handle<naga::GlobalVariable>)>,
+    /// Whether the fragment stage reads the number of its primitive.
+    reads_primitive_id: bool,
     /// The uniform buffer with the viewport's size, where points are drawn as quads.
     viewport: Option<naga::Handle<naga::GlobalVariable>>,
     /// Whether the invocation has been discarded, in targets where it continues and a loop has to know.
@@ -207,6 +209,7 @@ impl<'a> Lower<'a> {
             functions: vec![None; shader.functions.len()],
             helpers: aggregates::Helpers::default(),
             hidden: Vec::new(),
+            reads_primitive_id: program.stage(Stage::Fragment).is_some_and(sprites::reads_primitive_id),
             viewport: None,
             discarded: None,
             diagnostics: Vec::new(),

@@ -7,7 +7,7 @@
 use super::function::Ctx;
 use super::interface::{path_name, plain_location, varying_binding};
 use super::slots::{GlobalSlot, LocalSlot, OutputMember, OutputSource};
-use super::sprites::{coordinate_binding, coordinate_location};
+use super::sprites::{coordinate_binding, coordinate_location, number_binding, number_location};
 use super::{Try, lacking};
 use crate::target::{ClipZ, SpirvEnv, WindowOrigin};
 use glisten_front::builtin::BuiltinVariable;
@@ -82,6 +82,14 @@ impl Ctx<'_, '_> {
                 binding: coordinate_binding(coordinate_location(self.low.interface)),
                 source: OutputSource::PointCoord,
             });
+            if self.low.reads_primitive_id {
+                members.push(OutputMember {
+                    name: "point_number".to_owned(),
+                    ty: self.low.value_type(TypeId::UINT)?,
+                    binding: number_binding(number_location(self.low.interface)),
+                    source: OutputSource::PointNumber,
+                });
+            }
         }
         self.clip_distances(&mut members)?;
         self.point_size(&mut members)?;
@@ -222,6 +230,10 @@ impl Ctx<'_, '_> {
             OutputSource::PointCoord => match &self.corner {
                 Some(corner) => Ok(corner.coordinate),
                 None => Err(self.internal_error("a point has no corners")),
+            },
+            OutputSource::PointNumber => match self.corner.and_then(|corner| corner.number) {
+                Some(number) => Ok(number),
+                None => Err(self.internal_error("a point has no number")),
             },
             OutputSource::PointSize => match self.low.builtin_global(BuiltinVariable::PointSize) {
                 Some(global) => self.output_part(global, 0, TypeId::FLOAT),

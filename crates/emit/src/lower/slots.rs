@@ -69,6 +69,8 @@ pub(super) enum OutputSource {
     Position,
     /// The place in the point, where points are drawn as quads.
     PointCoord,
+    /// The number of the point, where points are drawn as quads.
+    PointNumber,
     /// A color that the stage does not write.
     Nothing,
     PointSize,
@@ -91,4 +93,6 @@ pub(super) struct Corner {
     pub(super) direction: Handle<Expression>,
     /// `gl_PointCoord`
     pub(super) coordinate: Handle<Expression>,
+    /// `gl_PrimitiveID` of the point, if the fragment stage reads it.
+    pub(super) number: Option<Handle<Expression>>,
 }

@@ -2,7 +2,8 @@
 //!
 //! The host draws each point as an instance of a triangle strip of four vertices. What was read for each vertex is read
 //! for each instance. The vertex stage moves each corner half a point's size away from the position, and hands its
-//! place in the point on as a varying.
+//! place in the point on as a varying. So it does with the number of the point, if the fragment stage reads `gl_PrimitiveID`: the
+//! target counts triangles.
 //!
 //! *Holds:* the pixels and `gl_PointCoord` are those of OpenGL 3.2 §3.4: a square of `gl_PointSize` pixels around the
 //! position, 255 at most; the place counts from the upper left (POINT_SPRITE_COORD_ORIGIN). The triangles are front faces. Of a point
@@ -13,7 +14,7 @@ use super::slots::Corner;
 use super::{Lower, Try};
 use crate::target::{WindowOrigin, viewport_slot};
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{Stage, TypeId};
+use glisten_front::hir::{Shader, Stage, TypeId};
 use glisten_front::link::Interface;
 use naga::{AddressSpace, BinaryOperator, Binding, BuiltIn, Expression, Handle, MathFunction, TypeInner};
 
@@ -23,6 +24,17 @@ const LARGEST_POINT: f32 = 255.0;
 /// The location of the varying with the place in the point: after all others.
 pub(crate) fn coordinate_location(interface: &Interface) -> u32 {
     interface.interpolated().map(|row| row.location.saturating_add(1)).max().unwrap_or(0)
+}
+
+/// The location of the varying with the number of the point: after that.
+pub(super) fn number_location(interface: &Interface) -> u32 {
+    coordinate_location(interface).saturating_add(1)
+}
+
+/// Whether a stage reads the number of its primitive.
+pub(super) fn reads_primitive_id(shader: &Shader) -> bool {
+    let is_it = |id: &Option<BuiltinVariable>| *id == Some(BuiltinVariable::PrimitiveId);
+    shader.globals.iter().any(|global| global.used && is_it(&global.builtin))
 }
 
 impl Lower<'_> {
@@ -72,7 +84,18 @@ impl Ctx<'_, '_> {
         let doubled = self.op(BinaryOperator::Multiply, place, two);
         let ones = self.add(Expression::Compose { ty: vec2, components: vec![whole; 2] });
         let direction = self.op(BinaryOperator::Subtract, doubled, ones);
-        Ok(Corner { direction, coordinate })
+        let number = if self.low.reads_primitive_id { Some(self.instance_number()?) } else { None };
+        Ok(Corner { direction, coordinate, number })
+    }
+
+    /// The number of the instance, which `gl_VertexID` may have asked for already.
+    fn instance_number(&mut self) -> Try<Handle<Expression>> {
+        let binding = Some(Binding::BuiltIn(BuiltIn::InstanceIndex));
+        if let Some(known) = self.out.arguments.iter().position(|argument| argument.binding == binding) {
+            return Ok(self.add(Expression::FunctionArgument(known as u32)));
+        }
+        let uint = self.low.value_type(TypeId::UINT)?;
+        Ok(self.argument("instance_index", uint, binding))
     }
 
     /// The position of the corner: half a point's size away from the point's own.
@@ -123,6 +146,27 @@ impl Ctx<'_, '_> {
         let ty = self.low.value_type(TypeId::VEC2)?;
         let location = coordinate_location(self.low.interface);
         Ok(self.argument("gl_PointCoord", ty, Some(coordinate_binding(location))))
+    }
+
+    /// `gl_PrimitiveID` in the fragment stage: the varying of the quad.
+    pub(super) fn sprite_number(&mut self, name: &str) -> Try<Handle<Expression>> {
+        let ty = self.low.value_type(TypeId::UINT)?;
+        let location = number_location(self.low.interface);
+        let number = self.argument("point_number", ty, Some(number_binding(location)));
+        let value = self.add(Expression::As { expr: number, kind: naga::ScalarKind::Sint, convert: Some(4) });
+        self.name(value, name);
+        Ok(value)
+    }
+}
+
+/// naga's binding of the number of the point.
+pub(super) fn number_binding(location: u32) -> Binding {
+    Binding::Location {
+        location,
+        interpolation: Some(naga::Interpolation::Flat),
+        sampling: None,
+        blend_src: None,
+        per_primitive: false,
     }
 }
 

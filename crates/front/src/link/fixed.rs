@@ -20,6 +20,8 @@ use crate::source::Span;
 pub struct FixedState {
     /// `GL_VERTEX_PROGRAM_TWO_SIDE`: back faces get `gl_BackColor` as `gl_Color` where the program writes it.
     pub two_side: bool,
+    /// `glShadeModel(GL_FLAT)`: colors without a qualifier are those of the provoking vertex.
+    pub flat_colors: bool,
     /// How many of `gl_ClipPlane` clip by `gl_ClipVertex`, from the first on.
     pub clip_planes: u32,
     /// `glClampColor(GL_CLAMP_VERTEX_COLOR, GL_FALSE)`: the colors of the vertex stage may leave [0, 1].
@@ -61,11 +63,22 @@ pub(super) fn apply(types: &mut Types, stages: &mut [Shader], state: FixedState)
         at_the_end(producer, end);
         producer.mark_static_use();
     }
-    if let Some(fragment) = fragment.filter(|_| state.two_side) {
+    let Some(fragment) = fragment else { return };
+    if state.flat_colors {
+        [&mut *producer, &mut *fragment].into_iter().for_each(flat_colors);
+    }
+    if state.two_side {
         for (read, front, back) in SIDES {
             select_side(producer, fragment, read, [front, back]);
         }
     }
+}
+
+/// Makes the colors flat that have no qualifier of interpolation (OpenGL 2.1 §2.14.7; GLSL 1.30 §4.3.7).
+fn flat_colors(shader: &mut Shader) {
+    let of_color = |name: &str| COLORS.contains(&name) || SIDES.iter().any(|(read, ..)| *read == name);
+    let is_open = |global: &&mut Global| global.is_fixed() && !global.interpolation_written && of_color(&global.name);
+    shader.globals.iter_mut().filter(is_open).for_each(|global| global.interpolation = Interpolation::Flat);
 }
 
 fn find(shader: &Shader, storage: Storage, name: &str) -> Option<GlobalId> {
@@ -137,21 +150,19 @@ fn clip_plane(types: &mut Types, shader: &mut Shader) -> GlobalId {
     add(shader, Global { value, ..global("gl_ClipPlane", ty, Storage::Uniform) })
 }
 
-/// Reads the color of the side that is seen, if the vertex stage writes both (§2.19; GLSL 1.20 §7.6).
+/// Reads the color of the side that is seen, if the vertex stage writes that of the back (§2.19; GLSL 1.20 §7.6). A front
+/// color that is not written stays undefined.
 fn select_side(producer: &mut Shader, fragment: &mut Shader, read: &str, sides: [&str; 2]) {
     let Some(color) = find(fragment, Storage::In, read).filter(|&id| fragment.global(id).used) else { return };
     let outputs = sides.map(|name| find(producer, Storage::Out, name).filter(|&id| producer.global(id).written));
-    let [Some(front), Some(back)] = outputs else { return };
+    let [front, Some(back)] = outputs else { return };
     let declared = fragment.global(color).clone();
-    let [front, back] = [front, back].map(|output| {
-        let name = free_name(&producer.global(output).name, &[&*producer, &*fragment]);
-        if let Some(global) = producer.globals.get_mut(output.index()) {
-            global.name.clone_from(&name);
-        }
+    rename(fragment, color, Storage::Private);
+    let [front, back] = [front, Some(back)].map(|output| {
+        let name = output.map_or_else(|| declared.name.clone(), |output| new_name(producer, fragment, output));
         add(fragment, Global { name, ..declared.clone() })
     });
     let facing = facing(fragment);
-    rename(fragment, color, Storage::Private);
     let operands = [facing, front, back].map(|id| variable(fragment, id));
     let [facing, front, back] = operands;
     let choice = fragment.push(ExprKind::Ternary(facing, front, back), TypeId::VEC4, Span::default());
@@ -162,6 +173,15 @@ fn select_side(producer: &mut Shader, fragment: &mut Shader, read: &str, sides: 
     }
     fragment.depth = fragment.depth.max(2);
     fragment.mark_static_use();
+}
+
+/// Gives an output a name that neither stage has.
+fn new_name(producer: &mut Shader, fragment: &Shader, output: GlobalId) -> String {
+    let name = free_name(&producer.global(output).name, &[&*producer, fragment]);
+    if let Some(global) = producer.globals.get_mut(output.index()) {
+        global.name.clone_from(&name);
+    }
+    name
 }
 
 /// `gl_FrontFacing`, which is added if the stage does not name it.

@@ -236,6 +236,8 @@ impl<const INSIDE: bool> Number for Shadowed<INSIDE> {
             ErrorPart::Limited if self.wide.is_nan() => 0.0,
             ErrorPart::Limited => self.wide.clamp(-LARGE, LARGE),
             ErrorPart::Own => self.exact,
+            ErrorPart::Vanished if self.single == 0.0 && self.wide.is_finite() => self.wide,
+            ErrorPart::Vanished => self.single,
         };
         Self { single, ..self }
     }

@@ -96,6 +96,8 @@ const NO_PLACE: UndefinedThing = absent("a lookup at a coordinate that is no fin
 const SPLIT_LOOKUP: UndefinedThing = absent("a lookup by derivatives that only a part of the quad runs");
 /// GLSL 4.60 §4.7.1: operations on a NaN need not know that it is one. Drivers differ in `!=`.
 const NAN_COMPARED: UndefinedThing = absent("a comparison with NaN");
+/// GLSL 1.50 §4.1.4: a NaN need not be there. A driver may fold `x * 0.0`, and `isnan` with it.
+const NAN_ASKED: UndefinedThing = absent("`isnan` of a NaN");
 const SPLIT_DERIVATIVE: UndefinedThing = absent("a derivative that only a part of the quad runs");
 
 impl Guess {
@@ -204,6 +206,7 @@ impl<D: Domain> Machine<D> {
                 let fits = |x: f64| x > -1.0 && x < 4_294_967_296.0;
                 (domain("`uint` of a number that no `uint` has"), lanes1(float(a), mask, |x| !fits(x)))
             }
+            Inst::FloatToInt { op: FloatToInt::IsNan, a, .. } => (NAN_ASKED, lanes1(float(a), mask, f64::is_nan)),
             Inst::Compare { a, b, .. } => {
                 let (a, b) = (float(a), float(b));
                 let has_nan = |lane: usize| a.at(lane).value().is_nan() || b.at(lane).value().is_nan();
@@ -318,7 +321,9 @@ impl<D: Domain> Machine<D> {
                         Inst::Compare { op: Compare::Equal | Compare::NotEqual, .. } => {
                             D::Int::from_bool(numbers.int & 1 == 1)
                         }
-                        Inst::Compare { .. } => D::Int::from_bool(numbers.int & 2 == 2),
+                        Inst::Compare { .. } | Inst::FloatToInt { op: FloatToInt::IsNan, .. } => {
+                            D::Int::from_bool(numbers.int & 2 == 2)
+                        }
                         _ => D::Int::from_bits(numbers.int),
                     };
                     lanes.update(|lane, old| if is_replaced(lane) { int } else { old });

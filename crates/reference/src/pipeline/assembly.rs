@@ -35,6 +35,8 @@ pub(super) struct Prim {
     pub(super) id: u32,
     /// Whether a branch in the vertex stage is undecided for one of its vertices.
     pub(super) undecided: bool,
+    /// Whether the reference does not draw it, and a GPU may: what a clip distance cuts off that may be anything.
+    pub(super) perhaps: bool,
     /// The edges beyond which another part of the primitive is: bit `i` is edge `i` of the shape.
     pub(super) inner: u8,
 }
@@ -152,11 +154,17 @@ pub(super) fn primitives<D: Domain>(
             Assembled::Line([from, to]) => {
                 let turned = last_first && lines == LineRule::Vulkan;
                 let ends = if turned { [to, from] } else { [from, to] };
-                list.extend(line_prim(vertices, ends, provoking, id, lines));
+                let whole = Whole::of(vertices, &ends, provoking, id);
+                list.extend(
+                    whole.both().into_iter().flatten().filter_map(|part| line_prim(vertices, ends, part, lines)),
+                );
             }
             Assembled::Triangle(mut corners, first) => {
                 corners.rotate_left(if last_first { 2 } else { first });
-                triangle_prims(vertices, corners, provoking, id, state, &mut list);
+                let whole = Whole::of(vertices, &corners, provoking, id);
+                for part in whole.both().into_iter().flatten() {
+                    triangle_prims(vertices, corners, part, state, &mut list);
+                }
             }
         }
     }
@@ -176,7 +184,7 @@ pub(super) fn clipped_triangles<D: Domain>(
         for vertex in corners {
             vertices.outside(vertex)?;
         }
-        let polygon = vertices.clip_triangle(corners);
+        let polygon = vertices.clip_triangle(corners, 0);
         let Some((&hub, rim)) = polygon.split_first() else { continue };
         list.extend(rim.windows(2).filter_map(|pair| Some([hub, *pair.first()?, *pair.get(1)?])));
     }
@@ -207,31 +215,66 @@ fn freedom<D: Domain>(vertices: &Vertices<D>, corners: &[u32]) -> f64 {
     (vertices.profile.edge_band() + moved) * ONE as f64 - NEAR
 }
 
+/// A primitive before it is clipped, and what of that is open.
+#[derive(Clone, Copy)]
+struct Whole {
+    provoking: u32,
+    id: u32,
+    undecided: bool,
+    perhaps: bool,
+    /// The planes that may cut it or not.
+    open: u32,
+    /// The planes that do not cut it.
+    without: u32,
+}
+
+impl Whole {
+    fn of<D: Domain>(vertices: &Vertices<D>, corners: &[u32], provoking: u32, id: u32) -> Self {
+        let open = vertices.open_planes(corners);
+        let undecided = is_undecided(vertices, corners) || open != 0;
+        Self { provoking, id, undecided, perhaps: false, open, without: 0 }
+    }
+
+    /// The primitive as the reference cuts it, after the one that a GPU may draw if it is cut by other planes.
+    fn both(self) -> [Option<Self>; 2] {
+        let uncut = Self { perhaps: true, without: self.open, ..self };
+        [(self.open != 0).then_some(uncut), Some(self)]
+    }
+
+    fn prim(self, shape: Shape, corners: Corners, front: bool) -> Prim {
+        let Self { provoking, id, undecided, perhaps, .. } = self;
+        Prim { shape, corners, provoking, front, id, undecided, perhaps, inner: 0 }
+    }
+}
+
 fn point_prim<D: Domain>(vertices: &Vertices<D>, vertex: u32, id: u32, rule: LineRule) -> Option<Prim> {
     // OpenGL discards a point whose center is outside (§2.19); Vulkan may draw the part inside the window.
     let counted = match rule {
         LineRule::OpenGl => u32::MAX,
         LineRule::Vulkan => !SIDES,
     };
-    if vertices.outside(vertex)? & counted != 0 {
+    let (outside, open) = (vertices.outside(vertex)? & counted, vertices.open_planes_of_point(vertex) & counted);
+    if outside & !open != 0 {
         return None;
     }
     let [x, y] = window(vertices, vertex)?;
-    let size = vertices.size.get(vertex as usize).copied()?;
-    let shape = point::shape(x, y, size)?;
-    let undecided = is_undecided(vertices, &[vertex]);
-    Some(Prim { shape, corners: Corners::Point(vertex), provoking: vertex, front: true, id, undecided, inner: 0 })
+    let size32 = vertices.size32.get(vertex as usize).copied()?;
+    let &[own_x, own_y, ..] = vertices.window.get(vertex as usize)?;
+    let size = vertices.size.get(vertex as usize)?;
+    let shape = match D::HAS_INTERVALS {
+        true => point::shape_of([x, y], size32, [own_x, own_y].map(Number::interval), size.interval())?,
+        false => point::shape(x, y, size32)?,
+    };
+    let undecided = is_undecided(vertices, &[vertex]) || open != 0 || D::HAS_INTERVALS && size.error() > OPEN_SIZE;
+    let whole = Whole { provoking: vertex, id, undecided, perhaps: outside != 0, open, without: 0 };
+    Some(whole.prim(shape, Corners::Point(vertex), true))
 }
 
-fn line_prim<D: Domain>(
-    vertices: &mut Vertices<D>,
-    ends: [u32; 2],
-    provoking: u32,
-    id: u32,
-    rule: LineRule,
-) -> Option<Prim> {
-    let undecided = is_undecided(vertices, &ends);
-    let ends = vertices.clip_line(ends)?;
+/// The error of a point's size from which the pixels at its border are not near an edge, but undecided, in pixels.
+const OPEN_SIZE: f64 = 0.25;
+
+fn line_prim<D: Domain>(vertices: &mut Vertices<D>, ends: [u32; 2], whole: Whole, rule: LineRule) -> Option<Prim> {
+    let ends = vertices.clip_line(ends, whole.without)?;
     let [from, to] = ends.map(|vertex| window(vertices, vertex));
     let (from, to) = (from?, to?);
     let shape = match rule {
@@ -239,19 +282,17 @@ fn line_prim<D: Domain>(
         LineRule::OpenGl => line::diamond_exit(Fixed::snap(from[0], from[1])?, Fixed::snap(to[0], to[1])?),
     };
     let shape = shape.widened(freedom(vertices, &ends));
-    Some(Prim { shape, corners: Corners::Line(ends), provoking, front: true, id, undecided, inner: 0 })
+    Some(whole.prim(shape, Corners::Line(ends), true))
 }
 
 fn triangle_prims<D: Domain>(
     vertices: &mut Vertices<D>,
     corners: [u32; 3],
-    provoking: u32,
-    id: u32,
+    whole: Whole,
     state: &State,
     list: &mut Vec<Prim>,
 ) {
-    let undecided = is_undecided(vertices, &corners);
-    let polygon = vertices.clip_triangle(corners);
+    let polygon = vertices.clip_triangle(corners, whole.without);
     let Some((&hub, rim)) = polygon.split_first() else { return };
     // The part before, if it is there: its place in the list, and the number of the part.
     let mut before: Option<(usize, usize)> = None;
@@ -272,8 +313,7 @@ fn triangle_prims<D: Domain>(
         }
         if let Some(shape) = triangle::shape([a, b, c]) {
             let shape = shape.widened(freedom(vertices, &corners));
-            let corners = Corners::Triangle(corners);
-            let mut prim = Prim { shape, corners, provoking, front, id, undecided, inner: 0 };
+            let mut prim = whole.prim(shape, Corners::Triangle(corners), front);
             if let Some((place, number)) = before
                 && number + 1 == part
                 && let Some(known) = list.get_mut(place)

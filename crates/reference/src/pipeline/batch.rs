@@ -21,6 +21,7 @@ pub(super) struct Run<'v, D: Domain> {
     pub(super) front: bool,
     pub(super) id: u32,
     undecided: bool,
+    perhaps: bool,
     start: usize,
 }
 
@@ -50,8 +51,8 @@ impl<'v, D: Domain> Batch<'v, D> {
     pub(super) fn begin(&mut self, prim: &Prim, source: Source<'v, D>) {
         // The previous primitive may have no lanes left.
         self.runs.pop_if(|run| run.start == self.count);
-        let Prim { front, id, undecided, .. } = *prim;
-        self.runs.push(Run { source, front, id, undecided, start: self.count });
+        let Prim { front, id, undecided, perhaps, .. } = *prim;
+        self.runs.push(Run { source, front, id, undecided, perhaps, start: self.count });
     }
 
     pub(super) fn is_full(&self) -> bool {
@@ -105,9 +106,10 @@ impl<'v, D: Domain> Batch<'v, D> {
         let covered = self.live & !Mask::first(lanes.start).0;
         let roles = self.tests.moved(|set| set & covered);
         let doubtful = if run.undecided { covered } else { 0 };
+        let drawn = if run.perhaps { 0 } else { covered };
         let locate = Locate { source: &run.source, fragments: &mut self.fragments, corner: self.corner, lanes };
         pulp::Arch::new().dispatch(locate);
-        let passes = covered & !(roles.open & roles.outside);
+        let passes = drawn & !(roles.open & roles.outside);
         Some(Tests { passes, undecided: doubtful | roles.open, doubtful, ..roles })
     }
 

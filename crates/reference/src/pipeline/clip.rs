@@ -10,7 +10,7 @@
 //! linear in window space, `t w_in / w`. That is also correct where a driver derives it from a difference of
 //! coordinates that may be 0. Where w is about 0, they are computed from their products with w.
 
-use super::vertices::Vertices;
+use super::vertices::{Vertices, may_be_far};
 use crate::domain::faults::Fault;
 use crate::domain::{Domain, Number};
 use glisten_front::hir::Interpolation;
@@ -131,7 +131,8 @@ impl<D: Domain> Vertices<D> {
         let mut products = Vec::new();
         self.clip.push(clip);
         self.clip32.push(clip32);
-        self.size.push(mix32(self.size[a], self.size[b]));
+        self.size.push(mix(self.size[a], self.size[b], t));
+        self.size32.push(mix32(self.size32[a], self.size32[b]));
         self.undecided.push(self.undecided[a] || self.undecided[b]);
         for i in 0..self.distance_count {
             let (x, y) = (a * self.distance_count + i, b * self.distance_count + i);
@@ -213,9 +214,36 @@ impl<D: Domain> Vertices<D> {
         Cut { t: if usable { t } else { D::Float::from_f64(f64::from(single)) }, single, double }
     }
 
-    /// The remaining part of a triangle: the corners of a convex polygon, or none.
-    pub(super) fn clip_triangle(&mut self, corners: [u32; 3]) -> Polygon {
-        let [Some(a), Some(b), Some(c)] = corners.map(|vertex| self.outside(vertex)) else { return Polygon::new() };
+    /// The planes of clip distances that may be on either side of these vertices, as far as an envelope knows: one of the distances may be
+    /// off by as much as moves a cut along the whole edge.
+    pub(super) fn open_planes(&self, corners: &[u32]) -> u32 {
+        if !D::HAS_INTERVALS {
+            return 0;
+        }
+        let is_open = |plane: &usize| {
+            let distances = || corners.iter().map(|&vertex| self.distance(vertex, *plane));
+            let largest = distances().fold(0.0_f64, |most, distance| most.max(distance.value().abs()));
+            distances().any(|distance| may_be_far(distance, largest))
+        };
+        (VOLUME..VOLUME + self.distance_count).filter(is_open).fold(0, |planes, plane| planes | 1 << plane)
+    }
+
+    /// The planes that a point may be on either side of, as far as an envelope knows.
+    pub(super) fn open_planes_of_point(&self, vertex: u32) -> u32 {
+        if !D::HAS_INTERVALS {
+            return 0;
+        }
+        let is_open = |plane: &usize| {
+            let Interval { low, high, may_be_nan } = self.distance(vertex, *plane).interval();
+            may_be_nan || low < 0.0 && high >= 0.0
+        };
+        (0..VOLUME + self.distance_count).filter(is_open).fold(0, |planes, plane| planes | 1 << plane)
+    }
+
+    /// The remaining part of a triangle: the corners of a convex polygon, or none. The planes of the set `without` cut nothing.
+    pub(super) fn clip_triangle(&mut self, corners: [u32; 3], without: u32) -> Polygon {
+        let outside = corners.map(|vertex| self.outside(vertex).map(|planes| planes & !without));
+        let [Some(a), Some(b), Some(c)] = outside else { return Polygon::new() };
         let mut polygon = Polygon::from_slice(&corners);
         if a & b & c != 0 {
             return Polygon::new();
@@ -247,9 +275,9 @@ impl<D: Domain> Vertices<D> {
         polygon
     }
 
-    /// The remaining part of a line.
-    pub(super) fn clip_line(&mut self, [from, to]: [u32; 2]) -> Option<[u32; 2]> {
-        let (a, b) = (self.outside(from)?, self.outside(to)?);
+    /// The remaining part of a line. The planes of the set `without` cut nothing.
+    pub(super) fn clip_line(&mut self, [from, to]: [u32; 2], without: u32) -> Option<[u32; 2]> {
+        let (a, b) = (self.outside(from)? & !without, self.outside(to)? & !without);
         if a & b != 0 {
             return None;
         }

@@ -183,7 +183,9 @@ impl<D: Domain> Part<D> {
             let clip = layout.position.map(|place| float(&place));
             self.chunk.clip.push(clip);
             self.chunk.clip32.push(layout.position.map(|place| float32(&place)));
-            self.chunk.size.push(if layout.size.is_some() { float32(&layout.size) } else { 1.0 });
+            let sized = layout.size.is_some();
+            self.chunk.size.push(if sized { float(&layout.size) } else { D::Float::from_f64(1.0) });
+            self.chunk.size32.push(if sized { float32(&layout.size) } else { 1.0 });
             self.chunk.distances.extend(layout.distances.iter().map(float));
             self.chunk.distances32.extend(layout.distances.iter().map(float32));
             self.chunk.floats.extend(layout.floats.iter().map(float));

@@ -89,7 +89,7 @@ impl Emission {
     fn add(&mut self, vertices: &Vertices<F32>, assembled: &[(Assembled, u32)], provoking_last: bool) {
         let base = self.positions.len() as u32;
         self.positions.extend(&vertices.clip32);
-        self.sizes.extend(&vertices.size);
+        self.sizes.extend(&vertices.size32);
         self.distances.0 = vertices.distance_count;
         self.distances.1.extend(&vertices.distances32);
         self.floats.1.extend(&vertices.floats);

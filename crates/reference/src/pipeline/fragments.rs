@@ -22,7 +22,7 @@ use super::watch::{Followed, PixelSet, Probe, jittered};
 use crate::domain::{Domain, ErrorPart, Integer, Number, Profile};
 use crate::exec::{Fate, Invoked, LANES, Machine, Mask};
 use crate::raster::band::band;
-use glisten_front::hir::{FragCoordLayout, GlobalId, Stage};
+use glisten_front::hir::{FragCoordLayout, GlobalId, Interpolation, Stage};
 use glisten_scene::{Draw, Framebuffer};
 use pulp::{Simd, WithSimd};
 use smallvec::SmallVec;
@@ -259,11 +259,12 @@ impl<D: Domain> Shading<'_, D> {
         Some(origins)
     }
 
-    /// Moves the float inputs that differ between fragments by an ULP of f32.
+    /// Moves the float inputs that differ between fragments by an ULP of f32. What is `flat` is a number of the stage before.
     fn jitter_inputs(&self, seed: u64, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
         let places = &batch.fragments.places;
         let coordinates = self.plan.frag_coord.into_iter().flat_map(|id| [(id, 0), (id, 1)]);
-        for (id, flat) in self.plan.floats.iter().map(|varying| varying.to).chain(coordinates) {
+        let varyings = self.plan.floats.iter().filter(|varying| varying.interpolation != Interpolation::Flat);
+        for (id, flat) in varyings.map(|varying| varying.to).chain(coordinates) {
             if let Some(input) = machine.float_input(id, flat) {
                 let place = |lane: usize| {
                     [places.x[lane] as u64, places.y[lane] as u64, id.index() as u64 * 64 + u64::from(flat)]

@@ -161,8 +161,8 @@ impl<'v, D: Domain> Source<'v, D> {
         let displaced = vertices.profile.displacement();
         let kind = Kind::<D>::of(&prim.corners, places);
         let is_point = matches!(kind, Kind::Point);
-        let size = vertices.size.get(corners[0] as usize).copied().unwrap_or(1.0).max(1.0);
-        let size = size.min(crate::raster::point::MAX_SIZE);
+        let [least, most] = [1.0, f64::from(crate::raster::point::MAX_SIZE)].map(D::Float::from_f64);
+        let size = vertices.size.get(corners[0] as usize).copied().unwrap_or(least).max(least).min(most);
         Self {
             kind,
             plain: D::HAS_INTERVALS.then(|| Plain {
@@ -178,7 +178,7 @@ impl<'v, D: Domain> Source<'v, D> {
             ints: vertices.ints_of(prim.provoking),
             reciprocals: window.map(|[_, _, _, reciprocal]| reciprocal),
             z: window.map(|[_, _, z, _]| z),
-            point: is_point.then(|| Sprite { center: places[0], size: D::Float::from_f64(f64::from(size)) }),
+            point: is_point.then(|| Sprite { center: places[0], size }),
         }
     }
 

@@ -31,7 +31,9 @@ pub(super) struct Vertices<D: Domain> {
     /// The planes of the view volume that the vertex is outside, followed by those of the clip distances; see `clip`.
     pub(super) outside: Vec<Option<u32>>,
     /// `gl_PointSize`
-    pub(super) size: Vec<f32>,
+    pub(super) size: Vec<D::Float>,
+    /// `gl_PointSize`, computed in f32.
+    pub(super) size32: Vec<f32>,
     /// The enabled clip distances, `distance_count` for each vertex.
     pub(super) distances: Vec<D::Float>,
     /// The enabled clip distances in f32.
@@ -91,6 +93,7 @@ impl<D: Domain> Vertices<D> {
             window32: Vec::with_capacity(count),
             outside: Vec::with_capacity(count),
             size: Vec::with_capacity(count),
+            size32: Vec::with_capacity(count),
             distances: Vec::new(),
             distances32: Vec::new(),
             distance_count: distance_count(draw, plan),
@@ -193,7 +196,8 @@ pub(super) fn distance_count(draw: &Draw, plan: &Plan) -> usize {
 pub(super) struct Chunk<D: Domain> {
     pub(super) clip: Vec<[D::Float; 4]>,
     pub(super) clip32: Vec<[f32; 4]>,
-    pub(super) size: Vec<f32>,
+    pub(super) size: Vec<D::Float>,
+    pub(super) size32: Vec<f32>,
     pub(super) distances: Vec<D::Float>,
     pub(super) distances32: Vec<f32>,
     pub(super) floats: Vec<D::Float>,
@@ -207,6 +211,7 @@ impl<D: Domain> Chunk<D> {
             clip: Vec::with_capacity(count),
             clip32: Vec::with_capacity(count),
             size: Vec::with_capacity(count),
+            size32: Vec::with_capacity(count),
             distances: Vec::new(),
             distances32: Vec::new(),
             floats: Vec::with_capacity(count * plan.floats.len()),
@@ -222,8 +227,9 @@ impl<D: Domain> Chunk<D> {
         for (clip32, clip) in self.clip32.iter_mut().zip(&self.clip) {
             *clip32 = clip.map(|number| number.value() as f32);
         }
-        for (single, distance) in self.distances32.iter_mut().zip(&self.distances) {
-            *single = distance.value() as f32;
+        let singles = self.distances32.iter_mut().chain(&mut self.size32);
+        for (single, number) in singles.zip(self.distances.iter().chain(&self.size)) {
+            *single = number.value() as f32;
         }
     }
 }
@@ -232,6 +238,7 @@ impl<D: Domain> Vertices<D> {
     pub(super) fn append(&mut self, chunk: Chunk<D>) {
         let mut floats = chunk.floats.chunks(self.float_count.max(1));
         self.size.extend(chunk.size);
+        self.size32.extend(chunk.size32);
         self.distances.extend(chunk.distances);
         self.distances32.extend(chunk.distances32);
         self.ints.extend(chunk.ints);
@@ -274,7 +281,8 @@ fn shade_chunk<D: Domain>(
         }));
         chunk.clip32.push(std::array::from_fn(|i| plan.position.map_or(0.0, |p| float32((p, i as u32), lane))));
         let sized = plan.point_size.filter(|_| draw.state.program_point_size);
-        chunk.size.push(sized.map_or(1.0, |id| float32((id, 0), lane)));
+        chunk.size.push(sized.map_or_else(|| D::Float::from_f64(1.0), |id| float((id, 0), lane)));
+        chunk.size32.push(sized.map_or(1.0, |id| float32((id, 0), lane)));
         if let Some(id) = plan.clip_distance {
             chunk.distances.extend((0..distances).map(|i| float((id, i as u32), lane)));
             chunk.distances32.extend((0..distances).map(|i| float32((id, i as u32), lane)));
@@ -289,8 +297,13 @@ fn shade_chunk<D: Domain>(
 
 /// Whether a position may be anywhere else: it depends on an undecided branch.
 pub(super) fn may_jump<D: Domain>(clip: [D::Float; 4]) -> bool {
+    D::HAS_INTERVALS && clip.iter().any(|value| may_be_far(*value, clip[3].value().abs()))
+}
+
+/// Whether a number may be so far from its value that more than roundings is open. `scale` is the size of what it is compared with.
+pub(super) fn may_be_far<F: Number>(number: F, scale: f64) -> bool {
     const FAR: f64 = 1.0 / 256.0;
-    D::HAS_INTERVALS && clip.iter().any(|value| value.error() > FAR * clip[3].value().abs())
+    number.error() > FAR * scale
 }
 
 pub(super) fn read_float<D: Domain>(machine: &Machine<D>, (global, flat): (GlobalId, u32), lane: usize) -> D::Float {

@@ -122,7 +122,8 @@ fn size(picture: &Picture, at: usize) -> f64 {
     channels.map(|channel| channel.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max)
 }
 
-fn pixel_error(single: &[f64; 4], exact: &[f64; 4], format: Format) -> f64 {
+/// The largest error of a channel.
+pub(super) fn pixel_error(single: &[f64; 4], exact: &[f64; 4], format: Format) -> f64 {
     let channels = single.iter().zip(exact).map(|(single, exact)| {
         let (single, exact) = (shown(*single, format), shown(*exact, format));
         // A picture of an f32 domain holds integers as f32 numbers.

@@ -4,6 +4,7 @@
 //! order do not depend on threads.
 
 use super::bench::{Bench, Found, Outcome, significant};
+use super::fractions::fractions;
 use super::kinds::CauseKind;
 use super::loops::Loops;
 use super::origin::{coarse_varying, lost_before};
@@ -41,7 +42,7 @@ pub(super) fn causes(
     options: &mut ExamineOptions<'_>,
 ) -> Result<Vec<Cause>, Vec<Diagnostic>> {
     let loops = loops(bench.scene);
-    let candidates = candidates(tallies, &loops);
+    let candidates = candidates(tallies, &loops, &fractions(bench.scene));
     let total = candidates.len();
     let mut tried: Vec<(Cause, Gains)> = Vec::new();
     let mut jitter: Option<Vec<f64>> = None;
@@ -84,7 +85,11 @@ fn loops(scene: &Scene) -> BTreeMap<Stage, Loops> {
 }
 
 /// The expressions to try: those that lose bits, give birth to what is not finite, decide differently, or accumulate.
-fn candidates(tallies: &BTreeMap<Place, Tally>, loops: &BTreeMap<Stage, Loops>) -> Vec<Candidate> {
+fn candidates(
+    tallies: &BTreeMap<Place, Tally>,
+    loops: &BTreeMap<Stage, Loops>,
+    fractions: &BTreeSet<(Stage, Span)>,
+) -> Vec<Candidate> {
     let mut by_span: BTreeMap<(Stage, Span), Candidate> = BTreeMap::new();
     for (&(stage, span, act), tally) in tallies {
         let is_cause = tally.lost_bits >= CAUSE_BITS || tally.non_finite() > 0 || tally.disagreements > 0;
@@ -93,7 +98,10 @@ fn candidates(tallies: &BTreeMap<Place, Tally>, loops: &BTreeMap<Stage, Loops>) 
         if !span.is_known() || !(is_cause || adds) || is_far_lookup(act, tally) {
             continue;
         }
-        let kind = if is_cause { CauseKind::of(act, tally) } else { CauseKind::Accumulation };
+        let kind = match if is_cause { CauseKind::of(act, tally) } else { CauseKind::Accumulation } {
+            CauseKind::Cancellation if fractions.contains(&(stage, span)) => CauseKind::Conversion,
+            kind => kind,
+        };
         let repeats = loops.get(&stage).is_some_and(|loops| loops.inside.contains(&span));
         let candidate = Candidate { stage, span, kind, act, tally: *tally, repeats, own: !is_cause };
         let known = by_span.entry((stage, span));
@@ -144,6 +152,16 @@ fn try_candidate(
     if outcome.harm < least {
         return Ok(None);
     }
+    if kind == CauseKind::Underflow && tally.non_finite() == 0 && !is_of_vector(candidate.act) {
+        // Whether it harms that numbers vanish, and not what the operands bring elsewhere.
+        let vanished = bench.without(stage, &spans, ErrorPart::Vanished)?;
+        if vanished.harm < 0.5 * outcome.harm {
+            if tally.lost_bits_in_range < CAUSE_BITS && tally.disagreements == 0 {
+                return Ok(None);
+            }
+            kind = CauseKind::of(candidate.act, &Tally { underflows: 0, ..*tally });
+        }
+    }
     open.retain(|index| !outcome.cures(*index));
     if candidate.own || kind == CauseKind::Cancellation {
         // Whether it is the rounding of many iterations, and not what the terms bring.
@@ -167,6 +185,11 @@ fn try_candidate(
     let found = Found { kind, cured, harm, index, ill_posed, equality };
     let gains = outcome.gains.into_iter().enumerate().filter(|(_, gain)| *gain >= 0.5 * least).collect();
     Ok(Some((found.cause(bench, (stage, span), tally), gains)))
+}
+
+/// Whether an operation squares the components of a vector: what vanishes there is no result.
+fn is_of_vector(act: Act) -> bool {
+    matches!(act, Act::Float(Kind::Normalize | Kind::Vector))
 }
 
 /// By how much the errors of pixels shrink, by their indices; those that shrink by too little to count are left out.

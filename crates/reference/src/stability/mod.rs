@@ -28,6 +28,7 @@ mod draw;
 mod errors;
 mod exact;
 mod experiment;
+mod fractions;
 mod kinds;
 mod loops;
 mod origin;
@@ -52,8 +53,8 @@ use glisten_front::diagnostic::{Diagnostic, codes};
 use glisten_front::hir::Stage;
 use glisten_front::link::Program;
 use glisten_front::source::Span;
-use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
+use glisten_scene::{Format, Scene};
 use record::{Collected, Place, Recorder, Tally};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -186,6 +187,8 @@ pub struct Examination {
     pub single: Picture,
     /// The picture of exact arithmetic.
     pub exact: Picture,
+    /// The framebuffer's format.
+    pub format: Format,
     /// The difference, pixel by pixel, where it is more than [`ExamineOptions::bound_relative`] accepts.
     pub errors: ErrorMap,
     /// The difference, pixel by pixel, all of it.
@@ -220,6 +223,16 @@ impl Stability {
 }
 
 impl Examination {
+    /// The attachment in which a pixel has its largest error; the first of those that are equal.
+    pub fn attachment_at(&self, pixel: usize) -> usize {
+        let attachments = self.single.attachments.iter().zip(&self.exact.attachments);
+        let errors = attachments.map(|(single, exact)| match (single.get(pixel), exact.get(pixel)) {
+            (Some(single), Some(exact)) => errors::pixel_error(single, exact, self.format),
+            _ => 0.0,
+        });
+        errors.enumerate().fold((0, 0.0), |worst, (at, error)| if error > worst.1 { (at, error) } else { worst }).0
+    }
+
     /// Whether every pixel that counts is finite in exact arithmetic.
     pub fn is_finite_in_exact(&self) -> bool {
         let is_finite = |at: usize| {
@@ -309,7 +322,8 @@ pub fn examine(scene: &Scene, options: &mut ExamineOptions<'_>) -> Result<Examin
         () if worst > options.bound => Stability::Degraded,
         () => Stability::Stable,
     };
-    Ok(Examination { single, exact, errors, all_errors, non_finite, causes, spans: spans(&tallies), verdict })
+    let spans = spans(&tallies);
+    Ok(Examination { single, exact, format, errors, all_errors, non_finite, causes, spans, verdict })
 }
 
 /// Both pictures of a scene, and their difference.

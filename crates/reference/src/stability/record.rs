@@ -60,6 +60,8 @@ pub(super) struct Tally {
     pub(super) lost_bits_sum: f64,
     /// The largest loss where no operand had lost anything: here, and not earlier.
     pub(super) first_lost_bits: f64,
+    /// The largest loss where nothing was below the range of f32.
+    pub(super) lost_bits_in_range: f64,
     pub(super) canceled_bits: f64,
     pub(super) condition: f64,
     /// The size of the largest operand.
@@ -93,6 +95,7 @@ impl Tally {
         self.lost_bits = self.lost_bits.max(other.lost_bits);
         self.lost_bits_sum += other.lost_bits_sum;
         self.first_lost_bits = self.first_lost_bits.max(other.first_lost_bits);
+        self.lost_bits_in_range = self.lost_bits_in_range.max(other.lost_bits_in_range);
         self.canceled_bits = self.canceled_bits.max(other.canceled_bits);
         self.condition = self.condition.max(other.condition);
         self.largest_operand = self.largest_operand.max(other.largest_operand);
@@ -155,6 +158,7 @@ impl Tally {
         self.canceled_bits = self.canceled_bits.max(canceled(kind, operands, result));
         self.condition = self.condition.max(condition(operands, result));
         let is_sum = matches!(kind, Kind::Sum | Kind::Dot | Kind::Pairs);
+        let known = self.underflows;
         self.underflows +=
             u64::from(!is_sum && result.single == 0.0 && rounded(result.exact) == 0.0 && result.exact != 0.0);
         self.underflows += u64::from(kind == Kind::Dot && lost >= CAUSE_BITS && vanishes(operands));
@@ -164,6 +168,9 @@ impl Tally {
             let largest = operands.iter().map(|operand| operand.single.abs()).fold(0.0, f64::max);
             self.overflows += u64::from(largest > LARGEST_SQUARED);
             self.underflows += u64::from(largest < SMALLEST_SQUARED);
+        }
+        if self.underflows == known {
+            self.lost_bits_in_range = self.lost_bits_in_range.max(lost);
         }
         if kind.jumps() && result.error() >= 0.5 * step_size(kind, operands) {
             self.note_disagreement(operands);

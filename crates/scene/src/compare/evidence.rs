@@ -39,6 +39,9 @@ pub const LEAST: f64 = 1.0 / 65_536.0;
 /// may be rounded to one side.
 pub const OF_A_MEAN: f64 = 0.125;
 
+/// The largest f32.
+const LARGEST: f64 = f32::MAX as f64;
+
 /// How a covered pixel was compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
@@ -218,6 +221,8 @@ pub struct Written {
     relative: f64,
     /// For floats of 16 bits, how far rounding may be off, as a share of the value; else 0.
     coarse: f64,
+    /// The largest number that the format has.
+    largest: f64,
 }
 
 impl Written {
@@ -247,7 +252,9 @@ impl Written {
         let steps = if blends { 2.0 } else { 1.0 };
         let relative = relative_step(format);
         let coarse = if format == Format::Rgba16Float { steps * relative } else { 0.0 };
-        Self { channels, full: full_range(format), step: steps * step(format), relative, coarse }
+        let full = full_range(format);
+        let largest = full.filter(|_| format == Format::Rgba16Float).map_or(LARGEST, |(_, largest)| largest);
+        Self { channels, full, step: steps * step(format), relative, coarse, largest }
     }
 
     /// Every channel of some attachments, of floats.
@@ -258,6 +265,7 @@ impl Written {
             step: 0.0,
             relative: relative_step(Format::Rgba32Float),
             coarse: 0.0,
+            largest: LARGEST,
         }
     }
 
@@ -346,7 +354,8 @@ impl<'a> Ruler<'a> {
                     .filter(|(channel, _)| written.is_written(index, *channel))
                     .map(|(_, value)| *value)
             }) {
-                if value.is_finite() {
+                // What the format does not have is no value of the picture.
+                if value.abs() <= written.largest {
                     (low, high) = (low.min(value), high.max(value));
                 }
             }

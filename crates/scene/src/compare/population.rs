@@ -9,7 +9,8 @@
 //! suspect. Where the envelope is wider than the goal for evidence, it may hide a jump: on which
 //! side of it a pixel lies may be decided by one rounding, so there the eight pixels around count as well. But a jump is a
 //! line: where more than [`MAX_JUMPS`] of the covered pixels need those around them, they are suspect. A pixel that
-//! only one side covers is suspect if no pixel around differs in coverage within the population. If the picture as a whole
+//! only one side covers is suspect if no pixel around differs in coverage within the population; if that pixel alone does not, it
+//! is at an outline, and counts like one across a jump. If the picture as a whole
 //! is far from those of the members ([`Gauge`]), each pixel of it is suspect. From [`MIN_SHARE`] of the
 //! covered pixels and [`MIN_PIXELS`] pixels on, suspects fail a comparison.
 //!
@@ -230,8 +231,13 @@ impl Population {
 
     /// Whether a pixel that only one side covers is suspect.
     pub(super) fn is_covered_by_chance(&self, gpu_covers: bool, pixel: usize) -> bool {
-        let expected = |place: usize| if gpu_covers { 0 } else { self.members_at(place) };
-        self.members > 0 && self.around(pixel).all(|place| self.covered.get(place) == Some(&expected(place)))
+        self.around(pixel).all(|place| self.is_covered_otherwise(gpu_covers, place))
+    }
+
+    /// Whether no member covers a pixel that the GPU covers, or all cover one that it does not.
+    pub(super) fn is_covered_otherwise(&self, gpu_covers: bool, pixel: usize) -> bool {
+        let expected = if gpu_covers { 0 } else { self.members_at(pixel) };
+        self.members > 0 && self.covered.get(pixel) == Some(&expected)
     }
 
     fn range(&self, attachment: usize, pixel: usize, channel: usize) -> Interval {

@@ -194,6 +194,8 @@ impl<'a> Tally<'a> {
                 *count += 1;
                 let suspect = |all: &Population| !may_miss && all.is_covered_by_chance(gpu_covers, pixel);
                 self.count_suspect(suspect);
+                let is_outline = |all: &Population| all.is_covered_otherwise(gpu_covers, pixel) && !suspect(all);
+                self.jumps += u64::from(!may_miss && self.comparison.population.is_some_and(is_outline));
                 if gpu_covers && self.cpu.intervals.is_some() {
                     self.colors(pixel, true, None);
                 }

@@ -3,8 +3,8 @@
 //!
 //! *In:* commands, and the stages that a test has. *Out:* values of uniforms and attributes, [`FixedState`], texts.
 
-use super::TestResult;
 use super::words::Words;
+use super::{TestResult, known};
 use crate::scene::{AttributeData, AttributeValues};
 use glisten_front::hir::{ArraySize, Global, ScalarValue, Shader, Stage, Storage, Type, Types};
 use glisten_front::link::{FixedState, Program, UniformRoot};
@@ -24,6 +24,8 @@ pub(super) struct FixedSetup {
     explicit: Vec<String>,
     /// `GL_VERTEX_PROGRAM_TWO_SIDE`
     pub(super) two_side: bool,
+    /// `shade model flat`
+    flat_colors: bool,
 }
 
 impl FixedSetup {
@@ -89,6 +91,16 @@ impl FixedSetup {
         draw.state.root_values(root)
     }
 
+    /// `shade model flat`
+    pub(super) fn shade_model(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
+        self.flat_colors = match words.word()? {
+            "flat" => true,
+            "smooth" => false,
+            other => return known::mistake(words.line, other, "a model of shading", ["flat", "smooth"]),
+        };
+        Ok(())
+    }
+
     /// `color r g b a`
     pub(super) fn color(&mut self, words: &mut Words<'_>) -> Result<(), TestResult> {
         self.color = Some(words.numbers()?);
@@ -102,6 +114,7 @@ impl FixedSetup {
         let disabled_distances = if by_distance { !clip & ((1 << highest) - 1) } else { 0 };
         FixedState {
             two_side: self.two_side,
+            flat_colors: self.flat_colors,
             // By `gl_ClipVertex`, or by `gl_Position` (GLSL 1.30 §7.1).
             clip_planes: if by_distance { 0 } else { highest },
             disabled_distances: disabled_distances as u8,

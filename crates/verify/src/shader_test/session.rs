@@ -157,8 +157,9 @@ impl TestSession {
             "frustum" => self.fixed.frustum(words),
             "color" => self.fixed.color(words),
             "clip" if words.eat("plane") => self.fixed.clip_plane(words),
+            "shade" if words.eat("model") => self.fixed.shade_model(words),
             // What no shader sees.
-            "hint" | "shade" => {
+            "hint" => {
                 words.pass_over();
                 Ok(())
             }

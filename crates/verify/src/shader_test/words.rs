@@ -107,9 +107,11 @@ pub(super) fn parse_number(word: &str) -> Option<f64> {
     word.parse().ok()
 }
 
-/// A decimal or hexadecimal integer, with or without a sign.
+/// A decimal or hexadecimal integer, with or without a sign, and with or without GLSL's `u` at its end, which the functions of C that
+/// shader_runner calls do not read.
 pub(super) fn parse_integer(word: &str) -> Option<f64> {
     let (sign, digits) = word.strip_prefix('-').map_or((1.0, word), |digits| (-1.0, digits));
+    let digits = digits.strip_suffix(['u', 'U']).unwrap_or(digits);
     let magnitude = match digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X")) {
         Some(hexadecimal) => f64::from(u32::from_str_radix(hexadecimal, 16).ok()?),
         None => digits.parse().ok()?,
@@ -134,6 +136,7 @@ mod unit {
         assert_eq!(parse_number("0x3f800000"), Some(1.0));
         assert_eq!(parse_number("x"), None);
         assert_eq!(parse_integer("-0x10"), Some(-16.0));
+        assert_eq!(["0u", "0xFFu", "u"].map(parse_integer), [Some(0.0), Some(255.0), None]);
         assert_eq!(Words::new(1, "0.75;").number(), Ok(0.75));
     }
 }

@@ -106,6 +106,11 @@ fn inconclusive(verification: &Verification, verdict: &Verdict) -> Headline {
     Headline { text, place: place.map(of_contribution) }
 }
 
+/// Which attachment a pixel is of, unless it is the first, which is the picture.
+pub fn of_attachment(attachment: u32) -> String {
+    if attachment == 0 { String::new() } else { format!(" of attachment {attachment}") }
+}
+
 /// The sentence for a picture that is wrong.
 fn fails(verdict: &Verdict) -> Headline {
     let counts = [
@@ -129,7 +134,8 @@ fn fails(verdict: &Verdict) -> Headline {
         let channel = worst.channel as usize % 4;
         let (gpu, cpu) = (worst.gpu[channel], worst.cpu[channel]);
         let name = ["red", "green", "blue", "alpha"][channel];
-        text.push_str(&format!("; the worst is ({}, {}): {name} is {gpu:.6}, exactly {cpu:.6}", worst.x, worst.y));
+        let (x, y, of) = (worst.x, worst.y, of_attachment(worst.attachment));
+        text.push_str(&format!("; the worst is ({x}, {y}){of}: {name} is {gpu:.6}, exactly {cpu:.6}"));
         if let Some(one) = worst.contributions.first() {
             place = Some(of_contribution(one));
             text.push_str(&format!(

@@ -50,7 +50,7 @@ mod weakness;
 pub use expected::{Expected, POPULATION_SEED};
 pub use files::write_pictures;
 #[cfg(feature = "stability")]
-pub use headline::{Headline, is_empty};
+pub use headline::{Headline, is_empty, of_attachment};
 pub use maps::{DIFFERENCE_LEGEND, EVIDENCE_LEGEND, difference, evidence};
 pub use part::MOST_WORK;
 #[cfg(feature = "gl")]

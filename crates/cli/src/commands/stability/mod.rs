@@ -23,6 +23,7 @@ use glisten_stability::settings::Settings;
 use glisten_stability::stiff::{self, Worst};
 use glisten_stability::sweep::{self, Drawn, Parameter, Sweep, SweepPoint};
 use glisten_stability::{BOUND, Examination, ExamineOptions, Findings, Stability, find, heat, with_exact};
+use glisten_verify::verify::of_attachment;
 use library::LibraryArgs;
 use serde::Serialize;
 use std::cell::Cell;
@@ -375,7 +376,7 @@ fn human(done: &Done<'_>, console: &Console) -> String {
         let color = |color: [Option<f64>; 4]| {
             color.map(|value| value.map_or_else(|| "not finite".to_owned(), |value| format!("{value:.6}"))).join(", ")
         };
-        row("worst pixel", format!("({}, {})", worst.x, worst.y));
+        row("worst pixel", format!("({}, {}){}", worst.x, worst.y, of_attachment(worst.attachment)));
         row("  f32", color(worst.f32));
         row("  exact", color(worst.exact));
         for (name, values) in &worst.inputs {

@@ -276,6 +276,9 @@ pub(crate) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     Ok(exit)
 }
 
+/// The share of a bound from which the bound is 0: shares of the least number.
+const MOST_SHARE: f64 = 1e290;
+
 /// Draws a scene and judges it. Of one scene, the text for people is printed; a scene that is not drawn is reported.
 fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit, Option<Judged>), Failure> {
     let is_alone = of.scene == args.scene.scene && args.format == VerifyFormat::Human;
@@ -303,7 +306,11 @@ fn examine(args: &VerifyArgs, of: &SceneArgs, console: &Console) -> Result<(Exit
     drop(progress);
     if let Some(target) = difference {
         let most = verification.shares.iter().fold(0.0, |most: f64, share| most.max(*share));
-        let most = if most.is_finite() { format!("at most {most:.2} of the bound; ") } else { String::new() };
+        let most = match most {
+            most if most < MOST_SHARE => format!("at most {most:.2} of the bound; "),
+            most if most.is_finite() => "beyond a bound of 0; ".to_owned(),
+            _ => String::new(),
+        };
         write_map(console, &target, &verification.difference(), &format!("{most}{}", verify::DIFFERENCE_LEGEND))?;
     }
     if let Some(target) = evidence {

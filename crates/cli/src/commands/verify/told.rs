@@ -6,7 +6,7 @@
 use super::{Run, Skip, worst_of};
 use glisten_scene::compare::Verdict;
 use glisten_verify::verify::{Conclusion, Verification, mark};
-use glisten_verify::verify::{Headline, POPULATION_SEED, is_empty};
+use glisten_verify::verify::{Headline, POPULATION_SEED, is_empty, of_attachment};
 
 /// The text for people.
 pub(super) fn told(verification: &Verification, runs: &[Run], skipped: &[Skip], bit_unequal: Option<u64>) -> String {
@@ -83,10 +83,15 @@ const NONE_COMPARED: &str = "no pixel was compared";
 fn errors(verdict: &Verdict) -> String {
     match verdict.largest_error() {
         Some(error) => {
-            format!("largest error {error:.3e} ({:.1} ulp), rmse {:.3e}", verdict.max_ulp, verdict.rmse)
+            format!("largest error {error:.3e} ({} ulp), rmse {:.3e}", ulps(verdict.max_ulp), verdict.rmse)
         }
         None => NONE_COMPARED.to_owned(),
     }
+}
+
+/// A number of ULP. Those of a number near 0 are very many.
+fn ulps(count: f64) -> String {
+    if count < 1e12 { format!("{count:.1}") } else { format!("{count:.1e}") }
 }
 
 /// The standard of the comparison.
@@ -119,7 +124,7 @@ fn table(run: &Run, verification: &Verification) -> String {
     let psnr = verdict.psnr.map_or("equal".to_owned(), |psnr| format!("{psnr:.1} dB"));
     let errors = match verdict.largest_error() {
         Some(error) => vec![
-            ("largest error", format!("{error:.3e} ({:.1} ulp)", verdict.max_ulp)),
+            ("largest error", format!("{error:.3e} ({} ulp)", ulps(verdict.max_ulp))),
             ("rmse, psnr", format!("{:.3e}, {psnr}", verdict.rmse)),
         ],
         None => vec![("largest error", NONE_COMPARED.to_owned())],
@@ -158,9 +163,10 @@ fn worst_pixel(verdict: &Verdict) -> String {
     };
     let numbers = |color: [f64; 4]| color.map(|value| format!("{value:.7}")).join(", ");
     format!(
-        "  worst pixel        ({}, {})\n    gpu   {}\n    cpu   {}\n    bound {}\n",
+        "  worst pixel        ({}, {}){}\n    gpu   {}\n    cpu   {}\n    bound {}\n",
         worst.x,
         worst.y,
+        of_attachment(worst.attachment),
         numbers(worst.gpu),
         numbers(worst.cpu),
         worst.bound.map(|value| format!("{value:.2e}")).join(", ")

@@ -26,6 +26,8 @@ pub enum ErrorPart {
     Limited,
     /// The part that the operation itself adds: the result is that of its f32 operands, not rounded.
     Own,
+    /// What is lost where f32 has 0 and exact arithmetic has not: such a result alone is that of exact operands.
+    Vanished,
 }
 
 /// A `float`. Methods without a comment are the operation or built-in function of that name (GLSL 1.50 §5.9, §8.1 to §8.3).
