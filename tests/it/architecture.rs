@@ -66,7 +66,11 @@ static CRATES: &[(&str, &[&str], &[&str])] = &[
     ),
     ("crates/cost", &["glisten-front", "glisten-library"], &["naga", "wgpu", "clap", "png", "toml", "rayon"]),
     ("crates/format", &["glisten-front"], &["naga", "wgpu", "clap", "png", "toml", "rayon"]),
-    ("crates/lsp", &["glisten-format", "glisten-front", "glisten-library"], &["naga", "wgpu", "clap", "tempfile"]),
+    (
+        "crates/lsp",
+        &["glisten-format", "glisten-front", "glisten-library", "glisten-scene"],
+        &["naga", "wgpu", "clap", "tempfile"],
+    ),
     ("crates/page", &["glisten-front", "glisten-library", "glisten-scene"], &["naga", "wgpu", "clap", "toml"]),
     (
         "crates/play",

@@ -121,6 +121,42 @@ fn cmake_builds_what_changed() {
     }
 }
 
+/// An output that has another name than the build expects would be made each time.
+#[test]
+fn cmake_names_the_reflection_as_glisten_does() {
+    let names = [
+        "d.vert",
+        "d.vert.glsl",
+        "G.VERT",
+        "lit_vs.glsl",
+        "a-frag.GLSL",
+        "bVertex.glsl",
+        "vertex.glsl",
+        "vs_x.glsl",
+        "x.vertexshader",
+        "deferred-f.sdr",
+        "a.b.fs",
+        "a.vertexFrag.glsl",
+    ];
+    if are_there(&["cmake"]) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let module = root().join("integrations/cmake/Glisten.cmake");
+        let script = format!(
+            "include(\"{}\")\nforeach(name {})\n  _glisten_stem(stem ${{name}})\n  message(STATUS \"${{name}} ${{stem}}\")\nendforeach()\n",
+            module.display(),
+            names.join(" ")
+        );
+        let path = folder.path().join("names.cmake");
+        fs::write(&path, script).expect("written");
+        let output = Command::new("cmake").arg("-P").arg(&path).output().expect("it runs");
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        for name in names {
+            let (_, stem) = glisten::stage_of_name(name).expect("a stage");
+            assert!(said.contains(&format!("-- {name} {stem}\n")), "{name} {stem}: {said}");
+        }
+    }
+}
+
 #[test]
 fn meson_builds_what_changed() {
     if are_there(&["meson", "ninja"]) {

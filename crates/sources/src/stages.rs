@@ -1,7 +1,7 @@
 //! The stage of a shader, by the name of its file.
 
 use super::engines::code::{names_function, without_comments, words};
-use super::settings::members;
+use super::engines::combined;
 use glisten_front::hir::Stage;
 use std::fs;
 use std::io::Read;
@@ -193,14 +193,14 @@ pub fn inner_stages(folder: &Path) -> Vec<PathBuf> {
     let is_one = |path: &PathBuf| {
         let is_unnamed = may_be_included(path) && by_name(path).is_none() && unread(path).is_none();
         let text = || fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
-        is_unnamed && path.is_file() && is_inner(&text(), path)
+        is_unnamed && path.is_file() && is_inner(&text())
     };
     entries.filter(is_one).collect()
 }
 
-fn is_inner(text: &str, path: &Path) -> bool {
+fn is_inner(text: &str) -> bool {
     let code = without_comments(text);
-    words(&code).any(|(_, word)| OF_INNER_STAGES.contains(&word)) && members(Some(path), text).is_empty()
+    words(&code).any(|(_, word)| OF_INNER_STAGES.contains(&word)) && combined::members(text).is_empty()
 }
 
 /// Whether a file whose name tells no stage may be of the program with a stem.

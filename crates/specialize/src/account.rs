@@ -17,6 +17,8 @@ use std::collections::BTreeSet;
 
 /// The most values that a reason names.
 const MOST_VALUES: usize = 4;
+/// The most decisions in a function that are named.
+const MOST_DECISIONS: usize = 2;
 /// The most scalars of a value that is written out.
 const MOST_SCALARS: usize = 4;
 
@@ -201,6 +203,7 @@ impl Account<'_> {
 
     fn functions(&mut self, shader: &Shader, left: &Shader) {
         let names: FxHashSet<Span> = left.functions.iter().map(|function| function.span).collect();
+        let mut exprs: FxHashSet<Span> = FxHashSet::default();
         let mut kept: FxHashSet<Span> = FxHashSet::default();
         for function in &left.functions {
             left.visit_statements(function.body.as_deref().unwrap_or(&[]), &mut |stmt| {
@@ -209,21 +212,44 @@ impl Account<'_> {
                     kept.insert(stmt.span);
                 }
             });
+            let body = function.body.as_deref().unwrap_or(&[]);
+            left.visit_body(body, &mut |expr| _ = exprs.insert(left.expr(expr).span));
         }
         for function in shader.functions.iter().filter(|function| function.body.is_some()) {
             if names.contains(&function.span) {
                 let body = function.body.as_deref().unwrap_or(&[]);
                 self.statements(shader, body, &kept);
             } else {
-                let because = if !function.reachable {
-                    "`main` never calls it".to_owned()
-                } else {
-                    "no call of it is left".to_owned()
+                let body = function.body.as_deref().unwrap_or(&[]);
+                let mut is_inside = false;
+                shader.visit_body(body, &mut |expr| is_inside |= exprs.contains(&shader.expr(expr).span));
+                let because = match () {
+                    () if !function.reachable => "`main` never calls it".to_owned(),
+                    () if is_inside => format!("it is written out where it is called{}", self.decisions(shader, body)),
+                    () => format!("no call of it is left{}", self.decisions(shader, body)),
                 };
-                let extent = self.extent(function.span, function.body.as_deref().unwrap_or(&[]));
+                let extent = self.extent(function.span, body);
                 self.tell_all(Kind::Function, function.name.clone(), function.span, because, extent);
             }
         }
+    }
+
+    /// The first conditions in a function that are decided, as a part of the reason why it is gone.
+    fn decisions(&self, shader: &Shader, body: &[Stmt]) -> String {
+        let mut conditions: Vec<ExprId> = Vec::new();
+        shader.visit_statements(body, &mut |stmt| match &stmt.kind {
+            StmtKind::If { arms, .. } => conditions.extend(arms.iter().map(|(condition, _)| *condition)),
+            StmtKind::Switch { selector, .. } => conditions.push(*selector),
+            _ => {}
+        });
+        let is_decided = |condition: &ExprId| {
+            let decided = self.decided(shader.stage, shader.expr(*condition).span);
+            matches!(decided, Some(Reason::Condition(_) | Reason::Both | Reason::Selector))
+        };
+        conditions.retain(is_decided);
+        let told: Vec<String> =
+            conditions.iter().take(MOST_DECISIONS).map(|condition| self.because(shader, *condition)).collect();
+        told.iter().map(|because| format!("; {because}")).collect()
     }
 
     fn statements(&mut self, shader: &Shader, body: &[Stmt], kept: &FxHashSet<Span>) {
@@ -356,7 +382,8 @@ impl Account<'_> {
 
     /// A selection of which the body is left, since its condition always holds.
     fn always(&mut self, shader: &Shader, condition: ExprId, body: &[Stmt]) {
-        if self.holds(shader, condition) == Some(true) {
+        let decided = self.decided(shader.stage, shader.expr(condition).span);
+        if matches!(decided, Some(Reason::Condition(true) | Reason::Both)) {
             let span = shader.expr(condition).span;
             let with_body = body.first().is_some_and(|first| self.share_a_line(span, first.span));
             let name = if with_body { format!("if ({})", self.text(span)) } else { self.whole_line(span) };
@@ -402,6 +429,16 @@ impl Account<'_> {
                     let truth = self.holds(shader, *condition);
                     if let Some(truth) = truth {
                         self.operand(shader, *condition, if truth { *no } else { *yes }, truth);
+                    }
+                    let span = shader.expr(*condition).span;
+                    if self.decided(shader.stage, span) == Some(Reason::Both) {
+                        // Each round has one of the operands, and none has the condition.
+                        self.tell(
+                            Kind::Statement,
+                            format!("{} ? ..", self.text(span)),
+                            span,
+                            self.because(shader, *condition),
+                        );
                     }
                     truth.map(|truth| if truth { *yes } else { *no })
                 }

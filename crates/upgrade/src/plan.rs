@@ -3,9 +3,9 @@
 //! *In:* all texts of a program, with those that they include. *Out:* the new name of each output, attribute, varying and
 //! uniform that was built in, and of each name that means something else today. *Holds:* a new name occurs in no text.
 
-use super::names::{FUNCTIONS, lookup};
+use super::names::FUNCTIONS;
 use super::tokens::{closing, tokens};
-use super::uses::{keyword_uses, layout_macros, macros_alone};
+use super::uses::{declared_variables, hiding_variables, keyword_uses, layout_macros, macros_alone};
 use glisten_front::Stage;
 use glisten_front::builtin::constants::{CONSTANTS, Constant};
 use glisten_front::builtin::fixed::{FIXED, FixedRow, FixedType, STRUCTS};
@@ -88,6 +88,11 @@ impl Target {
     /// Whether inputs of fragment shaders may be `invariant` (up to GLSL 4.10; not in ES 3.00).
     pub(super) fn has_invariant_inputs(self) -> bool {
         self != Self::Es300 && self.number() < 420
+    }
+
+    /// Whether a semicolon alone is a declaration (GLSL 4.60 §9).
+    pub(super) fn has_empty_declarations(self) -> bool {
+        self == Self::Core460
     }
 
     /// Whether a word is one of the language, so that no name of a program can be that word.
@@ -334,7 +339,7 @@ impl<'t> Planner<'t> {
         // ES 3.00 lets nobody define a built-in function again (§6.1).
         let keeps_own = target.is_for_vulkan() || target == Target::Es300;
         let mut declared = declared_functions(texts, is_old, keeps_own);
-        declared.extend(hiding_variables(texts));
+        declared.extend(hiding_variables(|| texts.iter().map(|text| text.text)));
         if target == Target::Es300 {
             declared.extend(globals_named_as_functions(texts));
         }
@@ -365,7 +370,7 @@ impl<'t> Planner<'t> {
 
     /// Variables of the program under the names of old lookups: they keep them where they may.
     fn variables(&mut self, texts: &[Text<'_>]) {
-        for name in declared_variables(texts) {
+        for name in declared_variables(texts.iter().map(|text| text.text)) {
             let new = if self.plan.target.takes(name) { self.free(name) } else { name.to_owned() };
             Stage::ALL.into_iter().for_each(|stage| self.replace(stage, name, &new));
             if new != name {
@@ -535,45 +540,6 @@ fn globals_named_as_functions<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
         }
     }
     found.retain(|name| !called.contains(name));
-    found
-}
-
-/// The names of old lookups under which the texts declare variables.
-fn declared_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
-    declared(texts, |name| lookup(name).is_some())
-}
-
-/// The variables that would hide a function that is called in place of an old lookup. Texts of 1.30 and later may call both
-/// `texture2D` and `texture`, so a name that a text calls stays, as does one that members have.
-fn hiding_variables<'t>(texts: &[Text<'t>]) -> BTreeSet<&'t str> {
-    let (mut kept, mut new) = (BTreeSet::new(), BTreeSet::new());
-    for text in texts {
-        let all = tokens(text.text);
-        for (token, next) in all.iter().zip(all.iter().skip(1)) {
-            if next.text == "(" {
-                kept.insert(token.text);
-                new.extend(lookup(token.text).map(|lookup| lookup.name));
-            } else if token.text == "." {
-                kept.insert(next.text);
-            }
-        }
-    }
-    declared(texts, |name| FUNCTIONS.contains(&name) && new.contains(name) && !kept.contains(name))
-}
-
-/// The names of a kind under which the texts declare variables: after a word, and not before arguments.
-fn declared<'t>(texts: &[Text<'t>], is_of_kind: impl Fn(&str) -> bool) -> BTreeSet<&'t str> {
-    let mut found = BTreeSet::new();
-    for text in texts {
-        let all = tokens(text.text);
-        let pairs = all.iter().zip(all.iter().skip(1)).zip(all.iter().skip(2));
-        let declared = pairs.filter(|((before, token), after)| {
-            let is_type = before.is_word()
-                && !["return", "else", "define", "defined", "ifdef", "ifndef", "undef"].contains(&before.text);
-            is_type && is_of_kind(token.text) && [";", ",", ")", "=", "["].contains(&after.text)
-        });
-        found.extend(declared.map(|((_, token), _)| token.text));
-    }
     found
 }
 

@@ -54,6 +54,9 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
         let before = dropped.checked_sub(1).and_then(|index| is_dropped.get(index));
         before.is_some_and(is_inside) || version.as_ref().is_some_and(is_inside)
     };
+    if !plan.target.has_empty_declarations() {
+        edits.extend(empty_declarations(&all, &lines));
+    }
     let own = own_functions(&all);
     for (index, _) in all.iter().enumerate().filter(|(_, token)| token.is_word() && !is_left(token)) {
         words(text.stage, plan, &all, index, &own, &mut edits);
@@ -74,6 +77,29 @@ pub fn rewrite(text: &Text<'_>, plan: &Plan) -> String {
         edits.extend(open_comments(text.text, &code));
     }
     applied(text.text, edits)
+}
+
+/// The semicolons that declare nothing, outside of functions: behind a function, or another semicolon. A directive is no code.
+fn empty_declarations(all: &[Token<'_>], lines: &[(Range<usize>, Option<&str>)]) -> Vec<Edit> {
+    let is_code = |token: &&Token<'_>| {
+        let at = lines.partition_point(|(line, _)| line.end <= token.range.start);
+        lines.get(at).is_none_or(|(_, directive)| directive.is_none())
+    };
+    let mut edits = Vec::new();
+    let (mut open, mut last, mut may_be_empty): (Vec<bool>, &str, bool) = (Vec::new(), ";", true);
+    for token in all.iter().filter(is_code) {
+        if token.text == ";" && open.is_empty() && may_be_empty {
+            edits.push((token.range.clone(), String::new()));
+        }
+        may_be_empty = token.text == ";";
+        match token.text {
+            "{" | "(" | "[" => open.push(last == ")"),
+            "}" | ")" | "]" => may_be_empty = open.pop() == Some(true) && token.text == "}",
+            _ => {}
+        }
+        last = token.text;
+    }
+    edits
 }
 
 /// A space behind each backslash that ends a `//` comment: the comment would go on in the next line where backslashes join lines (GLSL 4.20 §3.1).
@@ -407,7 +433,8 @@ mod tests {
     use glisten_front::Stage;
 
     fn upgraded(source: &str, stage: Stage, target: Target) -> String {
-        let text = Text { text: source, stage, is_shader: true, version: 110 };
+        let version = if source.starts_with("#version 100") { 100 } else { 110 };
+        let text = Text { text: source, stage, is_shader: true, version };
         rewrite(&text, &Plan::new(&[text], target))
     }
 
@@ -474,8 +501,29 @@ mod tests {
             Target::Es300,
         );
         let start =
-            "#version 300 es\nprecision highp float;\nprecision highp sampler3D;\nout mediump vec4 fragColor;\nuniform";
+            "#version 300 es\nprecision highp float;\nprecision highp sampler3D;\nout highp vec4 fragColor;\nuniform";
         assert!(new.starts_with(start), "{new}");
+        // By default, ES has fewer bits for these than other languages.
+        let old = "uniform sampler2D t; uniform ivec2 p; void main() { gl_FragColor = texelFetch(t, p, 0); }";
+        let start = |version: u16| {
+            let text = Text { text: old, stage: Stage::Fragment, is_shader: true, version };
+            rewrite(&text, &Plan::new(&[text], Target::Es300)).split("uniform").next().map(str::to_owned)
+        };
+        let all =
+            "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\nout highp vec4 fragColor;\n";
+        assert_eq!(start(130), Some(format!("#version 300 es\n{all}")));
+        let float = "precision highp float;\nout mediump vec4 fragColor;\n";
+        assert_eq!(start(100), Some(format!("#version 300 es\n{float}")));
+    }
+
+    #[test]
+    fn empty_declarations_go() {
+        let old = "#version 330\n;struct S { float x; };\n#define E void e() { };\nvoid f() { { } ; ; };;\n\
+                   uniform B { vec4 b; };\nout vec4 c;\nvoid main() { vec2 a[1] = vec2[1](vec2(1.0)); f(); };\n";
+        let new = "#version 450 core\nstruct S { float x; };\n#define E void e() { };\nvoid f() { { } ; ; }\n\
+                   uniform B { vec4 b; };\nout vec4 c;\nvoid main() { vec2 a[1] = vec2[1](vec2(1.0)); f(); }\n";
+        assert_eq!(upgraded(old, Stage::Fragment, Target::Core450), new);
+        assert!(upgraded(old, Stage::Fragment, Target::Core460).contains("};;\n"));
     }
 
     #[test]

@@ -1,7 +1,8 @@
-//! How texts use words that later versions have as keywords: as keywords, as macros, in layouts.
+//! How texts use words that later versions have: as keywords, as macros, in layouts, as variables.
 //!
 //! *In:* texts. *Out:* the words. *Holds:* nothing is preprocessed, so all branches of conditions count.
 
+use super::names::{FUNCTIONS, lookup};
 use super::tokens::{Token, closing, tokens};
 use std::collections::BTreeSet;
 
@@ -72,4 +73,43 @@ fn is_in_layout(all: &[Token<'_>], index: usize) -> bool {
         let word = open.checked_sub(1).and_then(|word| before.get(word));
         opens && word.is_some_and(|word| word.text == "layout")
     })
+}
+
+/// The names of old lookups under which the texts declare variables.
+pub(super) fn declared_variables<'t>(texts: impl Iterator<Item = &'t str>) -> BTreeSet<&'t str> {
+    declared(texts, |name| lookup(name).is_some())
+}
+
+/// The variables that would hide a function that is called in place of an old lookup. Texts of 1.30 and later may call both
+/// `texture2D` and `texture`, so a name that a text calls stays, as does one that members have.
+pub(super) fn hiding_variables<'t, I: Iterator<Item = &'t str>>(texts: impl Fn() -> I) -> BTreeSet<&'t str> {
+    let (mut kept, mut new) = (BTreeSet::new(), BTreeSet::new());
+    for text in texts() {
+        let all = tokens(text);
+        for (token, next) in all.iter().zip(all.iter().skip(1)) {
+            if next.text == "(" {
+                kept.insert(token.text);
+                new.extend(lookup(token.text).map(|lookup| lookup.name));
+            } else if token.text == "." {
+                kept.insert(next.text);
+            }
+        }
+    }
+    declared(texts(), |name| FUNCTIONS.contains(&name) && new.contains(name) && !kept.contains(name))
+}
+
+/// The names of a kind under which the texts declare variables: after a word, and not before arguments.
+fn declared<'t>(texts: impl Iterator<Item = &'t str>, is_of_kind: impl Fn(&str) -> bool) -> BTreeSet<&'t str> {
+    let mut found = BTreeSet::new();
+    for text in texts {
+        let all = tokens(text);
+        let pairs = all.iter().zip(all.iter().skip(1)).zip(all.iter().skip(2));
+        let declared = pairs.filter(|((before, token), after)| {
+            let is_type = before.is_word()
+                && !["return", "else", "define", "defined", "ifdef", "ifndef", "undef"].contains(&before.text);
+            is_type && is_of_kind(token.text) && [";", ",", ")", "=", "["].contains(&after.text)
+        });
+        found.extend(declared.map(|((_, token), _)| token.text));
+    }
+    found
 }

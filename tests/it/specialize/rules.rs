@@ -692,3 +692,44 @@ fn lights_by_the_hundred_come_back_and_stay_short() {
     let length = left.text(Stage::Fragment).map_or(0, |text| text.lines().count());
     assert!(length < 256 * 5, "{length} lines");
 }
+
+/// Of an expression whose value nobody reads, what its operands do stays, from left to right, and nothing else.
+#[test]
+fn effects_stay_without_the_arithmetic_around_them() {
+    let fragment = "#version 150\nin vec4 v;\nout vec4 color;\nfloat n = 0.0;\n\
+        float a() { if (v.x < 0.5) discard; n += v.y; return n; }\nfloat b() { n *= v.z; return n; }\n\
+        void main() { float z = (a() * v.w + sin(v.x)) / vec2(v.y, b()).y; color = vec4(n); }\n";
+    let text = residual(fragment, &[]).text(Stage::Fragment).expect("a stage").to_owned();
+    let (first, second) = (text.find("    a();"), text.find("    b();"));
+    assert!(first.is_some() && first < second, "{text}");
+    assert!(!text.contains("sin(") && !text.contains("v.w") && !text.contains('/'), "{text}");
+}
+
+/// The account tells why a function is gone, by what was decided in it, and of conditions that rounds decide differently.
+#[test]
+fn what_is_decided_in_functions_and_rounds_is_told() {
+    let fragment = "#version 150\nin vec4 v;\nuniform float op;\nuniform float k[2];\nout vec4 color;\n\
+        float tone(float c) {\n    if (op == 0.0) return c;\n    return c / (1.0 + c);\n}\n\
+        void main() {\n    float s = tone(v.x);\n    for (int i = 0; i < 2; i++)\n        s += k[i] == 0.0 ? v.y : v.z;\n    color = vec4(s);\n}\n";
+    let source = |name: &str, text: &str, stage| Source { name: name.into(), text: text.into(), stage };
+    let sources = [source("a.vert", VERTEX, Stage::Vertex), source("a.frag", fragment, Stage::Fragment)];
+    let compiled = Compiler::new(Options::default()).compile(&sources);
+    let program = compiled.program.expect("it compiles");
+    let mut known = Known::default();
+    known.uniforms.insert("op".into(), vec![ScalarValue::Float(0.0)]);
+    known.uniforms.insert("k".into(), [0.0, 1.0].map(ScalarValue::Float).to_vec());
+    let options = glisten_specialize::Options { sources: Some(&compiled.sources), ..Default::default() };
+    let told: Vec<String> = specialize_with(&program, &known, &options)
+        .left_out
+        .iter()
+        .map(|one| format!("{}: {}", one.name, one.because))
+        .collect();
+    let has = |text: &str| told.iter().any(|one| one == text);
+    assert!(has("tone: no call of it is left; `op == 0.0` is true: `op` is 0.0"), "{told:#?}");
+    assert!(
+        has(
+            "k[i] == 0.0 ? ..: `k[i] == 0.0` is known: true in some calls or rounds, false in others: `k[0]` is 0.0, `k[1]` is 1.0"
+        ),
+        "{told:#?}"
+    );
+}

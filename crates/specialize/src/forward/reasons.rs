@@ -28,6 +28,9 @@ impl Reason {
         match (self, other) {
             (known, other) if known == other => known,
             (Self::Condition(_) | Self::Both, Self::Condition(_) | Self::Both) => Self::Both,
+            (Self::Unrolled(a) | Self::UnrolledUpTo(a), Self::Unrolled(b) | Self::UnrolledUpTo(b)) => {
+                Self::UnrolledUpTo(a.max(b))
+            }
             (known, _) => known,
         }
     }

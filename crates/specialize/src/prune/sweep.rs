@@ -298,6 +298,17 @@ impl Sweeper<'_> {
                 self.effect(left, span, out);
                 self.changed = true;
             }
+            ExprKind::Logical(..) | ExprKind::Ternary(..) => out.push(keep),
+            // Nobody wants the result: what the operands do is left, from left to right.
+            kind if !may_act(&kind) => {
+                self.forget_effect(expr);
+                self.changed = true;
+                let operands: Vec<ExprId> = kind.children().into_iter().filter(|child| !self.is_pure(*child)).collect();
+                for operand in operands.into_iter().rev() {
+                    self.uses.effect(self.types, self.shader, operand, 1);
+                    self.effect(operand, span, out);
+                }
+            }
             // A call that gives a value alone was seen above, unless its arguments do something.
             _ => out.push(keep),
         }

@@ -70,6 +70,7 @@ fn places(reflection: &Reflection, name: &str) -> Vec<Match> {
         && let Some(base) = name.strip_suffix("[0]")
     {
         lines = exact(reflection, base);
+        lines.retain(|found| is_array(&found.row));
     }
     if lines.is_empty() {
         lines = element(reflection, name);
@@ -78,6 +79,12 @@ fn places(reflection: &Reflection, name: &str) -> Vec<Match> {
         lines = members(reflection, name);
     }
     lines
+}
+
+/// Whether a row of the reflection is one of an array. What is none has no element 0 (OpenGL 3.2 §2.11.4).
+fn is_array(row: &serde_json::Value) -> bool {
+    let is_of_elements = |ty: &str| ty.ends_with(']');
+    row["array_size"].is_number() || row["type"].as_str().is_some_and(is_of_elements)
 }
 
 /// The path by which hosts name a part of a block that has an instance name: with the block's name (OpenGL 3.2 §2.11.4).

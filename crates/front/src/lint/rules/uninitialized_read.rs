@@ -53,7 +53,7 @@ fn given(function: &Function, without: &[ParamMode]) -> Vec<bool> {
 /// The largest number of globals that are told apart in a call.
 const MAX_GLOBALS: usize = 64;
 
-/// What a call does to the variables of its caller.
+/// The effects of a call on the variables of its caller.
 #[derive(Default)]
 struct Callee {
     /// The parameters that are read before they are assigned, by their places.
