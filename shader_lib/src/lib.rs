@@ -6,6 +6,7 @@
 //! *Holds:* every function is total: its result is finite for every finite input. A module includes what it needs and
 //! may be included twice.
 
+mod body;
 mod catalogue;
 mod cost;
 pub mod flat;
@@ -39,14 +40,27 @@ pub const SHOWN: &str = "<glisten>/";
 pub struct Module {
     /// The name: `phong`.
     pub name: &'static str,
-    /// The text, GLSL 1.50 without a `#version` line.
+    /// The text, GLSL 1.50 without a `#version` line; in a module for the web without its header.
     pub text: &'static str,
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 macro_rules! module {
     ($name:literal) => {
         Module { name: $name, text: include_str!(concat!("../", $name, ".glsl")) }
     };
+}
+
+#[cfg(target_arch = "wasm32")]
+macro_rules! module {
+    ($name:literal) => {{
+        const TEXT: &str = include_str!(concat!("../", $name, ".glsl"));
+        const BODY: &[u8] = &body::body_bytes::<{ body::body_len(TEXT) }>(TEXT);
+        match std::str::from_utf8(BODY) {
+            Ok(text) => Module { name: $name, text },
+            Err(_) => panic!("a module is UTF-8"),
+        }
+    }};
 }
 
 static MODULES: &[Module] = &[
@@ -128,7 +142,7 @@ impl Embedded {
             return None;
         }
         let module = Self::module(path, form)?;
-        Some(Included { name: format!("{SHOWN}{}.glsl", module.name), text: module.text.into() })
+        Some(Included { name: format!("{SHOWN}{}.glsl", module.name), text: body::body(module.text).into() })
     }
 
     /// The module that an include refers to if a text of the library has it.
