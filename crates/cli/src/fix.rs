@@ -7,7 +7,7 @@
 
 use crate::buffers;
 use crate::console::Console;
-use crate::exit::{Exit, Outcome};
+use crate::exit::{Exit, Failure};
 use crate::files;
 use crate::session::Unit;
 use crate::texts::{Text, diff};
@@ -205,11 +205,12 @@ impl Fixer {
     }
 
     /// Writes the files, or prints what would change in them, to standard output if it `has_output` for that, and tells how much
-    /// that is. Each file that cannot be written is told, and the others are; the exit code says it.
+    /// that is. Each file that cannot be written is told, and the others are; the exit code says it. The second value is whether a file has
+    /// another text than the one that was checked last.
     ///
     /// # Errors
     /// Standard output cannot be written.
-    pub(crate) fn finish(self, has_output: bool, console: &Console) -> Outcome {
+    pub(crate) fn finish(self, has_output: bool, console: &Console) -> Result<(Exit, bool), Failure> {
         let changed: Vec<(&PathBuf, &Changed)> =
             self.files.iter().filter(|(_, file)| file.current() != file.text.text).collect();
         let (mut n_written, mut exit) = (0, Exit::Ok);
@@ -225,7 +226,10 @@ impl Fixer {
             } else if is_unchanged(path, &file.original) {
                 match files::replace(path, &file.text.bytes(file.current())) {
                     Ok(()) => n_written += 1,
-                    Err(failure) => exit = exit.max(console.tell(failure)),
+                    Err(failure) => {
+                        exit = exit.max(console.tell(failure));
+                        buffers::put(path, file.original.clone());
+                    }
                 }
             } else {
                 console.message(&format!(
@@ -235,11 +239,11 @@ impl Fixer {
             }
         }
         let count = |n: usize, what: &str, many: &str| format!("{n} {}", if n == 1 { what } else { many });
-        let n_fixes: usize = self.applied.values().sum();
+        let n_fixes: usize = if n_written == 0 { 0 } else { self.applied.values().sum() };
         let verb = if self.args.diff { "would change" } else { "changed" };
         let fixes = count(n_fixes, "fix", "fixes");
         console.remark(&format!("{fixes} {verb} {}", count(n_written, "file", "files")));
-        Ok(exit)
+        Ok((exit, exit != Exit::Ok))
     }
 }
 

@@ -175,7 +175,11 @@ pub(crate) fn run(args: &LintArgs, console: &Console) -> Outcome {
         (units, _) = checked(&mut session, groups.clone(), &inputs, &scenes, None);
         baselines.apply(&mut units, None);
     }
-    let exit = fixer.finish(session.is_human(), console)?;
+    let (exit, has_old_texts) = fixer.finish(session.is_human(), console)?;
+    if has_old_texts {
+        (units, _) = checked(&mut session, groups, &inputs, &scenes, None);
+        baselines.apply(&mut units, None);
+    }
     // Standard output has the diff, and findings for people are apart from it; a document for programs takes its place there.
     Ok(session.tell_units(&units, !(args.fixes.prints() && session.is_human()))?.max(exit))
 }
