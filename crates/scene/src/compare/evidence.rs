@@ -523,10 +523,25 @@ mod tests {
     #[test]
     fn a_channel_that_is_not_written_measures_nothing() {
         let picture = reference(&[Interval::ALL]);
-        let written =
-            Written { channels: vec![[false, true, true, false]], full: None, step: 0.0, relative: 0.0, coarse: 0.0 };
+        let written = Written {
+            channels: vec![[false, true, true, false]],
+            full: None,
+            step: 0.0,
+            relative: 0.0,
+            coarse: 0.0,
+            largest: 1.0,
+        };
         let ruler = Ruler::new(&picture, &written, None);
         assert_eq!((ruler.range, ruler.class(2), ruler.width(2)), (0.0, Class::Judged, 0.0));
+    }
+
+    #[test]
+    fn what_no_float_holds_is_no_value() {
+        let mut picture = reference(&[Interval::point(0.5)]);
+        let range = |picture: &Picture| Ruler::new(picture, &Written::everything(1), None).range;
+        let known = range(&picture);
+        picture.attachments[0][0][1] = 1e39;
+        assert_eq!(range(&picture), known);
     }
 
     #[test]
