@@ -279,7 +279,7 @@ fn an_underflow_that_harms_nothing_is_no_cause() {
 #[test]
 fn the_worst_pixel_is_of_an_attachment() {
     let fragment = "#version 150\nin vec2 at;\nout vec4 o[2];\nvoid main() {\n    o[0] = vec4(at, 0.0, 1.0);\n    \
-                    o[1] = vec4((at.x + 1e6) - 1e6, 0.0, 0.0, 1.0);\n}\n";
+                    o[1] = vec4((at.x + 1e7) - 1e7, 0.0, 0.0, 1.0);\n}\n";
     let scene = SCENE.replace("height = 16\n", "height = 16\nattachments = 2\n");
     let folder =
         Folder::new(&[("a.vert", VERTEX.as_bytes()), ("a.frag", fragment.as_bytes()), ("a.toml", scene.as_bytes())]);
