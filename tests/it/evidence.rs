@@ -311,6 +311,59 @@ fn a_hash_is_judged_by_what_is_known_of_the_device() {
     }
 }
 
+/// Positions, sizes of points and clip distances that the last bits of a sine decide: no specification says what is covered.
+#[test]
+fn what_a_hash_moves_is_open_and_no_fault() {
+    let cases = [
+        ("gl_Position = vec4(p + 0.1 * hash(p), 0.0, 1.0);", "triangles", ""),
+        ("gl_Position = vec4(p + 0.2 * hash(p), 0.0, 1.0);", "points", ""),
+        (
+            "gl_Position = vec4(p, 0.0, 1.0); gl_PointSize = 1.0 + 6.0 * hash(p);",
+            "points",
+            "program_point_size = true\n",
+        ),
+        ("gl_Position = vec4(p, 0.0, 1.0); gl_ClipDistance[0] = hash(p) - 0.5;", "triangles", "clip_distances = 1\n"),
+    ];
+    for (body, primitive, more) in cases {
+        let folder = quad(
+            8,
+            "#version 150\nout vec4 c;\nvoid main() { c = vec4(fract(float(gl_PrimitiveID) * 0.37), 0.5, 0.0, 1.0); }\n",
+        );
+        let vertex = format!(
+            "#version 150\nin vec2 p;\nfloat hash(vec2 p) {{ return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }}\n\
+             void main() {{ {body} }}\n"
+        );
+        let text = fs::read_to_string(folder.path("a.toml")).expect("written");
+        let text = text.replace("\"triangles\"\n", &format!("\"{primitive}\"\n{more}"));
+        fs::write(folder.path("a.vert"), vertex).expect("written");
+        fs::write(folder.path("a.toml"), text).expect("written");
+        let (exit, json) = verify(&folder, &[]);
+        assert_eq!((exit, &json["verdict"]), (1, &"inconclusive".into()), "{body}: {json}");
+        for key in ["coverage_mismatch", "suspect", "outside_likely", "outside"] {
+            assert_eq!(json[key], 0, "{body}: {json}");
+        }
+    }
+}
+
+/// One vertex at a threshold leaves all of a mesh undecided, and not where its outline is.
+#[test]
+fn an_outline_is_judged_where_one_vertex_is_open() {
+    let folder = quad(8, "#version 150\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+    let vertex = |moved: &str| {
+        let position = format!("gl_Position = vec4(p * 0.8{moved}, 0.0, 1.0);");
+        format!(
+            "#version 150\nin vec2 p;\nvoid main() {{ {position} if (length(p * 4.0) >= 4.0) gl_Position = vec4(2.0); }}\n"
+        )
+    };
+    fs::write(folder.path("a.vert"), vertex("")).expect("written");
+    fs::write(folder.path("b.vert"), vertex(" + 0.03125")).expect("written");
+    let (_, json) = verify(&folder, &[]);
+    assert_ne!(json["verdict"], "fails", "{json}");
+    assert_eq!(code(&folder.run(&["compile", "--program", "b.vert,a.frag", "-o", "out", "-q"])), 0);
+    let (exit, json) = verify(&folder, &["--with", "vertex=out/b.vert.wgsl"]);
+    assert_eq!((exit, &json["verdict"]), (1, &"fails".into()), "{json}");
+}
+
 /// `compile` leaves out a varying that the fragment stage declares and never reads.
 #[test]
 fn a_module_may_leave_out_what_nobody_reads() {

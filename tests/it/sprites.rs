@@ -20,6 +20,10 @@ type Point = ([f32; 4], f32);
 
 /// A scene of points.
 fn scene(points: &[Point], rest: &str) -> Scene {
+    scene_with(points, rest, FRAGMENT)
+}
+
+fn scene_with(points: &[Point], rest: &str, fragment: &str) -> Scene {
     let positions: Vec<String> = points.iter().flat_map(|(at, _)| at.map(|value| format!("{value:?}"))).collect();
     let sizes: Vec<String> = points.iter().map(|(_, size)| format!("{size:?}")).collect();
     let text = format!(
@@ -32,7 +36,7 @@ fn scene(points: &[Point], rest: &str) -> Scene {
     );
     // With indices, the number of an instance is not that of a vertex.
     let vertex = if rest.contains("indices") { VERTEX.replace("gl_VertexID", "int(size)") } else { VERTEX.to_owned() };
-    from_texts([("a.toml", text.as_str()), ("a.vert", &vertex), ("a.frag", FRAGMENT)])
+    from_texts([("a.toml", text.as_str()), ("a.vert", &vertex), ("a.frag", fragment)])
 }
 
 #[test]
@@ -65,6 +69,19 @@ fn quads_draw_what_points_draw() {
     let wrong: Vec<String> = rows
         .iter()
         .filter_map(|(name, points, rest)| complaint(&format!("sprites_{name}"), &gpu, &scene(points, rest), &strict()))
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_point_has_the_number_of_its_primitive() {
+    let gpu = gpu();
+    let points = [([-0.5, 0.0, 0.0, 1.0], 5.0), ([0.0, 0.0, 0.0, 1.0], 7.0), ([0.5, 0.0, 0.0, 1.0], 9.0)];
+    let fragment =
+        "#version 150\nout vec4 c;\nvoid main() { c = vec4(float(gl_PrimitiveID) * 0.25, gl_PointCoord, 1.0); }\n";
+    let wrong: Vec<String> = ["", "indices = [2, 0, 2, 1]"]
+        .iter()
+        .filter_map(|rest| complaint("sprites_number", &gpu, &scene_with(&points, rest, fragment), &strict()))
         .collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

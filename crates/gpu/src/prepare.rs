@@ -220,6 +220,7 @@ impl Gpu {
         let program = &draw.program;
         let sprites = sprites::applies(draw, target);
         beyond::refuse(draw)?;
+        sprites::refuse(draw, target)?;
         refuse_levels(draw)?;
         refuse_wraps(draw)?;
         refuse_samples(draw)?;

@@ -127,6 +127,7 @@ impl Written {
 fn planned(framebuffer: &Framebuffer, draw: &Draw, bytes: &mut Bytes, written: &mut Written) -> Result<Value, Error> {
     let program = &draw.program;
     beyond::refuse(draw)?;
+    sprites::refuse(draw, Target::Wgsl)?;
     bindings::refuse_levels(draw)?;
     bindings::refuse_wraps(draw)?;
     let sprites = sprites::applies(draw, Target::Wgsl);

@@ -27,7 +27,7 @@ pub mod tables;
 mod toml_string;
 pub mod values;
 
-pub use dependence::ColorDependence;
+pub use dependence::{ColorDependence, depends_on};
 pub use files::{
     DiskFiles, FileError, FileSource, MAX_FILE_BYTES, MemoryFiles, confine_to, confined_to, is_allowed, may_end,
 };

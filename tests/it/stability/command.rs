@@ -235,6 +235,8 @@ fn the_place_where_an_argument_lost_its_digits_is_named() {
             "float f = mod(floor(tile.x), 2.0);",
             [6, 6],
         ),
+        // A fraction that is written out.
+        (1_234_567.0, "float turns = k * 0.618034;", "float x = turns + at.x;", "float f = x - floor(x);", [6, 7]),
         (9_000_001.0, "float t = k * 0.2055;", "int n = int(t + 3.0 * at.x);", "float f = float(n % 5) / 4.0;", [6, 7]),
     ];
     for (k, first, second, third, lines) in cases {
@@ -256,6 +258,35 @@ fn the_place_where_an_argument_lost_its_digits_is_named() {
         };
         assert_eq!((exit, causes.iter().filter(is_origin).count()), (1, 1), "{first}: {}", found["causes"]);
     }
+}
+
+/// Far from its axis a lobe is 0, to no harm.
+#[test]
+fn an_underflow_that_harms_nothing_is_no_cause() {
+    let fragment = "#version 150\nin vec2 at;\nout vec4 o;\nvoid main() {\n    float c = normalize(vec3(at * 0.5, 20.0)).z;\n    \
+                    float s = (1.0 - c * c) * 1e5;\n    o = vec4(exp(-s * s * 40.0), 0.0, 0.0, 1.0);\n}\n";
+    let scene = SCENE.replace("16", "24");
+    let folder =
+        Folder::new(&[("a.vert", VERTEX.as_bytes()), ("a.frag", fragment.as_bytes()), ("a.toml", scene.as_bytes())]);
+    let (exit, found) = json(&folder, &[]);
+    let kinds: Vec<&str> =
+        found["causes"].as_array().into_iter().flatten().filter_map(|cause| cause["kind"].as_str()).collect();
+    assert_eq!((exit, kinds.first()), (1, Some(&"cancellation")), "{found}");
+    assert!(!kinds.contains(&"underflow"), "{found}");
+}
+
+/// The worst pixel is told of the attachment that has the error.
+#[test]
+fn the_worst_pixel_is_of_an_attachment() {
+    let fragment = "#version 150\nin vec2 at;\nout vec4 o[2];\nvoid main() {\n    o[0] = vec4(at, 0.0, 1.0);\n    \
+                    o[1] = vec4((at.x + 1e7) - 1e7, 0.0, 0.0, 1.0);\n}\n";
+    let scene = SCENE.replace("height = 16\n", "height = 16\nattachments = 2\n");
+    let folder =
+        Folder::new(&[("a.vert", VERTEX.as_bytes()), ("a.frag", fragment.as_bytes()), ("a.toml", scene.as_bytes())]);
+    let worst = &json(&folder, &[]).1["picture"]["worst"];
+    assert_eq!(worst["attachment"], 1, "{worst}");
+    assert_ne!(worst["f32"][0], worst["exact"][0], "{worst}");
+    assert!(out(&folder.run(&["stability", "a.toml"])).contains(" of attachment 1\n"));
 }
 
 #[test]

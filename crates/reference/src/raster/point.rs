@@ -16,8 +16,8 @@ pub(crate) fn shape(x: f32, y: f32, size: f32) -> Option<Shape> {
     Some(Shape::Convex { bounds: Bounds { x0, x1, y0, y1 }, edges: [NOWHERE; 4], count: 0 })
 }
 
-/// The same with a band at each border that is open, as far as an envelope knows: `position` and `sizes` contain the position and the size
-/// that a GPU may compute.
+/// The pixels of [`shape`] with a band at each border that is open, as far as an envelope knows: `position` and `sizes` contain
+/// what a GPU may compute.
 pub(crate) fn shape_of([x, y]: [f32; 2], size: f32, position: [Interval; 2], sizes: Interval) -> Option<Shape> {
     let Shape::Convex { bounds: Bounds { x0, x1, y0, y1 }, .. } = shape(x, y, size)? else { return None };
     let sizes = match sizes.may_be_nan {

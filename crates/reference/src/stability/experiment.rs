@@ -196,11 +196,10 @@ fn is_of_vector(act: Act) -> bool {
 type Gains = BTreeMap<usize, f64>;
 
 /// The causes without the sums that merely bear a loss: they cancel nothing where their operands have digits, and at each pixel that they
-/// harm, a function that loses its argument's digits does at least half as much.
+/// harm, a function that loses its argument's digits, or a difference that loses its own, does at least half as much.
 fn without_bearers(tried: &[(Cause, Gains)], least: f64) -> Vec<Cause> {
     let loses = |cause: &Cause| {
-        let by_itself = !matches!(cause.kind, CauseKind::Cancellation | CauseKind::Accumulation);
-        by_itself && cause.first_lost_bits >= CAUSE_BITS && cause.harm.is_some()
+        cause.kind != CauseKind::Accumulation && cause.first_lost_bits >= CAUSE_BITS && cause.harm.is_some()
     };
     let bears = |cause: &Cause, gains: &Gains| {
         let covers = |others: &Gains| {

@@ -120,7 +120,8 @@ fn square(shader: &Shader, id: ExprId) -> Option<ExprId> {
     (plain && same_form(shader, a, b)).then_some(a)
 }
 
-/// The unit vectors of `max(dot(a, b), 0.0)` or `clamp(dot(a, b), 0.0, 1.0)`.
+/// The unit vectors of `max(dot(a, b), 0.0)` or `clamp(dot(a, b), 0.0, 1.0)`, or of `dot(a, b)` itself, whose power is undefined where it
+/// is negative.
 fn cosine(shader: &Shader, names: &Names, function: FunctionId, base: ExprId) -> Option<(ExprId, ExprId)> {
     let (at, limited) = meant(shader, names, (function, base));
     let ExprKind::BuiltinCall(limit, list) = &shader.expr(limited).kind else { return None };
@@ -129,6 +130,7 @@ fn cosine(shader: &Shader, names: &Names, function: FunctionId, base: ExprId) ->
         (BuiltinFunction::Max, [a, b]) if is_zero(b) => *a,
         (BuiltinFunction::Max, [a, b]) if is_zero(a) => *b,
         (BuiltinFunction::Clamp, [x, low, _]) if is_zero(low) => *x,
+        (BuiltinFunction::Dot, _) => limited,
         _ => return None,
     };
     let (within, product) = meant(shader, names, (at, product));

@@ -12,13 +12,15 @@ use super::powers::decimal;
 use super::probe;
 use super::same::form;
 use glisten_front::hir::{
-    ConstructKind, Expr, ExprId, ExprKind, Function, FunctionId, Local, LocalId, LocalKind, ParamMode, Sampling,
-    ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, TypeId, VarRef,
+    ConstructKind, Expr, ExprId, ExprKind, Function, FunctionId, GlobalId, Local, LocalId, LocalKind, ParamMode,
+    Sampling, ScalarValue, Shader, Stage, Stmt, StmtKind, Storage, TypeId, VarRef,
 };
 use glisten_front::source::Span;
 use glisten_reference::{Precision, RenderOptions, render};
-use glisten_scene::{Draw, Filter, Format, Framebuffer, Scene, State};
+use glisten_scene::dynamic::{names_sampler, names_uniform};
+use glisten_scene::{Draw, Filter, Format, Framebuffer, Scene, State, depends_on};
 use glisten_verify::evaluate::table;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -46,10 +48,15 @@ pub(super) fn candidates(scene: &Scene, index: usize) -> Vec<Candidate> {
     let Some(draw) = scene.draws.get(index) else { return Vec::new() };
     let Some(shader) = draw.program.stage(Stage::Fragment) else { return Vec::new() };
     let fixed = Fixed::of(draw, &scene.framebuffer, Stage::Fragment);
+    let dynamic = dynamic(draw);
     let mut list: Vec<Candidate> = Vec::new();
     for found in tabulated(&draw.program.types, shader, &fixed) {
         if list.len() == MOST_TABLES {
             break;
+        }
+        // In another frame, its range is another one.
+        if depends_on(&draw.program, &dynamic, (found.function, found.argument)) {
+            continue;
         }
         let Some(source) = source(draw, &fixed, &found) else { continue };
         let Some(range) = probe::range(scene, index, found.argument) else { continue };
@@ -64,6 +71,16 @@ pub(super) fn candidates(scene: &Scene, index: usize) -> Vec<Candidate> {
         }
     }
     list
+}
+
+/// The uniforms and samplers of a draw that are `dynamic`, in each stage.
+fn dynamic(draw: &Draw) -> BTreeSet<(Stage, GlobalId)> {
+    let interface = &draw.program.interface;
+    let any = |is_it: &dyn Fn(&str) -> bool| draw.dynamic.iter().any(|name| is_it(name));
+    let leaves = interface.uniforms.iter().filter(|leaf| any(&|name| names_uniform(interface, name, leaf)));
+    let roots = leaves.filter_map(|leaf| interface.roots.get(leaf.root.0 as usize)).flat_map(|root| &root.globals);
+    let samplers = interface.samplers.iter().filter(|slot| any(&|name| names_sampler(name, &slot.name)));
+    roots.chain(samplers.flat_map(|slot| &slot.globals)).copied().collect()
 }
 
 /// The scene with tables of so many texels.

@@ -165,6 +165,9 @@ static FOUND: &[(&str, &str, &str, bool)] = &[
     ("void main() { color = vec4(pow(2.0 + N.z, 3.0)); }", "", "schlick", false),
     ("void main() { color = vec4(pow(clamp(N.z, 0.0, 1.0), 3.0)); }", "", "schlick", true),
     ("void main() { color = vec4(exp(-4.0 * N.z * N.z)); }", "", "table", true),
+    // In another frame, the table's range is another one.
+    ("void main() { float x = N.z + k; color = vec4(exp(-4.0 * x * x)); }", "", "table", true),
+    ("void main() { float x = N.z + k; color = vec4(exp(-4.0 * x * x)); }", "dynamic = [\"k\"]", "table", false),
     ("float f(float x) { return sin(x) / (1.0 + x * x); }\nvoid main() { color = vec4(f(N.z)); }", "", "table", true),
     ("void main() { float a = N.x * N.x; float b = a + k; color = vec4(exp(b - k) / b); }", "", "table", true),
     ("void main() { color = vec4(mix(K, vec3(1.0), pow(1.0 - max(N.z, 0.0), 5.5)), 1.0); }", "", "table", true),
@@ -196,6 +199,7 @@ static FOUND: &[(&str, &str, &str, bool)] = &[
     ("void main() { color = vec4(N * N, 1.0); }", "", "noperspective", true),
     ("void main() { color = vec4(patch); }", "", "noperspective", false),
     ("void main() { color = vec4(1.0 - N.z * N.z); }", "", "stable", true),
+    ("void main() { color = vec4(pow(dot(normalize(N), normalize(V)), k)); }", "", "stable", true),
     ("void main() { color = vec4(1.0 - cos(N.z)); }", "", "stable", true),
     ("void main() { color = vec4(N.x * N.x - N.y * N.y); }", "", "stable", true),
     ("void main() { color = vec4(sqrt(N.z + 4.0) - sqrt(4.0)); }", "", "stable", true),

@@ -1,15 +1,16 @@
 //! [`ColorDependence`]: whether the color of a fragment depends on anything that differs between fragments.
 //!
-//! *In:* a linked program. *Out:* whether the color and the alpha may differ from pixel to pixel. *Holds:* what is told as equal is equal,
+//! *In:* a linked program. *Out:* whether the color and the alpha may differ from pixel to pixel; whether an expression depends on some
+//! variables. *Holds:* what is told as equal is equal,
 //! whatever the uniforms, textures and vertices are, on one face of one instance; what is told as different may still be equal (a
 //! factor of 0). Stages pass what differs to the next by the names of their varyings; of a texture only the coordinates count.
 
 mod stage;
 
 use glisten_front::builtin::BuiltinVariable;
-use glisten_front::hir::{Global, Shader, Stage, StmtKind, Storage, Type};
+use glisten_front::hir::{ExprId, FunctionId, Global, GlobalId, Shader, Stage, StmtKind, Storage, Type};
 use glisten_front::link::Program;
-use stage::{Differing, differing};
+use stage::{Differing, differing, expression_differs};
 use std::collections::BTreeSet;
 
 /// The parts of a color that may differ between fragments.
@@ -34,7 +35,7 @@ impl ColorDependence {
         let mut passed: Option<BTreeSet<String>> = None;
         for shader in program.stages.iter().filter(|shader| shader.stage != Stage::Fragment) {
             let starts = |global: &Global| starts(global, shader.stage, passed.as_ref());
-            let found = differing(&program.types, shader, &starts);
+            let found = differing(&program.types, shader, shader.globals.iter().map(starts).collect());
             // Each vertex that a geometry stage emits may have other values, also constant ones.
             let is_passed = |index: usize, global: &Global| {
                 global.storage == Storage::Out && (shader.stage == Stage::Geometry || found.has(index))
@@ -48,7 +49,8 @@ impl ColorDependence {
             let color = FIXED_COLORS.iter().any(has);
             return Self { color, alpha: color, written: true, covers };
         };
-        let found = differing(&program.types, fragment, &|global| starts(global, Stage::Fragment, passed.as_ref()));
+        let starts = fragment.globals.iter().map(|global| starts(global, Stage::Fragment, passed.as_ref()));
+        let found = differing(&program.types, fragment, starts.collect());
         let is_color = |global: &Global| global.storage == Storage::Out && !is_other_output(global);
         let outputs = fragment.globals.iter().enumerate().filter(|(_, global)| is_color(global) && global.written);
         outputs.fold(Self { covers, ..Self::default() }, |known, (index, _)| Self {
@@ -58,6 +60,28 @@ impl ColorDependence {
             covers,
         })
     }
+}
+
+/// Whether an expression of the fragment stage may depend on some globals of the stages, also by what the stages before pass on.
+pub fn depends_on(program: &Program, meant: &BTreeSet<(Stage, GlobalId)>, place: (FunctionId, ExprId)) -> bool {
+    let mut passed: BTreeSet<&str> = BTreeSet::new();
+    for shader in &program.stages {
+        let starts = |(id, global): (GlobalId, &Global)| {
+            meant.contains(&(shader.stage, id)) || global.storage == Storage::In && passed.contains(global.match_name())
+        };
+        let starts: Vec<bool> = shader.globals().map(starts).collect();
+        if shader.stage == Stage::Fragment {
+            return expression_differs(&program.types, shader, starts, place);
+        }
+        let found = differing(&program.types, shader, starts);
+        let outputs = shader
+            .globals
+            .iter()
+            .enumerate()
+            .filter(|(index, global)| global.storage == Storage::Out && found.has_alpha(*index));
+        passed = outputs.map(|(_, global)| global.match_name()).collect();
+    }
+    false
 }
 
 /// Whether the stage before the fragments writes `gl_Position`.

@@ -6,8 +6,7 @@
 
 use glisten_front::hir::written_by;
 use glisten_front::hir::{
-    Condition, ConstructKind, ExprId, ExprKind, FunctionId, Global, ParamMode, Shader, Stmt, StmtKind, Storage, Types,
-    VarRef,
+    Condition, ConstructKind, ExprId, ExprKind, FunctionId, ParamMode, Shader, Stmt, StmtKind, Storage, Types, VarRef,
 };
 
 /// The globals whose values may differ.
@@ -29,23 +28,36 @@ struct Walk<'a> {
     changed: bool,
 }
 
-/// The globals of a shader whose values may differ, if the inputs that `starts` names do.
-pub(super) fn differing(types: &Types, shader: &Shader, starts: &dyn Fn(&Global) -> bool) -> Differing {
-    let globals: Vec<bool> = shader.globals.iter().map(starts).collect();
+/// The globals of a shader whose values may differ, if those with a flag do.
+pub(super) fn differing(types: &Types, shader: &Shader, starts: Vec<bool>) -> Differing {
+    walked(types, shader, starts).found
+}
+
+/// Whether an expression of a function may differ, if the globals with a flag do.
+pub(super) fn expression_differs(
+    types: &Types,
+    shader: &Shader,
+    starts: Vec<bool>,
+    (function, expr): (FunctionId, ExprId),
+) -> bool {
+    let walk = walked(types, shader, starts);
+    Walk { function, ..walk }.differs(expr)
+}
+
+fn walked<'a>(types: &'a Types, shader: &'a Shader, globals: Vec<bool>) -> Walk<'a> {
     let alphas = vec![false; globals.len()];
-    let found = Differing { globals, alphas };
-    let Some(main) = shader.main else { return found };
+    let main = shader.main.unwrap_or(FunctionId::new(0));
     let mut walk = Walk {
         types,
         shader,
-        found,
+        found: Differing { globals, alphas },
         locals: shader.functions.iter().map(|function| vec![false; function.locals.len()]).collect(),
         returns: vec![false; shader.functions.len()],
         partly: vec![false; shader.functions.len()],
         function: main,
         changed: true,
     };
-    let order = shader.callees_first(main);
+    let order = shader.main.map(|main| shader.callees_first(main)).unwrap_or_default();
     // Each round sets at least one flag, so this ends.
     while std::mem::take(&mut walk.changed) {
         walk.initializers();
@@ -57,7 +69,7 @@ pub(super) fn differing(types: &Types, shader: &Shader, starts: &dyn Fn(&Global)
             }
         }
     }
-    walk.found
+    walk
 }
 
 impl Walk<'_> {

@@ -26,7 +26,7 @@ pub enum ErrorPart {
     Limited,
     /// The part that the operation itself adds: the result is that of its f32 operands, not rounded.
     Own,
-    /// What is lost where f32 has 0 and exact arithmetic has not: such a result alone is that of exact operands.
+    /// The part that is lost where f32 has 0 and exact arithmetic has not: such a result alone is that of exact operands.
     Vanished,
 }
 
