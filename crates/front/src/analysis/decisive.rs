@@ -43,7 +43,7 @@ pub fn keep_decisive(diagnostics: &mut Diagnostics, first: usize, late: Option<S
     let version = first_in_text(diagnostics, first);
     let is_feature = |found: &Diagnostic| [&NOT_SUPPORTED_YET, &UNSUPPORTED_EXTENSION].contains(&found.code);
     let declares = |found: &Diagnostic| is_feature(found) && found.primary.message != UNKNOWN_VALUE;
-    let feature = diagnostics.iter().skip(first).position(|found| declares(found)).map(|place| place + first);
+    let feature = diagnostics.iter().skip(first).position(declares).map(|place| place + first);
     let is_extension = place(&UNSUPPORTED_EXTENSION).is_some();
     let start_of = |index: Option<usize>| {
         index.and_then(|index| diagnostics.iter().nth(index)).map_or(0, |diagnostic| diagnostic.primary.span.start)

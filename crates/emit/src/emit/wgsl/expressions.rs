@@ -13,6 +13,8 @@ pub(super) type Try<T> = Result<T, String>;
 
 /// The names of components.
 pub(super) const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
+/// How deep expressions are looked into for what no constant is made of.
+const DEEPEST_CONSTANT: u32 = 8;
 
 /// How a pointer is written: as a reference (`a`, `*p`), or as a pointer (`&a`, `p`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -228,6 +230,7 @@ impl<'m> Builder<'m> {
         });
         let components = match (is_vector && equal && self.is_full(), first) {
             (true, Some(first)) => vec![self.value(first)?],
+            _ if is_vector && self.has_constant_vector(components) => self.taken_apart(components)?,
             _ if is_vector && self.is_full() => self.joined(components)?,
             _ => components.iter().map(|component| self.value(*component)).collect::<Try<Vec<_>>>()?,
         };
@@ -244,6 +247,64 @@ impl<'m> Builder<'m> {
             }
         }
         Ok(call)
+    }
+
+    /// Whether a vector has a constant of a vector among its components, and all of them may be constant.
+    fn has_constant_vector(&self, components: &[Handle<Expression>]) -> bool {
+        let is_vector = |handle: Handle<Expression>| {
+            matches!(self.info[handle].ty.inner_with(&self.module.types), TypeInner::Vector { .. })
+        };
+        let is_named = |one: &Handle<Expression>| {
+            matches!(self.function.expressions[*one], Expression::Constant(_)) && is_vector(*one)
+        };
+        components.iter().any(is_named) && components.iter().all(|one| self.may_be_constant(*one, DEEPEST_CONSTANT))
+    }
+
+    /// Whether naga may take an expression for a constant one when it reads the text: whatever is computed of constants alone, also by
+    /// variables that never change.
+    fn may_be_constant(&self, handle: Handle<Expression>, depth: u32) -> bool {
+        let Some(depth) = depth.checked_sub(1) else { return true };
+        let all = |list: &[Handle<Expression>]| list.iter().all(|one| self.may_be_constant(*one, depth));
+        match &self.function.expressions[handle] {
+            Expression::Literal(_)
+            | Expression::Constant(_)
+            | Expression::ZeroValue(_)
+            | Expression::LocalVariable(_) => true,
+            Expression::Load { pointer: base }
+            | Expression::AccessIndex { base, .. }
+            | Expression::Swizzle { vector: base, .. }
+            | Expression::Splat { value: base, .. }
+            | Expression::Unary { expr: base, .. }
+            | Expression::As { expr: base, .. } => all(&[*base]),
+            Expression::Compose { components, .. } => all(components),
+            Expression::Access { base, index } => all(&[*base, *index]),
+            Expression::Binary { left, right, .. } => all(&[*left, *right]),
+            Expression::Math { arg, arg1, arg2, arg3, .. } => {
+                all(&[*arg]) && [arg1, arg2, arg3].into_iter().flatten().all(|arg| all(&[*arg]))
+            }
+            _ => false,
+        }
+    }
+
+    /// The components of a constant vector, those that are constants of vectors one by one: of `vec4(c, 1.0, 1.0)`, where `c` is one,
+    /// naga makes a constant of SPIR-V that has a vector among its components, which SPIR-V forbids.
+    fn taken_apart(&mut self, components: &[Handle<Expression>]) -> Try<Vec<Expr<'m>>> {
+        let mut result = Vec::with_capacity(4);
+        for component in components {
+            let value = self.value(*component)?;
+            let size =
+                match (&self.function.expressions[*component], self.info[*component].ty.inner_with(&self.module.types))
+                {
+                    (Expression::Constant(_), TypeInner::Vector { size, .. }) => *size as usize,
+                    _ => 0,
+                };
+            let parts = COMPONENTS.iter().take(size).map(|part| Expr::Member(Box::new(value.clone()), (*part).into()));
+            result.extend(parts);
+            if size == 0 {
+                result.push(value);
+            }
+        }
+        Ok(result)
     }
 
     /// The components of a vector, with neighbors of the same vector as one: `p.xy` for `p.x, p.y`.

@@ -266,6 +266,14 @@ fn variables_that_never_change_are_let() {
     assert_eq!(body_of(text), expected);
 }
 
+/// naga's constants of SPIR-V would have a vector among the components of a vector.
+#[test]
+fn constants_in_constant_vectors_are_taken_apart() {
+    let text = "const vec2 g = vec2(1.0, 2.0);\nvoid main() { float one = 1.0; vec4 v = vec4(g, 0.5, one); c = v * i + vec4(g, i.xy); }";
+    let text = body_of(text);
+    assert!(text.contains("let v = vec4(g.x, g.y, 0.5, one);") && text.contains("vec4(g, i.xy)"), "{text}");
+}
+
 #[test]
 fn what_a_store_would_overtake_has_a_name() {
     let swap = "void main() { vec2 p = i.xy; p *= u; float t = p.x; p.x = p.y; p.y = t; c = p.xyxy; }";
