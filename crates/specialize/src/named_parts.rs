@@ -43,7 +43,8 @@ fn part(types: &Types, shader: &Shader, id: ExprId) -> Option<Part> {
     let expr = shader.expr(id);
     match &expr.kind {
         ExprKind::Var(VarRef::Global(global)) => {
-            Some(Part { global: *global, scalars: vec![0..types.flat_len(expr.ty)] })
+            let whole = 0..types.flat_len(expr.ty);
+            Some(Part { global: *global, scalars: std::iter::once(whole).collect() })
         }
         ExprKind::Member(base, member) => {
             let Type::Struct(of) = types.get(shader.expr(*base).ty) else { return None };

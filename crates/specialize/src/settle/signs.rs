@@ -266,7 +266,7 @@ fn of_base(exponents: &[Fact]) -> Sees {
     let is_odd = |value: f32| value % 2.0 == 1.0;
     let is_even = |fact: &Fact| matches!(fact.value(), Some(ScalarValue::Float(value)) if !is_odd(value));
     match () {
-        () if exponents.is_empty() || exponents.iter().any(|fact| !(fact.range().low > 0.0)) => TheOperation,
+        () if exponents.is_empty() || !exponents.iter().all(|fact| fact.range().low > 0.0) => TheOperation,
         () if exponents.iter().all(is_even) => Nobody,
         () => AsTheResult,
     }
