@@ -215,7 +215,7 @@ vec3 abc = vec2(1.0);
 void main() { c = vec4(1.0); }
 ";
 
-/// What an `#error` forbids hides nothing: the macros that it asks for are defined, too.
+/// Nothing is hidden by what an `#error` forbids: the macros that it asks for are defined, too.
 #[test]
 fn configurations_that_an_error_forbids_are_completed() {
     let folder = folder(&[("a.frag", NEEDS)]);

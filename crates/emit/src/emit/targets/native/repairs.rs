@@ -102,7 +102,7 @@ enum Open<'a> {
 }
 
 impl<'a> Open<'a> {
-    /// What the parenthesis after `word` opens, in the one that is `around`.
+    /// The kind of the parenthesis after `word`, in the one that is `around`.
     fn by(word: &str, structs: &'a Structs<'_>, around: Option<&Open<'_>>) -> Self {
         if let Some(name) = word.strip_prefix("Construct") {
             return structs.get(name).map_or(Self::Array, |members| Self::Struct(members.iter()));
