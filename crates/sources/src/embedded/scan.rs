@@ -163,7 +163,7 @@ fn find(bytes: &[u8], from: usize, word: &[u8]) -> Option<usize> {
     rest.windows(word.len()).position(|window| window == word).map(|at| from + at)
 }
 
-/// The escape at a backslash before the end of a line, if one is here: a language of which it joins both lines leaves out both.
+/// The escape at a backslash before the end of a line, if there is one here. The language of the host joins both lines and drops the two.
 fn joined_lines(text: &str, at: usize) -> Option<Escape> {
     let rest = text.get(at + 1..)?;
     let end = ["\r\n", "\n", "\r"].into_iter().find(|end| rest.starts_with(end))?;

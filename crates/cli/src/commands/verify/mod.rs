@@ -276,7 +276,7 @@ pub(crate) fn run(args: &VerifyArgs, console: &Console) -> Outcome {
     Ok(exit)
 }
 
-/// The share of a bound from which the bound is 0: shares of the least number.
+/// From this share of a bound on, the bound is 0, and the share is one of the least number instead.
 const MOST_SHARE: f64 = 1e290;
 
 /// Draws a scene and judges it. Of one scene, the text for people is printed; a scene that is not drawn is reported.

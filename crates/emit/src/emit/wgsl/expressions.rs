@@ -13,8 +13,8 @@ pub(super) type Try<T> = Result<T, String>;
 
 /// The names of components.
 pub(super) const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
-/// How deep expressions are looked into for what no constant is made of.
-const DEEPEST_CONSTANT: u32 = 8;
+/// How deep an expression is searched for parts that are not constant. Each level multiplies the work by up to four.
+const DEEPEST_CONSTANT: u32 = 4;
 
 /// How a pointer is written: as a reference (`a`, `*p`), or as a pointer (`&a`, `p`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -260,8 +260,8 @@ impl<'m> Builder<'m> {
         components.iter().any(is_named) && components.iter().all(|one| self.may_be_constant(*one, DEEPEST_CONSTANT))
     }
 
-    /// Whether naga may take an expression for a constant one when it reads the text: whatever is computed of constants alone, also by
-    /// variables that never change.
+    /// Whether naga may take an expression for a constant one when it reads the text: one that is computed from constants and local
+    /// variables alone, which may never change.
     fn may_be_constant(&self, handle: Handle<Expression>, depth: u32) -> bool {
         let Some(depth) = depth.checked_sub(1) else { return true };
         let all = |list: &[Handle<Expression>]| list.iter().all(|one| self.may_be_constant(*one, depth));

@@ -68,8 +68,8 @@ fn add_templates(text: &str, literal: &mut Literal) {
     }
 }
 
-/// Notes the conversions of a string that `%` completes, where it is or later. Of the latter they have names, or one of them is where GLSL
-/// has no `%`.
+/// Notes the conversions of a string that `%` completes, right behind it or later. One that is completed later is known by conversions with
+/// names, or by one in a place where GLSL has no `%`.
 fn add_conversions(text: &str, literal: &mut Literal, is_completed: bool) {
     let inside = text.get(literal.inside.clone()).unwrap_or("");
     if !inside.contains('%') {
