@@ -55,12 +55,12 @@ pub fn inputs(text: &str) -> Result<String, Problem> {
     }
     let targets = list("PASSES").iter().filter_map(|pass| pass.get("TARGET")?.as_str());
     targets
-        .chain(named(&header, "PERSISTENT_BUFFERS"))
+        .chain(members(&header, "PERSISTENT_BUFFERS").into_iter().map(|(name, _)| name))
         .take(MAX_INPUTS)
         .for_each(|name| declare_image(name, IMAGE, &mut text_out));
-    for name in named(&header, "IMPORTED").into_iter().take(MAX_INPUTS) {
-        let kind = header.get("IMPORTED").and_then(|images| images.get(name)?.get("TYPE")?.as_str());
-        declare_image(name, if kind == Some("cube") { "samplerCube" } else { IMAGE }, &mut text_out);
+    for (name, image) in members(&header, "IMPORTED").into_iter().take(MAX_INPUTS) {
+        let is_cube = image.get("TYPE").and_then(Value::as_str) == Some("cube");
+        declare_image(name, if is_cube { "samplerCube" } else { IMAGE }, &mut text_out);
     }
     Ok(text_out)
 }
@@ -76,13 +76,12 @@ fn header(text: &str) -> Option<Range<usize>> {
     text.get(start..end)?.trim_start().starts_with('{').then_some(start..end)
 }
 
-/// The names of a list of objects or strings, or of an object's members.
-fn named<'h>(header: &'h Value, key: &str) -> Vec<&'h str> {
+/// The items of a list of objects or strings, or of an object's members, with their names.
+fn members<'h>(header: &'h Value, key: &str) -> Vec<(&'h str, &'h Value)> {
+    let name = |item: &'h Value| item.as_str().or(item.get("NAME").and_then(Value::as_str));
     match header.get(key) {
-        Some(Value::Object(members)) => members.keys().map(String::as_str).collect(),
-        Some(Value::Array(list)) => {
-            list.iter().filter_map(|item| item.as_str().or(item.get("NAME").and_then(Value::as_str))).collect()
-        }
+        Some(Value::Object(members)) => members.iter().map(|(name, item)| (name.as_str(), item)).collect(),
+        Some(Value::Array(list)) => list.iter().filter_map(|item| Some((name(item)?, item))).collect(),
         _ => Vec::new(),
     }
 }
@@ -131,6 +130,8 @@ mod tests {
              \"PASSES\": [{\"TARGET\": \"b\"}, {}], \"IMPORTED\": {\"c\": {\"PATH\": \"c.png\", \"TYPE\": \"cube\"}}}*/",
         );
         let text = text.unwrap_or_default();
+        let list = inputs("/*{\"IMPORTED\": [{\"NAME\": \"c\", \"PATH\": [\"a\"], \"TYPE\": \"cube\"}]}*/");
+        assert!(list.unwrap_or_default().contains("uniform samplerCube c;"));
         for line in ["uniform vec2 a;", "uniform sampler2D i;", "uniform sampler2D b;", "uniform samplerCube c;"] {
             assert!(text.contains(line), "{text}");
         }

@@ -41,14 +41,18 @@ fn declaration(line: &str) -> Option<Line<'_>> {
     line.contains('{').then(|| words(before).last().map(|(_, name)| Line::Function(name))).flatten()
 }
 
-/// Whether a text without comments declares a name by a declaration with a qualifier.
+/// Whether a text without comments declares a name at global scope, by a declaration with a qualifier. A parameter only hides
+/// the name in its function (GLSL 1.50, section 4.2).
 fn declares(code: &str, name: &str) -> bool {
     words(code).filter(|(_, word)| *word == name).take(MAX_USES).any(|(at, _)| {
         let before = tail(code.get(..at).unwrap_or(""), MAX_STATEMENT);
         let start = before.rfind([';', '{', '}']).map_or(0, |end| end + 1);
         // Directives end with their lines, and belong to no declaration.
         let statement = before.get(start..).unwrap_or("").lines().filter(|line| !line.trim_start().starts_with('#'));
-        statement.flat_map(words).any(|(_, word)| QUALIFIERS.contains(&word))
+        let is_qualified = statement.clone().flat_map(words).any(|(_, word)| QUALIFIERS.contains(&word));
+        let sides = |side: char| statement.clone().map(|line| line.matches(side).count()).sum::<usize>();
+        let is_parameter = sides('(') > sides(')');
+        is_qualified && !is_parameter
     })
 }
 
@@ -69,7 +73,7 @@ pub fn needed(prelude: &str, source: &str) -> Arc<str> {
     for line in prelude.split_inclusive('\n') {
         let declared = match declaration(line) {
             Some(Line::Macro(name) | Line::Function(name) | Line::Variable(name)) if !used.contains(name) => false,
-            Some(Line::Macro(name)) => defines(&code, name),
+            Some(Line::Macro(name)) => defines(&code, name) || count_definitions(&code, name) > 0,
             Some(Line::Function(name)) => count_definitions(&code, name) > 0,
             Some(Line::Variable(name)) => declares(&code, name),
             None => false,
@@ -105,6 +109,12 @@ mod tests {
             ["uniform float time;", "", "", "void main() { f(); }"]
         );
         assert!(!needed(prelude, "void main()\n{}").contains("main"));
+        let hidden = "float f(in float time) { return time; } float g(const in vec2 size, in float time) { return time; }";
+        assert_eq!(needed(prelude, hidden).as_ref(), prelude);
+        let placed = "layout(location = 0) uniform float time; float f() { return time; }";
+        assert!(!needed(prelude, placed).contains("time"));
+        let shadowed = needed("#define F() 1\n", "void F() {}");
+        assert!(shadowed.trim().is_empty());
         let line = "void main() { f(); } // with f\n";
         assert!(needed(line, "void f() {}").contains("main") && !needed(line, "void f();").contains("main"));
     }
