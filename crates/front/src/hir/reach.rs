@@ -82,6 +82,23 @@ impl Shader {
         (0..self.functions.len()).flat_map(written).collect()
     }
 
+    /// The expressions that `main` can reach, and the initializers of the globals that it uses. Call it after
+    /// [`mark_static_use`](Self::mark_static_use).
+    pub fn used_expressions(&self) -> Vec<ExprId> {
+        let bodies =
+            self.functions.iter().filter(|function| function.reachable).filter_map(|function| function.body.as_deref());
+        let globals = self.globals.iter().filter(|global| global.used).filter_map(|global| global.initializer);
+        let mut pending: Vec<ExprId> = bodies.flat_map(|body| self.roots(body)).chain(globals).collect();
+        let mut used = Vec::new();
+        while let Some(id) = pending.pop() {
+            used.push(id);
+            pending.extend(self.expr(id).kind.children());
+        }
+        used.sort_unstable();
+        used.dedup();
+        used
+    }
+
     fn apply(&mut self, mentions: Mentions, functions: &mut Vec<FunctionId>, globals: &mut Vec<GlobalId>) {
         functions.extend(mentions.calls);
         for id in mentions.written {

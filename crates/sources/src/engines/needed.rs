@@ -109,7 +109,8 @@ mod tests {
             ["uniform float time;", "", "", "void main() { f(); }"]
         );
         assert!(!needed(prelude, "void main()\n{}").contains("main"));
-        let hidden = "float f(in float time) { return time; } float g(const in vec2 size, in float time) { return time; }";
+        let hidden =
+            "float f(in float time) { return time; } float g(const in vec2 size, in float time) { return time; }";
         assert_eq!(needed(prelude, hidden).as_ref(), prelude);
         let placed = "layout(location = 0) uniform float time; float f() { return time; }";
         assert!(!needed(prelude, placed).contains("time"));

@@ -10,7 +10,7 @@ use glisten_front::builtin::operations::{Class, Lookup};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::targets::{FEATURE_NOT_IN_TARGET, STAGE_NOT_IN_TARGET};
 use glisten_front::hir::{
-    ExprId, ExprKind, Global, Interpolation, Member, ParamMode, SamplerDim, SamplerType, Sampling, Shader, Stage,
+    Expr, ExprId, ExprKind, Global, Interpolation, Member, ParamMode, SamplerDim, SamplerType, Sampling, Shader, Stage,
     Storage, Type, TypeId, Types, VarRef,
 };
 use glisten_front::language::NEVER;
@@ -28,6 +28,8 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
         ];
     }
     let types = &program.types;
+    // The rest is left out.
+    let used = shader.used_expressions();
     let mut lacks = Vec::new();
     for global in &shader.globals {
         let span = if global.span.is_known() { global.span } else { anchor };
@@ -42,19 +44,19 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
             }
         }
     }
-    for (argument, param) in written_by_conversion(types, shader) {
+    for (argument, param) in written_by_conversion(types, shader, &used) {
         let what = format!("implicit conversion, here of an `{}` that a function writes", types.name(param));
         let help = "pass a variable of the parameter's type, and convert what it then has";
         lacks.push(lacking(shader.expr(argument).span, what, help));
     }
-    for index in indices_of_outputs(shader) {
+    for index in indices_of_outputs(shader, &used) {
         let what = "index of a fragment output that is not constant".into();
         lacks.push(lacking(index, what, "compute in a variable, and copy it to the output"));
     }
-    for span in arrays_of_arrays(types, shader).take(1) {
+    for span in arrays_of_arrays(types, shader, &used).take(1) {
         lacks.push(lacking(span, "array of arrays".into(), "compute one index from two"));
     }
-    for (name, span) in later_functions(&program.types, shader, true) {
+    for (name, span) in later_functions(types, shader, used.iter().map(|id| shader.expr(*id)), true) {
         lacks.push(lacking(span, format!("function `{name}`"), "compile for `--glsl-version 330`"));
     }
     if program.interface.outputs.iter().any(|output| output.index == 1) && shader.stage == Stage::Fragment {
@@ -64,22 +66,24 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
 }
 
 /// The variables, the values and the results that are arrays of arrays.
-fn arrays_of_arrays<'a>(types: &'a Types, shader: &'a Shader) -> impl Iterator<Item = Span> {
-    let globals = shader.globals.iter().map(|global| (global.ty, global.span));
-    let locals = shader.functions.iter().flat_map(|function| &function.locals).map(|local| (local.ty, local.span));
+fn arrays_of_arrays<'a>(types: &'a Types, shader: &'a Shader, used: &'a [ExprId]) -> impl Iterator<Item = Span> {
+    let kept = |global: &&Global| global.used || !matches!(global.storage, Storage::Private | Storage::Const);
+    let globals = shader.globals.iter().filter(kept).map(|global| (global.ty, global.span));
+    let functions = || shader.functions.iter().filter(|function| function.reachable);
+    let locals = functions().flat_map(|function| &function.locals).map(|local| (local.ty, local.span));
     let nests = |ty| matches!(types.get(ty), Type::Array(element, _) if matches!(types.get(element), Type::Array(..)));
-    let results = shader.functions.iter().map(|function| (function.ret, function.span));
-    let values = shader.exprs.iter().map(|expr| (expr.ty, expr.span));
+    let results = functions().map(|function| (function.ret, function.span));
+    let values = used.iter().map(|id| shader.expr(*id)).map(|expr| (expr.ty, expr.span));
     globals.chain(locals).chain(results).chain(values).filter(move |(ty, _)| nests(*ty)).map(|(_, span)| span)
 }
 
 /// The indices of fragment outputs that are not constant (GLSL ES 3.00 §4.3.6).
-fn indices_of_outputs(shader: &Shader) -> Vec<Span> {
+fn indices_of_outputs(shader: &Shader, used: &[ExprId]) -> Vec<Span> {
     let is_output = |var: VarRef| match var {
         VarRef::Global(id) => shader.stage == Stage::Fragment && shader.global(id).storage == Storage::Out,
         VarRef::Local(_) => false,
     };
-    let indices = shader.exprs.iter().filter_map(|expr| match expr.kind {
+    let indices = used.iter().filter_map(|id| match shader.expr(*id).kind {
         ExprKind::Index(base, index) if shader.root_variable(base).is_some_and(is_output) => Some(index),
         _ => None,
     });
@@ -88,10 +92,10 @@ fn indices_of_outputs(shader: &Shader) -> Vec<Span> {
 }
 
 /// The arguments of `out` and `inout` parameters that have another type than these, which is told, too.
-fn written_by_conversion(types: &Types, shader: &Shader) -> Vec<(ExprId, TypeId)> {
+fn written_by_conversion(types: &Types, shader: &Shader, used: &[ExprId]) -> Vec<(ExprId, TypeId)> {
     let mut found = Vec::new();
-    for expr in &shader.exprs {
-        let ExprKind::Call(function, arguments) = &expr.kind else { continue };
+    for id in used {
+        let ExprKind::Call(function, arguments) = &shader.expr(*id).kind else { continue };
         for (argument, (ty, mode)) in arguments.iter().zip(shader.function(*function).param_types()) {
             let is_written = matches!(mode, ParamMode::Out | ParamMode::Inout);
             if is_written && types.get(shader.expr(*argument).ty) != types.get(ty) {
@@ -108,13 +112,18 @@ pub(super) fn of_330(types: &Types, shader: &Shader) -> Vec<Diagnostic> {
         let message = format!("GLSL 3.30 has no function `{name}` for these arguments");
         Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message).help("compile for `--glsl-version 450`")
     };
-    later_functions(types, shader, false).into_iter().map(lacks).collect()
+    later_functions(types, shader, shader.exprs.iter(), false).into_iter().map(lacks).collect()
 }
 
 /// The functions that came after ES 3.00, or after 3.30 and without an extension, for the arguments of a call. Each with its first call.
-fn later_functions(types: &Types, shader: &Shader, is_es: bool) -> Vec<(&'static str, Span)> {
+fn later_functions<'a>(
+    types: &Types,
+    shader: &Shader,
+    exprs: impl Iterator<Item = &'a Expr>,
+    is_es: bool,
+) -> Vec<(&'static str, Span)> {
     let mut found: Vec<(&'static str, Span)> = Vec::new();
-    for expr in &shader.exprs {
+    for expr in exprs {
         let ExprKind::BuiltinCall(function, arguments) = &expr.kind else { continue };
         let name = function.name();
         let given: SmallVec<[TypeId; 8]> = arguments.iter().map(|argument| shader.expr(*argument).ty).collect();

@@ -250,7 +250,9 @@ fn late_initializers(shader: &mut Shader) {
             }
             continue;
         }
-        let Some(initializer) = initializer.filter(|_| storage == Storage::Private) else { continue };
+        // What nothing uses is left out.
+        let is_written = storage == Storage::Private && global.used;
+        let Some(initializer) = initializer.filter(|_| is_written) else { continue };
         if is_constant(shader, initializer) {
             continue;
         }
