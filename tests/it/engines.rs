@@ -380,6 +380,31 @@ fn a_wrong_header_is_told_at_its_place() {
     assert_eq!((found[0]["file"].as_str(), found[0]["line"].as_u64()), (Some("a.fs"), Some(2)));
 }
 
+/// The profile chooses the version, and not the author, who writes what the format prescribes.
+#[test]
+fn a_version_that_an_engine_adds_makes_no_word_old() {
+    let source = "/*{\"INPUTS\": []}*/\nvarying vec2 t;\nvoid main() { gl_FragColor = vec4(t, TIME, 1.0); }\n";
+    let own = format!("#version 150\n{}", source.replace("TIME", "0.0"));
+    let folder = Folder::new(&[("a.fs", source.as_bytes()), ("own.frag", own.as_bytes())]);
+    assert_eq!(folder.lint(&["a.fs", "--engine", "isf", "--warn", "L0071", "--warn", "L0072"]).0.len(), 0);
+    let (found, _) = folder.lint(&["own.frag"]);
+    assert!(["L0071", "L0072"].iter().all(|code| codes(&found).contains(code)), "{found:?}");
+}
+
+/// Declarations of the shader's own take the place of the engine's, and parameters do not.
+#[test]
+fn an_engine_declares_what_a_shader_does_not() {
+    let image = "{\"NAME\": \"env\", \"TYPE\": \"cube\", \"PATH\": [\"0.jpg\"]}";
+    let source = format!(
+        "/*{{\"INPUTS\": [], \"IMPORTED\": [{image}]}}*/\nfloat f(in float TIME) {{ return TIME; }}\n\
+         void main() {{ gl_FragColor = f(TIME) * textureCube(env, vec3(isf_FragNormCoord, 1.0)); }}\n"
+    );
+    let vertex = "out vec2 isf_FragNormCoord;\nvoid main() { isf_vertShaderInit(); }\n";
+    let folder = Folder::new(&[("a.fs", source.as_bytes()), ("b.vs", vertex.as_bytes())]);
+    let (found, exit) = folder.lint(&["a.fs", "b.vs", "--engine", "isf"]);
+    assert_eq!((codes(&found), exit), (vec![], 0), "{found:?}");
+}
+
 #[test]
 fn hostile_sources_end() {
     let marks = "#shader vertex\n#shader fragment\n".repeat(20_000);

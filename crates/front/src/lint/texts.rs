@@ -6,6 +6,7 @@
 
 use crate::diagnostic::{Advice, Applicability, Diagnostic, Edit, Fix};
 use crate::hir::{ExprId, Shader, Stage};
+use crate::language::Since;
 use crate::source::{FileId, SourceMap, Span};
 use crate::syntax::Lexemes;
 use crate::syntax::token::{Token, TokenFlags, TokenKind};
@@ -43,9 +44,22 @@ impl<'a> Texts<'a> {
 
     /// Whether a span is written in the file of the shader itself, outside of macros.
     pub(super) fn is_own(&self, shader: &Shader, span: Span) -> bool {
-        let is_edited = |name: &str| !name.starts_with('<') || name == SourceMap::STDIN;
-        let own = shader.origin.file.filter(|file| is_edited(self.sources.file(*file).name()));
+        let own = shader.origin.file.filter(|file| !self.is_added(*file));
         span.is_known() && !span.expansion.is_some() && own.is_some() && self.sources.file_of(span) == own
+    }
+
+    /// Whether a shader chooses a version of 1.30 or later (or ES 3.00) by a line of its own. Where an engine or a flag adds the line, the
+    /// author may have written for an older one.
+    pub(super) fn chooses_modern(&self, shader: &Shader) -> bool {
+        let span = shader.version.span;
+        let is_written = span.is_known() && !self.sources.file_of(span).is_some_and(|file| self.is_added(file));
+        shader.version.reaches(Since::new(130, 300)) && is_written
+    }
+
+    /// Whether a file is no file of the author's.
+    fn is_added(&self, file: FileId) -> bool {
+        let name = self.sources.file(file).name();
+        name.starts_with('<') && name != SourceMap::STDIN
     }
 
     /// The text of a span, if it is written in place.

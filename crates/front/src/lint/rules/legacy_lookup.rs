@@ -4,7 +4,6 @@ use super::super::{Findings, Place, Subject};
 use crate::builtin::BuiltinFunction;
 use crate::diagnostic::Applicability;
 use crate::hir::{ExprId, ExprKind};
-use crate::language::Since;
 use crate::source::Span;
 use crate::syntax::token::TokenKind;
 
@@ -33,8 +32,7 @@ static OLD: &[&str] = &[
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for (place, expr) in subject.exprs() {
         let ExprKind::BuiltinCall(function, _) = place.kind(expr) else { continue };
-        let Some((name, span)) =
-            name(subject, place, expr).filter(|_| place.shader.version.reaches(Since::new(130, 300)))
+        let Some((name, span)) = name(subject, place, expr).filter(|_| subject.texts.chooses_modern(place.shader))
         else {
             continue;
         };

@@ -4,7 +4,6 @@ use super::super::{Findings, Subject};
 use crate::builtin::BuiltinVariable;
 use crate::diagnostic::{Applicability, Fix};
 use crate::hir::{Shader, Stage};
-use crate::language::Since;
 use crate::link::usage::first_use;
 use crate::source::Span;
 use crate::syntax::Lexemes;
@@ -15,7 +14,7 @@ const NAMES: &[&str] = &["fragColor", "outColor", "outFragColor"];
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     let Some(fragment) = subject.program.stage(Stage::Fragment) else { return };
-    if !fragment.version.reaches(Since::new(130, 300)) {
+    if !subject.texts.chooses_modern(fragment) {
         return;
     }
     let color = fragment.globals().find(|(_, global)| global.builtin == Some(BuiltinVariable::FragColor));

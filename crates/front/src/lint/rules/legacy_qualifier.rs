@@ -3,12 +3,11 @@
 use super::super::{Findings, Subject};
 use crate::diagnostic::Applicability;
 use crate::hir::{Stage, Storage};
-use crate::language::Since;
 use crate::syntax::token::TokenKind;
 use std::collections::BTreeSet;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
-    for shader in subject.program.stages.iter().filter(|shader| shader.version.reaches(Since::new(130, 300))) {
+    for shader in subject.program.stages.iter().filter(|shader| subject.texts.chooses_modern(shader)) {
         let mut told = BTreeSet::new();
         for global in shader.globals.iter().filter(|global| matches!(global.storage, Storage::In | Storage::Out)) {
             if !subject.texts.is_own(shader, global.span) {

@@ -1,3 +1,4 @@
+precision highp float;
 // What ISF declares for each shader. One declaration a line; a line that the shader has itself is left out.
 uniform int PASSINDEX;
 uniform vec2 RENDERSIZE;
