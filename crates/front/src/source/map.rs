@@ -503,13 +503,25 @@ impl SourceMap {
 fn line_starts(text: &str) -> Vec<u32> {
     let bytes = text.as_bytes();
     let mut starts = vec![0];
-    for (index, &byte) in bytes.iter().enumerate() {
-        // "\n", "\r\n" and a lone "\r" each end a line (GLSL 1.50 section 3.1).
-        if byte == b'\n' || (byte == b'\r' && bytes.get(index + 1) != Some(&b'\n')) {
-            starts.push(index as u32 + 1);
-        }
+    let mut at = 0;
+    while let Some(found) = bytes.get(at..).and_then(|rest| rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')))
+    {
+        at += found;
+        at += line_end_length(bytes.get(at..).unwrap_or(&[])).max(1);
+        starts.push(at as u32);
     }
     starts
+}
+
+/// The length of the line end that a text begins with, or 0. A line feed or a carriage return ends a line, and both together end a single one,
+/// in either order (GLSL 1.50 §3.1). A line feed before `\r\n` is a line end of its own.
+pub(crate) fn line_end_length(text: &[u8]) -> usize {
+    match text {
+        [b'\n', b'\r', b'\n', ..] => 1,
+        [b'\r', b'\n', ..] | [b'\n', b'\r', ..] => 2,
+        [b'\r' | b'\n', ..] => 1,
+        _ => 0,
+    }
 }
 
 /// The form in which an include names its file.
@@ -562,6 +574,21 @@ impl IncludeResolver for NoIncludes {
 #[cfg(test)]
 mod tests {
     use super::{BLOCK, SourceMap, Span};
+
+    #[test]
+    fn a_line_feed_and_a_carriage_return_end_one_line() {
+        for (text, starts) in [
+            ("a\nb", vec![0, 2]),
+            ("a\rb", vec![0, 2]),
+            ("a\r\nb", vec![0, 3]),
+            ("a\n\rb\n\r", vec![0, 3, 6]),
+            ("a\n\r\nb", vec![0, 2, 4]),
+            ("a\r\n\r\nb", vec![0, 3, 5]),
+            ("\n\n\r\r", vec![0, 1, 3, 4]),
+        ] {
+            assert_eq!(super::line_starts(text), starts, "{text:?}");
+        }
+    }
 
     #[test]
     fn columns_of_long_lines_count_characters() {

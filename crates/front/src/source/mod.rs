@@ -15,7 +15,7 @@ mod whole;
 
 pub(crate) use completion::is_replaced;
 pub use completion::{Completion, ImportDirective, Prelude, blanked, version_line};
-pub(crate) use map::{Addition, Mark};
+pub(crate) use map::{Addition, Mark, line_end_length};
 pub use map::{
     Expansion, FileId, IncludeForm, IncludeResolver, Included, Language, Location, NoIncludes, SourceFile, SourceMap,
 };

@@ -9,7 +9,7 @@
 
 use super::names::Names;
 use super::token::{Token, TokenFlags, TokenKind};
-use crate::source::Span;
+use crate::source::{Span, line_end_length};
 use std::sync::Arc;
 
 /// Skipped text that later phases need to know about.
@@ -233,11 +233,15 @@ impl Lexer {
         if self.peek(offset) != b'\\' {
             return None;
         }
-        match (self.peek(offset + 1), self.peek(offset + 2)) {
-            (b'\r', b'\n') => Some(3),
-            (b'\r' | b'\n', _) => Some(2),
-            _ => None,
+        match self.line_end_length(offset + 1) {
+            0 => None,
+            length => Some(1 + length),
         }
+    }
+
+    /// The length of the line end at an offset, or 0.
+    fn line_end_length(&self, offset: usize) -> usize {
+        line_end_length(self.text.as_bytes().get(self.pos + offset..).unwrap_or(&[]))
     }
 
     fn continuation(&mut self, trivia: &mut Vec<Trivia>) {
@@ -309,7 +313,7 @@ impl Lexer {
             if !self.joins_comments {
                 break;
             }
-            self.pos += if self.peek(0) == b'\r' && self.peek(1) == b'\n' { 2 } else { 1 };
+            self.pos += self.line_end_length(0).max(1);
         }
         let text = self.text.get(opening..self.pos).unwrap_or("");
         if is_pragma(text) {
