@@ -534,6 +534,21 @@ fn blocks_between_stages_are_varyings_in_webgl_2() {
     validate(&texts, "glsl", &[], 2);
 }
 
+/// Neither functions that nobody calls nor globals that nobody reads ask for anything.
+#[test]
+fn webgl_2_gets_nothing_of_what_nothing_uses() {
+    let program = pair(
+        "in vec4 p; void main() { gl_Position = p; }",
+        "uniform float u; out vec4 c; float a = u * 2.0; float one = 1.0; float b = sin(one); float used = u * 3.0;\n\
+         float never(int i) { float grid[2][2]; grid[i][0] = 1.0; c[i] = 1.0; return grid[0][i]; }\n\
+         uint nowhere(uint bits) { return bitfieldReverse(bits); }\n\
+         void main() { c = vec4(u + used); }",
+    );
+    let text = glsl(&program, Stage::Fragment, GlslVersion::Es300);
+    assert!(text.contains("used = u * 3.0;") && !text.contains("sin(") && !text.contains("u * 2.0"), "{text}");
+    validate(&[("unused".to_owned(), Stage::Fragment, text)], "glsl", &[], 1);
+}
+
 #[test]
 fn both_sources_of_blending_are_emitted_even_if_one_is_written() {
     let head = "#version 150\n#extension GL_ARB_explicit_attrib_location : enable\n";
