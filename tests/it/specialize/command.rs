@@ -347,6 +347,24 @@ fn several_scenes_share_residuals() {
 }
 
 #[test]
+fn reflections_have_names_of_their_own() {
+    for (program, residual) in [("programs", "programs_2"), ("a.account", "a.account_2")] {
+        let place = Folder::new();
+        place.write(&format!("{program}.vert"), VERTEX);
+        place.write(&format!("{program}.frag"), FRAGMENT);
+        place.write(
+            "a.toml",
+            &SCENE.replace("a.vert", &format!("{program}.vert")).replace("a.frag", &format!("{program}.frag")),
+        );
+        place.expect(0, &["specialize", "a.toml", "-o", "out"]);
+        assert_eq!(place.json("out/programs.json"), serde_json::json!({"a": [residual]}));
+        assert!(place.json(&format!("out/{residual}.json"))["stages"].is_array(), "{program}");
+        assert_eq!(place.json("out/a.account.json")["scene"], "a");
+        place.expect(0, &["render", "out/a.toml", "-o", "a.png", "--backend", "cpu"]);
+    }
+}
+
+#[test]
 fn targets_are_those_that_were_asked_for() {
     let place = Folder::new();
     let targets = ["--target", "hlsl", "--target", "msl", "--target", "glsl"];

@@ -89,20 +89,32 @@ struct Done<'a> {
     times: Option<Times>,
 }
 
+/// The stem of the file that names each scene's programs.
+const PROGRAMS: &str = "programs";
+
 /// The residuals of all scenes, by their stems.
 #[derive(Default)]
 struct Residuals {
+    /// The stems of the JSON files that are no reflection.
+    reserved: BTreeSet<String>,
     by_stem: BTreeMap<String, Vec<(Stage, String)>>,
     programs: BTreeMap<String, std::sync::Arc<Program>>,
 }
 
 impl Residuals {
-    /// The stem of a residual: that of its program, with a number where another has it.
+    /// None yet, for scenes with these stems.
+    fn of(scenes: &[String]) -> Self {
+        let accounts = scenes.iter().map(|name| format!("{}.account", stem(name)));
+        Self { reserved: accounts.chain([PROGRAMS.to_owned()]).collect(), ..Self::default() }
+    }
+
+    /// The stem of a residual: that of its program, with a number where another file has it.
     fn stem(&mut self, program: &std::sync::Arc<Program>, texts: &[(Stage, String)]) -> String {
         let mut number = 1;
         loop {
             let stem = if number == 1 { program.name.clone() } else { format!("{}_{number}", program.name) };
             match self.by_stem.get(&stem) {
+                None if self.reserved.contains(&stem) => number += 1,
                 Some(known) if known.as_slice() == texts => return stem,
                 Some(_) => number += 1,
                 None => {
@@ -138,7 +150,7 @@ pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
         return answer.map(|answer| answer.max(exit));
     }
     let progress = Progress::new(console, reads.len());
-    let mut residuals = Residuals::default();
+    let mut residuals = Residuals::of(&args.scenes);
     let mut done = Vec::new();
     for (name, read) in reads {
         progress.say(name);
@@ -171,7 +183,7 @@ pub(crate) fn run(args: &SpecializeArgs, console: &Console) -> Outcome {
         programs.insert(one.name.clone(), one.names.iter().map(|[_, _, stem]| stem.clone()).collect());
     }
     let json = serde_json::to_string_pretty(&programs).expect("names are always JSON") + "\n";
-    files::write(&folder.join("programs.json"), json.as_bytes())?;
+    files::write(&folder.join(format!("{PROGRAMS}.json")), json.as_bytes())?;
     let watchdog = args.machine.watchdog(console);
     write_page(&folder, &done, &drawn)?;
     drop(watchdog);
