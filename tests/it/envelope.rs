@@ -8,6 +8,7 @@
 use crate::drawing::{as_on_vulkan, from_disk, from_texts, gpu, loaded, reference, strict};
 use crate::support::{compiler, fixture};
 use glisten::scene::{MemoryFiles, Scene, load};
+use glisten::specialize::specialize_scene;
 use glisten::verify::Options;
 use glisten_gpu::{Gpu, Via};
 use glisten_reference::Precision;
@@ -48,6 +49,55 @@ fn known_faults_explain_what_the_strict_envelope_leaves_outside() {
     assert!(!verdict.fails(), "{verdict:?}");
     let found: Vec<&str> = verdict.known_faults.iter().map(|count| count.fault).collect();
     assert_eq!(found, ["clipped_noperspective"]);
+}
+
+/// Whether somebody sees the sign of a zero or not: a driver may fold `x * 0.0`, and keeps the sign where 0 is a uniform.
+#[test]
+fn zeros_of_either_sign_hold() {
+    let vertex = fixture("scenes/core/nothing.vert");
+    let sign = |of: &str| format!("o = vec4(float(floatBitsToUint({of}) >> 31));");
+    let bodies = [
+        sign("q.x * a"),
+        sign("q.x * 0.0"),
+        sign("-0.0 * abs(q.x)"),
+        sign("a - floor(q.x * 0.5 + 0.5)"),
+        sign("ceil(q.x * 0.5 - 0.5) + a"),
+        sign("mix(-a * abs(q.x), 1.0, a)"),
+        sign("min(-a * abs(q.x), 0.0)"),
+        sign("dot(vec3(a), vec3(q * 0.5 - 1.0, -1.0))"),
+        sign("(mat2(a) * (q * 0.5 - 1.0)).x"),
+        "o = vec4(atan(q.x * a, -1.0));".to_owned(),
+        "o = vec4(atan(q.x * 0.0, -1.0));".to_owned(),
+        "o = vec4(1.0 / (q.x * a) > 0.0 ? 1.0 : 0.25);".to_owned(),
+        "o = vec4(1.0 / (q.x * 0.0) > 0.0 ? 1.0 : 0.25);".to_owned(),
+        "vec3 d = 1.0 / vec3(q.x * a, q.y, 1.0); o = vec4(d.x > 0.0 ? 1.0 : 0.25);".to_owned(),
+    ];
+    let (gpu, options) = (gpu(), Options::default());
+    let mut wrong = Vec::new();
+    for body in bodies {
+        let fragment = format!(
+            "#version 330\nin vec2 place; uniform float a; out vec4 o;\nvoid main() {{ vec2 q = place * 2.0 - 1.0; {body} }}\n"
+        );
+        let text = "[framebuffer]\nwidth = 16\nheight = 16\n[[draw]]\nvertex = \"nothing.vert\"\nfragment = \"a.frag\"\n\
+                    primitive = \"triangle_strip\"\nvertex_count = 4\n[draw.uniforms]\na = 0.0\n";
+        let files =
+            MemoryFiles::new([("a.toml", text), ("nothing.vert", vertex.as_str()), ("a.frag", fragment.as_str())]);
+        let read = load("a.toml", &files, &compiler());
+        let scene = read.scene.expect("the scene is right");
+        let left = specialize_scene(&scene, &read.sources, &[]).scene;
+        for (name, drawn_scene) in [("as written", &scene), ("specialized", &left)] {
+            let mut expected = Expected::new(&scene, &options).expect("the reference draws it");
+            let verdict = expected.compare(&drawn(&gpu, drawn_scene)).expect("the reference draws it");
+            if verdict.outside > 0 || verdict.outside_likely > 0 {
+                wrong.push(format!("{body} {name}: {} {}", verdict.outside, verdict.outside_likely));
+            }
+        }
+        let [before, after] = [&scene, &left].map(|scene| drawn(&gpu, scene));
+        if before.attachments != after.attachments {
+            wrong.push(format!("{body}: the residual draws other bits"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// A triangle whose third corner is behind the eye. Where sides of the window cut it, a new corner has w = 0, and Mesa derives

@@ -11,6 +11,7 @@
 //! | `(x + a) + b` | add `a` and `b` first | kept where a constant is so large that it could overflow |
 //! | `x / c` | multiply with `1 / c` | kept where that is not a normal number |
 //! | `c / x` | drop `x` for `c` = 0 | no 0 unless `x` is finite and not 0 |
+//! | `x * c`, `x + c`, `mix` and so on | for `c` = 0, ignore the sign of a 0 that comes out | no 0 where somebody sees that sign |
 //! | any, of constants alone | compute it, by other rules | kept unless the result is finite |
 //! | integer division, shifts | refuse or leave undefined | kept where the specification leaves it undefined |
 
@@ -23,7 +24,7 @@ use super::operands::{Operands, Own, keep_unless, product, quotient, spread_or_a
 use super::{Demand, builtins};
 use crate::facts::Fact;
 use crate::forward::Walked;
-use glisten_front::builtin::operations::Class;
+use glisten_front::builtin::operations::{Class, Composite, MatrixFunction, Numbers, Ternary};
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, Scalar, Types};
 use smallvec::smallvec;
 
@@ -58,10 +59,58 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
         | ExprKind::Assign(None, ..)
         | ExprKind::Error => {}
     }
+    if !walked.is_unsigned(id) && loses_signs(kind) {
+        let floats = demands.iter_mut().enumerate().filter(|(index, _)| operands.is_float(*index));
+        floats.for_each(|(_, demand)| *demand = demand.and(Demand::NO_ZERO));
+    }
     if is_constant_without_value(walked, id, types) {
         demands.iter_mut().for_each(|demand| *demand = Demand::KEEP);
     }
     demands
+}
+
+/// Whether a driver that finds a 0 among the operands may give a 0 of either sign (Vulkan: without `SignedZeroInfNanPreserve`).
+fn loses_signs(kind: &ExprKind) -> bool {
+    match kind {
+        ExprKind::Binary(op, ..) | ExprKind::Assign(Some(op), ..) => {
+            matches!(op, BinaryOp::Mul | BinaryOp::Add | BinaryOp::Sub | BinaryOp::MatMul)
+        }
+        ExprKind::BuiltinCall(function, _) => match function.class() {
+            Class::Ternary(op) => matches!(op, Ternary::Mix | Ternary::Fma),
+            Class::Numbers(op) => op == Numbers::Mix,
+            Class::Composite(op) => matches!(op, Composite::Dot | Composite::Cross | Composite::Reflect),
+            Class::Matrix(op) => matches!(op, MatrixFunction::ComponentProduct | MatrixFunction::OuterProduct),
+            Class::Binary(_)
+            | Class::Unary(_)
+            | Class::Bits(_)
+            | Class::Texture(_)
+            | Class::Derivative(_)
+            | Class::Noise(_)
+            | Class::Modf
+            | Class::Relation(_)
+            | Class::Boolean(_)
+            | Class::Test(_)
+            | Class::BitCast(_)
+            | Class::Packing(_)
+            | Class::Composed
+            | Class::Emission(_) => false,
+        },
+        ExprKind::Error
+        | ExprKind::Literal(_)
+        | ExprKind::Var(_)
+        | ExprKind::Member(..)
+        | ExprKind::Index(..)
+        | ExprKind::Swizzle(..)
+        | ExprKind::Convert(_)
+        | ExprKind::Construct(..)
+        | ExprKind::Unary(..)
+        | ExprKind::Logical(..)
+        | ExprKind::Ternary(..)
+        | ExprKind::Comma(..)
+        | ExprKind::Call(..)
+        | ExprKind::IncDec(..)
+        | ExprKind::Assign(None, ..) => false,
+    }
 }
 
 /// A driver could compute it, and it might not be finite, or GLSL leaves it undefined.

@@ -1,7 +1,8 @@
 //! The bits of floats in the envelope (GLSL 3.30 §8.3, 4.20 §8.4).
 //!
 //! *Holds:* among numbers of one sign, larger ones have larger bits, so an interval on one side of 0 is an interval of
-//! bits. The sign of an exact 0 is that of exact arithmetic. An interval with both signs, or with NaN, may have any bits.
+//! bits. A 0 that arithmetic gives may have either sign; one that is loaded has its own. An interval with both signs, or with NaN,
+//! may have any bits.
 
 use super::{EnvelopeFloat, EnvelopeInt};
 use crate::domain::{Integer, Number};
@@ -24,6 +25,9 @@ impl EnvelopeFloat {
         if self.may_be_nan {
             return EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX);
         }
+        if self.has_open_sign() {
+            return EnvelopeInt::with_interval(bits, i32::MIN, 0);
+        }
         if self.low == self.high {
             return EnvelopeInt::from_bits(bits);
         }
@@ -36,11 +40,21 @@ impl EnvelopeFloat {
         }
     }
 
+    /// Whether it is 0 as the result of arithmetic, whose sign nobody promises (Vulkan: without `SignedZeroInfNanPreserve`). Rounding outward
+    /// leaves 0 and -0 as its ends.
+    fn has_open_sign(self) -> bool {
+        self.low == 0.0 && self.high == 0.0 && self.low.to_bits() != self.high.to_bits()
+    }
+
     pub(super) fn bits_of(self) -> EnvelopeInt {
         self.bits_by(single)
     }
 
     pub(super) fn half_of(self) -> EnvelopeInt {
+        if self.has_open_sign() {
+            // An interval of 16 bits with both of them holds all others, too.
+            return EnvelopeInt::from_bits(to_half(self.value));
+        }
         let wide = self.bits_by(|value| spread(to_half(value)));
         let narrow = |bits: i32| bits & 0x7fff | (bits >> 31 & 1) << 15;
         let (low, high) = wide.interval();
@@ -58,6 +72,9 @@ impl EnvelopeFloat {
             return Self::from_f64(of(bits.bits));
         }
         let (low, high) = bits.interval();
+        if (low, high) == (i32::MIN, 0) {
+            return Self { value: of(bits.bits), low: 0.0, high: -0.0, may_be_nan: false };
+        }
         let (a, b) = (of(low as u32), of(high as u32));
         if (low < 0) != (high < 0) || a.is_nan() || b.is_nan() {
             return Self::anything(of(bits.bits));

@@ -10,7 +10,8 @@ impl EnvelopeFloat {
     /// allows.
     #[inline(always)]
     pub(super) fn summed(terms: impl Iterator<Item = Self> + Clone) -> Self {
-        let (mut value, mut low, mut high) = (0.0, 0.0, 0.0);
+        // -0 and a number are that number, whatever its sign.
+        let (mut value, mut low, mut high) = (-0.0, 0.0, 0.0);
         let (mut deepest, mut highest) = (0.0, 0.0);
         let (mut may_be_nan, mut count, mut plain) = (false, 0.0, true);
         for term in terms.clone() {

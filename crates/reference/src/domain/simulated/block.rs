@@ -186,7 +186,7 @@ impl NumberBlock<SimulatedFloat> for SimulatedBlock {
         let (a, b) = (self.read(&gpu), other.read(&gpu));
         let exact = each(
             #[inline(always)]
-            |lane| a.0[lane] * b.0[lane],
+            |lane| a.0[lane] * b.0[lane] + gpu.zero,
         );
         if gpu.fuses { exact } else { exact.rounded(&gpu) }
     }

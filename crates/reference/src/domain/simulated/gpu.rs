@@ -34,6 +34,8 @@ pub struct Gpu {
     pub(super) flushes: bool,
     /// Whether a product is added without being rounded.
     pub(super) fuses: bool,
+    /// The zero that is added to each product: 0 if the sign of a product that is 0 is lost, else -0.
+    pub(super) zero: f64,
     /// Whether sums of products begin with the last one.
     pub(super) sums_backward: bool,
     /// Whether `min` and `max` pass a NaN on.
@@ -85,6 +87,7 @@ enum Choice {
     LevelsDown,
     Positions,
     Stores,
+    Zero,
 }
 
 /// A function with an error of its own.
@@ -171,6 +174,7 @@ impl Gpu {
         stores: Rounding::Nearest,
         flushes: false,
         fuses: false,
+        zero: -0.0,
         sums_backward: false,
         passes_nan: false,
         corner: None,
@@ -217,6 +221,7 @@ impl Gpu {
             },
             flushes: yes(Choice::Flush),
             fuses: yes(Choice::Fuse),
+            zero: if yes(Choice::Zero) { 0.0 } else { -0.0 },
             sums_backward: yes(Choice::Sums),
             passes_nan: yes(Choice::Nan),
             corner: yes(Choice::Coarse).then(|| blank.corner(Choice::Corner)),

@@ -135,7 +135,7 @@ impl Number for SimulatedFloat {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let gpu = Current::current();
-        let exact = self.read(&gpu) * other.read(&gpu);
+        let exact = self.read(&gpu) * other.read(&gpu) + gpu.zero;
         Self(if gpu.fuses { exact } else { gpu.rounded(exact) })
     }
     fn div(self, other: Self) -> Self {

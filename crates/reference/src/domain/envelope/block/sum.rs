@@ -40,7 +40,8 @@ impl Sum {
     /// The sum of `count` terms.
     #[inline(always)]
     pub(super) fn of(count: usize, term: impl Fn(usize) -> EnvelopeBlock) -> EnvelopeBlock {
-        let mut sum = Self::default();
+        // -0 and a number are that number, whatever its sign.
+        let mut sum = Self { value: [-0.0; WIDTH], ..Self::default() };
         for place in 0..count {
             sum.push(&term(place));
         }
