@@ -537,7 +537,8 @@ fn blocks_between_stages_are_varyings_in_webgl_2() {
 /// Neither functions that nobody calls nor globals that nobody reads ask for anything.
 #[test]
 fn webgl_2_gets_nothing_of_what_nothing_uses() {
-    let program = pair(
+    let program = pair_of(
+        430,
         "in vec4 p; void main() { gl_Position = p; }",
         "uniform float u; out vec4 c; float a = u * 2.0; float one = 1.0; float b = sin(one); float used = u * 3.0;\n\
          float never(int i) { float grid[2][2]; grid[i][0] = 1.0; c[i] = 1.0; return grid[0][i]; }\n\

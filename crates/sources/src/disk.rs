@@ -1,5 +1,6 @@
 //! [`Disk`]: who reads the files that sources include.
 
+use glisten_front::source::line_end_length;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -43,13 +44,15 @@ pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
 /// sees them. Offsets stay.
 pub fn with_line_feeds(text: String) -> String {
     let mut bytes = text.into_bytes();
-    let is_lone = |bytes: &[u8], at: usize| bytes.get(at) == Some(&b'\r') && bytes.get(at + 1) != Some(&b'\n');
-    for at in 0..bytes.len() {
-        if is_lone(&bytes, at)
+    let mut at = 0;
+    while let Some(rest) = bytes.get(at..).filter(|rest| !rest.is_empty()) {
+        let length = line_end_length(rest);
+        if length == 1
             && let Some(byte) = bytes.get_mut(at)
         {
             *byte = b'\n';
         }
+        at += length.max(1);
     }
     // One sign of ASCII for another leaves the text valid.
     String::from_utf8(bytes).unwrap_or_default()
@@ -79,5 +82,6 @@ mod tests {
     #[test]
     fn lines_end_with_line_feeds() {
         assert_eq!(with_line_feeds("a\rb\r\nc\r\r\né\r".to_owned()), "a\nb\r\nc\n\r\né\n");
+        assert_eq!(with_line_feeds("a\n\rb\n\r\n\r".to_owned()), "a\n\rb\n\r\n\n");
     }
 }

@@ -358,7 +358,7 @@ fn reflections_have_names_of_their_own() {
         );
         place.expect(0, &["specialize", "a.toml", "-o", "out"]);
         assert_eq!(place.json("out/programs.json"), serde_json::json!({"a": [residual]}));
-        assert!(place.json(&format!("out/{residual}.json"))["stages"].is_array(), "{program}");
+        assert!(place.json(&format!("out/{residual}.json"))["entry_points"].is_object(), "{program}");
         assert_eq!(place.json("out/a.account.json")["scene"], "a");
         place.expect(0, &["render", "out/a.toml", "-o", "a.png", "--backend", "cpu"]);
     }

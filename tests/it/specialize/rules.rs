@@ -237,7 +237,8 @@ fn signs_of_zeros_that_nobody_sees_do_not_count() {
         "color = vec4(pow(c.x + u, c.y));",
     ] {
         let text = texture(seen);
-        assert!(text.contains("+ 0.0") || text.contains("+= 0.0") || text.contains("vec2(0.0)"), "{seen}: {text}");
+        // A driver that finds a literal 0 may lose the sign.
+        assert!(text.contains("uniform float u;") && !text.contains("+ 0.0"), "{seen}: {text}");
     }
 }
 
@@ -571,7 +572,7 @@ fn what_is_known_is_folded_as_the_reference_computes_it() {
     let left = residual(text, &[("u", &[1.0])]).text(Stage::Fragment).expect("a stage").to_owned();
     assert!(left.contains("0.84147096") && !left.contains("sin"), "{left}");
     // x + 0.0 is no x where x may be -0, x - 0.0 is.
-    assert!(of("v.x + u", 0.0, 0.0).contains("v.x + 0.0"));
+    assert!(of("v.x + u", 0.0, 0.0).contains("v.x + u"));
     assert!(!of("v.x - u", 0.0, 0.0).contains("0.0"));
     assert!(!of("v.x * u", 1.0, 0.0).contains("1.0"));
 }

@@ -44,7 +44,8 @@ impl<'a> Texts<'a> {
 
     /// Whether a span is written in the file of the shader itself, outside of macros.
     pub(super) fn is_own(&self, shader: &Shader, span: Span) -> bool {
-        let own = shader.origin.file.filter(|file| !self.is_added(*file));
+        let is_edited = |name: &str| !name.starts_with('<') || name == SourceMap::STDIN;
+        let own = shader.origin.file.filter(|file| is_edited(self.sources.file(*file).name()));
         span.is_known() && !span.expansion.is_some() && own.is_some() && self.sources.file_of(span) == own
     }
 
@@ -52,14 +53,8 @@ impl<'a> Texts<'a> {
     /// author may have written for an older one.
     pub(super) fn chooses_modern(&self, shader: &Shader) -> bool {
         let span = shader.version.span;
-        let is_written = span.is_known() && !self.sources.file_of(span).is_some_and(|file| self.is_added(file));
-        shader.version.reaches(Since::new(130, 300)) && is_written
-    }
-
-    /// Whether a file is no file of the author's.
-    fn is_added(&self, file: FileId) -> bool {
-        let name = self.sources.file(file).name();
-        name.starts_with('<') && name != SourceMap::STDIN
+        // A line that is added has an empty place.
+        shader.version.reaches(Since::new(130, 300)) && span.start < span.end
     }
 
     /// The text of a span, if it is written in place.

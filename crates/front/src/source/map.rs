@@ -515,7 +515,7 @@ fn line_starts(text: &str) -> Vec<u32> {
 
 /// The length of the line end that a text begins with, or 0. A line feed or a carriage return ends a line, and both together end a single one,
 /// in either order (GLSL 1.50 §3.1). A line feed before `\r\n` is a line end of its own.
-pub(crate) fn line_end_length(text: &[u8]) -> usize {
+pub fn line_end_length(text: &[u8]) -> usize {
     match text {
         [b'\n', b'\r', b'\n', ..] => 1,
         [b'\r', b'\n', ..] | [b'\n', b'\r', ..] => 2,

@@ -15,9 +15,10 @@ mod whole;
 
 pub(crate) use completion::is_replaced;
 pub use completion::{Completion, ImportDirective, Prelude, blanked, version_line};
-pub(crate) use map::{Addition, Mark, line_end_length};
+pub(crate) use map::{Addition, Mark};
 pub use map::{
     Expansion, FileId, IncludeForm, IncludeResolver, Included, Language, Location, NoIncludes, SourceFile, SourceMap,
+    line_end_length,
 };
 pub use span::{ExpansionId, Span};
 pub use whole::{Edits, Inclusion, Unrolled, whole_text};
