@@ -10,6 +10,7 @@
 pub mod comments;
 mod completion;
 mod map;
+mod remarks;
 mod span;
 mod whole;
 
@@ -19,5 +20,6 @@ pub(crate) use map::{Addition, Mark};
 pub use map::{
     Expansion, FileId, IncludeForm, IncludeResolver, Included, Language, Location, NoIncludes, SourceFile, SourceMap,
 };
+pub(crate) use remarks::is_comment;
 pub use span::{ExpansionId, Span};
 pub use whole::{Edits, Inclusion, Unrolled, whole_text};
