@@ -1,10 +1,13 @@
 //! Work grows with the input: texts of a size at which a pass over all of it for each of its parts would take minutes.
 
 use crate::support::compiler;
-use glisten_emit::{Conventions, Target, emit_traced};
+use glisten_emit::reflection::table;
+use glisten_emit::{Conventions, Target, emit_traced, reflect};
 use glisten_front::Source;
-use glisten_front::diagnostic::write::{findings, human};
+use glisten_front::diagnostic::write::{FindingEdit, FindingFix, Region, findings, human};
+use glisten_front::diagnostic::{Applicability, Levels, Patch};
 use glisten_front::hir::{Stage, print};
+use glisten_front::source::{IncludeForm, IncludeResolver, Included};
 use std::time::{Duration, Instant};
 
 /// The number of parts.
@@ -49,6 +52,8 @@ fn lint_is_linear() {
             in_main(&format!("float a0 = x; {} x = a{MANY};", each(link)))
         }),
         ("blocks with variables", in_main(&"{ float a = x; x += a; }\n".repeat(MANY / 4))),
+        ("findings on one line", in_main(&"if (n > 1) ; ".repeat(MANY))),
+        ("allowed findings on one line", in_main(&("if (n > 1) ; ".repeat(MANY) + "// glisten: allow(L0001)\n"))),
         ("allowed findings", in_main(&each(|i| format!("// glisten: allow(L0001)\nfloat a{i};\n")))),
         ("structs", with_globals(&format!("{version}{}", each(|i| format!("struct S{i} {{ float a; }};\n"))))),
         ("functions", with_globals(&format!("{version}{}", each(|i| format!("float f{i}() {{ return 1.0; }}\n"))))),
@@ -58,16 +63,72 @@ fn lint_is_linear() {
         soon(what, || {
             let source = Source { name: "long.frag".into(), text: text.into(), stage: Stage::Fragment };
             let compilation = compiler().compile(&[source]);
-            let found = match &compilation.program {
+            let mut found = match &compilation.program {
                 Some(program) => glisten_front::lint::check(program, &compilation.sources),
                 None => compilation.diagnostics.iter().cloned().collect(),
             };
+            found.retain_mut(|one| Levels::default().apply(&compilation.sources, one));
             // What a person or a program sees of it.
             let shown = found.iter().step_by(found.len() / 2_000 + 1);
             human(&compilation.sources, shown, false);
             findings(&compilation.sources, &found);
         });
     }
+}
+
+/// The table has each width once, however many rows it has.
+#[test]
+fn reflection_is_linear() {
+    let members = |block: usize| (0..MANY / 10).map(move |i| format!("float u{block}_{i};\n")).collect::<String>();
+    let blocks: String = (0..6).map(|block| format!("uniform B{block} {{\n{} }};\n", members(block))).collect();
+    let text = with_globals(&format!("#version 150\n{blocks}"));
+    let source = Source { name: "long.frag".into(), text: text.into(), stage: Stage::Fragment };
+    let program = compiler().compile(&[source]).program.expect("it is correct");
+    soon("reflection", || {
+        let reflection = reflect(&program, &Conventions::default());
+        assert!(table(&reflection).lines().count() > MANY / 2);
+    });
+}
+
+/// Fixes are compared with their neighbors, and places of a long line are counted once.
+#[test]
+fn fixes_are_linear() {
+    let edit = |at: usize| {
+        let column = at as u32 * 2 + 1;
+        let region = Region { file: "a".into(), line: 1, column, end_line: 1, end_column: column + 1 };
+        FindingEdit { region, text: "b".into() }
+    };
+    let fix = |at| FindingFix { title: String::new(), applicability: Applicability::Safe, edits: vec![edit(at)] };
+    soon("fixes", || {
+        let mut patch = Patch::default();
+        // In an order in which most have others on both sides.
+        assert!((0..MANY).map(|at| at * 7 % MANY).all(|at| patch.add(&fix(at))));
+        assert_eq!(patch.applied("a", &"ä ".repeat(MANY)), Some("b ".repeat(MANY)));
+    });
+}
+
+/// A file with a guard.
+struct Guarded;
+
+impl IncludeResolver for Guarded {
+    fn resolve(&self, path: &str, _: IncludeForm, _: &str) -> Result<Included, String> {
+        let text = "#ifndef G\n#define G\nfloat g;\n#endif\n";
+        Ok(Included { name: path.to_owned(), text: text.into() })
+    }
+}
+
+#[test]
+fn includes_are_linear() {
+    let includes = "#include \"g.glsl\"\n".repeat(MANY);
+    let text =
+        format!("#version 150\n#extension GL_ARB_shading_language_include : enable\n{includes}void main() {{}}\n");
+    let source = Source { name: "long.frag".into(), text: text.into(), stage: Stage::Fragment };
+    soon("includes", || {
+        let compilation = compiler().with_includes(Guarded).compile(&[source]);
+        let program = compilation.program.expect("it is correct");
+        let found = glisten_front::lint::check(&program, &compilation.sources);
+        assert!(found.len() >= MANY, "{}", found.len());
+    });
 }
 
 /// Writers of code walk the whole program once.

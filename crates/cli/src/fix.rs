@@ -12,7 +12,7 @@ use crate::files;
 use crate::session::Unit;
 use crate::texts::{Text, diff};
 use clap::Args;
-use glisten_front::diagnostic::write::{Finding, FindingFix};
+use glisten_front::diagnostic::write::{Finding, FindingEdit, FindingFix};
 use glisten_front::diagnostic::{Applicability, Patch};
 use glisten_front::source::{SourceFile, SourceMap};
 use std::collections::{BTreeMap, BTreeSet};
@@ -68,6 +68,28 @@ impl Changed {
 struct Offer {
     fix: FindingFix,
     key: String,
+}
+
+/// A text that was checked, and the one on the disk or in place of it.
+struct Pair<'u> {
+    checked: &'u SourceFile,
+    now: SourceMap,
+    is_same: bool,
+}
+
+impl Pair<'_> {
+    /// Whether the lines that an edit changes are the same in both, as far as the change reaches: an engine may have put a text
+    /// together from several files, and comments may be in another encoding.
+    fn is_as_checked(&self, edit: &FindingEdit) -> bool {
+        let Some((_, now)) = self.now.files().next() else { return false };
+        let at = &edit.region;
+        let is_same = |number: u32| {
+            let kept = if number == at.end_line { (at.end_column as usize).saturating_sub(1) } else { usize::MAX };
+            let line = |file: &SourceFile| file.line(number).map(|line| line.chars().take(kept).collect::<String>());
+            line(self.checked) == line(now)
+        };
+        self.is_same || (at.line..=at.end_line).all(is_same)
+    }
 }
 
 /// Applies fixes round by round.
@@ -159,13 +181,19 @@ impl Fixer {
     fn offers(&mut self, units: &[Unit]) -> Vec<Offer> {
         let mut offers = Vec::new();
         for unit in units {
+            let mut pairs: BTreeMap<String, Option<Pair<'_>>> = BTreeMap::new();
             for diagnostic in &unit.batch.diagnostics {
                 let finding = Finding::new(&unit.batch.sources, diagnostic);
                 let mut fixes = finding.fixes.iter();
                 let allowed = |fix: &&FindingFix| self.args.unsafe_fixes || fix.applicability == Applicability::Safe;
                 // Several fixes of a finding are alternatives.
                 let Some(fix) = fixes.find(allowed) else { continue };
-                if fix.edits.iter().all(|edit| self.is_as_checked(&unit.batch.sources, &edit.region.file, fix)) {
+                let is_as_checked = |edit: &FindingEdit| {
+                    let name = &edit.region.file;
+                    let pair = pairs.entry(name.clone()).or_insert_with(|| self.pair(&unit.batch.sources, name));
+                    pair.as_ref().is_some_and(|pair| pair.is_as_checked(edit))
+                };
+                if fix.edits.iter().all(is_as_checked) {
                     offers.push(Offer { key: key(&finding, fix), fix: fix.clone() });
                 }
             }
@@ -173,23 +201,13 @@ impl Fixer {
         offers
     }
 
-    /// Whether the lines that a fix changes are the same on the disk as in the text that was checked, as far as the change
-    /// reaches: an engine may have put a text together from several files, and comments may be in another encoding.
-    fn is_as_checked(&mut self, sources: &SourceMap, name: &str, fix: &FindingFix) -> bool {
-        let Some((_, checked)) = sources.files().find(|(_, file)| file.name() == name) else { return false };
-        let Some(file) = self.file(name) else { return false };
-        let mut map = SourceMap::default();
-        let Some(id) = map.add(name, file.current()) else { return false };
-        let own = fix.edits.iter().filter(|edit| edit.region.file == name);
-        own.into_iter().all(|edit| {
-            let at = &edit.region;
-            (at.line..=at.end_line).all(|number| {
-                let kept = if number == at.end_line { (at.end_column as usize).saturating_sub(1) } else { usize::MAX };
-                let line =
-                    |file: &SourceFile| file.line(number).map(|line| line.chars().take(kept).collect::<String>());
-                line(checked) == line(map.file(id))
-            })
-        })
+    /// A text that was checked with the one that is there now, if there is one.
+    fn pair<'u>(&mut self, sources: &'u SourceMap, name: &str) -> Option<Pair<'u>> {
+        let (_, checked) = sources.files().find(|(_, file)| file.name() == name)?;
+        let mut now = SourceMap::default();
+        now.add(name, self.file(name)?.current())?;
+        let is_same = now.files().next().is_some_and(|(_, file)| file.text() == checked.shown());
+        Some(Pair { checked, now, is_same })
     }
 
     /// The file of this name, read when it is needed first.

@@ -11,6 +11,7 @@ use crate::engines::{Lookup, Style};
 use glisten_front::source::{IncludeForm, IncludeResolver, Included, blanked, version_line};
 use glisten_library::Embedded;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
 use std::fs::DirEntry;
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
@@ -194,8 +195,8 @@ fn files_below(folders: &[PathBuf]) -> BTreeMap<String, PathBuf> {
 /// How long the files below a folder are known.
 const FRESH: Duration = Duration::from_secs(2);
 
-/// The files below a folder, and when they were listed.
-type Listed = (Instant, Arc<[PathBuf]>);
+/// The files below a folder by their last name, those of one name in order, and when they were listed.
+type Listed = (Instant, Arc<BTreeMap<OsString, Vec<PathBuf>>>);
 
 /// The files below folders.
 #[derive(Default)]
@@ -203,12 +204,18 @@ struct Seen(Mutex<BTreeMap<PathBuf, Listed>>);
 
 impl Seen {
     /// The files of a folder and of those below it.
-    fn files(&self, folder: &Path) -> Arc<[PathBuf]> {
+    fn files(&self, folder: &Path) -> Arc<BTreeMap<OsString, Vec<PathBuf>>> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, files)) = known.get(folder).filter(|(listed, _)| listed.elapsed() < FRESH) {
             return Arc::clone(files);
         }
-        let files: Arc<[PathBuf]> = walk(folder, MAX_NEARBY).iter().map(|path| normal(path)).collect();
+        let mut files: BTreeMap<OsString, Vec<PathBuf>> = BTreeMap::new();
+        for path in walk(folder, MAX_NEARBY).iter().map(|path| normal(path)) {
+            if let Some(name) = path.file_name() {
+                files.entry(name.to_owned()).or_default().push(path);
+            }
+        }
+        let files = Arc::new(files);
         known.retain(|_, (listed, _)| listed.elapsed() < FRESH);
         known.insert(folder.to_owned(), (Instant::now(), Arc::clone(&files)));
         files
@@ -224,7 +231,11 @@ impl Seen {
         let above = folder.ancestors().filter(|folder| !is_root(folder)).take(NEARBY);
         let shown = |folder: &Path| if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() };
         let mut folders = above.chain(here);
-        folders.find_map(|folder| self.files(&shown(folder)).iter().find(|file| file.ends_with(wanted)).cloned())
+        let name = wanted.file_name()?;
+        folders.find_map(|folder| {
+            let files = self.files(&shown(folder));
+            files.get(name)?.iter().find(|file| file.ends_with(wanted)).cloned()
+        })
     }
 }
 

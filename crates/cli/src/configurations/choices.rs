@@ -6,9 +6,13 @@
 
 use glisten_front::source::comments::comment_len;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// The most values of a macro that are tried.
 const MAX_VALUES: usize = 8;
+
+/// So many macros of a branch are known at least. No program has as many choices, so nothing is said of what more of them decide.
+const MAX_NAMES: usize = 64;
 
 /// In a condition, they belong to what an engine replaces before any compiler reads it (`@normalMap`, `${lights}`, `{{shadows}}`).
 const FOREIGN: [char; 4] = ['@', '$', '{', '`'];
@@ -27,8 +31,8 @@ pub(super) struct Branch {
     pub(super) directive: usize,
     /// The end of the group: the line of the next directive of the same condition.
     pub(super) end: usize,
-    /// The macros that decide it, those of the conditions around it included.
-    pub(super) names: BTreeSet<String>,
+    /// The macros that decide it, those of the conditions around it included, as far as they are not too many.
+    pub(super) names: Arc<BTreeSet<String>>,
     /// Whether an `#error` is directly in it.
     pub(super) is_error: bool,
 }
@@ -97,6 +101,8 @@ impl Asked {
 struct Open {
     /// Its directives so far mention these.
     names: BTreeSet<String>,
+    /// These, and the macros of the conditions around it.
+    all: Arc<BTreeSet<String>>,
     /// The last branch.
     branch: usize,
     /// The macro of `#ifndef NAME`.
@@ -115,15 +121,20 @@ pub(super) fn conditions(text: &str) -> Conditions {
             "if" | "ifdef" | "ifndef" => {
                 let names = found.ask(word, rest);
                 let unless = unless(word, rest);
-                let branch = found.begin(line, &names, &open);
-                open.push(Open { names, branch, unless });
+                let all = together(&names, open.last());
+                let branch = found.begin(line, &names, &all);
+                open.push(Open { names, all, branch, unless });
             }
             "elif" | "else" => {
                 let Some(mut last) = open.pop() else { continue };
                 found.end(last.branch, line);
-                last.names.extend(found.ask(word, rest));
+                let names = found.ask(word, rest);
+                if last.names.len() < MAX_NAMES {
+                    last.names.extend(names);
+                }
                 last.unless = None;
-                last.branch = found.begin(line, &last.names, &open);
+                last.all = together(&last.names, open.last());
+                last.branch = found.begin(line, &last.names, &last.all);
                 open.push(last);
             }
             "endif" => {
@@ -159,11 +170,19 @@ pub(super) fn conditions(text: &str) -> Conditions {
     found
 }
 
+/// The macros of a condition and of those around it. Most conditions in others ask nothing new, or have few around them.
+fn together(own: &BTreeSet<String>, around: Option<&Open>) -> Arc<BTreeSet<String>> {
+    let Some(around) = around else { return Arc::new(own.clone()) };
+    if own.is_subset(&around.all) || around.all.len() >= MAX_NAMES {
+        return Arc::clone(&around.all);
+    }
+    Arc::new(own.union(&around.all).cloned().collect())
+}
+
 impl Conditions {
-    fn begin(&mut self, line: usize, names: &BTreeSet<String>, around: &[Open]) -> usize {
-        let around = around.iter().flat_map(|open| &open.names);
+    fn begin(&mut self, line: usize, own: &BTreeSet<String>, all: &Arc<BTreeSet<String>>) -> usize {
         // No macro decides `#if 0`.
-        let names = if names.is_empty() { BTreeSet::new() } else { names.iter().chain(around).cloned().collect() };
+        let names = if own.is_empty() { Arc::default() } else { Arc::clone(all) };
         self.branches.push(Branch { directive: line, end: line, names, is_error: false });
         self.branches.len() - 1
     }
@@ -193,7 +212,7 @@ impl Conditions {
             let is_defined = matches!(word, "ifdef" | "ifndef")
                 || before(1) == "defined"
                 || before(1) == "(" && before(2) == "defined";
-            if !names.contains(*token) && !self.order.iter().any(|name| name == token) {
+            if !self.asked.contains_key(*token) {
                 self.order.push((*token).to_owned());
             }
             names.insert((*token).to_owned());
@@ -349,8 +368,9 @@ fn without_comments(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{choices_of, conditions};
-    use std::collections::BTreeSet;
+    use super::{Conditions, MAX_NAMES, choices_of, conditions};
+    use std::collections::{BTreeMap, BTreeSet};
+    use std::sync::Arc;
 
     fn told(text: &str) -> Vec<String> {
         let all = choices_of(&[conditions(text)], &BTreeSet::from(["GIVEN".to_owned()]), 8);
@@ -382,6 +402,22 @@ mod tests {
         ] {
             assert_eq!(told(text).join("|"), expected, "{text}");
         }
+    }
+
+    #[test]
+    fn conditions_in_conditions_share_their_macros() {
+        let names = |found: &Conditions| -> usize {
+            let shared: BTreeMap<_, _> =
+                found.branches.iter().map(|one| (Arc::as_ptr(&one.names), &one.names)).collect();
+            shared.values().map(|names| names.len()).sum()
+        };
+        let many = 1000;
+        let nested =
+            |open: &dyn Fn(usize) -> String| (0..many).map(open).collect::<String>() + &"#endif\n".repeat(many);
+        assert_eq!(names(&conditions(&nested(&|_| "#ifdef A\n".to_owned()))), 1);
+        assert!(names(&conditions(&nested(&|at| format!("#ifdef A{at}\n")))) <= MAX_NAMES * MAX_NAMES);
+        let other: String = (0..many).map(|at| format!("#elif B{at}\n")).collect();
+        assert!(names(&conditions(&format!("#if A\n{other}#endif\n"))) <= MAX_NAMES * many);
     }
 
     #[test]

@@ -75,7 +75,8 @@ fn around(region: &Region, texts: &BTreeMap<String, Conditions>) -> BTreeSet<Str
     let mut names: BTreeSet<String> = around.flat_map(|one| one.names.iter().cloned()).collect();
     // What an `#error` asks of them is needed to see the finding.
     let errors = texts.values().flat_map(|text| &text.branches).filter(|one| one.is_error);
-    let asked: Vec<&String> = errors.filter(|one| !names.is_disjoint(&one.names)).flat_map(|one| &one.names).collect();
+    let asked: Vec<&String> =
+        errors.filter(|one| !names.is_disjoint(&one.names)).flat_map(|one| one.names.iter()).collect();
     names.extend(asked.into_iter().cloned());
     names
 }

@@ -34,6 +34,7 @@ use glisten_front::source::{SourceFile, Span};
 use merge::merged;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The most configurations of a program that nothing forbids.
 const MAX_CONFIGURATIONS: usize = 64;
@@ -240,7 +241,7 @@ impl<'l> Search<'l> {
     /// The macros of the branches with an `#error`.
     fn forbidden_groups(&self) -> impl Iterator<Item = BTreeSet<String>> + '_ {
         let branches = self.texts.values().flat_map(|text| &text.branches);
-        branches.filter(|branch| branch.is_error).map(|branch| branch.names.clone())
+        branches.filter(|branch| branch.is_error).map(|branch| branch.names.as_ref().clone())
     }
 
     /// Whether a configuration that nothing forbids has these values.
@@ -281,19 +282,20 @@ impl<'l> Search<'l> {
     /// The combinations of the values of some macros. Those with more macros come first: a branch that is left is seldom one that
     /// wants none.
     fn combinations(&self, names: &BTreeSet<String>) -> Vec<Fixed> {
-        let mut all = vec![Fixed::new()];
-        for choice in self.choices.iter().filter(|choice| names.contains(&choice.name)) {
-            let with = |one: &Fixed, value: &Option<String>| {
-                let mut one = one.clone();
-                one.insert(choice.name.clone(), value.clone());
-                one
-            };
-            all = all.iter().flat_map(|one| choice.values.iter().map(move |value| with(one, value))).collect();
-            all.truncate(MAX_TRIES * MAX_TRIES);
-        }
-        all.sort_by_key(|one| std::cmp::Reverse(one.values().flatten().count()));
+        let choices: Vec<&Choice> = self.choices.iter().filter(|choice| names.contains(&choice.name)).collect();
+        let value = |choice: &Choice, at: usize| choice.values.get(at).cloned().flatten();
+        let sizes: Vec<usize> = choices.iter().map(|choice| choice.values.len()).collect();
+        let mut all = digits(&sizes, MAX_TRIES * MAX_TRIES);
+        all.sort_by_cached_key(|one| {
+            let defined = choices.iter().zip(one).filter(|(choice, at)| value(choice, **at).is_some());
+            std::cmp::Reverse(defined.count())
+        });
         all.truncate(MAX_TRIES);
-        all
+        let fixed = |one: &Vec<usize>| {
+            let values = choices.iter().zip(one);
+            values.map(|(choice, at)| (choice.name.clone(), value(choice, *at))).collect()
+        };
+        all.iter().map(fixed).collect()
     }
 
     /// Compiles configurations in parallel, but for those that have the result of another one.
@@ -332,7 +334,7 @@ impl<'l> Search<'l> {
             decided.map(|one| Named {
                 file: file.clone(),
                 directive: one.directive,
-                names: one.names.clone(),
+                names: Arc::clone(&one.names),
                 is_error: one.is_error,
             })
         })
@@ -411,7 +413,7 @@ impl<'l> Search<'l> {
 struct Named {
     file: String,
     directive: usize,
-    names: BTreeSet<String>,
+    names: Arc<BTreeSet<String>>,
     is_error: bool,
 }
 
@@ -439,6 +441,21 @@ fn told(unit: &Unit, branch: &Named, is_listed: bool) -> Option<Diagnostic> {
         (message, "remove them, or correct the condition; `-D` and `[lint.configurations]` give a macro other values")
     };
     Some(Diagnostic::new(&BRANCH_IN_NO_CONFIGURATION, span, message).help(help))
+}
+
+/// The first `most` numbers whose digits have these bases, the last digit counting fastest.
+fn digits(bases: &[usize], most: usize) -> Vec<Vec<usize>> {
+    let count = bases.iter().copied().fold(1, usize::saturating_mul).min(most);
+    let of = |mut number: usize| {
+        let mut digits: Vec<usize> = Vec::new();
+        for base in bases.iter().rev().map(|base| (*base).max(1)) {
+            digits.push(number % base);
+            number /= base;
+        }
+        digits.reverse();
+        digits
+    };
+    (0..count).map(of).collect()
 }
 
 /// The values that a macro has in these.
@@ -508,4 +525,19 @@ fn compiled(
     let reached = reached.collect();
     let is_forbidden = unit.batch.diagnostics.iter().any(|one| one.is_error() && *one.code == ERROR_DIRECTIVE);
     Found { variant, reached, is_forbidden, unit }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn the_last_digit_counts_fastest() {
+        assert_eq!(digits(&[2, 3], 100), [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
+        assert_eq!(
+            digits(&[2; 80], 3).iter().map(|one| one[78..].to_vec()).collect::<Vec<_>>(),
+            [[0, 0], [0, 1], [1, 0]]
+        );
+        assert_eq!(digits(&[], 5), [[0; 0]]);
+    }
 }

@@ -7,7 +7,7 @@
 //! its group, that over `deny warnings`, and a comment over all. A rule that is off reports where a level asks for it.
 
 use super::{Code, Diagnostic, Group, Key, Severity};
-use crate::source::{SourceFile, SourceMap};
+use crate::source::{SourceFile, SourceMap, is_comment};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
@@ -114,11 +114,15 @@ impl Levels {
 fn is_allowed_by_comment(sources: &SourceMap, diagnostic: &Diagnostic) -> bool {
     let Some(at) = sources.location(sources.call_site(diagnostic.primary.span)) else { return false };
     let file = sources.file(at.file);
-    let allows = |line: &str| allowed(line).any(|key| Key::find(key).is_some_and(|key| key.names(diagnostic.code)));
+    let remarks = file.remarks();
+    // Most texts have no such comment.
+    if remarks.is_empty() {
+        return false;
+    }
     let joined = joined_lines(file, at.line);
-    let above = (1..*joined.start()).rev();
-    joined.filter_map(|number| file.line(number)).any(allows)
-        || above.map_while(|number| file.line(number).filter(|line| is_comment(line))).any(allows)
+    let first = remarks.first_comment_above(*joined.start());
+    let mut words = remarks.words(first..=*joined.end());
+    words.any(|word| Key::find(word).is_some_and(|key| key.names(diagnostic.code)))
 }
 
 /// The lines of a file whose findings a comment on this line allows: those that are one with it, or, below lines of comments, with the first
@@ -138,33 +142,6 @@ fn joined_lines(file: &SourceFile, line: u32) -> RangeInclusive<u32> {
     let above = (line.saturating_sub(MAX_JOINED)..line).rev().take_while(goes_on).last();
     let below = (line..line.saturating_add(MAX_JOINED)).take_while(goes_on).last();
     above.unwrap_or(line)..=below.map_or(line, |last| last + 1)
-}
-
-/// The codes in a line's `// glisten: allow(CODE, CODE)`, in any case and with any white space, in either kind of comment.
-fn allowed(line: &str) -> impl Iterator<Item = &str> {
-    let comment = line.find("//").into_iter().chain(line.find("/*")).min();
-    comment
-        .and_then(|comment| line.get(comment..))
-        .and_then(|comment| after_word(comment, "glisten:"))
-        .and_then(|rest| rest.trim_start().strip_prefix("allow"))
-        .and_then(|rest| rest.trim_start().strip_prefix('('))
-        .and_then(|rest| rest.split_once(')'))
-        .map(|(list, _)| list)
-        .into_iter()
-        .flat_map(|list| list.split(','))
-        .map(str::trim)
-}
-
-/// The text after the first occurrence of a word of ASCII letters, in any case.
-fn after_word<'t>(text: &'t str, word: &str) -> Option<&'t str> {
-    let start = text.as_bytes().windows(word.len()).position(|part| part.eq_ignore_ascii_case(word.as_bytes()))?;
-    text.get(start + word.len()..)
-}
-
-/// Whether a line is nothing but a comment.
-fn is_comment(line: &str) -> bool {
-    let line = line.trim();
-    line.starts_with("//") || line.starts_with("/*") && line.ends_with("*/")
 }
 
 #[cfg(test)]

@@ -6,26 +6,30 @@
 use super::write::{FindingEdit, FindingFix, Region};
 use crate::source::{SourceFile, SourceMap};
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Bound, Range};
+
+/// A line and a column.
+type Place = (u32, u32);
+
+/// The edits of a file by where they begin. Those of one place are of one fix, in its order.
+type Edits = BTreeMap<Place, Vec<FindingEdit>>;
 
 /// Edits of files that can be made at once.
 #[derive(Clone, Debug, Default)]
 pub struct Patch {
-    files: BTreeMap<String, Vec<FindingEdit>>,
+    files: BTreeMap<String, Edits>,
 }
 
 impl Patch {
     /// Adds a fix, unless it meets another one; returns whether it is in the patch.
     pub fn add(&mut self, fix: &FindingFix) -> bool {
-        let fits = |edit: &FindingEdit| {
-            let known = self.files.get(&edit.region.file).into_iter().flatten();
-            known.into_iter().all(|other| other == edit || !meet(&other.region, &edit.region))
-        };
-        if fix.edits.is_empty() || !fix.edits.iter().all(fits) {
+        let is_free = |edit: &FindingEdit| self.files.get(&edit.region.file).is_none_or(|known| fits(known, edit));
+        if fix.edits.is_empty() || !fix.edits.iter().all(is_free) {
             return false;
         }
         for edit in &fix.edits {
-            let list = self.files.entry(edit.region.file.clone()).or_default();
+            let file = self.files.entry(edit.region.file.clone()).or_default();
+            let list = file.entry(from(&edit.region)).or_default();
             if !list.contains(edit) {
                 list.push(edit.clone());
             }
@@ -42,8 +46,9 @@ impl Patch {
     pub fn applied(&self, file: &str, text: &str) -> Option<String> {
         let mut map = SourceMap::default();
         let id = map.add(file, text)?;
-        let edits = self.files.get(file).into_iter().flatten();
-        let place = |edit: &FindingEdit| Some((range(map.file(id), &edit.region)?, edit.text.clone()));
+        let mut places = Places { file: map.file(id), last: None };
+        let edits = self.files.get(file).into_iter().flat_map(BTreeMap::values).flatten();
+        let place = |edit: &FindingEdit| Some((places.range(&edit.region)?, edit.text.clone()));
         let mut edits: Vec<(Range<usize>, String)> = edits.map(place).collect::<Option<_>>()?;
         edits.sort_by_key(|(range, _)| (range.start, range.end));
         let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
@@ -58,26 +63,53 @@ impl Patch {
     }
 }
 
-/// Whether two regions of a file share a character, or a place where both would insert.
-fn meet(a: &Region, b: &Region) -> bool {
-    let (from, to) = (|at: &Region| (at.line, at.column), |at: &Region| (at.end_line, at.end_column));
-    from(a) == from(b) || (from(a) < to(b) && from(b) < to(a))
+fn from(region: &Region) -> Place {
+    (region.line, region.column)
 }
 
-/// The bytes of a region in a text.
-fn range(file: &SourceFile, region: &Region) -> Option<Range<usize>> {
-    let start = offset(file, region.line, region.column)?;
-    let end = offset(file, region.end_line, region.end_column)?;
-    (start <= end).then_some(start..end)
+fn to(region: &Region) -> Place {
+    (region.end_line, region.end_column)
 }
 
-/// The offset of a column, counted in characters from 1; the one past the end of a line is its end.
-fn offset(file: &SourceFile, line: u32, column: u32) -> Option<usize> {
-    let range = file.line_range(line)?;
-    let text = file.text().get(range.clone())?;
-    let skipped = (column as usize).checked_sub(1)?;
-    let mut starts = text.char_indices().map(|(at, _)| at).chain([text.len()]);
-    starts.nth(skipped).map(|at| range.start + at)
+/// Whether an edit is one of those that are known, or shares no character with any, and no place where both would insert. Known edits do
+/// not overlap, so only its neighbors can meet it.
+fn fits(known: &Edits, edit: &FindingEdit) -> bool {
+    let (start, end) = (from(&edit.region), to(&edit.region));
+    let before = known.range(..start).next_back().into_iter().flat_map(|(_, edits)| edits);
+    let here = known.get(&start).into_iter().flatten();
+    let behind = known.range((Bound::Excluded(start), Bound::Unbounded)).next();
+    before.into_iter().all(|other| to(&other.region) <= start)
+        && here.into_iter().all(|other| other == edit)
+        && behind.is_none_or(|(next, _)| *next >= end)
+}
+
+/// Offsets of places in a text. Those of one line are not counted from its beginning again, if they come in order.
+struct Places<'t> {
+    file: &'t SourceFile,
+    /// The last place, with its offset.
+    last: Option<(Place, usize)>,
+}
+
+impl Places<'_> {
+    /// The bytes of a region.
+    fn range(&mut self, region: &Region) -> Option<Range<usize>> {
+        let start = self.offset(from(region))?;
+        let end = self.offset(to(region))?;
+        (start <= end).then_some(start..end)
+    }
+
+    /// The offset of a column, counted in characters from 1; the one past the end of a line is its end.
+    fn offset(&mut self, (line, column): Place) -> Option<usize> {
+        let range = self.file.line_range(line)?;
+        let known = self.last.filter(|((of, before), _)| *of == line && *before <= column);
+        let (before, at) = known.map_or((1, range.start), |((_, before), at)| (before, at));
+        let text = self.file.text().get(at..range.end)?;
+        let skipped = (column as usize).checked_sub(before as usize)?;
+        let mut starts = text.char_indices().map(|(at, _)| at).chain([text.len()]);
+        let offset = at + starts.nth(skipped)?;
+        self.last = Some(((line, column), offset));
+        Some(offset)
+    }
 }
 
 #[cfg(test)]

@@ -114,18 +114,21 @@ impl<'a> Texts<'a> {
     }
 
     fn names_only_what_was_read(&self, shader: &Shader) -> bool {
-        self.files(shader).iter().all(|&file| {
-            let lexemes = self.lexemes(file);
+        let mut read: FxHashMap<FileId, Vec<u32>> = FxHashMap::default();
+        for inclusion in &shader.origin.inclusions {
+            if let Some(file) = self.sources.file_of(inclusion.directive) {
+                read.entry(file).or_default().push(inclusion.directive.start);
+            }
+        }
+        read.values_mut().for_each(Vec::dedup);
+        self.files(shader).iter().all(|file| {
+            let lexemes = self.lexemes(*file);
             let named = lexemes.directives().filter(|(word, index)| {
                 let next = lexemes.tokens().get(index + 2);
                 INCLUDES.contains(word)
                     || *word == "pragma" && next.is_some_and(|next| INCLUDES.contains(&lexemes.spelling(next)))
             });
-            let in_file = |span: Span| self.sources.file_of(span) == Some(file);
-            let read = shader.origin.inclusions.iter().filter(|inclusion| in_file(inclusion.directive));
-            let mut starts: Vec<u32> = read.map(|inclusion| inclusion.directive.start).collect();
-            starts.dedup();
-            named.count() <= starts.len()
+            named.count() <= read.get(file).map_or(0, Vec::len)
         })
     }
 

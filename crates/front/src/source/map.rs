@@ -5,6 +5,7 @@
 //!
 //! *Holds:* offset 0 belongs to no file; a [`FileId`] or [`ExpansionId`] is valid only in the map that made it.
 
+use super::remarks::Remarks;
 use super::{ExpansionId, Span};
 use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
@@ -31,6 +32,8 @@ pub struct SourceFile {
     line_starts: Vec<u32>,
     /// How many characters are before each block of [`BLOCK`] bytes, once a column of a long line was asked for.
     characters: OnceLock<Vec<u32>>,
+    /// The comments for glisten, once a finding asked for them.
+    remarks: OnceLock<Remarks>,
     /// Whether there is room behind it.
     is_changing: bool,
 }
@@ -62,6 +65,11 @@ impl SourceFile {
     /// The number of lines; an empty text has one.
     pub fn line_count(&self) -> u32 {
         self.line_starts.len() as u32
+    }
+
+    /// The comments for glisten, which are searched for once.
+    pub(crate) fn remarks(&self) -> &Remarks {
+        self.remarks.get_or_init(|| Remarks::of((1..=self.line_count()).filter_map(|number| self.line(number))))
     }
 
     /// The byte range of line `line`, counted from 1, including its line ending, as offsets into [`Self::text`].
@@ -212,7 +220,7 @@ impl Hash for SourceMap {
     fn hash<H: Hasher>(&self, state: &mut H) {
         let Self { files, expansions, rare, languages } = self;
         files.len().hash(state);
-        for SourceFile { name, text, shown, base, line_starts: _, characters: _, is_changing: _ } in files {
+        for SourceFile { name, text, shown, base, line_starts: _, characters: _, remarks: _, is_changing: _ } in files {
             let written = (name != Self::COMMAND_LINE).then_some((text, shown));
             (name, written, base).hash(state);
         }
@@ -244,8 +252,8 @@ impl SourceMap {
         let id = FileId(self.files.len() as u32);
         let name = name.into();
         let is_changing = name == Self::COMMAND_LINE;
-        let characters = OnceLock::new();
-        self.files.push(SourceFile { name, text, shown: None, base, line_starts, characters, is_changing });
+        let (characters, remarks) = (OnceLock::new(), OnceLock::new());
+        self.files.push(SourceFile { name, text, shown: None, base, line_starts, characters, remarks, is_changing });
         Some(id)
     }
 
@@ -309,7 +317,7 @@ impl SourceMap {
         for file in self.files.iter_mut().filter(|file| file.name == name && file.text.len() == text.len()) {
             file.line_starts = line_starts(text);
             file.shown = Some(Arc::clone(text));
-            file.characters = OnceLock::new();
+            (file.characters, file.remarks) = (OnceLock::new(), OnceLock::new());
         }
     }
 

@@ -10,6 +10,7 @@
 pub mod comments;
 mod completion;
 mod map;
+mod remarks;
 mod span;
 mod whole;
 
@@ -20,5 +21,6 @@ pub use map::{
     Expansion, FileId, IncludeForm, IncludeResolver, Included, Language, Location, NoIncludes, SourceFile, SourceMap,
     line_end_length,
 };
+pub(crate) use remarks::is_comment;
 pub use span::{ExpansionId, Span};
 pub use whole::{Edits, Inclusion, Unrolled, whole_text};

@@ -127,8 +127,9 @@ fn left_aligned(heads: &[&str], rows: &[Vec<String>]) -> String {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
         cells.chain(heads.get(column).map(|head| head.len())).max().unwrap_or(0)
     };
+    let widths: Vec<usize> = (0..heads.len()).map(width).collect();
     let line = |cells: &mut dyn Iterator<Item = &str>| {
-        let padded: String = cells.enumerate().map(|(column, cell)| format!("  {cell:<0$}", width(column))).collect();
+        let padded: String = cells.zip(&widths).map(|(cell, width)| format!("  {cell:<width$}")).collect();
         format!("{}\n", padded.trim_end())
     };
     let mut text = line(&mut heads.iter().copied());

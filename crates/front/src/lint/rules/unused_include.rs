@@ -11,71 +11,106 @@ use crate::source::{FileId, Span};
 use crate::syntax::Lexemes;
 use crate::syntax::keywords;
 use crate::syntax::token::{TokenFlags, TokenKind};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Words whose effect does not depend on a name.
 const WITH_EFFECT: &[&str] = &["layout", "precision", "invariant", "main", "pragma", "extension", "version"];
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
     for shader in subject.program.stages.iter().filter(|shader| shader.main.is_some()) {
-        let sources = subject.texts.sources();
-        let inclusions = &shader.origin.inclusions;
-        for inclusion in inclusions.iter().filter(|one| subject.texts.is_own(shader, one.directive)) {
+        let mut own =
+            shader.origin.inclusions.iter().filter(|one| subject.texts.is_own(shader, one.directive)).peekable();
+        if own.peek().is_none() || !subject.texts.are_whole(shader) {
+            continue;
+        }
+        let graph = Graph::of(subject, shader);
+        // A file may be included often.
+        let mut used: FxHashMap<FileId, bool> = FxHashMap::default();
+        for inclusion in own {
             let Some(file) = inclusion.file else { continue };
-            let brought = brought(subject, shader, file);
-            let files = subject.texts.files(shader);
-            let others = files.iter().copied().filter(|other| !brought.contains(other));
-            let mut named: FxHashSet<String> = FxHashSet::default();
-            for other in others {
-                let lexemes = subject.texts.lexemes(other);
-                named.extend(words(&lexemes));
+            if !*used.entry(file).or_insert_with(|| graph.is_used(subject, file)) {
+                tell(subject, findings, inclusion.directive, file);
             }
-            let is_used = brought.iter().any(|file| {
-                let lexemes = subject.texts.lexemes(*file);
-                names(&lexemes)
-                    .into_iter()
-                    .any(|word| WITH_EFFECT.contains(&word) || !is_of_language(word) && named.contains(word))
-            });
-            if is_used || !subject.texts.are_whole(shader) {
-                continue;
-            }
-            let text = sources.file(file).name().rsplit('/').next().unwrap_or_default().to_owned();
-            let line = sources.line(inclusion.directive).and_then(|line| {
-                let own = sources.file(sources.file_of(inclusion.directive)?);
-                let range = own.line_range(line)?;
-                Some(Span::new(own.base() + range.start as u32, own.base() + range.end as u32))
-            });
-            let fix = line.and_then(|line| subject.texts.remove(Applicability::Unsafe, line, "remove the line"));
-            let finding = findings.at(inclusion.directive, format!("the shader uses nothing of `{text}`"));
-            findings.push(finding.help("remove the line").maybe_fix(fix));
         }
     }
 }
 
-/// A file, and the files that it includes in turn.
-fn brought(subject: &Subject<'_>, shader: &Shader, file: FileId) -> Vec<FileId> {
-    let mut files = vec![file];
-    let mut index = 0;
-    while let Some(&next) = files.get(index) {
-        index += 1;
+fn tell(subject: &Subject<'_>, findings: &mut Findings<'_>, directive: Span, file: FileId) {
+    let sources = subject.texts.sources();
+    let text = sources.file(file).name().rsplit('/').next().unwrap_or_default().to_owned();
+    let line = sources.line(directive).and_then(|line| {
+        let own = sources.file(sources.file_of(directive)?);
+        let range = own.line_range(line)?;
+        Some(Span::new(own.base() + range.start as u32, own.base() + range.end as u32))
+    });
+    let fix = line.and_then(|line| subject.texts.remove(Applicability::Unsafe, line, "remove the line"));
+    let finding = findings.at(directive, format!("the shader uses nothing of `{text}`"));
+    findings.push(finding.help("remove the line").maybe_fix(fix));
+}
+
+/// The files of a shader: which include which, and which words they have.
+struct Graph {
+    included: FxHashMap<FileId, Vec<FileId>>,
+    /// In how many files a word is.
+    named: FxHashMap<String, usize>,
+}
+
+impl Graph {
+    fn of(subject: &Subject<'_>, shader: &Shader) -> Self {
+        let mut graph = Self { included: FxHashMap::default(), named: FxHashMap::default() };
+        let mut seen: FxHashSet<(FileId, FileId)> = FxHashSet::default();
         for inclusion in &shader.origin.inclusions {
-            let is_there = subject.texts.sources().file_of(inclusion.directive) == Some(next);
-            files.extend(inclusion.file.filter(|file| is_there && !files.contains(file)));
+            let by = subject.texts.sources().file_of(inclusion.directive);
+            if let (Some(by), Some(file)) = (by, inclusion.file)
+                && seen.insert((by, file))
+            {
+                graph.included.entry(by).or_default().push(file);
+            }
         }
+        for file in subject.texts.files(shader).iter() {
+            for word in words(&subject.texts.lexemes(*file)) {
+                *graph.named.entry(word).or_default() += 1;
+            }
+        }
+        graph
     }
-    files
+
+    /// Whether the shader names something that a file brings.
+    fn is_used(&self, subject: &Subject<'_>, file: FileId) -> bool {
+        let brought = self.brought(file);
+        let mut own: FxHashMap<String, usize> = FxHashMap::default();
+        for word in brought.iter().flat_map(|file| words(&subject.texts.lexemes(*file))) {
+            *own.entry(word).or_default() += 1;
+        }
+        let is_named_elsewhere = |word: &str| self.named.get(word) > own.get(word);
+        let counts = |word: &str| WITH_EFFECT.contains(&word) || is_named_elsewhere(word) && !is_of_language(word);
+        brought.iter().any(|file| names(&subject.texts.lexemes(*file)).into_iter().any(counts))
+    }
+
+    /// A file, and the files that it includes in turn.
+    fn brought(&self, file: FileId) -> Vec<FileId> {
+        let mut files = vec![file];
+        let mut seen = FxHashSet::from_iter([file]);
+        let mut index = 0;
+        while let Some(next) = files.get(index) {
+            index += 1;
+            let included = self.included.get(next).into_iter().flatten();
+            files.extend(included.filter(|file| seen.insert(**file)));
+        }
+        files
+    }
 }
 
-/// The words of a file, but for those of its includes.
-fn words(lexemes: &Lexemes) -> Vec<String> {
-    let (mut words, mut in_include) = (Vec::new(), false);
+/// The words of a file, but for those of its includes, each once.
+fn words(lexemes: &Lexemes) -> FxHashSet<String> {
+    let (mut words, mut in_include) = (FxHashSet::default(), false);
     for (index, token) in lexemes.tokens().iter().enumerate() {
         if token.flags.contains(TokenFlags::LINE_START) {
             let directive = lexemes.tokens().get(index + 1).map_or("", |word| lexemes.spelling(word));
             in_include = Lexemes::begins_directive(token) && matches!(directive, "include" | "import" | "moj_import");
         }
-        if !in_include {
-            words.push(lexemes.spelling(token).to_owned());
+        if !in_include && !words.contains(lexemes.spelling(token)) {
+            words.insert(lexemes.spelling(token).to_owned());
         }
     }
     words
