@@ -7,6 +7,7 @@
 //! | operation | what a driver may do with a literal | so |
 //! | --- | --- | --- |
 //! | `x * c`, products of matrices | drop `x` for `c` = 0 | no 0 unless `x` is finite |
+//! | `x * c` of which an operation sees the sign | make 0 of it for `c` = 0 | no 0 where `x` may be negative |
 //! | `(x * a) * b` | multiply `a` and `b` first, which may overflow or not | kept unless `x` is bounded, or no constant is above 1 |
 //! | `(x + a) + b` | add `a` and `b` first | kept where a constant is so large that it could overflow |
 //! | `x / c` | multiply with `1 / c` | kept where that is not a normal number |
@@ -58,10 +59,24 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
         | ExprKind::Assign(None, ..)
         | ExprKind::Error => {}
     }
+    if computes_zero_of_a_sign(walked, id, types) {
+        demands.iter_mut().for_each(|demand| *demand = demand.and(Demand::NO_ZERO));
+    }
     if is_constant_without_value(walked, id, types) {
         demands.iter_mut().for_each(|demand| *demand = Demand::KEEP);
     }
     demands
+}
+
+/// It is a zero with the sign of an operand, and an operation sees that sign. A driver makes 0 of it if it finds a literal 0.
+fn computes_zero_of_a_sign(walked: &Walked, id: ExprId, types: &Types) -> bool {
+    let expr = walked.shader.expr(id);
+    let computes =
+        matches!(expr.kind, ExprKind::Binary(..) | ExprKind::Assign(Some(_), ..) | ExprKind::BuiltinCall(..));
+    computes
+        && walked.is_looked_at(id)
+        && types.scalar_of(expr.ty) == Some(Scalar::Float)
+        && walked.facts(id).iter().any(|fact| fact.is_zero() && fact.value().is_none())
 }
 
 /// A driver could compute it, and it might not be finite, or GLSL leaves it undefined.
