@@ -106,6 +106,25 @@ mod tests {
                 "void main() { if (at.x < 0.0) o = vec4(sqrt(at.y + u)); else o = vec4(u); }",
                 &[("sqrt", 128), ("comparison", 256), ("branch", 256)],
             ),
+            // Nor does an operand that is not chosen: never, or in half of the fragments.
+            (
+                "void main() { o = u < 1.0 ? texture(t, at) : vec4(at.x > 2.0 ? exp(at.y) : u); }",
+                &[("lookup", 0), ("exp", 0)],
+            ),
+            (
+                "void main() { o = vec4(at.x < 0.0 ? sqrt(at.y + u) : sin(at.y)); }",
+                &[("sqrt", 128), ("sin", 128), ("selection", 256)],
+            ),
+            (
+                "void main() { o = vec4(at.x < 0.0 ? u : at.y < 0.0 ? exp(u) : log(u)); }",
+                &[("exp", 64), ("log", 64), ("comparison", 384)],
+            ),
+            ("void main() { o = vec4(at.x < 0.0 && exp(at.y) > u); }", &[("exp", 128), ("comparison", 384)]),
+            ("void main() { o = vec4(at.x < 0.0 || exp(at.y) > u || sin(at.y) > u); }", &[("exp", 128), ("sin", 112)]),
+            (
+                "void main() { float unread = at.x < 0.0 ? exp(at.x) : u; o = vec4(at.y); }",
+                &[("exp", 0), ("comparison", 0)],
+            ),
             // What nothing reads does not count.
             ("void main() { float unread = exp(at.x); o = vec4(at.y); }", &[("exp", 0)]),
             ("void main() { float x = 0.0; for (int i = 0; i < 5; i++) x += at.x; o = vec4(x); }", &[("+", 1280)]),
@@ -119,6 +138,21 @@ mod tests {
             for (name, count) in *expected {
                 assert_eq!(of(&counts, name), *count, "{name} of {body}: {counts:?}");
             }
+        }
+    }
+
+    #[test]
+    fn the_operations_of_floats_are_those_that_are_executed() {
+        // The operations and lookups of 256 fragments; a comparison of uniforms is made once.
+        let cases = [
+            ("void main() { o = u < 1.0 ? texture(t, at) : vec4(at.x * u); }", [257, 0]),
+            ("void main() { o = at.x < 0.0 ? texture(t, at) : vec4(at.y * u); }", [256 + 128 * 4 + 128, 128]),
+            ("void main() { o = vec4(at.x < 0.0 && sin(at.x) > at.y); }", [256 + 128 * 2 + 256, 0]),
+        ];
+        let options = RenderOptions { mark_edges: false, ..RenderOptions::default() };
+        for (body, expected) in cases {
+            let work = crate::work(&scene_of(body), &options).expect("the scene can be drawn").remove(0);
+            assert_eq!([work.fragment_operations, work.texture_lookups], expected, "{body}");
         }
     }
 

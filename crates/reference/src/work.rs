@@ -8,7 +8,7 @@
 
 use crate::RenderOptions;
 use crate::domain::{Envelope, F32};
-use crate::exec::{Event, Kind, Observer, Order, What};
+use crate::exec::{Event, Form, Kind, Observer, Order, What};
 use crate::pipeline::{self, Study};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::hir::Stage;
@@ -81,7 +81,8 @@ pub fn work(scene: &Scene, options: &RenderOptions) -> Result<Vec<Work>, Vec<Dia
     let make = move || -> Box<dyn Observer<F32>> {
         Box::new(Counter { operations: 0, lookups: 0, totals: Arc::clone(&shared) })
     };
-    pipeline::render_watched::<F32>(scene, options, Some(&make))?;
+    let study = Study { observers: Some(&make), form: Form::Executed, ..Study::NONE };
+    pipeline::render_studied::<F32>(scene, options, study)?;
     let totals = totals.lock().unwrap_or_else(PoisonError::into_inner);
     Ok(totals.clone())
 }

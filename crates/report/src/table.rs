@@ -22,6 +22,13 @@ pub(super) fn table(report: &Report) -> String {
         text,
         "errors: over pixels that both pictures cover; silhouettes differ at {mismatches} pixels of all variants together"
     );
+    for way in report.ways.iter().filter(|way| way.error.non_finite > 0) {
+        let (title, lost, covered) = (way.title(), way.error.non_finite, way.error.covered);
+        let _ = writeln!(
+            text,
+            "{MARK} {title}: {lost} of {covered} pixels are not finite in it or its reference, and no error counts them"
+        );
+    }
     for skipped in &report.skipped {
         let _ = writeln!(text, "skipped: {}: {}", skipped.name, skipped.because);
     }
@@ -35,7 +42,7 @@ fn row(way: &Way) -> Vec<String> {
     let [low, high] = way.ratio.interval;
     vec![
         way.title(),
-        format!("{:.1e}", way.error.max_abs),
+        format!("{:.1e}{}", way.error.max_abs, if way.error.non_finite > 0 { MARK } else { "" }),
         format!("{:.1e}", way.error.rmse),
         way.error.flip.map_or_else(|| "-".into(), |flip| format!("{flip:.1e}")),
         way.work.operations.to_string(),
@@ -47,6 +54,9 @@ fn row(way: &Way) -> Vec<String> {
         if way.ratio.median.is_finite() { way.pareto_time.name() } else { NONE }.to_owned(),
     ]
 }
+
+/// Marks errors that leave out pixels that are not finite.
+const MARK: &str = "*";
 
 /// The place of a figure that there is not.
 const NONE: &str = "-";
@@ -149,6 +159,15 @@ mod tests {
         assert_eq!(table(&report).matches("\nreference of ").count(), 2);
         report.truths.truncate(1);
         assert_eq!(common_reference(&report.truths), None);
+    }
+
+    #[test]
+    fn pixels_that_are_not_finite_are_told() {
+        let mut report = example();
+        assert!(!table(&report).contains('*'));
+        (report.ways[0].error.non_finite, report.ways[0].error.covered) = (64, 256);
+        let told = format!("* {}: 64 of 256 pixels are not finite", report.ways[0].title());
+        assert!(table(&report).contains(&told), "{}", table(&report));
     }
 
     #[test]

@@ -33,8 +33,8 @@ pub use files::{
 };
 pub use library::{Library, NoLibrary};
 pub use load::{
-    Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, ShaderFiles, default_tessellation, load, load_kept, shape_names,
-    write,
+    Loaded, MAX_ATTACHMENTS, MAX_PIXELS, MAX_SIDE, STABILITY_KEYS, ShaderFiles, default_tessellation, load, load_kept,
+    shape_names, write,
 };
 pub use model::{
     AttributeData, AttributeValues, BlendFactor, Compare, Cull, Draw, Filter, FixedDraw, Format, Framebuffer,

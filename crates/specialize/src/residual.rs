@@ -6,7 +6,7 @@ use crate::known::Known;
 use crate::left::Left;
 use crate::options::{Extent, Math, Options};
 use crate::prune::{self, Pruned};
-use crate::settle::{self, Demand, Demands, Settled, mark_signs};
+use crate::settle::{self, Demand, Demands, Settled, mark_looked_at, mark_signs};
 use crate::{fast, inputs, motion, text, unlocated, words};
 use glisten_front::builtin::BuiltinVariable;
 use glisten_front::hir::{Global, GlobalId, Shader, Stage, Storage, Types, print};
@@ -139,9 +139,13 @@ fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluate
     let mut wanted = None;
     // Whether somebody sees the sign of a zero in what the vertex stage writes.
     let mut signs: Vec<bool> = vertex.iter().flat_map(|(shader, _)| &shader.globals).map(is_written_out).collect();
+    // And whether an operation of the fragment stage does.
+    let mut looked_at = vec![!whole; signs.len()];
     if let Some((shader, mut stage)) = fragment {
         let seen = mark_signs(&program.types, &mut stage, colors_with_signs(shader, known));
         varyings_with_signs(program, &seen, &mut signs);
+        let seen = mark_looked_at(&program.types, &mut stage, vec![false; shader.globals.len()]);
+        varyings_with_signs(program, &seen, &mut looked_at);
         let live = live_colors(shader, program, known);
         let (settled, demands) = settled(program, &stage, vec![Demand::NONE; shader.globals.len()]);
         wanted = Some(demands).filter(|_| whole);
@@ -152,6 +156,7 @@ fn evaluate(program: &Program, known: &Known, options: &Options<'_>) -> Evaluate
         if whole {
             mark_signs(&program.types, &mut stage, signs);
         }
+        mark_looked_at(&program.types, &mut stage, looked_at);
         let mut demands = vec![Demand::NONE; shader.globals.len()];
         if let Some(of_fragment) = &wanted {
             hand_on(program, of_fragment, &mut demands);

@@ -13,7 +13,7 @@ use glisten_scene::Scene;
 /// The help for a cause.
 pub(super) fn advice(scene: &Scene, cause: &Cause) -> String {
     if cause.ill_posed && !cause.equality {
-        return ILL_POSED.to_owned();
+        return if cause.kind.is_decision() { ILL_POSED } else { ILL_POSED_LOOP }.to_owned();
     }
     let in_draw = scene.draws.iter().find_map(|draw| {
         let shader = draw.program.stage(cause.stage)?;
@@ -42,6 +42,10 @@ const ILL_POSED: &str = "the problem is ill-posed here: the exact result itself 
     rewriting of this expression helps. Move the threshold away from the values that occur, make the step soft \
     (`smoothstep`), or compute with integers";
 
+const ILL_POSED_LOOP: &str = "the problem is ill-posed here: the loop magnifies every difference, so the exact result itself changes as much when an \
+    input moves by one rounding, and no rewriting of this expression helps. An explicit method with steps beyond its limit does so: take \
+    smaller steps or an implicit method; of chaos, use fewer iterations or only what all of them have in common, such as a mean";
+
 const EQUALITY: &str = "do not compare computed floats with `==`: use `abs(a - b) <= tolerance`, with a tolerance of some roundings of \
     the operands, or carry an integer";
 
@@ -65,6 +69,18 @@ fn is_squared(shader: &Shader, found: Found) -> bool {
         ExprKind::BuiltinCall(_, list) => matches!(list.as_slice(), [a, b] if same_value(shader, *a, *b)),
         _ => false,
     }
+}
+
+/// Whether the base of a power is computed from a dot product.
+fn raises_dot(shader: &Shader, found: Found) -> bool {
+    let ExprKind::BuiltinCall(_, arguments) = &shader.expr(found.expr).kind else { return false };
+    let mut raises = false;
+    if let Some(base) = arguments.first() {
+        shader.visit_expr(*base, &mut |id| {
+            raises |= matches!(shader.expr(id).kind, ExprKind::BuiltinCall(BuiltinFunction::Dot, _));
+        });
+    }
+    raises
 }
 
 fn called(shader: &Shader, found: Found) -> Option<BuiltinFunction> {
@@ -205,17 +221,23 @@ fn of_pattern(kind: CauseKind, shader: &Shader, found: Found) -> Option<&'static
              `y = x / (2.0 + x)`"
         }
         (_, Some(BuiltinFunction::Pow)) if kind == CauseKind::Domain => {
-            "`pow` of a negative base is undefined (GLSL 1.50 §8.2): write a whole power as products, `x * x`, or say by `abs` or \
-             `max(x, 0.0)` what is meant"
+            "`pow` of a negative base is undefined, and so is that of 0 with an exponent that is not above 0 (GLSL 1.50 §8.2): write a whole \
+             power as products, `x * x`, say by `abs` or `max(x, 0.0)` what a negative base means, and treat 0 to the power of 0 apart; \
+             `safePow` of <glisten/safe.glsl> is 1 there, for bases from 0 to 1 and exponents from 0 on"
         }
         (_, Some(BuiltinFunction::Tan)) if kind == CauseKind::Argument => {
             "near a pole of the tangent each digit of the angle counts: take the angle from there, `1.0 / tan(d)` with the distance `d` \
              from the pole; reduce an angle before it becomes large"
         }
+        (_, Some(BuiltinFunction::Pow)) if raises_dot(shader, found) => {
+            "the dot product has lost the digits that a large power needs, so no other `pow` of it helps: for the cosine of two unit \
+             vectors, `safeCosPow(a, b, n)` of <glisten/safe.glsl> takes the vectors, which have more digits"
+        }
         (_, Some(BuiltinFunction::Pow)) => {
-            "`safePow` of <glisten/safe.glsl> keeps the digits of a base that is below 1 but near it and is defined at 0, for bases from 0 to \
-             1 and exponents from 0 on; of a base `1.0 + x` with a small x, it is `exp(n * l)` with `l = 2.0 * y * (1.0 + y * y / 3.0)` and \
-             `y = x / (2.0 + x)`; for a power of the cosine between two vectors, `safeCosPow` takes the vectors, which have more digits"
+            "the exponent magnifies the rounding of the base, so no other `pow` of it helps: compute the distance `d` of the base from 1 \
+             directly, and take `safePowOneMinus(d, n)` of <glisten/safe.glsl>; of a base `1.0 + x` with a small x, it is `exp(n * l)` with \
+             `l = 2.0 * y * (1.0 + y * y / 3.0)` and `y = x / (2.0 + x)`; for a power of the cosine between two vectors, `safeCosPow` takes \
+             the vectors, which have more digits; `safePow` is defined at 0, for bases from 0 to 1 and exponents from 0 on"
         }
         (_, Some(BuiltinFunction::Inverse | BuiltinFunction::Determinant)) => {
             "the matrix is nearly singular: compute its inverse on the host in double precision"

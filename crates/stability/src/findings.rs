@@ -296,6 +296,11 @@ fn tenths(value: f64) -> f64 {
     (value * 10.0).round() / 10.0
 }
 
+/// Whether no result is finite in f64 that is not finite in f32.
+fn is_in_both(cause: &Cause) -> bool {
+    cause.non_finite > 0 && cause.non_finite == cause.non_finite_in_exact
+}
+
 fn diagnostic(cause: &Cause, help: &str) -> Diagnostic {
     if let Some(what) = cause.undefined {
         let message = format!("GLSL leaves this undefined: {what}");
@@ -310,9 +315,8 @@ fn diagnostic(cause: &Cause, help: &str) -> Diagnostic {
     let message = match cause.kind {
         _ if cause.ill_posed && cause.disagreements > 0 => "the exact result jumps here: f32 decides it differently",
         _ if cause.ill_posed => "the exact result jumps here when its inputs move by one rounding",
-        _ if cause.non_finite > 0 && cause.non_finite == cause.non_finite_in_exact => {
-            "this is not finite in exact arithmetic either: the formula has no answer here"
-        }
+        CauseKind::Overflow if is_in_both(cause) => "this overflows in f32, and in f64 as well",
+        _ if is_in_both(cause) => "this is not finite in exact arithmetic either: the formula has no answer here",
         CauseKind::Cancellation => "leading digits cancel here, and the rest is rounding",
         CauseKind::Rounding => "f32 is too coarse for this result",
         CauseKind::Overflow => "this overflows in f32",

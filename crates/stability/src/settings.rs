@@ -16,14 +16,12 @@ use super::sweep::{Sweep, parse_range};
 use glisten_front::diagnostic::Diagnostic;
 use glisten_front::diagnostic::codes::scenes::{SCENE_SYNTAX, SCENE_WRONG_VALUE};
 use glisten_front::source::Span;
+use glisten_scene::STABILITY_KEYS;
 use glisten_scene::tables::{Reader, SCENE};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
-
-/// The keys of the table.
-const KEYS: &[&str] = &["bound", "bound_relative", "sweep", "range"];
 
 /// The statements of a scene about its stability.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -104,7 +102,7 @@ fn check_keys(text: &str, base: u32) -> Result<(), Box<Diagnostic>> {
     let mut reader = Reader::new(&SCENE, base, text.into());
     let document = reader.document(text);
     if let Some(table) = document.as_ref().and_then(|document| reader.table_at(document, "stability")) {
-        reader.check_keys(table, "`[stability]`", KEYS);
+        reader.check_keys(table, "`[stability]`", STABILITY_KEYS);
     }
     reader.diagnostics.into_iter().next().map_or(Ok(()), |first| Err(Box::new(first)))
 }

@@ -2,7 +2,7 @@
 //!
 //! *In:* `NAME=LOW..HIGH:N`. *Out:* scenes with other values of the uniform. *Holds:* both ends are among the values.
 
-use glisten_front::diagnostic::codes::scenes::{SCENE_UNKNOWN_NAME, SCENE_WRONG_KIND};
+use glisten_front::diagnostic::codes::scenes::{SCENE_UNKNOWN_NAME, SCENE_WRONG_KIND, SCENE_WRONG_VALUE};
 use glisten_front::diagnostic::{Diagnostic, did_you_mean};
 use glisten_front::hir::{Scalar, ScalarValue};
 use glisten_front::link::{Program, UniformLeaf};
@@ -187,6 +187,11 @@ impl Parameter {
         })
     }
 
+    /// Whether it is the scalar of another one, in any draw.
+    fn overlaps(&self, other: &Self) -> bool {
+        self.places.iter().any(|place| other.places.contains(place))
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         &self.name
@@ -196,9 +201,9 @@ impl Parameter {
 /// The uniforms of some sweeps with their values.
 ///
 /// # Errors
-/// A sweep is of no uniform, or of none with such values. The diagnostic has its place.
+/// A sweep is of no uniform, of none with such values, or of the uniform of another one. The diagnostic has its place.
 pub fn parameters(scene: &Scene, sweeps: &[Sweep]) -> Result<Vec<(Parameter, Vec<f64>)>, Box<Diagnostic>> {
-    let one = |sweep: &Sweep| {
+    let one = |sweep: &Sweep| -> Result<(Parameter, Vec<f64>), Box<Diagnostic>> {
         let found = Parameter::find(scene, &sweep.name).map_err(|mut diagnostic| {
             diagnostic.primary.span = sweep.place;
             Box::new(diagnostic.here("here"))
@@ -206,7 +211,33 @@ pub fn parameters(scene: &Scene, sweeps: &[Sweep]) -> Result<Vec<(Parameter, Vec
         let values = found.values(sweep)?;
         Ok((found, values))
     };
-    sweeps.iter().map(one).collect()
+    let mut found: Vec<(Parameter, Vec<f64>)> = Vec::new();
+    for sweep in sweeps {
+        let next = one(sweep)?;
+        if found.iter().any(|(known, _)| known.overlaps(&next.0)) {
+            return Err(Box::new(twice(sweep)));
+        }
+        found.push(next);
+    }
+    Ok(found)
+}
+
+/// The error for a second range of a uniform.
+fn twice(sweep: &Sweep) -> Diagnostic {
+    let message = format!("`{}` has two ranges", sweep.name);
+    let help = "one range, with as many values as both need";
+    Diagnostic::new(&SCENE_WRONG_VALUE, sweep.place, message).here("here").help(help)
+}
+
+/// The sweeps that are asked for, and before them those of the scene, unless they are of the same uniforms.
+pub fn joined(scene: &Scene, asked: &[Sweep], stated: &[Sweep]) -> Vec<Sweep> {
+    let found = |sweep: &Sweep| Parameter::find(scene, &sweep.name).ok();
+    let replaced: Vec<Parameter> = asked.iter().filter_map(found).collect();
+    let stays = |sweep: &&Sweep| {
+        let own = found(sweep);
+        !replaced.iter().any(|asked| own.as_ref().is_some_and(|own| own.overlaps(asked)))
+    };
+    stated.iter().filter(stays).chain(asked).cloned().collect()
 }
 
 /// The error for a uniform that no draw has, with the nearest one, or all if they are few.

@@ -11,7 +11,7 @@ use glisten_verify::scene;
 const VERTEX: &str = "#version 150\nin vec4 p;\nin vec2 q;\nuniform mat2 turn;\nout vec2 v;\n\
     void main() { v = q; gl_Position = vec4(turn * p.xy, p.zw); }\n";
 const FRAGMENT: &str = "#version 150\nin vec2 v;\nuniform float none;\nout vec4 color;\n\
-    void main() { color = vec4(v.x * none + 1.0, max(v.y + 8.0, 0.0), 0.5, 1.0); }\n";
+    void main() { color = vec4(v.x * none, max(v.y + 8.0, 0.0), 0.5, 1.0); }\n";
 
 /// What is left of the fragment stage of a triangle with these corners (x, y, z, w).
 fn left(corners: &str, primitive: &str, dynamic: &str) -> String {

@@ -113,10 +113,27 @@ fn a_sweep_of_integers_has_whole_values() {
         ("n=-3e9..3e9:3", "`n` is declared int"),
         ("m[2].x=0..1", "`m[2].x` is not a component"),
         ("m=0..1", "`m[0].x`"),
+        ("n=0..1:2 --sweep n=5..6:2", "`n` has two ranges"),
+        ("m[1].y=0..1:2 --sweep m[1][1]=0..1:2", "`m[1][1]` has two ranges"),
     ] {
-        let output = counted("").run(&["stability", "a.toml", "--sweep", sweep]);
+        let arguments: Vec<&str> = ["stability", "a.toml", "--sweep"].into_iter().chain(sweep.split(' ')).collect();
+        let output = counted("").run(&arguments);
         assert_eq!(code(&output), 2, "{sweep}");
         assert!(err(&output).contains(told), "{sweep}: {}", err(&output));
+    }
+}
+
+/// A range of the command line takes the place of the scene's for the same uniform; those of other uniforms stay.
+#[test]
+fn sweeps_of_the_command_line_and_of_the_scene_are_combined() {
+    let stated = "[stability.sweep]\nn = [1, 3, 3]\nu = [2, 4, 3]\n";
+    let (_, found) = json(&counted(stated), &["--sweep", "n=5..6:2"]);
+    let points = found["sweep"]["points"].as_array().cloned().unwrap_or_default();
+    let values: Vec<_> =
+        points.iter().map(|point| (point["values"]["n"].as_f64(), point["values"]["u"].as_f64())).collect();
+    assert_eq!(values.len(), 6, "{values:?}");
+    for value in [(5.0, 2.0), (5.0, 4.0), (6.0, 3.0)] {
+        assert!(values.contains(&(Some(value.0), Some(value.1))), "{value:?} in {values:?}");
     }
 }
 

@@ -56,6 +56,8 @@ pub enum Form {
     Fast,
     /// Each product and sum is an instruction of its own, so that an observer sees each.
     Unfused,
+    /// Besides, an observer sees of `?:`, `&&` and `||` only the operands that are chosen, as a GPU executes them.
+    Executed,
     /// Besides, what depends on uniforms runs in every invocation, as on a GPU; only constants are computed before.
     Counted,
     /// Unfused; scalars that are read before anything was written to them may have any number.
@@ -70,6 +72,11 @@ impl Form {
     /// Whether sums and products may be rewritten.
     pub(super) fn rewrites(self) -> bool {
         matches!(self, Self::Fast | Self::NotedTight)
+    }
+
+    /// Whether an operand is seen only where it is chosen.
+    pub(super) fn chooses(self) -> bool {
+        matches!(self, Self::Executed | Self::Counted)
     }
 
     /// Whether values are noted.

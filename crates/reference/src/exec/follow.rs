@@ -5,7 +5,7 @@
 //! fragment, and when ways are merged.
 
 use super::Mask;
-use super::inst::Operand;
+use super::inst::{Operand, Slot};
 use super::machine::Machine;
 use super::run::bits_where;
 use super::ways::FREE;
@@ -31,6 +31,13 @@ impl<D: Domain> Machine<D> {
             });
         }
         truth & *mask
+    }
+
+    /// The observer sees only the lanes where the condition is `is`, or may be.
+    pub(super) fn watch_where(&mut self, condition: Operand, is: bool, slot: Slot) {
+        let (truth, undecided) = self.answers(condition);
+        self.slots[slot as usize] = self.watched;
+        self.watched &= undecided | if is { truth } else { !truth };
     }
 
     fn answers(&self, condition: Operand) -> (u64, u64) {

@@ -401,6 +401,16 @@ pub(super) enum Inst {
     },
     /// Ends the primitive of each active lane (`EndPrimitive`).
     EndPrimitive,
+    /// The observer sees only the lanes where `c` is `is`. The other lanes run as well.
+    Watch {
+        c: Operand,
+        is: bool,
+        slot: Slot,
+    },
+    /// The observer sees again the lanes that it saw before.
+    Unwatch {
+        slot: Slot,
+    },
     /// Shows an observer the scalars of a [`Note`](super::note::Note).
     Note {
         note: u32,
@@ -548,7 +558,7 @@ impl Inst {
                 f(Int, Read, index);
                 f(Int, Read, a);
             }
-            Self::Arm { c, .. } | Self::LoopTest { c, .. } => f(Int, Read, c),
+            Self::Arm { c, .. } | Self::LoopTest { c, .. } | Self::Watch { c, .. } => f(Int, Read, c),
             Self::CaseMask { selector, .. } => f(Int, Read, selector),
             Self::Composite { .. }
             | Self::Texture { .. }
@@ -561,6 +571,7 @@ impl Inst {
             | Self::Emit { .. }
             | Self::EndPrimitive
             | Self::Note { .. }
+            | Self::Unwatch { .. }
             | Self::LoopNext { .. }
             | Self::LoopBack { .. }
             | Self::Idle

@@ -98,6 +98,8 @@ impl<D: Domain> Machine<D> {
                     self.emit_vertices(section.list(floats), section.list(ints), mask);
                 }
                 Inst::EndPrimitive => self.end_primitives(mask),
+                Inst::Watch { c, is, slot } => self.watch_where(c, is, slot),
+                Inst::Unwatch { slot } => self.watched = self.slots[slot as usize],
                 Inst::Note { note, floats, ints } => self.note(note, section, [floats, ints], mask),
                 Inst::LoopTest { c, active, exit } => {
                     mask = self.truth(c, &mut mask);

@@ -11,6 +11,7 @@ use super::assembly::Prim;
 use super::batch::{Batch, Run};
 use super::edges::{EdgeFragment, EdgeFragments};
 use super::fragment_tests::Tests;
+use super::jitter::{Jitter, jittered};
 use super::outputs::{Channel, OutputPlan};
 use super::plan::Plan;
 use super::same_surface::Origin;
@@ -18,7 +19,7 @@ use super::source::Source;
 use super::surface::BIN;
 use super::target::{Bin, global, local};
 use super::vertices::Vertices;
-use super::watch::{Followed, PixelSet, Probe, jittered};
+use super::watch::{Followed, PixelSet, Probe};
 use crate::domain::{Domain, ErrorPart, Integer, Number, Profile};
 use crate::exec::{Fate, Invoked, LANES, Machine, Mask};
 use crate::raster::band::band;
@@ -42,7 +43,7 @@ pub(super) struct Shading<'a, D: Domain> {
     pub(super) probe: Option<&'a Probe>,
     pub(super) pixels: Option<&'a PixelSet>,
     pub(super) followed: Option<Followed>,
-    pub(super) jitter: Option<u64>,
+    pub(super) jitter: Option<Jitter>,
     pub(super) exact_inputs: &'a [GlobalId],
     /// The surface of the instance, if another draw has the same; else 0.
     pub(super) surface: u64,
@@ -227,8 +228,8 @@ impl<D: Domain> Shading<'_, D> {
                     input.update(|_, number| number.corrected(ErrorPart::All));
                 }
             }
-            if let Some(seed) = self.jitter {
-                self.jitter_inputs(seed, batch, machine);
+            if let Some(jitter) = &self.jitter {
+                self.jitter_inputs(jitter, batch, machine);
             }
             if let Some(probe) = self.probe {
                 self.examine(probe, batch);
@@ -260,16 +261,20 @@ impl<D: Domain> Shading<'_, D> {
     }
 
     /// Moves the float inputs that differ between fragments by an ULP of f32. What is `flat` is a number of the stage before.
-    fn jitter_inputs(&self, seed: u64, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
+    fn jitter_inputs(&self, jitter: &Jitter, batch: &Batch<'_, D>, machine: &mut Machine<D>) {
         let places = &batch.fragments.places;
         let coordinates = self.plan.frag_coord.into_iter().flat_map(|id| [(id, 0), (id, 1)]);
-        let varyings = self.plan.floats.iter().filter(|varying| varying.interpolation != Interpolation::Flat);
-        for (id, flat) in varyings.map(|varying| varying.to).chain(coordinates) {
+        let coordinates = coordinates.map(|to| (to, f64::INFINITY));
+        let varyings = self.plan.floats.iter().enumerate();
+        let varyings = varyings.filter(|(_, varying)| varying.interpolation != Interpolation::Flat);
+        let varyings = varyings.map(|(index, varying)| (varying.to, jitter.reach(index)));
+        for ((id, flat), reach) in varyings.chain(coordinates) {
             if let Some(input) = machine.float_input(id, flat) {
                 let place = |lane: usize| {
                     [places.x[lane] as u64, places.y[lane] as u64, id.index() as u64 * 64 + u64::from(flat)]
                 };
-                input.update(|lane, number| D::Float::from_f64(jittered(number.value(), seed, place(lane))));
+                let moved = |lane, value| jittered(value, reach, jitter.seed, place(lane));
+                input.update(|lane, number| D::Float::from_f64(moved(lane, number.value())));
             }
         }
     }

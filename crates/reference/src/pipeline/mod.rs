@@ -35,6 +35,7 @@ mod explain;
 mod fragment_tests;
 mod fragments;
 mod invoke;
+mod jitter;
 mod origin;
 mod outputs;
 mod plan;
@@ -71,6 +72,9 @@ use glisten_front::hir::{ExprKind, Shader, Stage};
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Draw, Scene};
+use jitter::Jitter;
+#[cfg(any(test, feature = "stability"))]
+pub(super) use jitter::jittered;
 use outputs::output_plans;
 use plan::Plan;
 use rayon::prelude::*;
@@ -188,7 +192,7 @@ fn draw_all<D: Domain>(
                 probe: watch.study.probe,
                 pixels: watch.study.pixels,
                 followed: watch.study.followed,
-                jitter: watch.study.jitter,
+                jitter: watch.study.jitter.map(|seed| Jitter::new(seed, &vertices.floats, vertices.float_count)),
                 exact_inputs: watch.study.exact_inputs,
                 surface: if watch.surface == 0 { 0 } else { hashed((watch.surface, watch.instance)) | 1 },
             };

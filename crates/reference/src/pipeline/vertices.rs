@@ -6,8 +6,9 @@
 
 use super::clip::AtEye;
 use super::invoke::Job;
+use super::jitter::jittered;
 use super::plan::Plan;
-use super::watch::{Watch, jittered};
+use super::watch::Watch;
 use crate::Positions;
 use crate::domain::faults::Faults;
 use crate::domain::{Domain, F32, Integer, Number, Profile};
@@ -321,7 +322,9 @@ pub(super) fn jitter_attributes<D: Domain>(seed: u64, draw: &Draw, lanes: &[Invo
             let name = attribute.global.index() as u64 * 64 + u64::from(flat);
             if let Some(input) = machine.float_input(attribute.global, flat) {
                 let place = |lane: usize| lanes.get(lane).map_or([0; 3], |(v, i)| [u64::from(*v), u64::from(*i), name]);
-                input.update(|lane, number| D::Float::from_f64(jittered(number.value(), seed, place(lane))));
+                input.update(|lane, number| {
+                    D::Float::from_f64(jittered(number.value(), f64::INFINITY, seed, place(lane)))
+                });
             }
         }
     }

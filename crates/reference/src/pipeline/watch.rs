@@ -32,7 +32,7 @@ pub(crate) struct Study<'a, D: Domain> {
     pub(crate) bins: Option<&'a [bool]>,
     /// The pixels to draw; all if there are none.
     pub(crate) pixels: Option<&'a PixelSet>,
-    /// Moves the inputs of both stages by an ULP of f32, each up or down by chance with this seed.
+    /// Moves the inputs of both stages by an ULP of f32, each up or down by chance with this seed: see [`jitter`](super::jitter).
     pub(crate) jitter: Option<u64>,
     /// The varyings that the fragment stage gets exact.
     pub(crate) exact_inputs: &'a [GlobalId],
@@ -148,17 +148,6 @@ pub(super) struct Watch<'a, D: Domain> {
     pub(super) instance: u32,
     /// The surface of the draw, if another draw has the same.
     pub(super) surface: u64,
-}
-
-/// A number moved by an ULP of f32 (2^-23 of it), up or down by chance: the chance depends on the seed and the place.
-pub(super) fn jittered(value: f64, seed: u64, place: [u64; 3]) -> f64 {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    for part in place {
-        state = (state ^ part).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        state ^= state >> 29;
-    }
-    let step = f64::from(f32::EPSILON);
-    value * if state >> 40 & 1 == 0 { 1.0 + step } else { 1.0 - step }
 }
 
 impl<D: Domain> Watch<'_, D> {

@@ -12,7 +12,7 @@ use crate::exec::Form;
 use crate::pipeline::{self, Chosen, Study};
 use crate::{Positions, RenderOptions};
 use glisten_front::diagnostic::Diagnostic;
-use glisten_front::hir::{GlobalId, Stage};
+use glisten_front::hir::{GlobalId, ScalarValue, Stage};
 use glisten_front::source::Span;
 use glisten_scene::picture::Picture;
 use glisten_scene::{Format, Scene};
@@ -23,6 +23,9 @@ const MOST_BINS: usize = 16;
 
 /// The number of times that the inputs are moved by an ULP.
 const JITTERS: u64 = 6;
+
+/// The least uniform that may be a place far away.
+const FAR: f32 = 16.0;
 
 /// The side of a bin of the pipeline in pixels.
 const BIN: usize = pipeline::BIN_SIDE;
@@ -130,13 +133,27 @@ impl<'a> Bench<'a> {
     }
 
     /// The [`changes`] of the exact picture, drawn once.
-    pub(super) fn jittered<'m>(&self, moved: &'m mut Option<Vec<f64>>) -> Result<&'m [f64], Vec<Diagnostic>> {
-        if moved.is_none() {
-            *moved = Some(changes(self.scene, (self.exact, self.format), Some(&self.bins))?);
+    pub(super) fn jittered<'m>(&self, changes: &'m mut Changes, moves: Moves) -> Result<&'m [f64], Vec<Diagnostic>> {
+        let known = &mut changes.0[moves as usize];
+        if known.is_none() {
+            *known = Some(self::changes(self.scene, (self.exact, self.format), Some(&self.bins), moves)?);
         }
-        Ok(moved.as_deref().unwrap_or(&[]))
+        Ok(known.as_deref().unwrap_or(&[]))
     }
 }
+
+/// The inputs that are moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Moves {
+    /// Those that differ between vertices and between fragments.
+    Inputs,
+    /// Those and the uniforms.
+    InputsAndUniforms,
+}
+
+/// The changes that were drawn already, by what was moved.
+#[derive(Default)]
+pub(super) struct Changes([Option<Vec<f64>>; 2]);
 
 /// The results of the experiments with an expression.
 pub(super) struct Found {
@@ -184,13 +201,35 @@ pub(super) fn changes(
     scene: &Scene,
     (exact, format): (&Picture, Format),
     bins: Option<&[bool]>,
+    moves: Moves,
 ) -> Result<Vec<f64>, Vec<Diagnostic>> {
     let mut most = vec![0.0_f64; exact.covered.len()];
     for seed in 1..=JITTERS {
         let study = Study { jitter: Some(seed), bins, ..Study::NONE };
-        let picture = pipeline::render_studied::<F64>(scene, &drawing_options(), study)?;
+        let moved = (moves == Moves::InputsAndUniforms).then(|| with_moved_uniforms(scene, seed));
+        let picture = pipeline::render_studied::<F64>(moved.as_ref().unwrap_or(scene), &drawing_options(), study)?;
         let moved = ErrorMap::new(&picture, exact, format);
         most.iter_mut().zip(moved.errors).for_each(|(most, moved)| *most = most.max(moved));
     }
     Ok(most)
+}
+
+/// The scene with its float uniforms moved to the next f32, up or down by chance. Whole numbers are taken for exact, as many count something;
+/// and numbers from [`FAR`] on, as a host can keep a far place apart.
+fn with_moved_uniforms(scene: &Scene, seed: u64) -> Scene {
+    let mut moved = scene.clone();
+    for draw in &mut moved.draws {
+        for (root, values) in (0..).zip(&mut draw.uniforms) {
+            for (flat, value) in (0..).zip(values) {
+                if let ScalarValue::Float(number) = value
+                    && number.fract() != 0.0
+                    && number.abs() < FAR
+                {
+                    let is_up = pipeline::jittered(1.0, 1.0, seed, [u64::MAX, root, flat]) > 1.0;
+                    *number = if is_up { number.next_up() } else { number.next_down() };
+                }
+            }
+        }
+    }
+    moved
 }

@@ -3,7 +3,7 @@
 //! *In:* a scene, and the tallies of its expressions. *Out:* [`Cause`]s with their harm, worst first. *Holds:* pictures and
 //! order do not depend on threads.
 
-use super::bench::{Bench, Found, Outcome, significant};
+use super::bench::{Bench, Changes, Found, Moves, Outcome, significant};
 use super::fractions::fractions;
 use super::kinds::CauseKind;
 use super::loops::Loops;
@@ -31,6 +31,8 @@ struct Candidate {
     tally: Tally,
     /// Whether a loop runs it.
     repeats: bool,
+    /// Whether a loop stores its result in a variable that it reads.
+    feeds: bool,
     /// Whether only its own rounding counts: see [`Loops`].
     own: bool,
 }
@@ -45,7 +47,7 @@ pub(super) fn causes(
     let candidates = candidates(tallies, &loops, &fractions(bench.scene));
     let total = candidates.len();
     let mut tried: Vec<(Cause, Gains)> = Vec::new();
-    let mut jitter: Option<Vec<f64>> = None;
+    let mut jitter = Changes::default();
     let mut open = bench.not_finite();
     for (done, candidate) in candidates.iter().enumerate() {
         if !(options.progress)(done, total) {
@@ -103,7 +105,8 @@ fn candidates(
             kind => kind,
         };
         let repeats = loops.get(&stage).is_some_and(|loops| loops.inside.contains(&span));
-        let candidate = Candidate { stage, span, kind, act, tally: *tally, repeats, own: !is_cause };
+        let candidate =
+            Candidate { stage, span, kind, act, tally: *tally, repeats, feeds: accumulates, own: !is_cause };
         let known = by_span.entry((stage, span));
         known
             .and_modify(|known| {
@@ -137,7 +140,7 @@ fn try_candidate(
     bench: &Bench<'_>,
     candidate: &Candidate,
     options: &ExamineOptions<'_>,
-    (jitter, open): (&mut Option<Vec<f64>>, &mut BTreeSet<usize>),
+    (jitter, open): (&mut Changes, &mut BTreeSet<usize>),
 ) -> Result<Option<(Cause, Gains)>, Vec<Diagnostic>> {
     let Candidate { stage, span, .. } = *candidate;
     let tally = &candidate.tally;
@@ -172,7 +175,7 @@ fn try_candidate(
     }
     let mut ill_posed = is_at_edge(candidate);
     if !ill_posed && outcome.harm.is_finite() && (kind.is_decision() || candidate.repeats) {
-        ill_posed = is_ill_posed(&outcome, bench.jittered(jitter)?, least);
+        ill_posed = is_ill_posed(&outcome, bench.jittered(jitter, moves(kind, candidate.feeds))?, least);
     }
     let is_lookup = candidate.act == Act::Float(Kind::Texture);
     if ill_posed && kind == CauseKind::Conversion && !is_lookup {
@@ -268,6 +271,13 @@ fn is_at_edge(candidate: &Candidate) -> bool {
     compares && disagreements > 0 && at_edge == disagreements
 }
 
+/// The inputs whose last digits may decide: what feeds itself in a loop may magnify those of uniforms. Elsewhere they are the digits of a
+/// place or a time that a host can keep small, as those of what merely shows a loss.
+fn moves(kind: CauseKind, feeds: bool) -> Moves {
+    let shows = matches!(kind, CauseKind::Conversion | CauseKind::Argument);
+    if feeds && !shows { Moves::InputsAndUniforms } else { Moves::Inputs }
+}
+
 /// Whether the exact picture changes as much when its inputs move by an ULP, at most of the pixels that the expression
 /// harms.
 fn is_ill_posed(outcome: &Outcome, moved: &[f64], least: f64) -> bool {
@@ -285,7 +295,7 @@ fn roundings(
     loops: &BTreeMap<Stage, Loops>,
     known: &[Cause],
     options: &mut ExamineOptions<'_>,
-    jitter: &mut Option<Vec<f64>>,
+    jitter: &mut Changes,
 ) -> Result<Vec<Cause>, Vec<Diagnostic>> {
     let is_known = |stage: Stage, span: Span| known.iter().any(|cause| cause.stage == stage && cause.span == span);
     let mut adding: Vec<(Stage, Span, Tally)> = Vec::new();
@@ -310,7 +320,8 @@ fn roundings(
         }
         let repeats = loops.get(&stage).is_some_and(|loops| loops.inside.contains(&span));
         let kind = if repeats { CauseKind::Accumulation } else { CauseKind::Rounding };
-        let ill_posed = repeats && is_ill_posed(&own, bench.jittered(jitter)?, options.least());
+        let feeds = loops.get(&stage).is_some_and(|loops| loops.accumulate.contains(&span));
+        let ill_posed = repeats && is_ill_posed(&own, bench.jittered(jitter, moves(kind, feeds))?, options.least());
         let of =
             Found { kind, cured: 0, harm: Some(significant(own.harm)), index: own.index, ill_posed, equality: false };
         found.push(of.cause(bench, (stage, span), &tally));

@@ -46,7 +46,7 @@ pub use kinds::CauseKind;
 use super::domain::{F64, Shadow, Stepwise};
 use super::pipeline::{self, Probe, Study};
 use super::{RenderOptions, exec};
-use bench::{Bench, drawing_options};
+use bench::{Bench, Moves, drawing_options};
 use births::BirthCounter;
 use experiment::causes;
 use glisten_front::diagnostic::{Diagnostic, codes};
@@ -359,7 +359,7 @@ pub fn changes_of(scene: &Scene) -> Result<Vec<f64>, Vec<Diagnostic>> {
     let format = scene.framebuffer.format;
     let scene = &Scene { framebuffer: errors::unrounded(scene.framebuffer), ..scene.clone() };
     let exact = pipeline::render::<F64>(scene, &drawing_options())?;
-    bench::changes(scene, (&exact, format), None)
+    bench::changes(scene, (&exact, format), None, Moves::Inputs)
 }
 
 /// The difference of [`pictures_of`].

@@ -260,6 +260,49 @@ fn a_sum_over_many_steps_accumulates() {
     assert!(!found.causes[0].ill_posed);
 }
 
+/// Chaos, and steps beyond the limit of an explicit method, that begin with uniforms.
+#[test]
+fn a_loop_that_magnifies_its_uniforms_is_ill_posed() {
+    for body in [
+        "uniform float r = 3.9; uniform float x0 = 0.35; void main() { float x = x0;\nfor (int i = 0; i < 60; ++i) x = r * x * (1.0 - x);\n\
+         o = vec4(x); }",
+        "uniform float k = 1e4; uniform float dt = 0.05; void main() { float x = 1.0 + 0.1 * at.x, v = 0.0;\n\
+         for (int i = 0; i < 20; ++i) { float a = -k * x;\nx += v * dt;\nv += a * dt; }\no = vec4(x); }",
+    ] {
+        let (found, causes) = examined(body);
+        assert!(
+            !causes.is_empty() && found.causes.iter().all(|cause| cause.ill_posed),
+            "{causes:?}: {:?}",
+            found.causes
+        );
+    }
+    // Whole numbers are exact, and so is how often the loop runs.
+    let body = "uniform float count = 3000.0; uniform float step = 0.1; void main() { float t = at.x * 1e-3;\n\
+        for (float i = 0.0; i < count; ++i) t += step;\no = vec4(t - 300.0); }";
+    let (found, causes) = examined(body);
+    assert_eq!(causes[0], ("t += step".to_owned(), CauseKind::Accumulation), "{causes:?}");
+    assert!(!found.causes[0].ill_posed);
+}
+
+/// The distance is not the problem's: without it the fraction is the same.
+#[test]
+fn a_far_varying_is_a_rounding_and_not_ill_posed() {
+    let vertex = "#version 150\nin vec2 p;\nuniform vec2 origin = vec2(1e6, 3e6);\nout vec2 at;\n\
+        void main() { at = p + origin; gl_Position = vec4(p, 0.0, 1.0); }\n";
+    let body = "void main() { o = vec4(abs(fract(at * 0.5) - 0.5), 0.0, 1.0); }";
+    let (scene, sources) = scene_with(vertex, body, "");
+    let mut options =
+        ExamineOptions { bound: BOUND, bound_relative: 0.0, all: false, figures: false, progress: &mut |_, _| true };
+    let found = examine(&scene, &mut options).unwrap_or_else(|found| panic!("{found:?}"));
+    let causes: Vec<_> = found
+        .causes
+        .iter()
+        .map(|cause| (sources.snippet(cause.span).to_owned(), cause.kind, cause.ill_posed))
+        .collect();
+    assert!(causes.contains(&("at".to_owned(), CauseKind::Rounding, false)), "{causes:?}");
+    assert!(causes.iter().all(|cause| !cause.2), "{causes:?}");
+}
+
 #[test]
 fn a_hash_is_ill_posed() {
     let body = "void main() { o = vec4(fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453)); }";

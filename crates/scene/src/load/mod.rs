@@ -67,6 +67,9 @@ pub const MAX_PIXELS: u64 = 1 << 26;
 /// The largest number of color attachments (`gl_MaxDrawBuffers`).
 pub const MAX_ATTACHMENTS: u32 = 8;
 
+/// The keys of the table `[stability]`, which the command `stability` reads.
+pub const STABILITY_KEYS: &[&str] = &["bound", "bound_relative", "sweep", "range"];
+
 const FRAMEBUFFER_KEYS: &[&str] =
     &["width", "height", "clear", "format", "attachments", "encode", "tonemap", "exposure"];
 const KEYS: &[&str] = &[
@@ -242,6 +245,9 @@ impl Loader<'_> {
             return None;
         }
         self.reader.check_keys(table, "a scene", KEYS);
+        if let Some(stability) = self.reader.table_at(table, "stability") {
+            self.reader.check_keys(stability, "`[stability]`", STABILITY_KEYS);
+        }
         let framebuffer = self.framebuffer(table)?;
         let mut lighting = Lighting::load(&mut self.reader, table);
         let camera = self.reader.table_at(table, "camera");

@@ -73,6 +73,8 @@ pub(crate) struct Walked {
     pub(crate) math: Math,
     /// For each expression whether somebody sees the sign of its zeros; empty until that is found out.
     pub(crate) signs: Vec<bool>,
+    /// For each expression whether an operation of a stage sees the sign of its zeros, and not only somebody outside.
+    pub(crate) looked_at: Vec<bool>,
     /// By how many expressions each loop that was written out became longer, without the loops in it.
     pub(crate) written_out: FxHashMap<Span, u64>,
 }
@@ -177,8 +179,8 @@ pub(crate) fn walk(
         forward.run(inputs);
         let ends = forward.ends();
         let Forward { out, notes, before, origins, reasons, named, written_out, .. } = forward;
-        let (signs, math) = (Vec::new(), options.math);
-        Walked { shader: out, notes, before, origins, reasons, ends, named, math, signs, written_out }
+        let (signs, looked_at, math) = (Vec::new(), Vec::new(), options.math);
+        Walked { shader: out, notes, before, origins, reasons, ends, named, math, signs, looked_at, written_out }
     })
 }
 

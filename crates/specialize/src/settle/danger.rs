@@ -11,7 +11,7 @@
 //! | `(x + a) + b` | add `a` and `b` first | kept where a constant is so large that it could overflow |
 //! | `x / c` | multiply with `1 / c` | kept where that is not a normal number |
 //! | `c / x` | drop `x` for `c` = 0 | no 0 unless `x` is finite and not 0 |
-//! | `x * c`, `x + c`, `mix` and so on | for `c` = 0, ignore the sign of a 0 that comes out | no 0 where somebody sees that sign |
+//! | `x * c`, `x + c`, `mix` and so on | for `c` = 0, ignore the sign of a 0 that comes out | no 0 where an operation sees that sign |
 //! | any, of constants alone | compute it, by other rules | kept unless the result is finite |
 //! | integer division, shifts | refuse or leave undefined | kept where the specification leaves it undefined |
 
@@ -59,7 +59,7 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
         | ExprKind::Assign(None, ..)
         | ExprKind::Error => {}
     }
-    if !walked.is_unsigned(id) && loses_signs(kind) {
+    if walked.is_looked_at(id) && loses_signs(kind) {
         let floats = demands.iter_mut().enumerate().filter(|(index, _)| operands.is_float(*index));
         floats.for_each(|(_, demand)| *demand = demand.and(Demand::NO_ZERO));
     }

@@ -18,7 +18,7 @@ mod signs;
 
 pub(super) use demands::Demands;
 pub(super) use rewrite::{Settled, settle};
-pub(super) use signs::mark_signs;
+pub(super) use signs::{mark_looked_at, mark_signs};
 
 use super::facts::{self, Fact};
 use super::forward::Walked;
@@ -81,6 +81,11 @@ impl Walked {
     /// Whether nobody sees the sign of an expression's zeros. Where nothing was found out, somebody does.
     fn is_unsigned(&self, id: ExprId) -> bool {
         self.signs.get(id.index()) == Some(&false)
+    }
+
+    /// Whether an operation sees the sign of an expression's zeros.
+    fn is_looked_at(&self, id: ExprId) -> bool {
+        self.looked_at.get(id.index()) == Some(&true)
     }
 
     /// The facts of an expression.

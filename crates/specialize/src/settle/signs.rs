@@ -69,8 +69,35 @@ struct Signs {
 /// Finds out where in a stage somebody sees the sign of a zero, from the globals in which somebody outside does. The globals come back with
 /// those that the stage itself looks at.
 pub(crate) fn mark_signs(types: &Types, walked: &mut Walked, globals: Vec<bool>) -> Vec<bool> {
-    let shader = &walked.shader;
     let n_globals = globals.len();
+    match found(types, walked, globals) {
+        Some(signs) => {
+            walked.signs = signs.exprs;
+            signs.globals
+        }
+        None => vec![true; n_globals],
+    }
+}
+
+/// Finds out where an operation sees the sign of a zero, from the globals that operations of a later stage look at: a picture is the same with
+/// either sign. The globals come back as those of [`mark_signs`].
+pub(crate) fn mark_looked_at(types: &Types, walked: &mut Walked, globals: Vec<bool>) -> Vec<bool> {
+    let n_globals = globals.len();
+    match found(types, walked, globals) {
+        Some(signs) => {
+            walked.looked_at = signs.exprs;
+            signs.globals
+        }
+        None => {
+            walked.looked_at = vec![true; walked.shader.exprs.len()];
+            vec![true; n_globals]
+        }
+    }
+}
+
+/// The flags, if they come to rest.
+fn found(types: &Types, walked: &Walked, globals: Vec<bool>) -> Option<Signs> {
+    let shader = &walked.shader;
     let mut signs = Signs {
         exprs: vec![false; shader.exprs.len()],
         locals: shader.functions.iter().map(|function| vec![false; function.locals.len()]).collect(),
@@ -80,12 +107,11 @@ pub(crate) fn mark_signs(types: &Types, walked: &mut Walked, globals: Vec<bool>)
     };
     for _ in 0..ROUNDS {
         if !std::mem::take(&mut signs.changed) {
-            walked.signs = signs.exprs;
-            return signs.globals;
+            return Some(signs);
         }
         signs.round(types, walked);
     }
-    vec![true; n_globals]
+    None
 }
 
 impl Signs {

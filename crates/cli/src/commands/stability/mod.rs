@@ -51,7 +51,8 @@ pub(crate) struct StabilityArgs {
     /// The number of calls of each function of the library; calls with extreme values are added, at most a quarter as many
     #[arg(long, value_name = "N", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(16..=65_536), requires = "library", conflicts_with = "scenes")]
     cases: u32,
-    /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations)
+    /// Draw with values of a uniform from LOW to HIGH, and examine the worst (repeatable: all combinations, also with the sweeps of other
+    /// uniforms that the scene states)
     #[arg(long = "sweep", value_name = "NAME=LOW..HIGH[:N]", value_parser = sweep::parse)]
     sweeps: Vec<Sweep>,
     /// Search for the worst inputs: stiff and extreme values of uniforms and attributes, within `[stability.range]` where the
@@ -220,7 +221,7 @@ fn examined(args: &StabilityArgs, name: &str, read: &Read<'_>, console: &Console
             return Ok(Err(vec![*diagnostic]));
         }
     }
-    let sweeps = if args.sweeps.is_empty() { &settings.sweeps } else { &args.sweeps };
+    let sweeps = sweep::joined(&read.scene, &args.sweeps, &settings.sweeps);
     let progress = Progress::new(console, 0).unless(args.format == StabilityFormat::Json);
     progress.say(name);
     let (started, limit) = (Instant::now(), args.machine.time_limit());

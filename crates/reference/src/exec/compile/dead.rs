@@ -47,9 +47,12 @@ fn is_read(read: &[Vec<bool>; 2], (class, register): (Class, usize)) -> bool {
     read.get(class as usize).and_then(|file| file.get(register)).copied().unwrap_or(true)
 }
 
-/// The registers that an instruction of `main` reads and writes.
+/// The registers that an instruction of `main` reads and writes. An observer's view is no use of a condition.
 fn operands(emitter: &mut Emitter, place: usize) -> Option<Operands> {
     let mut found = Operands::default();
+    if matches!(emitter.main.insts.get(place), Some(Inst::Watch { .. })) {
+        return Some(found);
+    }
     let mut note = |class: Class, using: Use, operand: Operand| {
         if operand.is_reg() {
             let place = (class, operand.number());

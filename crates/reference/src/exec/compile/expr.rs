@@ -316,7 +316,8 @@ impl Compiler<'_> {
     fn logical(&mut self, op: LogicalOp, a: ExprId, b: ExprId) -> Val {
         let left = self.scalar(a);
         if !self.effects.has(b) && !self.emit.form.notes() {
-            let right = self.scalar(b);
+            let right = self.chosen(left, op == LogicalOp::And, b).first().copied();
+            let right = right.unwrap_or_else(|| self.emit.zero(Class::Int));
             let op = if op == LogicalOp::And { Int2::And } else { Int2::Or };
             return Val::from_slice(&[self.int2(op, left, right)]);
         }
@@ -326,6 +327,19 @@ impl Compiler<'_> {
         let condition = if op == LogicalOp::And { left } else { self.int1(Int1::Not, left) };
         self.when(condition, b, result);
         self.read_all(result)
+    }
+
+    /// An operand without effects that is executed only where `condition` is `is`: all lanes compute it, since nobody can tell, but an
+    /// observer that counts sees the others idle.
+    fn chosen(&mut self, condition: Operand, is: bool, expr: ExprId) -> Val {
+        if !self.emit.form.chooses() {
+            return self.expr(expr);
+        }
+        let slot = self.emit.slot();
+        self.emit.push(Inst::Watch { c: condition, is, slot });
+        let value = self.expr(expr);
+        self.emit.push(Inst::Unwatch { slot });
+        value
     }
 
     /// Assigns the value of `expr` to `result` in the lanes where `condition` is true.
@@ -353,7 +367,7 @@ impl Compiler<'_> {
     fn ternary(&mut self, condition: ExprId, yes: ExprId, no: ExprId, ty: TypeId) -> Val {
         let c = self.scalar(condition);
         if !self.effects.has(yes) && !self.effects.has(no) && !self.emit.form.notes() {
-            let (yes, no) = (self.expr(yes), self.expr(no));
+            let (yes, no) = (self.chosen(c, true, yes), self.chosen(c, false, no));
             let classes = self.classes(ty);
             return (yes.iter().zip(&no).zip(classes.iter()))
                 .map(|((a, b), class)| if a == b { *a } else { self.select(*class, c, *a, *b) })
