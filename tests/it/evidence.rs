@@ -176,6 +176,13 @@ fn what_the_language_leaves_undefined_has_a_class_and_a_place() {
     let cases = [
         ("    if (q.x > 0.5) c.x = smoothstep(e, e, q.y);\n", "smoothstep", 2048),
         ("    if (q.x > 0.5) c.x = max(pow(q.x - 2.0, 2.0 + e), 0.0);\n", "pow", 2048),
+        // Only the power of the magnitude, which drivers have, gives another color, behind a loop that the envelope gives up.
+        (
+            "    float p = -4.0 - q.y * 0.0, y = p, z = 0.0; if (q.x > 0.5) { while (abs(y - z) >= 1e-9) \
+             { z = y; y -= 0.5 * (y - 16.0 / pow(p, 2.0)); } c.x = y > 0.9 && y < 1.1 ? 1.0 : 0.0; }\n",
+            "pow",
+            2048,
+        ),
         ("    if (q.x > 0.5) c.x = never;\n", "never written", 2048),
         ("    if (q.x > 0.5) c += texelFetch(t, ivec2(q * 64.0), 0);\n", "texelFetch", 2048),
         ("    if (q.x > 0.5) if (inversesqrt(q.x - 1.0) > 3.0) discard;\n", "inversesqrt", 2048),

@@ -18,14 +18,15 @@ use glisten_scene::Scene;
 use glisten_scene::picture::Picture;
 use std::sync::Arc;
 
-/// The numbers that are tried. No result of a comparison with one of them is that with all others. The last two differ
-/// between neighbors, as texels do.
-const TRIED: [Numbers; 5] = [
-    Numbers { float: 0.371_25, step: 0.0, int: 5 },
-    Numbers { float: -17_408.0, step: 0.0, int: 0x8000_0007 },
-    Numbers { float: 311_296.0, step: 0.0, int: 0x7fff_ff00 },
-    Numbers { float: 0.02, step: 0.97, int: 1 },
-    Numbers { float: 0.99, step: -0.98, int: 2 },
+/// The numbers that are tried. No result of a comparison with one of them is that with all others. The fourth and the fifth
+/// differ between neighbors, as texels do. The last are what most drivers have for `pow` of a negative base.
+const TRIED: [Numbers; 6] = [
+    Numbers { float: 0.371_25, step: 0.0, int: 5, magnitudes: false },
+    Numbers { float: -17_408.0, step: 0.0, int: 0x8000_0007, magnitudes: false },
+    Numbers { float: 311_296.0, step: 0.0, int: 0x7fff_ff00, magnitudes: false },
+    Numbers { float: 0.02, step: 0.97, int: 1, magnitudes: false },
+    Numbers { float: 0.99, step: -0.98, int: 2, magnitudes: false },
+    Numbers { float: 0.0, step: 0.0, int: 0, magnitudes: true },
 ];
 
 /// The largest number of places that are examined.

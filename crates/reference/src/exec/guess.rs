@@ -26,6 +26,8 @@ pub struct Numbers {
     pub step: f64,
     /// Of integers, as bits.
     pub int: u32,
+    /// Whether `pow` of a negative base is that of its magnitude, as where a driver multiplies, and all else is as the domain defines it.
+    pub magnitudes: bool,
 }
 
 impl Numbers {
@@ -294,6 +296,20 @@ impl<D: Domain> Machine<D> {
         places.any(|(axis, (operand, size))| !(0..i64::from(size)).contains(&(at(operand) + offset(axis))))
     }
 
+    /// Before an instruction runs that is undefined: the powers of magnitudes, if it is `pow` and these are the guess.
+    pub(super) fn note_powers(&mut self, inst: &Inst) {
+        let is_wanted =
+            self.guess.as_ref().is_some_and(|guess| guess.numbers.is_some_and(|numbers| numbers.magnitudes));
+        self.powers = match *inst {
+            Inst::Float2 { op: Float2::Pow, a, b, .. } if is_wanted => {
+                let (base, exponent) = (self.registers.float(a), self.registers.float(b));
+                let power = |lane| base.at(lane).value().abs().powf(exponent.at(lane).value());
+                Some((0..LANES).map(power).collect())
+            }
+            _ => None,
+        };
+    }
+
     /// Replaces the results of an instruction that has just run in the lanes in which it is undefined.
     pub(super) fn put_guess(
         &mut self,
@@ -306,12 +322,17 @@ impl<D: Domain> Machine<D> {
         let place = Place { span: section.spans.get(place).copied().unwrap_or_default(), what };
         guess.note(place);
         let Some(numbers) = guess.numbers.filter(|_| guess.applies(place)) else { return };
+        let powers = self.powers.take();
+        if numbers.magnitudes && powers.is_none() {
+            return;
+        }
         let is_replaced = |lane: usize| lanes >> lane & 1 == 1;
+        let power = |lane: usize| powers.as_ref().and_then(|powers| powers.get(lane)).copied();
         for (result, (class, operand)) in self.operands(inst, section, Use::Write).into_iter().enumerate() {
             match class {
                 Class::Float => {
                     let lanes = self.registers.floats.register(operand).spread();
-                    let float = |lane| D::Float::from_f64(numbers.float(lane, result));
+                    let float = |lane| D::Float::from_f64(power(lane).unwrap_or_else(|| numbers.float(lane, result)));
                     lanes.update(|lane, old| if is_replaced(lane) { float(lane) } else { old });
                 }
                 Class::Int => {

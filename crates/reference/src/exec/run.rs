@@ -24,6 +24,9 @@ impl<D: Domain> Machine<D> {
                 }
             }
             let open = if guessed { self.undefined(inst, section, inner, mask) } else { None };
+            if open.is_some() {
+                self.note_powers(inst);
+            }
             if D::HAS_INTERVALS && self.muted.is_some() && self.is_muted(section, place - 1) {
                 self.run_muted(inst, section, inner, mask);
                 continue;
