@@ -22,6 +22,7 @@ static EXTENSIONS: &[(&str, Stage)] = &[
     ("gsh", Stage::Geometry),
     ("vp", Stage::Vertex),
     ("fp", Stage::Fragment),
+    ("gp", Stage::Geometry),
 ];
 
 /// Words that tell the stage: as an extension (`phong.vertex`), and before or after the name of a `.glsl` file, with a sign
@@ -44,6 +45,7 @@ static WORDS: &[(&str, Stage)] = &[
     ("geometry", Stage::Geometry),
     ("geom", Stage::Geometry),
     ("gs", Stage::Geometry),
+    ("gp", Stage::Geometry),
 ];
 /// Words of one letter, after the name of an `.sdr` file (`deferred-f.sdr`).
 static LETTERS: &[(&str, Stage)] = &[("v", Stage::Vertex), ("f", Stage::Fragment), ("g", Stage::Geometry)];

@@ -15,7 +15,10 @@ pub(super) fn find(subject: &Subject<'_>, wanted: fn(BuiltinFunction) -> bool, f
         let mut told: Vec<ExprId> = Vec::new();
         for expr in always(place, body) {
             let ExprKind::BuiltinCall(function, _) = place.kind(expr) else { continue };
-            if !wanted(*function) || rate(place, expr) == Rate::Constant || !changing.leaves(place, expr) {
+            // The author of a macro is not that of the loop, and may be an engine.
+            let is_written = !place.expr(expr).span.expansion.is_some();
+            if !is_written || !wanted(*function) || rate(place, expr) == Rate::Constant || !changing.leaves(place, expr)
+            {
                 continue;
             }
             // What is inside of a finding comes with it, and the same call again, too.

@@ -57,6 +57,17 @@ fn pairs_are_found_in_every_host() {
 #[test]
 fn other_strings_are_left_alone() {
     for (host, text) in [
+        (
+            Host::C,
+            "auto s = \"void main() {\\n\" \"  vec4 Kd = \"+str(color)+\";\\n\" \"  gl_FragColor = Kd;\\n}\";"
+                .to_owned(),
+        ),
+        (
+            Host::C,
+            "#define GEO(shader) \"#version 120\\n#extension GL_EXT_geometry_shader4: enable\\n\" #shader\n\
+             #define G410(shader)  \"#version 410 \\n #define TINY 0.000001 \\n\" #shader\n"
+                .to_owned(),
+        ),
         (Host::Script, "const a = html`<p>void main() { vec4 }</p>`; const b = `#version of the file`;".to_owned()),
         (
             Host::Script,

@@ -39,7 +39,12 @@ fn report(types: &Types, fragment: &Shader, cause: Cause, calls: &[ExprId], find
     let Some((&first, more)) = calls.split_first() else { return };
     let ExprKind::BuiltinCall(function, arguments) = &fragment.expr(first).kind else { return };
     let message = format!("`{}` takes implicit derivatives in non-uniform control flow", function.name());
-    let mut finding = findings.at(span(first), message).here("the level of detail is undefined here");
+    let is_lookup = |&id: &ExprId| matches!(types.get(fragment.expr(id).ty), Type::Sampler(_));
+    let (what, help) = match arguments.first().is_some_and(is_lookup) {
+        true => ("the level of detail", "compute it before the branch, or use the form with `Lod` or `Grad`"),
+        false => ("the derivative", "compute it before the branch"),
+    };
+    let mut finding = findings.at(span(first), message).here(format!("{what} is undefined here"));
     finding = finding.label(span(cause.condition), "this may differ between fragments");
     if let Some(call) = cause.call {
         finding = finding.label(span(call), "this call depends on it");
@@ -50,11 +55,10 @@ fn report(types: &Types, fragment: &Shader, cause: Cause, calls: &[ExprId], find
     if more.len() > MAX_LABELS {
         finding = finding.note(format!("and in {} more places under the same condition", more.len() - MAX_LABELS));
     }
-    let is_lookup = |&id: &ExprId| matches!(types.get(fragment.expr(id).ty), Type::Sampler(_));
     if arguments.first().is_some_and(is_lookup) {
         finding = finding.note("a texture of one level, without mipmaps, is not affected");
     }
-    findings.push(finding.help("compute it before the branch, or use the form with `Lod` or `Grad`"));
+    findings.push(finding.help(help));
 }
 
 /// Parts of the names of textures that have one level in nearly all programs: maps of depths, places and random numbers, tables.

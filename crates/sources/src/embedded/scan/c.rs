@@ -54,6 +54,21 @@ fn raw(cursor: &mut Cursor<'_>, start: usize) -> Option<Literal> {
     Some(Literal { start, inside: inside..end, tag: tag.to_owned(), owner: cursor.owner(), ..Literal::default() })
 }
 
+/// Operators by which a program puts strings together.
+const JOINING: &[&str] = &["+", "<<"];
+
+/// Whether what is before a place is added to the string there. An assignment such as `+=` may begin a whole one.
+fn follows_operator(text: &str, start: usize) -> bool {
+    let before = text.get(..start).unwrap_or("").trim_end();
+    before.ends_with('+')
+}
+
+/// Whether something is added to the string that ends here.
+fn precedes_operator(cursor: &Cursor<'_>) -> bool {
+    let rest = cursor.rest().trim_start();
+    JOINING.iter().any(|operator| rest.starts_with(operator))
+}
+
 /// Directives that choose between strings.
 const CONDITIONS: &[&str] = &["if", "ifdef", "ifndef", "elif", "else", "endif"];
 
@@ -62,7 +77,8 @@ const CONDITIONS: &[&str] = &["if", "ifdef", "ifndef", "elif", "else", "endif"];
 fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
     let start = cursor.at;
     let mut literal = Literal { start, owner: cursor.owner(), is_joined: true, ..Literal::default() };
-    let (mut is_known, is_in_directive) = (!follows_macro(cursor), is_in_directive(cursor));
+    let is_in_directive = is_in_directive(cursor);
+    let mut is_known = !follows_macro(cursor) && !follows_operator(cursor.text, start);
     loop {
         let quote = cursor.at;
         cursor.pass_line_string();
@@ -80,7 +96,12 @@ fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
             pass_blanks(cursor);
         }
         if cursor.byte(0) != b'"' {
-            is_known &= !cursor.byte(0).is_ascii_alphabetic() && cursor.byte(0) != b'_';
+            // In a directive, `#` makes a string of a macro's argument.
+            let is_followed = cursor.byte(0).is_ascii_alphabetic()
+                || cursor.byte(0) == b'_'
+                || is_in_directive && cursor.byte(0) == b'#'
+                || precedes_operator(cursor);
+            is_known &= !is_followed;
             break;
         }
         literal.escapes.push(Escape { range: end..cursor.at + 1, means: Some(b' ') });
