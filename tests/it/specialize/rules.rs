@@ -93,6 +93,13 @@ fn a_zero_whose_sign_an_operation_sees_stays_in_its_uniform() {
     }
 }
 
+/// 0 to a power above 0 is 0, and no small number that vanished.
+#[test]
+fn a_power_of_zero_is_folded() {
+    let text = of_bits("max(pow(u, 4.0), 0.25) * x.x");
+    assert!(!text.contains("pow") && text.contains("0.25"), "{text}");
+}
+
 /// The fragment stage of `color = EXPRESSION` in GLSL 3.30, with `u` = 0 and an `x` that is finite and else unknown.
 fn of_bits(expression: &str) -> String {
     let fragment = format!(
