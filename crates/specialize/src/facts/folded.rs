@@ -115,9 +115,10 @@ fn of_class(class: Class) -> Vanishing {
             | Unary::Inversesqrt => Vanishing::FromNonzero,
         },
         Class::Binary(op) => match op {
-            Binary::Pow | Binary::Mul | Binary::Div => Vanishing::Any,
+            Binary::Mul | Binary::Div => Vanishing::Any,
             Binary::Mod | Binary::Min | Binary::Max | Binary::Step | Binary::Add | Binary::Sub => Vanishing::Never,
-            Binary::Atan2 => Vanishing::FromNonzero,
+            // Of 0 to a power above 0 every target makes 0.
+            Binary::Atan2 | Binary::Pow => Vanishing::FromNonzero,
         },
         Class::Ternary(op) => match op {
             Ternary::Clamp => Vanishing::Never,
