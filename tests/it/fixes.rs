@@ -210,7 +210,10 @@ fn a_head_is_no_declaration_without_a_semicolon() {
 fn bytes_and_line_ends_stay_as_they_are() {
     let old = b"#version 150\r\n// caf\xe9\r\nout vec4 c;\r\n#define A 1\r\n#define A 2\r\nvoid main() {\r\n    c = vec4(A) // \xe9\r\n}\r\n";
     let folder = Folder::new(&[("a.frag", old)]);
-    let fixed = folder.run(&["lint", "a.frag", "--fix"]);
+    folder.run(&["lint", "a.frag", "--fix"]);
+    let safe = fs::read(folder.path("a.frag")).expect("read");
+    assert!(!String::from_utf8_lossy(&safe).contains("#undef"), "which definition was meant is not known");
+    let fixed = folder.run(&["lint", "a.frag", "--unsafe-fixes"]);
     let new = fs::read(folder.path("a.frag")).expect("read");
     let wanted = b"#version 150\r\n// caf\xe9\r\nout vec4 c;\r\n#define A 1\r\n#undef A\r\n#define A 2\r\nvoid main() {\r\n    c = vec4(A); // \xe9\r\n}\r\n";
     assert_eq!(String::from_utf8_lossy(&new), String::from_utf8_lossy(wanted), "{}", out(&fixed));
