@@ -23,6 +23,39 @@ fn read(folder: &Folder, name: &str) -> String {
     fs::read_to_string(folder.path(name)).expect(name)
 }
 
+/// A semicolon is no safe fix where the next line may go on with what is before it.
+#[test]
+fn a_line_that_goes_on_may_lack_an_operator() {
+    let shader = |body: &str| {
+        format!(
+            "#version 130\nuniform sampler2D s;\nuniform float a, b, d;\nout vec4 c;\nvoid main() {{\n{body}\n    c += a;\n}}\n"
+        )
+    };
+    let fixed = |body: &str| {
+        let text = shader(body);
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        folder.run(&["lint", "a.frag", "--fix"]);
+        read(&folder, "a.frag")
+    };
+    for goes_on in [
+        "    c.x = a * b\n        d * a;",
+        "    float e = a\n        b;",
+        "    c = texture(s, c.xy)\n        texture(s, c.yx);",
+        "    c.x = a\n    b * d;",
+    ] {
+        assert_eq!(fixed(goes_on), shader(goes_on), "nothing is done to {goes_on}");
+    }
+    for (ends, mended) in [
+        ("    c.x = a\n    c.y = b;", "    c.x = a;\n    c.y = b;"),
+        ("    c.x = a\n    c.yz++;", "    c.x = a;\n    c.yz++;"),
+        ("    c.x = a\n    float e = b;\n    c.y = e;", "    c.x = a;\n    float e = b;\n    c.y = e;"),
+        ("    c.x = a\n    if (b > 1.0) { c.y = b; }", "    c.x = a;\n    if (b > 1.0) { c.y = b; }"),
+        ("    { c.x = a }", "    { c.x = a; }"),
+    ] {
+        assert_eq!(fixed(ends), shader(mended));
+    }
+}
+
 #[test]
 fn safe_fixes_are_applied_until_nothing_changes_and_guesses_are_not() {
     let folder = Folder::new(&[("a.frag", SHADER.as_bytes())]);
@@ -177,7 +210,10 @@ fn a_head_is_no_declaration_without_a_semicolon() {
 fn bytes_and_line_ends_stay_as_they_are() {
     let old = b"#version 150\r\n// caf\xe9\r\nout vec4 c;\r\n#define A 1\r\n#define A 2\r\nvoid main() {\r\n    c = vec4(A) // \xe9\r\n}\r\n";
     let folder = Folder::new(&[("a.frag", old)]);
-    let fixed = folder.run(&["lint", "a.frag", "--fix"]);
+    folder.run(&["lint", "a.frag", "--fix"]);
+    let safe = fs::read(folder.path("a.frag")).expect("read");
+    assert!(!String::from_utf8_lossy(&safe).contains("#undef"), "which definition was meant is not known");
+    let fixed = folder.run(&["lint", "a.frag", "--unsafe-fixes"]);
     let new = fs::read(folder.path("a.frag")).expect("read");
     let wanted = b"#version 150\r\n// caf\xe9\r\nout vec4 c;\r\n#define A 1\r\n#undef A\r\n#define A 2\r\nvoid main() {\r\n    c = vec4(A); // \xe9\r\n}\r\n";
     assert_eq!(String::from_utf8_lossy(&new), String::from_utf8_lossy(wanted), "{}", out(&fixed));

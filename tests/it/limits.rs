@@ -35,6 +35,11 @@ fn shader(text: &str) -> Input {
     Input::Shader(format!("#version 150\n{text}"))
 }
 
+/// A shader of the version that has all layouts, with a value that it writes.
+fn placed(declaration: &str, value: &str) -> Input {
+    Input::Shader(format!("#version 460\n{declaration}out vec4 c;\nvoid main() {{ c = {value}; }}\n"))
+}
+
 fn in_main(body: &str) -> Input {
     shader(&format!("void main() {{ {body} }}\n"))
 }
@@ -160,6 +165,21 @@ static LIMITS: &[Limit] = &[
                 "uniform sampler2D t[{n}];\nout vec4 c;\nvoid main() {{ c = texture(t[0], vec2(0.0)); }}\n"
             ))
         },
+    },
+    Limit {
+        what: "bindings of samplers and of uniform blocks",
+        largest: 1024,
+        code: "E0606",
+        make: |n| {
+            let sampler = format!("layout(binding = {}) uniform sampler2D t[2];\n", n - 2);
+            placed(&sampler, "texture(t[1], vec2(0.0))")
+        },
+    },
+    Limit {
+        what: "locations of uniforms",
+        largest: 262_144,
+        code: "E0606",
+        make: |n| placed(&format!("layout(location = {}) uniform mat4 m[2];\n", n - 2), "m[1][0]"),
     },
     Limit {
         what: "locations of varyings",

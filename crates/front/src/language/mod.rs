@@ -6,6 +6,7 @@
 mod extension;
 mod feature;
 pub(crate) mod foreign;
+mod locations;
 mod operators;
 mod section;
 mod stage;

@@ -550,25 +550,6 @@ impl Types {
         self.summary(id).flat_len
     }
 
-    /// The number of locations of a varying (GLSL 4.50 §4.4.1): one for a scalar or a vector, one for each column. An array without a
-    /// size counts as one element. The number saturates where a type has more scalars than any interface.
-    pub fn locations(&self, id: TypeId) -> u32 {
-        const MOST_SCALARS: u32 = 1 << 16;
-        if self.flat_len(id) > MOST_SCALARS {
-            return u32::MAX;
-        }
-        match self.get(id) {
-            Type::Matrix(columns, _) => u32::from(columns),
-            Type::Array(element, ArraySize::Sized(size)) => size.saturating_mul(self.locations(element)),
-            Type::Array(element, ArraySize::Unsized) => self.locations(element),
-            Type::Struct(id) => {
-                let members = self.structure(id).members.iter();
-                members.fold(0, |sum: u32, member| sum.saturating_add(self.locations(member.ty)))
-            }
-            Type::Scalar(_) | Type::Vector(..) | Type::Sampler(_) | Type::Void | Type::Error => 1,
-        }
-    }
-
     /// The summary of a type's contents, without traversing them.
     pub(crate) fn summary(&self, id: TypeId) -> TypeSummary {
         match self.get(id) {

@@ -135,7 +135,7 @@ fn check_host_locations(ctx: &mut Linker<'_>, all: &[Shared<'_>]) {
         .filter_map(|shared| {
             let global = shared.placed?;
             let first = u64::from(global.host_location?);
-            Some((first, first.saturating_add(leaf_count(ctx.types, global.ty)), global))
+            Some((first, first.saturating_add(u64::from(ctx.types.leaves(global.ty))), global))
         })
         .collect();
     placed.sort_by_key(|(first, end, _)| (*first, *end));
@@ -190,18 +190,6 @@ fn exposed_members<'a>(types: &'a Types, global: &Global) -> &'a [Member] {
     let is_exposed = global.block.as_ref().is_some_and(|block| block.instance.is_none());
     let parts = block_parts(types, global.ty).filter(|_| is_exposed);
     parts.map_or(&[], |(id, _)| types.structure(id).members.as_slice())
-}
-
-/// The number of scalars, vectors, matrices and samplers in a type.
-fn leaf_count(types: &Types, ty: TypeId) -> u64 {
-    match types.get(ty) {
-        Type::Array(element, ArraySize::Sized(size)) => u64::from(size).saturating_mul(leaf_count(types, element)),
-        Type::Struct(id) => {
-            let counts = types.structure(id).members.iter().map(|member| leaf_count(types, member.ty));
-            counts.fold(0, u64::saturating_add)
-        }
-        _ => 1,
-    }
 }
 
 fn is_shared(global: &Global) -> bool {

@@ -326,6 +326,7 @@ impl Analyzer<'_> {
             }
         };
         let ty = if self.check_global_size(ty, storage, true, block.name.span) { ty } else { TypeId::ERROR };
+        self.check_places(layout, ty, true);
         let (span, own_name) = match &block.instance {
             Some((instance, _)) => (instance.span, self.name(*instance)),
             None => (block.name.span, name),

@@ -142,6 +142,7 @@ impl Analyzer<'_> {
         // An array that its initializer sizes counts with that size.
         let fits = ty == declared || self.check_global_size(ty, storage, false, name.span);
         let ty = if fits { ty } else { TypeId::ERROR };
+        self.check_places(&layout, ty, false);
         let ty = self.sized_by_geometry(ty, storage, name.span);
         self.require_declared_size(declarator, ty);
         self.check_builtin_scope(name);

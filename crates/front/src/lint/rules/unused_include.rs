@@ -102,15 +102,15 @@ impl Graph {
 }
 
 /// The words of a file, but for those of its includes, each once.
-fn words(lexemes: &Lexemes) -> FxHashSet<String> {
-    let (mut words, mut in_include) = (FxHashSet::default(), false);
+fn words(lexemes: &Lexemes) -> Vec<String> {
+    let (mut words, mut seen, mut in_include) = (Vec::new(), FxHashSet::default(), false);
     for (index, token) in lexemes.tokens().iter().enumerate() {
         if token.flags.contains(TokenFlags::LINE_START) {
             let directive = lexemes.tokens().get(index + 1).map_or("", |word| lexemes.spelling(word));
             in_include = Lexemes::begins_directive(token) && matches!(directive, "include" | "import" | "moj_import");
         }
-        if !in_include && !words.contains(lexemes.spelling(token)) {
-            words.insert(lexemes.spelling(token).to_owned());
+        if !in_include && seen.insert(lexemes.spelling(token)) {
+            words.push(lexemes.spelling(token).to_owned());
         }
     }
     words

@@ -43,6 +43,11 @@ impl<T: TokenSource> Parser<'_, '_, T> {
         }
     }
 
+    /// Whether the line that begins with a token begins another statement than the one before it, as far as its look tells.
+    pub(super) fn begins_another(&mut self, number: usize) -> bool {
+        self.certainly_begins(number) || self.seems_to_begin(number)
+    }
+
     /// Whether the line that begins with a token looks like a statement: a declaration of a type with a name, an assignment, a call.
     /// It begins no further right than the statement that it interrupts.
     fn seems_to_begin(&mut self, number: usize) -> bool {

@@ -273,10 +273,15 @@ impl<'p, 's, T: TokenSource> Parser<'p, 's, T> {
         if !forgotten {
             return Err(self.unexpected(&format!("`;` after {what}")));
         }
+        // An operator may be what is missing: `x = a * b`, and the next line is `d * a;`.
+        let is_sure = !self.current.starts_line()
+            || matches!(self.kind(), TokenKind::RightBrace | TokenKind::Eof)
+            || self.begins_another(self.taken.len());
+        let applicability = if is_sure { Applicability::Safe } else { Applicability::Unsafe };
         let message = format!("`;` is missing after {what}");
         let diagnostic = Diagnostic::new(&codes::MISSING_SEMICOLON, self.behind(), message)
             .here("expected `;`")
-            .help(Advice::new(Applicability::Safe, "write `;` here", Place::Before, ";"));
+            .help(Advice::new(applicability, "write `;` here", Place::Before, ";"));
         // A brace that is missing, too, at the end of the file is another error.
         let end_reported = self.end_reported;
         let _: Reported = self.report_found(diagnostic);

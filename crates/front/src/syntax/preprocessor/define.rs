@@ -297,10 +297,11 @@ impl Preprocessor<'_> {
         .here("a different definition")
         .label(old.span, "defined here before")
         .help(format!("write `{undef}` first"));
+        // Which of the two was meant is not known.
         if let Some(line) = session.sources.line_of(name.span) {
             let start = Span { end: line.start, ..line };
             let title = format!("write `{undef}` first");
-            diagnostic = diagnostic.fix(Fix::new(Applicability::Safe, title, start, format!("{undef}\n")));
+            diagnostic = diagnostic.fix(Fix::new(Applicability::Unsafe, title, start, format!("{undef}\n")));
         }
         session.report(diagnostic);
     }
