@@ -42,6 +42,8 @@ fn a_line_that_goes_on_may_lack_an_operator() {
         "    float e = a\n        b;",
         "    c = texture(s, c.xy)\n        texture(s, c.yx);",
         "    c.x = a\n    b * d;",
+        // A decimal comma.
+        "    if (a < 0,5) c.x = b;",
     ] {
         assert_eq!(fixed(goes_on), shader(goes_on), "nothing is done to {goes_on}");
     }

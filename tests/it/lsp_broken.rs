@@ -225,6 +225,23 @@ fn the_active_signature_is_the_one_that_fits() {
     editor.close();
 }
 
+/// What is declared twice has no type, and is described by its line, unless that has thousands of names.
+#[test]
+fn a_name_that_is_declared_twice_is_described_by_a_short_line() {
+    for (count, is_described) in [(3, true), (2_000, false)] {
+        let text = format!("#version 150\n{}\n", "float x;".repeat(count));
+        let folder = Folder::new(&[("a.frag", text.as_bytes())]);
+        let mut editor = Editor::new(&folder, json!({}));
+        editor.open("a.frag", &text);
+        let uri = editor.uri("a.frag");
+        let answer = editor.ask("textDocument/documentSymbol", json!({ "textDocument": { "uri": uri } }));
+        let list = answer.as_array().expect("a list");
+        let last = list.last().expect("a symbol");
+        assert_eq!((list.len(), last["detail"].is_string()), (count, is_described), "{last}");
+        editor.close();
+    }
+}
+
 /// A carriage return alone ends a line (GLSL 1.50 §3.1), and formatting loses no statement by it.
 #[test]
 fn lines_may_end_with_carriage_returns() {

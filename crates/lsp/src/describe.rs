@@ -11,6 +11,8 @@ use glisten_front::index::{Symbol, View};
 use glisten_front::link::Program;
 use glisten_front::source::{Span, comments};
 
+/// A longer line, in bytes, does not describe what is declared on it.
+const MAX_LINE: u32 = 512;
 /// A struct with more members is shown in part.
 const MAX_MEMBERS: usize = 24;
 /// A value with more numbers is shown in part.
@@ -122,7 +124,11 @@ pub(crate) fn declaration(analysis: &Analysis, view: usize, denoted: Denoted) ->
             let owner = if structure.name.is_empty() { String::new() } else { format!("{}.", structure.name) };
             format!("{} {owner}{}", types.name(member.ty), member.name)
         }
-        Denoted::Broken(span) => analysis.sources().snippet(line_of(analysis, span)?).trim().to_owned(),
+        Denoted::Broken(span) => {
+            // Of a line with thousands of names, each would have all.
+            let line = line_of(analysis, span).filter(|line| line.end - line.start <= MAX_LINE)?;
+            analysis.sources().snippet(line).trim().to_owned()
+        }
         Denoted::Builtin | Denoted::Components(_) | Denoted::Length(_) => return None,
     })
 }

@@ -349,7 +349,10 @@ impl Analyzer<'_> {
         use ExprKind::{Assign, Binary, Comma, Ternary};
         let is_compound = matches!(self.expr_at(id).kind, Assign(..) | Binary(..) | Comma(..) | Ternary(..));
         let text = if is_compound { format!("(...) != {zero}") } else { format!("... != {zero}") };
-        Advice::new(Applicability::Safe, format!("compare it: `... != {zero}`"), Place::Around, text)
+        // A comma may be that of a decimal number: `u < 0,5`.
+        let is_comma = matches!(self.expr_at(id).kind, Comma(..));
+        let applicability = if is_comma { Applicability::Unsafe } else { Applicability::Safe };
+        Advice::new(applicability, format!("compare it: `... != {zero}`"), Place::Around, text)
     }
 
     /// Reports operands that an operator does not accept.
