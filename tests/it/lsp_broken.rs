@@ -228,10 +228,11 @@ fn the_active_signature_is_the_one_that_fits() {
 /// What is declared twice has no type, and is described by its line, unless that has thousands of names.
 #[test]
 fn a_name_that_is_declared_twice_is_described_by_a_short_line() {
+    let nested = json!({ "textDocument": { "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } } });
     for (count, is_described) in [(3, true), (2_000, false)] {
         let text = format!("#version 150\n{}\n", "float x;".repeat(count));
         let folder = Folder::new(&[("a.frag", text.as_bytes())]);
-        let mut editor = Editor::new(&folder, json!({}));
+        let mut editor = Editor::new(&folder, nested.clone());
         editor.open("a.frag", &text);
         let uri = editor.uri("a.frag");
         let answer = editor.ask("textDocument/documentSymbol", json!({ "textDocument": { "uri": uri } }));

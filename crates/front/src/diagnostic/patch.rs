@@ -6,13 +6,13 @@
 use super::write::{FindingEdit, FindingFix, Region};
 use crate::source::{SourceFile, SourceMap};
 use std::collections::BTreeMap;
-use std::ops::{Bound, Range};
+use std::ops::Range;
 
 /// A line and a column.
 type Place = (u32, u32);
 
-/// The edits of a file by where they begin. Those of one place are of one fix, in its order.
-type Edits = BTreeMap<Place, Vec<FindingEdit>>;
+/// The edits of a file in the order of where they begin. Those of one place are of one fix, in its order.
+type Edits = Vec<FindingEdit>;
 
 /// Edits of files that can be made at once.
 #[derive(Clone, Debug, Default)]
@@ -28,10 +28,12 @@ impl Patch {
             return false;
         }
         for edit in &fix.edits {
-            let file = self.files.entry(edit.region.file.clone()).or_default();
-            let list = file.entry(from(&edit.region)).or_default();
-            if !list.contains(edit) {
-                list.push(edit.clone());
+            let known = self.files.entry(edit.region.file.clone()).or_default();
+            let start = from(&edit.region);
+            let end = known.partition_point(|other| from(&other.region) <= start);
+            let here = known.iter().take(end).rev().take_while(|other| from(&other.region) == start);
+            if !here.into_iter().any(|other| other == edit) {
+                known.insert(end, edit.clone());
             }
         }
         true
@@ -47,7 +49,7 @@ impl Patch {
         let mut map = SourceMap::default();
         let id = map.add(file, text)?;
         let mut places = Places { file: map.file(id), last: None };
-        let edits = self.files.get(file).into_iter().flat_map(BTreeMap::values).flatten();
+        let edits = self.files.get(file).into_iter().flatten();
         let place = |edit: &FindingEdit| Some((places.range(&edit.region)?, edit.text.clone()));
         let mut edits: Vec<(Range<usize>, String)> = edits.map(place).collect::<Option<_>>()?;
         edits.sort_by_key(|(range, _)| (range.start, range.end));
@@ -73,14 +75,15 @@ fn to(region: &Region) -> Place {
 
 /// Whether an edit is one of those that are known, or shares no character with any, and no place where both would insert. Known edits do
 /// not overlap, so only its neighbors can meet it.
-fn fits(known: &Edits, edit: &FindingEdit) -> bool {
+fn fits(known: &[FindingEdit], edit: &FindingEdit) -> bool {
     let (start, end) = (from(&edit.region), to(&edit.region));
-    let before = known.range(..start).next_back().into_iter().flat_map(|(_, edits)| edits);
-    let here = known.get(&start).into_iter().flatten();
-    let behind = known.range((Bound::Excluded(start), Bound::Unbounded)).next();
-    before.into_iter().all(|other| to(&other.region) <= start)
-        && here.into_iter().all(|other| other == edit)
-        && behind.is_none_or(|(next, _)| *next >= end)
+    let (before, rest) = known.split_at(known.partition_point(|other| from(&other.region) < start));
+    let last = before.last().map(|other| from(&other.region));
+    let mut neighbors = before.iter().rev().take_while(|other| Some(from(&other.region)) == last);
+    let (here, behind) = rest.split_at(rest.partition_point(|other| from(&other.region) == start));
+    neighbors.all(|other| to(&other.region) <= start)
+        && here.iter().all(|other| other == edit)
+        && behind.first().is_none_or(|next| from(&next.region) >= end)
 }
 
 /// Offsets of places in a text. Those of one line are not counted from its beginning again, if they come in order.

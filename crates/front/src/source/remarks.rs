@@ -3,16 +3,15 @@
 //! *In:* a text by its lines. *Out:* the words of each line, and the comments above a line. *Holds:* the text is read once, however many
 //! findings are on one of its lines.
 
-use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 /// The comments of a text that allow findings.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Remarks {
-    /// The words in the parentheses, by line.
-    words: BTreeMap<u32, Vec<String>>,
-    /// The runs of lines that are nothing but comments: the first line of each, and the last one.
-    comments: BTreeMap<u32, u32>,
+    /// The words in the parentheses with their lines, in order.
+    words: Vec<(u32, String)>,
+    /// The runs of lines that are nothing but comments, in order: the first line of each, and the last one.
+    comments: Vec<(u32, u32)>,
 }
 
 impl Remarks {
@@ -20,10 +19,7 @@ impl Remarks {
     pub(super) fn of<'t>(lines: impl Iterator<Item = &'t str>) -> Self {
         let mut remarks = Self::default();
         for (number, line) in (1..).zip(lines) {
-            let words: Vec<String> = allowed(line).map(str::to_owned).collect();
-            if !words.is_empty() {
-                remarks.words.insert(number, words);
-            }
+            remarks.words.extend(allowed(line).map(|word| (number, word.to_owned())));
             if is_comment(line) {
                 remarks.add_comment(number);
             }
@@ -32,9 +28,9 @@ impl Remarks {
     }
 
     fn add_comment(&mut self, line: u32) {
-        match self.comments.last_entry().filter(|run| run.get() + 1 == line) {
-            Some(mut run) => *run.get_mut() = line,
-            None => _ = self.comments.insert(line, line),
+        match self.comments.last_mut().filter(|(_, last)| *last + 1 == line) {
+            Some((_, last)) => *last = line,
+            None => self.comments.push((line, line)),
         }
     }
 
@@ -45,14 +41,17 @@ impl Remarks {
 
     /// The first of the lines directly above this one that are nothing but comments, or the line itself.
     pub(crate) fn first_comment_above(&self, line: u32) -> u32 {
-        let run = self.comments.range(..line).next_back();
+        let above = self.comments.partition_point(|(first, _)| *first < line);
         // A run that goes on below the line has its beginning above it.
-        run.filter(|(_, last)| **last + 1 >= line).map_or(line, |(first, _)| *first)
+        let run = self.comments.iter().take(above).next_back();
+        run.filter(|(_, last)| *last + 1 >= line).map_or(line, |(first, _)| *first)
     }
 
     /// The words in these lines.
     pub(crate) fn words(&self, lines: RangeInclusive<u32>) -> impl Iterator<Item = &str> {
-        self.words.range(lines).flat_map(|(_, words)| words).map(String::as_str)
+        let from = self.words.partition_point(|(line, _)| line < lines.start());
+        let rest = self.words.iter().skip(from);
+        rest.take_while(move |(line, _)| line <= lines.end()).map(|(_, word)| word.as_str())
     }
 }
 

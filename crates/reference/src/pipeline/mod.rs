@@ -108,6 +108,7 @@ pub(super) fn render<D: Domain>(scene: &Scene, options: &RenderOptions) -> Resul
 }
 
 /// Draws a scene, and shows observers what is computed.
+#[cfg(any(test, feature = "stability"))]
 pub(super) fn render_watched<D: Domain>(
     scene: &Scene,
     options: &RenderOptions,

@@ -73,7 +73,7 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
 fn loses_signs(kind: &ExprKind) -> bool {
     match kind {
         ExprKind::Binary(op, ..) | ExprKind::Assign(Some(op), ..) => {
-            matches!(op, BinaryOp::Mul | BinaryOp::Add | BinaryOp::Sub | BinaryOp::MatMul)
+            matches!(op, BinaryOp::Mul | BinaryOp::Div | BinaryOp::Add | BinaryOp::Sub | BinaryOp::MatMul)
         }
         ExprKind::BuiltinCall(function, _) => match function.class() {
             Class::Ternary(op) => matches!(op, Ternary::Mix | Ternary::Fma),

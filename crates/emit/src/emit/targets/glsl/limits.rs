@@ -56,7 +56,7 @@ pub(super) fn of_es(program: &Program, shader: &Shader) -> Vec<Diagnostic> {
     for span in arrays_of_arrays(types, shader, &used).take(1) {
         lacks.push(lacking(span, "array of arrays".into(), "compute one index from two"));
     }
-    for (name, span) in later_functions(types, shader, used.iter().map(|id| shader.expr(*id)), true) {
+    for (name, span) in later_functions(types, shader, &mut used.iter().map(|id| shader.expr(*id)), true) {
         lacks.push(lacking(span, format!("function `{name}`"), "compile for `--glsl-version 330`"));
     }
     if program.interface.outputs.iter().any(|output| output.index == 1) && shader.stage == Stage::Fragment {
@@ -112,14 +112,14 @@ pub(super) fn of_330(types: &Types, shader: &Shader) -> Vec<Diagnostic> {
         let message = format!("GLSL 3.30 has no function `{name}` for these arguments");
         Diagnostic::new(&FEATURE_NOT_IN_TARGET, span, message).help("compile for `--glsl-version 450`")
     };
-    later_functions(types, shader, shader.exprs.iter(), false).into_iter().map(lacks).collect()
+    later_functions(types, shader, &mut shader.exprs.iter(), false).into_iter().map(lacks).collect()
 }
 
 /// The functions that came after ES 3.00, or after 3.30 and without an extension, for the arguments of a call. Each with its first call.
 fn later_functions<'a>(
     types: &Types,
     shader: &Shader,
-    exprs: impl Iterator<Item = &'a Expr>,
+    exprs: &mut dyn Iterator<Item = &'a Expr>,
     is_es: bool,
 ) -> Vec<(&'static str, Span)> {
     let mut found: Vec<(&'static str, Span)> = Vec::new();
