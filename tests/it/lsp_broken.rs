@@ -225,7 +225,7 @@ fn the_active_signature_is_the_one_that_fits() {
     editor.close();
 }
 
-/// What is declared twice has no type, and is described by its line, unless that has thousands of names.
+/// A name that is declared twice has no type, and is described by its line, unless that has thousands of names.
 #[test]
 fn a_name_that_is_declared_twice_is_described_by_a_short_line() {
     let nested = json!({ "textDocument": { "documentSymbol": { "hierarchicalDocumentSymbolSupport": true } } });

@@ -62,7 +62,7 @@ pub struct Machine<D: Domain> {
     pub(super) exactly: Option<Arc<Exactly>>,
     /// The numbers in the place of what is undefined.
     pub(super) guess: Option<Arc<Guess>>,
-    /// What a guess has for the `pow` that runs, by lane.
+    /// The powers of a guess for the `pow` that runs, by lane.
     pub(super) powers: Option<Vec<f64>>,
     /// The lanes that an observer is shown.
     pub(super) watched: u64,
