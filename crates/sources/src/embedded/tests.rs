@@ -62,6 +62,7 @@ fn other_strings_are_left_alone() {
             "auto s = \"void main() {\\n\" \"  vec4 Kd = \"+str(color)+\";\\n\" \"  gl_FragColor = Kd;\\n}\";"
                 .to_owned(),
         ),
+        (Host::C, "out << \"void main() { gl_FragColor = vec4(\" << gray << \"); }\";".to_owned()),
         (
             Host::C,
             "#define GEO(shader) \"#version 120\\n#extension GL_EXT_geometry_shader4: enable\\n\" #shader\n\

@@ -40,6 +40,30 @@ pub(super) fn own(function: BuiltinFunction, operands: &Operands<'_>) -> Own {
     demands
 }
 
+/// Whether it is made of products and sums, of which a driver that finds a 0 may give a 0 of either sign.
+pub(super) fn loses_signs(class: Class) -> bool {
+    match class {
+        Class::Ternary(op) => matches!(op, Ternary::Mix | Ternary::Fma),
+        Class::Numbers(op) => op == Numbers::Mix,
+        Class::Composite(op) => matches!(op, Composite::Dot | Composite::Cross | Composite::Reflect),
+        Class::Matrix(op) => matches!(op, MatrixFunction::ComponentProduct | MatrixFunction::OuterProduct),
+        Class::Binary(_)
+        | Class::Unary(_)
+        | Class::Bits(_)
+        | Class::Texture(_)
+        | Class::Derivative(_)
+        | Class::Noise(_)
+        | Class::Modf
+        | Class::Relation(_)
+        | Class::Boolean(_)
+        | Class::Test(_)
+        | Class::BitCast(_)
+        | Class::Packing(_)
+        | Class::Composed
+        | Class::Emission(_) => false,
+    }
+}
+
 /// One demand for all.
 fn each(demand: Demand) -> Own {
     smallvec![demand; 4]

@@ -24,7 +24,7 @@ use super::operands::{Operands, Own, keep_unless, product, quotient, spread_or_a
 use super::{Demand, builtins};
 use crate::facts::Fact;
 use crate::forward::Walked;
-use glisten_front::builtin::operations::{Class, Composite, MatrixFunction, Numbers, Ternary};
+use glisten_front::builtin::operations::Class;
 use glisten_front::hir::{BinaryOp, ExprId, ExprKind, Scalar, Types};
 use smallvec::smallvec;
 
@@ -33,15 +33,20 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
     let kind = &walked.shader.expr(id).kind;
     let operands = Operands::of(types, walked, kind);
     let mut demands: Own = smallvec![Demand::NONE; operands.len()];
-    match kind {
+    // Whether a driver that finds a 0 among the operands may give a 0 of either sign (Vulkan: without `SignedZeroInfNanPreserve`).
+    let loses_signs = match kind {
         ExprKind::Binary(op, ..) | ExprKind::Assign(Some(op), ..) => {
             let before = walked.before.get(&id).map_or(&[][..], |before| before.as_slice());
             let left = if matches!(kind, ExprKind::Assign(..)) { before } else { operands.facts(0) };
             let floats = operands.is_float(0) || operands.is_float(1);
             let right = operands.facts(1);
             demands.copy_from_slice(&if floats { float_pair(*op, left, right) } else { int_pair(*op, right) });
+            matches!(op, BinaryOp::Mul | BinaryOp::Div | BinaryOp::Add | BinaryOp::Sub | BinaryOp::MatMul)
         }
-        ExprKind::BuiltinCall(function, _) => demands = builtins::own(*function, &operands),
+        ExprKind::BuiltinCall(function, _) => {
+            demands = builtins::own(*function, &operands);
+            builtins::loses_signs(function.class())
+        }
         // These compute nothing, or it is the specification that says what they give.
         ExprKind::Literal(_)
         | ExprKind::Var(_)
@@ -57,9 +62,9 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
         | ExprKind::Call(..)
         | ExprKind::IncDec(..)
         | ExprKind::Assign(None, ..)
-        | ExprKind::Error => {}
-    }
-    if walked.is_looked_at(id) && loses_signs(kind) {
+        | ExprKind::Error => false,
+    };
+    if loses_signs && walked.is_looked_at(id) {
         let floats = demands.iter_mut().enumerate().filter(|(index, _)| operands.is_float(*index));
         floats.for_each(|(_, demand)| *demand = demand.and(Demand::NO_ZERO));
     }
@@ -67,50 +72,6 @@ pub(super) fn own(types: &Types, walked: &Walked, id: ExprId) -> Own {
         demands.iter_mut().for_each(|demand| *demand = Demand::KEEP);
     }
     demands
-}
-
-/// Whether a driver that finds a 0 among the operands may give a 0 of either sign (Vulkan: without `SignedZeroInfNanPreserve`).
-fn loses_signs(kind: &ExprKind) -> bool {
-    match kind {
-        ExprKind::Binary(op, ..) | ExprKind::Assign(Some(op), ..) => {
-            matches!(op, BinaryOp::Mul | BinaryOp::Div | BinaryOp::Add | BinaryOp::Sub | BinaryOp::MatMul)
-        }
-        ExprKind::BuiltinCall(function, _) => match function.class() {
-            Class::Ternary(op) => matches!(op, Ternary::Mix | Ternary::Fma),
-            Class::Numbers(op) => op == Numbers::Mix,
-            Class::Composite(op) => matches!(op, Composite::Dot | Composite::Cross | Composite::Reflect),
-            Class::Matrix(op) => matches!(op, MatrixFunction::ComponentProduct | MatrixFunction::OuterProduct),
-            Class::Binary(_)
-            | Class::Unary(_)
-            | Class::Bits(_)
-            | Class::Texture(_)
-            | Class::Derivative(_)
-            | Class::Noise(_)
-            | Class::Modf
-            | Class::Relation(_)
-            | Class::Boolean(_)
-            | Class::Test(_)
-            | Class::BitCast(_)
-            | Class::Packing(_)
-            | Class::Composed
-            | Class::Emission(_) => false,
-        },
-        ExprKind::Error
-        | ExprKind::Literal(_)
-        | ExprKind::Var(_)
-        | ExprKind::Member(..)
-        | ExprKind::Index(..)
-        | ExprKind::Swizzle(..)
-        | ExprKind::Convert(_)
-        | ExprKind::Construct(..)
-        | ExprKind::Unary(..)
-        | ExprKind::Logical(..)
-        | ExprKind::Ternary(..)
-        | ExprKind::Comma(..)
-        | ExprKind::Call(..)
-        | ExprKind::IncDec(..)
-        | ExprKind::Assign(None, ..) => false,
-    }
 }
 
 /// A driver could compute it, and it might not be finite, or GLSL leaves it undefined.

@@ -102,7 +102,7 @@ struct Residuals {
 }
 
 impl Residuals {
-    /// None yet, for scenes with these stems.
+    /// No residual yet. The accounts of these scene files have names that no reflection may have.
     fn of(scenes: &[String]) -> Self {
         let accounts = scenes.iter().map(|name| format!("{}.account", stem(name)));
         Self { reserved: accounts.chain([PROGRAMS.to_owned()]).collect(), ..Self::default() }
