@@ -244,3 +244,23 @@ fn a_search_leaves_room_for_more_shaders_of_a_stage() {
     let output = folder.run(&["compile", "d/edge.vs", "d/edge.fs", "-o", "out"]);
     assert!(output.status.code() == Some(1) && !folder.path("out/edge.fs.wgsl").exists());
 }
+
+/// A derivative has no level of detail, and no form that takes one.
+#[test]
+fn a_divergent_derivative_is_told_in_its_own_words() {
+    let told = |call: &str| {
+        let text = format!(
+            "#version 150\nuniform sampler2D t;\nin vec2 p;\nout vec4 c;\n\
+             void main() {{ c = vec4(0.0); if (p.x > 0.5) c = vec4({call}); }}\n"
+        );
+        let source = Source { name: "a.frag".to_owned(), text: text.into(), stage: Stage::Fragment };
+        let compilation = Compiler::new(Options::default()).compile(&[source]);
+        let program = compilation.program.expect("it compiles");
+        let found = lint::check(&program, &compilation.sources);
+        let found = found.iter().find(|found| found.code.id == "L0010").expect("it diverges");
+        format!("{} {:?}", found.primary.message, found.help)
+    };
+    assert!(told("texture(t, p)").contains("level of detail") && told("texture(t, p)").contains("Lod"));
+    let derivative = told("dFdx(p.x)");
+    assert!(derivative.contains("derivative") && !derivative.contains("level") && !derivative.contains("Lod"));
+}
