@@ -93,7 +93,7 @@ fn no_pixel_is_wrong_because_of_the_sign_of_a_zero() {
         };
         let [before, after] = [&scene, &left].map(|scene| drawn(&gpu, scene));
         let mut moved = before.clone();
-        moved.attachments.iter_mut().flatten().for_each(|color| color[0] += 5.0);
+        moved.attachments.iter_mut().flatten().for_each(|color| color[0] += 50.0);
         let found = [&before, &after, &moved].map(&mut n_wrong);
         if found[..2] != [0, 0] || found[2] < 100 {
             wrong.push(format!("{body}: {found:?}"));

@@ -8,6 +8,9 @@ use super::{EnvelopeFloat, EnvelopeInt};
 use crate::domain::{Integer, Number};
 use glisten_front::builtin::operations::{from_half, to_half};
 
+/// The bit of the sign.
+const SIGN: u32 = 1 << 31;
+
 /// The bits of the nearest f32.
 fn single(value: f64) -> u32 {
     (value as f32).to_bits()
@@ -26,7 +29,7 @@ impl EnvelopeFloat {
             return EnvelopeInt::with_interval(bits, i32::MIN, i32::MAX);
         }
         if self.has_open_sign() {
-            return EnvelopeInt::with_interval(bits, i32::MIN, 0);
+            return EnvelopeInt::either(bits, bits ^ SIGN);
         }
         if self.low == self.high {
             return EnvelopeInt::from_bits(bits);
@@ -52,8 +55,8 @@ impl EnvelopeFloat {
 
     pub(super) fn half_of(self) -> EnvelopeInt {
         if self.has_open_sign() {
-            // An interval of 16 bits with both of them holds all others, too.
-            return EnvelopeInt::from_bits(to_half(self.value));
+            let bits = to_half(self.value);
+            return EnvelopeInt::either(bits, bits ^ 0x8000);
         }
         let wide = self.bits_by(|value| spread(to_half(value)));
         let narrow = |bits: i32| bits & 0x7fff | (bits >> 31 & 1) << 15;
@@ -72,21 +75,20 @@ impl EnvelopeFloat {
             return Self::from_f64(of(bits.bits));
         }
         let (low, high) = bits.interval();
-        if (low, high) == (i32::MIN, 0) {
-            return Self { value: of(bits.bits), low: 0.0, high: -0.0, may_be_nan: false };
-        }
         let (a, b) = (of(low as u32), of(high as u32));
-        if (low < 0) != (high < 0) || a.is_nan() || b.is_nan() {
+        if (low < 0) != (high < 0) && !bits.is_bound || a.is_nan() || b.is_nan() {
             return Self::anything(of(bits.bits));
         }
-        Self::from_f64(of(bits.bits)).joined(Self::from_f64(a)).joined(Self::from_f64(b))
+        let hull = Self::from_f64(of(bits.bits)).joined(Self::from_f64(a)).joined(Self::from_f64(b));
+        let is_zero = hull.low == 0.0 && hull.high == 0.0;
+        if is_zero { Self { low: 0.0, high: -0.0, ..hull } } else { hull }
     }
 
     pub(super) fn with_half(bits: EnvelopeInt) -> Self {
         let of = |bits: u32| from_half(bits & 0xffff);
         let (low, high) = bits.interval();
         let (a, b) = (of(low as u32), of(high as u32));
-        let ordered = (low >= 0 && high < 0x8000) || (low >= 0x8000 && high <= 0xffff);
+        let ordered = (low >= 0 && high < 0x8000) || (low >= 0x8000 && high <= 0xffff) || bits.is_bound;
         if !ordered || a.is_nan() || b.is_nan() {
             return Self::anything(of(bits.bits));
         }
@@ -119,6 +121,12 @@ mod tests {
             assert!(back.low <= low && back.high >= high);
         }
         assert_eq!(of(-1.0, 1.0).bits_of().interval(), (i32::MIN, i32::MAX));
+        let zero = of(0.0, 0.0);
+        assert_eq!(zero.bits_of(), EnvelopeInt::either(0, SIGN));
+        assert!(EnvelopeFloat::with_bits(zero.bits_of()).has_open_sign());
+        assert!(EnvelopeFloat::from_f64(0.0).bits_of().is_decided(), "it is loaded");
+        let back = EnvelopeFloat::with_half(zero.half_of());
+        assert_eq!((back.low, back.high), (0.0, 0.0));
         assert!(of(1.0, 1.0).bits_of().is_decided());
     }
 

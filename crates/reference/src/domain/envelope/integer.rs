@@ -2,7 +2,8 @@
 //!
 //! *Holds:* the interval is one of `int`s; an inexact `uint` above 2^31 may be anything. Operations on few values
 //! try all of them, so that `bool`s and short intervals stay precise. Sums, products and comparisons of longer
-//! intervals are computed from their bounds; the results of all other operations may be anything.
+//! intervals are computed from their bounds; the results of all other operations may be anything. Of two values that are far
+//! apart, such as the bits of 0 and of -0, both are known, and nothing between them.
 
 use crate::domain::{Element, Integer, WIDTH};
 
@@ -18,6 +19,8 @@ pub struct EnvelopeInt {
     pub low: i32,
     /// The upper bound, as an `int`.
     pub high: i32,
+    /// Whether it is one of the bounds, and none of the values between them.
+    pub is_bound: bool,
 }
 
 impl Element for EnvelopeInt {
@@ -28,33 +31,57 @@ impl EnvelopeInt {
     /// An undecided condition.
     #[inline(always)]
     pub(super) fn undecided(answer: bool) -> Self {
-        Self { bits: u32::from(answer), low: 0, high: 1 }
+        Self { bits: u32::from(answer), low: 0, high: 1, is_bound: true }
     }
 
     /// Any integer.
     pub(in crate::domain) fn unknown(bits: u32) -> Self {
-        Self { bits, low: i32::MIN, high: i32::MAX }
+        Self { bits, low: i32::MIN, high: i32::MAX, is_bound: false }
+    }
+
+    /// The one or the other of two values, of which `bits` is one.
+    pub(super) fn either(bits: u32, other: u32) -> Self {
+        let (a, b) = (bits as i32, other as i32);
+        Self { bits, low: a.min(b), high: a.max(b), is_bound: true }
     }
 
     /// An interval of wide integers; unknown if they do not fit.
     fn of_wide(bits: u32, low: i64, high: i64) -> Self {
         match (i32::try_from(low), i32::try_from(high)) {
-            (Ok(low), Ok(high)) => Self { bits, low, high },
+            (Ok(low), Ok(high)) => Self { bits, low, high, is_bound: false },
             _ => Self::unknown(bits),
         }
     }
 
     fn count(self) -> i64 {
-        i64::from(self.high) - i64::from(self.low) + 1
+        let distance = i64::from(self.high) - i64::from(self.low);
+        if self.is_bound { distance.min(1) + 1 } else { distance + 1 }
+    }
+
+    /// The values, if they are few.
+    fn values(self) -> impl Iterator<Item = u32> {
+        let (from, step) = (i64::from(self.low), i64::from(self.high) - i64::from(self.low));
+        let step = if self.is_bound { step.max(1) } else { 1 };
+        (0..self.count()).map(move |index| (from + index * step) as i32 as u32)
     }
 
     fn hull(bits: u32, values: impl Iterator<Item = u32>) -> Self {
-        let start = Self { bits, low: bits as i32, high: bits as i32 };
-        values.fold(start, |hull, value| Self {
-            low: hull.low.min(value as i32),
-            high: hull.high.max(value as i32),
-            ..hull
-        })
+        let mut hull = Self::from_bits(bits);
+        let (mut second, mut is_more) = (bits, false);
+        for value in values {
+            (hull.low, hull.high) = (hull.low.min(value as i32), hull.high.max(value as i32));
+            is_more |= value != bits && second != bits && value != second;
+            second = if second == bits { value } else { second };
+        }
+        Self { is_bound: second != bits && !is_more, ..hull }
+    }
+
+    /// The same set of values by a function that keeps their order, without overflow.
+    fn moved(self, bits: u32, f: impl Fn(i64) -> i64) -> Self {
+        let moved = Self::of_wide(bits, f(i64::from(self.low)), f(i64::from(self.high)));
+        // An overflow has left all integers.
+        let fits = i64::from(moved.low) == f(i64::from(self.low)) && i64::from(moved.high) == f(i64::from(self.high));
+        Self { is_bound: self.is_bound && fits, ..moved }
     }
 
     fn tried1(self, f: impl Fn(u32) -> u32) -> Self {
@@ -62,7 +89,7 @@ impl EnvelopeInt {
         if self.count() > TRIED {
             return Self::unknown(bits);
         }
-        Self::hull(bits, (self.low..=self.high).map(|a| f(a as u32)))
+        Self::hull(bits, self.values().map(f))
     }
 
     fn tried2(self, other: Self, f: impl Fn(u32, u32) -> u32) -> Self {
@@ -70,8 +97,8 @@ impl EnvelopeInt {
         if self.count().saturating_mul(other.count()) > TRIED {
             return Self::unknown(bits);
         }
-        let pairs = (self.low..=self.high).flat_map(|a| (other.low..=other.high).map(move |b| (a, b)));
-        Self::hull(bits, pairs.map(|(a, b)| f(a as u32, b as u32)))
+        let pairs = self.values().flat_map(|a| other.values().map(move |b| (a, b)));
+        Self::hull(bits, pairs.map(|(a, b)| f(a, b)))
     }
 
     /// Computes from the corners of the box, for functions that are monotonic in each operand.
@@ -91,10 +118,10 @@ impl EnvelopeInt {
 impl Integer for EnvelopeInt {
     #[inline(always)]
     fn from_bits(bits: u32) -> Self {
-        Self { bits, low: bits as i32, high: bits as i32 }
+        Self { bits, low: bits as i32, high: bits as i32, is_bound: false }
     }
     fn with_interval(bits: u32, low: i32, high: i32) -> Self {
-        Self { bits, low: low.min(bits as i32), high: high.max(bits as i32) }
+        Self { bits, low: low.min(bits as i32), high: high.max(bits as i32), is_bound: false }
     }
     #[inline(always)]
     fn bits(self) -> u32 {
@@ -144,15 +171,19 @@ impl Integer for EnvelopeInt {
     fn shl(self, other: Self) -> Self {
         if other.is_decided() && !self.is_decided() {
             let factor = 1i64 << (other.bits & 31);
-            let bits = self.bits.wrapping_shl(other.bits);
-            return Self::of_wide(bits, i64::from(self.low) * factor, i64::from(self.high) * factor);
+            return self.moved(self.bits.wrapping_shl(other.bits), |a| a * factor);
         }
         self.lift2(other, u32::wrapping_shl)
     }
     fn shr_signed(self, other: Self) -> Self {
         if other.is_decided() {
             let shift = |a: i32| a.wrapping_shr(other.bits);
-            return Self { bits: shift(self.bits as i32) as u32, low: shift(self.low), high: shift(self.high) };
+            return Self {
+                bits: shift(self.bits as i32) as u32,
+                low: shift(self.low),
+                high: shift(self.high),
+                is_bound: self.is_bound,
+            };
         }
         self.lift2(other, |a, b| (a as i32).wrapping_shr(b) as u32)
     }
@@ -164,7 +195,15 @@ impl Integer for EnvelopeInt {
         if self.is_decided() && other.is_decided() {
             return Self::from_bool(answer);
         }
-        if self.high < other.low || other.high < self.low { Self::from_bool(false) } else { Self::undecided(answer) }
+        let is_apart = self.high < other.low || other.high < self.low;
+        if is_apart {
+            return Self::from_bool(false);
+        }
+        // Two values, or one of two.
+        if self.is_bound && (other.is_bound || other.is_decided()) {
+            return self.tried2(other, |a, b| u32::from(a == b));
+        }
+        Self::undecided(answer)
     }
     fn less_signed(self, other: Self) -> Self {
         if self.high < other.low {
@@ -191,14 +230,20 @@ impl Integer for EnvelopeInt {
     fn clamp_index(self, last: Self) -> Self {
         let most = (last.bits as i32).max(0);
         let limit = |a: i32| a.min(most).max(0);
-        Self { bits: limit(self.bits as i32) as u32, low: limit(self.low), high: limit(self.high) }
+        Self {
+            bits: limit(self.bits as i32) as u32,
+            low: limit(self.low),
+            high: limit(self.high),
+            is_bound: self.is_bound,
+        }
     }
     fn select(self, yes: Self, no: Self) -> Self {
         let (chosen, other) = if self.is_true() { (yes, no) } else { (no, yes) };
         if self.is_decided() { chosen } else { chosen.joined(other) }
     }
     fn joined(self, other: Self) -> Self {
-        Self { bits: self.bits, low: self.low.min(other.low), high: self.high.max(other.high) }
+        let is_bound = self.is_decided() && other.is_decided() && self.bits != other.bits;
+        Self { bits: self.bits, low: self.low.min(other.low), high: self.high.max(other.high), is_bound }
     }
 }
 
@@ -207,7 +252,22 @@ mod tests {
     use super::*;
 
     fn of(low: i32, high: i32) -> EnvelopeInt {
-        EnvelopeInt { bits: low as u32, low, high }
+        EnvelopeInt { bits: low as u32, low, high, is_bound: false }
+    }
+
+    #[test]
+    fn of_two_values_that_are_far_apart_nothing_is_between() {
+        const SIGN: u32 = 1 << 31;
+        let zero = EnvelopeInt::either(0, SIGN);
+        assert_eq!(zero.shr_unsigned(of(31, 31)).interval(), (0, 1));
+        let masked = zero.and(EnvelopeInt::from_bits(SIGN)).or(EnvelopeInt::from_bits(0x3f80_0000));
+        assert_eq!(masked, EnvelopeInt::either(0x3f80_0000, 0xbf80_0000));
+        assert!(zero.equal(of(5, 5)).is_decided() && !zero.equal(of(0, 0)).is_decided());
+        let choice = EnvelopeInt::from_bits(1).joined(EnvelopeInt::from_bits(1000)).shl(of(2, 2));
+        assert_eq!((choice.values().collect::<Vec<_>>(), choice.is_bound), (vec![4, 4000], true));
+        let third = choice.joined(EnvelopeInt::from_bits(7));
+        assert!(!third.is_bound && third.lift1(|a| a & 1).interval() == (i32::MIN, i32::MAX));
+        assert_eq!(EnvelopeInt::either(1, SIGN).shl(of(1, 1)).interval(), (i32::MIN, i32::MAX), "it may wrap");
     }
 
     #[test]

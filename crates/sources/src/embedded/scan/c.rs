@@ -96,10 +96,12 @@ fn joined(cursor: &mut Cursor<'_>) -> Option<Literal> {
             pass_blanks(cursor);
         }
         if cursor.byte(0) != b'"' {
-            // In a directive, `#` makes a string of a macro's argument.
+            // In a directive, `#` makes a string of a macro's argument. On the next line it begins another directive.
+            let between = cursor.text.get(end + 1..cursor.at).unwrap_or("");
+            let is_one_line = between.matches('\n').count() == between.matches('\\').count();
             let is_followed = cursor.byte(0).is_ascii_alphabetic()
                 || cursor.byte(0) == b'_'
-                || is_in_directive && cursor.byte(0) == b'#'
+                || is_in_directive && is_one_line && cursor.byte(0) == b'#'
                 || precedes_operator(cursor);
             is_known &= !is_followed;
             break;

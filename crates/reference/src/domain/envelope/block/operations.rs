@@ -31,6 +31,7 @@ impl EnvelopeBlock {
                 bits: u32::from(always | (likely & !never)),
                 low: i32::from(always),
                 high: i32::from(!never),
+                is_bound: !(always | never),
             };
         }
         answers
