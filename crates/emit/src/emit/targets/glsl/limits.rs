@@ -116,10 +116,10 @@ pub(super) fn of_330(types: &Types, shader: &Shader) -> Vec<Diagnostic> {
 }
 
 /// The functions that came after ES 3.00, or after 3.30 and without an extension, for the arguments of a call. Each with its first call.
-fn later_functions<'a>(
+fn later_functions(
     types: &Types,
     shader: &Shader,
-    exprs: &mut dyn Iterator<Item = &'a Expr>,
+    exprs: &mut dyn Iterator<Item = &Expr>,
     is_es: bool,
 ) -> Vec<(&'static str, Span)> {
     let mut found: Vec<(&'static str, Span)> = Vec::new();
