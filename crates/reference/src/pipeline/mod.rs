@@ -57,7 +57,9 @@ mod worlds;
 use super::RenderOptions;
 use super::domain::Domain;
 use super::domain::faults::{Fault, MOST_ROUNDS};
-use super::exec::{Code, Form, LOOP_BUDGET, Machine, Piece, hashed};
+#[cfg(any(test, feature = "stability"))]
+use super::exec::Form;
+use super::exec::{Code, LOOP_BUDGET, Machine, Piece, hashed};
 use super::raster::Shape;
 use assembly::Prim;
 #[cfg(any(test, feature = "stability"))]
@@ -90,8 +92,10 @@ pub(super) use watch::Chosen;
 #[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Followed;
 #[cfg(any(test, feature = "stability"))]
+pub(super) use watch::MakeObserver;
+#[cfg(any(test, feature = "stability"))]
 pub(super) use watch::Probe;
-pub(super) use watch::{MakeObserver, PixelSet, Study};
+pub(super) use watch::{PixelSet, Study};
 
 /// The side of a bin in pixels.
 #[cfg(any(test, feature = "stability"))]
