@@ -403,16 +403,23 @@ bool standardHasFresnel()
     return finish.specular_model == SPECULAR_GGX || finish.specular_model == SPECULAR_BECKMANN;
 }
 
-// The part of the light that microfacets mirror; 0 for other models, which mirror nothing away from the body. A reflectance
-// below 0.02 is none at all, also at grazing angles.
+// What microfacets mirror at grazing angles: all, as glTF 2.0 has it (appendix B.3.4), for a material by `metallic`. One that states its
+// specular color mirrors nothing there either if it is black; a reflectance below 0.02 is less than any body has.
+float standardGrazing()
+{
+    if (finish.metallic >= 0.0)
+        return 1.0;
+    return safeUnit(50.0 * safeExtent(STANDARD_MATERIAL.specular));
+}
+
+// The part of the light that microfacets mirror; 0 for other models, which mirror nothing away from the body.
 //   L, V  unit vectors towards the light and the eye
 vec3 standardFresnel(vec3 L, vec3 V)
 {
     if (!standardHasFresnel())
         return vec3(0.0);
-    vec3 F90 = vec3(safeUnit(50.0 * safeExtent(STANDARD_MATERIAL.specular)));
     float c = dot(V, halfVector(L, V));
-    vec3 F = fresnelSchlick(c, STANDARD_MATERIAL.specular, F90);
+    vec3 F = fresnelSchlick(c, STANDARD_MATERIAL.specular, vec3(standardGrazing()));
 #ifdef GLISTEN_FILM
     vec3 film = iridescenceFresnel(c, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
     F = mix(F, film, surface_film);
@@ -569,8 +576,9 @@ vec3 standardAlbedo(vec3 N, vec3 V, vec3 Kspec)
 //   N  unit normal    V  unit vector towards the eye
 vec3 standardMirrors(vec3 N, vec3 V)
 {
-    vec3 seen = STANDARD_MATERIAL.specular * 50.0;
-    vec3 albedo = min(standardAlbedo(N, V, STANDARD_MATERIAL.specular), seen);
+    vec3 albedo = standardAlbedo(N, V, STANDARD_MATERIAL.specular);
+    if (finish.metallic < 0.0)
+        albedo = min(albedo, STANDARD_MATERIAL.specular * 50.0);
 #ifdef GLISTEN_FILM
     float NV = safeUnit(dot(N, V));
     vec3 film = iridescenceFresnel(NV, 1.0, finish.film_index, surface_film_thickness, STANDARD_MATERIAL.specular);
@@ -928,11 +936,20 @@ vec3 standardGlass(vec3 N, vec3 V)
 }
 #endif
 
-// (101), linear RGB: a decal multiplies the color of the body.
-//   reflection  of all lights    decal  white for none
-vec3 standardColor(Reflection reflection, vec3 decal)
+// The light that the surface sends out, linear RGB: under a coat, without what the coat throws back.
+//   N  unit normal    V  unit vector towards the eye
+vec3 standardEmission(vec3 N, vec3 V)
 {
-    return safeLimit(safeLimit(reflection.body * decal) + safeLimit(reflection.gloss + STANDARD_MATERIAL.emission));
+    if (finish.clearcoat > 0.0)
+        return (1.0 - clearcoatWeight(STANDARD_COAT_NORMAL, V, STANDARD_COAT)) * STANDARD_MATERIAL.emission;
+    return STANDARD_MATERIAL.emission;
+}
+
+// (101), linear RGB: a decal multiplies the color of the body.
+//   reflection  of all lights    emission  of the surface    decal  white for none
+vec3 standardColor(Reflection reflection, vec3 emission, vec3 decal)
+{
+    return safeLimit(safeLimit(reflection.body * decal) + safeLimit(reflection.gloss + emission));
 }
 
 #endif

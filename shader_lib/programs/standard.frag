@@ -53,6 +53,9 @@ void main()
 #ifdef STANDARD_TANGENTS
     vec3 T = safeNormalize(along.xyz - dot(along.xyz, N) * N);
 #endif
+#ifdef GLISTEN_BRUSHED
+    float handedness = along.w;
+#endif
     vec3 smooth_normal = N;
 #ifdef GLISTEN_COAT_NORMALS
     vec3 bump = texture(clearcoat_normal_map, STANDARD_PLACE(clearcoat_normal_map)).rgb;
@@ -67,13 +70,17 @@ void main()
     if (finish.two_sided > 0.0 && !gl_FrontFacing) {
         N = -N;
         smooth_normal = -smooth_normal;
+#ifdef GLISTEN_BRUSHED
+        // The scratches are lines on the surface, the same from both sides.
+        handedness = -handedness;
+#endif
     }
 #if defined(GLISTEN_NORMALS) || defined(GLISTEN_COAT_NORMALS)
     surface_coat_normal = smooth_normal;
 #endif
     standardSurface(st, base.rgb);
 #ifdef GLISTEN_BRUSHED
-    standardBrush(st, N, T, along.w);
+    standardBrush(st, N, T, handedness);
 #endif
 #ifdef GLISTEN_FIBERS
     standardFibers(st, N, V);
@@ -88,11 +95,13 @@ void main()
         alpha = 0.0;
 #endif
 #ifdef GLISTEN_BALL
-    color = vec4(standardColor(standardBall(mat3(view) * N, mat3(view) * V), vec3(1.0)), alpha);
+    Reflection ball = standardBall(mat3(view) * N, mat3(view) * V);
+    color = vec4(standardColor(ball, STANDARD_MATERIAL.emission, vec3(1.0)), alpha);
 #else
-    color = vec4(standardColor(standardReflection(world, N, V), vec3(1.0)), alpha);
+    color = vec4(standardColor(standardReflection(world, N, V), standardEmission(N, V), vec3(1.0)), alpha);
 #endif
 #else
-    color = vec4(standardColor(standardReflection(world, N, V), texture(decal, st).rgb), 1.0);
+    vec3 emission = standardEmission(N, V);
+    color = vec4(standardColor(standardReflection(world, N, V), emission, texture(decal, st).rgb), 1.0);
 #endif
 }

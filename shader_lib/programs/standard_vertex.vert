@@ -19,9 +19,10 @@ void main()
 {
     vec3 world = (model * vec4(position, 1.0)).xyz;
     vec3 N = transformNormal(model_normal, normal);
-    Reflection reflection = standardReflection(world, N, safeNormalize(eye - world));
+    vec3 V = safeNormalize(eye - world);
+    Reflection reflection = standardReflection(world, N, V);
     body = reflection.body;
-    gloss = reflection.gloss + material.emission;
+    gloss = reflection.gloss + standardEmission(N, V);
     st = texcoord;
     gl_Position = model_view_projection * vec4(position, 1.0);
 }

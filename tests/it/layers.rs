@@ -311,3 +311,52 @@ fn mistakes_in_layers_are_told() {
     let found = told(&scene(HEAD_ON, &own, plain)).join("\n");
     assert!(found.contains("W0911") && found.contains("nothing reads the `transform`"), "{found}");
 }
+
+/// Scratches are lines on the surface: seen from behind, those of 45 degrees are those of -45 degrees seen from the front.
+#[test]
+fn a_brush_is_the_same_line_from_both_sides() {
+    let lit = |draw: &str, turn: f64| {
+        let light = "[[light]]\nkind = \"directional\"\ntowards = [0.4, 0.4, 0.8]";
+        let metal = "base_color = [1, 1, 1]\nmetallic = 1.0\nroughness = 0.5\nanisotropy = 1.0\ntwo_sided = true\n";
+        picture(&good(scene(light, draw, &format!("{metal}anisotropy_rotation = {turn:?}"))))[36]
+    };
+    let turned = "transform = { rotate = [180, 1, 0, 0] }";
+    for turn in [45.0, 20.0, -70.0] {
+        let [behind, front, mirrored] = [lit(turned, turn), lit("", -turn), lit("", turn)];
+        near(behind, [front[0], front[1], front[2]], 1e-5);
+        assert!((front[0] - mirrored[0]).abs() > 0.05, "{front:?} {mirrored:?}");
+    }
+}
+
+/// What the surface sends out comes through the coat, at each vertex and at each fragment.
+#[test]
+fn emission_is_under_the_coat() {
+    for (coat, wanted) in [(0.0, 1.0), (0.5, 0.98), (1.0, 0.96)] {
+        let found = middle(
+            "",
+            &format!("diffuse = [0, 0, 0]\nemission = [1, 0.5, 0.25]\nclearcoat = {coat:?}\nroughness = 0.5"),
+        );
+        near(found, [wanted, 0.5 * wanted, 0.25 * wanted], 1e-6);
+    }
+}
+
+/// At 80 degrees, a mirror of GGX has pi D V N.L F, and F goes to 1 whatever the reflectance at normal incidence is.
+#[test]
+fn all_is_mirrored_at_grazing_angles() {
+    let cosine = 80.0_f64.to_radians().cos();
+    let square = 0.25_f64 * 0.25;
+    let visible = 0.5 / (2.0 * cosine * (cosine * cosine * (1.0 - square) + square).sqrt());
+    let grazing = (1.0 - cosine).powi(5);
+    for base in [0.0, 0.001, 0.01, 0.04] {
+        let light = "[[light]]\nkind = \"directional\"\ntowards = [0.3420201433256687, 0, -0.9396926207859084]";
+        let draw = "transform = { rotate = [80, 0, 1, 0], scale = 8 }";
+        let material =
+            format!("base_color = [0, 0, 0]\nmetallic = 0.0\nroughness = 0.5\ndielectric = [{base}, {base}, {base}]");
+        let found = picture(&good(scene(light, draw, &material)))[36];
+        let wanted = visible / square * cosine * (base + (1.0 - base) * grazing);
+        near(found, [wanted; 3], 2e-2);
+    }
+    // A color that the scene states is none of glTF's: a black one mirrors nothing.
+    let matte = "diffuse = [0, 0, 0]\nspecular = [0, 0, 0]\nspecular_model = \"ggx\"\nroughness = 0.5";
+    near(middle(HEAD_ON, matte), [0.0; 3], 1e-9);
+}
