@@ -102,6 +102,8 @@ mod lsp_day;
 #[cfg(feature = "lsp")]
 mod lsp_edits;
 #[cfg(feature = "lsp")]
+mod lsp_folders;
+#[cfg(feature = "lsp")]
 mod lsp_shown;
 mod lsp_strings;
 #[cfg(feature = "cli")]

@@ -3,7 +3,7 @@
 //! *Holds:* the answers are those of `glisten lint`. The server reads no file and no configuration by itself.
 
 use glisten_format::{Formatted, Options};
-use glisten_front::diagnostic::Diagnostic;
+use glisten_front::diagnostic::{Code, Diagnostic};
 use glisten_front::index::Inspection;
 use glisten_front::link::Program;
 use glisten_front::source::{FileId, SourceMap};
@@ -167,6 +167,9 @@ pub trait Project: Shown {
 
     /// A file on disk with the text of an embedded module.
     fn embedded(&self, name: &str) -> Option<PathBuf>;
+
+    /// A file on disk with the page of a code.
+    fn explained(&self, code: &'static Code) -> Option<PathBuf>;
 
     /// The names of files that an include in a file could name, with or without angle brackets.
     fn include_names(&mut self, file: &Path, written: &str, angled: bool) -> Vec<String>;

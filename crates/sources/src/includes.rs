@@ -333,7 +333,7 @@ impl IncludeResolver for DiskIncludes {
 
 /// The path without `.` and without `x/..`, as far as that is possible without reading the disk (a leading `..`
 /// stays).
-fn normal(path: &Path) -> PathBuf {
+pub fn normal(path: &Path) -> PathBuf {
     let mut normal = PathBuf::new();
     for component in path.components() {
         match component {

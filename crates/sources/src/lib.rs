@@ -16,7 +16,7 @@ pub mod stages;
 
 pub use disk::{Disk, read_bounded, with_line_feeds};
 pub use host::{Search, completing};
-pub use includes::DiskIncludes;
+pub use includes::{DiskIncludes, normal};
 pub use programs::ProgramFiles;
 pub use settings::{Settings, members, parse_version};
 pub use stages::stage_of_name;

@@ -16,7 +16,7 @@ use glisten_front::diagnostic::codes::general;
 use glisten_front::hir::Stage;
 use glisten_front::source::Prelude;
 use glisten_sources::engines::{self, Profile, Style};
-use glisten_sources::{Disk, DiskIncludes, ProgramFiles, Settings, stages};
+use glisten_sources::{Disk, DiskIncludes, ProgramFiles, Settings, normal, stages};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -35,6 +35,8 @@ pub(crate) struct Engines {
     rules: Arc<Mutex<Rules>>,
     programs: ProgramFiles,
     disk: Files,
+    /// Whether files have absolute names, as the documents of an editor do.
+    is_absolute: bool,
 }
 
 /// Who reads the files that sources include.
@@ -99,11 +101,11 @@ impl Engines {
         Ok(Self { flags: Arc::new(flags), ..Self::default() })
     }
 
-    /// These engines, for which `disk` reads the files that sources include.
+    /// These engines for an editor: `disk` reads what sources include and what stands before them, by absolute paths.
     #[cfg(feature = "lsp")]
     #[must_use]
     pub(crate) fn with_disk(self, disk: Arc<dyn Disk>) -> Self {
-        Self { disk: Files(disk), ..self }
+        Self { disk: Files(disk), is_absolute: true, ..self }
     }
 
     /// These engines, with settings for sources about whose engine and version nothing else is said.
@@ -115,12 +117,53 @@ impl Engines {
     /// The folders in which the includes of a file are searched.
     #[cfg(feature = "lsp")]
     pub(crate) fn folders(&self, file: &Path) -> Vec<PathBuf> {
-        self.settings(Some(file)).folders
+        self.settings(Some(file)).folders.iter().map(|folder| self.placed(folder)).collect()
+    }
+
+    /// The paths of the preludes of a file.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn preludes(&self, file: &Path) -> Vec<PathBuf> {
+        self.settings(Some(file)).preludes.iter().map(|prelude| self.placed(Path::new(&prelude.name))).collect()
+    }
+
+    /// Whether a file is the prelude of sources whose settings were asked for.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn is_prelude(&self, file: &Path) -> bool {
+        let is_it = |prelude: &Prelude| self.placed(Path::new(&prelude.name)) == file;
+        let known = self.rules.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut rules = known.by_file.values().flat_map(|(rules, _)| rules.iter());
+        self.flags.preludes.iter().any(is_it) || rules.any(|rule| rule.preludes.iter().any(is_it))
     }
 
     /// The resolver of includes for sources that no engine completes.
     pub(crate) fn includes(&self) -> DiskIncludes {
-        DiskIncludes::new(Arc::clone(&self.disk.0), self.flags.folders.clone(), Style::Quote, &[])
+        let folders = self.flags.folders.iter().map(|folder| self.placed(folder)).collect();
+        DiskIncludes::new(Arc::clone(&self.disk.0), folders, Style::Quote, &[])
+    }
+
+    /// A path of a flag or a table, absolute where files have absolute names.
+    fn placed(&self, path: &Path) -> PathBuf {
+        if !self.is_absolute {
+            return path.to_owned();
+        }
+        std::path::absolute(path).map_or_else(|_| path.to_owned(), |path| normal(&path))
+    }
+
+    /// Settings with the names that files have here, and with preludes as they are now: an editor may have them open.
+    fn as_named(&self, mut settings: Settings) -> Settings {
+        if !self.is_absolute {
+            return settings;
+        }
+        for folder in &mut settings.folders {
+            *folder = self.placed(folder);
+        }
+        for prelude in &mut settings.preludes {
+            let path = self.placed(Path::new(&prelude.name));
+            if let Ok(text) = self.disk.0.text(&path) {
+                *prelude = Prelude { name: path.to_string_lossy().into_owned(), text };
+            }
+        }
+        settings
     }
 
     /// The rules for a folder.
@@ -253,7 +296,7 @@ impl Preparation for Engines {
             return Prepared::default();
         }
         let path = (source.name != STDIN).then(|| Path::new(source.name.as_str()));
-        self.settings(path).complete(source, path, Arc::clone(&self.disk.0))
+        self.as_named(self.settings(path)).complete(source, path, Arc::clone(&self.disk.0))
     }
 
     fn with_settings(&self, settings: &SourceSettings) -> Option<Arc<dyn Preparation + Send + Sync>> {

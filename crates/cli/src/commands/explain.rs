@@ -64,7 +64,7 @@ fn first_sentence(page: &str) -> &str {
 }
 
 /// The printed page: heading, meaning, section, examples.
-fn page(code: &Code) -> String {
+pub(crate) fn page(code: &Code) -> String {
     let mut text = format!("{} {} ({})\n\n{}\n", code.id, code.name, code.severity, wrap(code.page));
     if !code.section.is_empty() {
         text.push_str(&format!("\nSpecification: {}\n", code.section));

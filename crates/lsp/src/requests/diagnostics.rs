@@ -6,24 +6,21 @@
 use crate::analysis::Analysis;
 use crate::state::State;
 use crate::uri;
-use glisten_front::diagnostic::{Diagnostic as Finding, Severity};
+use glisten_front::diagnostic::{Code, Diagnostic as Finding, Severity};
 use glisten_front::source::{SourceMap, Span};
 use lsp_types::{
     CodeDescription, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag,
     DocumentDiagnosticParams, DocumentDiagnosticReport, DocumentDiagnosticReportKind, DocumentDiagnosticReportResult,
     FullDocumentDiagnosticReport, Location, NumberOrString, RelatedFullDocumentDiagnosticReport,
-    RelatedUnchangedDocumentDiagnosticReport, UnchangedDocumentDiagnosticReport, Uri,
+    RelatedUnchangedDocumentDiagnosticReport, UnchangedDocumentDiagnosticReport,
 };
 use std::collections::{BTreeMap, HashSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
-use std::str::FromStr;
 
 /// The name of the program in an editor's list.
 pub(crate) const SOURCE: &str = "glisten";
-/// The pages of the codes.
-const CODES: &str = concat!("https://docs.rs/glisten-front/", env!("CARGO_PKG_VERSION"), "/glisten_front/?search=");
 /// A file has at most this many diagnostics.
 const MAX_IN_FILE: usize = 500;
 
@@ -106,7 +103,7 @@ pub(super) fn diagnostic(state: &State<'_>, analysis: &Analysis, finding: &Findi
         range,
         severity: Some(severity(finding.severity)),
         code: Some(NumberOrString::String(finding.code.id.to_owned())),
-        code_description: page(finding.code.id),
+        code_description: page(state, finding.code),
         source: Some(SOURCE.to_owned()),
         message: message(finding, state.client.relates),
         related_information: (state.client.relates && !related.is_empty()).then_some(related),
@@ -115,8 +112,8 @@ pub(super) fn diagnostic(state: &State<'_>, analysis: &Analysis, finding: &Findi
     }
 }
 
-fn page(code: &str) -> Option<CodeDescription> {
-    Uri::from_str(&format!("{CODES}{code}")).ok().map(|href| CodeDescription { href })
+fn page(state: &State<'_>, code: &'static Code) -> Option<CodeDescription> {
+    uri::of(&state.project.explained(code)?).map(|href| CodeDescription { href })
 }
 
 fn severity(severity: Severity) -> DiagnosticSeverity {

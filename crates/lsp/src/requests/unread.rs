@@ -1,12 +1,13 @@
 //! Text that the compiler does not read, in renames: what conditions leave out, and macros that nothing uses.
 //!
-//! *Holds:* a name there is taken for the renamed one where that is in sight. A rename after which a name there would denote something
-//! else is refused; what is not known for sure is taken for such a name.
+//! *Holds:* a name there is taken for the renamed one where that is in sight, from the condition on that chooses between its declarations.
+//! A rename after which a name there would denote something else is refused; what is not known for sure, such as which overload is
+//! called, is taken for such a name.
 
 use super::calls::function_around;
 use crate::analysis::{Analysis, Place};
 use glisten_front::analysis::Denoted;
-use glisten_front::index::{Occurrence, Symbol, SymbolKind};
+use glisten_front::index::{Occurrence, Symbol, SymbolId, SymbolKind};
 use glisten_front::source::{FileId, Span};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -41,6 +42,8 @@ pub(super) fn unread(analysis: &Analysis, places: &[(Place, Occurrence)], names:
     let Some((_, first)) = places.first() else { return found };
     let symbol = analysis.symbol(first.symbol);
     let is_member = matches!(symbol.places.first(), Some((_, Denoted::Member(..))));
+    let body = symbol.declarations.first().filter(|_| is_member).and_then(|declared| braces(analysis, *declared));
+    let is_one_of_several = has_namesake(analysis, first.symbol);
     let Some(reach) = reach(analysis, symbol, places) else { return found };
     for (file, range, is_left_out) in texts(analysis) {
         let name = analysis.sources().file(file).name();
@@ -49,7 +52,15 @@ pub(super) fn unread(analysis: &Analysis, places: &[(Place, Occurrence)], names:
             continue;
         }
         let of_word = |word: &str| words(analysis, file, &range, word, is_member);
-        let own = if is_shared { of_word(names.old) } else { Vec::new() };
+        let mut own = if is_shared { of_word(names.old) } else { Vec::new() };
+        if is_left_out && is_one_of_several {
+            found.captured = found.captured.or(own.first().cloned());
+        }
+        if let Some((_, body)) = body.as_ref().filter(|(declared, _)| *declared == file) {
+            // Another declaration of the member.
+            let others = words(analysis, file, &range, names.old, false);
+            own.extend(others.into_iter().filter(|place| body.contains(&place.start)));
+        }
         if is_left_out && !is_member {
             let other = captors(analysis, names.new).into_iter().flat_map(|word| of_word(&word)).next();
             let is_hidden = !own.is_empty() && has_local(analysis, file, &range, names.new);
@@ -83,8 +94,61 @@ fn reach(analysis: &Analysis, symbol: &Symbol, places: &[(Place, Occurrence)]) -
         return Some(Reach::All);
     }
     let declared = analysis.sources().call_site(*symbol.declarations.first()?);
-    let function = function_around(analysis, declared).map(|(_, whole)| Span::new(declared.start, whole.end));
-    Some(function.map_or_else(|| Reach::All, Reach::Local))
+    let Some((_, whole)) = function_around(analysis, declared) else { return Some(Reach::All) };
+    let start = choice_around(analysis, declared, whole).unwrap_or(declared.start);
+    Some(Reach::Local(Span::new(start, whole.end)))
+}
+
+/// Where the conditions begin that choose between a declaration and others in its place, and end inside of its function.
+fn choice_around(analysis: &Analysis, declared: Span, function: Span) -> Option<u32> {
+    let (file, place) = analysis.place(declared)?;
+    let source = analysis.sources().file(file);
+    let end = (function.end.checked_sub(source.base())?) as usize;
+    let is_around = |group: &Range<usize>| group.contains(&place.start) && group.end <= end;
+    let start = groups(source.text()).into_iter().filter(is_around).map(|group| group.start).min()?;
+    Some(source.base() + start as u32)
+}
+
+/// The ranges from each `#if` to its `#endif`.
+fn groups(text: &str) -> Vec<Range<usize>> {
+    let (mut groups, mut open, mut at) = (Vec::new(), Vec::new(), 0);
+    for line in text.split_inclusive('\n') {
+        let word = line.trim_start().strip_prefix('#').map_or("", str::trim_start);
+        if word.starts_with("if") {
+            open.push(at);
+        }
+        at += line.len();
+        if word.starts_with("endif") {
+            groups.extend(open.pop().map(|start| start..at));
+        }
+    }
+    groups
+}
+
+/// The inside of the braces around a declaration.
+fn braces(analysis: &Analysis, declared: Span) -> Option<(FileId, Range<usize>)> {
+    let (file, place) = analysis.place(declared)?;
+    let text = analysis.sources().file(file).text();
+    let start = text.get(..place.start)?.rfind('{')?;
+    let end = place.end + text.get(place.end..)?.find('}')?;
+    Some((file, start..end))
+}
+
+/// Whether a text that names a symbol may mean another one of its name: an overload, or the member of another struct.
+fn has_namesake(analysis: &Analysis, id: SymbolId) -> bool {
+    let is_member = |symbol: &Symbol| match symbol.places.first() {
+        Some((_, Denoted::Member(..))) => Some(true),
+        Some((_, Denoted::Function(_))) => Some(false),
+        _ => None,
+    };
+    let symbol = analysis.symbol(id);
+    let Some(own) = is_member(symbol) else { return false };
+    let meets =
+        |other: &Symbol| other.places.iter().any(|(view, _)| symbol.places.iter().any(|(known, _)| known == view));
+    let is_one = |(other, found): (SymbolId, &Symbol)| {
+        other != id && found.name == symbol.name && is_member(found) == Some(own) && meets(found)
+    };
+    analysis.index().symbols().any(is_one)
 }
 
 impl Reach {

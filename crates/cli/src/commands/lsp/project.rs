@@ -9,6 +9,7 @@ use crate::arguments::config;
 use crate::arguments::engine::{Engines, Traced};
 use crate::baseline::{Baseline, BaselineArgs};
 use crate::batch::Batch;
+use crate::commands::explain::page;
 use crate::commands::fmt;
 use crate::commands::lsp::drawing::Drawing;
 use crate::commands::lsp::files::{Includes, listed, scenes};
@@ -33,6 +34,7 @@ use glisten_front::source::{SourceMap, Span};
 use glisten_lsp::{Compiled, Overlay, Piece, ProgramKey, Project};
 use glisten_sources::embedded::{Filling, Host, styled};
 use glisten_sources::{Disk, stages};
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -69,6 +71,8 @@ pub(crate) struct Files<'a> {
     includes: Includes,
     /// The folders whose configurations count.
     folders: BTreeSet<PathBuf>,
+    /// The files with the pages of codes, as far as they were asked for.
+    pages: RefCell<BTreeMap<&'static str, Option<PathBuf>>>,
 }
 
 /// The scenes of folders, and when they were read.
@@ -113,7 +117,7 @@ impl<'a> Files<'a> {
     ) -> Result<Self, Failure> {
         let overlay = Overlay::default();
         let session = session(console, sources, levels, bindings, &overlay)?;
-        let (groups, includes, folders) = Default::default();
+        let (groups, includes, folders, pages) = Default::default();
         let (chosen, drawing, scenes, baselines, judged) = Default::default();
         Ok(Self {
             chosen,
@@ -131,6 +135,7 @@ impl<'a> Files<'a> {
             groups,
             includes,
             folders,
+            pages,
         })
     }
 
@@ -145,6 +150,18 @@ impl<'a> Files<'a> {
     /// The macros of the command line.
     pub(crate) fn given(&self) -> BTreeSet<String> {
         self.sources.defines.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    /// The files that may include a file, and those that it stands before.
+    fn readers_of(&self, file: &Path) -> Vec<PathBuf> {
+        let mut readers = self.includes.of(file);
+        let engines = self.session.engines();
+        if engines.is_prelude(file) {
+            let is_reader =
+                |path: &&PathBuf| *path != file && engines.preludes(path).iter().any(|prelude| prelude == file);
+            readers.extend(self.includes.files().filter(is_reader).cloned());
+        }
+        readers
     }
 
     fn note_folder(&mut self, file: &Path) {
@@ -288,6 +305,21 @@ fn read_at<'g>(group: &'g Group, file: &Path, text: &Arc<str>) -> Option<(&'g In
     read.max_by_key(|(_, text)| text.trim_end().len())
 }
 
+/// The folder of texts of the program that an editor shows.
+fn texts_folder() -> Option<PathBuf> {
+    let folder = std::env::temp_dir().join(concat!("glisten-", env!("CARGO_PKG_VERSION")));
+    std::fs::create_dir_all(&folder).ok()?;
+    Some(folder)
+}
+
+/// Writes a file, unless it has this text already.
+fn keep_text(path: &Path, text: &[u8]) -> Option<()> {
+    if std::fs::read(path).ok().as_deref() == Some(text) {
+        return Some(());
+    }
+    files::replace(path, text).ok()
+}
+
 fn session<'a>(
     console: &'a Console,
     sources: &SourceArgs,
@@ -332,7 +364,7 @@ impl Project for Files<'_> {
             self.includes.add(folder);
         }
         let mut keys: Vec<ProgramKey> = Vec::new();
-        for includer in self.includes.of(file) {
+        for includer in self.readers_of(file) {
             if keys.len() >= MAX_INCLUDERS {
                 break;
             }
@@ -350,7 +382,7 @@ impl Project for Files<'_> {
             self.includes.add(folder);
         }
         let mut keys: BTreeSet<ProgramKey> = BTreeSet::new();
-        for includer in self.includes.of(file) {
+        for includer in self.readers_of(file) {
             if !self.has_word(&includer, &|word| words.contains(&word)) {
                 continue;
             }
@@ -572,16 +604,21 @@ impl Project for Files<'_> {
     fn embedded(&self, name: &str) -> Option<PathBuf> {
         let file = name.strip_prefix("<glisten>/")?;
         glisten_library::modules().iter().find(|module| file.strip_suffix(".glsl") == Some(module.name))?;
-        let folder = std::env::temp_dir().join(concat!("glisten-", env!("CARGO_PKG_VERSION")));
-        std::fs::create_dir_all(&folder).ok()?;
+        let folder = texts_folder()?;
         // Modules include each other.
         for module in glisten_library::modules() {
-            let path = folder.join(format!("{}.glsl", module.name));
-            if std::fs::read(&path).ok().as_deref() != Some(module.text.as_bytes()) {
-                files::replace(&path, module.text.as_bytes()).ok()?;
-            }
+            keep_text(&folder.join(format!("{}.glsl", module.name)), module.text.as_bytes())?;
         }
         Some(folder.join(file))
+    }
+
+    fn explained(&self, code: &'static Code) -> Option<PathBuf> {
+        let write = || {
+            let path = texts_folder()?.join(format!("{}.txt", code.id));
+            keep_text(&path, page(code).as_bytes())?;
+            Some(path)
+        };
+        self.pages.borrow_mut().entry(code.id).or_insert_with(write).clone()
     }
 
     fn include_names(&mut self, file: &Path, written: &str, angled: bool) -> Vec<String> {

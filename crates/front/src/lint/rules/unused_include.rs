@@ -109,8 +109,9 @@ fn words(lexemes: &Lexemes) -> Vec<String> {
             let directive = lexemes.tokens().get(index + 1).map_or("", |word| lexemes.spelling(word));
             in_include = Lexemes::begins_directive(token) && matches!(directive, "include" | "import" | "moj_import");
         }
-        if !in_include && seen.insert(lexemes.spelling(token)) {
-            words.push(lexemes.spelling(token).to_owned());
+        let word = lexemes.spelling(token);
+        if !in_include && !(is_swizzle(word) && is_after_dot(lexemes, index)) && seen.insert(word) {
+            words.push(word.to_owned());
         }
     }
     words
@@ -143,7 +144,7 @@ fn names(lexemes: &Lexemes) -> Vec<&str> {
                 braces -= 1;
                 in_function &= braces > 0;
             }
-            TokenKind::Word if parentheses == 0 && !in_function => names.push(at(0)),
+            TokenKind::Word if parentheses == 0 && !in_function && !is_after_dot(lexemes, index) => names.push(at(0)),
             _ => {}
         }
         index += 1;
@@ -159,6 +160,14 @@ fn is_of_language(word: &str) -> bool {
         || word.starts_with("GL_")
         || keywords::TABLE.iter().any(|row| row.spelling == word)
         || !functions::named(word).is_empty()
-        // Components and one-letter names say nothing.
-        || word.len() <= 4 && word.bytes().all(|byte| b"xyzwrgbastpq".contains(&byte))
+}
+
+/// Whether a word may select components, which names nothing.
+fn is_swizzle(word: &str) -> bool {
+    word.len() <= 4 && word.bytes().all(|byte| b"xyzwrgbastpq".contains(&byte))
+}
+
+fn is_after_dot(lexemes: &Lexemes, index: usize) -> bool {
+    let before = index.checked_sub(1).and_then(|index| lexemes.tokens().get(index));
+    before.is_some_and(|token| token.kind == TokenKind::Dot)
 }
