@@ -62,10 +62,13 @@ struct Finish {
     // The strength of a coat of lacquer, and its roughness.
     float clearcoat;
     float clearcoat_roughness;
-#ifdef GLISTEN_SURFACE
-    // The color before its parts are told apart, linear RGB, and how metallic it is; below 0 for a material that is not by this model.
-    vec3 base_color;
+    // How metallic the base color is; below 0 for a material that is not by this model.
     float metallic;
+#ifdef GLISTEN_SURFACE
+    // The color before its parts are told apart, linear RGB.
+    vec3 base_color;
+    // 1 for a material that states its ambient reflectance, which otherwise is the diffuse one.
+    float own_ambient;
     // What a part that is no metal mirrors at normal incidence.
     vec3 dielectric;
     // How much of the base color covers what is behind it, below 0 for all; above 0, the value below which nothing is drawn.

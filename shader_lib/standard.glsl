@@ -234,7 +234,7 @@ void standardSurface(vec2 st, vec3 base)
         vec3 color = finish.base_color * base;
         float metallic = safeUnit(finish.metallic * rough.b);
         surface.diffuse = color * (1.0 - metallic);
-        surface.ambient = surface.diffuse;
+        surface.ambient = finish.own_ambient > 0.0 ? material.ambient * base : surface.diffuse;
         vec3 dielectric = finish.dielectric;
 #ifdef GLISTEN_DIELECTRIC_MAPS
         dielectric *= texture(dielectric_map, STANDARD_PLACE(dielectric_map)).rgb;
@@ -432,7 +432,7 @@ vec3 standardFresnel(vec3 L, vec3 V)
 vec3 standardLeft(vec3 mirrored)
 {
 #ifdef GLISTEN_FILM
-    return vec3(1.0 - safeUnit(safeExtent(mirrored)));
+    return mix(1.0 - mirrored, vec3(1.0 - safeUnit(safeExtent(mirrored))), surface_film);
 #else
     return 1.0 - mirrored;
 #endif
@@ -861,6 +861,9 @@ Reflection standardLight(Light one, vec3 P, vec3 N, vec3 V)
     float cspot = lightBeam(one, L);
     vec3 fresnel = standardFresnel(L, V);
     vec3 Iamb = ambient(STANDARD_MATERIAL.ambient, one.ambient);
+#ifdef GLISTEN_SURFACE
+    Iamb *= surface_occlusion;
+#endif
     vec3 Idiff = safeLimit(standardBody(N, L, V) * one.diffuse * standardLeft(fresnel));
 #ifdef GLISTEN_GLASS
     Idiff = safeLimit(Idiff + safeLimit(standardThrough(N, L, V) * one.diffuse));

@@ -360,3 +360,39 @@ fn all_is_mirrored_at_grazing_angles() {
     let matte = "diffuse = [0, 0, 0]\nspecular = [0, 0, 0]\nspecular_model = \"ggx\"\nroughness = 0.5";
     near(middle(HEAD_ON, matte), [0.0; 3], 1e-9);
 }
+
+/// A key with the value that it has without it changes nothing, whatever program it chooses.
+#[test]
+fn neutral_keys_change_no_picture() {
+    let light = "[[light]]\nkind = \"directional\"\ntowards = [0.6, 0, 0.8]\nambient = [0.25, 0.5, 1]";
+    let white = "{ width = 1, height = 1, values = [1, 1, 1, 1] }";
+    for base in [
+        "base_color = [1, 0.5, 0.2]\nmetallic = 0.5\nroughness = 0.5\n",
+        "base_color = [1, 0.5, 0.2]\nmetallic = 0.25\nambient = [0.1, 0.2, 0.3]\nemission = [0.1, 0, 0]\n",
+        "diffuse = [0.5, 0.25, 0.1]\nspecular = [0.5, 0.5, 0.5]\nambient = [0.1, 0.2, 0.3]\n",
+    ] {
+        let bare = middle(light, base);
+        let maps = ["occlusion_map", "emission_map", "metallic_roughness"].map(|map| format!("{map} = {white}"));
+        let keys =
+            ["two_sided = true", "iridescence = 0.0", "iridescence = 1e-12", "sheen = [0, 0, 0]", "transmission = 0.0"];
+        for key in keys.into_iter().chain(maps.iter().map(String::as_str)) {
+            let found = middle(light, &format!("{base}{key}"));
+            assert!(
+                found.iter().zip(bare).all(|(found, bare)| (found - bare).abs() < 1e-6),
+                "{key}: {found:?} {bare:?}"
+            );
+        }
+    }
+}
+
+/// Occlusion takes ambient light, whichever light it is of.
+#[test]
+fn occlusion_takes_the_ambient_light_of_lights() {
+    let light = "[[light]]\nkind = \"directional\"\ntowards = [0, 0, 1]\ncolor = [0, 0, 0]\nambient = [1, 0.5, 0.25]";
+    let material = |red: f64| {
+        format!("diffuse = [0.5, 0.5, 0.5]\nocclusion_map = {{ width = 1, height = 1, values = [{red:?}, 0, 0, 1] }}")
+    };
+    for red in [0.0, 0.5, 1.0] {
+        near(middle(light, &material(red)), [0.5 * red, 0.25 * red, 0.125 * red], 1e-6);
+    }
+}

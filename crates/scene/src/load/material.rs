@@ -199,6 +199,7 @@ pub(super) fn load_material<'t, 'i>(
         ("finish.specular_model", Member::Int(specular_model as i32)),
         ("finish.base_color", Member::Vector(base)),
         ("finish.metallic", Member::Float(parted)),
+        ("finish.own_ambient", Member::Float(f64::from(u8::from(table.contains_key("ambient"))))),
         ("finish.dielectric", Member::Vector(dielectric)),
         (
             "finish.alpha",
