@@ -1,6 +1,6 @@
 //! Tests of the lint rules: their pages' examples, their fixtures, and no warnings on ordinary programs.
 
-use crate::cli::Folder;
+use crate::cli::{Folder, codes};
 use crate::support::{Settings, Shader, library_compiler, root, shaders_under};
 use glisten::{Compiler, Options, Source};
 use glisten_front::diagnostic::{Code, Example, Level, Levels, Severity};
@@ -263,4 +263,23 @@ fn a_divergent_derivative_is_told_in_its_own_words() {
     assert!(told("texture(t, p)").contains("level of detail") && told("texture(t, p)").contains("Lod"));
     let derivative = told("dFdx(p.x)");
     assert!(derivative.contains("derivative") && !derivative.contains("level") && !derivative.contains("Lod"));
+}
+
+/// A word of letters that swizzles have is a name where no dot is before it.
+#[test]
+fn an_include_is_used_by_names_that_look_like_swizzles() {
+    let header =
+        b"#define g(a) (a * 2.0)\nfloat sat(float a) { return clamp(a, 0.0, 1.0); }\nconst vec3 st = vec4(1.0).xyz;\n";
+    let shader = |use_: &str| {
+        format!(
+            "#version 330\n#extension GL_ARB_shading_language_include : require\n#include \"xy.glsl\"\nuniform vec4 u;\nout vec4 c;\nvoid main() {{ c = vec4({use_}); }}\n"
+        )
+    };
+    for (use_, is_used) in
+        [("sat(u.x)", true), ("g(u.x)", true), ("vec4(st, 1.0)", true), ("u.st.xyxy", false), ("u.g", false)]
+    {
+        let folder = Folder::new(&[("xy.glsl", header), ("b.frag", shader(use_).as_bytes())]);
+        let (found, _) = folder.lint(&["b.frag", "--warn", "L0059"]);
+        assert_eq!(!codes(&found).contains(&"L0059"), is_used, "{use_}: {found:?}");
+    }
 }

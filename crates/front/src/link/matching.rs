@@ -39,15 +39,15 @@ impl<'a> Outputs<'a> {
         Self { producer, by_name, by_location }
     }
 
-    /// The output that feeds an input: one of the same explicit location (GLSL 4.10 §4.4.1), or else of the same name
-    /// and kind, unless both state locations, which then differ.
+    /// The output that feeds an input: one of the same explicit location (GLSL 4.10 §4.4.1), or, if neither has one, of the
+    /// same name and kind (OpenGL 4.5 §7.4.1).
     pub(super) fn partner(&self, input: &Global) -> Option<(GlobalId, &'a Global)> {
         let is_block = input.block.is_some();
         let by_location = || self.by_location.get(&(input.location?, input.component.unwrap_or(0), is_block));
         let by_name = || {
             let id = self.by_name.get(&(input.match_name(), is_block))?;
-            let differs = input.location.is_some() && self.producer.global(*id).location.is_some();
-            (!differs).then_some(id)
+            let has_none = input.location.is_none() && self.producer.global(*id).location.is_none();
+            has_none.then_some(id)
         };
         let id = *by_location().or_else(by_name)?;
         Some((id, self.producer.global(id)))
@@ -145,12 +145,22 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
                     false => format!("at location {there}, not {here}"),
                 }
             }
+            (Storage::Out, None, Some(here)) if is_same_kind(other, input) => {
+                format!("without a location, and not at location {here}")
+            }
+            (Storage::Out, Some(there), None) if is_same_kind(other, input) => {
+                format!("at location {there}, and the input has none")
+            }
             _ => format!("as {}", describe_other(other)),
         };
         diagnostic = diagnostic.label(other.span, format!("the {stage} stage has `{}` {what}", other.match_name()));
     }
-    // Another name mends nothing where both have a location.
-    let outputs: Vec<&Global> = outputs.into_iter().filter(|output| !is_at(output) || !is_at(input)).collect();
+    if let Some(location) = same_name.and_then(|other| mixed_location(other, input)) {
+        ctx.report(diagnostic.help(format!("write `layout(location = {location})` in both stages, or in none")));
+        return;
+    }
+    // Another name mends nothing where one has a location.
+    let outputs: Vec<&Global> = outputs.into_iter().filter(|output| !is_at(output) && !is_at(input)).collect();
     let near = did_you_mean(name, outputs.iter().map(|output| output.match_name()));
     let near = near.and_then(|near| outputs.iter().copied().find(|output| output.match_name() == near));
     if let Some(output) = near.or_else(|| only_unread(ctx.types, &outputs, consumer, input)) {
@@ -165,6 +175,20 @@ fn no_partner(ctx: &mut Linker<'_>, producer: &Shader, consumer: &Shader, input:
             .help(format!("declare it in the {stage} stage: `{}`", declaration(ctx.types, producer, consumer, input)));
     }
     ctx.report(diagnostic);
+}
+
+/// Whether both are blocks, or neither is.
+fn is_same_kind(output: &Global, input: &Global) -> bool {
+    output.block.is_some() == input.block.is_some()
+}
+
+/// The location that one of an output and an input states, and the other one does not.
+fn mixed_location(output: &Global, input: &Global) -> Option<u32> {
+    let is_mixed = output.storage == Storage::Out && is_same_kind(output, input);
+    match (output.location, input.location) {
+        (Some(location), None) | (None, Some(location)) if is_mixed => Some(location),
+        _ => None,
+    }
 }
 
 /// Whether a variable that is no block has an explicit location.
@@ -216,7 +240,8 @@ fn declaration(types: &Types, producer: &Shader, consumer: &Shader, input: &Glob
     let sampling = input.sampling.prefix();
     // The versions before 1.30 and ES 3.00 have no `out` there (1.20 §4.3.6).
     let word = if producer.version.has(Feature::InOut) { "out" } else { "varying" };
-    format!("{}{sampling}{word} {} {};", interpolation_prefix(input), types.name(ty), input.name)
+    let place = input.location.map_or_else(String::new, |location| format!("layout(location = {location}) "));
+    format!("{place}{}{sampling}{word} {} {};", interpolation_prefix(input), types.name(ty), input.name)
 }
 
 fn interpolation_prefix(global: &Global) -> String {
