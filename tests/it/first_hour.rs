@@ -526,6 +526,13 @@ fn a_search_passes_over_what_is_ignored() {
     }
     fs::write(folder.path("glisten.toml"), "exclude = [\"third\", \"gen\"]\n").expect("written");
     assert_eq!(folder.lint(&["."]).1, 0);
+    // What a folder's pattern excludes, no pattern below it brings back, as in `.gitignore`.
+    for (patterns, errors) in
+        [("\"third/\", \"!third/party\", \"gen\"", 0), ("\"third/*\", \"!third/party\", \"gen\"", 1)]
+    {
+        fs::write(folder.path("glisten.toml"), format!("exclude = [{patterns}]\n")).expect("written");
+        assert_eq!(folder.lint(&["."]).1, errors, "{patterns}");
+    }
     fs::write(folder.path("glisten.toml"), "exclude = [\"{a\"]\n").expect("written");
     let (list, _) = folder.lint(&["a.frag"]);
     assert_eq!(codes(&list), ["E0015"], "{list:#?}");

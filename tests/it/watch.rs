@@ -68,6 +68,35 @@ fn a_command_runs_again_after_a_change() {
     drop(running);
 }
 
+/// The file that the output is redirected to is in the folder that is watched.
+#[cfg(unix)]
+#[test]
+fn a_redirected_output_starts_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shader = folder.path().join("a.frag");
+    fs::write(&shader, "#version 150\nvoid main() {}\n").expect("the folder can be written to");
+    let log = folder.path().join("log.txt");
+    let (output, messages) = (fs::File::create(&log), fs::OpenOptions::new().append(true).open(&log));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_glisten"));
+    command.current_dir(folder.path()).args(["watch", "lint", "."]);
+    command.stdout(output.expect("a file")).stderr(messages.expect("a file"));
+    let running = Running(command.spawn().expect("the program starts"));
+    let runs = || fs::read_to_string(&log).expect("it is there").matches("Watching").count();
+    let wait = |count: usize| {
+        let start = std::time::Instant::now();
+        while runs() < count {
+            assert!(start.elapsed() < Duration::from_secs(60), "{:?}", fs::read_to_string(&log));
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    };
+    wait(1);
+    std::thread::sleep(Duration::from_millis(1000));
+    assert_eq!(runs(), 1, "{:?}", fs::read_to_string(&log));
+    fs::write(&shader, "#version 150\nvoid main() { }\n").expect("the folder can be written to");
+    wait(2);
+    drop(running);
+}
+
 /// Files that a command reads need not be in the folders that it names.
 #[test]
 fn files_elsewhere_are_watched() {

@@ -183,10 +183,15 @@ impl Excludes {
     fn has(&mut self, path: &Path, is_folder: bool) -> bool {
         let Some(file) = self.nearest.of(path.parent().unwrap_or(Path::new(""))) else { return false };
         let patterns = self.by_file.entry(file).or_insert_with_key(|file| config::excluded(file));
-        patterns.as_ref().is_some_and(|patterns| {
-            let absolute = files::real(path);
-            absolute.starts_with(patterns.path())
-                && patterns.matched_path_or_any_parents(&absolute, is_folder).is_ignore()
-        })
+        patterns.as_ref().is_some_and(|patterns| is_excluded(patterns, &files::real(path), is_folder))
     }
+}
+
+/// Whether patterns exclude a file or folder, or one of the folders that it is in, of which none brings it back: "It is not possible to
+/// re-include a file if a parent directory of that file is excluded" (gitignore).
+fn is_excluded(patterns: &Gitignore, path: &Path, is_folder: bool) -> bool {
+    let Ok(below) = path.strip_prefix(patterns.path()) else { return false };
+    let mut ancestors: Vec<&Path> = below.ancestors().filter(|part| !part.as_os_str().is_empty()).collect();
+    ancestors.reverse();
+    ancestors.iter().any(|part| patterns.matched(part, is_folder || *part != below).is_ignore())
 }

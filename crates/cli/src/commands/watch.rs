@@ -2,8 +2,8 @@
 //!
 //! *In:* a command with its arguments. *Out:* what the command prints and writes, each time. *Holds:* the folders of all files
 //! and folders among the arguments are watched, with everything below them, and so is each file elsewhere that the last run read or
-//! looked for. What the command writes to its `-o`, and hidden files that it does not read, start nothing. Changes that follow each
-//! other closely are one. Ctrl-C ends it.
+//! looked for. What the command writes to its `-o`, the file that its output is redirected to, and hidden files that it does not read,
+//! start nothing. Changes that follow each other closely are one. Ctrl-C ends it.
 
 use crate::commands::examples::Examples;
 use crate::console::Console;
@@ -192,6 +192,25 @@ fn watched(arguments: &[OsString]) -> Watched {
     Watched { folders, outputs, ..Watched::default() }
 }
 
+/// Whether standard output or the messages go to a file.
+#[cfg(unix)]
+fn is_redirected(path: &Path) -> bool {
+    use std::os::fd::AsFd;
+    use std::os::unix::fs::MetadataExt;
+    let Ok(there) = path.metadata() else { return false };
+    let (output, messages) = (std::io::stdout(), std::io::stderr());
+    [output.as_fd(), messages.as_fd()].into_iter().any(|stream| {
+        let open = stream.try_clone_to_owned().and_then(|owned| std::fs::File::from(owned).metadata());
+        open.is_ok_and(|open| open.is_file() && (open.dev(), open.ino()) == (there.dev(), there.ino()))
+    })
+}
+
+/// Whether standard output or the messages go to a file, which is not known here.
+#[cfg(not(unix))]
+fn is_redirected(_: &Path) -> bool {
+    false
+}
+
 /// Waits for a change, and for the changes right behind it. `None` if there will be no more.
 fn next_change(changes: &Receiver<Event>, watched: &Watched) -> Option<PathBuf> {
     loop {
@@ -221,7 +240,7 @@ impl Watched {
             self.below(&path).is_some_and(|below| !below.components().any(is_hidden))
                 && !path.to_string_lossy().ends_with('~')
         };
-        !self.is_output(&path) && (self.files.contains(&path) || is_source())
+        !self.is_output(&path) && (self.files.contains(&path) || is_source()) && !is_redirected(&path)
     }
 
     fn is_output(&self, path: &Path) -> bool {
