@@ -102,8 +102,11 @@ pub(super) fn warn_unread(
     let readings: Vec<Reading<'_, '_>> = draws.iter().filter_map(|(node, draw)| reading(node, draw)).collect();
     let all: Vec<&Reading<'_, '_>> = readings.iter().collect();
     let lit: Vec<&Reading<'_, '_>> = declaring(&all, "light");
-    for light in scene.get("light").and_then(|node| node.get_ref().as_array()).into_iter().flatten() {
-        if let Some(table) = light.get_ref().as_table() {
+    let lights = scene.get("light").and_then(|node| node.get_ref().as_array()).into_iter().flatten();
+    let lights: Vec<_> = lights.filter_map(|light| light.get_ref().as_table()).collect();
+    // What a light in error would have asked of a program, the program does not have.
+    if !lights.iter().any(|table| has_error(reader, table)) {
+        for table in lights {
             warn_table(reader, ("light", table), LIGHT, &lit, library);
         }
     }
@@ -117,6 +120,17 @@ pub(super) fn warn_unread(
             warn_table(reader, ("material", table), &values, &declaring(&[one], "material"), library);
         }
     }
+}
+
+/// Whether an error in a table was reported.
+fn has_error(reader: &Reader, table: &DeTable<'_>) -> bool {
+    let ranges = table.iter().flat_map(|(key, node)| [key.span(), node.span()]);
+    let Some(whole) = ranges.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else { return false };
+    let whole = reader.span(whole);
+    reader.diagnostics.iter().any(|found| {
+        let span = found.primary.span;
+        found.is_error() && whole.start <= span.start && span.end <= whole.end
+    })
 }
 
 fn reading<'t, 'i>(node: &'t Node<'i>, draw: &'t Draw) -> Option<Reading<'t, 'i>> {
