@@ -180,6 +180,25 @@ fn of_three_identical_ways_none_beats_another() {
     }
 }
 
+/// The text of a variant is written anew; what is wrong in it is told where the scene's file has it.
+#[test]
+fn mistakes_of_a_way_are_told_on_their_lines() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = small_scene(folder.path());
+    let text = std::fs::read_to_string(&path).expect("the scene");
+    let (scene, _) = text.split_once("[report]").expect("it has a report table");
+    for set in ["{ uniforms = { tnt = [0, 1, 0] } }", "{ fragment = \"nope.frag\" }"] {
+        let text =
+            format!("# a comment\n\n{scene}[report]\n[[report.way]]\nname = \"mine\"\ntruth = true\nset = {set}\n");
+        std::fs::write(&path, &text).expect("written");
+        let run = report_with(&path, &folder.path().join("out"), &["-q", "--diagnostics", "json"]);
+        assert_ne!(code(&run), Some(0), "{}", told(&run));
+        let line = text.lines().position(|line| line.contains(set)).expect("it is there") + 1;
+        let told = told(&run);
+        assert!(told.contains(&format!("\"line\": {line},")) && told.contains("of the way `mine`"), "{line}: {told}");
+    }
+}
+
 #[test]
 fn ways_are_found_for_a_scene_that_declares_none() {
     let folder = tempfile::tempdir().expect("a temporary folder");

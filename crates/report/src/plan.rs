@@ -53,9 +53,19 @@ pub(super) struct Plan {
 #[derive(Clone, Debug)]
 pub(super) enum Drawn {
     /// The text of a scene file, at the place of the scene's own.
-    Text(String),
+    Text(WayText),
     /// A scene that is loaded.
     Scene(Box<Scene>),
+}
+
+/// A scene's text with the keys of a variant.
+#[derive(Clone, Debug)]
+pub(super) struct WayText {
+    pub(super) text: String,
+    /// The name of the variant.
+    pub(super) way: String,
+    /// Where the scene's file has those keys.
+    pub(super) set: Range<usize>,
 }
 
 /// A variant to draw.
@@ -110,8 +120,14 @@ struct WayTable {
     model: Option<String>,
     #[serde(default)]
     truth: bool,
-    #[serde(default)]
-    set: Table,
+    set: Option<toml::Spanned<Table>>,
+}
+
+impl WayTable {
+    /// The variant as a text of a scene.
+    fn text(&self, text: String) -> WayText {
+        WayText { text, way: self.name.clone(), set: self.set.as_ref().map(toml::Spanned::span).unwrap_or_default() }
+    }
 }
 
 /// A scene file, of which the report itself reads only its own table.
@@ -212,11 +228,13 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
     };
     let tessellations = tessellations(&report, draw)?;
     let ways = if report.way.is_empty() {
-        vec![WayTable { name: scene_name.into(), model: None, truth: true, set: Table::new() }]
+        vec![WayTable { name: scene_name.into(), model: None, truth: true, set: None }]
     } else {
         report.way.clone()
     };
-    let text = |way: &WayTable, tessellation| scene_text(scene, report.draw, way, tessellation);
+    let text = |way: &WayTable, tessellation| {
+        scene_text(scene, report.draw, way, tessellation).map(|text| Drawn::Text(way.text(text)))
+    };
     let mut planned = Vec::new();
     for way in &ways {
         for &tessellation in &tessellations {
@@ -226,7 +244,7 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
                 about: String::new(),
                 model: model(way),
                 tessellation,
-                drawn: Drawn::Text(text(way, tessellation)?),
+                drawn: text(way, tessellation)?,
                 via: None,
                 floats: FloatWidth::Single,
                 programs: None,
@@ -245,7 +263,7 @@ fn build(scene_name: &str, scene: &Table, report: ReportTable) -> Result<Plan, S
             model,
             way: truth_way.name.clone(),
             tessellation,
-            drawn: Drawn::Text(text(truth_way, tessellation)?),
+            drawn: text(truth_way, tessellation)?,
         });
     }
     let text = toml::to_string(scene).map_err(|error| format!("the scene cannot be written again: {error}"))?;
@@ -310,7 +328,9 @@ fn scene_text(scene: &Table, draw: usize, way: &WayTable, tessellation: Option<[
         .and_then(|draws| draws.get_mut(draw))
         .and_then(Value::as_table_mut)
         .ok_or("the draw is not a table")?;
-    merge(table, &way.set);
+    if let Some(set) = &way.set {
+        merge(table, set.get_ref());
+    }
     if let Some([segments, rings]) = tessellation
         && let Some(mesh) = table.get_mut("mesh").and_then(Value::as_table_mut)
     {
@@ -355,7 +375,7 @@ mesh = { shape = "sphere", position = "p", radius = 0.1 }
 
     fn text(way: &PlannedWay) -> &str {
         match &way.drawn {
-            Drawn::Text(text) => text,
+            Drawn::Text(text) => &text.text,
             Drawn::Scene(_) => "",
         }
     }

@@ -9,14 +9,15 @@ use super::figures::spread;
 use super::front::{margin, mark};
 use super::model::{Adapter, Ended, Report, Timing, Truth, Way};
 use super::options::{Error, Options, Watcher, Ways};
-use super::plan::{DECLARED, Drawn, Plan, PlannedWay, base_of, plan};
+use super::plan::{DECLARED, Drawn, Plan, PlannedWay, WayText, base_of, plan};
 use super::ways::{self, Origin};
 use glisten_front::compiler::Compiler;
 use glisten_front::diagnostic::Diagnostics;
-use glisten_front::source::SourceMap;
+use glisten_front::source::{SourceMap, Span};
 use glisten_gpu::Gpu;
 use glisten_verify::scene::{self, FileError, FileSource, Loaded, Scene};
 use glisten_verify::specialize::{Contract, specialize_scene_by};
+use std::ops::Range;
 
 /// Compares the variants of the scene at `path`.
 ///
@@ -156,7 +157,7 @@ impl Files<'_> {
     fn find(&self, scene: &Scene, plan: &mut Plan) {
         let text = plan.text.clone();
         let name = stem(self.path);
-        let load = |text: &str| self.scene_of(&Drawn::Text(text.to_owned())).ok();
+        let load = |text: &str| self.scene_from(text).ok();
         let origin = Origin { name: &name, scene, text: &text, load: &load };
         plan.add(scene, ways::found(&origin));
     }
@@ -185,15 +186,54 @@ impl Files<'_> {
     }
 
     fn scene_of(&self, drawn: &Drawn) -> Result<Scene, Error> {
-        let text = match drawn {
-            Drawn::Scene(scene) => return Ok((**scene).clone()),
-            Drawn::Text(text) => text,
-        };
+        match drawn {
+            Drawn::Scene(scene) => Ok((**scene).clone()),
+            Drawn::Text(way) => self.scene_from(&way.text).map_err(|error| {
+                let text = self.files.read(self.path).unwrap_or_default();
+                placed(error, way, (self.path, &String::from_utf8_lossy(&text)))
+            }),
+        }
+    }
+
+    fn scene_from(&self, text: &str) -> Result<Scene, Error> {
         let loaded = self.load(&Replaced { path: self.path, text, files: self.files })?;
         // `load` reports an error if there is no scene.
         let none = || Error::Scene { sources: Box::default(), diagnostics: Diagnostics::default(), io_error: false };
         loaded.scene.ok_or_else(none)
     }
+}
+
+/// An error in a variant's text, at the place of the scene's file that it comes from: the same word in the keys of the variant, or
+/// elsewhere, or else the keys. Where another file is wrong, the error stays.
+fn placed(error: Error, way: &WayText, (path, text): (&str, &str)) -> Error {
+    let Error::Scene { sources, diagnostics, io_error } = error else { return error };
+    let in_scene = |span: Span| sources.file_of(span).filter(|file| sources.file(*file).name() == path);
+    let mut map = SourceMap::default();
+    let added = map.add(path.to_owned(), text.into());
+    let Some(file) = added.filter(|_| diagnostics.iter().all(|found| in_scene(found.primary.span).is_some())) else {
+        return Error::Scene { sources, diagnostics, io_error };
+    };
+    let base = map.file(file).base();
+    let whole = |range: Range<usize>| Span::new(base + range.start as u32, base + range.end as u32);
+    let place = |span: Span| {
+        let file = sources.file(in_scene(span)?);
+        let range = (span.start.checked_sub(file.base())?) as usize..(span.end.checked_sub(file.base())?) as usize;
+        let word = file.text().get(range)?.trim_matches('"');
+        let find = |range: &Range<usize>| Some(range.start + text.get(range.clone())?.find(word)?);
+        let at = find(&way.set).or_else(|| find(&(0..text.len()))).filter(|_| !word.is_empty())?;
+        Some(whole(at..at + word.len()))
+    };
+    let mut told = Diagnostics::default();
+    for mut found in diagnostics {
+        found.primary.span = place(found.primary.span).unwrap_or_else(|| whole(way.set.clone()));
+        found.secondary.retain_mut(|label| place(label.span).map(|span| label.span = span).is_some());
+        found.fixes.clear();
+        if !way.set.is_empty() {
+            found = found.label(whole(way.set.clone()), format!("of the way `{}`", way.way));
+        }
+        told.push(found);
+    }
+    Error::Scene { sources: Box::new(map), diagnostics: told, io_error }
 }
 
 /// The files of another source, except that the scene's own text replaces its file.

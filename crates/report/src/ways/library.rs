@@ -173,7 +173,7 @@ mod tests {
         let compiler = Compiler::new(Options::default()).with_includes(glisten_library::Embedded);
         for way in &plan.ways {
             let crate::plan::Drawn::Text(text) = &way.drawn else { panic!("a text") };
-            let loaded = load("s.toml", &MemoryFiles::new([("s.toml", text.as_str())]), &compiler);
+            let loaded = load("s.toml", &MemoryFiles::new([("s.toml", text.text.as_str())]), &compiler);
             let found: Vec<String> = loaded.diagnostics.iter().map(|one| one.message.clone()).collect();
             assert!(loaded.scene.is_some(), "{}: {found:?}", way.name);
         }

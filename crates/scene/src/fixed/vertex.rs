@@ -109,8 +109,9 @@ fn colors(pipeline: &Pipeline, text: &mut String) {
         text.push_str(&format!("    gl_{side}Color = vec4({lower}.rgb{sum}, {alpha});\n"));
         if pipeline.sums_colors() {
             let specular =
-                if pipeline.separate_specular { format!("{lower}_specular") } else { "vec4(0.0)".to_owned() };
-            text.push_str(&format!("    gl_{side}SecondaryColor = {specular};\n"));
+                if pipeline.separate_specular { format!("{lower}_specular.rgb") } else { "vec3(0.0)".to_owned() };
+            // "The alpha component of c_sec is always 1" (OpenGL 2.1 §2.14.1).
+            text.push_str(&format!("    gl_{side}SecondaryColor = vec4({specular}, 1.0);\n"));
         }
     }
 }
