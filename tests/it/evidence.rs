@@ -196,6 +196,24 @@ fn what_the_language_leaves_undefined_has_a_class_and_a_place() {
         ("    float i = 1.0 / (e - 0.25); if (q.x > 0.5) if (i != e) c.x = q.y;\n", "", 0),
         // Drivers fold a product with 0.0, and `isnan` with it.
         ("    float i = 1.0 / (e - 0.25); if (q.x > 0.5) if (isnan(i * 0.0)) c.x = q.y;\n", "`isnan` of a NaN", 2016),
+        // The neighbor is gone, or does not choose the operand (GLSL 1.50 §5.9, §6.4, §8.7).
+        (
+            "    if (q.x > 0.5) { if (fract(gl_FragCoord.x * 0.5) < 0.5) discard; c.x = dFdx(q.x * q.y); }\n",
+            "a derivative that only a part of the quad runs",
+            1024,
+        ),
+        (
+            "    if (q.x > 0.5) c.x = fract(gl_FragCoord.x * 0.5) < 0.5 ? 0.25 : dFdx(q.x * q.y);\n",
+            "a derivative that only a part of the quad runs",
+            1024,
+        ),
+        (
+            "    if (q.x > 0.5) if (fract(gl_FragCoord.x * 0.5) < 0.5 && dFdx(q.x * q.y) * 64.0 > 0.3) c.x = 0.0;\n",
+            "a derivative that only a part of the quad runs",
+            1024,
+        ),
+        // All of the quad chooses it.
+        ("    if (q.x > 0.5) c.x = q.y > 2.0 ? 0.25 : dFdx(q.x * q.y);\n", "", 0),
         // What is undefined here reaches no pixel.
         ("    float d = smoothstep(e, e, q.y) * 0.0; if (q.x > 0.5) c.x = q.y;\n", "", 0),
         // An infinity of a division by zero is one on every GPU.

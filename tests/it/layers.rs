@@ -236,7 +236,8 @@ fn an_environment_is_light_from_all_around() {
 /// A body shows what is behind it: all of white surroundings but for what it absorbs on its way, which is as long as it is thick in the middle.
 #[test]
 fn a_body_absorbs_and_bends_light() {
-    let body = "base_color = [1, 1, 1]\nmetallic = 0.0\nroughness = 0.0\ndielectric = [0, 0, 0]\ntransmission = 1.0\n";
+    let body =
+        "base_color = [1, 1, 1]\nmetallic = 0.0\nroughness = 0.0\ndielectric_strength = 0.0\ntransmission = 1.0\n";
     let found = middle(&around(1.0, 1.0), &format!("{body}refraction = 1.5\nabsorption = [0, 0.5, 2]"));
     near(found, [1.0, (-0.5_f64).exp(), (-2.0_f64).exp()], 1e-3);
     // A hemisphere is seen through it, too: straight through is the ground.
@@ -255,7 +256,7 @@ fn a_body_absorbs_and_bends_light() {
 /// A leaf passes light on without a direction: of a light behind it, its color's part.
 #[test]
 fn a_leaf_scatters_light_through_itself() {
-    let leaf = "base_color = [1, 1, 1]\nmetallic = 0.0\ndielectric = [0, 0, 0]\ndiffuse_transmission = 0.75\n\
+    let leaf = "base_color = [1, 1, 1]\nmetallic = 0.0\ndielectric_strength = 0.0\ndiffuse_transmission = 0.75\n\
                 diffuse_transmission_color = [1, 0.5, 0.25]\n";
     let behind = "[[light]]\nkind = \"directional\"\ntowards = [0, 0.6, -0.8]";
     near(middle(behind, leaf), [0.6, 0.3, 0.15], 1e-6);

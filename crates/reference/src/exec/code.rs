@@ -60,7 +60,7 @@ pub enum Form {
     Executed,
     /// Besides, what depends on uniforms runs in every invocation, as on a GPU; only constants are computed before.
     Counted,
-    /// Unfused; scalars that are read before anything was written to them may have any number.
+    /// As [`Self::Executed`]; scalars that are read before anything was written to them may have any number.
     Guessed,
     /// Unfused; an observer is shown the value of each expression as [`Note`]s.
     Noted,
@@ -76,7 +76,7 @@ impl Form {
 
     /// Whether an operand is seen only where it is chosen.
     pub(super) fn chooses(self) -> bool {
-        matches!(self, Self::Executed | Self::Counted)
+        matches!(self, Self::Executed | Self::Counted | Self::Guessed)
     }
 
     /// Whether values are noted.

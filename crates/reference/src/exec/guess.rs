@@ -145,7 +145,15 @@ impl Code {
     pub fn hides_undefined(&self) -> bool {
         let insts = &self.inner.main.insts;
         let branches = insts.iter().any(|inst| {
-            matches!(inst, Inst::Arm { .. } | Inst::LoopTest { .. } | Inst::LoopBack { .. } | Inst::CaseMask { .. })
+            matches!(
+                inst,
+                Inst::Arm { .. }
+                    | Inst::LoopTest { .. }
+                    | Inst::LoopBack { .. }
+                    | Inst::CaseMask { .. }
+                    | Inst::Discard
+                    | Inst::Watch { .. }
+            )
         });
         let hides = |inst: &Inst| match inst {
             Inst::LoadFloat { .. } | Inst::LoadInt { .. } => true,
@@ -254,10 +262,11 @@ impl<D: Domain> Machine<D> {
         (lanes != 0).then_some((what, lanes))
     }
 
-    /// The lanes whose quad has lanes elsewhere in the program: these derivatives are undefined (GLSL 1.50 §8.7, §8.8).
-    /// Discarded fragments go on as helpers.
+    /// The lanes whose quad has lanes elsewhere in the program, such as fragments that are discarded: these derivatives are undefined
+    /// (GLSL 1.50 §8.7, §8.8). An operand that is not chosen runs in no lane (§5.9).
     fn split(&self, mask: u64) -> u64 {
-        let elsewhere = self.whole & !mask & !self.discarded;
+        let mask = mask & self.watched;
+        let elsewhere = self.whole & !mask;
         let split = (0..LANES).step_by(4).map(|first| 0xf << first).filter(|quad| elsewhere & quad != 0);
         mask & split.fold(0, |lanes, quad: u64| lanes | quad)
     }

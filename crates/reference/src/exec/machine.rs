@@ -210,7 +210,8 @@ impl<D: Domain> Machine<D> {
         self.streams.clear();
         // A machine that has exceeded its budget is likely to do so again. Then it should end soon.
         self.budget = if self.budget_exceeded { self.loop_budget >> 6 } else { self.loop_budget };
-        self.watched = live.0;
+        // A guess looks at whole quads.
+        self.watched = if self.guess.is_some() { live.0 | helpers.0 } else { live.0 };
         self.mute_input();
         self.count_invocations(inner);
         self.run_main(inner, live.0 | helpers.0);
