@@ -244,6 +244,27 @@ fn what_the_language_leaves_undefined_has_a_class_and_a_place() {
     }
 }
 
+/// On a path that does not write `gl_FragDepth`, the depth is undefined if any path writes it (GLSL 1.50 §7.2).
+#[test]
+fn a_depth_that_one_path_writes_is_undefined_on_the_others() {
+    let body = "#version 150\nin vec2 q;\nout vec4 c;\nvoid main() {\n    c = vec4(1.0);\n";
+    for (line, pixels) in [
+        ("    if (q.x > 0.5) gl_FragDepth = 0.25;\n", 2048),
+        ("    gl_FragDepth = 0.25;\n", 0),
+        ("    gl_FragDepth = gl_FragCoord.z; if (q.x > 0.5) gl_FragDepth = 0.25;\n", 0),
+    ] {
+        let folder = quad(1, &format!("{body}{line}}}\n"));
+        let text = fs::read_to_string(folder.path("a.toml")).expect("written");
+        let text = text.replace("[[draw]]", "[[draw]]\ndepth_test = true\n");
+        fs::write(folder.path("a.toml"), text).expect("written");
+        let (exit, json) = verify(&folder, &[]);
+        assert_eq!((exit, count(&json, "undefined")), (i32::from(pixels > 0), pixels), "{line}{json}");
+        if pixels > 0 {
+            assert_eq!(json["undefined"][0]["line"], 6, "{json}");
+        }
+    }
+}
+
 /// A function that ends without `return` has an undefined result (GLSL 1.50 §6.1).
 #[test]
 fn a_result_that_no_return_gives_is_undefined() {

@@ -209,7 +209,7 @@ fn placed(error: Error, way: &WayText, (path, text): (&str, &str)) -> Error {
     let Error::Scene { sources, diagnostics, io_error } = error else { return error };
     let in_scene = |span: Span| sources.file_of(span).filter(|file| sources.file(*file).name() == path);
     let mut map = SourceMap::default();
-    let added = map.add(path.to_owned(), text.into());
+    let added = map.add(path, text);
     let Some(file) = added.filter(|_| diagnostics.iter().all(|found| in_scene(found.primary.span).is_some())) else {
         return Error::Scene { sources, diagnostics, io_error };
     };

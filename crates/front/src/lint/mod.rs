@@ -14,6 +14,7 @@ mod interval;
 #[cfg(test)]
 mod listed;
 mod loop_invariant;
+mod parts;
 mod range;
 mod rate;
 mod rules;

@@ -4,11 +4,11 @@
 //! its first line on. Globals count in `main`, up to the first call of a function that may assign them. An `inout` argument is read if the
 //! function reads it before it assigns it. So the rule errs on the side of silence.
 
-use super::super::{Findings, Subject, running};
+use super::super::{Findings, Subject, parts, running};
 use crate::hir::written_by;
 use crate::hir::{
-    ExprId, ExprKind, Function, FunctionId, Global, GlobalId, LocalKind, ParamMode, Shader, Stmt, StmtKind, Storage,
-    VarRef,
+    ExprId, ExprKind, Function, FunctionId, Global, GlobalId, LocalId, LocalKind, ParamMode, Shader, Stmt, StmtKind,
+    Storage, VarRef,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -26,6 +26,7 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
             let globals = globals.collect();
             let mut walk = Walk { shader, function, callees: &callees, assigned, globals, reads: Vec::new() };
             walk.body(body);
+            tell_components(subject, findings, (shader, function, body), &walk.reads);
             for (variable, read) in walk.reads {
                 let (name, declared) = match variable {
                     VarRef::Local(id) => (&function.local(id).name, function.local(id).span),
@@ -37,6 +38,87 @@ pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
                 findings.push(label.into_iter().fold(finding, |finding, (span, text)| finding.label(span, text)));
             }
         }
+    }
+}
+
+/// Tells of the components of locals that the function reads and nothing in it assigns, but for locals of which a read is known.
+fn tell_components(
+    subject: &Subject<'_>,
+    findings: &mut Findings<'_>,
+    (shader, function, body): (&Shader, &Function, &[Stmt]),
+    known: &[(VarRef, ExprId)],
+) {
+    let mut unset = unset_components(subject, (shader, function, body));
+    for (variable, _) in known {
+        if let VarRef::Local(id) = variable {
+            unset.remove(id);
+        }
+    }
+    if unset.is_empty() {
+        return;
+    }
+    let mut told: FxHashSet<LocalId> = FxHashSet::default();
+    shader.visit_body(body, &mut |expr| {
+        for read in computed_with(shader, expr) {
+            let Some((VarRef::Local(id), components)) = parts::of_place(shader, read) else { continue };
+            let missing = unset.get(&id).map_or(0, |unset| unset & components);
+            if missing == 0 || !told.insert(id) {
+                continue;
+            }
+            let local = function.local(id);
+            let names = parts::named(missing, "xyzw");
+            let message = format!("`{}.{names}` is read, and nothing is ever assigned to it", local.name);
+            let finding = findings.at(shader.expr(read).span, message).here("an undefined value");
+            findings.push(finding.label(local.span, "declared here without a value"));
+        }
+    });
+}
+
+/// The components that nothing in the function assigns, of the vectors of which something assigns others.
+fn unset_components(
+    subject: &Subject<'_>,
+    (shader, function, body): (&Shader, &Function, &[Stmt]),
+) -> FxHashMap<LocalId, u8> {
+    let mut written: FxHashMap<LocalId, u8> = FxHashMap::default();
+    shader.visit_statements(body, &mut |statement| {
+        if let StmtKind::Local(id, Some(_)) = statement.kind {
+            written.insert(id, parts::ALL);
+        }
+    });
+    shader.visit_body(body, &mut |expr| {
+        written_by(shader, expr, &mut |target| {
+            if let Some((VarRef::Local(id), components)) = parts::of_place(shader, target) {
+                *written.entry(id).or_default() |= components;
+            }
+        });
+    });
+    let is_variable = |id: LocalId| {
+        let local = function.local(id);
+        id.index() >= function.param_count && local.kind == LocalKind::Variable && !local.name.is_empty()
+    };
+    let unset = written.into_iter().filter(|(id, _)| is_variable(*id)).filter_map(|(id, written)| {
+        let whole = parts::of_type(&subject.program.types, function.local(id).ty)?;
+        Some((id, whole & !written)).filter(|(_, unset)| *unset != 0)
+    });
+    unset.collect()
+}
+
+/// The operands of an expression whose components all count: not what is copied as a whole, or given to a function, which may use less.
+fn computed_with(shader: &Shader, expr: ExprId) -> Vec<ExprId> {
+    match &shader.expr(expr).kind {
+        ExprKind::Binary(_, a, b) => vec![*a, *b],
+        ExprKind::Unary(_, a) => vec![*a],
+        ExprKind::BuiltinCall(function, arguments) => {
+            let written = function.written_argument();
+            arguments.iter().enumerate().filter(|(at, _)| Some(*at) != written).map(|(_, argument)| *argument).collect()
+        }
+        // The last argument may have more components than are used.
+        ExprKind::Construct(_, arguments) => arguments.split_last().map_or_else(Vec::new, |(_, rest)| rest.to_vec()),
+        ExprKind::Assign(None, target, value) => match shader.root_variable(*target) {
+            Some(VarRef::Global(id)) if shader.global(id).storage == Storage::Out => vec![*value],
+            _ => Vec::new(),
+        },
+        _ => Vec::new(),
     }
 }
 

@@ -1,15 +1,47 @@
-//! `unwritten-output`: a color that a fragment shader declares and never writes.
+//! `unwritten-output`: a color that a fragment shader declares and never writes, or of which it never writes a component.
 
-use super::super::{Findings, Subject};
-use crate::hir::{Stage, Storage};
+use super::super::{Findings, Subject, parts};
+use crate::builtin::BuiltinVariable;
+use crate::hir::{Global, GlobalId, Shader, Stage, Storage, VarRef, written_by};
+use crate::link::usage::first_use;
+use rustc_hash::FxHashMap;
 
 pub(super) fn check(subject: &Subject<'_>, findings: &mut Findings<'_>) {
-    let program = subject.program;
-    let Some(fragment) = program.stage(Stage::Fragment) else { return };
-    for output in fragment.globals.iter().filter(|global| global.storage == Storage::Out && global.builtin.is_none()) {
+    let Some(fragment) = subject.program.stage(Stage::Fragment) else { return };
+    let written = written(subject, fragment);
+    for (id, output) in fragment.globals().filter(|(_, global)| is_color(global)) {
         if !output.written {
-            let message = format!("the fragment output `{}` is never written", output.name);
-            findings.push(findings.at(output.span, message).here("its color is undefined"));
+            if output.builtin.is_none() {
+                let message = format!("the fragment output `{}` is never written", output.name);
+                findings.push(findings.at(output.span, message).here("its color is undefined"));
+            }
+            continue;
+        }
+        let whole = parts::of_type(&subject.program.types, output.ty);
+        let missing = whole.map_or(0, |whole| whole & !written.get(&id).copied().unwrap_or(parts::ALL));
+        if let Some(span) = first_use(fragment, id).filter(|_| missing != 0) {
+            let names = parts::named(missing, "rgba");
+            let message = format!("`{}.{names}` is never written", output.name);
+            findings.push(findings.at(span, message).here(format!("the other components leave `{names}` undefined")));
         }
     }
+}
+
+/// Whether a global is a color: an output, or the one color of before GLSL 1.30.
+fn is_color(global: &Global) -> bool {
+    global.storage == Storage::Out && global.builtin.is_none_or(|builtin| builtin == BuiltinVariable::FragColor)
+}
+
+/// The components of the globals that a shader writes on any path.
+fn written(subject: &Subject<'_>, shader: &Shader) -> FxHashMap<GlobalId, u8> {
+    let mut written: FxHashMap<GlobalId, u8> = FxHashMap::default();
+    let places = subject.places.iter().filter(|place| std::ptr::eq(place.shader, shader));
+    for &expr in places.flat_map(|place| &place.exprs) {
+        written_by(shader, expr, &mut |target| {
+            if let Some((VarRef::Global(id), components)) = parts::of_place(shader, target) {
+                *written.entry(id).or_default() |= components;
+            }
+        });
+    }
+    written
 }

@@ -6,6 +6,7 @@ use super::effects::Assigned;
 use super::{Compiler, Val};
 use glisten_front::hir::{Global, GlobalId, LocalId, ScalarValue, Stage, Storage, TypeId, Value, VarRef};
 use glisten_front::link::RootIndex;
+use glisten_front::link::usage::first_use;
 use glisten_front::source::Span;
 use std::rc::Rc;
 
@@ -185,10 +186,16 @@ impl Compiler<'_> {
         }) as u32
     }
 
-    /// The declaration of a variable of the text. Built-in ones have values of their own.
+    /// The declaration of a variable of the text. Of built-in ones, only an output that some path writes may lack a value; its place is
+    /// where it is first named (GLSL 1.50 §7.1, §7.2).
     fn declaration(&self, var: VarId) -> Option<Span> {
         if let Some(index) = self.globals.iter().position(|global| *global == Some(var)) {
-            return self.shader.globals.get(index).filter(|global| global.builtin.is_none()).map(|global| global.span);
+            let global = self.shader.globals.get(index)?;
+            if global.builtin.is_none() {
+                return Some(global.span);
+            }
+            let is_output = global.storage == Storage::Out && global.written;
+            return is_output.then(|| first_use(self.shader, GlobalId::new(index))).flatten();
         }
         if let Some(frame) = self.frames.iter().rev().find(|frame| frame.result == Some(var)) {
             // A function that may end without `return` has an undefined result (§6.1).

@@ -4,7 +4,8 @@ use super::super::Example::{Fragment, Program};
 
 lints! {
     UNWRITTEN_OUTPUT = "L0002" "unwritten-output" Warning Correctness No "0.1.0" "GLSL 1.50 §7.2"
-        "A fragment output is declared but never written, so its color is undefined."
+        "A fragment output is declared but never written, so its color is undefined; or a component of it is never written, such as \
+         the alpha, on which blending depends."
         why "An undefined color is never meant."
         bad Fragment("out vec4 color; out vec4 glow; void main() { color = vec4(1.0); }"),
         good Fragment("out vec4 color; out vec4 glow; void main() { color = vec4(1.0); glow = color; }");
@@ -18,8 +19,8 @@ lints! {
             "out vec4 tint; void main() { tint = vec4(1.0); gl_Position = vec4(0.0); }",
             "in vec4 tint; out vec4 c; void main() { c = tint; }");
     UNINITIALIZED_READ = "L0005" "uninitialized-read" Warning Correctness No "0.1.0" "GLSL 1.50 §4.1"
-        "A variable, an output or an `out` parameter is read before anything can have been assigned to it. Its value is \
-         undefined: zero on one machine and anything on another."
+        "A variable, an output or an `out` parameter is read before anything can have been assigned to it, or a component of a \
+         vector that nothing assigns. Its value is undefined: zero on one machine and anything on another."
         why "The value is undefined on every path."
         bad Fragment("out vec4 c; void main() { vec4 sum; sum += vec4(1.0); c = sum; }"),
         good Fragment("out vec4 c; void main() { vec4 sum = vec4(0.0); sum += vec4(1.0); c = sum; }");
