@@ -158,3 +158,22 @@ fn a_finding_leads_to_the_page_of_its_code() {
     assert!(text.starts_with("E0301 undeclared-identifier"), "{text}");
     editor.close();
 }
+
+/// A scene names a uniform in its draw, in its ranges and in the ways of its report.
+#[test]
+fn a_rename_reaches_all_of_a_scene() {
+    let shader = "#version 150\nuniform vec3 tint;\nout vec4 c;\nvoid main() { c = vec4(tint, 1.0); }\n";
+    let scene = "[framebuffer]\nwidth = 8\nheight = 8\n[[draw]]\nvertex = \"a.vert\"\nfragment = \"a.frag\"\n\
+        uniforms = { tint = [1, 0, 0] }\n[stability.range]\ntint = \"0..1\"\n[[report.way]]\nname = \"x\"\n\
+        set = { uniforms = { tint = [0, 1, 0] } }\n[[report.way]]\nname = \"y\"\nset.uniforms.\"tint\" = [0, 1, 1]\n";
+    let folder = Folder::new(&[
+        ("a.vert", b"#version 150\nvoid main() { gl_Position = vec4(0.0); }\n"),
+        ("a.frag", shader.as_bytes()),
+        ("a.toml", scene.as_bytes()),
+    ]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("a.frag", shader);
+    let done = edited(&folder, &rename(&mut editor, ("a.frag", shader), "tint;", "hue")["result"]);
+    assert_eq!(done["a.toml"], scene.replace("tint", "hue"));
+    editor.close();
+}

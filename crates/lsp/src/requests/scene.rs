@@ -144,7 +144,7 @@ fn in_scene(analysis: &Analysis, symbol: SymbolId, path: &Path, text: &str) -> V
         names.extend(named_in_draw(draw));
     });
     if is_drawn {
-        names.extend(named_in_ranges(text));
+        names.extend(named_elsewhere(text));
     }
     names.into_iter().filter_map(|name| in_name(analysis, symbol, text, name)).collect()
 }
@@ -164,11 +164,14 @@ fn named_in_draw(draw: &DeTable<'_>) -> Vec<Range<usize>> {
     names
 }
 
-/// The names of uniforms in the ranges that a scene states.
-fn named_in_ranges(text: &str) -> Vec<Range<usize>> {
+/// The names of variables outside of draws: in the ranges that a scene states, and in what a way of its report sets.
+fn named_elsewhere(text: &str) -> Vec<Range<usize>> {
     let Ok(document) = DeTable::parse(text) else { return Vec::new() };
-    let stability = table(document.get_ref(), "stability");
-    stability.into_iter().flat_map(|stability| RANGES.iter().flat_map(|key| keys(stability, key))).collect()
+    let stability = table(document.get_ref(), "stability").into_iter();
+    let ranges = stability.flat_map(|stability| RANGES.iter().flat_map(|key| keys(stability, key)));
+    let report = table(document.get_ref(), "report").and_then(|report| report.get("way")?.get_ref().as_array());
+    let ways = report.into_iter().flatten().filter_map(|way| table(way.get_ref().as_table()?, "set"));
+    ranges.chain(ways.flat_map(named_in_draw)).collect()
 }
 
 fn table<'d, 't>(within: &'d DeTable<'t>, key: &str) -> Option<&'d DeTable<'t>> {
