@@ -316,6 +316,40 @@ fn a_vertex_shader_alone_shows_its_varyings() {
     draws(&[("es.vert", es)], &["es.vert"]);
 }
 
+/// The stage that is written repeats what the language wants in both, and has the version of ES that the other one has.
+#[test]
+fn a_stage_that_is_written_links() {
+    let uv = "= position.xy * 0.5 + 0.5;";
+    for (version, out) in [
+        ("330", "smooth out vec2 k"),
+        ("150", "centroid out vec2 k"),
+        ("330", "invariant smooth centroid out vec2 k"),
+        ("410", "layout(location = 3) out vec2 k"),
+        ("450", "layout(location = 2, component = 1) out vec2 k"),
+        ("310 es", "layout(location = 1) out vec2 k"),
+        ("320 es", "out vec2 k"),
+    ] {
+        let text = format!(
+            "#version {version}\nin vec4 position;\n{out};\nvoid main() {{ gl_Position = position; k {uv} }}\n"
+        );
+        draws(&[("a.vert", &text)], &["a.vert"]);
+    }
+    for (version, input, k) in [
+        ("120", "centroid varying vec4 k", "k"),
+        ("120", "invariant varying vec4 k", "k"),
+        ("150", "invariant in vec4 k", "k"),
+        ("330", "in V { smooth vec4 k; centroid vec2 m; } v", "v.k"),
+        ("420", "layout(location = 3) in vec4 k", "k"),
+        ("450", "layout(location = 1) in V { vec4 k; } v", "v.k"),
+        ("310 es", "precision highp float;\nlayout(location = 2) in vec4 k", "k"),
+        ("320 es", "precision highp float;\nin vec4 k", "k"),
+    ] {
+        let (out, color) = if version == "120" { ("", "gl_FragColor") } else { ("out vec4 c;", "c") };
+        let text = format!("#version {version}\n{input};\n{out}\nvoid main() {{ {color} = {k}; }}\n");
+        draws(&[("a.frag", &text)], &["a.frag"]);
+    }
+}
+
 /// A scene whose pictures would need two formats is not written.
 #[test]
 fn outputs_of_two_kinds_have_no_scene() {

@@ -6,7 +6,7 @@
 //! identity.
 
 use crate::exit::{Exit, Failure};
-use glisten_front::hir::{ArraySize, Global, Interpolation, Scalar, Shader, Storage, Type, TypeId, Types};
+use glisten_front::hir::{ArraySize, Global, Interpolation, Sampling, Scalar, Shader, Storage, Type, TypeId, Types};
 use std::fmt::Write;
 
 /// The largest array that is written.
@@ -15,14 +15,35 @@ const MAX_ELEMENTS: u32 = 32;
 /// The attribute for the corners of the triangle, where there is no `gl_VertexID` (ES 1.00).
 pub(crate) const CORNER: &str = "corner";
 
-/// The `#version` line of the vertex shader: both stages are of OpenGL or both are of OpenGL ES.
-fn version_line(fragment: &Shader, has_fixed: bool) -> &'static str {
-    match (fragment.version.is_es(), fragment.version.number) {
-        (false, _) if has_fixed => "#version 150 compatibility",
-        (false, _) => "#version 150",
-        (true, 300..) => "#version 300 es",
-        (true, _) => "#version 100",
+/// The `#version` line of a shader that is written for another one. The stages of a program of OpenGL ES have one version, and those of
+/// OpenGL any; varyings with locations need GLSL 4.10, and those of samples 4.00.
+pub(crate) fn version_line<'g>(
+    other: &Shader,
+    has_fixed: bool,
+    varyings: impl Iterator<Item = &'g Global> + Clone,
+) -> String {
+    let number = other.version.number;
+    if other.version.is_es() {
+        return if number < 300 { "#version 100".to_owned() } else { format!("#version {number} es") };
     }
+    let least = match () {
+        () if varyings.clone().any(|global| global.location.is_some()) => 410,
+        () if varyings.clone().any(|global| global.sampling == Sampling::Sample) => 400,
+        () => 150,
+    };
+    format!("#version {least}{}", if has_fixed { " compatibility" } else { "" })
+}
+
+/// The qualifiers of a varying before the word of its storage, which both stages have to repeat.
+pub(crate) fn qualifiers(global: &Global) -> String {
+    let place = match (global.location, global.component) {
+        (Some(location), Some(component)) => format!("layout(location = {location}, component = {component}) "),
+        (Some(location), None) => format!("layout(location = {location}) "),
+        (None, _) => String::new(),
+    };
+    let invariant = if global.invariant { "invariant " } else { "" };
+    let how = interpolation(global.interpolation, global.interpolation_written);
+    format!("{place}{invariant}{how}{}", global.sampling.prefix())
 }
 
 /// Words of names, with the extent along x and y, and z, of a vector that is no coordinate of the window. Distances are in pixels.
@@ -78,10 +99,14 @@ impl Outputs {
         if let Type::Struct(id) = types.get(global.ty)
             && let Some(block) = &global.block
         {
-            let _ = writeln!(self.declared, "{out} {} {{", block.name);
+            let place = global.location.map_or_else(String::new, |at| format!("layout(location = {at}) "));
+            let _ = writeln!(self.declared, "{place}{out} {} {{", block.name);
             for member in &types.structure(id).members {
-                let how = interpolation(member.interpolation.unwrap_or(Interpolation::Smooth), false);
-                let _ = writeln!(self.declared, "    {how}{} {};", types.name(member.ty), member.name);
+                let how = member.interpolation.map_or("", |how| interpolation(how, true));
+                let invariant = if member.invariant { "invariant " } else { "" };
+                let sampling = member.sampling.prefix();
+                let ty = types.name(member.ty);
+                let _ = writeln!(self.declared, "    {invariant}{how}{sampling}{ty} {};", member.name);
                 let place = block.instance.as_ref().map_or_else(String::new, |instance| format!("{instance}."));
                 let value = value(types, &member.name, member.ty, uv).ok_or_else(|| missing(types, global))?;
                 let _ = writeln!(self.written, "    {place}{} = {value};", member.name);
@@ -107,8 +132,7 @@ impl Outputs {
             }
         }
         if !global.is_fixed() {
-            let how = interpolation(global.interpolation, global.interpolation_written);
-            let _ = writeln!(self.declared, "{how}{out} {} {name};", types.name(global.ty));
+            let _ = writeln!(self.declared, "{}{out} {} {name};", qualifiers(global), types.name(global.ty));
         }
         Ok(())
     }
@@ -135,7 +159,7 @@ fn missing(types: &Types, global: &Global) -> Failure {
 pub(crate) fn vertex_shader(types: &Types, fragment: &Shader) -> Result<String, Failure> {
     let is_input = |global: &&Global| global.storage == Storage::In && global.builtin.is_none();
     let has_fixed = fragment.globals.iter().filter(is_input).any(Global::is_fixed);
-    let version = version_line(fragment, has_fixed);
+    let version = version_line(fragment, has_fixed, fragment.globals.iter().filter(is_input));
     let is_oldest_es = version == "#version 100";
     let out = if is_oldest_es { "varying" } else { "out" };
     // The names of the vertex shader's own variables: those of outputs would be hidden by them.

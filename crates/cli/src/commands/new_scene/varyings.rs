@@ -3,7 +3,8 @@
 //! *In:* a vertex shader. *Out:* the text of a fragment shader that reads what it writes. *Holds:* every number that is not infinite gives
 //! a color between black and white; varyings go to red, green and blue in turn. Blocks and structs are left out.
 
-use glisten_front::hir::{ArraySize, Global, Interpolation, Scalar, Shader, Storage, Type, TypeId, Types};
+use crate::fullscreen::{qualifiers, version_line};
+use glisten_front::hir::{ArraySize, Global, Scalar, Shader, Storage, Type, TypeId, Types};
 use std::fmt::Write;
 
 /// A name that no varying has.
@@ -12,27 +13,22 @@ const SUM: &str = "sum_of_varyings";
 /// The text of the fragment shader.
 pub(crate) fn fragment_shader(types: &Types, vertex: &Shader) -> String {
     let (is_es, is_old) = (vertex.version.is_es(), vertex.version.is_es() && vertex.version.number < 300);
-    let mut text = match (is_es, is_old) {
-        (false, _) => "#version 150\n",
-        (true, false) => "#version 300 es\nprecision highp float;\nprecision highp int;\n",
-        (true, true) => "#version 100\nprecision highp float;\n",
-    }
-    .to_owned();
     let is_varying = |global: &&Global| {
         global.storage == Storage::Out && global.builtin.is_none() && global.block.is_none() && !global.is_fixed()
     };
+    let precisions = match (is_es, is_old) {
+        (false, _) => "",
+        (true, false) => "precision highp float;\nprecision highp int;\n",
+        (true, true) => "precision highp float;\n",
+    };
+    let mut text = format!("{}\n{precisions}", version_line(vertex, false, vertex.globals.iter().filter(is_varying)));
     let mut sums = String::new();
     let varyings =
         vertex.globals.iter().filter(is_varying).filter_map(|one| Some((one, number(types, &one.name, one.ty)?)));
     for (index, (global, number)) in varyings.enumerate() {
-        let qualifier = match global.interpolation {
-            Interpolation::Flat => "flat in",
-            Interpolation::Noperspective => "noperspective in",
-            Interpolation::Smooth if is_old => "varying",
-            Interpolation::Smooth => "in",
-        };
         let (ty, sizes) = declared(types, global.ty);
-        let _ = writeln!(text, "{qualifier} {ty} {}{sizes};", global.name);
+        let word = if is_old { "varying" } else { "in" };
+        let _ = writeln!(text, "{}{word} {ty} {}{sizes};", qualifiers(global), global.name);
         let channel = ["r", "g", "b"].get(index % 3).unwrap_or(&"r");
         let _ = writeln!(sums, "    {SUM}.{channel} += {number};");
     }
