@@ -68,9 +68,18 @@ const OF_GLSL: &[&str] = &[
 ];
 /// Calls on a string that make another one of it.
 const MAKERS: &[&str] = &[".replace(", ".replaceAll(", ".split("];
-/// Words of shaders that glisten does not read, and of other documents.
-const FOREIGN: &[&str] =
-    &["local_size_x", "gl_GlobalInvocationID", "gl_TessCoord", "gl_TessLevelOuter", "</script", "</html"];
+/// Words of shaders that glisten does not read, and of other documents: of pages, and of programs and texts with shaders in them.
+const FOREIGN: &[&str] = &[
+    "local_size_x",
+    "gl_GlobalInvocationID",
+    "gl_TessCoord",
+    "gl_TessLevelOuter",
+    "</script",
+    "</html",
+    "\"\"\"",
+    "'''",
+    "```",
+];
 
 /// The shader of a string.
 pub(super) fn shader(text: &str, literal: &Literal) -> Option<Shader> {

@@ -84,6 +84,8 @@ fn other_strings_are_left_alone() {
             format!("const char* s =\n#if A\n\"#version 330\\n\"\n#else\n\"#version 150\\n\"\n# endif\n\"{F}\";\n"),
         ),
         (Host::Python, "a = '''void main''' # glsl".to_owned()),
+        (Host::Python, format!("EXAMPLE = '''\nvertex = \"\"\"\n{V}\n\"\"\"\nx = vertex\n'''")),
+        (Host::Rust, format!("const HELP: &str = r#\"It is\n```glsl\n{F}\n```\nand more\"#;")),
         (Host::Python, format!("def f():\n    '''{F}'''\n")),
         (Host::Script, format!("const a = `{F}`.replace(/A/g, b);")),
     ] {
