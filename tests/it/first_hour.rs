@@ -533,6 +533,10 @@ fn a_search_passes_over_what_is_ignored() {
         fs::write(folder.path("glisten.toml"), format!("exclude = [{patterns}]\n")).expect("written");
         assert_eq!(folder.lint(&["."]).1, errors, "{patterns}");
     }
+    fs::write(folder.path("x.glsl"), "void main() {}\n").expect("written");
+    fs::write(folder.path("glisten.toml"), "[[source]]\nstage = \"bogus\"\n").expect("written");
+    let output = folder.run(&["lint", "x.glsl"]);
+    assert!(err(&output).contains("`stage = \"bogus\"` of glisten.toml is none"), "{}", err(&output));
     fs::write(folder.path("glisten.toml"), "exclude = [\"{a\"]\n").expect("written");
     let (list, _) = folder.lint(&["a.frag"]);
     assert_eq!(codes(&list), ["E0015"], "{list:#?}");

@@ -364,6 +364,14 @@ fn outputs_of_two_kinds_have_no_scene() {
 }
 
 #[test]
+fn a_scene_needs_its_folder() {
+    let folder = Folder::new(&[("a.frag", WHITE.as_bytes())]);
+    let made = folder.run(&["new-scene", "a.frag", "-o", "out dir/s.toml"]);
+    assert_eq!((code(&made), err(&made).contains("there is no folder `out dir`")), (2, true), "{}", err(&made));
+    assert!(!err(&made).contains("not drawn"), "{}", err(&made));
+}
+
+#[test]
 fn attributes_without_a_position() {
     let vertex = "#version 150\nin vec2 texCoord;\nin vec3 weightColor;\nuniform sampler2D positions;\nout vec3 color;\n\
         void main() { color = weightColor; gl_Position = vec4(texCoord * 1.8 - 0.9, texture(positions, texCoord).x * 0.1, 1.0); }\n";

@@ -389,7 +389,12 @@ fn stages_of(path: &Path, args: &ProgramArgs, engines: &Engines, alone: bool) ->
                 "`glisten verify` and `glisten render` take scenes; this command takes the shaders that a scene names"
                     .to_owned()
             }
-            None => format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()),
+            None => match engines.unknown_stage(path) {
+                Some(stage) => format!(
+                    "`stage = {stage:?}` of glisten.toml is none: there are `vertex`, `fragment` and `geometry`"
+                ),
+                None => format!("add `--stage vertex` or another, or name it {}", stages::all_extensions()),
+            },
         })),
     }
 }

@@ -225,6 +225,13 @@ impl Engines {
         self.of_tables(path, |rule| stage = rule.stage.or(stage));
         stage.or_else(|| self.settings(Some(path)).profile.and_then(|profile| profile.stage))
     }
+
+    /// The stage that a table gives to a file although there is no such stage.
+    pub(crate) fn unknown_stage(&self, path: &Path) -> Option<String> {
+        let mut unknown = None;
+        self.of_tables(path, |rule| unknown = rule.unknown_stage.clone().or(unknown.take()));
+        unknown
+    }
 }
 
 impl Engines {

@@ -58,6 +58,8 @@ pub(crate) struct Rule {
     pub(crate) defines: Vec<(String, String)>,
     pub(crate) style: Option<Style>,
     pub(crate) stage: Option<Stage>,
+    /// A stage that there is not.
+    pub(crate) unknown_stage: Option<String>,
 }
 
 impl Rule {
@@ -131,6 +133,7 @@ impl<'a> RuleReader<'a> {
         }
         if let Some(name) = self.reader.text_at(table, "stage") {
             let stage = StageArg::from_str(name.0, true).ok().map(Stage::from);
+            rule.unknown_stage = stage.is_none().then(|| name.0.to_owned());
             rule.stage = self.known(name, "stage", stage, ["vertex", "fragment", "geometry"].into_iter());
         }
         rule.version = self.reader.version_at(table, "version").and_then(|version| self.version(version));

@@ -126,6 +126,12 @@ pub(crate) fn run(args: &NewSceneArgs, console: &Console) -> Outcome {
         let failure = Failure::usage(format!("`{}` is the name of a picture", output.display()));
         return Err(failure.help("name the scene, `-o SCENE.toml`; `glisten render` draws it"));
     }
+    let folder = args.output.as_deref().and_then(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        // A scene is tried where it will be.
+        let failure = Failure::usage(format!("there is no folder `{}`", folder.display()));
+        return Err(failure.help("make it first: the files of the scene are found from there"));
+    }
     if let [model] = args.files.as_slice()
         && is_model_file(model)
     {
