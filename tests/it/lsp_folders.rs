@@ -177,3 +177,16 @@ fn a_rename_reaches_all_of_a_scene() {
     assert_eq!(done["a.toml"], scene.replace("tint", "hue"));
     editor.close();
 }
+
+/// The frontend sets the uniform that a pragma names.
+#[test]
+fn a_rename_reaches_the_pragma_of_a_parameter() {
+    let text = "#version 330\n#pragma parameter gamma \"Gamma\" 2.2 1.0 3.0 0.1\nuniform float gamma;\nout vec4 c;\n\
+        void main() { c = vec4(gamma); }\n";
+    let folder = Folder::new(&[("r.frag", text.as_bytes())]);
+    let mut editor = Editor::new(&folder, json!({}));
+    editor.open("r.frag", text);
+    let done = edited(&folder, &rename(&mut editor, ("r.frag", text), "gamma;", "power")["result"]);
+    assert_eq!(done["r.frag"], text.replace("gamma", "power"));
+    editor.close();
+}

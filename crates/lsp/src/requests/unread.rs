@@ -11,6 +11,7 @@ use glisten_front::index::{Occurrence, Symbol, SymbolId, SymbolKind};
 use glisten_front::source::{FileId, Span};
 use std::collections::BTreeSet;
 use std::ops::Range;
+use std::path::Path;
 
 /// The places of a name there, and one whose meaning a rename would change.
 #[derive(Debug, Default)]
@@ -69,7 +70,26 @@ pub(super) fn unread(analysis: &Analysis, places: &[(Place, Occurrence)], names:
         }
         found.places.extend(own);
     }
+    if matches!(symbol.places.first(), Some((_, Denoted::Global(_)))) {
+        let shared: BTreeSet<&str> = places.iter().map(|(place, _)| place.file.as_str()).collect();
+        found.places.extend(shared.into_iter().flat_map(|file| parameters(analysis, file, names.old)));
+    }
     found
+}
+
+/// The places of a name in the pragmas of a file that give a uniform to the user (libretro's `#pragma parameter`).
+fn parameters(analysis: &Analysis, file: &str, name: &str) -> Vec<Place> {
+    let Some(id) = analysis.files(Path::new(file)).next() else { return Vec::new() };
+    let (mut places, mut at) = (Vec::new(), 0);
+    for line in analysis.sources().file(id).text().split_inclusive('\n') {
+        let rest = line.trim_start().strip_prefix("#pragma parameter").map(str::trim_start);
+        if let Some(rest) = rest.filter(|rest| rest.split_whitespace().next() == Some(name)) {
+            let start = at + line.len() - rest.len();
+            places.push(Place { file: file.to_owned(), start, end: start + name.len() });
+        }
+        at += line.len();
+    }
+    places
 }
 
 /// The texts that are not read, and whether a condition leaves them out.
