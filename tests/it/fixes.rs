@@ -276,3 +276,17 @@ fn protected_files_are_not_replaced() {
         assert_eq!(left, files.len() + 1, "no temporary file is left");
     }
 }
+
+/// What an extension of OpenGL mends is not mended by it in OpenGL ES; and no fix is written again and again.
+#[test]
+fn an_include_of_es_gets_no_extension() {
+    let header = b"highp float f() { return 1.0; }\n" as &[u8];
+    for (version, n_lines) in [("#version 300 es", 0), ("#version 330", 1)] {
+        let text = format!(
+            "{version}\n#include \"b.glsl\"\nprecision mediump float;\nout vec4 c;\nvoid main() {{ c = vec4(f() * zzz); }}\n"
+        );
+        let folder = Folder::new(&[("a.frag", text.as_bytes()), ("b.glsl", header)]);
+        folder.run(&["lint", "a.frag", "--unsafe-fixes", "--fix"]);
+        assert_eq!(read(&folder, "a.frag").matches("#extension").count(), n_lines, "{version}");
+    }
+}

@@ -20,6 +20,9 @@ use std::path::{Path, PathBuf};
 
 /// How often the sources are checked again: a fix may bring another finding to light.
 const MAX_ROUNDS: usize = 100;
+/// In how many rounds a fix of one name is applied: a finding that comes back after that is not mended by it. Findings with equal lines
+/// share a name, and edits that touch each other wait for the next round.
+const MAX_AGAIN: usize = 4;
 
 /// Which fixes to apply, and where to.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -100,6 +103,8 @@ pub(crate) struct Fixer {
     last: Vec<String>,
     /// Fixes that brought errors.
     refused: BTreeSet<String>,
+    /// In how many rounds each fix was applied.
+    again: BTreeMap<String, usize>,
     /// How many fixes a round applies at most.
     at_once: usize,
     /// The number of errors of each unit.
@@ -113,8 +118,8 @@ impl Fixer {
     /// Nothing is applied yet.
     pub(crate) fn new(args: FixArgs) -> Self {
         let (files, applied) = (BTreeMap::new(), BTreeMap::new());
-        let (last, refused) = (Vec::new(), BTreeSet::new());
-        Self { args, files, last, refused, at_once: usize::MAX, errors: Vec::new(), round: 0, applied }
+        let (last, refused, again) = (Vec::new(), BTreeSet::new(), BTreeMap::new());
+        Self { args, files, last, refused, again, at_once: usize::MAX, errors: Vec::new(), round: 0, applied }
     }
 
     /// Applies the fixes of findings to the texts; returns whether the sources are to be checked again.
@@ -135,7 +140,9 @@ impl Fixer {
         self.round += 1;
         let (mut patch, mut taken) = (Patch::default(), Vec::new());
         for offer in self.offers(units) {
-            if taken.len() < self.at_once && !self.refused.contains(&offer.key) && patch.add(&offer.fix) {
+            let is_spent = self.again.get(&offer.key).is_some_and(|rounds| *rounds >= MAX_AGAIN);
+            let is_open = !is_spent && !self.refused.contains(&offer.key);
+            if taken.len() < self.at_once && is_open && patch.add(&offer.fix) {
                 taken.push(offer.key);
             }
         }
@@ -158,6 +165,9 @@ impl Fixer {
             }
         }
         self.applied.insert(self.round, taken.len());
+        for name in taken.iter().collect::<BTreeSet<_>>() {
+            *self.again.entry(name.clone()).or_default() += 1;
+        }
         self.last = taken;
         true
     }

@@ -57,15 +57,22 @@ impl Preprocessor<'_> {
         let whole = session.sources.join(directive, header.span);
         let resolved = import || self.engine.resolves_includes;
         if !self.extensions.contains(Extensions::INCLUDE) && !resolved {
-            let diagnostic = kind::INCLUDE_WITHOUT_EXTENSION
-                .diagnostic(self.strict, whole, "`#include` without the extension that provides it")
-                .help(Advice::new(
+            let diagnostic = kind::INCLUDE_WITHOUT_EXTENSION.diagnostic(
+                self.strict,
+                whole,
+                "`#include` without the extension that provides it",
+            );
+            // The extension is one of OpenGL.
+            session.report(if self.version.is_es() {
+                diagnostic.help("a build has to put the file in its place: no driver of OpenGL ES knows `#include`")
+            } else {
+                diagnostic.help(Advice::new(
                     Applicability::Unsafe,
                     "write `#extension GL_ARB_shading_language_include : require` before it",
                     Place::Before,
                     "#extension GL_ARB_shading_language_include : require\n",
-                ));
-            session.report(diagnostic);
+                ))
+            });
         } else if let Some(warning) = extension::warning_of_use(self.extensions, Extensions::INCLUDE, whole) {
             session.report(warning);
         }
