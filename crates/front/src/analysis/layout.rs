@@ -199,6 +199,8 @@ static LATER: &[(&str, Since)] = &[
     ("bindless_sampler", Since::NEVER),
     ("set", Since::NEVER),
     ("push_constant", Since::NEVER),
+    ("constant_id", Since::NEVER),
+    ("input_attachment_index", Since::NEVER),
 ];
 
 /// The formats of images, which are not supported.
@@ -275,7 +277,11 @@ impl Analyzer<'_> {
         let Some(row) = named().find(|row| row.subjects.contains(&subject)).or_else(|| named().next()) else {
             let is_format = IMAGE_FORMATS.iter().any(|row| row.0 == spelling && self.ast.version.reaches(row.1));
             // The image that has a format is not supported, which is reported there.
-            if !is_format {
+            if is_format && !matches!(subject, Uniform | Sampler) {
+                let message = format!("`{spelling}` is not allowed before {}", subject.name());
+                let finding = Diagnostic::new(&qualifiers::LAYOUT_PLACE, id.name.span, message);
+                self.report(finding.here("not allowed here").help("the format of an image belongs before an image"));
+            } else if !is_format {
                 self.report(unknown(spelling, id.name.span, self.ast.version));
             }
             return None;
